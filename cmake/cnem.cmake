@@ -1,0 +1,52 @@
+# Helpers shared by the library, test and benchmark targets.
+
+function(cnem_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+  if(CNEM_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${CNEM_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${CNEM_SANITIZE})
+  endif()
+endfunction()
+
+# One static library per folder of the method. Files named *_kernel.cpp are compiled once per instruction set
+# (see cnem_kernel); app/main.cpp belongs to the executable.
+function(cnem_library folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  file(GLOB kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*_kernel.cpp)
+  list(FILTER sources EXCLUDE REGEX "(_kernel|/app/main)\\.cpp$")
+  if(NOT sources AND NOT kernels)
+    add_library(cnem_${folder} INTERFACE)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
+    target_link_libraries(cnem_${folder} INTERFACE ${arg_PUBLIC})
+    target_include_directories(cnem_${folder} INTERFACE ${PROJECT_SOURCE_DIR})
+    return()
+  endif()
+  add_library(cnem_${folder} STATIC ${sources})
+  target_include_directories(cnem_${folder} PUBLIC ${PROJECT_SOURCE_DIR})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
+  target_link_libraries(cnem_${folder} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  cnem_warnings(cnem_${folder})
+  foreach(kernel ${kernels})
+    cnem_kernel(cnem_${folder} ${kernel})
+  endforeach()
+endfunction()
+
+# Compiles one kernel file for the baseline, AVX2 and AVX-512, each in its own namespace CNEM_ISA;
+# core/isa.hpp chooses at run time, so that the binary runs on any x86-64. Kernel files include only headers whose
+# every function lives in namespace CNEM_ISA: an inline function of a common header, compiled here with AVX,
+# could be the copy the linker keeps for everyone. Hence no Eigen, no fmt and no std containers in them.
+function(cnem_kernel target file)
+  get_filename_component(name ${file} NAME_WE)
+  set(flags_baseline "")
+  set(flags_avx2 -mavx2 -mfma)
+  set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mfma -mprefer-vector-width=512)
+  foreach(isa baseline avx2 avx512)
+    set(object ${target}_${name}_${isa})
+    add_library(${object} OBJECT ${file})
+    target_include_directories(${object} PRIVATE ${PROJECT_SOURCE_DIR})
+    target_compile_definitions(${object} PRIVATE CNEM_ISA=${isa} CNEM_ISA_${isa}=1)
+    target_compile_options(${object} PRIVATE -O3 -fno-math-errno -fno-trapping-math ${flags_${isa}})
+    cnem_warnings(${object})
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
+  endforeach()
+endfunction()

@@ -1,0 +1,56 @@
+#pragma once
+// What a method has to provide to be solved with: one virtual call per rebuild, none inside a loop over
+// nodes.
+#include "core/cloud.hpp"
+#include "core/operators.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cnem {
+
+/// Neighbour links on which nodal integration is stabilised (docs/theory.md, "edge defect"), node by node:
+/// each link stands in the lists of both its ends. Empty for methods that need none.
+template<int dim> struct StabilisationLinks {
+  std::vector<std::int32_t> begin;     ///< [node + 1]
+  std::vector<std::int32_t> neighbour; ///< [link]
+  Field weight; ///< [link] facet measure over distance, L_ij/d_ij clamped to [0.1, 2], –
+};
+
+/// Polygons (2D) or polyhedra surfaces of the stress points, for output and pictures.
+template<int dim> struct CellGeometry {
+  std::vector<Vec<dim>> vertex;    ///< m, in the reference
+  std::vector<std::int32_t> begin; ///< [point + 1]
+  std::vector<std::int32_t> index; ///< counter-clockwise vertices of each cell
+
+  // How a vertex moves with the nodes: x_v = Σ weight x_node. Rows on the pattern below.
+  std::vector<std::int32_t> vertex_begin; ///< [vertex + 1]
+  std::vector<std::int32_t> vertex_node;
+  std::vector<double> vertex_weight;
+};
+
+/// All operators of one reference configuration.
+template<int dim> struct Approximation {
+  DiscreteOperators<dim> mechanics;
+  DiscreteOperators<dim>
+      conduction; ///< the operators heat conducts with: free of weak modes (docs/theory.md)
+  StabilisationLinks<dim> links;
+  Field node_volume; ///< [node] share of volume Σ_p V_p N_pJ, m² or m³: ρ0 times it is the mass
+  CellGeometry<dim> cells;
+};
+
+/// A method: turns a cloud into operators.
+template<int dim> class Discretisation {
+public:
+  virtual ~Discretisation() = default;
+
+  /// Builds all operators on the cloud as it stands (positions are the new reference).
+  /// Throws GeometryError when the cloud has no valid structure. May keep the last structure as a hint for
+  /// speed, but the result depends on the cloud alone.
+  virtual Approximation<dim> rebuild(const Cloud<dim>& cloud) = 0;
+
+  virtual std::string name() const = 0;
+};
+
+} // namespace cnem

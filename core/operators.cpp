@@ -1,0 +1,31 @@
+#include "core/operators.hpp"
+
+namespace cnem {
+
+template<int dim> void DiscreteOperators<dim>::build_transpose() {
+  const std::size_t entries = node.size();
+  col_begin.assign(static_cast<std::size_t>(nodes) + 1, 0);
+  for (const std::int32_t j : node) ++col_begin[static_cast<std::size_t>(j) + 1];
+  for (std::size_t j = 0; j < static_cast<std::size_t>(nodes); ++j) col_begin[j + 1] += col_begin[j];
+
+  point.resize(entries);
+  for (Field& f : weighted_gradient) f.resize(entries);
+  weighted_value.resize(nodal ? 0 : entries);
+
+  std::vector<std::int32_t> next(col_begin.begin(), col_begin.end() - 1);
+  for (std::int32_t p = 0; p < points; ++p) {
+    const double v = volume[static_cast<std::size_t>(p)];
+    for (auto e = static_cast<std::size_t>(row_begin[static_cast<std::size_t>(p)]);
+         e < static_cast<std::size_t>(row_begin[static_cast<std::size_t>(p) + 1]); ++e) {
+      const auto t = static_cast<std::size_t>(next[static_cast<std::size_t>(node[e])]++);
+      point[t] = p;
+      for (std::size_t k = 0; k < dim; ++k) weighted_gradient[k][t] = v * gradient[k][e];
+      if (!nodal) weighted_value[t] = v * value[e];
+    }
+  }
+}
+
+template struct DiscreteOperators<2>;
+template struct DiscreteOperators<3>;
+
+} // namespace cnem

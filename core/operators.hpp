@@ -1,0 +1,41 @@
+#pragma once
+// The contract of the whole design: a discretisation is a pair of rectangular sparse operators, gradient G
+// and values N, whose rows are stress points and whose columns are nodes. Solver, heat and contact see
+// nothing else.
+#include "core/aligned.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace cnem {
+
+/// Sparse gradient G and value N operators in CSR form, and their transpose for gather-only assembly.
+///
+/// Row p holds b_pJ = ∇φ_J averaged over the volume V_p of stress point p (paper 004, (75)–(79)) and N_pJ, on
+/// the same pattern. Invariants (tests/contract): Σ_J b_pJ = 0; Σ_J x_J ⊗ b_pJ = 1; Σ_J N_pJ = 1; Σ_p V_p =
+/// |Ω|.
+template<int dim> struct DiscreteOperators {
+  int points = 0;
+  int nodes = 0;
+  bool nodal = false; ///< rows are nodes and N is the identity (C-NEM); then `value` is empty
+
+  Field volume;                        ///< [point] V_p in the reference, m² (per unit thickness) or m³
+  std::vector<std::int32_t> row_begin; ///< [point + 1]
+  std::vector<std::int32_t> node;      ///< [entry]
+  Fields<dim> gradient;                ///< [k][entry] b_pJ,k, 1/m
+  Field value;                         ///< [entry] N_pJ; empty when nodal
+
+  // The transpose, weighted by volume. Entries of a column are in increasing order of the point.
+  std::vector<std::int32_t> col_begin; ///< [node + 1]
+  std::vector<std::int32_t> point;     ///< [entry]
+  Fields<dim> weighted_gradient;       ///< [k][entry] V_p b_pJ,k
+  Field weighted_value;                ///< [entry] V_p N_pJ; empty when nodal
+
+  /// Fills the transpose from the rows. To be called once the rows are complete.
+  void build_transpose();
+};
+
+extern template struct DiscreteOperators<2>;
+extern template struct DiscreteOperators<3>;
+
+} // namespace cnem

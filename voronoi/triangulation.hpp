@@ -1,0 +1,31 @@
+#pragma once
+// Constrained Delaunay triangulation of a cloud, as plain arrays. CGAL stays behind triangulation.cpp.
+#include "core/cloud.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cnem::voronoi {
+
+/// The constrained Delaunay triangles inside the domain. Topology is two-sided at cracks: the triangles on
+/// either face carry that face's own (duplicated) nodes, so nothing that walks over `neighbour` ever crosses
+/// a wall.
+struct Triangulation {
+  std::vector<std::array<std::int32_t, 3>> node; ///< [triangle] nodes, counter-clockwise
+  std::vector<std::array<std::int32_t, 3>>
+      neighbour; ///< [triangle][k] across the edge opposite node k; −1: boundary
+  std::vector<std::array<std::int32_t, 3>>
+      facet;                                  ///< [triangle][k] cloud facet on that edge; −1: interior edge
+  std::vector<std::int32_t> triangle_of_node; ///< [node] one triangle that has it
+
+  int triangles() const { return static_cast<int>(node.size()); }
+};
+
+/// Triangulates the domain bounded by the cloud's facets. O(N log N).
+/// Throws GeometryError, with positions, for: an empty domain, facets that do not form closed loops or run
+/// the wrong way round, loops that cross themselves or each other, nodes outside the domain or on a facet
+/// that is not theirs, coincident nodes that are not declared twins, non-finite positions.
+Triangulation triangulate(const Cloud<2>& cloud);
+
+} // namespace cnem::voronoi
