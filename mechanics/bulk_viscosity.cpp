@@ -11,9 +11,9 @@ namespace cnem {
 
 template<int dim>
 ViscousBlock add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
-                          const Fields<tensor_size<dim>>& deformation, const Field& density,
-                          const Field& wave_modulus, double dt, Field& jacobian_before, Field& pressure,
-                          Fields<tensor_size<dim>>& total, std::size_t begin, std::size_t end) {
+                                const Fields<tensor_size<dim>>& deformation, const Field& density,
+                                const Field& wave_modulus, double dt, Field& jacobian_before, Field& pressure,
+                                Fields<tensor_size<dim>>& total, std::size_t begin, std::size_t end) {
   ViscousBlock block;
   for (std::size_t p = begin; p < end; ++p) {
     const double J = jacobian<dim>(deformation, p), J0 = jacobian_before[p];
@@ -21,7 +21,8 @@ ViscousBlock add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOp
     double q = 0.0;
     if (rate < 0.0) {
       const double rho = density[p] / J;
-      const double length = dim == 2 ? std::sqrt(operators.volume[p] * J) : std::cbrt(operators.volume[p] * J);
+      const double length =
+          dim == 2 ? std::sqrt(operators.volume[p] * J) : std::cbrt(operators.volume[p] * J);
       const double speed = std::sqrt(wave_modulus[p] / rho);
       const double damping = viscosity.linear - viscosity.quadratic * length * rate / speed;
       block.damping = std::max(block.damping, damping);
@@ -41,9 +42,11 @@ ViscousBlock add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOp
   return block;
 }
 
-template ViscousBlock add_bulk_viscosity<2>(const BulkViscosity&, const DiscreteOperators<2>&, const Fields<5>&, const Field&,
-                                      const Field&, double, Field&, Field&, Fields<5>&, std::size_t, std::size_t);
-template ViscousBlock add_bulk_viscosity<3>(const BulkViscosity&, const DiscreteOperators<3>&, const Fields<9>&, const Field&,
-                                      const Field&, double, Field&, Field&, Fields<9>&, std::size_t, std::size_t);
+template ViscousBlock add_bulk_viscosity<2>(const BulkViscosity&, const DiscreteOperators<2>&,
+                                            const Fields<5>&, const Field&, const Field&, double, Field&,
+                                            Field&, Fields<5>&, std::size_t, std::size_t);
+template ViscousBlock add_bulk_viscosity<3>(const BulkViscosity&, const DiscreteOperators<3>&,
+                                            const Fields<9>&, const Field&, const Field&, double, Field&,
+                                            Field&, Fields<9>&, std::size_t, std::size_t);
 
 } // namespace cnem

@@ -15,22 +15,24 @@ struct EnergyLedger {
   double friction = 0.0;        ///< sliding on tools
   double impact = 0.0;          ///< lost where nodes meet tools
   double penalty_release = 0.0; ///< let go by the penalty as moduli fall and at re-references
-  double rereference = 0.0;     ///< stored energy lost (gained when negative) as stress-free volumes are re-measured
+  double rereference =
+      0.0; ///< stored energy lost (gained when negative) as stress-free volumes are re-measured
   // received
   double tools = 0.0;    ///< work of the tools' forces along the tools' motion
   double supports = 0.0; ///< work of prescribed boundary motion
   double recovery = 0.0; ///< work of pushing nodes out of tools they were found in
   double loads = 0.0;    ///< work of tractions, pressures and body forces
   // heat: a balance of its own, fed by dissipation
-  double heat_content = 0.0;  ///< Σ C (T − T_start)
-  double heat_generated = 0.0;///< from plastic work and friction
-  double heat_exchanged = 0.0;///< received through the boundary
+  double heat_content = 0.0;   ///< Σ C (T − T_start)
+  double heat_generated = 0.0; ///< from plastic work and friction
+  double heat_exchanged = 0.0; ///< received through the boundary
 
   double initial = 0.0; ///< energy at the start of the run
 
   double external() const { return tools + recovery + supports + loads; }
   double total() const {
-    return kinetic + elastic + stabilisation + plastic + viscosity + friction + impact + penalty_release + rereference;
+    return kinetic + elastic + stabilisation + plastic + viscosity + friction + impact + penalty_release +
+           rereference;
   }
   /// What the scheme made or lost: zero up to the order of central differences.
   double residual() const { return total() - initial - external(); }

@@ -37,17 +37,6 @@ template<int dim> void set_identity(Fields<tensor_size<dim>>& f, std::size_t siz
     for (const std::size_t k : {0U, 4U, 8U}) f[k].assign(size, 1.0);
 }
 
-/// Mean of a field of stress points around node i, weighted by the volume each shares with it.
-template<int dim> double average_at_node(const DiscreteOperators<dim>& op, const Field& field, std::size_t i) {
-  if (op.nodal) return field[i];
-  double sum = 0.0, weight = 0.0;
-  for (auto e = static_cast<std::size_t>(op.col_begin[i]); e < static_cast<std::size_t>(op.col_begin[i + 1]); ++e) {
-    sum += op.weighted_value[e] * field[static_cast<std::size_t>(op.point[e])];
-    weight += op.weighted_value[e];
-  }
-  return sum / weight;
-}
-
 /// Σ_p V_p s_p w_p: an energy per stress-free volume over the body.
 template<int dim> double integrate(const PointState<dim>& point, const Field& volume, const Field& density) {
   return sum_blocks(point.size(), [&](std::size_t begin, std::size_t end) {
@@ -113,9 +102,9 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
     for (std::size_t k = 0; k < 3; ++k) point.elastic[k].assign(points, 1.0);
     resize_all(point.piola, points);
     resize_all(total_stress_, points);
-    for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress, &point.pressure,
-                         &point.stored_energy, &point.plastic_work, &point.dissipation, &point.temperature,
-                         &viscous_pressure_, &jacobian_})
+    for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress,
+                         &point.pressure, &point.stored_energy, &point.plastic_work, &point.dissipation,
+                         &point.temperature, &viscous_pressure_, &jacobian_})
       field->assign(points, 0.0);
     point.stress_free.assign(points, 1.0);
     point.material.assign(points, 0);
@@ -123,10 +112,11 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
     wave_modulus_.assign(points, material.elasticity.lambda() + 2.0 * material.elasticity.mu());
     density_.assign(points, material.density);
     flow_stress_.assign(points, std::numeric_limits<double>::infinity());
-    interpolate(op, node.temperature, point.temperature, 0, points);
+    interpolate<dim>(op, node.temperature, point.temperature, 0, points);
     if (material.hardening)
       for (std::size_t p = 0; p < points; ++p)
-        flow_stress_[p] = material.hardening->flow_stress(0.0, material.hardening->rate0, point.temperature[p]);
+        flow_stress_[p] =
+            material.hardening->flow_stress(0.0, material.hardening->rate0, point.temperature[p]);
   }
   set_identity<dim>(point.deformation, points);
   jacobian_.assign(points, 1.0);
@@ -139,8 +129,9 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   edge_defect_.reset(shear_modulus_);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
   if (model_.thermal) {
-    conduction_.set_operators(approximation_.conduction,
-                              Field(static_cast<std::size_t>(approximation_.conduction.points), material.conductivity));
+    conduction_.set_operators(
+        approximation_.conduction,
+        Field(static_cast<std::size_t>(approximation_.conduction.points), material.conductivity));
     conduction_step_ = 0.0;
   }
   if (!start) {
@@ -160,8 +151,8 @@ template<int dim> void ExplicitSolver<dim>::advance(double dt) {
   state_.time += dt;
   state_.step_before = dt;
   ++state_.step;
-  assemble_forces();                // (iii) (52), (53)
-  if (model_.thermal) conduct(dt);  // (58), staggered
+  assemble_forces();               // (iii) (52), (53)
+  if (model_.thermal) conduct(dt); // (58), staggered
 }
 
 template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, double dt_mean) {
@@ -203,7 +194,8 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
   if (contact.flow_stress_needed()) {
     flow_stress.reserve(boundary.size());
     for (const std::int32_t i : boundary)
-      flow_stress.push_back(average_at_node(approximation_.mechanics, flow_stress_, static_cast<std::size_t>(i)));
+      flow_stress.push_back(
+          average_at_node<dim>(approximation_.mechanics, flow_stress_, static_cast<std::size_t>(i)));
   }
   const plasticity::Material& material = model_.material;
   const std::vector<double> effusivity(
@@ -244,10 +236,11 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   std::vector<std::ptrdiff_t> bad(blocks(n), -1);
   std::vector<double> damping(blocks(n), 0.0);
   running_.viscosity += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
-    deformation_gradient(op, state_.node.position, point.deformation, begin, end);
-    interpolate(op, state_.node.temperature, point.temperature, begin, end);
-    bad[begin / block_size] = plasticity::update_stress(model_.material, stress_points, static_cast<std::ptrdiff_t>(begin),
-                                                        static_cast<std::ptrdiff_t>(end), dt);
+    deformation_gradient<dim>(op, state_.node.position, point.deformation, begin, end);
+    interpolate<dim>(op, state_.node.temperature, point.temperature, begin, end);
+    bad[begin / block_size] =
+        plasticity::update_stress(model_.material, stress_points, static_cast<std::ptrdiff_t>(begin),
+                                  static_cast<std::ptrdiff_t>(end), dt);
     for (std::size_t p = begin; p < end; ++p)
       if (point.plastic_rate[p] > 0.0) flow_stress_[p] = point.equivalent_stress[p];
     for (std::size_t k = 0; k < total_stress_.size(); ++k)
@@ -258,8 +251,8 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
       edge_defect_.update_modulus(shear_modulus_, flow_stress_, point.plastic_strain, begin, end);
     if (!model_.viscosity.active()) return 0.0;
     const ViscousBlock viscous =
-        add_bulk_viscosity<dim>(model_.viscosity, op, point.deformation, density_, wave_modulus_, dt, jacobian_,
-                                viscous_pressure_, total_stress_, begin, end);
+        add_bulk_viscosity<dim>(model_.viscosity, op, point.deformation, density_, wave_modulus_, dt,
+                                jacobian_, viscous_pressure_, total_stress_, begin, end);
     damping[begin / block_size] = viscous.damping;
     return viscous.dissipated;
   });
@@ -283,8 +276,8 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces() {
     std::vector<typename EdgeDefect<dim>::Energy> energy(blocks(n));
     for_each_block(n, [&](std::size_t begin, std::size_t end) {
       energy[begin / block_size] =
-          edge_defect_.apply(approximation_.links, op, node.reference, node.position, state_.point.deformation,
-                             total_stress_, node.force, begin, end);
+          edge_defect_.apply(approximation_.links, op, node.reference, node.position,
+                             state_.point.deformation, total_stress_, node.force, begin, end);
     });
     running_.stabilisation = 0.0;
     for (const auto& e : energy) {
@@ -293,7 +286,7 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces() {
     }
   }
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    subtract_internal_force(op, total_stress_, node.force, begin, end);
+    subtract_internal_force<dim>(op, total_stress_, node.force, begin, end);
   });
 }
 
@@ -311,9 +304,11 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
       if (op.nodal) {
         heat += material.taylor_quinney * point.dissipation[i] * node.mass[i] / material.density;
       } else {
-        for (auto e = static_cast<std::size_t>(op.col_begin[i]); e < static_cast<std::size_t>(op.col_begin[i + 1]); ++e) {
+        for (auto e = static_cast<std::size_t>(op.col_begin[i]);
+             e < static_cast<std::size_t>(op.col_begin[i + 1]); ++e) {
           const auto p = static_cast<std::size_t>(op.point[e]);
-          heat += material.taylor_quinney * point.dissipation[p] * point.stress_free[p] * op.weighted_value[e];
+          heat +=
+              material.taylor_quinney * point.dissipation[p] * point.stress_free[p] * op.weighted_value[e];
         }
       }
       node.temperature[i] += heat / node.heat_capacity[i];
@@ -330,7 +325,8 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
   const double h = dt / substeps;
   for (int s = 0; s < substeps; ++s) {
     std::fill(heat_flow_.begin(), heat_flow_.end(), 0.0);
-    model_.heat_boundaries.add_flow(state_.time, node.position, node.temperature, tool_conductance_, heat_flow_);
+    model_.heat_boundaries.add_flow(state_.time, node.position, node.temperature, tool_conductance_,
+                                    heat_flow_);
     double received = 0.0;
     for (const double q : heat_flow_) received += h * q;
     conduction_.add_flow(node.position, node.temperature, heat_flow_);
@@ -343,30 +339,31 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
 template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable_step() {
   const PointState<dim>& point = state_.point;
   conduction_step_ = 0.0; // measured anew with the configuration
-  const StableStep step =
-      stable_mechanical_step(bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
-                             edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0,
-                             viscosity_ratio_);
+  const StableStep step = stable_mechanical_step(
+      bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
+      edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);
   if (!(step.dt > 0.0)) diverged(step.point, "stable step");
   return {model_.safety * step.dt, step.point};
 }
 
 template<int dim> double ExplicitSolver<dim>::strain_since_reference() const {
   const auto& f = state_.point.deformation;
-  return max_blocks(state_.point.size(), [&](std::size_t begin, std::size_t end) {
-           BlockMaximum best{0.0, begin};
-           for (std::size_t p = begin; p < end; ++p) {
-             double sum = 0.0;
-             for (std::size_t i = 0; i < dim; ++i)
-               for (std::size_t k = 0; k < dim; ++k) {
-                 const double d = f[i * dim + k][p] - (i == k ? 1.0 : 0.0);
-                 sum += d * d;
-               }
-             if (sum > best.value) best = {sum, p};
-           }
-           best.value = std::sqrt(best.value);
-           return best;
-         }).value;
+  return max_blocks(state_.point.size(),
+                    [&](std::size_t begin, std::size_t end) {
+                      BlockMaximum best{0.0, begin};
+                      for (std::size_t p = begin; p < end; ++p) {
+                        double sum = 0.0;
+                        for (std::size_t i = 0; i < dim; ++i)
+                          for (std::size_t k = 0; k < dim; ++k) {
+                            const double d = f[i * dim + k][p] - (i == k ? 1.0 : 0.0);
+                            sum += d * d;
+                          }
+                        if (sum > best.value) best = {sum, p};
+                      }
+                      best.value = std::sqrt(best.value);
+                      return best;
+                    })
+      .value;
 }
 
 template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
@@ -399,7 +396,8 @@ template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() cons
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   if (!op.nodal) return range;
   for (std::size_t i = 0; i < state_.node.size(); ++i) {
-    const double r = model_.material.density * op.volume[i] * state_.point.stress_free[i] / state_.node.mass[i];
+    const double r =
+        model_.material.density * op.volume[i] * state_.point.stress_free[i] / state_.node.mass[i];
     range = {std::min(range[0], r), std::max(range[1], r)};
   }
   return range;
@@ -407,12 +405,14 @@ template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() cons
 
 template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
   const DiscreteOperators<dim>& op = approximation_.mechanics;
-  const std::size_t node = op.nodal ? point : static_cast<std::size_t>(op.node[static_cast<std::size_t>(op.row_begin[point])]);
-  throw DivergenceError(fmt::format("the {} of {} {} means nothing any more at step {}, t = {:.6g} s: node {} stood at "
-                                    "({:.6g}, {:.6g}) m",
-                                    field, op.nodal ? "node" : "stress point", point, state_.step, state_.time, node,
-                                    state_.node.position[0][node], state_.node.position[1][node]),
-                        static_cast<int>(node), field);
+  const std::size_t node =
+      op.nodal ? point : static_cast<std::size_t>(op.node[static_cast<std::size_t>(op.row_begin[point])]);
+  throw DivergenceError(
+      fmt::format("the {} of {} {} means nothing any more at step {}, t = {:.6g} s: node {} stood at "
+                  "({:.6g}, {:.6g}) m",
+                  field, op.nodal ? "node" : "stress point", point, state_.step, state_.time, node,
+                  state_.node.position[0][node], state_.node.position[1][node]),
+      static_cast<int>(node), field);
 }
 
 template class ExplicitSolver<2>;

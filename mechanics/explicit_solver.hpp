@@ -1,5 +1,6 @@
 #pragma once
-// The coupled explicit solver: central differences with a variable step (paper 004, 5.1.4) and staggered heat.
+// The coupled explicit solver: central differences with a variable step (paper 004, 5.1.4) and staggered
+// heat.
 #include "contact/contact.hpp"
 #include "core/discretisation.hpp"
 #include "core/state.hpp"
@@ -43,8 +44,9 @@ public:
   /// One step of the algorithm box of 5.1.4, from t_n to t_{n+1} = t_n + dt. Throws DivergenceError.
   void advance(double dt);
 
-  /// Makes the present configuration the reference: cells and functions are rebuilt, b_e is pushed forward, nodes keep
-  /// mass, velocity and temperature, and what this changes in energy is booked. Start-up comes through here too.
+  /// Makes the present configuration the reference: cells and functions are rebuilt, b_e is pushed forward,
+  /// nodes keep mass, velocity and temperature, and what this changes in energy is booked. Start-up comes
+  /// through here too.
   void prepare();
 
   /// Stable step for the present configuration with the safety factor, and what limits it.
@@ -83,21 +85,21 @@ private:
   Conduction<dim> conduction_;
   SpectralBound<dim> bound_;
 
-  Fields<dim> initial_position_;            ///< [node] m
-  Field initial_temperature_;               ///< [node] K
-  Fields<dim> velocity_before_;             ///< [node] v_{n−1/2} while v_{n+1/2} is made
-  Fields<tensor_size<dim>> total_stress_;   ///< [point] P with viscosity and penalty: what forces are made from
-  Field flow_stress_;                       ///< [point] σ_y where and when the point last flowed, Pa
-  Field shear_modulus_, wave_modulus_;      ///< [point] μ, λ + 2μ, Pa
-  Field density_;                           ///< [point] ρ at F = 1, kg/m³
-  Field jacobian_, viscous_pressure_;       ///< [point] of the last step, for the bulk viscosity
-  Field heat_flow_;                         ///< [node] W/m^(3−dim)
-  Field contact_heat_;                      ///< [node] J/m^(3−dim) friction heat of this step
+  Fields<dim> initial_position_;          ///< [node] m
+  Field initial_temperature_;             ///< [node] K
+  Fields<dim> velocity_before_;           ///< [node] v_{n−1/2} while v_{n+1/2} is made
+  Fields<tensor_size<dim>> total_stress_; ///< [point] P with viscosity and penalty: what forces are made from
+  Field flow_stress_;                     ///< [point] σ_y where and when the point last flowed, Pa
+  Field shear_modulus_, wave_modulus_;    ///< [point] μ, λ + 2μ, Pa
+  Field density_;                         ///< [point] ρ at F = 1, kg/m³
+  Field jacobian_, viscous_pressure_;     ///< [point] of the last step, for the bulk viscosity
+  Field heat_flow_;                       ///< [node] W/m^(3−dim)
+  Field contact_heat_;                    ///< [node] J/m^(3−dim) friction heat of this step
   std::vector<ToolConductance> tool_conductance_;
-  EnergyLedger running_;                    ///< cumulative terms
-  double plastic_offset_ = 0.0;             ///< keeps plastic work continuous over references
-  double viscosity_ratio_ = 0.0;            ///< largest share of critical damping by the bulk viscosity in the last step
-  double conduction_step_ = 0.0;            ///< s, stable for heat at the last reference
+  EnergyLedger running_;         ///< cumulative terms
+  double plastic_offset_ = 0.0;  ///< keeps plastic work continuous over references
+  double viscosity_ratio_ = 0.0; ///< largest share of critical damping by the bulk viscosity in the last step
+  double conduction_step_ = 0.0; ///< s, stable for heat at the last reference
   int references_ = 0;
 };
 

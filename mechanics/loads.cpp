@@ -5,7 +5,8 @@ namespace cnem {
 template<int dim>
 Loads<dim>::Loads(std::vector<Traction<dim>> tractions, std::vector<Pressure<dim>> pressures,
                   std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial)
-    : tractions_(std::move(tractions)), pressures_(std::move(pressures)), acceleration_(std::move(acceleration)) {
+    : tractions_(std::move(tractions)), pressures_(std::move(pressures)),
+      acceleration_(std::move(acceleration)) {
   for (const TimeTable& component : acceleration_) body_force_ |= !component.empty();
   for (const Traction<dim>& traction : tractions_) {
     std::vector<double>& share = traction_share_.emplace_back();

@@ -22,9 +22,8 @@ template<int dim>
 typename EdgeDefect<dim>::Energy
 EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const DiscreteOperators<dim>& operators,
                        const Fields<dim>& reference, const Fields<dim>& position,
-                       const Fields<tensor_size<dim>>& deformation, const Fields<tensor_size<dim>>& piola,
-                       Fields<tensor_size<dim>>& total, Fields<dim>& force, std::size_t begin,
-                       std::size_t end) const {
+                       const Fields<tensor_size<dim>>& deformation, Fields<tensor_size<dim>>& piola,
+                       Fields<dim>& force, std::size_t begin, std::size_t end) const {
   const auto X = pointers(reference);
   const auto x = pointers(position);
   const auto F = pointers(deformation);
@@ -32,7 +31,8 @@ EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const DiscreteOpera
   double stored = 0.0, released = 0.0;
   for (std::size_t i = begin; i < end; ++i) {
     double fi[dim] = {}, moment[dim][dim] = {};
-    for (auto e = static_cast<std::size_t>(links.begin[i]); e < static_cast<std::size_t>(links.begin[i + 1]); ++e) {
+    for (auto e = static_cast<std::size_t>(links.begin[i]); e < static_cast<std::size_t>(links.begin[i + 1]);
+         ++e) {
       const auto j = static_cast<std::size_t>(neighbour[e]);
       double dX[dim], r[dim], r2 = 0.0;
       for (std::size_t k = 0; k < dim; ++k) dX[k] = X[k][j] - X[k][i];
@@ -55,8 +55,7 @@ EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const DiscreteOpera
     const double half_inverse_volume = 0.5 / operators.volume[i];
     for (std::size_t a = 0; a < dim; ++a) {
       force[a][i] += fi[a];
-      for (std::size_t k = 0; k < dim; ++k)
-        total[a * dim + k][i] = piola[a * dim + k][i] - half_inverse_volume * moment[a][k];
+      for (std::size_t k = 0; k < dim; ++k) piola[a * dim + k][i] -= half_inverse_volume * moment[a][k];
     }
   }
   return {0.25 * stored, 0.25 * released}; // ½ of ½ Σ k|r|²: every link is seen from both its ends

@@ -25,10 +25,11 @@ template<int dim> Mat<dim> inverse(const Fields<tensor_size<dim>>& deformation, 
 } // namespace
 
 template<int dim>
-typename SpectralBound<dim>::Result
-SpectralBound<dim>::evaluate(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
-                             const Field& modulus, const Field& weight) {
-  const auto nodes = static_cast<std::size_t>(operators.nodes), points = static_cast<std::size_t>(operators.points);
+typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteOperators<dim>& operators,
+                                                                 const Fields<tensor_size<dim>>& deformation,
+                                                                 const Field& modulus, const Field& weight) {
+  const auto nodes = static_cast<std::size_t>(operators.nodes),
+             points = static_cast<std::size_t>(operators.points);
   transfer_.resize(nodes);
   for_each_block(nodes, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
@@ -77,9 +78,9 @@ StableStep stable_mechanical_step(SpectralBound<dim>& bound, const DiscreteOpera
 
 template class SpectralBound<2>;
 template class SpectralBound<3>;
-template StableStep stable_mechanical_step<2>(SpectralBound<2>&, const DiscreteOperators<2>&, const Fields<5>&,
-                                              const Field&, const Field&, double, double);
-template StableStep stable_mechanical_step<3>(SpectralBound<3>&, const DiscreteOperators<3>&, const Fields<9>&,
-                                              const Field&, const Field&, double, double);
+template StableStep stable_mechanical_step<2>(SpectralBound<2>&, const DiscreteOperators<2>&,
+                                              const Fields<5>&, const Field&, const Field&, double, double);
+template StableStep stable_mechanical_step<3>(SpectralBound<3>&, const DiscreteOperators<3>&,
+                                              const Fields<9>&, const Field&, const Field&, double, double);
 
 } // namespace cnem

@@ -7,7 +7,8 @@
 
 namespace cnem {
 
-template<int dim> Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
+template<int dim>
+Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
     : support_(std::move(supports)), reaction_(support_.size(), Vec<dim>::Zero()) {
   std::vector<std::vector<Prescribed>> held(nodes);
   for (std::size_t s = 0; s < support_.size(); ++s) {
@@ -20,14 +21,15 @@ template<int dim> Supports<dim>::Supports(std::vector<Support<dim>> supports, st
         const double along = rest.dot(other.direction);
         const bool other_moves =
             support_[static_cast<std::size_t>(other.support)].kind != Support<dim>::Kind::symmetry;
-        oblique_to_moving |= std::abs(along) > 1e-9 && std::abs(along) < 1.0 - 1e-9 && (moving || other_moves);
+        oblique_to_moving |=
+            std::abs(along) > 1e-9 && std::abs(along) < 1.0 - 1e-9 && (moving || other_moves);
         rest -= along * other.direction;
       }
       if (oblique_to_moving)
-        throw InputError(fmt::format("support '{}' is oblique to support '{}' at a node they share: prescribed motion "
-                                     "needs directions that are equal or at right angles",
-                                     support_[s].name,
-                                     support_[static_cast<std::size_t>(mine.front().support)].name));
+        throw InputError(
+            fmt::format("support '{}' is oblique to support '{}' at a node they share: prescribed motion "
+                        "needs directions that are equal or at right angles",
+                        support_[s].name, support_[static_cast<std::size_t>(mine.front().support)].name));
       if (rest.norm() < 1e-9) continue;
       mine.push_back({node, static_cast<std::int32_t>(s), rest.normalized()});
     }
@@ -44,8 +46,8 @@ template<int dim> Supports<dim>::Supports(std::vector<Support<dim>> supports, st
 }
 
 template<int dim>
-void Supports<dim>::apply(double time, double dt, double dt_mean, const Field& mass, const Fields<dim>& before,
-                          Fields<dim>& velocity) {
+void Supports<dim>::apply(double time, double dt, double dt_mean, const Field& mass,
+                          const Fields<dim>& before, Fields<dim>& velocity) {
   std::vector<double> target(support_.size(), 0.0);
   for (std::size_t s = 0; s < support_.size(); ++s) {
     reaction_[s].setZero();

@@ -14,10 +14,10 @@ namespace cnem {
 /// One prescribed component of motion for a set of nodes.
 template<int dim> struct Support {
   enum class Kind { symmetry, velocity, displacement };
-  std::string name;                ///< of the boundary condition, for messages and the history
+  std::string name; ///< of the boundary condition, for messages and the history
   Kind kind = Kind::symmetry;
-  Vec<dim> direction;              ///< unit vector of the prescribed component
-  TimeTable value;                 ///< m/s or m along `direction`; unused for symmetry
+  Vec<dim> direction; ///< unit vector of the prescribed component
+  TimeTable value;    ///< m/s or m along `direction`; unused for symmetry
   std::vector<std::int32_t> nodes;
 };
 
@@ -26,14 +26,14 @@ template<int dim> class Supports {
 public:
   Supports() = default;
 
-  /// A node may be held by several supports. Where two share a direction the first stands; a symmetry plane that is
-  /// oblique to an earlier direction holds what is left free of it. Throws InputError when a *moving* support is
-  /// oblique to another one of the same node.
+  /// A node may be held by several supports. Where two share a direction the first stands; a symmetry plane
+  /// that is oblique to an earlier direction holds what is left free of it. Throws InputError when a *moving*
+  /// support is oblique to another one of the same node.
   Supports(std::vector<Support<dim>> supports, std::size_t nodes);
 
-  /// Replaces the prescribed components of the velocity v_{n+1/2} by the mean velocity of the step [time, time + dt],
-  /// so that positions follow the prescribed motion exactly. `before` is v_{n−1/2}, dt_mean = (Δt₁ + Δt₂)/2. Adds
-  /// reactions and their work to the totals below.
+  /// Replaces the prescribed components of the velocity v_{n+1/2} by the mean velocity of the step [time,
+  /// time + dt], so that positions follow the prescribed motion exactly. `before` is v_{n−1/2}, dt_mean =
+  /// (Δt₁ + Δt₂)/2. Adds reactions and their work to the totals below.
   void apply(double time, double dt, double dt_mean, const Field& mass, const Fields<dim>& before,
              Fields<dim>& velocity);
 

@@ -16,8 +16,8 @@ template<int dim> struct Row {
 };
 
 template<int dim>
-Row<dim> row_of(const DiscreteOperators<dim>& operators, const Fields<dim>& position, const double* temperature,
-                std::size_t p) {
+Row<dim> row_of(const DiscreteOperators<dim>& operators, const Fields<dim>& position,
+                const double* temperature, std::size_t p) {
   Row<dim> row;
   for (auto e = static_cast<std::size_t>(operators.row_begin[p]);
        e < static_cast<std::size_t>(operators.row_begin[p + 1]); ++e) {
@@ -45,7 +45,7 @@ void Conduction<dim>::add_flow(const Fields<dim>& position, const Field& tempera
   const DiscreteOperators<dim>& op = *operators_;
   for_each_block(static_cast<std::size_t>(op.points), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const Row<dim> row = row_of(op, position, temperature.data(), p);
+      const Row<dim> row = row_of<dim>(op, position, temperature.data(), p);
       const double det = row.deformation.determinant();
       const Mat<dim> inverse = row.deformation.inverse();
       const Vec<dim> q = conductivity_[p] * det * (inverse * (inverse.transpose() * row.gradient));
@@ -55,7 +55,8 @@ void Conduction<dim>::add_flow(const Fields<dim>& position, const Field& tempera
   for_each_block(static_cast<std::size_t>(op.nodes), [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
       double sum = 0.0;
-      for (auto e = static_cast<std::size_t>(op.col_begin[j]); e < static_cast<std::size_t>(op.col_begin[j + 1]); ++e)
+      for (auto e = static_cast<std::size_t>(op.col_begin[j]);
+           e < static_cast<std::size_t>(op.col_begin[j + 1]); ++e)
         for (std::size_t k = 0; k < dim; ++k)
           sum += flux_[k][static_cast<std::size_t>(op.point[e])] * op.weighted_gradient[k][e];
       flow[j] -= sum;
@@ -74,7 +75,8 @@ double Conduction<dim>::fastest_decay(const Fields<dim>& position, const Field& 
     const Row<dim> row = row_of<dim>(op, position, nullptr, p);
     const Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
     const double volume = op.volume[p] * row.deformation.determinant();
-    for (auto e = static_cast<std::size_t>(op.row_begin[p]); e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
+    for (auto e = static_cast<std::size_t>(op.row_begin[p]);
+         e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
       Vec<dim> b;
       for (int k = 0; k < dim; ++k) b[k] = op.gradient[static_cast<std::size_t>(k)][e];
       norm[e] = (inverse_transpose * b).norm();
@@ -84,7 +86,8 @@ double Conduction<dim>::fastest_decay(const Fields<dim>& position, const Field& 
   double worst = 0.0;
   for (std::size_t p = 0; p < points; ++p) {
     double sum = 0.0;
-    for (auto e = static_cast<std::size_t>(op.row_begin[p]); e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
+    for (auto e = static_cast<std::size_t>(op.row_begin[p]);
+         e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
       const auto j = static_cast<std::size_t>(op.node[e]);
       sum += norm[e] * transfer_[j] / heat_capacity[j];
     }
