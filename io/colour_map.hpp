@@ -22,6 +22,9 @@ inline constexpr Colour invalid_colour{1.0, 0.0, 1.0};
 /// Lightness of a colour in OKLab, 0 to 1.
 double lightness(const Colour& colour);
 
+/// Distance of two colours in OKLab: equal distances look equally large.
+double colour_distance(const Colour& one, const Colour& other);
+
 /// Interval of a field that its colours span.
 struct ColourRange {
   double low = 0, high = 1;

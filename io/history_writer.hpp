@@ -50,7 +50,9 @@ public:
   const std::vector<std::string>& names() const { return names_; }
 
 private:
-  HistoryWriter(std::filesystem::path path, std::vector<std::string> names, std::ios::openmode mode);
+  HistoryWriter() = default;
+  void open();
+
   std::filesystem::path path_;
   std::vector<std::string> names_;
   std::ofstream file_;

@@ -26,7 +26,6 @@ struct VectorField {
 /// Everything written for one time. Spans must live until write() returns.
 struct FieldFrame {
   double time = 0.0; ///< s
-  long long step = 0;
   const CellGeometry<2>* cells = nullptr;
   std::array<std::span<const double>, 2> position; ///< [component][node] m, present positions
   std::vector<ScalarField> cell_scalars;
@@ -60,11 +59,11 @@ private:
     double time;
     std::string cells, nodes; ///< paths relative to the folder
   };
+  FieldWriter() = default;
   void write_collection() const;
 
   std::filesystem::path folder_;
   std::vector<Entry> entries_;
-  int next_ = 0; ///< number of the next frame
 };
 
 } // namespace cnem::io
