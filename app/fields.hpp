@@ -1,5 +1,6 @@
 #pragma once
 // The fields a user can ask for by name: in pictures, probes and files.
+#include "io/colour_map.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 #include <string>
@@ -14,6 +15,7 @@ struct FieldInfo {
   std::string unit;          ///< SI unit, "" when dimensionless
   std::string shown_unit;    ///< unit in pictures
   double shown_factor = 1.0; ///< SI value of one shown unit
+  io::ColourMap map = io::ColourMap::strain;
   bool at_nodes = false;     ///< lives at nodes (else at stress points)
 };
 
