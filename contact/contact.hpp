@@ -1,6 +1,7 @@
 #pragma once
 // Kinematic predictor-corrector contact of the workpiece with rigid tools.
 #include "contact/impulse_solver.hpp"
+#include "contact/surface.hpp"
 #include "contact/tool.hpp"
 #include "core/aligned.hpp"
 #include "core/cloud.hpp"
@@ -28,7 +29,7 @@ template<int dim> struct ContactStep {
   const Field& mass;                        ///< kg/m^(3−dim), [node]
   std::span<const double> flow_stress = {}; ///< Pa, [boundary node]; needed where flow_stress_needed()
   std::span<const double> effusivity = {};  ///< W √s/(m² K), [boundary node], of the workpiece; empty: it
-                                           ///< keeps all friction heat
+                                            ///< keeps all friction heat
 };
 
 /// Energies of contact, J per unit thickness in 2D, all but the first two ≥ 0. They balance exactly:
@@ -95,7 +96,7 @@ public:
   const std::vector<Tool<dim>>& tools() const { return tools_; }
   bool flow_stress_needed() const;
   /// Nodes of the boundary in increasing order; the lists marked [boundary node] follow it.
-  const std::vector<std::int32_t>& boundary_nodes() const { return nodes_; }
+  const std::vector<std::int32_t>& boundary_nodes() const { return surface_.node; }
 
   const std::vector<ToolResult<dim>>& results() const { return results_; } ///< [tool]
   const std::vector<ContactPoint<dim>>& points() const { return points_; } ///< touching in the last step
@@ -108,8 +109,31 @@ public:
   std::vector<Overlap<dim>> overlaps(const Fields<dim>& position, double time) const;
 
 private:
+  struct Pose; // of a tool during a step
+  std::vector<Pose> poses(const ContactStep<dim>& step) const;
+  void gather(const ContactStep<dim>& step);
+  bool find_on_faces(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  bool find_on_ridges(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  bool add(Contact<dim> contact, double start, double level, const Pose& pose, double dt);
+  void set_friction(Contact<dim>& contact, const Pose& pose, double area, const ContactStep<dim>& step) const;
+  void scatter(const ContactStep<dim>& step);
+  void book(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  void list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+
   std::vector<Tool<dim>> tools_;
-  std::vector<std::int32_t> nodes_;
+  Surface<dim> surface_;
+  std::vector<Mat<dim>> free_; ///< [boundary node]
+  double size_ = 0.0;          ///< m, of the largest tool: the scale of rounding
+
+  // The step in hand, [boundary node].
+  std::vector<Vec<dim>> before_; ///< m/s, v_{n−½}
+  std::vector<Vec<dim>> start_;  ///< m, x_n
+  std::vector<Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
+  std::vector<Reaction<dim>> reactions_;
+  std::vector<double> area_;
+  std::vector<Contact<dim>> contacts_;
+  std::size_t from_earlier_passes_ = 0; ///< how many of them
+
   std::vector<ToolResult<dim>> results_;
   std::vector<ContactPoint<dim>> points_;
   std::vector<double> heat_;
