@@ -158,6 +158,8 @@ SurfacePoint<2> CurveShape::closest(const Vec2& x) const {
     end = foot.end;
   }
   const auto piece = static_cast<std::size_t>(best.feature);
+  if ((best.point - curve_.pieces[piece].from).squaredNorm() <= tolerance_ * tolerance_) end = -1;
+  if ((best.point - curve_.pieces[piece].to).squaredNorm() <= tolerance_ * tolerance_) end = 1;
   const Vec2 away = x - best.point;
   const double length = away.norm();
   if (end == 0 && length > 0.0) {

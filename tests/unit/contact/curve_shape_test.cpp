@@ -19,7 +19,8 @@ Curve odd_tool() {
               segment({4, 1}, {3.5, 3}),
               segment({3.5, 3}, {2.5, 3}),
               arc({2.5, 3}, {1.5, 3}, {2, 3}, true), // a notch
-              segment({1.5, 3}, {1, 3}), segment({1, 3}, {1, 2}),
+              segment({1.5, 3}, {1, 3}),
+              segment({1, 3}, {1, 2}),
               segment({1, 2}, {0, 2}),
               segment({0, 2}, {0, 0})};
   return c;
@@ -108,7 +109,9 @@ TEST(CurveShape, PointsOnTheSurfaceHaveNoDistanceAndAnOutwardNormal) {
       for (const double s : {0.0, 0.3, 0.5, 1.0}) {
         const SurfacePoint<2> found = shape.closest(piece.point(s));
         EXPECT_LT(std::abs(found.distance), 1e-14);
-        EXPECT_GT(found.normal.dot(right_normal(piece.tangent(s))), 0.1);
+        EXPECT_GT(found.normal.dot(right_normal(piece.tangent(s))), 0.1)
+            << piece.point(s).transpose() << " s " << s << " n " << found.normal.transpose() << " f "
+            << found.feature;
         EXPECT_LT(shape.closest(piece.point(s) - 1e-6 * found.normal).distance, 0.0);
         EXPECT_GT(shape.closest(piece.point(s) + 1e-6 * found.normal).distance, 0.0);
       }
