@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -36,8 +37,8 @@ struct TimeControl {
   int check_every = 10;           ///< steps between estimates of the stable step
 };
 
-/// An embedded crack, or one open to the boundary where its first or last point lies on it. Both faces are
-/// the boundary piece `name`.
+/// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are
+/// the boundary pieces NAME+ (material on the left of the path, seen along it) and NAME-.
 struct Crack {
   std::string name;
   std::vector<Vec2> points; ///< m, at least two
@@ -58,15 +59,13 @@ struct Domain {
   std::vector<std::string> piece_names() const;
 };
 
-/// Spacing wanted near a box or a polyline: h(d) = spacing + growth · max(0, d − radius), d the distance to
-/// it.
+/// Spacing wanted near a box or a polyline: h(d) = spacing + growth · d, d the distance to it.
 struct Refinement {
   std::string name;
   std::optional<std::array<Vec2, 2>> box; ///< lower left, upper right, m; else `points`
   std::vector<Vec2> points;               ///< m; one: a point, more: a polyline
-  double radius = 0.0;                    ///< m
   double spacing = 0.0;                   ///< m
-  double growth = 0.2;                    ///< –
+  double growth = 0.3;                    ///< –
 };
 
 struct CloudSpec {
@@ -88,24 +87,25 @@ struct LinearHardening {
   double hardening = 0.0; ///< Pa  dσ_y/dε̄p
 };
 
-/// σ_y = (A + B ε̄pⁿ)(1 + C ln(ε̄̇p/rate0))(1 − T*ᵐ), T* = (T − T0)/(Tmelt − T0).
+/// σ_y = (A + B ε̄pⁿ)(1 + C ln(ε̄̇p/rate0))(1 − T*ᵐ), T* = (T − T0)/(Tmelt − T0). An infinite Tmelt: no thermal
+/// softening.
 struct JohnsonCook {
-  double A = 0.0;     ///< Pa
-  double B = 0.0;     ///< Pa
-  double n = 0.0;     ///< –
-  double C = 0.0;     ///< –
-  double m = 0.0;     ///< –
-  double rate0 = 1.0; ///< 1/s
-  double T0 = 0.0;    ///< K
-  double Tmelt = 0.0; ///< K
+  double A = 0.0;                                         ///< Pa
+  double B = 0.0;                                         ///< Pa
+  double n = 0.0;                                         ///< –
+  double C = 0.0;                                         ///< –
+  double m = 1.0;                                         ///< –
+  double rate0 = 1.0;                                     ///< 1/s
+  double T0 = 0.0;                                        ///< K
+  double Tmelt = std::numeric_limits<double>::infinity(); ///< K
 };
 
 struct HeatProperties {
-  double specific_heat = 0.0;                  ///< J/(kg K)
-  double conductivity = 0.0;                   ///< W/(m K)
-  double taylor_quinney = 0.9;                 ///< – share of plastic work that becomes heat
-  double expansion = 0.0;                      ///< 1/K, linear
-  std::optional<double> reference_temperature; ///< K, of zero thermal strain; given when expansion > 0
+  double specific_heat = 0.0;            ///< J/(kg K)
+  double conductivity = 0.0;             ///< W/(m K)
+  double taylor_quinney = 0.9;           ///< – share of plastic work that becomes heat
+  double expansion = 0.0;                ///< 1/K, linear
+  double reference_temperature = 293.15; ///< K, free of thermal strain
 };
 
 struct Material {
