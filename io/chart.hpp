@@ -17,7 +17,7 @@ struct ChartSeries {
 
 struct Chart {
   std::string title;
-  std::string x_label, x_unit; ///< base units: a prefix is chosen from the data
+  std::string x_label = "time", x_unit = "s"; ///< base units: a prefix is chosen from the data
   std::string y_label, y_unit;
   std::vector<ChartSeries> series;
   bool log_y = false;
@@ -28,9 +28,11 @@ struct Chart {
 /// (extremes kept).
 std::string svg_chart(const Chart& chart);
 
-/// Low-pass of a series at uneven times by a Gaussian of standard deviation `sigma` (same unit as t); weights
-/// are by the intervals, normalised at the ends, so that constants stay.
-std::vector<double> gaussian_filter(const std::vector<double>& t, const std::vector<double>& y, double sigma);
+/// Low-pass of the series y(t) at uneven, increasing times by a Gaussian of standard deviation `sigma` (unit
+/// of t), evaluated at `at`. Samples weigh as much as the interval they stand for and the weights are
+/// normalised, so that constants stay, up to the ends. Not-a-number is left out.
+std::vector<double> gaussian_filter(const std::vector<double>& t, const std::vector<double>& y, double sigma,
+                                    const std::vector<double>& at);
 
 /// Force against stroke per tool (raw and filtered), energies, residual, step size, extremes, probes:
 /// whatever columns the history has.

@@ -112,6 +112,7 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   select_font(cr, size, bold);
   cairo_move_to(cr, x, y);
   cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr); // showing text leaves a current point behind
 }
 
 void paint_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
@@ -125,16 +126,17 @@ void paint_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>
   cairo_translate(layer, -layout.plot_left, -layout.plot_top);
   cairo_set_antialias(layer, CAIRO_ANTIALIAS_NONE);
 
-  cairo_set_source_rgb(layer, 0.12, 0.13, 0.16);
-  cairo_set_line_width(layer, layout.width / 500.0);
-  cairo_set_line_join(layer, CAIRO_LINE_JOIN_ROUND);
-  for_cells(layer, layout, cells, vertices, [&](std::size_t) { cairo_stroke(layer); });
   for_cells(layer, layout, cells, vertices, [&](std::size_t c) {
     const Colour colour = map_colour(map, (value[c] - range.low) / (range.high - range.low));
     cairo_set_source_rgb(layer, colour.red, colour.green, colour.blue);
     cairo_fill(layer);
   });
   const Surface coarse = average(fine, width, height);
+  // The rim: the silhouette in dark, shifted a little all round, beneath the cells.
+  cairo_set_source_rgb(cr, 0.12, 0.13, 0.16);
+  const double rim = layout.width / 1000.0;
+  for (const Vec2& shift : {Vec2(rim, 0), Vec2(-rim, 0), Vec2(0, rim), Vec2(0, -rim)})
+    cairo_mask_surface(cr, coarse.get(), layout.plot_left + shift.x(), layout.plot_top + shift.y());
   cairo_set_source_surface(cr, coarse.get(), layout.plot_left, layout.plot_top);
   cairo_paint(cr);
 }
@@ -229,6 +231,8 @@ void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& pict
     any = true;
   }
   if (!any) return;
+  if (std::abs(low) < 1e-9 * std::abs(high)) low = 0.0;
+  if (std::abs(high) < 1e-9 * std::abs(low)) high = 0.0;
   const double f = picture.unit_factor;
   const std::string suffix = picture.unit.empty() ? "" : " " + picture.unit;
   const std::string text = fmt::format("min {}{}   max {}{}", number_format(low / f, 4), suffix,

@@ -24,13 +24,13 @@ struct ReportTable {
 
 struct ReportData {
   std::string title;                                        ///< the case
-  std::string subtitle;                                     ///< version, when it makes sense the date
+  std::string subtitle;                                     ///< code and version
   bool failed = false;                                      ///< colours the verdict
   std::string verdict;                                      ///< one line: how the run ended
   std::vector<std::pair<std::string, std::string>> figures; ///< the few numbers to see first
   std::vector<std::string> warnings;
   std::optional<PostMortem> post_mortem;
-  std::vector<ReportPicture> pictures; ///< shown by time, then in this order
+  std::vector<ReportPicture> pictures; ///< shown by field, in order of time
   std::vector<Chart> charts;
   std::vector<ReportTable> tables;
   std::string case_text; ///< resolved case, shown verbatim
