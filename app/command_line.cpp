@@ -37,7 +37,8 @@ struct CaseOptions {
     return io::read_case(file, set);
   }
   RunOptions options(const io::Case& input) const {
-    return {.output = output.empty() ? std::filesystem::path("results") / input.name : std::filesystem::path(output),
+    return {.output = output.empty() ? std::filesystem::path("results") / input.name
+                                     : std::filesystem::path(output),
             .force = force,
             .threads = threads,
             .version = version()};
@@ -51,21 +52,21 @@ int act(CLI::App& program, int argc, char** argv) {
   CaseOptions run_options, check_options;
   CLI::App* run_command = program.add_subcommand("run", "run a case");
   run_options.declare(*run_command);
-  CLI::App* check_command =
-      program.add_subcommand("check", "build a case without running it: nodes, first step, overlap, initial fields");
+  CLI::App* check_command = program.add_subcommand(
+      "check", "build a case without running it: nodes, first step, overlap, initial fields");
   check_options.declare(*check_command);
   CLI::App* schema_command = program.add_subcommand("schema", "print the JSON Schema of case files");
   bool markdown = false;
-  schema_command->add_flag("--markdown", markdown, "print the case reference instead (docs/case_reference.md)");
-  CLI::App* report_command = program.add_subcommand("report", "write report.html anew from the files of a run");
+  schema_command->add_flag("--markdown", markdown,
+                           "print the case reference instead (docs/case_reference.md)");
+  CLI::App* report_command =
+      program.add_subcommand("report", "write report.html anew from the files of a run");
   std::string folder;
   report_command->add_option("folder", folder, "folder of results")->required();
 
   try {
     program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? Exit::done : Exit::bad_input;
-  }
+  } catch (const CLI::ParseError& error) { return program.exit(error) == 0 ? Exit::done : Exit::bad_input; }
   if (*run_command) {
     const io::Case input = run_options.read();
     return run(input, run_options.options(input));
@@ -84,7 +85,8 @@ int act(CLI::App& program, int argc, char** argv) {
 } // namespace
 
 int command_line(int argc, char** argv) {
-  CLI::App program("Blanking, shearing and cutting of metal by the constrained natural element method", "cnem");
+  CLI::App program("Blanking, shearing and cutting of metal by the constrained natural element method",
+                   "cnem");
   try {
     return act(program, argc, argv);
   } catch (const InputError& error) {

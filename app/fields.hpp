@@ -16,7 +16,7 @@ struct FieldInfo {
   std::string shown_unit;    ///< unit in pictures
   double shown_factor = 1.0; ///< SI value of one shown unit
   io::ColourMap map = io::ColourMap::strain;
-  bool at_nodes = false;     ///< lives at nodes (else at stress points)
+  bool at_nodes = false; ///< lives at nodes (else at stress points)
 };
 
 /// All fields, in the order files list them.

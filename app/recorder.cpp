@@ -28,8 +28,8 @@ double total_mass(const ExplicitSolver<2>& solver) {
 
 HistoryRecorder::HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver,
                                  const std::filesystem::path& folder)
-    : probes_(probe_weights(input, solver.model().cloud)), folder_(folder), initial_area_(boundary_area(solver)),
-      initial_mass_(total_mass(solver)) {}
+    : probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
+      initial_area_(boundary_area(solver)), initial_mass_(total_mass(solver)) {}
 
 std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitSolver<2>& solver) const {
   const State<2>& state = solver.state();
@@ -55,29 +55,30 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     row.emplace_back("support." + supports.list()[s].name + ".force_y[N/m]", force.y());
   }
   const EnergyLedger e = solver.ledger();
-  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"kinetic", e.kinetic},
-           {"elastic", e.elastic},
-           {"plastic", e.plastic},
-           {"stabilisation", e.stabilisation},
-           {"viscosity", e.viscosity},
-           {"friction", e.friction},
-           {"contact_impact", e.impact},
-           {"penalty_release", e.penalty_release},
-           {"rereference", e.rereference},
-           {"tool_work", e.tools},
-           {"contact_recovery", e.recovery},
-           {"support_work", e.supports},
-           {"load_work", e.loads},
-           {"heat_content", e.heat_content},
-           {"heat_generated", e.heat_generated},
-           {"heat_exchanged", e.heat_exchanged},
-           {"residual", e.residual()}})
+  for (const auto& [name, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"kinetic", e.kinetic},
+                                                             {"elastic", e.elastic},
+                                                             {"plastic", e.plastic},
+                                                             {"stabilisation", e.stabilisation},
+                                                             {"viscosity", e.viscosity},
+                                                             {"friction", e.friction},
+                                                             {"contact_impact", e.impact},
+                                                             {"penalty_release", e.penalty_release},
+                                                             {"rereference", e.rereference},
+                                                             {"tool_work", e.tools},
+                                                             {"contact_recovery", e.recovery},
+                                                             {"support_work", e.supports},
+                                                             {"load_work", e.loads},
+                                                             {"heat_content", e.heat_content},
+                                                             {"heat_generated", e.heat_generated},
+                                                             {"heat_exchanged", e.heat_exchanged},
+                                                             {"residual", e.residual()}})
     row.emplace_back(fmt::format("energy.{}[J/m]", name), value);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
     const Field values = info.at_nodes ? values_at_nodes(solver, name) : values_at_points(solver, name);
-    row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit), *std::max_element(values.begin(), values.end()));
+    row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
+                     *std::max_element(values.begin(), values.end()));
   }
   for (const ProbeWeights& probe : probes_)
     for (const std::string& name : probe.fields) {
@@ -131,7 +132,9 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   keep_metric("mass_balance.high", balance[1], false);
 }
 
-double HistoryRecorder::energy_residual() const { return scale_ > 0.0 ? worst_residual_ / scale_ : worst_residual_; }
+double HistoryRecorder::energy_residual() const {
+  return scale_ > 0.0 ? worst_residual_ / scale_ : worst_residual_;
+}
 
 void FieldRecorder::record(const ExplicitSolver<2>& solver) {
   const NodeState<2>& node = solver.state().node;
@@ -169,7 +172,8 @@ void PictureRecorder::record(const ExplicitSolver<2>& solver) {
     picture.time = solver.state().time;
     const auto& contact = solver.model().contact;
     for (std::size_t t = 0; t < contact.tools().size(); ++t)
-      picture.tools.push_back({&case_->tools[t].outline, contact.tools()[t].motion.displacement(solver.state().time),
+      picture.tools.push_back({&case_->tools[t].outline,
+                               contact.tools()[t].motion.displacement(solver.state().time),
                                case_->tools[t].name});
     album_.add(name, info.label, picture.time, io::draw_png(picture));
     for (const io::Window& window : case_->output.windows) {

@@ -25,7 +25,8 @@ struct ProbeWeights {
 class HistoryRecorder {
 public:
   /// Throws InputError for probes outside the domain.
-  HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver, const std::filesystem::path& folder);
+  HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver,
+                  const std::filesystem::path& folder);
 
   void record(const ExplicitSolver<2>& solver);
 
@@ -61,7 +62,8 @@ private:
 /// Draws the case's pictures.
 class PictureRecorder {
 public:
-  PictureRecorder(const io::Case& input, const std::filesystem::path& folder) : case_(&input), album_(folder) {}
+  PictureRecorder(const io::Case& input, const std::filesystem::path& folder)
+      : case_(&input), album_(folder) {}
   void record(const ExplicitSolver<2>& solver);
 
 private:

@@ -196,9 +196,10 @@ Setup build(const io::Case& input) {
 
   std::vector<contact::Tool<2>> tools;
   for (const io::Tool& tool : input.tools) tools.push_back(make_tool(tool));
-  Setup setup{.model = {.contact = contact::RigidContact<2>(std::move(tools))},
-              .warnings = std::move(generated.warnings)};
+  Setup setup;
+  setup.warnings = std::move(generated.warnings);
   Model<2>& model = setup.model;
+  model.contact = contact::RigidContact<2>(std::move(tools));
   model.cloud = std::move(generated.cloud);
   model.method = make_method(input.method);
   model.material = make_material(input.material(input.domain.material));

@@ -126,9 +126,12 @@ private:
 bool reference_due(const io::Method& method, const ExplicitSolver<2>& solver, std::int64_t last) {
   const std::int64_t steps = solver.state().step - last;
   switch (method.lagrangian) {
-  case io::Method::Lagrangian::total: return false;
-  case io::Method::Lagrangian::updated: return steps >= 1;
-  case io::Method::Lagrangian::periodic: break;
+  case io::Method::Lagrangian::total:
+    return false;
+  case io::Method::Lagrangian::updated:
+    return steps >= 1;
+  case io::Method::Lagrangian::periodic:
+    break;
   }
   if (method.rereference_every > 0 && steps >= method.rereference_every) return true;
   constexpr std::int64_t look_every = 5;
@@ -207,7 +210,8 @@ Exit run(const io::Case& input, const RunOptions& options) {
                                           "method.energy_tolerance = {:.3g} allows, at step {}, t = {:.6g} s",
                                           share, input.method.energy_tolerance, state.step, state.time),
                               -1, "energy residual");
-      const bool rereference = watch.time("step", [&] { return reference_due(input.method, solver, last_reference); });
+      const bool rereference =
+          watch.time("step", [&] { return reference_due(input.method, solver, last_reference); });
       if (rereference) {
         watch.time("rebuild", [&] { solver.prepare(); });
         last_reference = state.step;
@@ -227,7 +231,8 @@ Exit run(const io::Case& input, const RunOptions& options) {
     dead = post_mortem(error, state);
   } catch (const GeometryError& error) {
     exit = Exit::diverged;
-    reason = fmt::format("the cloud could not be rebuilt at step {}, t = {:.6g} s: {}", state.step, state.time, error.what());
+    reason = fmt::format("the cloud could not be rebuilt at step {}, t = {:.6g} s: {}", state.step,
+                         state.time, error.what());
     dead = post_mortem(DivergenceError(reason, -1, "geometry"), state);
   }
   progress.finish();
@@ -253,8 +258,8 @@ Exit run(const io::Case& input, const RunOptions& options) {
   io::write_status(options.output, status);
   const std::filesystem::path report = io::write_report(options.output);
   fmt::print("{}: {}\n", exit == Exit::done ? "done" : "diverged", reason);
-  fmt::print("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; energy residual {:.2g} of the work\n", status.nodes,
-             status.steps, state.time, status.wall_s.front().second, status.energy_residual);
+  fmt::print("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; energy residual {:.2g} of the work\n",
+             status.nodes, status.steps, state.time, status.wall_s.front().second, status.energy_residual);
   fmt::print("report: {}\n", report.string());
   return exit;
 }
@@ -266,10 +271,11 @@ void check(const io::Case& input, const RunOptions& options) {
   StepControl control(input.time);
   control.refresh(solver);
   const State<2>& state = solver.state();
-  const std::size_t node = solver.approximation().mechanics.nodal
-                               ? control.point()
-                               : static_cast<std::size_t>(solver.approximation().mechanics.node[static_cast<std::size_t>(
-                                     solver.approximation().mechanics.row_begin[control.point()])]);
+  const std::size_t node =
+      solver.approximation().mechanics.nodal
+          ? control.point()
+          : static_cast<std::size_t>(solver.approximation().mechanics.node[static_cast<std::size_t>(
+                solver.approximation().mechanics.row_begin[control.point()])]);
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   fmt::print("case        {}\n", input.title.empty() ? input.name : input.title);
   fmt::print("nodes       {}\n", state.node.size());
@@ -278,7 +284,8 @@ void check(const io::Case& input, const RunOptions& options) {
   fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
   if (!input.time.fixed)
     fmt::print(" at ({:.4g}, {:.4g}) m", state.node.position[0][node], state.node.position[1][node]);
-  fmt::print("\nsteps       about {:.0f} to t = {:.4g} s\n", std::ceil(input.time.end / control.limit()), input.time.end);
+  fmt::print("\nsteps       about {:.0f} to t = {:.4g} s\n", std::ceil(input.time.end / control.limit()),
+             input.time.end);
   fmt::print("memory      {:.0f} MB\n", static_cast<double>(io::peak_rss_bytes()) / 1e6);
   const auto overlaps = solver.model().contact.overlaps(state.node.position, 0.0);
   if (overlaps.empty()) {
@@ -287,8 +294,8 @@ void check(const io::Case& input, const RunOptions& options) {
     fmt::print("tools       {} places where a tool overlaps the workpiece, the deepest:\n", overlaps.size());
     for (std::size_t k = 0; k < std::min<std::size_t>(overlaps.size(), 3); ++k)
       fmt::print("            {} by {:.3g} m at ({:.4g}, {:.4g}) m\n",
-                 solver.model().contact.tools()[static_cast<std::size_t>(overlaps[k].tool)].name, overlaps[k].depth,
-                 overlaps[k].position.x(), overlaps[k].position.y());
+                 solver.model().contact.tools()[static_cast<std::size_t>(overlaps[k].tool)].name,
+                 overlaps[k].depth, overlaps[k].position.x(), overlaps[k].position.y());
   }
   const std::filesystem::path folder = options.output / "initial";
   io::prepare_output_folder(folder, true);

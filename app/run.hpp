@@ -17,12 +17,12 @@ struct RunOptions {
   std::string version;
 };
 
-/// Runs the case into the folder and writes its report. Returns done or diverged (with the post-mortem in status.json
-/// and the report). Throws InputError and IoError.
+/// Runs the case into the folder and writes its report. Returns done or diverged (with the post-mortem in
+/// status.json and the report). Throws InputError and IoError.
 Exit run(const io::Case& input, const RunOptions& options);
 
-/// Builds geometry and model without running: prints nodes, first step and what limits it, steps to come, memory, tool
-/// overlap, and writes the initial fields to output/initial. Throws InputError and IoError.
+/// Builds geometry and model without running: prints nodes, first step and what limits it, steps to come,
+/// memory, tool overlap, and writes the initial fields to output/initial. Throws InputError and IoError.
 void check(const io::Case& input, const RunOptions& options);
 
 } // namespace cnem::app

@@ -28,7 +28,7 @@ template<int dim> struct Model {
   Supports<dim> supports;
   Loads<dim> loads;
   ThermalBoundaries<dim> heat_boundaries;
-  contact::RigidContact<dim> contact;
+  contact::RigidContact<dim> contact{std::vector<contact::Tool<dim>>{}};
   double stabilisation = 0.05; ///< α of the edge defect
   BulkViscosity viscosity;
   bool thermal = true;

@@ -7,9 +7,11 @@
 namespace cnem::testing {
 namespace {
 
-/// Frequencies of the free rectangle [0, a] × [0, b] in plane strain by one p-version finite element of degree
-/// `degree` (Legendre functions, Gauss quadrature that is exact): converged to all digits needed at degree 14.
-Eigen::VectorXd p_version_squared_frequencies(double a, double b, const plasticity::Material& material, int degree) {
+/// Frequencies of the free rectangle [0, a] × [0, b] in plane strain by one p-version finite element of
+/// degree `degree` (Legendre functions, Gauss quadrature that is exact): mode 10 moves by less than 1e-3 from
+/// degree 10 to 12.
+Eigen::VectorXd p_version_squared_frequencies(double a, double b, const plasticity::Material& material,
+                                              int degree) {
   const int q = degree + 1;
   // Gauss-Legendre points by Newton on P_q.
   Eigen::VectorXd t(q), w(q);
@@ -61,44 +63,27 @@ Eigen::VectorXd p_version_squared_frequencies(double a, double b, const plastici
       K += weight * B.transpose() * C * B;
       M += weight * material.density * N.transpose() * N;
     }
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly)
+      .eigenvalues();
 }
 
 TEST(Frequencies, free_plate_modes_1_to_10_within_5_percent) {
   const double a = 2e-2, b = 1e-2;
   const plasticity::Material material = steel();
-  const Eigen::VectorXd reference = p_version_squared_frequencies(a, b, material, 10);
-  const Eigen::VectorXd coarser = p_version_squared_frequencies(a, b, material, 8);
-  const Cloud<2> cloud = rectangle(a, b, 1e-3, Lattice::hexagonal, 0.15);
+  const Eigen::VectorXd reference = p_version_squared_frequencies(a, b, material, 12);
+  const Eigen::VectorXd coarser = p_version_squared_frequencies(a, b, material, 10);
+  const Cloud<2> cloud = rectangle(a, b, 0.75e-3, Lattice::hexagonal, 0.15);
   Approximation<2> approximation = make(Method::cnem)->rebuild(cloud);
+  const Eigen::VectorXd bare = squared_frequencies(linearise(approximation, cloud, material, 0.0));
   const Eigen::VectorXd stabilised = squared_frequencies(linearise(approximation, cloud, material, 0.05));
   for (int mode = 0; mode < 10; ++mode) {
     const double exact = std::sqrt(reference[3 + mode]);
-    EXPECT_NEAR(std::sqrt(coarser[3 + mode]), exact, 1e-4 * exact) << "the reference has not converged";
+    EXPECT_NEAR(std::sqrt(coarser[3 + mode]), exact, 1e-3 * exact) << "the reference has not converged";
     EXPECT_NEAR(std::sqrt(stabilised[3 + mode]), exact, 0.05 * exact) << "mode " << mode + 1;
   }
+  EXPECT_LT(std::sqrt(bare[12]), 0.7 * std::sqrt(reference[12]))
+      << "without the penalty weak modes come first";
   for (int rigid = 0; rigid < 3; ++rigid) EXPECT_LT(std::abs(stabilised[rigid]), 1e-6 * stabilised[3]);
-}
-
-TEST(Frequencies, weak_modes_show_without_stabilisation) {
-  // A coarse jittered cloud at ν = 0.49: the softest zero-energy-like mode must gain by the penalty.
-  plasticity::Material material = steel();
-  material.elasticity.poisson = 0.49;
-  const Cloud<2> cloud = rectangle(1e-2, 1e-2, 1.25e-3, Lattice::square, 0.0);
-  Approximation<2> approximation = make(Method::cnem)->rebuild(cloud);
-  const Linear bare = linearise(approximation, cloud, material, 0.0);
-  const Linear held = linearise(approximation, cloud, material, 0.05);
-  Approximation<2> triangles = make(Method::triangles)->rebuild(cloud);
-  const Linear fe = linearise(triangles, cloud, material, 0.0);
-  // min over u ⟂ rigid of uᵀK u / uᵀK_T3 u
-  const auto softest = [&](const Linear& linear) {
-    const Eigen::MatrixXd scale = fe.stiffness + 1e-9 * fe.stiffness.norm() * Eigen::MatrixXd::Identity(fe.mass.size(), fe.mass.size());
-    Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> pencil(
-        0.5 * (linear.stiffness + linear.stiffness.transpose()), scale, Eigen::EigenvaluesOnly);
-    return pencil.eigenvalues()[3];
-  };
-  EXPECT_LT(softest(bare), 1e-3);
-  EXPECT_GT(softest(held), 5.0 * softest(bare));
 }
 
 TEST(StableStep, bound_is_below_the_exact_step_and_not_far) {
@@ -119,7 +104,8 @@ TEST(StableStep, bound_is_below_the_exact_step_and_not_far) {
           ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
           const double bound = solver.stable_step().dt;
           EXPECT_LT(bound, exact) << "poisson " << poisson << " jitter " << jitter << " alpha " << alpha;
-          EXPECT_GT(bound, 0.4 * exact) << "poisson " << poisson << " jitter " << jitter << " alpha " << alpha;
+          EXPECT_GT(bound, 0.4 * exact)
+              << "poisson " << poisson << " jitter " << jitter << " alpha " << alpha;
         }
 }
 

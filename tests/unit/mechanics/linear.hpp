@@ -13,8 +13,8 @@ struct Linear {
   Eigen::VectorXd mass;      ///< kg/m, per dof
 };
 
-inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud, const plasticity::Material& material,
-                        double alpha) {
+inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
+                        const plasticity::Material& material, double alpha) {
   const DiscreteOperators<2>& op = approximation.mechanics;
   const auto n = static_cast<std::size_t>(op.nodes), points = static_cast<std::size_t>(op.points);
   const double lambda = material.elasticity.lambda(), mu = material.elasticity.mu();

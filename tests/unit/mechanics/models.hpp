@@ -30,14 +30,20 @@ inline plasticity::Material steel() {
 inline plasticity::Material steel_304L() {
   plasticity::Material material = steel();
   material.conductivity = 5.86;
-  material.hardening = plasticity::JohnsonCook{.A = 253e6, .B = 685e6, .n = 0.312, .C = 0.0973, .rate0 = 1.0,
-                                               .m = 2.044, .T0 = 296.0, .Tmelt = 1698.0};
+  material.hardening = plasticity::JohnsonCook{.A = 253e6,
+                                               .B = 685e6,
+                                               .n = 0.312,
+                                               .C = 0.0973,
+                                               .rate0 = 1.0,
+                                               .m = 2.044,
+                                               .T0 = 296.0,
+                                               .Tmelt = 1698.0};
   return material;
 }
 
 /// Rectangle [0, a] × [0, b] with its four sides as pieces 0 bottom, 1 right, 2 top, 3 left.
-inline Cloud<2> rectangle(double a, double b, double spacing, Lattice lattice = Lattice::hexagonal, double jitter = 0.1,
-                          std::uint64_t seed = 1) {
+inline Cloud<2> rectangle(double a, double b, double spacing, Lattice lattice = Lattice::hexagonal,
+                          double jitter = 0.1, std::uint64_t seed = 1) {
   Cloud<2> cloud;
   add_loop(cloud, {{0, 0}, {a, 0}, {a, b}, {0, b}}, spacing);
   cloud.piece_names = {"bottom", "right", "top", "left"};
@@ -61,7 +67,7 @@ inline std::vector<std::int32_t> nodes_on(const Cloud<2>& cloud, std::int32_t pi
 }
 
 inline Model<2> model_of(Cloud<2> cloud, Method method, plasticity::Material material) {
-  Model<2> model{.contact = contact::RigidContact<2>({})};
+  Model<2> model;
   model.method = make(method);
   model.supports = Supports<2>({}, static_cast<std::size_t>(cloud.nodes()));
   model.loads = Loads<2>({}, {}, {}, cloud.position);

@@ -16,7 +16,8 @@ ExplicitSolver<2> driven(Method method, const Mat2& H, double end, plasticity::M
   for (std::int32_t i = 0; i < boundary; ++i)
     for (int k = 0; k < 2; ++k) {
       const double speed = H.row(k).dot(cloud.position[static_cast<std::size_t>(i)]) / end;
-      supports.push_back({"side", Support<2>::Kind::velocity, k == 0 ? Vec2(1, 0) : Vec2(0, 1), TimeTable(speed), {i}});
+      supports.push_back(
+          {"side", Support<2>::Kind::velocity, k == 0 ? Vec2(1, 0) : Vec2(0, 1), TimeTable(speed), {i}});
     }
   Model<2> model = model_of(cloud, method, std::move(material));
   model.supports = Supports<2>(std::move(supports), static_cast<std::size_t>(cloud.nodes()));
