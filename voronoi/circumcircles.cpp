@@ -18,7 +18,7 @@ Circumcircles circumcircles(const Cloud<2>& cloud, const Triangulation& mesh) {
     const double aa = a.squaredNorm(), bb = b.squaredNorm();
     // The triangle is counter-clockwise (exact predicates), but its area may round to nothing.
     const double twice_area = std::max(cross(a, b), 4.0 * epsilon * std::max(aa, bb));
-    const Vec2 centre = right_normal(aa * b - bb * a) * (-0.5 / twice_area);
+    const Vec2 centre = right_normal(aa * b - bb * a) * (0.5 / twice_area);
     const double radius2 = centre.squaredNorm();
     circles.centre[t] = p + centre;
     circles.limit[t] =
