@@ -53,6 +53,16 @@ using UnalignedVector [[gnu::vector_size(8 * pack_width), gnu::aligned(8), gnu::
 using BitsVector [[gnu::vector_size(8 * pack_width)]] = Bits;
 using MaskVector [[gnu::vector_size(8 * pack_width)]] = long long;
 
+CNEM_INLINE DoubleVector broadcast(double x) {
+#if defined(CNEM_ISA_avx512)
+  return DoubleVector{x, x, x, x, x, x, x, x};
+#elif defined(CNEM_ISA_avx2)
+  return DoubleVector{x, x, x, x};
+#else
+  return DoubleVector{x, x};
+#endif
+}
+
 struct PackBits {
   BitsVector v;
 };
@@ -70,9 +80,7 @@ struct Pack {
 
   Pack() = default;
   CNEM_INLINE Pack(DoubleVector x) : v(x) {}
-  CNEM_INLINE Pack(double x) {
-    for (int k = 0; k < pack_width; ++k) v[k] = x;
-  }
+  CNEM_INLINE Pack(double x) : v(broadcast(x)) {}
 
   CNEM_INLINE friend Pack operator+(Pack a, Pack b) { return a.v + b.v; }
   CNEM_INLINE friend Pack operator-(Pack a, Pack b) { return a.v - b.v; }
