@@ -254,7 +254,7 @@ void add_method(Keys& k) {
 }
 
 void add_output(Keys& k) {
-  const std::vector<std::string>& fields = field_names();
+  const std::vector<std::string> fields = field_names();
   k.add("output", table, "What is written.").always();
   k.add("output.history_every", quantity, "Time between rows of `history.csv`; 0: every step.")
       .unit(d::time)
@@ -266,7 +266,8 @@ void add_output(Keys& k) {
       .in(not_negative)
       .example("\"1 us\"")
       .computed("`time.end`/24");
-  k.add("output.pictures", quantities, "Times of the pictures in the report.")
+  k.add("output.pictures", quantities,
+        "Times of the pictures in the report; those beyond `time.end` are skipped.")
       .unit(d::time)
       .in(not_negative)
       .example("\"2 4 5 12 us\"")
@@ -305,14 +306,6 @@ const std::vector<Key>& schema() {
     return std::move(k.all);
   }();
   return keys;
-}
-
-const std::vector<std::string>& field_names() {
-  static const std::vector<std::string> names{
-      "temperature", "plastic_strain", "plastic_rate", "equivalent_stress", "pressure",       "stress_xx",
-      "stress_yy",   "stress_zz",      "stress_xy",    "displacement_x",    "displacement_y", "velocity_x",
-      "velocity_y",  "position_x",     "position_y",   "plastic_work"};
-  return names;
 }
 
 } // namespace cnem::io
