@@ -13,8 +13,8 @@ EdgeTree::EdgeTree(const Cloud<2>& cloud) {
   std::vector<Vec2> middles;
   middles.reserve(cloud.facets.size());
   for (const Facet<2>& f : cloud.facets)
-    middles.push_back(
-        0.5 * (cloud.position[std::size_t(f.node[0])] + cloud.position[std::size_t(f.node[1])]));
+    middles.push_back(0.5 *
+                      (cloud.position[std::size_t(f.node[0])] + cloud.position[std::size_t(f.node[1])]));
   edges_.reserve(cloud.facets.size());
   for (const std::int32_t k : hilbert_order(middles)) {
     const Facet<2>& f = cloud.facets[std::size_t(k)];

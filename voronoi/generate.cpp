@@ -6,7 +6,6 @@
 #include "voronoi/generate_interior.hpp"
 #include "voronoi/generate_list.hpp"
 #include "voronoi/order.hpp"
-#include "voronoi/triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,15 +23,17 @@ std::string at(const Vec2& x) { return fmt::format("({:.6g}, {:.6g})", x.x(), x.
 void check_options(const SpacingField& spacing, const CloudOptions& options) {
   if (options.pattern == Pattern::list) {
     if (options.nodes.size() < 3)
-      throw GeometryError(fmt::format("the node list has {} nodes; expected at least 3", options.nodes.size()));
+      throw GeometryError(
+          fmt::format("the node list has {} nodes; expected at least 3", options.nodes.size()));
     return;
   }
   spacing.check();
   if (options.pattern == Pattern::jittered && !(options.jitter >= 0.0 && options.jitter <= 0.4))
     throw GeometryError(fmt::format("the jitter is {}; expected a number in [0, 0.4]", options.jitter));
   if (options.pattern == Pattern::regular && !spacing.uniform())
-    throw GeometryError("the regular pattern has one spacing everywhere; expected no refinements, or the pattern "
-                        "hexagonal or jittered");
+    throw GeometryError(
+        "the regular pattern has one spacing everywhere; expected no refinements, or the pattern "
+        "hexagonal or jittered");
 }
 
 void check_count(const DomainShape& domain, const SpacingField& spacing, const CloudOptions& options) {
@@ -40,10 +41,10 @@ void check_count(const DomainShape& domain, const SpacingField& spacing, const C
   if (nodes <= options.nodes_limit) return;
   double finest = spacing.spacing;
   for (const Refinement& r : spacing.refinements) finest = std::min(finest, r.spacing);
-  throw GeometryError(fmt::format("a spacing of {:.3g} m (finest {:.3g} m) makes about {:.2g} nodes or more in "
-                                    "this domain; expected at most {:.2g}",
-                                    spacing.spacing, finest, nodes,
-                                    options.nodes_limit));
+  throw GeometryError(
+      fmt::format("a spacing of {:.3g} m (finest {:.3g} m) makes about {:.2g} nodes or more in "
+                  "this domain; expected at most {:.2g}",
+                  spacing.spacing, finest, nodes, options.nodes_limit));
 }
 
 /// Edges of the boundary that are much shorter than the spacing: one warning per piece, about the worst.
@@ -58,48 +59,22 @@ void warn_of_short_edges(const Cloud<2>& cloud, const SpacingField& spacing,
   for (const Facet<2>& f : cloud.facets) {
     const Vec2 a = cloud.position[u(f.node[0])], b = cloud.position[u(f.node[1])];
     const double length = (b - a).norm(), ratio = length / spacing.at(0.5 * (a + b));
-    if (ratio < Worst{}.ratio && ratio < worst[f.piece].ratio) worst[f.piece] = {ratio, length, 0.5 * (a + b)};
+    if (ratio < Worst{}.ratio && ratio < worst[f.piece].ratio)
+      worst[f.piece] = {ratio, length, 0.5 * (a + b)};
   }
   for (const auto& [piece, edge] : worst)
-    warnings.push_back(fmt::format("boundary piece '{}' has an edge of {:.3g} m near {}, where the spacing is "
-                                   "{:.3g} m: refine there, or the stable step suffers",
-                                   cloud.piece_names[u(piece)], edge.length, at(edge.where),
-                                   spacing.at(edge.where)));
+    warnings.push_back(
+        fmt::format("boundary piece '{}' has an edge of {:.3g} m near {}, where the spacing is "
+                    "{:.3g} m: refine there, or the stable step suffers",
+                    cloud.piece_names[u(piece)], edge.length, at(edge.where), spacing.at(edge.where)));
 }
 
-/// Places where the domain is so narrow that no node lies between its two sides.
-void warn_of_necks(const Cloud<2>& cloud, std::vector<std::string>& warnings) {
-  const Triangulation mesh = triangulate(cloud);
-  std::vector<std::int32_t> loop(u(cloud.nodes()), -1), place(u(cloud.nodes()), -1), loop_size;
-  for (const Facet<2>& f : cloud.facets) {
-    if (loop_size.empty() || loop[u(f.node[0])] != static_cast<std::int32_t>(loop_size.size()) - 1) {
-      loop_size.push_back(0); // the facets come loop after loop
-      loop[u(f.node[0])] = static_cast<std::int32_t>(loop_size.size()) - 1;
-    }
-    place[u(f.node[0])] = loop_size.back()++;
-    if (loop[u(f.node[1])] < 0) loop[u(f.node[1])] = loop[u(f.node[0])];
-  }
-  constexpr std::int32_t near = 8; // facets: across a corner, however acute, is no neck
-  double narrowest = 0.0;
-  Vec2 where{0, 0};
-  int found = 0;
-  for (std::size_t t = 0; t < mesh.node.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
-      if (mesh.neighbour[t][k] < static_cast<std::int32_t>(t) || place[u(a)] < 0 || place[u(b)] < 0) continue;
-      if (loop[u(a)] == loop[u(b)]) {
-        const std::int32_t apart = std::abs(place[u(a)] - place[u(b)]);
-        if (std::min(apart, loop_size[u(loop[u(a)])] - apart) <= near) continue;
-      }
-      const double width = (cloud.position[u(a)] - cloud.position[u(b)]).norm();
-      if (found++ > 0 && width >= narrowest) continue;
-      narrowest = width;
-      where = 0.5 * (cloud.position[u(a)] + cloud.position[u(b)]);
-    }
-  if (found > 0)
-    warnings.push_back(fmt::format("the domain is only {:.3g} m wide near {}: no node lies between its two sides "
-                                   "(so at {} pairs of boundary nodes); refine there",
-                                   narrowest, at(where), found));
+void warn_of_necks(const Necks& necks, std::vector<std::string>& warnings) {
+  if (necks.pairs > 0)
+    warnings.push_back(
+        fmt::format("the domain is only {:.3g} m wide near {}: no node lies between its two sides "
+                    "(so at {} pairs of boundary nodes); refine there",
+                    necks.width, at(necks.where), necks.pairs));
 }
 
 Cloud<2> listed(const DomainShape& domain, const CloudOptions& options) {
@@ -109,9 +84,10 @@ Cloud<2> listed(const DomainShape& domain, const CloudOptions& options) {
   const EdgeTree tree(cloud);
   for (std::size_t k = 0; k < options.nodes.size(); ++k)
     if (!on_boundary[k] && !tree.inside(options.nodes[k]))
-      throw GeometryError(fmt::format("node {} of the list at {} lies outside the domain (the polygon through the "
-                                      "nodes on the boundary)",
-                                      k, at(options.nodes[k])));
+      throw GeometryError(
+          fmt::format("node {} of the list at {} lies outside the domain (the polygon through the "
+                      "nodes on the boundary)",
+                      k, at(options.nodes[k])));
   return cloud;
 }
 
@@ -124,7 +100,7 @@ GeneratedCloud generate_cloud(const DomainShape& domain, const SpacingField& spa
   GeneratedCloud result;
   if (options.pattern == Pattern::list) {
     result.cloud = listed(shape, options);
-    warn_of_necks(result.cloud, result.warnings);
+    warn_of_necks(find_necks(result.cloud, triangulate(result.cloud)), result.warnings);
     return result;
   }
   check_count(shape, spacing, options);
@@ -139,11 +115,10 @@ GeneratedCloud generate_cloud(const DomainShape& domain, const SpacingField& spa
   std::vector<Vec2> interior = spacing.uniform()
                                    ? lattice_nodes(cloud, tree, spacing.spacing, options.pattern)
                                    : front_nodes(cloud, tree, spacing);
-  smooth_nodes(cloud, tree, spacing, interior);
+  warn_of_necks(smooth_nodes(cloud, tree, spacing, interior), result.warnings);
   if (options.pattern == Pattern::jittered)
     jitter_nodes(tree, spacing, options.jitter, options.seed, interior);
   cloud.position.insert(cloud.position.end(), interior.begin(), interior.end());
-  warn_of_necks(cloud, result.warnings);
   result.cloud = renumber(cloud, hilbert_order(cloud.position));
   return result;
 }

@@ -36,11 +36,10 @@ void check_curve(const Curve& curve, const std::string& what, double size) {
     if (!piece.is_arc()) continue;
     for (const Vec2& end : {piece.from, piece.to})
       if (std::abs((end - piece.centre).norm() - piece.radius) > 1e-6 * size)
-        throw GeometryError(
-            fmt::format("{}: arc {} ('{}') has its end {} at {:.6g} m from its centre {}; expected its radius, "
-                        "{:.6g} m",
-                        what, k + 1, piece.name, at(end), (end - piece.centre).norm(), at(piece.centre),
-                        piece.radius));
+        throw GeometryError(fmt::format(
+            "{}: arc {} ('{}') has its end {} at {:.6g} m from its centre {}; expected its radius, "
+            "{:.6g} m",
+            what, k + 1, piece.name, at(end), (end - piece.centre).norm(), at(piece.centre), piece.radius));
   }
   if (std::abs(curve.area()) <= 1e-12 * size * size)
     throw GeometryError(fmt::format("{} encloses no area", what));
@@ -75,8 +74,8 @@ std::vector<double> share_out(const CurvePiece& piece, const SpacingField& spaci
   }
   int count = static_cast<int>(piece.is_arc() ? std::ceil(sum.back() - 1e-6) : std::round(sum.back()));
   if (piece.is_arc())
-    least = std::max(
-        least, static_cast<int>(std::ceil((end - begin) * std::abs(piece.sweep()) / (full_turn / 8.0) - 1e-6)));
+    least = std::max(least, static_cast<int>(std::ceil(
+                                (end - begin) * std::abs(piece.sweep()) / (full_turn / 8.0) - 1e-6)));
   count = std::max({count, least, 1});
   std::vector<double> nodes{begin};
   std::size_t interval = 1;
@@ -123,14 +122,14 @@ DomainShape checked_and_oriented(const DomainShape& domain) {
   }
   for (const Crack& crack : domain.cracks) {
     if (crack.path.size() < 2)
-      throw GeometryError(fmt::format("crack '{}' has {} points; expected at least two", crack.name,
-                                      crack.path.size()));
+      throw GeometryError(
+          fmt::format("crack '{}' has {} points; expected at least two", crack.name, crack.path.size()));
     for (std::size_t k = 0; k < crack.path.size(); ++k) {
       if (!crack.path[k].allFinite())
         throw GeometryError(fmt::format("crack '{}': point {} is not finite", crack.name, k + 1));
       if (k > 0 && (crack.path[k] - crack.path[k - 1]).norm() <= 1e-9 * size)
-        throw GeometryError(
-            fmt::format("crack '{}': its points {} and {} coincide at {}", crack.name, k, k + 1, at(crack.path[k])));
+        throw GeometryError(fmt::format("crack '{}': its points {} and {} coincide at {}", crack.name, k,
+                                        k + 1, at(crack.path[k])));
     }
   }
   return result;
@@ -208,10 +207,12 @@ BoundaryChains discretise_boundary(const DomainShape& domain, const SpacingField
         if (cuts[c] <= cuts[c - 1]) continue;
         const int least = pieces[p].is_arc() && pieces.size() < 3 ? 2 : 1;
         const auto nodes = share_out(pieces[p], spacing, cuts[c - 1], cuts[c], least);
-        for (std::size_t k = 0; k + 1 < nodes.size(); ++k) chain.vertex.push_back(add(pieces[p].point(nodes[k])));
+        for (std::size_t k = 0; k + 1 < nodes.size(); ++k)
+          chain.vertex.push_back(add(pieces[p].point(nodes[k])));
         for (const Mouth& mouth : mouths)
           if (mouth.curve == curve && mouth.piece == p && mouth.s == cuts[c - 1])
-            vertex_of_mouth[{mouth.crack, mouth.at_end}] = chain.vertex[chain.vertex.size() - nodes.size() + 1];
+            vertex_of_mouth[{mouth.crack, mouth.at_end}] =
+                chain.vertex[chain.vertex.size() - nodes.size() + 1];
       }
       chain.vertex.push_back(p + 1 < pieces.size() ? static_cast<std::int32_t>(chains.vertex.size()) : first);
       chains.chains.push_back(std::move(chain));

@@ -69,7 +69,8 @@ void check_against_boundary(const Crack& crack, const std::array<bool, 2>& open,
         throw GeometryError(fmt::format(
             "crack '{}' {} the boundary '{}' at {}; expected it to keep a quarter of the spacing "
             "({:.3g} m) away, or to end exactly on it, not at a small angle",
-            crack.name, gap.distance > 0.0 ? fmt::format("comes within {:.3g} m of", gap.distance) : "crosses",
+            crack.name,
+            gap.distance > 0.0 ? fmt::format("comes within {:.3g} m of", gap.distance) : "crosses",
             outline.piece_names[std::size_t(f.piece)], at(gap.where), clearance * spacing.at(gap.where)));
     }
     for (const Vec2& x : {part.a, part.b})
@@ -85,9 +86,10 @@ void check_itself(const Crack& crack, const SpacingField& spacing) {
       const Segment first = j == i + 1 ? Segment{without_start({parts[i].b, parts[i].a}, spacing)} : parts[i];
       const Approach gap = segment_to_segment(first, parts[j]);
       if (gap.distance < clearance * spacing.at(gap.where))
-        throw GeometryError(fmt::format("crack '{}' touches or nearly touches itself at {}; expected a simple, "
-                                        "open polyline without sharp turns",
-                                        crack.name, at(gap.where)));
+        throw GeometryError(
+            fmt::format("crack '{}' touches or nearly touches itself at {}; expected a simple, "
+                        "open polyline without sharp turns",
+                        crack.name, at(gap.where)));
     }
 }
 
@@ -108,10 +110,10 @@ void check_cracks(const DomainShape& domain, const SpacingField& spacing, const 
         for (const Segment& t : segments(domain.cracks[d])) {
           const Approach gap = segment_to_segment(s, t);
           if (gap.distance < clearance * spacing.at(gap.where))
-            throw GeometryError(
-                fmt::format("cracks '{}' and '{}' cross, touch or nearly touch at {}; expected separate cracks "
-                            "(describe branches as notches of the outline)",
-                            domain.cracks[d].name, crack.name, at(gap.where)));
+            throw GeometryError(fmt::format(
+                "cracks '{}' and '{}' cross, touch or nearly touch at {}; expected separate cracks "
+                "(describe branches as notches of the outline)",
+                domain.cracks[d].name, crack.name, at(gap.where)));
         }
   }
 }

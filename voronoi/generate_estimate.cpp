@@ -67,8 +67,8 @@ double estimate_nodes(const DomainShape& domain, const SpacingField& spacing, co
   if (spacing.uniform() || uniform > options.nodes_limit) return uniform;
 
   const double size = domain_size(shape);
-  const Cloud<2> outline = assemble_boundary(
-      discretise_boundary({shape.outer, shape.holes, {}}, SpacingField{size / 100.0, {}}));
+  const Cloud<2> outline =
+      assemble_boundary(discretise_boundary({shape.outer, shape.holes, {}}, SpacingField{size / 100.0, {}}));
   Vec2 low = outline.position[0], high = low;
   for (const Vec2& x : outline.position) {
     low = low.cwiseMin(x);

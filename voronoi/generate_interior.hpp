@@ -2,6 +2,7 @@
 // Interior nodes of a cloud: lattices, growing fronts, smoothing.
 #include "voronoi/edge_tree.hpp"
 #include "voronoi/generate.hpp"
+#include "voronoi/triangulation.hpp"
 
 namespace cnem::voronoi {
 
@@ -13,14 +14,23 @@ std::vector<Vec2> lattice_nodes(const Cloud<2>& boundary, const EdgeTree& tree, 
 /// grows from the boundary inwards. O(N).
 std::vector<Vec2> front_nodes(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingField& spacing);
 
-/// Moves interior nodes towards the centroids of their Voronoi cells with density h⁻⁴ (Lloyd's iteration),
-/// fills holes and thins crowds, so that distances follow h(x). With a uniform spacing, only
-/// nodes within 2.5 h of the boundary are touched.
-void smooth_nodes(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingField& spacing,
-                  std::vector<Vec2>& interior);
+/// Pairs of boundary nodes on two sides of the domain that are neighbours, with no node between them.
+struct Necks {
+  int pairs = 0;
+  double width = 0.0; ///< distance of the closest pair, m
+  Vec2 where{0, 0};   ///< middle of the closest pair
+};
 
-/// Moves each interior node by a random vector of length up to `jitter` h(x), less near the boundary. The same
-/// seed gives the same moves everywhere.
+Necks find_necks(const Cloud<2>& cloud, const Triangulation& mesh);
+
+/// Moves interior nodes towards the centroids of their Voronoi cells with density h⁻⁴ (Lloyd's iteration),
+/// fills holes and thins crowds, so that distances follow h(x). With a uniform spacing, only nodes within
+/// 2.5 h of the boundary are touched. Returns what is left without a node between its sides.
+Necks smooth_nodes(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingField& spacing,
+                   std::vector<Vec2>& interior);
+
+/// Moves each interior node by a random vector of length up to `jitter` h(x), less near the boundary. The
+/// same seed gives the same moves everywhere.
 void jitter_nodes(const EdgeTree& tree, const SpacingField& spacing, double jitter, std::uint64_t seed,
                   std::vector<Vec2>& interior);
 

@@ -8,7 +8,8 @@ namespace cnem::voronoi {
 
 namespace {
 
-/// Uniform in [0, 1), from the bits alone: the distributions of the standard library differ between platforms.
+/// Uniform in [0, 1), from the bits alone: the distributions of the standard library differ between
+/// platforms.
 double uniform(std::mt19937_64& bits) { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
 
 } // namespace
@@ -31,7 +32,8 @@ std::vector<Vec2> lattice_nodes(const Cloud<2>& boundary, const EdgeTree& tree, 
   for (int j = 0; j <= rows; ++j) {
     const bool shifted = !square && j % 2 == 1;
     for (int i = 0; i < columns + (shifted ? 0 : 1); ++i) {
-      const Vec2 x(low.x() + size.x() * ((i + (shifted ? 0.5 : 0.0)) / columns), low.y() + size.y() * j / rows);
+      const Vec2 x(low.x() + size.x() * ((i + (shifted ? 0.5 : 0.0)) / columns),
+                   low.y() + size.y() * j / rows);
       if (tree.inside(x) && tree.distance(x, clearance) >= clearance) nodes.push_back(x);
     }
   }

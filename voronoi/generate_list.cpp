@@ -28,9 +28,10 @@ void check_distinct(const std::vector<Vec2>& nodes, double tolerance) {
     for (std::size_t k = begin + 1; k < end; ++k) {
       const auto [first, second] = std::minmax(order[k - 1], order[k]);
       if ((nodes[first] - nodes[second]).norm() <= tolerance)
-        throw GeometryError(fmt::format("nodes {} and {} of the list coincide at {}; expected each node once, also "
-                                        "on cracks, whose faces are doubled automatically",
-                                        first, second, at(nodes[second])));
+        throw GeometryError(
+            fmt::format("nodes {} and {} of the list coincide at {}; expected each node once, also "
+                        "on cracks, whose faces are doubled automatically",
+                        first, second, at(nodes[second])));
     }
   }
 }
@@ -89,9 +90,10 @@ BoundaryChains list_boundary(const DomainShape& domain, const std::vector<Vec2>&
     const auto first = node_at(on, piece.from), last = node_at(on, piece.to);
     for (const auto& [node, x] : {std::pair(first, piece.from), std::pair(last, piece.to)})
       if (!node)
-        throw GeometryError(fmt::format("{}: no node of the list lies at {}; expected one at every corner, at "
-                                        "every end of a boundary piece and at the tips and kinks of cracks",
-                                        where, at(x)));
+        throw GeometryError(
+            fmt::format("{}: no node of the list lies at {}; expected one at every corner, at "
+                        "every end of a boundary piece and at the tips and kinks of cracks",
+                        where, at(x)));
     chain.vertex.push_back(*first);
     for (const OnPiece& node : on)
       if (node.node != *first && node.node != *last) chain.vertex.push_back(node.node);

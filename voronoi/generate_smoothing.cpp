@@ -1,3 +1,4 @@
+#include "voronoi/delaunay_flips.hpp"
 #include "voronoi/generate_interior.hpp"
 #include "voronoi/node_hash.hpp"
 #include "voronoi/order.hpp"
@@ -12,16 +13,29 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-/// Interior nodes on the move, behind the fixed boundary nodes in one cloud.
+/// Interior nodes on the move, behind the fixed boundary nodes in one cloud. With a uniform spacing, nodes
+/// beyond 2.5 h from the boundary stay, and those beyond 5 h are left out.
 class Smoother {
 public:
   Smoother(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingField& spacing,
            const std::vector<Vec2>& interior)
       : tree_(tree), spacing_(spacing), uniform_(spacing.uniform()), fixed_(boundary.position.size()),
         cloud_(boundary) {
-    for (const std::int32_t k : hilbert_order(interior)) cloud_.position.push_back(interior[u(k)]);
-    for (const Vec2& x : cloud_.position) h_.push_back(spacing.at(x));
-    for (std::size_t i = 0; i < cloud_.position.size(); ++i) movable_.push_back(i >= fixed_ && may_move(i));
+    for (const Vec2& x : cloud_.position) {
+      h_.push_back(spacing.at(x));
+      movable_.push_back(false);
+    }
+    for (const std::int32_t k : hilbert_order(interior)) {
+      const Vec2& x = interior[u(k)];
+      const double h = spacing.at(x), room = uniform_ ? tree.distance(x, 5.0 * h) : 0.0;
+      if (room >= 5.0 * h) {
+        far_.push_back(x);
+        continue;
+      }
+      cloud_.position.push_back(x);
+      h_.push_back(h);
+      movable_.push_back(room < 2.5 * h);
+    }
     mesh_ = triangulate(cloud_);
   }
 
@@ -31,6 +45,7 @@ public:
     std::vector<double> mass(cloud_.position.size(), 0.0);
     std::vector<bool> by_wall(cloud_.position.size(), false);
     for (std::size_t t = 0; t < mesh_.node.size(); ++t) add_shares(t, moment, mass, by_wall);
+    const std::vector<Vec2> before = cloud_.position;
     for (std::size_t i = fixed_; i < cloud_.position.size(); ++i) {
       if (!movable_[i] || !(mass[i] > 0.0)) continue;
       const Vec2 step = over_relaxation * moment[i] / mass[i];
@@ -40,9 +55,11 @@ public:
       const double clearance = 0.45 * h_[i];
       if (by_wall[i] && !(tree_.inside(x) && tree_.distance(x, clearance) >= clearance)) continue;
       cloud_.position[i] = x;
-      if (!uniform_) h_[i] = spacing_.at(x);
     }
-    mesh_ = triangulate(cloud_);
+    undo_inversions(before);
+    restore_delaunay(mesh_, cloud_.position);
+    if (uniform_) return;
+    for (std::size_t i = fixed_; i < cloud_.position.size(); ++i) h_[i] = spacing_.at(cloud_.position[i]);
   }
 
   /// Puts nodes into holes and takes nodes out of crowds. Returns whether anything changed.
@@ -70,14 +87,32 @@ public:
   }
 
   std::vector<Vec2> interior() const {
-    return {cloud_.position.begin() + static_cast<std::ptrdiff_t>(fixed_), cloud_.position.end()};
+    std::vector<Vec2> all(cloud_.position.begin() + static_cast<std::ptrdiff_t>(fixed_),
+                          cloud_.position.end());
+    all.insert(all.end(), far_.begin(), far_.end());
+    return all;
   }
+
+  /// Places without a node between the two sides of the domain.
+  Necks necks() const { return find_necks(cloud_, mesh_); }
 
 private:
   static constexpr double over_relaxation = 1.4;
 
-  bool may_move(std::size_t i) const {
-    return !uniform_ || tree_.distance(cloud_.position[i], 2.5 * h_[i]) < 2.5 * h_[i];
+  /// Takes the nodes of triangles that turned over back to where they were.
+  void undo_inversions(const std::vector<Vec2>& before) {
+    for (bool again = true; again;) {
+      again = false;
+      for (const auto& n : mesh_.node) {
+        const Vec2 b = cloud_.position[u(n[1])] - cloud_.position[u(n[0])];
+        const Vec2 c = cloud_.position[u(n[2])] - cloud_.position[u(n[0])];
+        if (cross(b, c) > 1e-3 * (b.squaredNorm() + c.squaredNorm())) continue;
+        for (const std::int32_t i : n) {
+          again = again || cloud_.position[u(i)] != before[u(i)];
+          cloud_.position[u(i)] = before[u(i)];
+        }
+      }
+    }
   }
 
   /// Circumcentre relative to the first node.
@@ -181,7 +216,8 @@ private:
     return gone;
   }
 
-  static constexpr double hole = 0.88;  // circumradius over h; 0.58 in a hexagonal lattice, 0.71 in a square one
+  static constexpr double hole =
+      0.88; // circumradius over h; 0.58 in a hexagonal lattice, 0.71 in a square one
   static constexpr double crowd = 0.65; // distance over h
 
   const EdgeTree& tree_;
@@ -191,13 +227,14 @@ private:
   Cloud<2> cloud_;
   std::vector<double> h_;
   std::vector<bool> movable_;
+  std::vector<Vec2> far_; ///< interior nodes that take no part
   Triangulation mesh_;
 };
 
 } // namespace
 
-void smooth_nodes(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingField& spacing,
-                  std::vector<Vec2>& interior) {
+Necks smooth_nodes(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingField& spacing,
+                   std::vector<Vec2>& interior) {
   Smoother smoother(boundary, tree, spacing, interior);
   for (int round = 0; round < 3; ++round) {
     for (int sweep = 0; sweep < 2; ++sweep) smoother.move_nodes();
@@ -205,6 +242,7 @@ void smooth_nodes(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingF
   }
   for (int sweep = 0; sweep < 2; ++sweep) smoother.move_nodes();
   interior = smoother.interior();
+  return smoother.necks();
 }
 
 } // namespace cnem::voronoi

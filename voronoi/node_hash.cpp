@@ -66,7 +66,8 @@ bool NodeHash::crowded(const Vec2& x, double h, double factor) const {
     const auto j1 = static_cast<std::int64_t>(std::floor((x.y() + reach) / size));
     for (std::int64_t i = i0; i <= i1; ++i)
       for (std::int64_t j = j0; j <= j1; ++j)
-        for (std::int32_t k = slots_[slot(cell_key(l, i, j))].first; k >= 0; k = nodes_[std::size_t(k)].next) {
+        for (std::int32_t k = slots_[slot(cell_key(l, i, j))].first; k >= 0;
+             k = nodes_[std::size_t(k)].next) {
           const Node& node = nodes_[std::size_t(k)];
           const double limit = 0.5 * factor * (h + node.h);
           if ((node.x - x).squaredNorm() < limit * limit) return true;
