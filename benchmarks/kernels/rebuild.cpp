@@ -92,7 +92,7 @@ void smoothing(benchmark::State& state) {
 void links(benchmark::State& state) {
   const Geometry g(state.range(0));
   const auto around = scni::facets_of_cells(g.cloud.nodes(), g.cells);
-  per_node(state, g.cloud, [&] { return scni::delaunay_links(g.cloud, g.cells, around); });
+  per_node(state, g.cloud, [&] { return scni::delaunay_links(g.cloud, g.triangulation, g.cells, around); });
 }
 
 void linear_triangles(benchmark::State& state) {

@@ -18,7 +18,8 @@ TEST(StaticPatch, patch_elastic_interior_follows_the_linear_boundary) {
     const auto approximation = scni::Cnem().rebuild(domain.cloud);
     const auto [gx, gy] = gradient_matrices(approximation.mechanics);
     const Sparse d = defect_matrix(approximation, domain.cloud.position);
-    const auto v = as_vector(approximation.mechanics.volume).asDiagonal();
+    const Vector volume = as_vector(approximation.mechanics.volume);
+    const auto v = volume.asDiagonal();
     const auto block = [&](const Sparse& a, const Sparse& b) { return Sparse(a.transpose() * (v * b)); };
     const Sparse defect = alpha * mu * Sparse(d.transpose() * d);
     const std::array<Sparse, 4> k{Sparse((lambda + 2 * mu) * block(gx, gx) + mu * block(gy, gy) + defect),
@@ -54,7 +55,8 @@ double poisson_error(const Approximation<2>& approximation, const DiscreteOperat
     return std::sin(std::numbers::pi * x.x()) * std::sin(std::numbers::pi * x.y());
   };
   const auto [gx, gy] = gradient_matrices(op);
-  const auto v = as_vector(op.volume).asDiagonal();
+  const Vector volume = as_vector(op.volume);
+  const auto v = volume.asDiagonal();
   Sparse stiffness = Sparse(gx.transpose() * (v * gx)) + Sparse(gy.transpose() * (v * gy));
   if (alpha > 0) {
     const Sparse d = defect_matrix(approximation, cloud.position);
