@@ -1,0 +1,247 @@
+#pragma once
+// A case as read: everything a user can write in case.toml, checked, with defaults filled in, in SI units.
+// Plain data on core types; io/case_reader.hpp makes it, app/ turns it into solver objects. The meaning of
+// each key is in docs/case_reference.md, which is generated from io/schema.cpp.
+#include "core/curve.hpp"
+#include "core/error.hpp"
+#include "core/time_table.hpp"
+#include "core/vec.hpp"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace cnem::io {
+
+/// Prescribed histories of the components x and y; an absent component is not prescribed.
+using VectorFunction = std::array<std::optional<TimeTable>, 2>;
+
+struct Analysis {
+  enum class Type { explicit_dynamics };
+  enum class Kinematics { plane_strain };
+  Type type = Type::explicit_dynamics;
+  Kinematics kinematics = Kinematics::plane_strain;
+  bool thermal = false; ///< solve for temperatures: plastic and friction heating, conduction
+};
+
+struct TimeControl {
+  double end = 0.0;               ///< s
+  double safety = 0.9;            ///< – factor on the stable step
+  std::optional<double> max_step; ///< s  upper bound of the step
+  std::optional<double> fixed;    ///< s  step used as it is, without an estimate
+  int check_every = 10;           ///< steps between estimates of the stable step
+};
+
+/// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are
+/// the boundary pieces NAME+ (material on the left of the path, seen along it) and NAME-.
+struct Crack {
+  std::string name;
+  std::vector<Vec2> points; ///< m, at least two
+};
+
+struct Hole {
+  std::string name;
+  Curve outline; ///< clockwise
+};
+
+struct Domain {
+  std::string material;
+  Curve outer; ///< counter-clockwise
+  std::vector<Hole> holes;
+  std::vector<Crack> cracks;
+
+  /// Names of the boundary pieces of outline, holes and cracks, each once, in order of appearance.
+  std::vector<std::string> piece_names() const;
+};
+
+/// Spacing wanted near a box or a polyline: h(d) = spacing + growth · d, d the distance to it.
+struct Refinement {
+  std::string name;
+  std::optional<std::array<Vec2, 2>> box; ///< lower left, upper right, m; else `points`
+  std::vector<Vec2> points;               ///< m; one: a point, more: a polyline
+  double spacing = 0.0;                   ///< m
+  double growth = 0.3;                    ///< –
+};
+
+struct CloudSpec {
+  enum class Pattern { hexagonal, regular, jittered, list };
+  Pattern pattern = Pattern::hexagonal;
+  double spacing = 0.0;   ///< m
+  double jitter = 0.2;    ///< – fraction of the spacing (pattern jittered)
+  std::uint64_t seed = 1; ///< of the jitter
+  std::vector<Refinement> refine;
+  std::vector<Vec2> nodes; ///< m, interior and boundary nodes (pattern list)
+};
+
+struct PerfectPlasticity {
+  double yield = 0.0; ///< Pa
+};
+
+struct LinearHardening {
+  double yield = 0.0;     ///< Pa
+  double hardening = 0.0; ///< Pa  dσ_y/dε̄p
+};
+
+/// σ_y = (A + B ε̄pⁿ)(1 + C ln(ε̄̇p/rate0))(1 − T*ᵐ), T* = (T − T0)/(Tmelt − T0). An infinite Tmelt: no thermal
+/// softening.
+struct JohnsonCook {
+  double A = 0.0;                                         ///< Pa
+  double B = 0.0;                                         ///< Pa
+  double n = 0.0;                                         ///< –
+  double C = 0.0;                                         ///< –
+  double m = 1.0;                                         ///< –
+  double rate0 = 1.0;                                     ///< 1/s
+  double T0 = 0.0;                                        ///< K
+  double Tmelt = std::numeric_limits<double>::infinity(); ///< K
+};
+
+struct HeatProperties {
+  double specific_heat = 0.0;            ///< J/(kg K)
+  double conductivity = 0.0;             ///< W/(m K)
+  double taylor_quinney = 0.9;           ///< – share of plastic work that becomes heat
+  double expansion = 0.0;                ///< 1/K, linear
+  double reference_temperature = 293.15; ///< K, free of thermal strain
+};
+
+struct Material {
+  std::string name;
+  double density = 0.0; ///< kg/m³
+  double young = 0.0;   ///< Pa
+  double poisson = 0.0; ///< –
+  std::variant<std::monostate, PerfectPlasticity, LinearHardening, JohnsonCook>
+      plastic;                        ///< monostate: elastic
+  std::optional<HeatProperties> heat; ///< always there when analysis.thermal
+};
+
+struct Convection {
+  double coefficient = 0.0; ///< W/(m² K)
+  TimeTable ambient;        ///< K
+};
+
+/// Conditions on boundary pieces; what is absent is free (mechanics) or insulated (heat). The reader has
+/// checked that pieces exist, that symmetry pieces are straight and that no two conditions fight over one
+/// piece.
+struct BoundaryCondition {
+  std::string name;
+  std::vector<std::string> pieces;      ///< names; "all" is spelt out
+  bool symmetry = false;                ///< zero normal velocity, free tangentially
+  VectorFunction velocity;              ///< m/s
+  VectorFunction displacement;          ///< m, from the initial position
+  VectorFunction traction;              ///< Pa, force on the initial area
+  std::optional<TimeTable> pressure;    ///< Pa, pushes against the body, on the present area and normal
+  std::optional<TimeTable> temperature; ///< K
+  std::optional<TimeTable> heat_flux;   ///< W/m², into the body
+  std::optional<Convection> convection;
+};
+
+struct Spin {
+  double rate = 0.0; ///< rad/s, counter-clockwise
+  Vec2 centre{0, 0}; ///< m
+};
+
+struct InitialState {
+  double temperature = 293.15; ///< K
+  Vec2 velocity{0, 0};         ///< m/s
+  std::optional<Spin> spin;    ///< adds rate × (X − centre) to the velocity
+};
+
+struct Loads {
+  VectorFunction body_force; ///< m/s², force per unit mass; absent: zero
+};
+
+struct Friction {
+  enum class Law { none, coulomb, tresca_limited };
+  Law law = Law::none;
+  double coefficient = 0.0;  ///< – Coulomb's μ (coulomb, tresca_limited)
+  double shear_factor = 1.0; ///< – m_f: |τ| ≤ m_f σ_y/√3 (tresca_limited)
+};
+
+struct ToolHeat {
+  double conductance = 0.0;         ///< W/(m² K) of the closed contact
+  double temperature = 0.0;         ///< K, of the tool
+  std::optional<double> effusivity; ///< W s½/(m² K), √(kρc); absent: all friction heat goes to the workpiece
+};
+
+/// A rigid tool: solid inside its outline.
+struct Tool {
+  std::string name;
+  Curve outline;                     ///< counter-clockwise, at t = 0, m
+  std::array<TimeTable, 2> velocity; ///< m/s
+  Friction friction;
+  std::optional<ToolHeat> heat;
+};
+
+struct Method {
+  enum class Name { cnem, fe_triangles };
+  enum class Functions { sibson, laplace };
+  enum class Lagrangian { total, periodic, updated };
+  Name name = Name::cnem;
+  Functions functions = Functions::sibson;
+  int gauss_points = 1;        ///< per cell edge, 1 to 3
+  double stabilisation = 0.05; ///< – α of the edge defect; 0: off
+  Lagrangian lagrangian = Lagrangian::periodic;
+  int rereference_every = 0;        ///< steps (periodic); 0: never by count
+  double rereference_strain = 0.25; ///< – max‖f − 1‖ since the last reference (periodic); 0: never by strain
+  double viscosity_linear = 0.06;   ///< – c₂ of the bulk viscosity
+  double viscosity_quadratic = 1.2; ///< – c₁ of the bulk viscosity
+  double energy_tolerance = 0.05; ///< – |residual|/(work + initial energy) beyond which a run has diverged
+};
+
+/// A field recorded at a material point.
+struct Probe {
+  std::string name;
+  Vec2 at{0, 0};                   ///< m, initial position
+  std::vector<std::string> fields; ///< of io::field_names()
+};
+
+struct Window {
+  std::string name;
+  Vec2 lower{0, 0}; ///< m
+  Vec2 upper{0, 0}; ///< m
+};
+
+struct Output {
+  double history_every = 0.0;              ///< s
+  double fields_every = 0.0;               ///< s
+  std::vector<double> pictures;            ///< s, increasing; times beyond the end are kept here
+  std::vector<std::string> picture_fields; ///< of io::field_names()
+  std::vector<Window> windows;             ///< parts of the domain drawn enlarged, beside the whole
+  std::vector<Probe> probes;
+};
+
+/// The fields that probes and pictures know, e.g. "temperature", "plastic_strain", "stress_xy".
+const std::vector<std::string>& field_names();
+
+struct Case {
+  std::string path;  ///< file it was read from
+  std::string name;  ///< folder of a case.toml, else the file name without extension
+  std::string title; ///< free text
+  Analysis analysis;
+  TimeControl time;
+  Domain domain;
+  CloudSpec cloud;
+  std::vector<Material> materials;
+  std::vector<BoundaryCondition> boundary;
+  InitialState initial;
+  Loads loads;
+  std::vector<Tool> tools;
+  Method method;
+  Output output;
+
+  std::string resolved;                        ///< the whole case in SI, defaults included, as TOML
+  std::map<std::string, std::string> location; ///< key → "file:line:column", or the --set that gave it
+
+  /// The material of that name; the reader has checked that domain.material exists.
+  const Material& material(const std::string& name) const;
+
+  /// An error about a key found later than reading, e.g. when geometry is built:
+  /// "file:line:column: key 'a.b': message". Falls back to the nearest enclosing table that was written.
+  InputError error(const std::string& key, const std::string& message) const;
+};
+
+} // namespace cnem::io

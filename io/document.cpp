@@ -1,0 +1,214 @@
+#include "io/document.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+#include <toml++/toml.h>
+
+namespace cnem::io {
+namespace {
+
+Location location_of(const toml::source_region& region, const std::string& source) {
+  return {source, region.begin.line, region.begin.column};
+}
+
+Value convert(const toml::node& node, const std::string& source) {
+  Value value;
+  value.where = location_of(node.source(), source);
+  if (const auto* boolean = node.as_boolean()) {
+    value.kind = Value::Kind::boolean;
+    value.boolean = boolean->get();
+  } else if (const auto* integer = node.as_integer()) {
+    value.kind = Value::Kind::integer;
+    value.integer = integer->get();
+  } else if (const auto* real = node.as_floating_point()) {
+    value.kind = Value::Kind::real;
+    value.real = real->get();
+  } else if (const auto* text = node.as_string()) {
+    value.kind = Value::Kind::text;
+    value.text = text->get();
+  } else if (const auto* array = node.as_array()) {
+    value.kind = Value::Kind::array;
+    for (const toml::node& element : *array) value.elements.push_back(convert(element, source));
+  } else if (const auto* table = node.as_table()) {
+    value.kind = Value::Kind::table;
+    for (const auto& [key, member] : *table)
+      value.members.push_back(
+          {std::string(key.str()), location_of(key.source(), source), convert(member, source)});
+    // toml++ sorts by name; a case keeps the order of its author.
+    std::stable_sort(value.members.begin(), value.members.end(), [](const Member& a, const Member& b) {
+      return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);
+    });
+  }
+  return value;
+}
+
+void relocate(Value& value, const Location& where) {
+  value.where = where;
+  for (Value& element : value.elements) relocate(element, where);
+  for (Member& member : value.members) {
+    member.where = where;
+    relocate(member.value, where);
+  }
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// The text after '=' as TOML where it is TOML, else as it stands.
+Value override_value(std::string_view text, const Location& where) {
+  Value value;
+  bool is_toml = false;
+  try {
+    const toml::table table = toml::parse("value = " + std::string(text));
+    is_toml = table.size() == 1;
+    if (is_toml) value = convert(*table.get("value"), "");
+  } catch (const toml::parse_error&) { is_toml = false; }
+  if (!is_toml) {
+    value.kind = Value::Kind::text;
+    value.text = trimmed(text);
+  }
+  relocate(value, where);
+  return value;
+}
+
+struct Step {
+  std::string key;     ///< of a table, or empty:
+  std::size_t index{}; ///< of an array
+};
+
+/// "a.b[2].c" as steps; empty when it is malformed.
+std::vector<Step> split_key(std::string_view key) {
+  std::vector<Step> steps;
+  while (!key.empty()) {
+    if (key.front() == '[') {
+      const auto close = key.find(']');
+      std::size_t index = 0;
+      if (steps.empty() || close == std::string_view::npos) return {};
+      const auto [end, error] = std::from_chars(key.data() + 1, key.data() + close, index);
+      if (error != std::errc{} || end != key.data() + close) return {};
+      steps.push_back({"", index});
+      key.remove_prefix(close + 1);
+      if (!key.empty() && key.front() != '.' && key.front() != '[') return {};
+    } else {
+      if (!steps.empty()) {
+        if (key.front() != '.') return {};
+        key.remove_prefix(1);
+      }
+      const auto end = std::min(key.find_first_of(".["), key.size());
+      if (end == 0) return {};
+      steps.push_back({std::string(key.substr(0, end)), 0});
+      key.remove_prefix(end);
+    }
+  }
+  return steps;
+}
+
+/// The value a step leads to from `value`, made when a table lacks it.
+Value& descend(Value& value, const Step& step, const std::string& so_far, const Location& where) {
+  if (step.key.empty()) {
+    if (value.kind != Value::Kind::array)
+      throw InputError(fmt::format("{}: '{}' is {}, not an array", where.text(), so_far, value.show()));
+    if (step.index >= value.elements.size())
+      throw InputError(fmt::format("{}: '{}' has {} elements, so [{}] is beyond its last one", where.text(),
+                                   so_far, value.elements.size(), step.index));
+    return value.elements[step.index];
+  }
+  if (value.kind != Value::Kind::table)
+    throw InputError(
+        fmt::format("{}: '{}' is {}, so it has no key '{}'", where.text(), so_far, value.show(), step.key));
+  if (Member* member = value.find(step.key)) return member->value;
+  Value table;
+  table.kind = Value::Kind::table;
+  table.where = where;
+  value.members.push_back({step.key, where, std::move(table)});
+  return value.members.back().value;
+}
+
+} // namespace
+
+std::string Location::text() const {
+  return line == 0 ? source : fmt::format("{}:{}:{}", source, line, column);
+}
+
+const Member* Value::find(std::string_view key) const {
+  const auto found =
+      std::find_if(members.begin(), members.end(), [&](const Member& m) { return m.key == key; });
+  return found == members.end() ? nullptr : &*found;
+}
+
+Member* Value::find(std::string_view key) {
+  return const_cast<Member*>(static_cast<const Value*>(this)->find(key));
+}
+
+std::string Value::show() const {
+  switch (kind) {
+  case Kind::boolean:
+    return boolean ? "true" : "false";
+  case Kind::integer:
+    return std::to_string(integer);
+  case Kind::real:
+    return fmt::format("{}", real);
+  case Kind::text:
+    return fmt::format("\"{}\"", text.size() > 60 ? text.substr(0, 57) + "..." : text);
+  case Kind::array:
+    return fmt::format("an array of {}", elements.size());
+  case Kind::table:
+    return "a table";
+  case Kind::other:
+    break;
+  }
+  return "a date or time of day";
+}
+
+Value parse_document(std::string_view text, const std::string& source) {
+  try {
+    return convert(toml::parse(text, source), source);
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        fmt::format("{}: not TOML: {}", location_of(error.source(), source).text(), error.description()));
+  }
+}
+
+Value read_document(const std::string& path) {
+  std::error_code status;
+  if (!std::filesystem::exists(path, status))
+    throw InputError(fmt::format("{}: no such file, expected a case such as case.toml", path));
+  if (std::filesystem::is_directory(path, status))
+    throw InputError(fmt::format("{}: is a folder, expected a case file such as {}", path,
+                                 (std::filesystem::path(path) / "case.toml").string()));
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
+  if (stream.bad() || !stream.is_open() || text.bad())
+    throw IoError(fmt::format("{}: cannot be read, expected a readable case file", path));
+  return parse_document(text.str(), path);
+}
+
+void apply_override(Value& root, std::string_view assignment) {
+  const Location where{fmt::format("--set {}", assignment), 0, 0};
+  const auto equals = assignment.find('=');
+  const std::string key(trimmed(assignment.substr(0, std::min(equals, assignment.size()))));
+  const std::vector<Step> steps = split_key(key);
+  if (equals == std::string_view::npos || steps.empty())
+    throw InputError(fmt::format("{}: expected key=value, such as time.end=\"3 us\" or "
+                                 "tools.punch.path[1].fillet=\"0.5 mm\"",
+                                 where.text()));
+  Value* value = &root;
+  std::string so_far;
+  for (const Step& step : steps) {
+    value = &descend(*value, step, so_far, where);
+    so_far += step.key.empty() ? fmt::format("[{}]", step.index) : (so_far.empty() ? "" : ".") + step.key;
+  }
+  *value = override_value(assignment.substr(equals + 1), where);
+}
+
+} // namespace cnem::io

@@ -1,0 +1,319 @@
+// Every key of a case file, in the order of the case reference; geometry is in schema_geometry.cpp.
+#include "io/schema_keys.hpp"
+#include "io/case.hpp"
+
+namespace cnem::io {
+namespace {
+
+namespace d = dimension;
+using enum Type;
+
+constexpr Range temperature_range{.low = 0.0};
+constexpr Range fraction{.low = 0.0, .high = 1.0};
+
+void add_general(Keys& k) {
+  k.add("title", text, "One line for the report.").fallback("\"\"");
+  k.add("analysis", table, "What is computed.").always();
+  k.add("analysis.type", choice, "Explicit dynamics.").one_of({"explicit"}).fallback("\"explicit\"");
+  k.add("analysis.kinematics", choice, "Per unit thickness, no strain out of the plane.")
+      .one_of({"plane strain"})
+      .fallback("\"plane strain\"");
+  k.add("analysis.thermal", boolean,
+        "Solve for temperatures: heat of plastic work and friction, conduction. Without, the temperature "
+        "stays at `initial.temperature`.")
+      .example("true")
+      .computed("true when the domain's material has a `heat` table");
+  k.add("time", table, "Duration and step.").required();
+  k.add("time.end", quantity, "End of the run; it starts at 0.").unit(d::time).in(positive).required();
+  k.add("time.step", table, "Size of the explicit step.").always();
+  k.add("time.step.safety", quantity, "Factor on the stable step.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true})
+      .fallback("0.9");
+  k.add("time.step.max", quantity, "Largest step allowed.").unit(d::time).in(positive);
+  k.add("time.step.fixed", quantity, "This step, without an estimate of the stable one.")
+      .unit(d::time)
+      .in(positive);
+  k.add("time.step.check_every", integer, "Steps between estimates of the stable step.")
+      .in({.low = 1, .high = 1e6})
+      .fallback("10");
+}
+
+void add_materials(Keys& k) {
+  const std::string at = "materials.*.";
+  k.add("materials", named_tables, "Materials.").required();
+  k.add("materials.*", table, "A material with all its constants; without `plastic` it is elastic.");
+  k.add(at + "source", text, "Where the constants come from.").example("\"paper 004, 5.4.3\"");
+  k.add(at + "density", quantity, "").unit(d::density).in(positive).required();
+  k.add(at + "elastic", table, "Isotropic elasticity, linear in logarithmic strain.").required();
+  k.add(at + "elastic.young", quantity, "Young's modulus.")
+      .unit(d::pressure)
+      .in(positive)
+      .required()
+      .example("\"210 GPa\"");
+  k.add(at + "elastic.poisson", quantity, "Poisson's ratio.")
+      .in({.low = -1.0, .high = 0.5, .low_open = true, .high_open = true})
+      .required()
+      .example("0.33");
+  k.add(at + "plastic", table, "Isotropic plasticity; the flow stress is a Kirchhoff stress.");
+  k.add(at + "plastic.law", choice,
+        "`johnson-cook`: (A + B ε̄pⁿ)(1 + C ln(ε̄̇p/rate0))(1 − T*ᵐ), T* = (T − T0)/(Tmelt − T0) clipped to [0, "
+        "1]; `linear`: yield + hardening ε̄p; `perfect`: yield.")
+      .one_of({"johnson-cook", "linear", "perfect"})
+      .required();
+  k.add(at + "plastic.A", quantity, "Yield stress.")
+      .unit(d::pressure)
+      .in(not_negative)
+      .required()
+      .when("law", {"johnson-cook"});
+  k.add(at + "plastic.B", quantity, "Hardening.")
+      .unit(d::pressure)
+      .in(not_negative)
+      .required()
+      .when("law", {"johnson-cook"})
+      .example("\"685 MPa\"");
+  k.add(at + "plastic.n", quantity, "Hardening exponent.")
+      .in(positive)
+      .required()
+      .when("law", {"johnson-cook"})
+      .example("0.312");
+  k.add(at + "plastic.C", quantity, "Rate sensitivity; none below `rate0`.")
+      .in(not_negative)
+      .fallback("0.0")
+      .when("law", {"johnson-cook"});
+  k.add(at + "plastic.rate0", quantity, "Reference strain rate.")
+      .unit(d::rate)
+      .in(positive)
+      .fallback("\"1 /s\"")
+      .when("law", {"johnson-cook"});
+  k.add(at + "plastic.m", quantity, "Exponent of thermal softening.")
+      .in(positive)
+      .fallback("1.0")
+      .when("law", {"johnson-cook"});
+  k.add(at + "plastic.T0", quantity, "Temperature below which nothing softens.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .fallback("\"293.15 K\"")
+      .when("law", {"johnson-cook"});
+  k.add(at + "plastic.Tmelt", quantity, "Melting temperature; without it there is no thermal softening.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .when("law", {"johnson-cook"})
+      .example("\"1698 K\"");
+  k.add(at + "plastic.yield", quantity, "Yield stress.")
+      .unit(d::pressure)
+      .in(positive)
+      .required()
+      .when("law", {"linear", "perfect"})
+      .example("\"400 MPa\"");
+  k.add(at + "plastic.hardening", quantity, "Slope of the flow stress over plastic strain.")
+      .unit(d::pressure)
+      .in(not_negative)
+      .required()
+      .when("law", {"linear"})
+      .example("\"100 MPa\"");
+  k.add(at + "heat", table, "Thermal properties.");
+  k.add(at + "heat.specific_heat", quantity, "").unit(d::specific_heat).in(positive).required();
+  k.add(at + "heat.conductivity", quantity, "0: adiabatic.")
+      .unit(d::conductivity)
+      .in(not_negative)
+      .required();
+  k.add(at + "heat.taylor_quinney", quantity, "Share of plastic work that becomes heat.")
+      .in(fraction)
+      .fallback("0.9");
+  k.add(at + "heat.expansion", quantity, "Linear thermal expansion.")
+      .unit(d::expansion)
+      .fallback("\"0 1/K\"");
+  k.add(at + "heat.reference_temperature", quantity, "Temperature without thermal strain.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .example("\"296 K\"")
+      .computed("`initial.temperature`");
+}
+
+void add_conditions(Keys& k) {
+  const std::string at = "boundary.*.";
+  k.add("boundary", named_tables, "Conditions on boundary pieces.");
+  k.add("boundary.*", table, "A set of conditions; pieces without any are free and insulated.");
+  k.add(at + "pieces", texts, "Names of boundary pieces, or `all`.").required().example("[\"left\"]");
+  k.add(at + "symmetry", boolean, "No velocity normal to the piece, which must be straight.")
+      .fallback("false");
+  k.add(at + "velocity", vector_function, "Prescribed velocity; one component alone leaves the other free.")
+      .unit(d::velocity)
+      .example("{ x = \"0 m/s\" }");
+  k.add(at + "displacement", vector_function, "Prescribed displacement from the initial position.")
+      .unit(d::length)
+      .example("{ y = { value = \"1 mm\", ramp = \"10 us\" } }");
+  k.add(at + "traction", vector_function, "Force per initial area.")
+      .unit(d::pressure)
+      .example("\"0 10 MPa\"");
+  k.add(at + "pressure", function, "Pushes against the body, on the present area and normal.")
+      .unit(d::pressure);
+  k.add(at + "temperature", function, "Fixed temperature; a `ramp` starts from `initial.temperature`.")
+      .unit(d::temperature)
+      .in(temperature_range);
+  k.add(at + "heat_flux", function, "Heat flux into the body.").unit(d::heat_flux);
+  k.add(at + "convection", table, "Heat flux coefficient (ambient − T).");
+  k.add(at + "convection.coefficient", quantity, "").unit(d::heat_transfer).in(not_negative).required();
+  k.add(at + "convection.ambient", function, "").unit(d::temperature).in(temperature_range).required();
+  k.add("initial", table, "The state at time 0, without stress and plastic strain.").always();
+  k.add("initial.temperature", quantity, "")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .fallback("\"293.15 K\"");
+  k.add("initial.velocity", vector, "").unit(d::velocity).fallback("\"0 0 m/s\"");
+  k.add("initial.spin", table, "Adds a rotation to the velocity.");
+  k.add("initial.spin.rate", quantity, "Counter-clockwise.").unit(d::angular_velocity).required();
+  k.add("initial.spin.centre", vector, "").unit(d::length).fallback("\"0 0 m\"");
+  k.add("loads", table, "Loads on the whole body.").always();
+  k.add("loads.body_force", vector_function, "Force per unit mass.")
+      .unit(d::acceleration)
+      .example("\"0 -9.81 m/s2\"");
+}
+
+void add_tools(Keys& k) {
+  const std::string at = "tools.*.";
+  k.add("tools", named_tables, "Rigid tools.");
+  k.add("tools.*", table,
+        "A rigid tool, solid inside its outline: either `start` and `path`, or `rectangle`, or `circle`.");
+  add_outline(k, "tools.*", "the name of the tool");
+  k.add(at + "velocity", vector_function, "Translation.")
+      .unit(d::velocity)
+      .fallback("\"0 0 m/s\"")
+      .example("\"0 -11 m/s\"");
+  k.add(at + "friction", table, "Friction on the workpiece.").always();
+  k.add(at + "friction.law", choice,
+        "`coulomb`: μ times the pressure; `tresca-limited`: the same, at most m_f σ_y/√3.")
+      .one_of({"none", "coulomb", "tresca-limited"})
+      .fallback("\"none\"");
+  k.add(at + "friction.coefficient", quantity, "μ.")
+      .in(not_negative)
+      .required()
+      .when("law", {"coulomb", "tresca-limited"})
+      .example("0.1");
+  k.add(at + "friction.shear_factor", quantity, "m_f.")
+      .in(fraction)
+      .fallback("1.0")
+      .when("law", {"tresca-limited"});
+  k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
+  k.add(at + "heat.conductance", quantity, "Of the closed contact.")
+      .unit(d::heat_transfer)
+      .in(not_negative)
+      .fallback("\"0 W/(m2 K)\"");
+  k.add(at + "heat.temperature", quantity, "Of the tool.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .example("\"296 K\"")
+      .computed("`initial.temperature`");
+  k.add(at + "heat.effusivity", quantity,
+        "√(kρc), which decides the tool's share of the friction heat; or give the next three. Without, all "
+        "of it goes to the workpiece.")
+      .unit(d::effusivity)
+      .in(not_negative);
+  k.add(at + "heat.conductivity", quantity, "Of the tool.").unit(d::conductivity).in(not_negative);
+  k.add(at + "heat.density", quantity, "Of the tool.").unit(d::density).in(positive);
+  k.add(at + "heat.specific_heat", quantity, "Of the tool.").unit(d::specific_heat).in(positive);
+}
+
+void add_method(Keys& k) {
+  k.add("method", table, "How it is solved.").always();
+  k.add("method.name", choice, "Constrained natural elements or linear triangles.")
+      .one_of({"cnem", "fe-triangles"})
+      .fallback("\"cnem\"");
+  k.add("method.functions", choice, "Natural neighbour functions (cnem).")
+      .one_of({"sibson", "laplace"})
+      .fallback("\"sibson\"");
+  k.add("method.gauss_points", integer, "Per edge of a Voronoi cell (cnem).")
+      .in({.low = 1, .high = 3})
+      .fallback("1");
+  k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem).")
+      .in(not_negative)
+      .fallback("0.05");
+  k.add("method.lagrangian", choice,
+        "Reference configuration: `total`: the initial one; `periodic`: renewed as `rereference` says; "
+        "`updated`: renewed every step.")
+      .one_of({"total", "periodic", "updated"})
+      .fallback("\"periodic\"");
+  k.add("method.rereference", table, "When `periodic` takes a new reference: whichever comes first.")
+      .always();
+  k.add("method.rereference.every", integer, "Steps; 0: not by count.")
+      .in({.low = 0, .high = 1e9})
+      .fallback("0");
+  k.add("method.rereference.strain", quantity,
+        "Largest ‖f − 1‖ of a cell since the last reference; 0: not by strain.")
+      .in(not_negative)
+      .fallback("0.25");
+  k.add("method.bulk_viscosity", table, "Smears shocks over a few nodes.").always();
+  k.add("method.bulk_viscosity.linear", quantity, "Linear coefficient.").in(not_negative).fallback("0.06");
+  k.add("method.bulk_viscosity.quadratic", quantity, "Quadratic coefficient.")
+      .in(not_negative)
+      .fallback("1.2");
+  k.add("method.energy_tolerance", quantity,
+        "The run has diverged when the energy residual exceeds this part of work done and initial energy.")
+      .in(positive)
+      .fallback("0.05");
+}
+
+void add_output(Keys& k) {
+  const std::vector<std::string>& fields = field_names();
+  k.add("output", table, "What is written.").always();
+  k.add("output.history_every", quantity, "Time between rows of `history.csv`; 0: every step.")
+      .unit(d::time)
+      .in(not_negative)
+      .example("\"0.1 us\"")
+      .computed("`time.end`/400");
+  k.add("output.fields_every", quantity, "Time between `.vtu` files; 0: none but first and last.")
+      .unit(d::time)
+      .in(not_negative)
+      .example("\"1 us\"")
+      .computed("`time.end`/24");
+  k.add("output.pictures", quantities,
+        "Times of the pictures in the report; those beyond `time.end` are skipped.")
+      .unit(d::time)
+      .in(not_negative)
+      .example("\"2 4 5 12 us\"")
+      .computed("`time.end`");
+  k.add("output.picture_fields", choices, "Fields drawn.")
+      .one_of(fields)
+      .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");
+  k.add("output.windows", named_tables, "Parts drawn enlarged, beside the whole.");
+  k.add("output.windows.*", table, "A window.");
+  k.add("output.windows.*.box", vectors, "Two opposite corners.")
+      .unit(d::length)
+      .required()
+      .example("[\"4 0 mm\", \"6 10 mm\"]");
+  k.add("output.probes", named_tables, "Histories at material points.");
+  k.add("output.probes.*", table, "A probe: columns `NAME.field` of `history.csv`.");
+  k.add("output.probes.*.at", vector, "Initial position.").unit(d::length).required().example("\"5.1 5 mm\"");
+  k.add("output.probes.*.fields", choices, "Fields recorded.")
+      .one_of(fields)
+      .required()
+      .example("[\"temperature\", \"plastic_strain\"]");
+}
+
+} // namespace
+
+const std::vector<Key>& schema() {
+  static const std::vector<Key> keys = [] {
+    Keys k;
+    add_general(k);
+    add_domain(k);
+    add_cloud(k);
+    add_materials(k);
+    add_conditions(k);
+    add_tools(k);
+    add_method(k);
+    add_output(k);
+    return std::move(k.all);
+  }();
+  return keys;
+}
+
+const std::vector<std::string>& field_names() {
+  static const std::vector<std::string> names{
+      "temperature", "plastic_strain", "plastic_rate", "equivalent_stress", "pressure",       "stress_xx",
+      "stress_yy",   "stress_zz",      "stress_xy",    "displacement_x",    "displacement_y", "velocity_x",
+      "velocity_y",  "position_x",     "position_y",   "plastic_work"};
+  return names;
+}
+
+} // namespace cnem::io

@@ -1,0 +1,49 @@
+#pragma once
+// How keys are written down in schema_keys.cpp and schema_geometry.cpp: k.add("a.b", quantity, "…").unit(…)…
+#include "io/schema.hpp"
+
+#include <initializer_list>
+#include <utility>
+
+namespace cnem::io {
+
+/// The key just added, to be completed in a chain of calls.
+class KeyDraft {
+public:
+  explicit KeyDraft(Key& key) : key_(key) {}
+
+  KeyDraft& unit(const Dimension& dimension) { return key_.dimension = dimension, *this; }
+  KeyDraft& in(const Range& range) { return key_.range = range, *this; }
+  KeyDraft& one_of(std::vector<std::string> choices) { return key_.choices = std::move(choices), *this; }
+  KeyDraft& required() { return key_.presence = Presence::required, *this; }
+  /// Of a table: the defaults of its members hold without it.
+  KeyDraft& always() { return key_.presence = Presence::fallback, *this; }
+  KeyDraft& fallback(std::string toml) { return key_.fallback = std::move(toml), always(); }
+  KeyDraft& when(std::string sibling, std::vector<std::string> values) {
+    return key_.when = {std::move(sibling), std::move(values)}, *this;
+  }
+  KeyDraft& example(std::string toml) { return key_.example = std::move(toml), *this; }
+  KeyDraft& computed(std::string words) { return key_.computed = std::move(words), *this; }
+
+private:
+  Key& key_;
+};
+
+class Keys {
+public:
+  KeyDraft add(std::string path, Type type, std::string doc) {
+    Key& key = all.emplace_back();
+    key.path = std::move(path);
+    key.type = type;
+    key.doc = std::move(doc);
+    return KeyDraft(key);
+  }
+  std::vector<Key> all;
+};
+
+/// The closed curve of a domain, a hole or a tool: members of the table `at`.
+void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
+void add_domain(Keys& k);
+void add_cloud(Keys& k);
+
+} // namespace cnem::io
