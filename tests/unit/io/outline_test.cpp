@@ -142,6 +142,8 @@ TEST(Outline, ImpossibleOutlinesAreExplained) {
   };
   expect_parts(path("{ to = \"0 0 m\" }, { to = \"1 0 m\" }"),
                {"key 'tools.t.path[0].to': the piece has no length"});
+  expect_parts(path("{ to = \"1 0 m\", name = \"all\" }, { to = \"1 1 m\" }"),
+               {"found a piece named \"all\""});
   expect_parts(path("{ to = \"1 0 m\" }"), {"encloses no area"});
   expect_parts(path("{ to = \"2 0 m\" }, { to = \"2 2 m\" }, { to = \"1 -1 m\" }"),
                {"key 'tools.t.path': the outline crosses or touches itself at"});
