@@ -25,6 +25,15 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
   }
 }
 
+template<int dim> Field DiscreteOperators<dim>::node_volume() const {
+  if (nodal) return volume;
+  Field share(static_cast<std::size_t>(nodes), 0.0);
+  for (std::size_t j = 0; j < share.size(); ++j)
+    for (auto e = static_cast<std::size_t>(col_begin[j]); e < static_cast<std::size_t>(col_begin[j + 1]); ++e)
+      share[j] += weighted_value[e];
+  return share;
+}
+
 template struct DiscreteOperators<2>;
 template struct DiscreteOperators<3>;
 

@@ -38,6 +38,7 @@ template<int dim> struct PointState {
   Field pressure;                 ///< Pa    −tr τ/3, Kirchhoff pressure
   Field stored_energy;            ///< J/m³  ψ per unit stress-free volume
   Field plastic_work;             ///< J/m³  ∫ σ_eq dε̄p per unit stress-free volume, since the start
+  Field dissipation; ///< J/m³  plastic work of the last step per unit stress-free volume; χ of it is heat
   Field stress_free; ///< –     V_stress-free / V_reference = 1/√det C_p⁻¹, constant between re-references
   Field temperature;                  ///< K     N·T, temperature the material sees
   std::vector<std::int32_t> material; ///< index of the material

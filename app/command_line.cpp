@@ -1,0 +1,107 @@
+#include "app/command_line.hpp"
+
+#include "app/run.hpp"
+#include "app/version.hpp"
+#include "core/error.hpp"
+#include "io/case_reader.hpp"
+#include "io/report.hpp"
+#include "io/schema.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace cnem::app {
+
+namespace {
+
+/// What `run` and `check` share.
+struct CaseOptions {
+  std::string path;
+  std::vector<std::string> set;
+  std::string output;
+  bool force = false;
+  int threads = 0;
+
+  void declare(CLI::App& command) {
+    command.add_option("case", path, "case file (TOML), or a folder that holds case.toml")->required();
+    command.add_option("--set", set, "key=value: overrides a key of the case, e.g. --set time.end=\"60 us\"")
+        ->allow_extra_args(false);
+    command.add_option("--output", output, "folder of results (default: results/<case name>)");
+    command.add_flag("--force", force, "replace a run that the folder holds");
+    command.add_option("--threads", threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
+  }
+  io::Case read() const {
+    std::filesystem::path file = path;
+    if (std::filesystem::is_directory(file)) file /= "case.toml";
+    return io::read_case(file, set);
+  }
+  RunOptions options(const io::Case& input) const {
+    return {.output = output.empty() ? std::filesystem::path("results") / input.name
+                                     : std::filesystem::path(output),
+            .force = force,
+            .threads = threads,
+            .version = version()};
+  }
+};
+
+int act(CLI::App& program, int argc, char** argv) {
+  program.set_version_flag("--version", version());
+  program.require_subcommand(1);
+
+  CaseOptions run_options, check_options;
+  CLI::App* run_command = program.add_subcommand("run", "run a case");
+  run_options.declare(*run_command);
+  CLI::App* check_command = program.add_subcommand(
+      "check", "build a case without running it: nodes, first step, overlap, initial fields");
+  check_options.declare(*check_command);
+  CLI::App* schema_command = program.add_subcommand("schema", "print the JSON Schema of case files");
+  bool markdown = false;
+  schema_command->add_flag("--markdown", markdown,
+                           "print the case reference instead (docs/case_reference.md)");
+  CLI::App* report_command =
+      program.add_subcommand("report", "write report.html anew from the files of a run");
+  std::string folder;
+  report_command->add_option("folder", folder, "folder of results")->required();
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) { return program.exit(error) == 0 ? Exit::done : Exit::bad_input; }
+  if (*run_command) {
+    const io::Case input = run_options.read();
+    return run(input, run_options.options(input));
+  }
+  if (*check_command) {
+    const io::Case input = check_options.read();
+    check(input, check_options.options(input));
+  } else if (*schema_command) {
+    fmt::print("{}", markdown ? io::case_reference() : io::json_schema());
+  } else if (*report_command) {
+    fmt::print("{}\n", io::write_report(folder).string());
+  }
+  return Exit::done;
+}
+
+} // namespace
+
+int command_line(int argc, char** argv) {
+  CLI::App program("Blanking, shearing and cutting of metal by the constrained natural element method",
+                   "cnem");
+  try {
+    return act(program, argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return Exit::bad_input;
+  } catch (const DivergenceError& error) {
+    fmt::print(stderr, "diverged: {}\n", error.what());
+    return Exit::diverged;
+  } catch (const IoError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return Exit::io_failed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return Exit::io_failed;
+  }
+}
+
+} // namespace cnem::app

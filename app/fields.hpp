@@ -1,0 +1,37 @@
+#pragma once
+// The fields a user can ask for by name: in pictures, probes and files.
+#include "io/colour_map.hpp"
+#include "mechanics/explicit_solver.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cnem::app {
+
+/// A field by its case-file name, with the unit it is shown in.
+struct FieldInfo {
+  std::string name;          ///< "plastic_strain", as in case files and history columns
+  std::string label;         ///< "equivalent plastic strain"
+  std::string unit;          ///< SI unit, "" when dimensionless
+  std::string shown_unit;    ///< unit in pictures
+  double shown_factor = 1.0; ///< SI value of one shown unit
+  io::ColourMap map = io::ColourMap::strain;
+  bool at_nodes = false; ///< lives at nodes (else at stress points)
+};
+
+/// All fields, in the order files list them.
+const std::vector<FieldInfo>& field_catalogue();
+
+/// Throws InputError for an unknown name.
+const FieldInfo& field_info(const std::string& name);
+
+/// Values at stress points [point]; fields of nodes are interpolated with N.
+Field values_at_points(const ExplicitSolver<2>& solver, const std::string& name);
+
+/// Values at nodes [node]; fields of stress points are averaged by shared volume (identity for C-NEM).
+Field values_at_nodes(const ExplicitSolver<2>& solver, const std::string& name);
+
+/// Area enclosed by the boundary as it stands, m².
+double boundary_area(const ExplicitSolver<2>& solver);
+
+} // namespace cnem::app

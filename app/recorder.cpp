@@ -1,0 +1,207 @@
+#include "app/recorder.hpp"
+
+#include "app/fields.hpp"
+#include "io/output_folder.hpp"
+#include "io/picture.hpp"
+#include "voronoi/natural_neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::app {
+
+namespace {
+
+std::array<std::span<const double>, 2> spans(const Fields<2>& field) { return {field[0], field[1]}; }
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{}[{}]", name, unit);
+}
+
+/// Natural-neighbour weights of the probes in the initial cloud.
+std::vector<ProbeWeights> probe_weights(const io::Case& input, const Cloud<2>& cloud) {
+  std::vector<ProbeWeights> probes;
+  if (input.output.probes.empty()) return probes;
+  const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
+  const voronoi::Circumcircles circles = voronoi::circumcircles(cloud, mesh);
+  voronoi::NaturalNeighbours functions(cloud, mesh, circles);
+  for (const io::Probe& probe : input.output.probes) {
+    try {
+      functions.evaluate(voronoi::Functions::sibson, probe.at);
+    } catch (const GeometryError& error) {
+      throw input.error("output.probes." + probe.name + ".at", error.what());
+    }
+    probes.push_back({probe.name,
+                      probe.fields,
+                      {functions.nodes().begin(), functions.nodes().end()},
+                      {functions.values().begin(), functions.values().end()}});
+  }
+  return probes;
+}
+
+double total_mass(const ExplicitSolver<2>& solver) {
+  double mass = 0.0;
+  for (const double m : solver.state().node.mass) mass += m;
+  return mass;
+}
+
+} // namespace
+
+HistoryRecorder::HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver,
+                                 const std::filesystem::path& folder)
+    : probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
+      initial_area_(boundary_area(solver)), initial_mass_(total_mass(solver)) {}
+
+std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitSolver<2>& solver) const {
+  const State<2>& state = solver.state();
+  std::vector<std::pair<std::string, double>> row{{"time[s]", state.time},
+                                                  {"step", static_cast<double>(state.step)},
+                                                  {"dt[s]", state.step_before},
+                                                  {"nodes", static_cast<double>(state.node.size())}};
+  const auto& contact = solver.model().contact;
+  for (std::size_t t = 0; t < contact.tools().size(); ++t) {
+    const std::string& name = contact.tools()[t].name;
+    const auto& result = contact.results()[t];
+    row.emplace_back(name + ".force_x[N/m]", result.force.x());
+    row.emplace_back(name + ".force_y[N/m]", result.force.y());
+    row.emplace_back(name + ".stroke[m]", contact.tools()[t].motion.displacement(state.time).norm());
+  }
+  const auto& supports = solver.model().supports;
+  for (std::size_t s = 0; s < supports.list().size(); ++s) {
+    if (s > 0 && supports.list()[s].name == supports.list()[s - 1].name) continue;
+    Vec2 force = Vec2::Zero();
+    for (std::size_t o = s; o < supports.list().size(); ++o)
+      if (supports.list()[o].name == supports.list()[s].name) force += supports.reactions()[o];
+    row.emplace_back("support." + supports.list()[s].name + ".force_x[N/m]", force.x());
+    row.emplace_back("support." + supports.list()[s].name + ".force_y[N/m]", force.y());
+  }
+  const EnergyLedger e = solver.ledger();
+  for (const auto& [name, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"kinetic", e.kinetic},
+                                                             {"elastic", e.elastic},
+                                                             {"plastic", e.plastic},
+                                                             {"stabilisation", e.stabilisation},
+                                                             {"viscosity", e.viscosity},
+                                                             {"friction", e.friction},
+                                                             {"contact_impact", e.impact},
+                                                             {"penalty_release", e.penalty_release},
+                                                             {"rereference", e.rereference},
+                                                             {"tool_work", e.tools},
+                                                             {"contact_recovery", e.recovery},
+                                                             {"support_work", e.supports},
+                                                             {"load_work", e.loads},
+                                                             {"heat_content", e.heat_content},
+                                                             {"heat_generated", e.heat_generated},
+                                                             {"heat_exchanged", e.heat_exchanged},
+                                                             {"residual", e.residual()}})
+    row.emplace_back(fmt::format("energy.{}[J/m]", name), value);
+  for (const char* name : {"plastic_strain", "temperature"}) {
+    const FieldInfo& info = field_info(name);
+    const Field values = info.at_nodes ? values_at_nodes(solver, name) : values_at_points(solver, name);
+    row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
+                     *std::max_element(values.begin(), values.end()));
+  }
+  for (const ProbeWeights& probe : probes_)
+    for (const std::string& name : probe.fields) {
+      const Field values = values_at_nodes(solver, name);
+      double sum = 0.0;
+      for (std::size_t k = 0; k < probe.node.size(); ++k)
+        sum += probe.weight[k] * values[static_cast<std::size_t>(probe.node[k])];
+      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit), sum);
+    }
+  row.emplace_back("mass[kg/m]", total_mass(solver));
+  row.emplace_back("area[m^2]", boundary_area(solver));
+  return row;
+}
+
+void HistoryRecorder::keep_metric(const std::string& name, double value, bool largest) {
+  for (auto& [known, kept] : metrics_)
+    if (known == name) {
+      kept = largest ? std::max(kept, value) : value;
+      return;
+    }
+  metrics_.emplace_back(name, value);
+}
+
+void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
+  const auto named = row(solver);
+  if (writer_.empty()) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : named) names.push_back(name);
+    writer_.emplace_back(folder_ / io::files::history, std::move(names));
+  }
+  std::vector<double> values;
+  for (const auto& [name, value] : named) values.push_back(value);
+  writer_.front().write(values);
+
+  const EnergyLedger e = solver.ledger();
+  last_residual_ = e.residual();
+  worst_residual_ = std::max(worst_residual_, std::abs(last_residual_));
+  scale_ = std::max(scale_, std::abs(e.external()) + e.initial);
+
+  const auto& contact = solver.model().contact;
+  for (std::size_t t = 0; t < contact.tools().size(); ++t)
+    keep_metric("peak_force." + contact.tools()[t].name, contact.results()[t].force.norm(), true);
+  for (const auto& [name, value] : named) {
+    if (name == "max.plastic_strain") keep_metric("max_plastic_strain", value, true);
+    if (name == "max.temperature[K]") keep_metric("max_temperature", value, true);
+    if (name == "area[m^2]") keep_metric("area_drift", value / initial_area_ - 1.0, false);
+    if (name == "mass[kg/m]") keep_metric("mass_drift", value / initial_mass_ - 1.0, false);
+  }
+  const std::array<double, 2> balance = solver.mass_balance();
+  keep_metric("mass_balance.low", balance[0], false);
+  keep_metric("mass_balance.high", balance[1], false);
+}
+
+double HistoryRecorder::energy_residual() const {
+  return scale_ > 0.0 ? worst_residual_ / scale_ : worst_residual_;
+}
+
+void FieldRecorder::record(const ExplicitSolver<2>& solver) {
+  const NodeState<2>& node = solver.state().node;
+  io::FieldFrame frame;
+  frame.time = solver.state().time;
+  frame.cells = &solver.approximation().cells;
+  frame.position = spans(node.position);
+  std::vector<Field> storage;
+  storage.reserve(2 * field_catalogue().size());
+  for (const FieldInfo& info : field_catalogue()) {
+    const std::string name = info.unit.empty() ? info.label : fmt::format("{} [{}]", info.label, info.unit);
+    frame.cell_scalars.push_back({name, storage.emplace_back(values_at_points(solver, info.name))});
+    frame.node_scalars.push_back({name, storage.emplace_back(values_at_nodes(solver, info.name))});
+  }
+  frame.node_vectors.push_back({"velocity [m/s]", {node.velocity[0], node.velocity[1], {}}});
+  writer_.write(frame);
+}
+
+void PictureRecorder::record(const ExplicitSolver<2>& solver) {
+  const NodeState<2>& node = solver.state().node;
+  for (const std::string& name : case_->output.picture_fields) {
+    const FieldInfo& info = field_info(name);
+    const Field values = values_at_points(solver, name);
+    io::Picture picture;
+    picture.cells = &solver.approximation().cells;
+    picture.position = spans(node.position);
+    picture.value = values;
+    picture.label = info.label;
+    picture.unit = info.shown_unit;
+    picture.unit_factor = info.shown_factor;
+    picture.map = info.map;
+    if (info.map == io::ColourMap::diverging) picture.range = io::symmetric_range(values, 0.999);
+    picture.title = case_->title;
+    picture.time = solver.state().time;
+    const auto& contact = solver.model().contact;
+    for (std::size_t t = 0; t < contact.tools().size(); ++t)
+      picture.tools.push_back({&case_->tools[t].outline,
+                               contact.tools()[t].motion.displacement(solver.state().time),
+                               case_->tools[t].name});
+    album_.add(name, info.label, picture.time, io::draw_png(picture));
+    for (const io::Window& window : case_->output.windows) {
+      picture.window = io::PictureWindow{window.lower, window.upper};
+      album_.add(name + "_" + window.name, info.label, picture.time, io::draw_png(picture), window.name);
+    }
+  }
+}
+
+} // namespace cnem::app

@@ -1,0 +1,74 @@
+#pragma once
+// What a run leaves behind: rows of history, fields, pictures.
+#include "io/case.hpp"
+#include "io/history_writer.hpp"
+#include "io/picture_album.hpp"
+#include "io/vtk_writer.hpp"
+#include "mechanics/explicit_solver.hpp"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cnem::app {
+
+/// A material point as a weighted mean of nodes: natural-neighbour weights of its initial position.
+struct ProbeWeights {
+  std::string name;
+  std::vector<std::string> fields;
+  std::vector<std::int32_t> node;
+  std::vector<double> weight;
+};
+
+/// Names and values of history.csv.
+class HistoryRecorder {
+public:
+  /// Throws InputError for probes outside the domain.
+  HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver,
+                  const std::filesystem::path& folder);
+
+  void record(const ExplicitSolver<2>& solver);
+
+  /// Largest |residual| seen over the largest (external work + initial energy) seen.
+  double energy_residual() const;
+  double last_residual() const { return last_residual_; } ///< J/m
+  double energy_scale() const { return scale_; }          ///< J/m
+  /// Named results for status.json.
+  std::vector<std::pair<std::string, double>> metrics() const { return metrics_; }
+
+private:
+  std::vector<std::pair<std::string, double>> row(const ExplicitSolver<2>& solver) const;
+  void keep_metric(const std::string& name, double value, bool largest);
+
+  std::vector<ProbeWeights> probes_;
+  std::vector<io::HistoryWriter> writer_; ///< one; made with the first row, when the columns are known
+  std::filesystem::path folder_;
+  double initial_area_ = 0.0, initial_mass_ = 0.0;
+  double worst_residual_ = 0.0, last_residual_ = 0.0, scale_ = 0.0;
+  std::vector<std::pair<std::string, double>> metrics_;
+};
+
+/// Writes fields.pvd frames with every field of the catalogue.
+class FieldRecorder {
+public:
+  explicit FieldRecorder(const std::filesystem::path& folder) : writer_(folder) {}
+  void record(const ExplicitSolver<2>& solver);
+
+private:
+  io::FieldWriter writer_;
+};
+
+/// Draws the case's pictures.
+class PictureRecorder {
+public:
+  PictureRecorder(const io::Case& input, const std::filesystem::path& folder)
+      : case_(&input), album_(folder) {}
+  void record(const ExplicitSolver<2>& solver);
+
+private:
+  const io::Case* case_;
+  io::PictureAlbum album_;
+};
+
+} // namespace cnem::app

@@ -1,0 +1,236 @@
+#include "app/registry.hpp"
+
+#include "alternatives/fe_triangle.hpp"
+#include "cnem/scni.hpp"
+#include "contact/curve_shape.hpp"
+#include "voronoi/generate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::app {
+
+namespace {
+
+voronoi::DomainShape domain_shape(const io::Domain& domain) {
+  voronoi::DomainShape shape;
+  shape.outer = domain.outer;
+  for (const io::Hole& hole : domain.holes) shape.holes.push_back(hole.outline);
+  for (const io::Crack& crack : domain.cracks) shape.cracks.push_back({crack.name, crack.points});
+  return shape;
+}
+
+voronoi::SpacingField spacing_field(const io::CloudSpec& spec) {
+  voronoi::SpacingField field;
+  field.spacing = spec.spacing;
+  for (const io::Refinement& refine : spec.refine) {
+    voronoi::Refinement region;
+    if (refine.box) {
+      region.region = voronoi::Refinement::Region::box;
+      region.points = {(*refine.box)[0], (*refine.box)[1]};
+    } else {
+      region.points = refine.points;
+    }
+    region.spacing = refine.spacing;
+    region.growth = refine.growth;
+    field.refinements.push_back(std::move(region));
+  }
+  return field;
+}
+
+voronoi::CloudOptions cloud_options(const io::CloudSpec& spec) {
+  voronoi::CloudOptions options;
+  switch (spec.pattern) {
+  case io::CloudSpec::Pattern::hexagonal:
+    options.pattern = voronoi::Pattern::hexagonal;
+    break;
+  case io::CloudSpec::Pattern::regular:
+    options.pattern = voronoi::Pattern::regular;
+    break;
+  case io::CloudSpec::Pattern::jittered:
+    options.pattern = voronoi::Pattern::jittered;
+    break;
+  case io::CloudSpec::Pattern::list:
+    options.pattern = voronoi::Pattern::list;
+    break;
+  }
+  options.jitter = spec.jitter;
+  options.seed = spec.seed;
+  options.nodes = spec.nodes;
+  return options;
+}
+
+plasticity::Material make_material(const io::Material& spec) {
+  plasticity::Material material;
+  material.name = spec.name;
+  material.density = spec.density;
+  material.elasticity = {spec.young, spec.poisson};
+  if (const auto* perfect = std::get_if<io::PerfectPlasticity>(&spec.plastic)) {
+    material.hardening = plasticity::JohnsonCook{.A = perfect->yield};
+  } else if (const auto* linear = std::get_if<io::LinearHardening>(&spec.plastic)) {
+    material.hardening = plasticity::JohnsonCook{.A = linear->yield, .B = linear->hardening};
+  } else if (const auto* jc = std::get_if<io::JohnsonCook>(&spec.plastic)) {
+    material.hardening = plasticity::JohnsonCook{.A = jc->A,
+                                                 .B = jc->B,
+                                                 .n = jc->n,
+                                                 .C = jc->C,
+                                                 .rate0 = jc->rate0,
+                                                 .m = jc->m,
+                                                 .T0 = jc->T0,
+                                                 .Tmelt = jc->Tmelt};
+  }
+  if (spec.heat) {
+    material.specific_heat = spec.heat->specific_heat;
+    material.conductivity = spec.heat->conductivity;
+    material.taylor_quinney = spec.heat->taylor_quinney;
+    material.expansion = spec.heat->expansion;
+    material.expansion_reference = spec.heat->reference_temperature;
+  }
+  return material;
+}
+
+/// Facets of the named pieces; both faces NAME+ and NAME- of a crack answer to NAME.
+std::vector<Facet<2>> facets_of(const Cloud<2>& cloud, const std::vector<std::string>& pieces) {
+  std::vector<bool> wanted(cloud.piece_names.size(), false);
+  for (std::size_t p = 0; p < cloud.piece_names.size(); ++p)
+    for (const std::string& piece : pieces)
+      if (const std::string& name = cloud.piece_names[p];
+          name == piece || name == piece + "+" || name == piece + "-")
+        wanted[p] = true;
+  std::vector<Facet<2>> facets;
+  std::copy_if(cloud.facets.begin(), cloud.facets.end(), std::back_inserter(facets),
+               [&](const Facet<2>& facet) { return wanted[static_cast<std::size_t>(facet.piece)]; });
+  return facets;
+}
+
+std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>& facets) {
+  std::vector<std::int32_t> nodes;
+  for (const Facet<2>& facet : facets) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+struct Conditions {
+  std::vector<Support<2>> supports;
+  std::vector<Traction<2>> tractions;
+  std::vector<Pressure<2>> pressures;
+  std::vector<FixedTemperature> temperatures;
+  std::vector<HeatFlux<2>> fluxes;
+  std::vector<Convection<2>> convections;
+};
+
+void add_condition(const io::BoundaryCondition& spec, const Cloud<2>& cloud, Conditions& all) {
+  const std::vector<Facet<2>> facets = facets_of(cloud, spec.pieces);
+  const std::vector<std::int32_t> nodes = nodes_of(facets);
+  using Kind = Support<2>::Kind;
+  if (spec.symmetry) {
+    // One plane per straight piece: pieces of one condition may face different ways.
+    for (const std::string& piece : spec.pieces) {
+      const std::vector<Facet<2>> straight = facets_of(cloud, {piece});
+      if (straight.empty()) continue;
+      const Vec2 edge = cloud.position[static_cast<std::size_t>(straight.front().node[1])] -
+                        cloud.position[static_cast<std::size_t>(straight.front().node[0])];
+      all.supports.push_back(
+          {spec.name, Kind::symmetry, right_normal(edge).normalized(), {}, nodes_of(straight)});
+    }
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec2 direction = k == 0 ? Vec2(1, 0) : Vec2(0, 1);
+    if (spec.velocity[k])
+      all.supports.push_back({spec.name, Kind::velocity, direction, *spec.velocity[k], nodes});
+    if (spec.displacement[k])
+      all.supports.push_back({spec.name, Kind::displacement, direction, *spec.displacement[k], nodes});
+  }
+  if (spec.traction[0] || spec.traction[1])
+    all.tractions.push_back({spec.name,
+                             {spec.traction[0].value_or(TimeTable()), spec.traction[1].value_or(TimeTable())},
+                             facets});
+  if (spec.pressure) all.pressures.push_back({spec.name, *spec.pressure, facets});
+  if (spec.temperature) all.temperatures.push_back({spec.name, *spec.temperature, nodes});
+  if (spec.heat_flux) all.fluxes.push_back({spec.name, *spec.heat_flux, facets});
+  if (spec.convection)
+    all.convections.push_back(
+        {spec.name, TimeTable(spec.convection->coefficient), spec.convection->ambient, facets});
+}
+
+contact::Tool<2> make_tool(const io::Tool& spec) {
+  contact::Tool<2> tool;
+  tool.name = spec.name;
+  tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
+  tool.motion.velocity = spec.velocity;
+  if (spec.friction.law != io::Friction::Law::none) tool.friction.coulomb = spec.friction.coefficient;
+  if (spec.friction.law == io::Friction::Law::tresca_limited)
+    tool.friction.shear_factor = spec.friction.shear_factor;
+  if (spec.heat) {
+    tool.thermal.conductance = spec.heat->conductance;
+    tool.thermal.temperature = spec.heat->temperature;
+    tool.thermal.effusivity = spec.heat->effusivity.value_or(0.0);
+  }
+  return tool;
+}
+
+} // namespace
+
+std::unique_ptr<Discretisation<2>> make_method(const io::Method& method) {
+  if (method.name == io::Method::Name::fe_triangles) return std::make_unique<alternatives::FeTriangles>();
+  scni::Options options;
+  options.functions =
+      method.functions == io::Method::Functions::laplace ? scni::Functions::laplace : scni::Functions::sibson;
+  options.gauss_points = method.gauss_points;
+  return std::make_unique<scni::Cnem>(options);
+}
+
+Setup build(const io::Case& input) {
+  voronoi::GeneratedCloud generated;
+  try {
+    generated = voronoi::generate_cloud(domain_shape(input.domain), spacing_field(input.cloud),
+                                        cloud_options(input.cloud));
+  } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
+  if (input.method.name == io::Method::Name::fe_triangles &&
+      input.method.lagrangian != io::Method::Lagrangian::total)
+    throw input.error("method.lagrangian",
+                      "finite-element triangles carry their history in the elements and run total "
+                      "Lagrangian only; expected \"total\"");
+
+  std::vector<contact::Tool<2>> tools;
+  for (const io::Tool& tool : input.tools) tools.push_back(make_tool(tool));
+  Setup setup;
+  setup.warnings = std::move(generated.warnings);
+  Model<2>& model = setup.model;
+  model.contact = contact::RigidContact<2>(std::move(tools));
+  model.cloud = std::move(generated.cloud);
+  model.method = make_method(input.method);
+  model.material = make_material(input.material(input.domain.material));
+  model.stabilisation = input.method.stabilisation;
+  model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
+  model.thermal = input.analysis.thermal;
+  model.safety = input.time.safety;
+
+  Conditions all;
+  for (const io::BoundaryCondition& condition : input.boundary) add_condition(condition, model.cloud, all);
+  const auto nodes = static_cast<std::size_t>(model.cloud.nodes());
+  try {
+    model.supports = Supports<2>(std::move(all.supports), nodes);
+  } catch (const InputError& error) { throw input.error("boundary", error.what()); }
+  std::array<TimeTable, 2> acceleration;
+  for (std::size_t k = 0; k < 2; ++k) acceleration[k] = input.loads.body_force[k].value_or(TimeTable());
+  model.loads =
+      Loads<2>(std::move(all.tractions), std::move(all.pressures), acceleration, model.cloud.position);
+  model.heat_boundaries =
+      ThermalBoundaries<2>(std::move(all.temperatures), std::move(all.fluxes), std::move(all.convections));
+
+  resize_all(setup.velocity, nodes);
+  setup.temperature.assign(nodes, input.initial.temperature);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    Vec2 v = input.initial.velocity;
+    if (const auto& spin = input.initial.spin)
+      v += spin->rate * left_normal(model.cloud.position[i] - spin->centre);
+    setup.velocity[0][i] = v.x();
+    setup.velocity[1][i] = v.y();
+  }
+  return setup;
+}
+
+} // namespace cnem::app

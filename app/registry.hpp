@@ -1,0 +1,28 @@
+#pragma once
+// From a case to solver objects: the only place that knows every method, material and tool.
+#include "io/case.hpp"
+#include "mechanics/explicit_solver.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cnem::app {
+
+/// A case made ready to run.
+struct Setup {
+  Model<2> model;
+  Fields<2> velocity; ///< [component][node] m/s at t = 0
+  Field temperature;  ///< [node] K at t = 0
+  std::vector<std::string> warnings;
+};
+
+/// Builds cloud, method, material, boundary conditions and tools of a case. Throws InputError with file, line
+/// and key for what only geometry can tell: impossible clouds, pieces without nodes, conditions that
+/// contradict each other.
+Setup build(const io::Case& input);
+
+/// The names of the methods a case can ask for, as in the schema.
+std::unique_ptr<Discretisation<2>> make_method(const io::Method& method);
+
+} // namespace cnem::app

@@ -1,0 +1,136 @@
+// Rebuild of all operators on a jittered square, phase by phase, one thread: counter ns/node.
+// Run: OMP_NUM_THREADS=1 build/benchmark_rebuild
+#include "alternatives/fe_triangle.hpp"
+#include "cnem/quadrature.hpp"
+#include "cnem/scni.hpp"
+#include "cnem/smoothing.hpp"
+#include "tests/clouds.hpp"
+#include "voronoi/cells.hpp"
+#include "voronoi/linear_triangles.hpp"
+#include "voronoi/order.hpp"
+
+#include <benchmark/benchmark.h>
+
+using namespace cnem;
+
+namespace {
+
+/// n × n nodes on the unit square, inner ones jittered by a quarter of the spacing, in space-filling order.
+Cloud<2> benchmark_cloud(std::int64_t nodes) {
+  const auto n = static_cast<int>(std::lround(std::sqrt(static_cast<double>(nodes))));
+  const double h = 1.0 / (n - 1);
+  Cloud<2> cloud;
+  testing::add_loop(cloud, testing::rectangle(1, 1), h);
+  testing::Random random(1);
+  for (int j = 1; j < n - 1; ++j)
+    for (int i = 1; i < n - 1; ++i) {
+      const double dx = random.uniform(-0.25, 0.25), dy = random.uniform(-0.25, 0.25);
+      cloud.position.push_back({(i + dx) * h, (j + dy) * h});
+    }
+  return voronoi::renumber(cloud, voronoi::hilbert_order(cloud.position));
+}
+
+template<class Body> void per_node(benchmark::State& state, const Cloud<2>& cloud, Body&& body) {
+  for (auto _ : state) benchmark::DoNotOptimize(body());
+  state.counters["ns/node"] = benchmark::Counter(
+      cloud.nodes() * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void triangulate(benchmark::State& state) {
+  const auto cloud = benchmark_cloud(state.range(0));
+  per_node(state, cloud, [&] { return voronoi::triangulate(cloud); });
+}
+
+/// What the later phases start from.
+struct Geometry {
+  explicit Geometry(std::int64_t nodes)
+      : cloud(benchmark_cloud(nodes)), triangulation(voronoi::triangulate(cloud)),
+        circles(voronoi::circumcircles(cloud, triangulation)),
+        cells(voronoi::constrained_cells(cloud, triangulation, circles)) {}
+  Cloud<2> cloud;
+  voronoi::Triangulation triangulation;
+  voronoi::Circumcircles circles;
+  voronoi::Cells cells;
+};
+
+scni::Options options(const benchmark::State& state) {
+  return {state.range(2) == 0 ? scni::Functions::sibson : scni::Functions::laplace,
+          static_cast<int>(state.range(1))};
+}
+
+scni::FacetMeans facet_means(const Geometry& g, const scni::Options& o) {
+  return scni::facet_means(g.cloud, g.triangulation, g.circles, g.cells, o.functions, o.gauss_points);
+}
+
+void cells(benchmark::State& state) {
+  const Geometry g(state.range(0));
+  per_node(state, g.cloud, [&] {
+    return voronoi::constrained_cells(g.cloud, g.triangulation,
+                                      voronoi::circumcircles(g.cloud, g.triangulation));
+  });
+}
+
+void cell_geometry(benchmark::State& state) {
+  const Geometry g(state.range(0));
+  per_node(state, g.cloud,
+           [&] { return voronoi::cell_geometry(g.cloud, g.triangulation, g.circles, g.cells); });
+}
+
+void functions_on_facets(benchmark::State& state) {
+  const Geometry g(state.range(0));
+  per_node(state, g.cloud, [&] { return facet_means(g, options(state)); });
+}
+
+void smoothing(benchmark::State& state) {
+  const Geometry g(state.range(0));
+  const auto means = facet_means(g, options(state));
+  per_node(state, g.cloud, [&] {
+    return scni::smoothed_gradients(g.cloud, g.cells, scni::facets_of_cells(g.cloud.nodes(), g.cells), means);
+  });
+}
+
+void links(benchmark::State& state) {
+  const Geometry g(state.range(0));
+  const auto around = scni::facets_of_cells(g.cloud.nodes(), g.cells);
+  per_node(state, g.cloud, [&] { return scni::delaunay_links(g.cloud, g.cells, around); });
+}
+
+void linear_triangles(benchmark::State& state) {
+  const auto cloud = benchmark_cloud(state.range(0));
+  const auto triangulation = voronoi::triangulate(cloud);
+  per_node(state, cloud, [&] { return voronoi::linear_triangles(cloud, triangulation); });
+}
+
+void whole_cnem(benchmark::State& state) {
+  const auto cloud = benchmark_cloud(state.range(0));
+  scni::Cnem method(options(state));
+  per_node(state, cloud, [&] { return method.rebuild(cloud); });
+}
+
+void whole_triangles(benchmark::State& state) {
+  const auto cloud = benchmark_cloud(state.range(0));
+  alternatives::FeTriangles method;
+  per_node(state, cloud, [&] { return method.rebuild(cloud); });
+}
+
+void by_nodes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"nodes"})->Arg(20'000)->Arg(200'000)->Unit(benchmark::kMillisecond);
+}
+
+void by_nodes_and_rule(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"nodes", "points", "laplace"})->Unit(benchmark::kMillisecond);
+  b->ArgsProduct({{20'000, 200'000}, {1, 2, 3}, {0}})->Args({20'000, 2, 1});
+}
+
+} // namespace
+
+BENCHMARK(triangulate)->Apply(by_nodes);
+BENCHMARK(cells)->Apply(by_nodes);
+BENCHMARK(linear_triangles)->Apply(by_nodes);
+BENCHMARK(cell_geometry)->Apply(by_nodes);
+BENCHMARK(links)->Apply(by_nodes);
+BENCHMARK(functions_on_facets)->Apply(by_nodes_and_rule);
+BENCHMARK(smoothing)->Apply(by_nodes_and_rule);
+BENCHMARK(whole_cnem)->Apply(by_nodes_and_rule);
+BENCHMARK(whole_triangles)->Apply(by_nodes);
+BENCHMARK_MAIN();

@@ -1,0 +1,91 @@
+// Nanoseconds per stress point of the return map: 304L (paper 004) flowing plastically in every point, plane
+// strain and space, for every instruction set of this machine. The number of points is that of a small run
+// (fits L2 and L3 caches).
+#include "plasticity/return_map.hpp"
+#include "core/isa.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace cnem;
+using namespace cnem::plasticity;
+
+Material steel() {
+  Material m;
+  m.name = "304L";
+  m.density = 7850.0;
+  m.elasticity = {210e9, 0.33};
+  m.hardening = JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0};
+  return m;
+}
+
+template<int dim> PointState<dim> points(std::size_t n) {
+  PointState<dim> s;
+  resize_all(s.deformation, n);
+  resize_all(s.elastic, n);
+  resize_all(s.piola, n);
+  for (Field* f : {&s.plastic_strain, &s.plastic_rate, &s.equivalent_stress, &s.pressure, &s.stored_energy,
+                   &s.plastic_work, &s.dissipation, &s.stress_free})
+    f->assign(n, 0.0);
+  s.temperature.assign(n, 350.0);
+  for (std::size_t c : {0, 1, 2}) s.elastic[c].assign(n, 1.0);
+  return s;
+}
+
+/// Simple shear at 5·10⁴ /s, ±`jitter` from point to point and step to step; elastic if there is no jitter.
+template<int dim> void shear(PointState<dim>& s, double gamma, double jitter, std::size_t step) {
+  constexpr std::size_t last = dim == 2 ? 4 : 8, yy = dim == 2 ? 3 : 4;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double noise = std::sin(static_cast<double>(i * 7919 + step * 104729));
+    s.deformation[0][i] = s.deformation[yy][i] = s.deformation[last][i] = 1.0;
+    s.deformation[1][i] =
+        gamma * (0.8 + 0.4 * static_cast<double>(i) / static_cast<double>(s.size())) + jitter * noise;
+  }
+}
+
+template<int dim> void return_map(benchmark::State& state, Isa isa, double jitter) {
+  set_isa(isa);
+  const std::size_t n = 20000;
+  const Material material = steel();
+  PointState<dim> s = points<dim>(n);
+  const StressPoints<dim> p = stress_points(s);
+  const double dt = 1e-8, increment = 5e-4;
+  double gamma = 0.0;
+  std::size_t step = 0;
+  const auto advance = [&] {
+    gamma += increment;
+    shear(s, gamma, jitter * increment, ++step);
+  };
+  const auto update = [&] { update_stress(material, p, 0, static_cast<std::ptrdiff_t>(n), dt); };
+  for (int k = 0; k < 400; ++k) {
+    advance();
+    update();
+  }
+  for (auto _ : state) {
+    state.PauseTiming();
+    advance();
+    state.ResumeTiming();
+    update();
+  }
+  state.counters["ns_per_point"] =
+      benchmark::Counter(static_cast<double>(n) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  for (Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+    if (!isa_supported(isa)) continue;
+    const std::string name(isa_name(isa));
+    benchmark::RegisterBenchmark(("plane/steady/" + name).c_str(), return_map<2>, isa, 0.0);
+    benchmark::RegisterBenchmark(("plane/noisy_rate/" + name).c_str(), return_map<2>, isa, 0.3);
+    benchmark::RegisterBenchmark(("space/steady/" + name).c_str(), return_map<3>, isa, 0.0);
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,40 @@
+#include "cnem/scni.hpp"
+
+#include "cnem/quadrature.hpp"
+#include "cnem/smoothing.hpp"
+#include "core/error.hpp"
+#include "voronoi/cells.hpp"
+#include "voronoi/linear_triangles.hpp"
+
+#include <fmt/format.h>
+
+namespace cnem::scni {
+
+Cnem::Cnem(Options options) : options_(options) {
+  if (options.gauss_points < 1 || options.gauss_points > 3)
+    throw InputError(
+        fmt::format("{} Gauss points per Voronoi edge: expected 1, 2 or 3", options.gauss_points));
+}
+
+std::string Cnem::name() const {
+  return options_.functions == Functions::sibson ? "cnem_sibson" : "cnem_laplace";
+}
+
+Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
+  const auto triangulation = voronoi::triangulate(cloud);
+  const auto circles = voronoi::circumcircles(cloud, triangulation);
+  const auto cells = voronoi::constrained_cells(cloud, triangulation, circles);
+  const auto means =
+      facet_means(cloud, triangulation, circles, cells, options_.functions, options_.gauss_points);
+  const auto around = facets_of_cells(cloud.nodes(), cells);
+
+  Approximation<2> result;
+  result.mechanics = smoothed_gradients(cloud, cells, around, means);
+  result.conduction = voronoi::linear_triangles(cloud, triangulation);
+  result.links = delaunay_links(cloud, cells, around);
+  result.node_volume = cells.volume;
+  result.cells = voronoi::cell_geometry(cloud, triangulation, circles, cells);
+  return result;
+}
+
+} // namespace cnem::scni

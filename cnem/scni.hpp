@@ -1,0 +1,34 @@
+#pragma once
+// The constrained natural element method: smoothed gradients on constrained Voronoi cells by stabilised
+// conforming nodal integration (paper 004, section 5.3 and (75)–(79)).
+#include "core/discretisation.hpp"
+#include "voronoi/natural_neighbours.hpp"
+
+namespace cnem::scni {
+
+using voronoi::Functions;
+
+struct Options {
+  Functions functions = Functions::sibson;
+  int gauss_points = 2; ///< per Voronoi edge, 1 to 3; linear fields are exact with each
+};
+
+/// C-NEM: rows are nodes with their constrained Voronoi cells, N is the identity, and
+///   b_iJ = 1/V_i ∮ φ_J n dΓ
+/// over the boundary of cell i. Every Voronoi edge is integrated once and serves its two cells with either
+/// sign; on the boundary of the domain φ is linear between the ends of each facet and integrated exactly.
+/// Links are the Delaunay edges; heat conducts with the linear operators of the Delaunay triangles.
+class Cnem final : public Discretisation<2> {
+public:
+  /// Throws InputError when gauss_points is not 1, 2 or 3.
+  explicit Cnem(Options options = {});
+
+  /// Throws GeometryError as voronoi::triangulate and voronoi::linear_triangles do. Cost O(N log N).
+  Approximation<2> rebuild(const Cloud<2>& cloud) override;
+  std::string name() const override;
+
+private:
+  Options options_;
+};
+
+} // namespace cnem::scni

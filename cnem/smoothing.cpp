@@ -1,0 +1,176 @@
+#include "cnem/smoothing.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cnem::scni {
+namespace {
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Lists of items per cell from the cells of each item: a counting sort.
+template<class CellsOf> CellFacets group_by_cell(int nodes, std::size_t items, CellsOf&& cells_of) {
+  CellFacets around;
+  around.begin.assign(index(nodes) + 1, 0);
+  for (std::size_t f = 0; f < items; ++f)
+    for (const std::int32_t i : cells_of(f)) ++around.begin[index(i) + 1];
+  for (std::size_t i = 0; i < index(nodes); ++i) around.begin[i + 1] += around.begin[i];
+  around.facet.resize(index(around.begin.back()));
+  std::vector<std::int32_t> next(around.begin.begin(), around.begin.end() - 1);
+  for (std::size_t f = 0; f < items; ++f)
+    for (const std::int32_t i : cells_of(f))
+      around.facet[index(next[index(i)]++)] = static_cast<std::int32_t>(f);
+  return around;
+}
+
+/// One row while it is summed up: entries are found through a table over all nodes.
+class RowAccumulator {
+public:
+  explicit RowAccumulator(int nodes) : slot_(index(nodes), -1) {}
+
+  void add(std::int32_t node, const Vec2& b) {
+    std::int32_t& slot = slot_[index(node)];
+    if (slot < 0) {
+      slot = static_cast<std::int32_t>(entry_.size());
+      entry_.push_back({node, b});
+    } else {
+      entry_[index(slot)].b += b;
+    }
+  }
+
+  struct Entry {
+    std::int32_t node;
+    Vec2 b;
+  };
+
+  const std::vector<Entry>& sorted() {
+    std::sort(entry_.begin(), entry_.end(), [](const Entry& x, const Entry& y) { return x.node < y.node; });
+    return entry_;
+  }
+
+  void clear() {
+    for (const Entry& e : entry_) slot_[index(e.node)] = -1;
+    entry_.clear();
+  }
+
+private:
+  std::vector<std::int32_t> slot_; ///< [node] index into entry_, −1: none
+  std::vector<Entry> entry_;
+};
+
+/// Finished rows of consecutive cells.
+struct RowBlock {
+  std::vector<std::int32_t> node;
+  std::array<std::vector<double>, 2> gradient;
+};
+
+} // namespace
+
+CellFacets facets_of_cells(int nodes, const voronoi::Cells& cells) {
+  return group_by_cell(
+      nodes, cells.interior.size(), [&](std::size_t f) -> const auto& { return cells.interior[f].cell; });
+}
+
+DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Cells& cells,
+                                        const CellFacets& around, const FacetMeans& means) {
+  constexpr std::size_t block_size = 512;
+  const auto nodes = index(cloud.nodes());
+  const CellFacets boundary = group_by_cell(cloud.nodes(), cells.boundary.size(), [&](std::size_t f) {
+    return std::array<std::int32_t, 1>{cells.boundary[f].cell};
+  });
+
+  DiscreteOperators<2> op;
+  op.points = op.nodes = cloud.nodes();
+  op.nodal = true;
+  op.volume = cells.volume;
+  op.row_begin.assign(nodes + 1, 0);
+
+  std::vector<RowBlock> blocks((nodes + block_size - 1) / block_size);
+#pragma omp parallel
+  {
+    RowAccumulator row(cloud.nodes());
+#pragma omp for schedule(dynamic)
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      RowBlock& block = blocks[k];
+      const std::size_t first = k * block_size, last = std::min(first + block_size, nodes);
+      block.node.reserve(11 * (last - first));
+      for (auto& g : block.gradient) g.reserve(11 * (last - first));
+      for (std::size_t i = first; i < last; ++i) {
+        for (auto a = index(around.begin[i]); a < index(around.begin[i + 1]); ++a) {
+          const auto f = index(around.facet[a]);
+          const voronoi::InteriorFacet& facet = cells.interior[f];
+          const double sign = index(facet.cell[0]) == i ? 1.0 : -1.0;
+          const Vec2 normal = sign * right_normal(facet.end - facet.start);
+          const auto node = means.nodes(f);
+          const auto value = means.values(f);
+          for (std::size_t e = 0; e < node.size(); ++e) row.add(node[e], value[e] * normal);
+        }
+        for (auto a = index(boundary.begin[i]); a < index(boundary.begin[i + 1]); ++a) {
+          const voronoi::BoundaryPiece& piece = cells.boundary[index(boundary.facet[a])];
+          const auto& ends = cloud.facets[index(piece.facet)].node;
+          const Vec2 normal = (piece.s1 - piece.s0) *
+                              right_normal(cloud.position[index(ends[1])] - cloud.position[index(ends[0])]);
+          const double middle = 0.5 * (piece.s0 + piece.s1);
+          row.add(ends[0], (1.0 - middle) * normal);
+          row.add(ends[1], middle * normal);
+        }
+        for (const auto& entry : row.sorted()) {
+          block.node.push_back(entry.node);
+          for (std::size_t d = 0; d < 2; ++d)
+            block.gradient[d].push_back(entry.b[static_cast<Eigen::Index>(d)] / cells.volume[i]);
+        }
+        row.clear();
+        op.row_begin[i + 1] = static_cast<std::int32_t>(block.node.size()); // of the block, so far
+      }
+    }
+  }
+
+  std::vector<std::int32_t> offset(blocks.size() + 1, 0);
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    offset[k + 1] = offset[k] + static_cast<std::int32_t>(blocks[k].node.size());
+  op.node.resize(index(offset.back()));
+  for (Field& g : op.gradient) g.resize(index(offset.back()));
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const std::size_t first = k * block_size, last = std::min(first + block_size, nodes);
+    for (std::size_t i = first; i < last; ++i) op.row_begin[i + 1] += offset[k];
+    std::copy(blocks[k].node.begin(), blocks[k].node.end(), op.node.begin() + offset[k]);
+    for (std::size_t d = 0; d < 2; ++d)
+      std::copy(blocks[k].gradient[d].begin(), blocks[k].gradient[d].end(),
+                op.gradient[d].begin() + offset[k]);
+  }
+  op.build_transpose();
+  return op;
+}
+
+StabilisationLinks<2> delaunay_links(const Cloud<2>& cloud, const voronoi::Cells& cells,
+                                     const CellFacets& around) {
+  StabilisationLinks<2> links;
+  links.begin = around.begin;
+  links.neighbour.resize(around.facet.size());
+  links.weight.resize(around.facet.size());
+#pragma omp parallel
+  {
+    std::vector<std::pair<std::int32_t, double>> list;
+#pragma omp for schedule(static)
+    for (std::size_t i = 0; i < index(cloud.nodes()); ++i) {
+      list.clear();
+      for (auto a = index(around.begin[i]); a < index(around.begin[i + 1]); ++a) {
+        const voronoi::InteriorFacet& facet = cells.interior[index(around.facet[a])];
+        const Vec2 between = cloud.position[index(facet.cell[1])] - cloud.position[index(facet.cell[0])];
+        const double ratio = (facet.end - facet.start).norm() / between.norm();
+        list.emplace_back(index(facet.cell[0]) == i ? facet.cell[1] : facet.cell[0],
+                          std::clamp(ratio, 0.1, 2.0));
+      }
+      std::sort(list.begin(), list.end());
+      auto e = index(links.begin[i]);
+      for (const auto& [neighbour, weight] : list) {
+        links.neighbour[e] = neighbour;
+        links.weight[e++] = weight;
+      }
+    }
+  }
+  return links;
+}
+
+} // namespace cnem::scni

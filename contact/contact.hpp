@@ -1,0 +1,145 @@
+#pragma once
+// Kinematic predictor-corrector contact of the workpiece with rigid tools.
+#include "contact/impulse_solver.hpp"
+#include "contact/surface.hpp"
+#include "contact/tool.hpp"
+#include "core/aligned.hpp"
+#include "core/cloud.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cnem::contact {
+
+/// A node that may not move freely: `free` projects a vector onto the directions it may be pushed in (zero
+/// for a fully prescribed node, 1 − n⊗n on a symmetry plane).
+template<int dim> struct NodeConstraint {
+  std::int32_t node;
+  Mat<dim> free;
+};
+
+/// One step as the predictor left it: x* = x_n + Δt₂ v*.
+template<int dim> struct ContactStep {
+  double time = 0.0; ///< s, t_n (the start of the step)
+  double dt = 0.0;   ///< s, Δt₂ = t_{n+1} − t_n
+  double dt_mean = 0.0; ///< s, Δt̄ = (Δt₁ + Δt₂)/2; Δt₁ = 0 in the first step, when v_{n−½} means v_0
+  Fields<dim>& position;                    ///< m, [node], at t_{n+1}; corrected in place
+  Fields<dim>& velocity;                    ///< m/s, [node], at t_{n+½}; corrected in place
+  const Field& mass;                        ///< kg/m^(3−dim), [node]
+  std::span<const double> flow_stress = {}; ///< Pa, [boundary node]; needed where flow_stress_needed()
+  std::span<const double> effusivity = {};  ///< W √s/(m² K), [boundary node], of the workpiece; empty: it
+                                            ///< keeps all friction heat
+};
+
+/// Energies of contact, J per unit thickness in 2D, all but the first two ≥ 0. They balance exactly:
+/// workpiece = tool + recovery − friction − impact.
+struct ContactWork {
+  double workpiece = 0.0; ///< Σ ½(v_{n−½} + v_{n+½})·R Δt̄, received by the nodes
+  double tool = 0.0;      ///< R·V_tool Δt̄, done by the tool's motion
+  double recovery = 0.0;  ///< put in by pushing existing penetration out, and by turning round a curved tool
+  double friction = 0.0;  ///< turned into heat by slip, both shares
+  double impact = 0.0;    ///< lost where nodes meet the tool at once
+};
+
+ContactWork& operator+=(ContactWork& a, const ContactWork& b);
+
+/// What a tool does to the workpiece.
+template<int dim> struct ToolResult {
+  Vec<dim> displacement = Vec<dim>::Zero(); ///< m, of the tool at t_{n+1}
+  Vec<dim> force = Vec<dim>::Zero();   ///< N/m^(3−dim), on the workpiece: Σ impulses of the step / Δt̄
+  Vec<dim> impulse = Vec<dim>::Zero(); ///< N s/m^(3−dim), since the start
+  ContactWork step;                    ///< in this step
+  ContactWork total;                   ///< since the start
+  double heat_to_tool = 0.0;           ///< J/m^(3−dim), friction heat the tool took, since the start
+};
+
+/// A boundary node that touches a tool (directly or through an edge that a corner presses on).
+template<int dim> struct ContactPoint {
+  std::int32_t node = 0;
+  std::int32_t boundary = 0; ///< its index among boundary_nodes()
+  std::int32_t tool = 0;
+  double gap = 0.0;                  ///< m, signed distance from the tool after the correction
+  double area = 0.0;                 ///< m^(dim−1), tributary, current
+  double pressure = 0.0;             ///< Pa, normal force over area
+  Vec<dim> force = Vec<dim>::Zero(); ///< N/m^(3−dim), on the node
+};
+
+/// A node inside a tool, or a ridge of a tool inside the workpiece (then node is the nearer end of the edge).
+template<int dim> struct Overlap {
+  std::int32_t tool = 0;
+  std::int32_t node = 0;
+  double depth = 0.0; ///< m, > 0
+  Vec<dim> position = Vec<dim>::Zero();
+  bool ridge = false;
+};
+
+/// Order of calls: set_boundary whenever nodes or boundary change (prepare()); in each step `remember` before
+/// the velocities are updated, then the prediction, then `correct`. Serial, so that results do not depend on
+/// threads; looks at boundary nodes alone.
+template<int dim> class RigidContact {
+public:
+  explicit RigidContact(std::vector<Tool<dim>> tools);
+
+  /// Takes the boundary of the cloud and the nodes that are not free. Costs O(nodes + facets).
+  void set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
+                    const std::vector<NodeConstraint<dim>>& constraints);
+
+  /// Keeps v_{n−½} of the boundary nodes for the work of this step.
+  void remember(const Fields<dim>& velocity);
+
+  /// Corrects x_{n+1} and v_{n+½} so that nothing that was outside a tool is inside, with friction, and
+  /// existing penetration shrinks at no more than half the tool's (or the node's slip) speed.
+  /// Throws InputError when a shear factor is set and no flow stress given.
+  void correct(const ContactStep<dim>& step);
+
+  const std::vector<Tool<dim>>& tools() const { return tools_; }
+  bool flow_stress_needed() const;
+  /// Nodes of the boundary in increasing order; the lists marked [boundary node] follow it.
+  const std::vector<std::int32_t>& boundary_nodes() const { return surface_.node; }
+
+  const std::vector<ToolResult<dim>>& results() const { return results_; } ///< [tool]
+  const std::vector<ContactPoint<dim>>& points() const { return points_; } ///< touching in the last step
+  /// Workpiece's share of the friction heat of the last step, J/m^(3−dim), [boundary node].
+  const std::vector<double>& friction_heat() const { return heat_; }
+  /// Contact impulse of the last step, N s/m^(3−dim), [boundary node], before constraints take their part.
+  const std::vector<Vec<dim>>& nodal_impulse() const { return nodal_impulse_; }
+
+  /// Penetrations at a time, deepest first: what `check` prints. Only for a boundary that has been set.
+  std::vector<Overlap<dim>> overlaps(const Fields<dim>& position, double time) const;
+
+private:
+  struct Pose; // of a tool during a step
+  std::vector<Pose> poses(const ContactStep<dim>& step) const;
+  void gather(const ContactStep<dim>& step);
+  bool find_on_faces(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  bool find_on_ridges(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  bool add(Contact<dim> contact, double start, double level, const Pose& pose, double dt);
+  void set_friction(Contact<dim>& contact, const Pose& pose, double area, const ContactStep<dim>& step) const;
+  void scatter(const ContactStep<dim>& step);
+  void book(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  void list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+
+  std::vector<Tool<dim>> tools_;
+  Surface<dim> surface_;
+  std::vector<Mat<dim>> free_; ///< [boundary node]
+  double size_ = 0.0;          ///< m, of the largest tool: the scale of rounding
+
+  // The step in hand, [boundary node].
+  std::vector<Vec<dim>> before_; ///< m/s, v_{n−½}
+  std::vector<Vec<dim>> start_;  ///< m, x_n
+  std::vector<Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
+  std::vector<Reaction<dim>> reactions_;
+  std::vector<double> area_;
+  std::vector<Contact<dim>> contacts_;
+  std::size_t from_earlier_passes_ = 0; ///< how many of them
+
+  std::vector<ToolResult<dim>> results_;
+  std::vector<ContactPoint<dim>> points_;
+  std::vector<double> heat_;
+  std::vector<Vec<dim>> nodal_impulse_;
+};
+
+extern template class RigidContact<2>;
+
+} // namespace cnem::contact

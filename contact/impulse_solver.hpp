@@ -1,0 +1,47 @@
+#pragma once
+// Unilateral contacts with friction between weighted nodes and rigid planes, solved for impulses by projected
+// Gauss-Seidel.
+#include "core/vec.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cnem::contact {
+
+/// What a node answers to an impulse: Δv = inverse J with inverse = P/m.
+template<int dim> struct Reaction {
+  Mat<dim> inverse = Mat<dim>::Zero();  ///< 1/kg (times m^(3−dim))
+  Vec<dim> position = Vec<dim>::Zero(); ///< m, x* of the prediction
+  Vec<dim> velocity = Vec<dim>::Zero(); ///< m/s, v* of the prediction
+  Vec<dim> change = Vec<dim>::Zero();   ///< m/s, correction found so far
+};
+
+/// n·Σ N_a x_a ≥ level at the end of the step, with friction against a plane moving at `surface`.
+template<int dim> struct Contact {
+  std::int32_t tool = 0;
+  std::int32_t feature = 0;             ///< piece of the tool's surface, or ridge
+  std::int32_t facet = -1;              ///< facet under a ridge; −1 for a node on a face
+  std::array<std::int32_t, dim> node{}; ///< indices into the list of reactions
+  std::array<double, dim> weight{};     ///< N_a, Σ = 1; 0 for unused nodes
+  Vec<dim> normal = Vec<dim>::Zero();   ///< out of the tool
+  double level = 0.0;                   ///< m
+  Vec<dim> surface = Vec<dim>::Zero();  ///< m/s, velocity of the tool at t_{n+½}
+  double coulomb = 0.0;                 ///< –
+  double limit = 0.0;                   ///< N s, largest tangential impulse (Tresca)
+
+  double pressing = 0.0;               ///< N s, normal impulse ≥ 0
+  Vec<dim> sliding = Vec<dim>::Zero(); ///< N s, tangential impulse
+  Vec<dim> impulse() const { return pressing * normal + sliding; }
+};
+
+/// Solves in place: contacts get their impulses, reactions their change of velocity. Sweeps in the order
+/// given until no node moves by more than `tolerance` (m), at most `sweeps` times.
+template<int dim>
+void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes, double dt,
+                    double tolerance, int sweeps);
+
+extern template void solve_impulses<2>(std::vector<Contact<2>>&, std::vector<Reaction<2>>&, double, double,
+                                       int);
+
+} // namespace cnem::contact

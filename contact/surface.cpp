@@ -1,0 +1,192 @@
+#include "contact/surface.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cnem::contact {
+
+template<> Surface<2>::Surface(const std::vector<Facet<2>>& boundary, std::size_t nodes) {
+  std::vector<std::int32_t> number(nodes, -1);
+  for (const Facet<2>& facet : boundary)
+    for (const std::int32_t i : facet.node) number[static_cast<std::size_t>(i)] = 0;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    if (number[i] < 0) continue;
+    number[i] = static_cast<std::int32_t>(node.size());
+    node.push_back(static_cast<std::int32_t>(i));
+  }
+  leaving.assign(node.size(), -1);
+  entering.assign(node.size(), -1);
+  for (const Facet<2>& facet : boundary) {
+    const std::int32_t a = number[static_cast<std::size_t>(facet.node[0])],
+                       b = number[static_cast<std::size_t>(facet.node[1])];
+    leaving[static_cast<std::size_t>(a)] = entering[static_cast<std::size_t>(b)] =
+        static_cast<std::int32_t>(facets.size());
+    facets.push_back({a, b});
+  }
+}
+
+template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position) const {
+  std::vector<double> area(node.size(), 0.0);
+  for (const auto& facet : facets) {
+    const auto a = static_cast<std::size_t>(facet[0]), b = static_cast<std::size_t>(facet[1]);
+    const double half = 0.5 * (position[b] - position[a]).norm();
+    area[a] += half;
+    area[b] += half;
+  }
+  return area;
+}
+
+bool encloses(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x) {
+  bool inside = false;
+  for (const auto& facet : surface.facets) {
+    const Vec2 &a = position[static_cast<std::size_t>(facet[0])],
+               &b = position[static_cast<std::size_t>(facet[1])];
+    if ((a.y() > x.y()) == (b.y() > x.y())) continue;
+    // the ray towards +x meets the edge where the point is on the inner side of its direction
+    const double side = cross(b - a, x - a);
+    if ((b.y() > a.y()) == (side > 0.0)) inside = !inside;
+  }
+  return inside;
+}
+
+namespace {
+
+/// One edge of the workpiece as a ridge sees it at one time.
+struct EdgeView {
+  Vec2 a{0, 0}, b{0, 0};
+  Vec2 along{0, 0};  ///< unit
+  Vec2 normal{0, 0}; ///< unit, into the workpiece: out of a tool that presses on it
+  double length = 0.0;
+
+  EdgeView(const Surface<2>& surface, std::size_t facet, std::span<const Vec2> position)
+      : a(position[static_cast<std::size_t>(surface.facets[facet][0])]),
+        b(position[static_cast<std::size_t>(surface.facets[facet][1])]), length((b - a).norm()) {
+    along = (b - a) / length;
+    normal = left_normal(along);
+  }
+  double place(const Vec2& p) const { return along.dot(p - a) / length; }
+  double gap(const Ridge<2>& ridge, const Vec2& shift) const {
+    return normal.dot(a - ridge.extreme(normal) - shift) + ridge.sagitta(length);
+  }
+};
+
+/// Beyond an end at which the workpiece is concave, a ridge that is also beyond the neighbouring edge presses
+/// on the node between them.
+bool presses_on_notch(const Surface<2>& surface, const EdgeView& edge, std::size_t facet,
+                      std::span<const Vec2> position, const Vec2& tip, bool at_end) {
+  const auto vertex = static_cast<std::size_t>(surface.facets[facet][at_end ? 1 : 0]);
+  const std::int32_t other = at_end ? surface.leaving[vertex] : surface.entering[vertex];
+  if (other < 0) return false;
+  const EdgeView neighbour(surface, static_cast<std::size_t>(other), position);
+  const double turn = at_end ? cross(edge.along, neighbour.along) : cross(neighbour.along, edge.along);
+  if (turn >= 0.0 || (tip - position[vertex]).norm() > 0.5 * edge.length) return false;
+  const double place = neighbour.place(tip);
+  return at_end ? place < 0.0 : place > 1.0;
+}
+
+double fraction_passed(const RidgeHit<2>& hit) {
+  return hit.start >= 0.0 ? hit.start / (hit.start - hit.gap) : hit.start;
+}
+
+/// Of two facets that meet at a convex node the ridge came in through the one it passed last.
+void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
+                      std::vector<RidgeHit<2>>& hits, std::size_t first) {
+  const auto beaten = [&](const RidgeHit<2>& hit) {
+    return std::any_of(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
+                       [&](const RidgeHit<2>& o) {
+                         if (&o == &hit) return false;
+                         const auto &f = surface.facets[static_cast<std::size_t>(hit.facet)],
+                                    &g = surface.facets[static_cast<std::size_t>(o.facet)];
+                         if (f[0] != g[1] && f[1] != g[0]) return false;
+                         const EdgeView e(surface, static_cast<std::size_t>(hit.facet), position),
+                             n(surface, static_cast<std::size_t>(o.facet), position);
+                         const double turn = f[1] == g[0] ? cross(e.along, n.along) : cross(n.along, e.along);
+                         if (turn <= 0.0) return false;
+                         const double mine = fraction_passed(hit), others = fraction_passed(o);
+                         return others > mine || (others == mine && o.facet < hit.facet);
+                       });
+  };
+  std::vector<RidgeHit<2>> kept;
+  for (std::size_t i = first; i < hits.size(); ++i)
+    if (!beaten(hits[i])) kept.push_back(hits[i]);
+  hits.resize(first);
+  hits.insert(hits.end(), kept.begin(), kept.end());
+}
+
+} // namespace
+
+void ridge_hits(const Surface<2>& surface, const ToolShape<2>& shape, std::span<const Vec2> start,
+                std::span<const Vec2> end, const Vec2& shift_start, const Vec2& shift_end,
+                std::vector<RidgeHit<2>>& hits) {
+  const std::vector<Ridge<2>>& ridges = shape.ridges();
+  const Box<2> box = shape.bounds();
+  const Vec2 low = box.low + shift_end, high = box.high + shift_end;
+  std::vector<std::size_t> near;
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    const Vec2 &a = end[static_cast<std::size_t>(surface.facets[f][0])],
+               &b = end[static_cast<std::size_t>(surface.facets[f][1])];
+    const double margin = (b - a).lpNorm<1>();
+    if (((a.cwiseMax(b) - low).array() < -margin).any() || ((high - a.cwiseMin(b)).array() < -margin).any())
+      continue;
+    near.push_back(f);
+  }
+  for (std::size_t r = 0; r < ridges.size(); ++r) {
+    const Ridge<2>& ridge = ridges[r];
+    const std::size_t first = hits.size();
+    for (const std::size_t f : near) {
+      const EdgeView now(surface, f, end);
+      const Vec2 away = ridge.centre + shift_end - 0.5 * (now.a + now.b);
+      const double reach = ridge.radius + now.length;
+      if (away.squaredNorm() > reach * reach || !ridge.faces(now.normal)) continue;
+      const double gap = now.gap(ridge, shift_end);
+      if (gap >= 0.0 || gap < -0.5 * now.length) continue;
+      const Vec2 tip = ridge.extreme(now.normal) + shift_end;
+      const double place = now.place(tip);
+      constexpr double rounding = 1e-9;
+      if (place < -rounding && !presses_on_notch(surface, now, f, end, tip, false)) continue;
+      if (place > 1.0 + rounding && !presses_on_notch(surface, now, f, end, tip, true)) continue;
+      const EdgeView before(surface, f, start);
+      double passed = before.gap(ridge, shift_start);
+      if (passed < -rounding * now.length) {
+        if (!encloses(surface, start, ridge.extreme(before.normal) + shift_start)) continue;
+      } else {
+        passed = std::max(passed, 0.0);
+      }
+      const double s = std::clamp(place, 0.0, 1.0);
+      hits.push_back({static_cast<std::int32_t>(r),
+                      static_cast<std::int32_t>(f),
+                      {1.0 - s, s},
+                      now.normal,
+                      gap,
+                      passed});
+    }
+    keep_last_passed(surface, end, hits, first);
+  }
+}
+
+std::vector<RidgeDepth<2>> ridges_inside(const Surface<2>& surface, const ToolShape<2>& shape,
+                                         std::span<const Vec2> position, const Vec2& shift) {
+  std::vector<RidgeDepth<2>> found;
+  for (const Ridge<2>& ridge : shape.ridges()) {
+    const Vec2 middle = Eigen::Rotation2Dd(0.5 * ridge.angle) * ridge.first;
+    const Vec2 tip = ridge.extreme(middle) + shift;
+    if (!encloses(surface, position, tip)) continue;
+    RidgeDepth<2> inside{0, std::numeric_limits<double>::infinity(), tip};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+      const EdgeView edge(surface, f, position);
+      const double place = std::clamp(edge.place(tip), 0.0, 1.0);
+      const double distance = (edge.a + place * edge.length * edge.along - tip).norm();
+      if (distance >= least) continue;
+      least = distance;
+      inside.depth = distance - ridge.sagitta(edge.length);
+      inside.node = surface.facets[f][place > 0.5 ? 1 : 0];
+    }
+    found.push_back(inside);
+  }
+  return found;
+}
+
+} // namespace cnem::contact

@@ -1,0 +1,59 @@
+#pragma once
+// The boundary of the workpiece as contact sees it, and where ridges of tools press on its facets.
+#include "contact/tool_shape.hpp"
+#include "core/cloud.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace cnem::contact {
+
+/// Facets on a list of boundary nodes numbered from 0.
+template<int dim> struct Surface {
+  std::vector<std::int32_t> node;                    ///< [boundary node] node of the cloud, increasing
+  std::vector<std::array<std::int32_t, dim>> facets; ///< boundary nodes
+  std::vector<std::int32_t> leaving, entering;       ///< 2D: [boundary node] facet, −1 where there is none
+
+  Surface() = default;
+  Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes);
+
+  /// [boundary node] share of the facets around it, m^(dim−1).
+  std::vector<double> areas(std::span<const Vec<dim>> position) const;
+};
+
+template<> Surface<2>::Surface(const std::vector<Facet<2>>& boundary, std::size_t nodes);
+template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position) const;
+
+/// A ridge that has gone through a facet.
+template<int dim> struct RidgeHit {
+  std::int32_t ridge = 0;
+  std::int32_t facet = 0;
+  std::array<double, dim> weight{};   ///< of the facet's nodes
+  Vec<dim> normal = Vec<dim>::Zero(); ///< out of the tool
+  double gap = 0.0;                   ///< m, < 0, at the end of the step; a chord's sagitta is allowed
+  double start = 0.0;                 ///< m, the same at its start
+};
+
+/// Ridges of a tool against facets of the surface that face them, over one step in which the nodes go
+/// start → end and the tool's displacement `shift_start` → `shift_end`. Facets through which the ridge came
+/// in this step, or (start < 0) shallowly penetrated ones. At convex nodes of the workpiece only the facet
+/// passed last counts.
+void ridge_hits(const Surface<2>& surface, const ToolShape<2>& shape, std::span<const Vec2> start,
+                std::span<const Vec2> end, const Vec2& shift_start, const Vec2& shift_end,
+                std::vector<RidgeHit<2>>& hits);
+
+/// The middle of a ridge that is inside the workpiece.
+template<int dim> struct RidgeDepth {
+  std::int32_t node = 0; ///< boundary node nearest to it
+  double depth = 0.0;    ///< m, to the nearest facet, less the chord's sagitta
+  Vec<dim> position = Vec<dim>::Zero();
+};
+
+std::vector<RidgeDepth<2>> ridges_inside(const Surface<2>& surface, const ToolShape<2>& shape,
+                                         std::span<const Vec2> position, const Vec2& shift);
+
+/// Is x inside the region that the facets enclose?
+bool encloses(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x);
+
+} // namespace cnem::contact

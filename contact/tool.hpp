@@ -1,0 +1,52 @@
+#pragma once
+// Rigid tools: shape, prescribed motion, friction and what they do to heat.
+#include "contact/tool_shape.hpp"
+#include "core/time_table.hpp"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace cnem::contact {
+
+/// Translation with prescribed velocity components, m/s over s.
+template<int dim> struct ToolMotion {
+  std::array<TimeTable, dim> velocity; ///< an empty table is zero
+
+  Vec<dim> velocity_at(double t) const {
+    Vec<dim> v;
+    for (int k = 0; k < dim; ++k) v[k] = velocity[static_cast<std::size_t>(k)](t);
+    return v;
+  }
+  /// Displacement since t = 0, m.
+  Vec<dim> displacement(double t) const {
+    Vec<dim> u;
+    for (int k = 0; k < dim; ++k) u[k] = velocity[static_cast<std::size_t>(k)].integral(t);
+    return u;
+  }
+};
+
+/// F_t = min(stick, μ F_n, m_f σ_y/√3 A): Coulomb friction with the Tresca limit. Frictionless by default;
+/// μ = ∞ with a finite shear factor is pure shear friction.
+struct Friction {
+  double coulomb = 0.0;                                          ///< –, μ ≥ 0
+  double shear_factor = std::numeric_limits<double>::infinity(); ///< –, m_f ≥ 0; infinite: no limit
+};
+
+/// Thermal side of a tool, which is held at one temperature.
+struct ToolThermal {
+  double effusivity = 0.0;  ///< W √s/(m² K), √(kρc): its share of the friction heat is e_t/(e_t + e_w)
+  double conductance = 0.0; ///< W/(m² K), across the contact; 0 insulates
+  double temperature = 293.15; ///< K
+};
+
+template<int dim> struct Tool {
+  std::string name;
+  std::shared_ptr<const ToolShape<dim>> shape;
+  ToolMotion<dim> motion;
+  Friction friction;
+  ToolThermal thermal;
+};
+
+} // namespace cnem::contact

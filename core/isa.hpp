@@ -1,0 +1,22 @@
+#pragma once
+// Instruction sets for which the vector kernels (*_kernel.cpp) are compiled, and the one in use.
+#include <string_view>
+
+namespace cnem {
+
+enum class Isa { baseline, avx2, avx512 };
+
+/// "baseline", "avx2" or "avx512".
+std::string_view isa_name(Isa isa);
+
+/// Whether this machine can run kernels of the set.
+bool isa_supported(Isa isa);
+
+/// The set in use: the best supported one, or that of the environment variable CNEM_ISA (read once), or the
+/// last set_isa(). Throws InputError when CNEM_ISA is not a name or the machine lacks the set.
+Isa active_isa();
+
+/// Forces a set; not to be called while kernels run. Throws InputError when the machine lacks it.
+void set_isa(Isa isa);
+
+} // namespace cnem

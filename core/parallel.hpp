@@ -1,0 +1,50 @@
+#pragma once
+// Loops over nodes and stress points in fixed blocks: results do not depend on the number of threads.
+#include <cstddef>
+#include <vector>
+
+namespace cnem {
+
+inline constexpr std::size_t block_size = 512;
+
+inline std::size_t blocks(std::size_t n) { return (n + block_size - 1) / block_size; }
+
+/// body(begin, end) for consecutive blocks of [0, n), shared out to the threads. body must write only to its block.
+template<class Body> void for_each_block(std::size_t n, Body&& body) {
+  const auto count = static_cast<std::ptrdiff_t>(blocks(n));
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t b = 0; b < count; ++b) {
+    const std::size_t begin = static_cast<std::size_t>(b) * block_size;
+    body(begin, begin + block_size < n ? begin + block_size : n);
+  }
+}
+
+/// Sum of body(begin, end) over the blocks, added up in the order of the blocks.
+template<class Body> double sum_blocks(std::size_t n, Body&& body) {
+  std::vector<double> partial(blocks(n), 0.0);
+  for_each_block(n, [&](std::size_t begin, std::size_t end) { partial[begin / block_size] = body(begin, end); });
+  double sum = 0.0;
+  for (const double value : partial) sum += value;
+  return sum;
+}
+
+/// Largest body(begin, end) over the blocks, and the block it came from first.
+struct BlockMaximum {
+  double value;
+  std::size_t index; ///< whatever the body reported with it
+};
+template<class Body> BlockMaximum max_blocks(std::size_t n, Body&& body) {
+  std::vector<BlockMaximum> partial(blocks(n), BlockMaximum{0.0, 0});
+  for_each_block(n, [&](std::size_t begin, std::size_t end) { partial[begin / block_size] = body(begin, end); });
+  BlockMaximum best{0.0, 0};
+  bool first = true;
+  for (const BlockMaximum& candidate : partial)
+    if (first || candidate.value > best.value || candidate.value != candidate.value) {
+      best = candidate;
+      first = false;
+      if (candidate.value != candidate.value) break; // NaN wins: whoever asked must see it
+    }
+  return best;
+}
+
+} // namespace cnem

@@ -1,0 +1,179 @@
+#include "io/output_folder.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+namespace cnem::io {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const std::string& action, const fs::path& path, const std::string& reason) {
+  throw IoError(fmt::format("cannot {} {}: {}", action, path.string(), reason));
+}
+
+[[noreturn]] void fail(const std::string& action, const fs::path& path, int error) {
+  fail(action, path, std::error_code(error, std::generic_category()).message());
+}
+
+// A name that no other process writing the same file uses.
+fs::path beside(const fs::path& target) {
+  return target.parent_path() / fmt::format(".{}.{}.tmp", target.filename().string(), getpid());
+}
+
+// A file descriptor that closes itself.
+class Descriptor {
+public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  operator int() const { return fd_; }
+
+private:
+  int fd_;
+};
+
+// The entry of the folder must reach the disk too, or a crash may leave neither name. Some file systems
+// cannot do it; they are no worse off than without.
+void flush_folder(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY));
+  if (fd >= 0) ::fsync(fd);
+}
+
+void replace(const fs::path& temporary, const fs::path& target) {
+  std::error_code error;
+  fs::rename(temporary, target, error);
+  if (error) fail("write", target, error.message());
+  flush_folder(target);
+}
+
+bool is_numbered(const fs::path& file, const char* folder, const char* extension) {
+  return file.parent_path().filename() == folder && file.extension() == extension;
+}
+
+// Files left beside their target by a killed run.
+bool is_temporary(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with('.') && name.ends_with(".tmp");
+}
+
+} // namespace
+
+void write_atomically(const fs::path& path, std::string_view content) {
+  AtomicFile file(path);
+  {
+    const Descriptor fd(::open(file.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
+    if (fd < 0) fail("write", path, errno);
+    for (std::size_t done = 0; done < content.size();) {
+      const ssize_t n = ::write(fd, content.data() + done, content.size() - done);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) fail("write", path, n < 0 ? errno : ENOSPC);
+      done += static_cast<std::size_t>(n);
+    }
+  }
+  file.commit();
+}
+
+AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), temporary_(beside(target_)) {}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (!committed_) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::commit() {
+  {
+    const Descriptor fd(::open(temporary_.c_str(), O_RDONLY));
+    if (fd < 0) fail("write", target_, errno);
+    if (::fsync(fd) != 0) fail("write", target_, errno);
+  }
+  replace(temporary_, target_);
+  committed_ = true;
+}
+
+std::string read_file(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) fail("read", path, "it is a folder");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail("read", path, errno != 0 ? errno : EIO);
+  std::ostringstream content;
+  content << in.rdbuf();
+  if (in.bad() || content.bad()) fail("read", path, EIO);
+  return std::move(content).str();
+}
+
+namespace {
+
+constexpr std::array run_files{files::resolved_case, files::history, files::fields,
+                               files::checkpoint,    files::status,  files::report};
+
+// Every file in the folder that a run makes, and nothing else.
+std::vector<fs::path> files_of_a_run(const fs::path& folder) {
+  std::vector<fs::path> found;
+  const auto collect = [&](const fs::path& where, auto&& belongs) {
+    std::error_code error;
+    if (!fs::is_directory(where, error)) return;
+    for (const fs::directory_entry& entry : fs::directory_iterator(where, error))
+      if (!entry.is_directory() && (belongs(entry.path()) || is_temporary(entry.path())))
+        found.push_back(entry.path());
+    if (error) fail("read", where, error.message());
+  };
+  collect(folder, [](const fs::path& file) {
+    const std::string name = file.filename().string();
+    for (const char* own : run_files)
+      if (name == own) return true;
+    return name.starts_with("checkpoint") && file.extension() == ".h5";
+  });
+  collect(folder / files::fields_folder,
+          [](const fs::path& file) { return is_numbered(file, files::fields_folder, ".vtu"); });
+  collect(folder / files::pictures_folder, [](const fs::path& file) {
+    return is_numbered(file, files::pictures_folder, ".png") || file.filename() == "index.json";
+  });
+  return found;
+}
+
+} // namespace
+
+bool holds_run(const fs::path& folder) { return !files_of_a_run(folder).empty(); }
+
+void prepare_output_folder(const fs::path& folder, bool force) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    fail("create the output folder", folder, error ? error.message() : "a file of this name is in the way");
+  const std::vector<fs::path> old = files_of_a_run(folder);
+  if (!old.empty() && !force)
+    throw InputError(
+        fmt::format("the output folder {} already holds a run ({}): choose another with --output, "
+                    "or replace it with --force",
+                    folder.string(), fs::relative(old.front(), folder).string()));
+  for (const fs::path& file : old) {
+    fs::remove(file, error);
+    if (error) fail("remove", file, error.message());
+  }
+  for (const char* sub : {files::fields_folder, files::pictures_folder})
+    fs::remove(folder / sub, error); // only when empty
+  const fs::path probe = beside(folder / "probe");
+  {
+    const Descriptor fd(::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
+    if (fd < 0) fail("write in the output folder", folder, errno);
+  }
+  fs::remove(probe, error);
+}
+
+} // namespace cnem::io

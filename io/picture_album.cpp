@@ -1,0 +1,66 @@
+#include "io/picture_album.hpp"
+
+#include "core/error.hpp"
+#include "io/output_folder.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <system_error>
+
+namespace cnem::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* index_name = "index.json";
+
+}
+
+PictureAlbum::PictureAlbum(fs::path output_folder)
+    : folder_(std::move(output_folder) / files::pictures_folder) {
+  const fs::path index = folder_ / index_name;
+  std::error_code error;
+  if (!fs::exists(index, error)) return;
+  try {
+    for (const nlohmann::json& entry : nlohmann::json::parse(read_file(index)))
+      entries_.push_back({entry.at("file"), entry.at("field"), entry.at("time"), entry.at("caption")});
+  } catch (const nlohmann::json::exception& problem) {
+    throw IoError(fmt::format("{} is not an index of pictures: {}", index.string(), problem.what()));
+  }
+}
+
+void PictureAlbum::add(const std::string& key, const std::string& field, double time, const std::string& png,
+                       const std::string& caption) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw IoError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
+  int number = 0;
+  const auto name = [&] { return fmt::format("{}_{:03}.png", key, number); };
+  const auto taken = [&] {
+    for (const AlbumEntry& entry : entries_)
+      if (entry.file == name()) return true;
+    return false;
+  };
+  while (taken()) ++number;
+  write_atomically(folder_ / name(), png);
+  entries_.push_back({name(), field, time, caption});
+  write_index();
+}
+
+void PictureAlbum::truncate(double time) {
+  std::error_code ignored;
+  const auto later = [&](const AlbumEntry& entry) { return entry.time > time; };
+  for (const AlbumEntry& entry : entries_)
+    if (later(entry)) fs::remove(path(entry), ignored);
+  if (std::erase_if(entries_, later) > 0) write_index();
+}
+
+void PictureAlbum::write_index() const {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const AlbumEntry& entry : entries_)
+    json.push_back(
+        {{"file", entry.file}, {"field", entry.field}, {"time", entry.time}, {"caption", entry.caption}});
+  write_atomically(folder_ / index_name, json.dump(2) + "\n");
+}
+
+} // namespace cnem::io

@@ -1,0 +1,39 @@
+#pragma once
+// Pictures of a run in its folder: PNG files and an index that says what each shows.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cnem::io {
+
+struct AlbumEntry {
+  std::string file;    ///< name in the pictures folder
+  std::string field;   ///< what is coloured, "equivalent plastic strain"
+  double time = 0.0;   ///< s
+  std::string caption; ///< further words, may be empty ("zoom on the band")
+};
+
+/// pictures/ of an output folder.
+class PictureAlbum {
+public:
+  /// Goes on with the pictures that are there.
+  explicit PictureAlbum(std::filesystem::path output_folder);
+
+  /// Writes the PNG under a name made of `key` ("plastic_strain") and a running number, then the index.
+  /// Throws IoError.
+  void add(const std::string& key, const std::string& field, double time, const std::string& png,
+           const std::string& caption = "");
+
+  /// Drops the pictures later than `time` (s), for a restart.
+  void truncate(double time);
+
+  const std::vector<AlbumEntry>& entries() const { return entries_; }
+  std::filesystem::path path(const AlbumEntry& entry) const { return folder_ / entry.file; }
+
+private:
+  void write_index() const;
+  std::filesystem::path folder_;
+  std::vector<AlbumEntry> entries_;
+};
+
+} // namespace cnem::io

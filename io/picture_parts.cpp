@@ -1,0 +1,245 @@
+#include "io/picture_parts.hpp"
+
+#include "core/error.hpp"
+#include "io/si_format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cnem::io {
+namespace {
+
+constexpr int oversampling = 3;
+
+cairo_status_t append(void* text, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void select_font(cairo_t* cr, double size, bool bold) {
+  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cr, size);
+}
+
+// Calls use(cell) with the outline of each cell as the current path, for the cells inside the clip.
+template<class Use>
+void for_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
+               const std::vector<Vec2>& vertices, Use&& use) {
+  std::vector<Vec2> pixel(vertices.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v) pixel[v] = layout.pixel(vertices[v]);
+  const Vec2 first(layout.plot_left, layout.plot_top),
+      last = first + Vec2(layout.plot_width, layout.plot_height);
+  for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
+    const auto begin = static_cast<std::size_t>(cells.begin[c]),
+               end = static_cast<std::size_t>(cells.begin[c + 1]);
+    if (begin == end) continue;
+    Vec2 low = pixel[static_cast<std::size_t>(cells.index[begin])], high = low;
+    bool finite = true;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec2& p = pixel[static_cast<std::size_t>(cells.index[k])];
+      finite = finite && p.allFinite();
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    if (!finite || (high.array() < first.array() - 2).any() || (low.array() > last.array() + 2).any() ||
+        (high - low).maxCoeff() > 1e5)
+      continue;
+    cairo_new_path(cr);
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec2& p = pixel[static_cast<std::size_t>(cells.index[k])];
+      cairo_line_to(cr, p.x(), p.y());
+    }
+    cairo_close_path(cr);
+    use(c);
+  }
+}
+
+// Mean of oversampling² pixels. Painted without antialiasing and averaged, neighbouring cells meet without
+// the seams that antialiased polygons show.
+Surface average(const Surface& fine, int width, int height) {
+  Surface coarse = make_surface(CAIRO_FORMAT_ARGB32, width, height);
+  cairo_surface_flush(fine.get());
+  const unsigned char* from = cairo_image_surface_get_data(fine.get());
+  unsigned char* to = cairo_image_surface_get_data(coarse.get());
+  const auto from_stride = static_cast<std::size_t>(cairo_image_surface_get_stride(fine.get()));
+  const auto to_stride = static_cast<std::size_t>(cairo_image_surface_get_stride(coarse.get()));
+  constexpr std::size_t n = oversampling;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x)
+      for (std::size_t channel = 0; channel < 4; ++channel) {
+        unsigned sum = 0;
+        for (std::size_t j = 0; j < n; ++j)
+          for (std::size_t i = 0; i < n; ++i)
+            sum += from[(y * n + j) * from_stride + (x * n + i) * 4 + channel];
+        to[y * to_stride + x * 4 + channel] = static_cast<unsigned char>((sum + n * n / 2) / (n * n));
+      }
+  cairo_surface_mark_dirty(coarse.get());
+  return coarse;
+}
+
+} // namespace
+
+Surface make_surface(cairo_format_t format, int width, int height) {
+  Surface surface(cairo_image_surface_create(format, width, height));
+  if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
+    throw IoError(
+        fmt::format("cannot draw a picture of {} x {}: {}", width, height, cairo_status_to_string(status)));
+  return surface;
+}
+
+Context make_context(const Surface& surface) { return Context(cairo_create(surface.get())); }
+
+std::string png_of(const Surface& surface) {
+  std::string png;
+  const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &png);
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw IoError(fmt::format("cannot encode a picture: {}", cairo_status_to_string(status)));
+  return png;
+}
+
+double text_width(cairo_t* cr, const std::string& text, double size, bool bold) {
+  select_font(cr, size, bold);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cr, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, bool bold) {
+  select_font(cr, size, bold);
+  cairo_move_to(cr, x, y);
+  cairo_show_text(cr, text.c_str());
+  cairo_new_path(cr); // showing text leaves a current point behind
+}
+
+void paint_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
+                 const std::vector<Vec2>& vertices, std::span<const double> value, ColourMap map,
+                 const ColourRange& range) {
+  const int width = static_cast<int>(layout.plot_width), height = static_cast<int>(layout.plot_height);
+  const Surface fine = make_surface(CAIRO_FORMAT_ARGB32, oversampling * width, oversampling * height);
+  const Context context = make_context(fine);
+  cairo_t* layer = context.get();
+  cairo_scale(layer, oversampling, oversampling);
+  cairo_translate(layer, -layout.plot_left, -layout.plot_top);
+  cairo_set_antialias(layer, CAIRO_ANTIALIAS_NONE);
+
+  for_cells(layer, layout, cells, vertices, [&](std::size_t c) {
+    const Colour colour = map_colour(map, (value[c] - range.low) / (range.high - range.low));
+    cairo_set_source_rgb(layer, colour.red, colour.green, colour.blue);
+    cairo_fill(layer);
+  });
+  const Surface coarse = average(fine, width, height);
+  // The rim: the silhouette in dark, shifted a little all round, beneath the cells.
+  cairo_set_source_rgb(cr, 0.12, 0.13, 0.16);
+  const double rim = layout.width / 1000.0;
+  for (const Vec2& shift : {Vec2(rim, 0), Vec2(-rim, 0), Vec2(0, rim), Vec2(0, -rim)})
+    cairo_mask_surface(cr, coarse.get(), layout.plot_left + shift.x(), layout.plot_top + shift.y());
+  cairo_set_source_surface(cr, coarse.get(), layout.plot_left, layout.plot_top);
+  cairo_paint(cr);
+}
+
+void paint_cell_edges(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
+                      const std::vector<Vec2>& vertices, double unit) {
+  cairo_set_source_rgba(cr, 0.0, 0.0, 0.0, 0.22);
+  cairo_set_line_width(cr, 0.7 * unit);
+  for_cells(cr, layout, cells, vertices, [&](std::size_t) { cairo_stroke(cr); });
+}
+
+void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                     const ColourRange& range, double unit, double size) {
+  const double width = 30.0 * unit, x = layout.plot_left + layout.plot_width + 26.0 * unit;
+  const double tip = 16.0 * unit; // the bar ends in a point where values lie beyond it
+  bool below = false, above = false, invalid = false;
+  const double slack = 1e-9 * (range.high - range.low);
+  for (const double v : picture.value) {
+    below = below || v < range.low - slack;
+    above = above || v > range.high + slack;
+    invalid = invalid || std::isnan(v);
+  }
+  const double top = layout.plot_top + (picture.unit.empty() ? 0.0 : 1.2 * size) + tip;
+  const double bottom = layout.plot_top + layout.plot_height - tip;
+  const auto y_of = [&](double s) { return bottom + s * (top - bottom); };
+
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
+  constexpr int strips = 256;
+  for (int k = 0; k < strips; ++k) {
+    const Colour colour = map_colour(picture.map, (k + 0.5) / strips);
+    cairo_set_source_rgb(cr, colour.red, colour.green, colour.blue);
+    cairo_rectangle(cr, x, y_of((k + 1.0) / strips), width,
+                    y_of(k / double{strips}) - y_of((k + 1.0) / strips));
+    cairo_fill(cr);
+  }
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
+  const auto point = [&](double s, double y, double end) {
+    const Colour colour = map_colour(picture.map, s);
+    cairo_move_to(cr, x, y);
+    cairo_line_to(cr, x + 0.5 * width, end);
+    cairo_line_to(cr, x + width, y);
+    cairo_close_path(cr);
+    cairo_set_source_rgb(cr, colour.red, colour.green, colour.blue);
+    cairo_fill(cr);
+  };
+  if (above) point(1.0, top, top - tip);
+  if (below) point(0.0, bottom, bottom + tip);
+
+  const double f = picture.unit_factor;
+  const Ticks ticks = round_ticks(range.low / f, range.high / f, 6);
+  cairo_set_source_rgb(cr, 0.16, 0.18, 0.22);
+  cairo_set_line_width(cr, 1.5 * unit);
+  for (std::size_t k = 0; k < ticks.value.size(); ++k) {
+    const double y = y_of((ticks.value[k] * f - range.low) / (range.high - range.low));
+    cairo_move_to(cr, x + width, y);
+    cairo_line_to(cr, x + width + 7.0 * unit, y);
+    cairo_stroke(cr);
+    draw_text(cr, ticks.label[k], x + width + 13.0 * unit, y + 0.36 * size, size);
+  }
+  if (!picture.unit.empty()) draw_text(cr, picture.unit, x, layout.plot_top + 0.75 * size, size);
+  if (invalid) {
+    cairo_set_source_rgb(cr, invalid_colour.red, 0.0, invalid_colour.blue);
+    draw_text(cr, "not a number", x, layout.plot_top + layout.plot_height + 1.4 * size, 0.75 * size);
+  }
+}
+
+void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, double size) {
+  const double longest = 0.28 * layout.plot_width / layout.scale; // m
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  const double length = power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
+  const double x = layout.plot_left + 2 * unit, y = layout.plot_top + layout.plot_height + 1.15 * size;
+  const double end = x + length * layout.scale, half = 7.0 * unit;
+  cairo_set_source_rgb(cr, 0.09, 0.11, 0.15);
+  cairo_set_line_width(cr, 3.0 * unit);
+  cairo_move_to(cr, x, y);
+  cairo_line_to(cr, end, y);
+  for (const double at : {x, end}) {
+    cairo_move_to(cr, at, y - half);
+    cairo_line_to(cr, at, y + half);
+  }
+  cairo_stroke(cr);
+  draw_text(cr, si_format(length, "m", 3), end + 0.5 * size, y + 0.36 * size, size);
+}
+
+void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture, double size) {
+  double low = 0.0, high = 0.0;
+  bool any = false;
+  for (const double v : picture.value) {
+    if (!std::isfinite(v)) continue;
+    low = any ? std::min(low, v) : v;
+    high = any ? std::max(high, v) : v;
+    any = true;
+  }
+  if (!any) return;
+  if (std::abs(low) < 1e-9 * std::abs(high)) low = 0.0;
+  if (std::abs(high) < 1e-9 * std::abs(low)) high = 0.0;
+  const double f = picture.unit_factor;
+  const std::string suffix = picture.unit.empty() ? "" : " " + picture.unit;
+  const std::string text = fmt::format("min {}{}   max {}{}", number_format(low / f, 4), suffix,
+                                       number_format(high / f, 4), suffix);
+  cairo_set_source_rgb(cr, 0.42, 0.46, 0.53);
+  draw_text(cr, text, layout.plot_left + layout.plot_width - text_width(cr, text, 0.9 * size),
+            layout.plot_top + layout.plot_height + 1.5 * size, 0.9 * size);
+}
+
+} // namespace cnem::io

@@ -1,0 +1,41 @@
+#pragma once
+// The parts a picture is put together from. Private to picture.cpp.
+#include "io/picture.hpp"
+
+#include <cairo.h>
+
+#include <memory>
+#include <string>
+
+namespace cnem::io {
+
+struct CairoDelete {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, CairoDelete>;
+using Context = std::unique_ptr<cairo_t, CairoDelete>;
+
+/// Throw IoError when there is no memory for them.
+Surface make_surface(cairo_format_t format, int width, int height);
+Context make_context(const Surface& surface);
+std::string png_of(const Surface& surface);
+
+double text_width(cairo_t* cr, const std::string& text, double size, bool bold = false);
+void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, bool bold = false);
+
+/// Cells filled with the colours of their values, seamless, with a thin dark rim around the body.
+void paint_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
+                 const std::vector<Vec2>& vertices, std::span<const double> value, ColourMap map,
+                 const ColourRange& range);
+void paint_cell_edges(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
+                      const std::vector<Vec2>& vertices, double unit);
+
+// `unit` is the size of a design pixel, `size` that of the font, both in px.
+void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                     const ColourRange& range, double unit, double size);
+void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, double size);
+/// Least and greatest value of the whole field, in the lower right corner.
+void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture, double size);
+
+} // namespace cnem::io

@@ -1,0 +1,42 @@
+#pragma once
+// Where the energy of a run is, term by term; what does not add up is reported as the residual.
+
+namespace cnem {
+
+/// All terms in J/m^(3−dim), at t_n, counted from the start of the run.
+struct EnergyLedger {
+  // held by the body
+  double kinetic = 0.0;       ///< ½ m v_{n−½}² carried to t_n by the known forces
+  double elastic = 0.0;       ///< stored, (31)
+  double stabilisation = 0.0; ///< held by the edge-defect penalty
+  // dissipated
+  double plastic = 0.0;         ///< ∫ σ_eq dε̄p
+  double viscosity = 0.0;       ///< bulk viscosity
+  double friction = 0.0;        ///< sliding on tools
+  double impact = 0.0;          ///< lost where nodes meet tools
+  double penalty_release = 0.0; ///< let go by the penalty as moduli fall and at re-references
+  double rereference =
+      0.0; ///< stored energy lost (gained when negative) as stress-free volumes are re-measured
+  // received
+  double tools = 0.0;    ///< work of the tools' forces along the tools' motion
+  double supports = 0.0; ///< work of prescribed boundary motion
+  double recovery = 0.0; ///< work of pushing nodes out of tools they were found in
+  double loads = 0.0;    ///< work of tractions, pressures and body forces
+  // heat: a balance of its own, fed by dissipation
+  double heat_content = 0.0;   ///< Σ C (T − T_start)
+  double heat_generated = 0.0; ///< from plastic work and friction
+  double heat_exchanged = 0.0; ///< received through the boundary
+
+  double initial = 0.0; ///< energy at the start of the run
+
+  double external() const { return tools + recovery + supports + loads; }
+  double total() const {
+    return kinetic + elastic + stabilisation + plastic + viscosity + friction + impact + penalty_release +
+           rereference;
+  }
+  /// What the scheme made or lost: zero up to the order of central differences.
+  double residual() const { return total() - initial - external(); }
+  double heat_residual() const { return heat_content - heat_generated - heat_exchanged; }
+};
+
+} // namespace cnem

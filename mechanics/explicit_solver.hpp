@@ -1,0 +1,108 @@
+#pragma once
+// The coupled explicit solver: central differences with a variable step (paper 004, 5.1.4) and staggered
+// heat.
+#include "contact/contact.hpp"
+#include "core/discretisation.hpp"
+#include "core/state.hpp"
+#include "mechanics/bulk_viscosity.hpp"
+#include "mechanics/energy_ledger.hpp"
+#include "mechanics/loads.hpp"
+#include "mechanics/stabilisation.hpp"
+#include "mechanics/stable_step.hpp"
+#include "mechanics/supports.hpp"
+#include "plasticity/material.hpp"
+#include "thermal/boundaries.hpp"
+#include "thermal/conduction.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cnem {
+
+/// What a run is made of and does not change while it runs.
+template<int dim> struct Model {
+  std::unique_ptr<Discretisation<dim>> method;
+  Cloud<dim> cloud; ///< boundary; its positions follow the reference
+  plasticity::Material material;
+  Supports<dim> supports;
+  Loads<dim> loads;
+  ThermalBoundaries<dim> heat_boundaries;
+  contact::RigidContact<dim> contact{std::vector<contact::Tool<dim>>{}};
+  double stabilisation = 0.05; ///< α of the edge defect
+  BulkViscosity viscosity;
+  bool thermal = true;
+  double safety = 0.9; ///< factor on the stable step
+};
+
+/// Advances a State. One object per run.
+template<int dim> class ExplicitSolver {
+public:
+  /// Starts from the cloud's positions with the given velocities [component][node] and temperatures [node].
+  ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature);
+
+  /// One step of the algorithm box of 5.1.4, from t_n to t_{n+1} = t_n + dt. Throws DivergenceError.
+  void advance(double dt);
+
+  /// Makes the present configuration the reference: cells and functions are rebuilt, b_e is pushed forward,
+  /// nodes keep mass, velocity and temperature, and what this changes in energy is booked. Start-up comes
+  /// through here too.
+  void prepare();
+
+  /// Stable step for the present configuration with the safety factor, and what limits it.
+  struct Step {
+    double dt;
+    std::size_t point;
+  };
+  Step stable_step();
+
+  /// max over points of ‖F − 1‖ (Frobenius) since the last reference.
+  double strain_since_reference() const;
+
+  EnergyLedger ledger() const;
+
+  const State<dim>& state() const { return state_; }
+  const Model<dim>& model() const { return model_; }
+  const Approximation<dim>& approximation() const { return approximation_; }
+  const Field& flow_stress() const { return flow_stress_; }
+  const Fields<dim>& initial_position() const { return initial_position_; }
+  int references() const { return references_; }
+  /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
+  std::array<double, 2> mass_balance() const;
+
+private:
+  void accelerate_and_move(double dt, double dt_mean);
+  void correct_contact(double dt, double dt_mean);
+  void strain_and_stress(double dt);
+  void assemble_forces();
+  void conduct(double dt);
+  [[noreturn]] void diverged(std::size_t point, const std::string& field) const;
+
+  Model<dim> model_;
+  State<dim> state_;
+  Approximation<dim> approximation_;
+  EdgeDefect<dim> edge_defect_;
+  Conduction<dim> conduction_;
+  SpectralBound<dim> bound_;
+
+  Fields<dim> initial_position_;          ///< [node] m
+  Field initial_temperature_;             ///< [node] K
+  Fields<dim> velocity_before_;           ///< [node] v_{n−1/2} while v_{n+1/2} is made
+  Fields<tensor_size<dim>> total_stress_; ///< [point] P with viscosity and penalty: what forces are made from
+  Field flow_stress_;                     ///< [point] σ_y where and when the point last flowed, Pa
+  Field shear_modulus_, wave_modulus_;    ///< [point] μ, λ + 2μ, Pa
+  Field density_;                         ///< [point] ρ at F = 1, kg/m³
+  Field jacobian_, viscous_pressure_;     ///< [point] of the last step, for the bulk viscosity
+  Field heat_flow_;                       ///< [node] W/m^(3−dim)
+  Field contact_heat_;                    ///< [node] J/m^(3−dim) friction heat of this step
+  std::vector<ToolConductance> tool_conductance_;
+  EnergyLedger running_;         ///< cumulative terms
+  double plastic_offset_ = 0.0;  ///< keeps plastic work continuous over references
+  double viscosity_ratio_ = 0.0; ///< largest share of critical damping by the bulk viscosity in the last step
+  double conduction_step_ = 0.0; ///< s, stable for heat at the last reference
+  int references_ = 0;
+};
+
+extern template class ExplicitSolver<2>;
+
+} // namespace cnem

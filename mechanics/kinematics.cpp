@@ -1,0 +1,101 @@
+#include "mechanics/kinematics.hpp"
+
+#include <algorithm>
+
+namespace cnem {
+
+namespace {
+std::size_t at(const std::vector<std::int32_t>& v, std::size_t i) { return static_cast<std::size_t>(v[i]); }
+} // namespace
+
+template<int dim>
+void deformation_gradient(const DiscreteOperators<dim>& operators, const Fields<dim>& position,
+                          Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end) {
+  const auto x = pointers(position);
+  const auto b = pointers(operators.gradient);
+  for (std::size_t p = begin; p < end; ++p) {
+    double f[dim][dim] = {};
+    for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e) {
+      const std::size_t j = at(operators.node, e);
+      for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t k = 0; k < dim; ++k) f[i][k] += x[i][j] * b[k][e];
+    }
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t k = 0; k < dim; ++k) deformation[i * dim + k][p] = f[i][k];
+  }
+}
+
+template<int dim>
+void interpolate(const DiscreteOperators<dim>& operators, const Field& nodal, Field& at_points,
+                 std::size_t begin, std::size_t end) {
+  if (operators.nodal) {
+    std::copy(nodal.begin() + static_cast<std::ptrdiff_t>(begin),
+              nodal.begin() + static_cast<std::ptrdiff_t>(end),
+              at_points.begin() + static_cast<std::ptrdiff_t>(begin));
+    return;
+  }
+  for (std::size_t p = begin; p < end; ++p) {
+    double sum = 0.0;
+    for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e)
+      sum += operators.value[e] * nodal[at(operators.node, e)];
+    at_points[p] = sum;
+  }
+}
+
+template<int dim>
+double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, std::size_t node) {
+  if (operators.nodal) return at_points[node];
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t e = at(operators.col_begin, node); e < at(operators.col_begin, node + 1); ++e) {
+    sum += operators.weighted_value[e] * at_points[at(operators.point, e)];
+    weight += operators.weighted_value[e];
+  }
+  return sum / weight;
+}
+
+template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators, const Field& at_points) {
+  Field nodal(static_cast<std::size_t>(operators.nodes));
+  for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = average_at_node(operators, at_points, i);
+  return nodal;
+}
+
+template<int dim>
+void subtract_internal_force(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& piola,
+                             Fields<dim>& force, std::size_t begin, std::size_t end) {
+  const auto vb = pointers(operators.weighted_gradient);
+  const auto stress = pointers(piola);
+  for (std::size_t j = begin; j < end; ++j) {
+    double f[dim] = {};
+    for (std::size_t e = at(operators.col_begin, j); e < at(operators.col_begin, j + 1); ++e) {
+      const std::size_t p = at(operators.point, e);
+      for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t k = 0; k < dim; ++k) f[i] += stress[i * dim + k][p] * vb[k][e];
+    }
+    for (std::size_t i = 0; i < dim; ++i) force[i][j] -= f[i];
+  }
+}
+
+template<> double jacobian<2>(const Fields<5>& f, std::size_t p) {
+  return (f[0][p] * f[3][p] - f[1][p] * f[2][p]) * f[4][p];
+}
+
+template<> double jacobian<3>(const Fields<9>& f, std::size_t p) {
+  return f[0][p] * (f[4][p] * f[8][p] - f[5][p] * f[7][p]) -
+         f[1][p] * (f[3][p] * f[8][p] - f[5][p] * f[6][p]) +
+         f[2][p] * (f[3][p] * f[7][p] - f[4][p] * f[6][p]);
+}
+
+#define CNEM_INSTANTIATE(dim)                                                                                \
+  template void deformation_gradient<dim>(const DiscreteOperators<dim>&, const Fields<dim>&,                 \
+                                          Fields<tensor_size<dim>>&, std::size_t, std::size_t);              \
+  template void interpolate<dim>(const DiscreteOperators<dim>&, const Field&, Field&, std::size_t,           \
+                                 std::size_t);                                                               \
+  template double average_at_node<dim>(const DiscreteOperators<dim>&, const Field&, std::size_t);            \
+  template Field average_at_nodes<dim>(const DiscreteOperators<dim>&, const Field&);                         \
+  template void subtract_internal_force<dim>(const DiscreteOperators<dim>&, const Fields<tensor_size<dim>>&, \
+                                             Fields<dim>&, std::size_t, std::size_t);
+CNEM_INSTANTIATE(2)
+CNEM_INSTANTIATE(3)
+#undef CNEM_INSTANTIATE
+
+} // namespace cnem

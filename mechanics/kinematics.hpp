@@ -1,0 +1,33 @@
+#pragma once
+// Deformation gradient at stress points and forces at nodes: the two products with the gradient operator.
+#include "core/operators.hpp"
+#include "core/state.hpp"
+
+namespace cnem {
+
+/// F_p = Σ_J x_J ⊗ b_pJ for the points [begin, end) (paper 004, (75); Box 2 (i)). `deformation` as in
+/// PointState; its out-of-plane component in 2D is left as it is (1 in plane strain).
+template<int dim>
+void deformation_gradient(const DiscreteOperators<dim>& operators, const Fields<dim>& position,
+                          Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end);
+
+/// value_p = Σ_J N_pJ value_J for the points [begin, end).
+template<int dim>
+void interpolate(const DiscreteOperators<dim>& operators, const Field& nodal, Field& at_points,
+                 std::size_t begin, std::size_t end);
+
+/// Mean at node J of a field of stress points, weighted by the volume each shares with it; the field itself
+/// for nodal operators.
+template<int dim>
+double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, std::size_t node);
+template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators, const Field& at_points);
+
+/// force_J −= Σ_p V_p P_p b_pJ for the nodes [begin, end): minus the internal force (52), gathered.
+template<int dim>
+void subtract_internal_force(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& piola,
+                             Fields<dim>& force, std::size_t begin, std::size_t end);
+
+/// det F of one point.
+template<int dim> double jacobian(const Fields<tensor_size<dim>>& deformation, std::size_t p);
+
+} // namespace cnem

@@ -1,0 +1,51 @@
+#pragma once
+// Applied forces: tractions and pressures on boundary pieces, body forces.
+#include "core/cloud.hpp"
+#include "core/state.hpp"
+#include "core/time_table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cnem {
+
+/// Traction per unit area of the initial boundary, fixed in direction; Pa.
+template<int dim> struct Traction {
+  std::string name;
+  std::array<TimeTable, dim> value;
+  std::vector<Facet<dim>> facets;
+};
+
+/// Pressure on the current boundary along its inward normal; Pa.
+template<int dim> struct Pressure {
+  std::string name;
+  TimeTable value;
+  std::vector<Facet<dim>> facets;
+};
+
+/// The external forces of (53), lumped to nodes with shape functions that are linear on the boundary.
+template<int dim> class Loads {
+public:
+  Loads() = default;
+  /// `initial` holds the positions in which tractions are measured.
+  Loads(std::vector<Traction<dim>> tractions, std::vector<Pressure<dim>> pressures,
+        std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial);
+
+  bool empty() const { return tractions_.empty() && pressures_.empty() && !body_force_; }
+
+  /// External force at nodes, N/m^(3−dim), written to force().
+  void evaluate(double time, const Fields<dim>& position, const Field& mass);
+  const Fields<dim>& force() const { return force_; }
+
+private:
+  std::vector<Traction<dim>> tractions_;
+  std::vector<std::vector<double>> traction_share_; ///< area of each facet over its number of nodes
+  std::vector<Pressure<dim>> pressures_;
+  std::array<TimeTable, dim> acceleration_;
+  bool body_force_ = false;
+  Fields<dim> force_;
+};
+
+extern template class Loads<2>;
+
+} // namespace cnem

@@ -1,0 +1,44 @@
+#pragma once
+// The largest step central differences can take, from a rigorous bound on the highest frequency.
+#include "core/operators.hpp"
+#include "core/state.hpp"
+
+namespace cnem {
+
+struct StableStep {
+  double dt;         ///< s, the bound itself, no safety factor; infinite when nothing moves
+  std::size_t point; ///< the stress point that limits it
+};
+
+/// Bound on the largest eigenvalue of M⁻¹ Gᵀ V k G for scalar weights M at nodes and moduli k at stress
+/// points, on the current configuration (b = F⁻ᵀ b_r, V = V_r det F):
+///
+///   λ ≤ max_p k_p Σ_J |b_pJ| s_J,  s_J = (1/M_J) Σ_q V_q |b_qJ|
+///
+/// (norms of the blocks of a Gershgorin row, at stress points). With k = λ + 2μ it bounds ω² of elastic
+/// waves, with the conductivity the decay rate of heat. Moves with |F⁻ᵀ b| ≤ the bound's own tensor norm, so
+/// it holds for any F.
+template<int dim> class SpectralBound {
+public:
+  struct Result {
+    double value;      ///< 1/s² (or 1/s for heat)
+    std::size_t point; ///< row that attains it
+  };
+  Result evaluate(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
+                  const Field& modulus, const Field& weight);
+
+private:
+  Field transfer_; ///< [node] s_J
+};
+
+/// Δt ≤ 2/ω for elastic waves. wave_modulus [point] λ + 2μ in Pa, mass [node] in kg. `stabilisation` is the
+/// factor α of the edge defect, which raises ω² by less than the fraction α.
+template<int dim>
+StableStep stable_mechanical_step(SpectralBound<dim>& bound, const DiscreteOperators<dim>& operators,
+                                  const Fields<tensor_size<dim>>& deformation, const Field& wave_modulus,
+                                  const Field& mass, double stabilisation, double viscosity_ratio);
+
+extern template class SpectralBound<2>;
+extern template class SpectralBound<3>;
+
+} // namespace cnem

@@ -1,0 +1,79 @@
+#include "mechanics/supports.hpp"
+
+#include "core/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem {
+
+template<int dim>
+Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
+    : support_(std::move(supports)), reaction_(support_.size(), Vec<dim>::Zero()) {
+  std::vector<std::vector<Prescribed>> held(nodes);
+  for (std::size_t s = 0; s < support_.size(); ++s) {
+    const bool moving = support_[s].kind != Support<dim>::Kind::symmetry;
+    for (const std::int32_t node : support_[s].nodes) {
+      auto& mine = held[static_cast<std::size_t>(node)];
+      Vec<dim> rest = support_[s].direction;
+      bool oblique_to_moving = false;
+      for (const Prescribed& other : mine) {
+        const double along = rest.dot(other.direction);
+        const bool other_moves =
+            support_[static_cast<std::size_t>(other.support)].kind != Support<dim>::Kind::symmetry;
+        oblique_to_moving |=
+            std::abs(along) > 1e-9 && std::abs(along) < 1.0 - 1e-9 && (moving || other_moves);
+        rest -= along * other.direction;
+      }
+      if (oblique_to_moving)
+        throw InputError(
+            fmt::format("support '{}' is oblique to support '{}' at a node they share: prescribed motion "
+                        "needs directions that are equal or at right angles",
+                        support_[s].name, support_[static_cast<std::size_t>(mine.front().support)].name));
+      if (rest.norm() < 1e-9) continue;
+      mine.push_back({node, static_cast<std::int32_t>(s), rest.normalized()});
+    }
+  }
+  for (std::size_t i = 0; i < nodes; ++i) {
+    if (held[i].empty()) continue;
+    Mat<dim> free = Mat<dim>::Identity();
+    for (const Prescribed& p : held[i]) {
+      free -= p.direction * p.direction.transpose();
+      prescribed_.push_back(p);
+    }
+    constraints_.push_back({static_cast<std::int32_t>(i), free});
+  }
+}
+
+template<int dim>
+void Supports<dim>::apply(double time, double dt, double dt_mean, const Field& mass,
+                          const Fields<dim>& before, Fields<dim>& velocity) {
+  std::vector<double> target(support_.size(), 0.0);
+  for (std::size_t s = 0; s < support_.size(); ++s) {
+    reaction_[s].setZero();
+    const TimeTable& value = support_[s].value;
+    if (support_[s].kind == Support<dim>::Kind::velocity)
+      target[s] = (value.integral(time + dt) - value.integral(time)) / dt;
+    else if (support_[s].kind == Support<dim>::Kind::displacement)
+      target[s] = (value(time + dt) - value(time)) / dt;
+  }
+  for (const Prescribed& p : prescribed_) {
+    const auto i = static_cast<std::size_t>(p.node);
+    const auto s = static_cast<std::size_t>(p.support);
+    double now = 0.0, was = 0.0;
+    for (std::size_t k = 0; k < dim; ++k) {
+      now += velocity[k][i] * p.direction[static_cast<Eigen::Index>(k)];
+      was += before[k][i] * p.direction[static_cast<Eigen::Index>(k)];
+    }
+    const double impulse = mass[i] * (target[s] - now);
+    for (std::size_t k = 0; k < dim; ++k)
+      velocity[k][i] += (target[s] - now) * p.direction[static_cast<Eigen::Index>(k)];
+    reaction_[s] += impulse / dt_mean * p.direction;
+    work_ += 0.5 * impulse * (was + target[s]);
+  }
+}
+
+template class Supports<2>;
+template class Supports<3>;
+
+} // namespace cnem

@@ -1,0 +1,65 @@
+#pragma once
+// Prescribed motion of boundary nodes: symmetry planes, velocities, displacements.
+#include "contact/contact.hpp"
+#include "core/state.hpp"
+#include "core/time_table.hpp"
+#include "core/vec.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cnem {
+
+/// One prescribed component of motion for a set of nodes.
+template<int dim> struct Support {
+  enum class Kind { symmetry, velocity, displacement };
+  std::string name; ///< of the boundary condition, for messages and the history
+  Kind kind = Kind::symmetry;
+  Vec<dim> direction; ///< unit vector of the prescribed component
+  TimeTable value;    ///< m/s or m along `direction`; unused for symmetry
+  std::vector<std::int32_t> nodes;
+};
+
+/// All supports of a run, resolved into orthonormal prescribed directions for each node.
+template<int dim> class Supports {
+public:
+  Supports() = default;
+
+  /// A node may be held by several supports. Where two share a direction the first stands; a symmetry plane
+  /// that is oblique to an earlier direction holds what is left free of it. Throws InputError when a *moving*
+  /// support is oblique to another one of the same node.
+  Supports(std::vector<Support<dim>> supports, std::size_t nodes);
+
+  /// Replaces the prescribed components of the velocity v_{n+1/2} by the mean velocity of the step [time,
+  /// time + dt], so that positions follow the prescribed motion exactly. `before` is v_{n−1/2}, dt_mean =
+  /// (Δt₁ + Δt₂)/2. Adds reactions and their work to the totals below.
+  void apply(double time, double dt, double dt_mean, const Field& mass, const Fields<dim>& before,
+             Fields<dim>& velocity);
+
+  /// Held nodes with the projector on the directions they are free to move in.
+  const std::vector<contact::NodeConstraint<dim>>& constraints() const { return constraints_; }
+
+  const std::vector<Support<dim>>& list() const { return support_; }
+  /// Reaction of support s on the body in the last step, N/m^(3−dim).
+  const std::vector<Vec<dim>>& reactions() const { return reaction_; }
+  /// Work done by all supports since the start, J/m^(3−dim).
+  double work() const { return work_; }
+
+private:
+  struct Prescribed {
+    std::int32_t node;
+    std::int32_t support;
+    Vec<dim> direction;
+  };
+  std::vector<Support<dim>> support_;
+  std::vector<Prescribed> prescribed_;
+  std::vector<contact::NodeConstraint<dim>> constraints_;
+  std::vector<Vec<dim>> reaction_;
+  double work_ = 0.0;
+};
+
+extern template class Supports<2>;
+extern template class Supports<3>;
+
+} // namespace cnem

@@ -1,0 +1,59 @@
+#pragma once
+// Materials as plain structs that can be tried at a single point.
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace cnem::plasticity {
+
+/// Isotropic elasticity, paper 004 (31), (32): Kirchhoff stress linear in logarithmic strain.
+struct Elasticity {
+  double young = 0.0;   ///< Pa   E
+  double poisson = 0.0; ///< –    ν in (−1, ½)
+
+  double lambda() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); } ///< Pa
+  double mu() const { return young / (2.0 * (1.0 + poisson)); }                                 ///< Pa
+  double kappa() const { return young / (3.0 * (1.0 - 2.0 * poisson)); }                        ///< Pa
+
+  double dilatational_speed(double density) const; ///< m/s  √((λ + 2μ)/ρ)
+  double shear_speed(double density) const;        ///< m/s  √(μ/ρ)
+  double bar_speed(double density) const;          ///< m/s  √(E/ρ)
+};
+
+/// Flow stress of Johnson and Cook, paper 004 (64), in Kirchhoff measure:
+///   σ_y = (A + B ε̄pⁿ) (1 + C ln⁺(ε̄̇p/ε̄̇0)) (1 − T*ᵐ),   T* = clip((T − T0)/(T_m − T0), 0, 1),
+/// where ln⁺ is zero below the reference rate. n = 1, C = 0 is linear hardening, B = 0 perfect plasticity,
+/// an infinite melting temperature switches thermal softening off.
+struct JohnsonCook {
+  double A = 0.0;                                         ///< Pa   ≥ 0
+  double B = 0.0;                                         ///< Pa   ≥ 0
+  double n = 1.0;                                         ///< –    > 0
+  double C = 0.0;                                         ///< –    ≥ 0
+  double rate0 = 1.0;                                     ///< 1/s  > 0
+  double m = 1.0;                                         ///< –    > 0
+  double T0 = 0.0;                                        ///< K
+  double Tmelt = std::numeric_limits<double>::infinity(); ///< K    > T0
+
+  /// σ_y in Pa at equivalent plastic strain, its rate (1/s) and temperature (K).
+  double flow_stress(double plastic_strain, double rate, double temperature) const;
+  /// ∂σ_y/∂ε̄p at fixed rate and temperature, Pa; infinite at zero strain when n < 1.
+  double hardening_modulus(double plastic_strain, double rate, double temperature) const;
+  /// ∂σ_y/∂ε̄̇p at fixed strain and temperature, Pa s; zero below the reference rate.
+  double rate_modulus(double plastic_strain, double rate, double temperature) const;
+  /// T* = (T − T0)/(T_m − T0), clipped to [0, 1].
+  double homologous_temperature(double temperature) const;
+};
+
+struct Material {
+  std::string name;
+  double density = 0.0;                 ///< kg/m³
+  Elasticity elasticity;                ///<
+  std::optional<JohnsonCook> hardening; ///< none: elastic
+  double specific_heat = 0.0;           ///< J/(kg K)
+  double conductivity = 0.0;            ///< W/(m K)
+  double taylor_quinney = 0.9;          ///< –      part χ of the plastic work that becomes heat
+  double expansion = 0.0;               ///< 1/K    linear, logarithmic
+  double expansion_reference = 293.15;  ///< K      free of thermal strain at this temperature
+};
+
+} // namespace cnem::plasticity

@@ -1,0 +1,82 @@
+#include "plasticity/return_map.hpp"
+
+#include "core/isa.hpp"
+#include "plasticity/return_map_parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem::plasticity {
+
+ReturnMapParameters return_map_parameters(const Material& material) {
+  const JohnsonCook law = material.hardening.value_or(JohnsonCook{});
+  ReturnMapParameters p{};
+  p.mu = material.elasticity.mu();
+  p.kappa = material.elasticity.kappa();
+  p.expansion = material.expansion;
+  p.expansion_reference = material.expansion_reference;
+  p.plastic = material.hardening.has_value();
+  p.A = law.A;
+  p.B = law.B;
+  p.n = law.n;
+  p.C = law.C;
+  p.rate0 = law.rate0;
+  p.m = law.m;
+  p.T0 = law.T0;
+  p.inverse_melting_range = 1.0 / (law.Tmelt - law.T0);
+  double coefficient = 1.0;
+  for (int k = 0; k <= series_order; ++k) {
+    p.series[k] = coefficient;
+    coefficient *= (law.n - k) / (k + 1);
+  }
+  // The first term left out bounds the error of the series for 0 ≤ y < 1.
+  constexpr double rounding = 1e-17, longest = 0.05;
+  p.series_range =
+      coefficient == 0.0
+          ? longest
+          : std::min(longest, std::pow(rounding / std::abs(coefficient), 1.0 / (series_order + 1)));
+  return p;
+}
+
+template<int dim> StressPoints<dim> stress_points(PointState<dim>& state) {
+  StressPoints<dim> p{};
+  for (std::size_t c = 0; c < state.deformation.size(); ++c) {
+    p.deformation[c] = state.deformation[c].data();
+    p.piola[c] = state.piola[c].data();
+  }
+  for (std::size_t c = 0; c < state.elastic.size(); ++c) p.elastic[c] = state.elastic[c].data();
+  p.temperature = state.temperature.data();
+  p.plastic_strain = state.plastic_strain.data();
+  p.plastic_rate = state.plastic_rate.data();
+  p.equivalent_stress = state.equivalent_stress.data();
+  p.plastic_work = state.plastic_work.data();
+  p.pressure = state.pressure.data();
+  p.stored_energy = state.stored_energy.data();
+  p.dissipation = state.dissipation.data();
+  p.stress_free = state.stress_free.data();
+  return p;
+}
+
+template<int dim>
+std::ptrdiff_t update_stress(const Material& material, const StressPoints<dim>& points, std::ptrdiff_t begin,
+                             std::ptrdiff_t end, double dt) {
+  const ReturnMapParameters parameters = return_map_parameters(material);
+  switch (active_isa()) {
+  case Isa::avx512:
+    return avx512::return_map(parameters, points, begin, end, dt);
+  case Isa::avx2:
+    return avx2::return_map(parameters, points, begin, end, dt);
+  case Isa::baseline:
+    break;
+  }
+  return baseline::return_map(parameters, points, begin, end, dt);
+}
+
+template StressPoints<2> stress_points(PointState<2>&);
+template StressPoints<3> stress_points(PointState<3>&);
+template std::ptrdiff_t update_stress(const Material&, const StressPoints<2>&, std::ptrdiff_t, std::ptrdiff_t,
+                                      double);
+template std::ptrdiff_t update_stress(const Material&, const StressPoints<3>&, std::ptrdiff_t, std::ptrdiff_t,
+                                      double);
+
+} // namespace cnem::plasticity

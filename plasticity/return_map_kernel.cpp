@@ -1,0 +1,82 @@
+#include "plasticity/box2.hpp"
+
+namespace cnem::plasticity::CNEM_ISA {
+
+namespace {
+
+constexpr int width = Number<Pack>::width;
+
+/// Not inlined: whole packs and tails must run the very same instructions, or their bits could differ.
+template<int dim>
+[[gnu::noinline]] PackMask pack_step(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
+                                     std::ptrdiff_t i, double dt) {
+  return return_map_step<dim, Pack>(parameters, points, i, dt);
+}
+
+int first_lane(PackMask mask, int lanes) {
+  for (int k = 0; k < lanes; ++k)
+    if (lane(mask, k)) return k;
+  return lanes;
+}
+
+template<int dim, class Visit> void for_each_input(StressPoints<dim>& points, Visit visit) {
+  for (const double*& field : points.deformation) visit(field);
+  visit(points.temperature);
+}
+
+template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, Visit visit) {
+  for (double*& field : points.elastic) visit(field);
+  for (double*& field : points.piola) visit(field);
+  double** const scalars[] = {&points.plastic_strain, &points.plastic_rate, &points.equivalent_stress,
+                              &points.plastic_work,   &points.pressure,     &points.stored_energy,
+                              &points.dissipation,    &points.stress_free};
+  for (double** field : scalars) visit(*field);
+}
+
+/// Fewer than `width` points, through buffers padded with the last of them.
+template<int dim>
+PackMask tail_step(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
+                   std::ptrdiff_t begin, int count, double dt) {
+  constexpr int fields = StressPoints<dim>::general * 2 + StressPoints<dim>::symmetric + 9;
+  double buffer[fields][width];
+  StressPoints<dim> local = points, target = points;
+  int used = 0;
+  const auto copy = [&](auto& field) {
+    for (int k = 0; k < width; ++k) buffer[used][k] = field[begin + (k < count ? k : count - 1)];
+    field = buffer[used++];
+  };
+  for_each_input(local, copy);
+  const int first_output = used;
+  for_each_output(local, copy);
+
+  const PackMask bad = pack_step(parameters, local, 0, dt);
+
+  used = first_output;
+  for_each_output(target, [&](double* field) {
+    for (int k = 0; k < count; ++k) field[begin + k] = buffer[used][k];
+    ++used;
+  });
+  return bad;
+}
+
+} // namespace
+
+template<int dim>
+std::ptrdiff_t return_map(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
+                          std::ptrdiff_t begin, std::ptrdiff_t end, double dt) {
+  std::ptrdiff_t first_bad = -1;
+  for (std::ptrdiff_t i = begin; i < end; i += width) {
+    const int count = end - i < width ? static_cast<int>(end - i) : width;
+    const PackMask bad =
+        count == width ? pack_step(parameters, points, i, dt) : tail_step(parameters, points, i, count, dt);
+    if (any(bad) && first_bad < 0 && first_lane(bad, count) < count) first_bad = i + first_lane(bad, count);
+  }
+  return first_bad;
+}
+
+template std::ptrdiff_t return_map<2>(const ReturnMapParameters&, const StressPoints<2>&, std::ptrdiff_t,
+                                      std::ptrdiff_t, double);
+template std::ptrdiff_t return_map<3>(const ReturnMapParameters&, const StressPoints<3>&, std::ptrdiff_t,
+                                      std::ptrdiff_t, double);
+
+} // namespace cnem::plasticity::CNEM_ISA

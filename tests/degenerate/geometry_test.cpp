@@ -1,0 +1,149 @@
+// The promises of the geometry on adversarial clouds; 70 seeds of every family, more than 1,000 clouds in
+// all.
+#include "tests/degenerate/random_clouds.hpp"
+#include "voronoi/cells.hpp"
+#include "voronoi/natural_neighbours.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace cnem::voronoi::test {
+namespace {
+
+constexpr std::uint32_t seeds = 70;
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+class RandomClouds : public testing::TestWithParam<int> {
+protected:
+  /// Calls check(cloud) for all clouds of the family; stops at the first that fails.
+  template<class Check> void for_each_cloud(Check check) {
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+      const auto random = random_cloud(GetParam(), seed);
+      SCOPED_TRACE(random.name);
+      const auto mesh = triangulate(random.cloud);
+      const auto circles = circumcircles(random.cloud, mesh);
+      check(random, mesh, circles);
+      if (HasFailure()) return;
+    }
+  }
+};
+
+/// The centroid and two points close to the edges and corners of some triangles.
+std::vector<std::pair<std::int32_t, Vec2>> sample_points(const Cloud<2>& cloud, const Triangulation& mesh) {
+  std::vector<std::pair<std::int32_t, Vec2>> points;
+  const std::int32_t stride = std::max(1, mesh.triangles() / 60);
+  for (std::int32_t t = 0; t < mesh.triangles(); t += stride) {
+    const auto& [i, j, k] = mesh.node[u(t)];
+    const Vec2 &a = cloud.position[u(i)], &b = cloud.position[u(j)], &c = cloud.position[u(k)];
+    points.emplace_back(t, (a + b + c) / 3.0);
+    points.emplace_back(t, 0.3 * a + 0.699 * b + 0.001 * c);
+    points.emplace_back(t, 0.9999 * a + 0.00006 * b + 0.00004 * c);
+    points.emplace_back(t, 0.4 * a + 0.6 * b);
+  }
+  return points;
+}
+
+TEST_P(RandomClouds, CellsFillTheDomainAndAreClosed) {
+  for_each_cloud([](const RandomCloud& random, const Triangulation& mesh, const Circumcircles& circles) {
+    const Cloud<2>& cloud = random.cloud;
+    const Cells cells = constrained_cells(cloud, mesh, circles);
+    const CellGeometry<2> polygons = cell_geometry(cloud, mesh, circles, cells);
+    double volume = 0.0;
+    for (const double v : cells.volume) volume += v;
+    EXPECT_NEAR(volume, random.area, 1e-12 * random.area);
+
+    std::vector<Vec2> normals(u(cloud.nodes()), Vec2::Zero());
+    for (const auto& f : cells.interior) {
+      normals[u(f.cell[0])] += right_normal(f.end - f.start);
+      normals[u(f.cell[1])] -= right_normal(f.end - f.start);
+    }
+    std::vector<double> covered(cloud.facets.size(), 0.0);
+    for (const auto& piece : cells.boundary) {
+      const auto& [a, b] = cloud.facets[u(piece.facet)].node;
+      EXPECT_EQ(piece.s0, covered[u(piece.facet)]);
+      EXPECT_LE(piece.s0, piece.s1);
+      covered[u(piece.facet)] = piece.s1;
+      normals[u(piece.cell)] +=
+          right_normal(cloud.position[u(b)] - cloud.position[u(a)]) * (piece.s1 - piece.s0);
+    }
+    for (const double s : covered) EXPECT_EQ(s, 1.0);
+
+    for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+      EXPECT_GT(cells.volume[u(i)], 0.0) << "node " << i;
+      EXPECT_LT(normals[u(i)].norm(), 1e-13) << "node " << i;
+      double area = 0.0;
+      const std::int32_t begin = polygons.begin[u(i)], end = polygons.begin[u(i) + 1];
+      ASSERT_GE(end - begin, 3);
+      for (std::int32_t k = begin; k < end; ++k) {
+        const std::int32_t l = k + 1 == end ? begin : k + 1;
+        area += 0.5 * cross(polygons.vertex[u(polygons.index[u(k)])] - cloud.position[u(i)],
+                            polygons.vertex[u(polygons.index[u(l)])] - cloud.position[u(i)]);
+      }
+      EXPECT_NEAR(area, cells.volume[u(i)], 1e-13 * random.area) << "node " << i;
+    }
+    for (std::size_t v = 0; v < polygons.vertex.size(); ++v) {
+      Vec2 x = Vec2::Zero();
+      double sum = 0.0;
+      for (std::int32_t e = polygons.vertex_begin[v]; e < polygons.vertex_begin[v + 1]; ++e) {
+        x += polygons.vertex_weight[u(e)] * cloud.position[u(polygons.vertex_node[u(e)])];
+        sum += polygons.vertex_weight[u(e)];
+        EXPECT_GE(polygons.vertex_weight[u(e)], -1e-9);
+      }
+      EXPECT_NEAR(sum, 1.0, 1e-13);
+      EXPECT_LT((x - polygons.vertex[v]).norm(), 1e-13);
+    }
+  });
+}
+
+void expect_consistent(const Cloud<2>& cloud, const NaturalNeighbours& at, const Vec2& x) {
+  double sum = 0.0;
+  Vec2 mean = Vec2::Zero();
+  for (std::size_t k = 0; k < at.nodes().size(); ++k) {
+    EXPECT_GE(at.values()[k], 0.0);
+    sum += at.values()[k];
+    mean += at.values()[k] * (cloud.position[u(at.nodes()[k])] - x);
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-14);
+  EXPECT_LT(mean.norm(), 1e-12) << "at " << x.transpose();
+}
+
+TEST_P(RandomClouds, FunctionsArePositiveAndLinearlyConsistent) {
+  for_each_cloud([](const RandomCloud& random, const Triangulation& mesh, const Circumcircles& circles) {
+    const Cloud<2>& cloud = random.cloud;
+    const Cells cells = constrained_cells(cloud, mesh, circles);
+    NaturalNeighbours at(cloud, mesh, circles);
+    for (const auto functions : {Functions::sibson, Functions::laplace}) {
+      for (const auto& [t, x] : sample_points(cloud, mesh)) {
+        at.evaluate(functions, x, t);
+        expect_consistent(cloud, at, x);
+      }
+      for (const auto& f : cells.interior)
+        for (const double s : {0.0, 0.211, 0.5, 1.0}) {
+          const Vec2 x = (1.0 - s) * f.start + s * f.end;
+          at.evaluate_on_facet(functions, x, f.triangle);
+          expect_consistent(cloud, at, x);
+        }
+    }
+  });
+}
+
+TEST_P(RandomClouds, FunctionsInterpolateTheNodes) {
+  for_each_cloud([](const RandomCloud& random, const Triangulation& mesh, const Circumcircles& circles) {
+    const Cloud<2>& cloud = random.cloud;
+    NaturalNeighbours at(cloud, mesh, circles);
+    for (const auto functions : {Functions::sibson, Functions::laplace})
+      for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+        at.evaluate(functions, cloud.position[u(i)], mesh.triangle_of_node[u(i)]);
+        ASSERT_EQ(at.nodes().size(), 1u);
+        EXPECT_EQ(at.nodes()[0], i);
+        EXPECT_EQ(at.values()[0], 1.0);
+      }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, RandomClouds, testing::Range(0, families()));
+
+} // namespace
+} // namespace cnem::voronoi::test

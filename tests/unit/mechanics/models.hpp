@@ -1,0 +1,109 @@
+#pragma once
+// Bodies for tests of the solver: rectangles of a method and a material.
+#include "alternatives/fe_triangle.hpp"
+#include "cnem/scni.hpp"
+#include "mechanics/explicit_solver.hpp"
+#include "tests/clouds.hpp"
+
+#include <cmath>
+#include <functional>
+
+namespace cnem::testing {
+
+enum class Method { cnem, triangles };
+
+inline std::unique_ptr<Discretisation<2>> make(Method method) {
+  if (method == Method::triangles) return std::make_unique<alternatives::FeTriangles>();
+  return std::make_unique<scni::Cnem>(scni::Options{});
+}
+
+inline plasticity::Material steel() {
+  plasticity::Material material;
+  material.name = "steel";
+  material.density = 7850.0;
+  material.elasticity = {210e9, 0.33};
+  material.specific_heat = 500.0;
+  material.conductivity = 15.0;
+  return material;
+}
+
+inline plasticity::Material steel_304L() {
+  plasticity::Material material = steel();
+  material.conductivity = 5.86;
+  material.hardening = plasticity::JohnsonCook{.A = 253e6,
+                                               .B = 685e6,
+                                               .n = 0.312,
+                                               .C = 0.0973,
+                                               .rate0 = 1.0,
+                                               .m = 2.044,
+                                               .T0 = 296.0,
+                                               .Tmelt = 1698.0};
+  return material;
+}
+
+/// Rectangle [0, a] × [0, b] with its four sides as pieces 0 bottom, 1 right, 2 top, 3 left.
+inline Cloud<2> rectangle(double a, double b, double spacing, Lattice lattice = Lattice::hexagonal,
+                          double jitter = 0.1, std::uint64_t seed = 1) {
+  Cloud<2> cloud;
+  add_loop(cloud, {{0, 0}, {a, 0}, {a, b}, {0, b}}, spacing);
+  cloud.piece_names = {"bottom", "right", "top", "left"};
+  for (Facet<2>& facet : cloud.facets) {
+    const Vec2 middle = 0.5 * (cloud.position[static_cast<std::size_t>(facet.node[0])] +
+                               cloud.position[static_cast<std::size_t>(facet.node[1])]);
+    const double distance[4] = {middle.y(), a - middle.x(), b - middle.y(), middle.x()};
+    facet.piece = static_cast<std::int32_t>(std::min_element(distance, distance + 4) - distance);
+  }
+  fill(cloud, lattice, spacing, jitter, 0.5 * spacing, seed);
+  return cloud;
+}
+
+inline std::vector<std::int32_t> nodes_on(const Cloud<2>& cloud, std::int32_t piece) {
+  std::vector<std::int32_t> nodes;
+  for (const Facet<2>& facet : cloud.facets)
+    if (facet.piece == piece) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+inline Model<2> model_of(Cloud<2> cloud, Method method, plasticity::Material material) {
+  Model<2> model;
+  model.method = make(method);
+  model.supports = Supports<2>({}, static_cast<std::size_t>(cloud.nodes()));
+  model.loads = Loads<2>({}, {}, {}, cloud.position);
+  model.cloud = std::move(cloud);
+  model.material = std::move(material);
+  model.thermal = false;
+  return model;
+}
+
+inline ExplicitSolver<2> start(Model<2> model, const std::function<Vec2(const Vec2&)>& velocity,
+                               double temperature = 296.0) {
+  Fields<2> v;
+  resize_all(v, static_cast<std::size_t>(model.cloud.nodes()));
+  for (std::size_t i = 0; i < v[0].size(); ++i) {
+    const Vec2 at = velocity(model.cloud.position[i]);
+    v[0][i] = at.x();
+    v[1][i] = at.y();
+  }
+  Field t(v[0].size(), temperature);
+  return ExplicitSolver<2>(std::move(model), std::move(v), std::move(t));
+}
+
+/// Linear and angular momentum of the nodes about the origin, at t_n.
+struct Momenta {
+  Vec2 linear = Vec2::Zero();
+  double angular = 0.0;
+};
+inline Momenta momenta(const ExplicitSolver<2>& solver) {
+  const NodeState<2>& node = solver.state().node;
+  Momenta sum;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const Vec2 mv = node.mass[i] * Vec2(node.velocity[0][i], node.velocity[1][i]);
+    sum.linear += mv;
+    sum.angular += cross(Vec2(node.position[0][i], node.position[1][i]), mv);
+  }
+  return sum;
+}
+
+} // namespace cnem::testing

@@ -1,0 +1,67 @@
+#include "thermal/boundaries.hpp"
+
+#include <algorithm>
+
+namespace cnem {
+
+namespace {
+
+double half_length(const Facet<2>& facet, const Fields<2>& position) {
+  const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
+  return 0.5 * Vec2(position[0][b] - position[0][a], position[1][b] - position[1][a]).norm();
+}
+
+} // namespace
+
+template<int dim>
+void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, const Field& temperature,
+                                      const std::vector<ToolConductance>& tools, Field& flow) const {
+  for (const HeatFlux<dim>& flux : fluxes_) {
+    const double value = flux.value(time);
+    for (const Facet<dim>& facet : flux.facets)
+      for (const std::int32_t node : facet.node)
+        flow[static_cast<std::size_t>(node)] += value * half_length(facet, position);
+  }
+  for (const Convection<dim>& convection : convections_) {
+    const double h = convection.coefficient(time), ambient = convection.ambient(time);
+    for (const Facet<dim>& facet : convection.facets)
+      for (const std::int32_t node : facet.node) {
+        const auto i = static_cast<std::size_t>(node);
+        flow[i] += h * (ambient - temperature[i]) * half_length(facet, position);
+      }
+  }
+  for (const ToolConductance& tool : tools) {
+    const auto i = static_cast<std::size_t>(tool.node);
+    flow[i] += tool.conductance * tool.area * (tool.tool_temperature - temperature[i]);
+  }
+}
+
+template<int dim>
+double ThermalBoundaries<dim>::hold(double time, const Field& heat_capacity, Field& temperature) const {
+  double heat = 0.0;
+  for (const FixedTemperature& fixed : fixed_) {
+    const double value = fixed.value(time);
+    for (const std::int32_t node : fixed.nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      heat += heat_capacity[i] * (value - temperature[i]);
+      temperature[i] = value;
+    }
+  }
+  return heat;
+}
+
+template<int dim>
+double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& position,
+                                             const Field& heat_capacity) const {
+  double worst = 0.0;
+  for (const Convection<dim>& convection : convections_)
+    for (const Facet<dim>& facet : convection.facets)
+      for (const std::int32_t node : facet.node)
+        worst = std::max(worst, 2.0 * convection.coefficient(time) * half_length(facet, position) /
+                                    heat_capacity[static_cast<std::size_t>(node)]);
+  return worst;
+}
+
+template class ThermalBoundaries<2>;
+
+} // namespace cnem

@@ -1,0 +1,69 @@
+#pragma once
+// Heat through the boundary: prescribed temperature, flux, convection, conductance to tools.
+#include "core/cloud.hpp"
+#include "core/state.hpp"
+#include "core/time_table.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cnem {
+
+/// Nodes held at a temperature, K.
+struct FixedTemperature {
+  std::string name;
+  TimeTable value;
+  std::vector<std::int32_t> nodes;
+};
+
+/// Heat flux into the body, W/m² of current boundary.
+template<int dim> struct HeatFlux {
+  std::string name;
+  TimeTable value;
+  std::vector<Facet<dim>> facets;
+};
+
+/// Exchange with surroundings: coefficient h in W/(m² K), ambient temperature in K.
+template<int dim> struct Convection {
+  std::string name;
+  TimeTable coefficient;
+  TimeTable ambient;
+  std::vector<Facet<dim>> facets;
+};
+
+/// Exchange of one boundary node with a tool it touches, over the given area (m^(dim−1)).
+struct ToolConductance {
+  std::int32_t node;
+  double conductance; ///< W/(m² K)
+  double area;
+  double tool_temperature; ///< K
+};
+
+/// All thermal boundary conditions; a boundary that none names is insulated.
+template<int dim> class ThermalBoundaries {
+public:
+  ThermalBoundaries() = default;
+  ThermalBoundaries(std::vector<FixedTemperature> fixed, std::vector<HeatFlux<dim>> fluxes,
+                    std::vector<Convection<dim>> convections)
+      : fixed_(std::move(fixed)), fluxes_(std::move(fluxes)), convections_(std::move(convections)) {}
+
+  /// Adds what flows into the nodes at `time` to `flow`, W/m^(3−dim).
+  void add_flow(double time, const Fields<dim>& position, const Field& temperature,
+                const std::vector<ToolConductance>& tools, Field& flow) const;
+
+  /// Sets the held temperatures of `time`. Returns the heat this brought in, J/m^(3−dim).
+  double hold(double time, const Field& heat_capacity, Field& temperature) const;
+
+  /// Largest share the exchange adds to the decay rate Q/(C T) of a node, 1/s.
+  double fastest_decay(double time, const Fields<dim>& position, const Field& heat_capacity) const;
+
+private:
+  std::vector<FixedTemperature> fixed_;
+  std::vector<HeatFlux<dim>> fluxes_;
+  std::vector<Convection<dim>> convections_;
+};
+
+extern template class ThermalBoundaries<2>;
+
+} // namespace cnem

@@ -1,0 +1,32 @@
+#pragma once
+// Explicit heat conduction on the deformed configuration, (57)–(61) with J F⁻¹ F⁻ᵀ in the kernel.
+#include "core/operators.hpp"
+#include "core/state.hpp"
+
+namespace cnem {
+
+/// Conduction with any gradient operator. C-NEM hands over the one of its Delaunay triangles: the nodal one
+/// has weak modes that show as checkerboards (tests/unit/thermal).
+template<int dim> class Conduction {
+public:
+  /// Operators must outlive this object. conductivity [point of `operators`] in W/(m K).
+  void set_operators(const DiscreteOperators<dim>& operators, Field conductivity);
+
+  /// flow_J += −Σ_p V_p k J (F⁻¹F⁻ᵀ ∇_X T)·b_pJ: heat that arrives at node J, W/m^(3−dim). The flows of all
+  /// nodes add up to zero. Position [node] is the current one.
+  void add_flow(const Fields<dim>& position, const Field& temperature, Field& flow);
+
+  /// The decay rate no mode exceeds, 1/s: explicit steps are stable below 2 over it.
+  double fastest_decay(const Fields<dim>& position, const Field& heat_capacity);
+
+private:
+  const DiscreteOperators<dim>* operators_ = nullptr;
+  Field conductivity_;
+  Fields<dim> flux_; ///< [row] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned
+  Field transfer_;   ///< [node] scratch of fastest_decay
+};
+
+extern template class Conduction<2>;
+extern template class Conduction<3>;
+
+} // namespace cnem

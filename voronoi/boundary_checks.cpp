@@ -1,0 +1,133 @@
+#include "voronoi/boundary_checks.hpp"
+
+#include "core/error.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace cnem::voronoi {
+
+namespace {
+
+std::string describe_point(const Vec2& x) { return fmt::format("({:.9g}, {:.9g}) m", x.x(), x.y()); }
+
+const Vec2& at(const Cloud<2>& cloud, std::int32_t node) {
+  return cloud.position[static_cast<std::size_t>(node)];
+}
+
+void check_node_index(const Cloud<2>& cloud, std::int32_t node, const std::string& who) {
+  if (node < 0 || node >= cloud.nodes())
+    throw GeometryError(
+        fmt::format("{} names node {}, but the cloud has nodes 0 to {}", who, node, cloud.nodes() - 1));
+}
+
+} // namespace
+
+std::string describe_node(const Cloud<2>& cloud, std::int32_t node) {
+  return fmt::format("node {} at {}", node, describe_point(at(cloud, node)));
+}
+
+std::string describe_facet(const Cloud<2>& cloud, std::int32_t facet) {
+  const auto& [a, b] = cloud.facets[static_cast<std::size_t>(facet)].node;
+  return fmt::format("facet {} from {} to {}", facet, describe_point(at(cloud, a)),
+                     describe_point(at(cloud, b)));
+}
+
+std::vector<std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+    if (!at(cloud, i).allFinite())
+      throw GeometryError(fmt::format("{}: the position is not finite", describe_node(cloud, i)));
+  if (cloud.facets.empty())
+    throw GeometryError("empty domain: the cloud has no boundary facets, expected at least one closed loop");
+
+  const auto n = static_cast<std::size_t>(cloud.nodes());
+  std::vector<std::int32_t> leaving(n, -1), arriving(n, -1);
+  const auto claim = [&](std::vector<std::int32_t>& of_node, std::int32_t node, std::int32_t facet,
+                         const char* verb) {
+    auto& slot = of_node[static_cast<std::size_t>(node)];
+    if (slot >= 0)
+      throw GeometryError(
+          fmt::format("boundary branches at {}: facets {} and {} both {} it, expected one (loops that touch "
+                      "need a node of their own each, declared as twins)",
+                      describe_node(cloud, node), slot, facet, verb));
+    slot = facet;
+  };
+  for (std::size_t f = 0; f < cloud.facets.size(); ++f) {
+    const auto facet = static_cast<std::int32_t>(f);
+    const auto& [a, b] = cloud.facets[f].node;
+    check_node_index(cloud, a, fmt::format("facet {}", f));
+    check_node_index(cloud, b, fmt::format("facet {}", f));
+    if (at(cloud, a) == at(cloud, b))
+      throw GeometryError(
+          fmt::format("{} has zero length (nodes {} and {})", describe_facet(cloud, facet), a, b));
+    claim(leaving, a, facet, "leave");
+    claim(arriving, b, facet, "arrive at");
+  }
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+    const bool leaves = leaving[static_cast<std::size_t>(i)] >= 0;
+    if (leaves != (arriving[static_cast<std::size_t>(i)] >= 0))
+      throw GeometryError(fmt::format("open boundary: at {} a facet {} but none {}, expected closed loops",
+                                      describe_node(cloud, i), leaves ? "leaves" : "arrives",
+                                      leaves ? "arrives" : "leaves"));
+  }
+  return leaving;
+}
+
+std::vector<std::int32_t> twin_groups(const Cloud<2>& cloud) {
+  if (cloud.twins.empty()) return {};
+  std::vector<std::int32_t> parent(static_cast<std::size_t>(cloud.nodes()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::int32_t i) {
+    while (parent[static_cast<std::size_t>(i)] != i) {
+      auto& up = parent[static_cast<std::size_t>(i)];
+      i = up = parent[static_cast<std::size_t>(up)];
+    }
+    return i;
+  };
+  for (std::size_t t = 0; t < cloud.twins.size(); ++t) {
+    const auto& [a, b] = cloud.twins[t];
+    check_node_index(cloud, a, fmt::format("twin pair {}", t));
+    check_node_index(cloud, b, fmt::format("twin pair {}", t));
+    parent[static_cast<std::size_t>(root(a))] = root(b);
+  }
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) parent[static_cast<std::size_t>(i)] = root(i);
+  return parent;
+}
+
+void throw_crossing(const Cloud<2>& cloud) {
+  for (std::size_t f = 0; f < cloud.facets.size(); ++f)
+    for (std::size_t g = f + 1; g < cloud.facets.size(); ++g) {
+      const Vec2 &a = at(cloud, cloud.facets[f].node[0]), &b = at(cloud, cloud.facets[f].node[1]);
+      const Vec2 &c = at(cloud, cloud.facets[g].node[0]), &d = at(cloud, cloud.facets[g].node[1]);
+      const double side_c = cross(b - a, c - a), side_d = cross(b - a, d - a);
+      const double side_a = cross(d - c, a - c), side_b = cross(d - c, b - c);
+      if (!(side_c * side_d < 0.0 && side_a * side_b < 0.0)) continue;
+      const Vec2 x = a + (b - a) * (side_a / (side_a - side_b));
+      throw GeometryError(fmt::format("the boundary crosses itself at {}: {} crosses {}", describe_point(x),
+                                      describe_facet(cloud, static_cast<std::int32_t>(f)),
+                                      describe_facet(cloud, static_cast<std::int32_t>(g))));
+    }
+  throw GeometryError("the boundary crosses itself (facets overlap to within rounding)");
+}
+
+void throw_node_on_facet(const Cloud<2>& cloud, std::int32_t facet) {
+  const auto& [a, b] = cloud.facets[static_cast<std::size_t>(facet)].node;
+  const Vec2 along = at(cloud, b) - at(cloud, a);
+  std::int32_t nearest = -1;
+  double best = 0.0;
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+    const Vec2 r = at(cloud, i) - at(cloud, a);
+    const double s = r.dot(along) / along.squaredNorm();
+    if (s <= 0.0 || s >= 1.0 || r == along) continue;
+    const double distance = std::abs(cross(along, r));
+    if (nearest < 0 || distance < best) nearest = i, best = distance;
+  }
+  if (nearest < 0)
+    throw GeometryError(fmt::format("{} overlaps another facet", describe_facet(cloud, facet)));
+  throw GeometryError(fmt::format("{} lies on {}, which is not its own: expected the facet to be split there "
+                                  "or the node moved",
+                                  describe_node(cloud, nearest), describe_facet(cloud, facet)));
+}
+
+} // namespace cnem::voronoi

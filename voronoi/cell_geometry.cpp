@@ -1,0 +1,135 @@
+#include "voronoi/cells.hpp"
+#include "voronoi/locate.hpp"
+
+namespace cnem::voronoi {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
+
+/// Polygons of the cells, each from one round through the triangles of its node.
+class PolygonBuilder {
+public:
+  PolygonBuilder(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles,
+                 const Cells& cells)
+      : cloud_(cloud), mesh_(mesh), circles_(circles), cells_(cells),
+        vertex_of_triangle_(mesh.node.size(), -1), vertex_of_crossing_(cells.crossing.size(), -1) {}
+
+  CellGeometry<2> build() {
+    std::vector<bool> on_boundary(u(cloud_.nodes()), false);
+    for (const auto& facet : cloud_.facets) on_boundary[u(facet.node[0])] = true;
+    result_.index.reserve(7 * u(cloud_.nodes()));
+    result_.vertex.reserve(mesh_.node.size() + 2 * cloud_.facets.size());
+    result_.vertex_begin.push_back(0);
+    result_.begin.push_back(0);
+    for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
+      add_cell(i, on_boundary[u(i)]);
+      result_.begin.push_back(static_cast<std::int32_t>(result_.index.size()));
+    }
+    return std::move(result_);
+  }
+
+private:
+  void add_cell(std::int32_t node, bool on_boundary) {
+    const std::int32_t first = mesh_.triangle_of_node[u(node)];
+    std::int32_t t = first, k = 0;
+    while (mesh_.node[u(t)][u(k)] != node) ++k;
+    if (on_boundary) {
+      result_.index.push_back(new_vertex(cloud_.position[u(node)], {{node, 1.0}}));
+      leave_wall(t, next(next(k)));
+    }
+    while (true) {
+      if (cells_.hidden_of_triangle[u(t)] < 0) result_.index.push_back(centre_vertex(t));
+      const std::int32_t exit = next(k), across = mesh_.neighbour[u(t)][u(exit)];
+      if (across < 0) {
+        reach_wall(t, exit);
+        return;
+      }
+      std::int32_t back = 0;
+      while (mesh_.neighbour[u(across)][u(back)] != t) ++back;
+      cross_edge(t, exit, across, back);
+      if (across == first) return;
+      t = across;
+      k = next(back);
+    }
+  }
+
+  std::int32_t hider(std::int32_t t) const {
+    const std::int32_t hidden = cells_.hidden_of_triangle[u(t)];
+    return hidden < 0 ? -1 : cells_.hidden[u(hidden)].facet;
+  }
+
+  /// The ends on the boundary of the facet dual to the edge between two triangles.
+  void cross_edge(std::int32_t t, std::int32_t exit, std::int32_t across, std::int32_t back) {
+    const std::int32_t from = hider(t), to = hider(across);
+    if (from == to) return;
+    if (from >= 0) add_end(t, exit);
+    if (to >= 0) add_end(across, back);
+  }
+
+  void leave_wall(std::int32_t t, std::int32_t k) {
+    const std::int32_t facet = mesh_.facet[u(t)][u(k)];
+    if (hider(t) == facet) return;
+    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[u(facet)]));
+    if (hider(t) >= 0) add_end(t, k);
+  }
+
+  void reach_wall(std::int32_t t, std::int32_t k) {
+    const std::int32_t facet = mesh_.facet[u(t)][u(k)];
+    if (hider(t) == facet) return;
+    if (hider(t) >= 0) add_end(t, k);
+    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[u(facet)]));
+  }
+
+  void add_end(std::int32_t t, std::int32_t k) {
+    const auto& hidden = cells_.hidden[u(cells_.hidden_of_triangle[u(t)])];
+    result_.index.push_back(crossing_vertex(hidden.crossing[u(k)]));
+  }
+
+  std::int32_t crossing_vertex(std::int32_t crossing) {
+    auto& vertex = vertex_of_crossing_[u(crossing)];
+    if (vertex >= 0) return vertex;
+    const auto& [facet, s] = cells_.crossing[u(crossing)];
+    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    return vertex = new_vertex((1.0 - s) * cloud_.position[u(a)] + s * cloud_.position[u(b)],
+                               {{a, 1.0 - s}, {b, s}});
+  }
+
+  std::int32_t centre_vertex(std::int32_t t) {
+    auto& vertex = vertex_of_triangle_[u(t)];
+    if (vertex >= 0) return vertex;
+    const Vec2& x = circles_.centre[u(t)];
+    const std::int32_t in = walk(cloud_, mesh_, t, x).triangle;
+    const auto weight = barycentric(cloud_, mesh_, in, x);
+    const auto& nodes = mesh_.node[u(in)];
+    return vertex = new_vertex(x, {{nodes[0], weight[0]}, {nodes[1], weight[1]}, {nodes[2], weight[2]}});
+  }
+
+  std::int32_t new_vertex(const Vec2& x, std::initializer_list<std::pair<std::int32_t, double>> weights) {
+    result_.vertex.push_back(x);
+    for (const auto& [node, weight] : weights) {
+      result_.vertex_node.push_back(node);
+      result_.vertex_weight.push_back(weight);
+    }
+    result_.vertex_begin.push_back(static_cast<std::int32_t>(result_.vertex_node.size()));
+    return static_cast<std::int32_t>(result_.vertex.size()) - 1;
+  }
+
+  const Cloud<2>& cloud_;
+  const Triangulation& mesh_;
+  const Circumcircles& circles_;
+  const Cells& cells_;
+  std::vector<std::int32_t> vertex_of_triangle_; ///< −1: not yet made
+  std::vector<std::int32_t> vertex_of_crossing_; ///< −1: not yet made
+  CellGeometry<2> result_;
+};
+
+} // namespace
+
+CellGeometry<2> cell_geometry(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles,
+                              const Cells& cells) {
+  return PolygonBuilder(cloud, mesh, circles, cells).build();
+}
+
+} // namespace cnem::voronoi

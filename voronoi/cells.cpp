@@ -1,0 +1,178 @@
+#include "voronoi/cells.hpp"
+
+#include "core/error.hpp"
+#include "voronoi/boundary_checks.hpp"
+#include "voronoi/locate.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace cnem::voronoi {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
+
+class CellBuilder {
+public:
+  CellBuilder(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles)
+      : cloud_(cloud), mesh_(mesh), circles_(circles), facet_triangle_(cloud.facets.size(), -1) {}
+
+  Cells build() {
+    cells_.hidden_of_triangle.assign(mesh_.node.size(), -1);
+    cells_.crossing_of_facet.assign(cloud_.facets.size(), -1);
+    cells_.crossing.reserve(cloud_.facets.size());
+    cells_.boundary.reserve(2 * cloud_.facets.size());
+    cells_.volume.assign(cloud_.position.size(), 0.0);
+    for (std::size_t t = 0; t < mesh_.node.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (mesh_.facet[t][k] >= 0) facet_triangle_[u(mesh_.facet[t][k])] = static_cast<std::int32_t>(t);
+    for (std::size_t f = 0; f < cloud_.facets.size(); ++f) share_facet(static_cast<std::int32_t>(f));
+    add_interior();
+    return std::move(cells_);
+  }
+
+private:
+  const Vec2& at(std::int32_t node) const { return cloud_.position[u(node)]; }
+
+  bool is_hidden_by(std::int32_t t, std::int32_t facet) const {
+    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    const Vec2& centre = circles_.centre[u(t)];
+    if (cross(at(b) - at(a), centre - at(a)) >= 0.0) return false;
+    return walk(cloud_, mesh_, t, centre).facet == facet;
+  }
+
+  /// The part of the facet that belongs to `cell` ends at s.
+  void end_piece(std::int32_t facet, std::int32_t cell, double s0, double s1) {
+    cells_.boundary.push_back({cell, facet, s0, s1});
+    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    const Vec2 edge = at(b) - at(a);
+    cells_.volume[u(cell)] += 0.5 * (s1 - s0) * cross(at(a) - at(cell), edge);
+  }
+
+  /// Where the bisector of nodes i and j, which passes through the hidden `centre`, meets the facet. Both
+  /// nodes are on the near side and the centre is beyond, so that this is always between the midpoint and the
+  /// centre.
+  double crossing_parameter(std::int32_t facet, std::int32_t i, std::int32_t j, const Vec2& centre) const {
+    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    const Vec2 edge = at(b) - at(a), middle = 0.5 * (at(i) + at(j));
+    const double near = std::max(cross(edge, middle - at(a)), 0.0), beyond = -cross(edge, centre - at(a));
+    const Vec2 x = middle + (centre - middle) * (near / (near + beyond));
+    return (x - at(a)).dot(edge) / edge.squaredNorm();
+  }
+
+  /// Divides a boundary facet among cells. The triangles whose circumcentres it hides are connected with it
+  /// (a circle with a hidden centre meets the facet in a chord, and so do those between); going round them
+  /// clockwise from one end of the facet to the other gives its owners in order.
+  void share_facet(std::int32_t facet) {
+    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    const std::int32_t first = facet_triangle_[u(facet)];
+    if (!is_hidden_by(first, facet)) {
+      cells_.crossing_of_facet[u(facet)] = static_cast<std::int32_t>(cells_.crossing.size());
+      cells_.crossing.push_back({facet, 0.5});
+      end_piece(facet, a, 0.0, 0.5);
+      end_piece(facet, b, 0.5, 1.0);
+      return;
+    }
+    std::int32_t entry = 0;
+    while (mesh_.facet[u(first)][u(entry)] != facet) ++entry;
+    hide(first, facet);
+    std::int32_t owner = a;
+    double s = 0.0;
+    stack_ = {{first, next(entry)}, {first, next(next(entry))}};
+    while (!stack_.empty()) {
+      const auto [t, k] = stack_.back();
+      stack_.pop_back();
+      const std::int32_t across = mesh_.neighbour[u(t)][u(k)];
+      if (across >= 0 && cells_.hidden_of_triangle[u(across)] < 0 && is_hidden_by(across, facet)) {
+        hide(across, facet);
+        std::int32_t back = 0;
+        while (mesh_.neighbour[u(across)][u(back)] != t) ++back;
+        stack_.emplace_back(across, next(back));
+        stack_.emplace_back(across, next(next(back)));
+        continue;
+      }
+      const std::int32_t to = mesh_.node[u(t)][u(next(k))];
+      const double end = std::clamp(crossing_parameter(facet, owner, to, circles_.centre[u(t)]), s, 1.0);
+      cells_.hidden[u(cells_.hidden_of_triangle[u(t)])].crossing[u(k)] =
+          static_cast<std::int32_t>(cells_.crossing.size());
+      cells_.crossing.push_back({facet, end});
+      end_piece(facet, owner, s, end);
+      owner = to;
+      s = end;
+    }
+    end_piece(facet, b, s, 1.0);
+  }
+
+  void hide(std::int32_t t, std::int32_t facet) {
+    cells_.hidden_of_triangle[u(t)] = static_cast<std::int32_t>(cells_.hidden.size());
+    cells_.hidden.push_back({facet, {-1, -1, -1}});
+  }
+
+  Vec2 position(std::int32_t crossing) const {
+    const auto& [facet, s] = cells_.crossing[u(crossing)];
+    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    return (1.0 - s) * at(a) + s * at(b);
+  }
+
+  /// End of the facet dual to edge k of triangle t, on the side of t.
+  Vec2 end_point(std::int32_t t, std::int32_t k) const {
+    const std::int32_t hidden = cells_.hidden_of_triangle[u(t)];
+    return hidden < 0 ? circles_.centre[u(t)] : position(cells_.hidden[u(hidden)].crossing[u(k)]);
+  }
+
+  std::int32_t hider(std::int32_t t) const {
+    const std::int32_t hidden = cells_.hidden_of_triangle[u(t)];
+    return hidden < 0 ? -1 : cells_.hidden[u(hidden)].facet;
+  }
+
+  void add_interior() {
+    cells_.interior.reserve(mesh_.node.size() * 3 / 2 + cloud_.facets.size());
+    for (std::int32_t t = 0; t < mesh_.triangles(); ++t) {
+      const std::int32_t hidden_by = hider(t);
+      for (std::int32_t k = 0; k < 3; ++k) {
+        const std::int32_t across = mesh_.neighbour[u(t)][u(k)];
+        if (across > t) continue; // each edge once, from its later triangle
+        Vec2 start;
+        if (across < 0) {
+          const std::int32_t facet = mesh_.facet[u(t)][u(k)];
+          if (hidden_by == facet) continue;
+          start = position(cells_.crossing_of_facet[u(facet)]);
+        } else {
+          if (hidden_by >= 0 && hidden_by == hider(across)) continue;
+          std::int32_t back = 0;
+          while (mesh_.neighbour[u(across)][u(back)] != t) ++back;
+          start = end_point(across, back);
+        }
+        const Vec2 end = end_point(t, k);
+        const std::int32_t i = mesh_.node[u(t)][u(next(k))], j = mesh_.node[u(t)][u(next(next(k)))];
+        cells_.interior.push_back({{i, j}, {across, t}, start, end});
+        cells_.volume[u(i)] += 0.5 * cross(start - at(i), end - start);
+        cells_.volume[u(j)] -= 0.5 * cross(start - at(j), end - start);
+      }
+    }
+  }
+
+  const Cloud<2>& cloud_;
+  const Triangulation& mesh_;
+  const Circumcircles& circles_;
+  Cells cells_;
+  std::vector<std::int32_t> facet_triangle_; ///< [facet] the triangle on its left
+  std::vector<std::pair<std::int32_t, std::int32_t>> stack_;
+};
+
+} // namespace
+
+Cells constrained_cells(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles) {
+  Cells cells = CellBuilder(cloud, mesh, circles).build();
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+    if (!(cells.volume[u(i)] > 0.0))
+      throw GeometryError(
+          fmt::format("the cell of {} has no area (V = {:.3g} m²): its neighbours are too close "
+                      "to each other or to one line",
+                      describe_node(cloud, i), cells.volume[u(i)]));
+  return cells;
+}
+
+} // namespace cnem::voronoi

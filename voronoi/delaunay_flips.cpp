@@ -1,0 +1,70 @@
+#include "voronoi/delaunay_flips.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace cnem::voronoi {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Whether the angles at p and q, on either side of the edge ab, sum to more than π.
+bool opposite_angles_too_large(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& q) {
+  const Vec2 pa = a - p, pb = b - p, qa = a - q, qb = b - q;
+  const double sine_p = cross(pa, pb), cosine_p = pa.dot(pb);
+  const double sine_q = cross(qb, qa), cosine_q = qb.dot(qa);
+  const double scale = (std::abs(sine_p) + std::abs(cosine_p)) * (std::abs(sine_q) + std::abs(cosine_q));
+  return sine_p * cosine_q + cosine_p * sine_q < -1e-10 * scale;
+}
+
+std::size_t index_of(const std::array<std::int32_t, 3>& values, std::int32_t value) {
+  return values[0] == value ? 0 : values[1] == value ? 1 : 2;
+}
+
+} // namespace
+
+void restore_delaunay(Triangulation& mesh, const std::vector<Vec2>& position) {
+  std::vector<std::int32_t> waiting(mesh.node.size());
+  std::iota(waiting.rbegin(), waiting.rend(), 0);
+  while (!waiting.empty()) {
+    const std::int32_t t = waiting.back();
+    waiting.pop_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t o = mesh.neighbour[u(t)][k];
+      if (o < 0) continue;
+      const std::size_t k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+      const std::size_t m = index_of(mesh.neighbour[u(o)], t), m1 = (m + 1) % 3, m2 = (m + 2) % 3;
+      const std::int32_t p = mesh.node[u(t)][k], a = mesh.node[u(t)][k1], b = mesh.node[u(t)][k2];
+      const std::int32_t q = mesh.node[u(o)][m];
+      if (!opposite_angles_too_large(position[u(p)], position[u(a)], position[u(b)], position[u(q)]))
+        continue;
+
+      // pab and qba become paq and pqb.
+      const std::int32_t beyond_aq = mesh.neighbour[u(o)][m1], beyond_pb = mesh.neighbour[u(t)][k1];
+      const std::array<std::int32_t, 3> t_neighbour{beyond_aq, o, mesh.neighbour[u(t)][k2]};
+      const std::array<std::int32_t, 3> o_neighbour{mesh.neighbour[u(o)][m2], beyond_pb, t};
+      const std::array<std::int32_t, 3> t_facet{mesh.facet[u(o)][m1], -1, mesh.facet[u(t)][k2]};
+      const std::array<std::int32_t, 3> o_facet{mesh.facet[u(o)][m2], mesh.facet[u(t)][k1], -1};
+      mesh.node[u(t)] = {p, a, q};
+      mesh.node[u(o)] = {p, q, b};
+      mesh.neighbour[u(t)] = t_neighbour;
+      mesh.neighbour[u(o)] = o_neighbour;
+      mesh.facet[u(t)] = t_facet;
+      mesh.facet[u(o)] = o_facet;
+      if (beyond_aq >= 0) {
+        auto& back = mesh.neighbour[u(beyond_aq)];
+        back[index_of(back, o)] = t;
+      }
+      if (beyond_pb >= 0) {
+        auto& back = mesh.neighbour[u(beyond_pb)];
+        back[index_of(back, t)] = o;
+      }
+      waiting.push_back(o);
+      waiting.push_back(t);
+      break;
+    }
+  }
+}
+
+} // namespace cnem::voronoi

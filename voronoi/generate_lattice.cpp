@@ -1,0 +1,56 @@
+#include "voronoi/generate_interior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace cnem::voronoi {
+
+namespace {
+
+/// Uniform in [0, 1), from the bits alone: the distributions of the standard library differ between
+/// platforms.
+double uniform(std::mt19937_64& bits) { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
+
+} // namespace
+
+std::vector<Vec2> lattice_nodes(const Cloud<2>& boundary, const EdgeTree& tree, double h, Pattern pattern) {
+  Vec2 low = boundary.position[0], high = low;
+  for (const Vec2& x : boundary.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const Vec2 size = high - low;
+  const bool square = pattern == Pattern::regular;
+  const double rise = square ? h : 0.5 * std::sqrt(3.0) * h;
+  const int columns = std::max(1, static_cast<int>(std::round(size.x() / h)));
+  const int rows = std::max(1, static_cast<int>(std::round(size.y() / rise)));
+  // A boundary node's own half cell is h/2 deep in a square lattice; the zigzag ends of hexagonal rows at
+  // h/2 from a wall are kept, since without them the strip along it would be a quarter too sparse.
+  const double clearance = 0.48 * h;
+  std::vector<Vec2> nodes;
+  for (int j = 0; j <= rows; ++j) {
+    const bool shifted = !square && j % 2 == 1;
+    for (int i = 0; i < columns + (shifted ? 0 : 1); ++i) {
+      const Vec2 x(low.x() + size.x() * ((i + (shifted ? 0.5 : 0.0)) / columns),
+                   low.y() + size.y() * j / rows);
+      if (tree.inside(x) && tree.distance(x, clearance) >= clearance) nodes.push_back(x);
+    }
+  }
+  return nodes;
+}
+
+void jitter_nodes(const EdgeTree& tree, const SpacingField& spacing, double jitter, std::uint64_t seed,
+                  std::vector<Vec2>& interior) {
+  std::mt19937_64 bits(seed);
+  for (Vec2& x : interior) {
+    Vec2 move;
+    do move = Vec2(2.0 * uniform(bits) - 1.0, 2.0 * uniform(bits) - 1.0);
+    while (move.squaredNorm() > 1.0);
+    const double h = spacing.at(x);
+    const double room = tree.distance(x, 2.0 * h) - 0.45 * h;
+    x += move * std::clamp(room, 0.0, jitter * h);
+  }
+}
+
+} // namespace cnem::voronoi

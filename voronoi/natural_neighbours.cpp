@@ -1,0 +1,242 @@
+#include "voronoi/natural_neighbours.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::voronoi {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
+
+/// Sine below which x counts as lying on an edge.
+constexpr double on_edge = 1e-14;
+
+} // namespace
+
+NaturalNeighbours::NaturalNeighbours(const Cloud<2>& cloud, const Triangulation& mesh,
+                                     const Circumcircles& circles)
+    : cloud_(cloud), mesh_(mesh), circles_(circles), frame_(64), ring_(64) {
+  node_.reserve(ring_.size());
+  value_.reserve(ring_.size());
+  gradient_.reserve(ring_.size());
+}
+
+bool NaturalNeighbours::in_circle(std::int32_t triangle, const Vec2& x) const {
+  return (circles_.centre[u(triangle)] - x).squaredNorm() < circles_.limit[u(triangle)];
+}
+
+/// What an edge a → b of the cavity means that x is not clearly to the left of.
+NaturalNeighbours::Outcome NaturalNeighbours::degenerate_edge(const Neighbour& a, const Neighbour& b,
+                                                              bool wall, bool located) const {
+  const double aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y;
+  if (std::min(aa, bb) <= on_edge * on_edge * std::max(aa, bb)) return Outcome::on_node;
+  const double sine = (a.x * b.y - a.y * b.x) / (aa + bb);
+  if (sine < -(located ? 1e-7 : on_edge)) return Outcome::lost;
+  if (!wall) return Outcome::inside; // x lies on an edge inside the cavity
+  return a.x * b.x + a.y * b.y <= 0.0 ? Outcome::on_wall : Outcome::lost;
+}
+
+void NaturalNeighbours::push(std::int32_t node, const Vec2& x) {
+  if (count_ == ring_.size()) ring_.resize(2 * count_);
+  const Vec2& p = cloud_.position[u(node)];
+  ring_[count_].node = node;
+  ring_[count_].x = p.x() - x.x();
+  ring_[count_].y = p.y() - x.y();
+}
+
+/// Walks once round the cavity, the triangles whose circles contain x, depth first and counter-clockwise. The
+/// path runs through circumcentres only: old ones while it pivots about a neighbour, new ones as it passes an
+/// edge of the cavity. Between two of these it is the inner boundary of what x steals from the neighbour, so
+/// that the shoelace formula can be summed on the way. When the outcome is on_node or on_wall, ring_[0] (and
+/// ring_[1]) are the nodes concerned and frame_[0] a triangle that has them.
+NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, std::int32_t start, bool located) {
+  count_ = 0;
+  push(mesh_.node[u(start)][1], x);
+  std::size_t depth = 0, visited = 1;
+  frame_[0] = {start, 0, 3};
+  Vec2 c = circles_.centre[u(start)] - x;
+  double path = 0.0;
+  while (true) {
+    Frame& frame = frame_[depth];
+    if (frame.left == 0) {
+      if (depth == 0) break;
+      --depth;
+      const Vec2 up = circles_.centre[u(frame_[depth].triangle)] - x;
+      path += cross(c, up);
+      c = up;
+      continue;
+    }
+    const std::int32_t t = frame.triangle, k = frame.edge;
+    frame.edge = next(k);
+    --frame.left;
+    const std::int32_t across = mesh_.neighbour[u(t)][u(k)];
+    const auto descend = [&] {
+      const auto& back = mesh_.neighbour[u(across)];
+      const std::int32_t entry = back[0] == t ? 0 : back[1] == t ? 1 : 2;
+      if (++depth == frame_.size()) frame_.resize(2 * depth);
+      frame_[depth] = {across, next(entry), 2};
+      const Vec2 down = circles_.centre[u(across)] - x;
+      path += cross(c, down);
+      c = down;
+      ++visited;
+    };
+    if (across >= 0 && in_circle(across, x)) {
+      descend();
+      if (visited > mesh_.node.size()) return Outcome::lost;
+      continue;
+    }
+
+    const std::size_t here = count_++;
+    push(mesh_.node[u(t)][u(next(next(k)))], x);
+    Neighbour& a = ring_[here];
+    const Neighbour& b = ring_[here + 1];
+    const double aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y, ab = a.x * b.x + a.y * b.y;
+    const double area = a.x * b.y - a.y * b.x;
+    if (area <= on_edge * (aa + bb)) {
+      const Outcome outcome = degenerate_edge(a, b, across < 0, located);
+      if (outcome == Outcome::inside) {
+        --count_;
+        descend();
+        if (visited > mesh_.node.size()) return Outcome::lost;
+        continue;
+      }
+      ring_[0] = outcome == Outcome::on_node && bb < aa ? b : a;
+      ring_[1] = b;
+      frame_[0].triangle = t;
+      return outcome;
+    }
+    const double inverse = 1.0 / area;
+    a.area = area;
+    a.cx = 0.5 * inverse * (aa * b.y - bb * a.y);
+    a.cy = 0.5 * inverse * (bb * a.x - aa * b.x);
+    a.cot_next = (bb - ab) * inverse;
+    a.cot_here = (aa - ab) * inverse;
+    const double leg = c.x() * a.cy - c.y() * a.cx;
+    a.stolen = -(path + leg);
+    path = -leg;
+  }
+  ring_[0].stolen -= path;
+  return Outcome::inside;
+}
+
+/// φ from the ring of neighbours.
+void NaturalNeighbours::weigh(Functions functions) {
+  node_.resize(count_);
+  value_.resize(count_);
+  double sum = 0.0;
+  const Neighbour* before = &ring_[count_ - 1];
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Neighbour& n = ring_[i];
+    const double weight = functions == Functions::sibson ? n.stolen + (before->cx * n.cy - before->cy * n.cx)
+                                                         : n.cot_next + before->cot_here;
+    node_[i] = n.node;
+    value_[i] = std::max(weight, 0.0);
+    sum += value_[i];
+    before = &n;
+  }
+  const double inverse = 1.0 / sum;
+  for (double& value : value_) value *= inverse;
+}
+
+/// ∇φ from the ring, after weigh(). The bisector of x and a neighbour moves with ½ (midpoint − x)/distance,
+/// so twice the stolen area has the gradient s·2(midpoint − x) with the Laplace weight s.
+void NaturalNeighbours::weigh_gradients(Functions functions) {
+  gradient_.assign(count_, Vec2::Zero());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const std::size_t j = i + 1 == count_ ? 0 : i + 1;
+    const Neighbour &a = ring_[i], &b = ring_[j];
+    if (functions == Functions::laplace) {
+      const Vec2 edge(b.x - a.x, b.y - a.y);
+      const Vec2 area_gradient = left_normal(edge);
+      gradient_[i] += (-edge - a.cot_next * area_gradient) / a.area;
+      gradient_[j] += (edge - a.cot_here * area_gradient) / a.area;
+      sum += a.cot_next + a.cot_here;
+    } else {
+      const double weight = 0.5 * (b.cot_next + a.cot_here);
+      gradient_[j] = weight * Vec2(a.cx + b.cx, a.cy + b.cy);
+      sum += b.stolen + (a.cx * b.cy - a.cy * b.cx);
+    }
+  }
+  Vec2 total = Vec2::Zero();
+  for (const Vec2& g : gradient_) total += g;
+  for (std::size_t i = 0; i < count_; ++i) gradient_[i] = (gradient_[i] - value_[i] * total) / sum;
+}
+
+void NaturalNeighbours::linear_on(const Location& at) {
+  node_.assign(mesh_.node[u(at.triangle)].begin(), mesh_.node[u(at.triangle)].end());
+  value_.assign(at.weight.begin(), at.weight.end());
+}
+
+void NaturalNeighbours::linear_gradients_on(std::int32_t triangle) {
+  const auto& nodes = mesh_.node[u(triangle)];
+  std::array<double, 3> value{};
+  for (std::size_t i = 0; i < node_.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (nodes[k] == node_[i]) value[k] = value_[i];
+  linear_on({triangle, value, true});
+  std::array<Vec2, 3> x;
+  for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[u(nodes[k])];
+  const double twice_area = cross(x[1] - x[0], x[2] - x[0]);
+  gradient_.resize(3);
+  for (std::size_t k = 0; k < 3; ++k)
+    gradient_[k] = left_normal(x[(k + 2) % 3] - x[(k + 1) % 3]) / twice_area;
+}
+
+/// Turns the ring into nodes and values; false when it does not surround x.
+bool NaturalNeighbours::finish(Outcome outcome, Functions functions) {
+  switch (outcome) {
+  case Outcome::inside:
+    weigh(functions);
+    return true;
+  case Outcome::on_node:
+    node_.assign(1, ring_[0].node);
+    value_.assign(1, 1.0);
+    return true;
+  case Outcome::on_wall: {
+    const Vec2 a(ring_[0].x, ring_[0].y), edge(ring_[1].x - ring_[0].x, ring_[1].y - ring_[0].y);
+    const double lambda = std::clamp(-a.dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    node_ = {ring_[0].node, ring_[1].node};
+    value_ = {1.0 - lambda, lambda};
+    return true;
+  }
+  case Outcome::lost:
+    break;
+  }
+  return false;
+}
+
+void NaturalNeighbours::evaluate(Functions functions, const Vec2& x, std::int32_t hint) {
+  const Location at = locate(cloud_, mesh_, x, hint);
+  if (!at.inside)
+    throw GeometryError(fmt::format("the point ({:.9g}, {:.9g}) m lies outside the domain", x.x(), x.y()));
+  // Only rounding in triangles of hardly any area gets x lost once it is located.
+  if (!finish(collect(x, at.triangle, true), functions)) linear_on(at);
+}
+
+void NaturalNeighbours::evaluate_on_facet(Functions functions, const Vec2& x,
+                                          const std::array<std::int32_t, 2>& triangle) {
+  for (const std::int32_t t : triangle)
+    if (t >= 0 && in_circle(t, x) && finish(collect(x, t, false), functions)) return;
+  evaluate(functions, x, std::max(triangle[0], triangle[1]));
+}
+
+void NaturalNeighbours::evaluate_with_gradients(Functions functions, const Vec2& x, std::int32_t hint) {
+  const Location at = locate(cloud_, mesh_, x, hint);
+  if (!at.inside)
+    throw GeometryError(fmt::format("the point ({:.9g}, {:.9g}) m lies outside the domain", x.x(), x.y()));
+  const Outcome outcome = collect(x, at.triangle, true);
+  const bool found = finish(outcome, functions);
+  if (!found) linear_on(at);
+  if (outcome == Outcome::inside)
+    weigh_gradients(functions);
+  else
+    linear_gradients_on(found ? frame_[0].triangle : at.triangle);
+}
+
+} // namespace cnem::voronoi

@@ -1,0 +1,67 @@
+#include "voronoi/order.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace cnem::voronoi {
+
+namespace {
+
+/// Distance along the Hilbert curve of the given number of levels at cell (x, y).
+std::uint64_t hilbert_distance(std::uint32_t x, std::uint32_t y, int levels) {
+  std::uint64_t distance = 0;
+  for (std::uint32_t s = std::uint32_t{1} << (levels - 1); s > 0; s >>= 1) {
+    const std::uint32_t right = (x & s) != 0, upper = (y & s) != 0;
+    distance = 4 * distance + ((3 * right) ^ upper);
+    if (!upper) {
+      if (right) {
+        x = ~x;
+        y = ~y;
+      }
+      std::swap(x, y);
+    }
+  }
+  return distance;
+}
+
+} // namespace
+
+std::vector<std::int32_t> hilbert_order(const std::vector<Vec2>& position) {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;
+  for (const Vec2& x : position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  constexpr int levels = 24;
+  const double size = position.empty() ? 0.0 : (high - low).maxCoeff();
+  const double cells = size > 0.0 ? ((1 << levels) - 1) / size : 0.0;
+  std::vector<std::pair<std::uint64_t, std::int32_t>> key(position.size());
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const Vec2 cell = (position[i] - low) * cells;
+    key[i] = {
+        hilbert_distance(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y()), levels),
+        static_cast<std::int32_t>(i)};
+  }
+  std::sort(key.begin(), key.end());
+  std::vector<std::int32_t> order(position.size());
+  for (std::size_t i = 0; i < key.size(); ++i) order[i] = key[i].second;
+  return order;
+}
+
+Cloud<2> renumber(const Cloud<2>& cloud, const std::vector<std::int32_t>& order) {
+  std::vector<std::int32_t> new_of_old(order.size());
+  Cloud<2> result = cloud;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto old = static_cast<std::size_t>(order[i]);
+    new_of_old[old] = static_cast<std::int32_t>(i);
+    result.position[i] = cloud.position[old];
+  }
+  const auto rename = [&](std::int32_t& node) { node = new_of_old[static_cast<std::size_t>(node)]; };
+  for (auto& facet : result.facets)
+    for (auto& node : facet.node) rename(node);
+  for (auto& pair : result.twins)
+    for (auto& node : pair) rename(node);
+  return result;
+}
+
+} // namespace cnem::voronoi

@@ -1,0 +1,237 @@
+#include "voronoi/triangulation.hpp"
+
+#include "core/error.hpp"
+#include "voronoi/boundary_checks.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <fmt/format.h>
+#include <utility>
+
+namespace cnem::voronoi {
+
+namespace {
+
+enum class Side : std::int8_t { unknown, outside, inside };
+
+struct FaceInfo {
+  std::array<std::int32_t, 3> facet{-1, -1, -1}; ///< the facet that has this face on its left
+  std::int32_t triangle = -1;
+  Side side = Side::unknown;
+};
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Delaunay =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel,
+                                               CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using Vertex = Delaunay::Vertex_handle;
+using Face = Delaunay::Face_handle;
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The work of one call of triangulate().
+class Builder {
+public:
+  explicit Builder(const Cloud<2>& cloud) : cloud_(cloud), leaving_(outgoing_facets(cloud)) {}
+
+  Triangulation build() {
+    insert_nodes();
+    insert_facets();
+    mark_sides();
+    number_triangles();
+    if (merged_) separate_merged_nodes();
+    record_triangle_of_node();
+    return std::move(result_);
+  }
+
+private:
+  const Vec2& at(std::int32_t node) const { return cloud_.position[u(node)]; }
+  bool on_boundary(std::int32_t node) const { return leaving_[u(node)] >= 0; }
+
+  /// Nodes at the same position share one CGAL vertex, which is allowed to declared twins only.
+  void insert_nodes() {
+    const auto group = twin_groups(cloud_);
+    vertex_.resize(u(cloud_.nodes()));
+    is_merged_.assign(u(cloud_.nodes()), false);
+    Face hint;
+    for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
+      const std::size_t before = delaunay_.number_of_vertices();
+      const Vertex v = delaunay_.insert({at(i).x(), at(i).y()}, hint);
+      hint = v->face();
+      vertex_[u(i)] = v;
+      if (delaunay_.number_of_vertices() > before) {
+        v->info() = i;
+        continue;
+      }
+      const std::int32_t first = v->info();
+      if (group.empty() || group[u(first)] != group[u(i)])
+        throw GeometryError(fmt::format("{} coincides with node {}: expected distinct positions, or a "
+                                        "declared pair of twins on the two faces of a crack",
+                                        describe_node(cloud_, i), first));
+      is_merged_[u(first)] = is_merged_[u(i)] = merged_ = true;
+    }
+    if (delaunay_.dimension() < 2)
+      throw GeometryError(fmt::format("empty domain: the {} nodes lie on one line", cloud_.nodes()));
+  }
+
+  void insert_facets() {
+    try {
+      for (const auto& facet : cloud_.facets)
+        delaunay_.insert_constraint(vertex_[u(facet.node[0])], vertex_[u(facet.node[1])]);
+    } catch (const Delaunay::Intersection_of_constraints_exception&) { throw_crossing(cloud_); }
+    left_of_.resize(cloud_.facets.size());
+    for (std::size_t f = 0; f < cloud_.facets.size(); ++f) {
+      const auto facet = static_cast<std::int32_t>(f);
+      const Vertex a = vertex_[u(cloud_.facets[f].node[0])], b = vertex_[u(cloud_.facets[f].node[1])];
+      Face face;
+      int k = 0;
+      if (!delaunay_.is_edge(a, b, face, k)) throw_node_on_facet(cloud_, facet);
+      if (face->vertex(Delaunay::ccw(k)) != a) {
+        const Face other = face->neighbor(k);
+        k = delaunay_.mirror_index(face, k);
+        face = other;
+      }
+      auto& slot = face->info().facet[u(k)];
+      if (slot >= 0)
+        throw GeometryError(fmt::format("{} runs along facet {} in the same direction, expected opposite "
+                                        "faces of a crack or no overlap",
+                                        describe_facet(cloud_, facet), slot));
+      slot = facet;
+      left_of_[f] = {face, k};
+    }
+  }
+
+  /// Marks all faces that are reached from `start` without crossing a facet. Returns false when that meets
+  /// the other side.
+  bool flood(Face start, Side side) {
+    if (start->info().side == side) return true;
+    if (start->info().side != Side::unknown) return false;
+    start->info().side = side;
+    stack_.assign(1, start);
+    while (!stack_.empty()) {
+      const Face face = stack_.back();
+      stack_.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        if (face->is_constrained(k)) continue;
+        const Face next = face->neighbor(k);
+        if (next->info().side != Side::unknown) continue;
+        next->info().side = side;
+        stack_.push_back(next);
+      }
+    }
+    return true;
+  }
+
+  void mark_sides() {
+    flood(delaunay_.infinite_face(), Side::outside);
+    for (std::size_t f = 0; f < left_of_.size(); ++f)
+      if (!flood(left_of_[f].first, Side::inside)) throw_orientation(f);
+    for (std::size_t f = 0; f < left_of_.size(); ++f) {
+      const auto& [face, k] = left_of_[f];
+      const auto& right = face->neighbor(k)->info();
+      if (right.side == Side::inside && right.facet[u(delaunay_.mirror_index(face, k))] < 0)
+        throw_orientation(f);
+    }
+  }
+
+  [[noreturn]] void throw_orientation(std::size_t f) const {
+    throw GeometryError(
+        fmt::format("{} runs the wrong way round: expected the domain on its left (outer loops "
+                    "counter-clockwise, holes clockwise)",
+                    describe_facet(cloud_, static_cast<std::int32_t>(f))));
+  }
+
+  void number_triangles() {
+    std::vector<Face> faces;
+    faces.reserve(2 * u(cloud_.nodes()));
+    for (const Face face : delaunay_.finite_face_handles()) {
+      if (face->info().side != Side::inside) continue;
+      face->info().triangle = static_cast<std::int32_t>(faces.size());
+      faces.push_back(face);
+    }
+    if (faces.empty())
+      throw GeometryError(fmt::format("empty domain: the boundary, which starts with {}, encloses no area",
+                                      describe_facet(cloud_, 0)));
+    result_.node.resize(faces.size());
+    result_.neighbour.resize(faces.size());
+    result_.facet.resize(faces.size());
+    for (std::size_t t = 0; t < faces.size(); ++t) {
+      const Face face = faces[t];
+      for (int k = 0; k < 3; ++k) {
+        const bool wall = face->is_constrained(k);
+        result_.node[t][u(k)] = face->vertex(k)->info();
+        result_.facet[t][u(k)] = face->info().facet[u(k)];
+        result_.neighbour[t][u(k)] = wall ? -1 : face->neighbor(k)->info().triangle;
+      }
+    }
+  }
+
+  /// Gives every sector of triangles between two facets at a merged vertex the node of these facets.
+  void separate_merged_nodes() {
+    for (std::size_t f = 0; f < left_of_.size(); ++f) {
+      const std::int32_t node = cloud_.facets[f].node[0];
+      if (!is_merged_[u(node)]) continue;
+      std::int32_t t = left_of_[f].first->info().triangle;
+      int k = Delaunay::ccw(left_of_[f].second);
+      while (true) {
+        result_.node[u(t)][u(k)] = node;
+        const int exit = Delaunay::ccw(k);
+        const std::int32_t next = result_.neighbour[u(t)][u(exit)];
+        if (next < 0) {
+          const std::int32_t last = result_.facet[u(t)][u(exit)];
+          if (cloud_.facets[u(last)].node[1] == node) break;
+          throw GeometryError(
+              fmt::format("the boundary touches or crosses itself at {}: the domain to the left of {} ends "
+                          "at {}, which does not arrive at that node",
+                          describe_node(cloud_, node), describe_facet(cloud_, static_cast<std::int32_t>(f)),
+                          describe_facet(cloud_, last)));
+        }
+        int back = 0;
+        while (result_.neighbour[u(next)][u(back)] != t) ++back;
+        t = next;
+        k = Delaunay::ccw(back);
+      }
+    }
+  }
+
+  void record_triangle_of_node() {
+    result_.triangle_of_node.assign(u(cloud_.nodes()), -1);
+    for (std::size_t t = 0; t < result_.node.size(); ++t)
+      for (const std::int32_t i : result_.node[t])
+        if (result_.triangle_of_node[u(i)] < 0) result_.triangle_of_node[u(i)] = static_cast<std::int32_t>(t);
+    for (std::size_t f = 0; f < left_of_.size(); ++f)
+      result_.triangle_of_node[u(cloud_.facets[f].node[0])] = left_of_[f].first->info().triangle;
+    for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
+      if (is_merged_[u(i)] && !on_boundary(i))
+        throw GeometryError(
+            fmt::format("{} is declared a twin but belongs to no facet: expected the nodes of "
+                        "the two faces of a crack",
+                        describe_node(cloud_, i)));
+      if (result_.triangle_of_node[u(i)] < 0)
+        throw GeometryError(fmt::format("{} lies outside the domain", describe_node(cloud_, i)));
+    }
+  }
+
+  const Cloud<2>& cloud_;
+  std::vector<std::int32_t> leaving_; ///< [node] facet that leaves it
+  Delaunay delaunay_;
+  std::vector<Vertex> vertex_;                ///< [node]
+  std::vector<bool> is_merged_;               ///< [node] shares its CGAL vertex
+  bool merged_ = false;                       ///< any of them
+  std::vector<std::pair<Face, int>> left_of_; ///< [facet] the face on its left and the edge's index there
+  std::vector<Face> stack_;
+  Triangulation result_;
+};
+
+} // namespace
+
+Triangulation triangulate(const Cloud<2>& cloud) { return Builder(cloud).build(); }
+
+} // namespace cnem::voronoi
