@@ -92,8 +92,8 @@ struct GeneratedCloud {
 GeneratedCloud generate_cloud(const DomainShape& domain, const SpacingField& spacing,
                               const CloudOptions& options);
 
-/// Number of nodes that generate_cloud would make, within about 10%, in milliseconds; counting stops a little
-/// above `limit`. For pattern list the number given.
+/// Number of nodes that generate_cloud would make, within about 10%, in milliseconds (below a second when
+/// they are millions); counting stops a little above `limit`. For pattern list the number given.
 double estimate_nodes(const DomainShape& domain, const SpacingField& spacing, const CloudOptions& options);
 
 /// How well a cloud follows a spacing field.
