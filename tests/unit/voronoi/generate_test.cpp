@@ -246,9 +246,13 @@ TEST(GenerateCloud, ImpossibleGeometryIsExplained) {
   off.pieces[2].centre = Vec2(0.6, 0.7);
   EXPECT_PRED2(contains, error(off), "expected its radius, 0.3 m");
   EXPECT_PRED2(contains, error(polygon({{0, 0}, {1, 0}, {0.5, 0}})), "encloses no area");
-  EXPECT_PRED2(contains, error(polygon({{0, 0}, {2, 0}, {0, 1}, {1, 1.5}})), "cross");
-  EXPECT_NE(error(rectangle(1, 1), {circle({1, 0.5}, 0.2, "hole")}), "no error"); // across the outline
-  EXPECT_NE(error(rectangle(1, 1), {circle({3, 0.5}, 0.2, "hole")}), "no error"); // beyond it
+  EXPECT_PRED2(contains, error(polygon({{0, 0}, {2, 0}, {0, 1}, {1, 1.47}})), "cross");
+  EXPECT_PRED2(contains, error(rectangle(1, 1), {circle({0.9, 0.5}, 0.2, "eye")}),
+               "hole 1 ('eye') is not inside the outline: its point (1.1, 0.5)");
+  EXPECT_PRED2(contains, error(rectangle(1, 1), {circle({0.1, 0.52}, 0.2, "eye")}), "cross");
+  EXPECT_PRED2(contains,
+               error(rectangle(1, 1), {circle({0.5, 0.5}, 0.2, "a"), circle({0.6, 0.52}, 0.21, "b")}),
+               "cross");
 }
 
 TEST(GenerateCloud, OptionsOutOfRangeAreExplained) {
