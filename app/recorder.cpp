@@ -3,6 +3,7 @@
 #include "app/fields.hpp"
 #include "io/output_folder.hpp"
 #include "io/picture.hpp"
+#include "voronoi/natural_neighbours.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,27 @@ std::array<std::span<const double>, 2> spans(const Fields<2>& field) { return {f
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{}[{}]", name, unit);
+}
+
+/// Natural-neighbour weights of the probes in the initial cloud.
+std::vector<ProbeWeights> probe_weights(const io::Case& input, const Cloud<2>& cloud) {
+  std::vector<ProbeWeights> probes;
+  if (input.output.probes.empty()) return probes;
+  const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
+  const voronoi::Circumcircles circles = voronoi::circumcircles(cloud, mesh);
+  voronoi::NaturalNeighbours functions(cloud, mesh, circles);
+  for (const io::Probe& probe : input.output.probes) {
+    try {
+      functions.evaluate(voronoi::Functions::sibson, probe.at);
+    } catch (const GeometryError& error) {
+      throw input.error("output.probes." + probe.name + ".at", error.what());
+    }
+    probes.push_back({probe.name,
+                      probe.fields,
+                      {functions.nodes().begin(), functions.nodes().end()},
+                      {functions.values().begin(), functions.values().end()}});
+  }
+  return probes;
 }
 
 double total_mass(const ExplicitSolver<2>& solver) {
@@ -140,7 +162,6 @@ void FieldRecorder::record(const ExplicitSolver<2>& solver) {
   const NodeState<2>& node = solver.state().node;
   io::FieldFrame frame;
   frame.time = solver.state().time;
-  frame.step = solver.state().step;
   frame.cells = &solver.approximation().cells;
   frame.position = spans(node.position);
   std::vector<Field> storage;
@@ -177,7 +198,7 @@ void PictureRecorder::record(const ExplicitSolver<2>& solver) {
                                case_->tools[t].name});
     album_.add(name, info.label, picture.time, io::draw_png(picture));
     for (const io::Window& window : case_->output.windows) {
-      picture.window = {window.lower, window.upper};
+      picture.window = io::PictureWindow{window.lower, window.upper};
       album_.add(name + "_" + window.name, info.label, picture.time, io::draw_png(picture), window.name);
     }
   }

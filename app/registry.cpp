@@ -85,7 +85,7 @@ plasticity::Material make_material(const io::Material& spec) {
     material.conductivity = spec.heat->conductivity;
     material.taylor_quinney = spec.heat->taylor_quinney;
     material.expansion = spec.heat->expansion;
-    material.expansion_reference = spec.heat->reference_temperature.value_or(material.expansion_reference);
+    material.expansion_reference = spec.heat->reference_temperature;
   }
   return material;
 }

@@ -39,12 +39,12 @@ struct Bounds {
 };
 
 // The body with a narrow margin, a wider one where a tool stands.
-Window body_window(const Picture& picture, const std::vector<Vec2>& vertices) {
+PictureWindow body_window(const Picture& picture, const std::vector<Vec2>& vertices) {
   Bounds body;
   for (const Vec2& x : vertices) body.add(x);
   if (!(body.low.x() <= body.high.x())) return {Vec2(0, 0), Vec2(1, 1)};
   const double size = std::max((body.high - body.low).maxCoeff(), 1e-12);
-  Window window{body.low.array() - 0.025 * size, body.high.array() + 0.025 * size};
+  PictureWindow window{body.low.array() - 0.025 * size, body.high.array() + 0.025 * size};
   Bounds tools;
   for (const PictureTool& tool : picture.tools)
     for (const CurvePiece& piece : tool.curve->pieces)
@@ -58,7 +58,7 @@ Window body_window(const Picture& picture, const std::vector<Vec2>& vertices) {
 }
 
 PictureLayout layout_of(const Picture& picture, const std::vector<Vec2>& vertices) {
-  Window window = picture.window ? *picture.window : body_window(picture, vertices);
+  PictureWindow window = picture.window ? *picture.window : body_window(picture, vertices);
   if (!((window.high - window.low).minCoeff() > 0.0))
     throw InputError("picture: the window must have a positive width and height");
   const double unit = picture.width / design_width;

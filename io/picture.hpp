@@ -12,7 +12,7 @@
 
 namespace cnem::io {
 
-struct Window {
+struct PictureWindow {
   Vec2 low{0, 0}, high{0, 0}; ///< m
 };
 
@@ -33,7 +33,7 @@ struct Picture {
   ColourMap map = ColourMap::strain;
   std::optional<ColourRange> range; ///< SI; by default that of the values
   std::vector<PictureTool> tools;
-  std::optional<Window> window; ///< part shown; by default the whole body with a margin
+  std::optional<PictureWindow> window; ///< part shown; by default the whole body with a margin
   std::optional<bool> edges;    ///< outlines of cells; by default where cells are large enough to be seen
   std::string title;            ///< upper left: the case
   double time = 0.0;            ///< s, shown upper right

@@ -42,9 +42,9 @@ std::string Key::expectation() const {
   const std::string such_as = " such as " + example_text();
   switch (type) {
   case Type::table:
-    return fmt::format("a table [{}]", path);
+    return fmt::format("a table [{}]", readable(path));
   case Type::named_tables:
-    return fmt::format("tables [{}.NAME]", path);
+    return fmt::format("tables [{}.NAME]", readable(path));
   case Type::table_list:
     return "an array of tables such as [{ to = \"20 0 mm\" }, { to = \"20 10 mm\" }]";
   case Type::quantity:
@@ -87,6 +87,12 @@ const Key* find_key(std::string_view pattern) {
   }();
   const auto found = index.find(pattern);
   return found == index.end() ? nullptr : found->second;
+}
+
+std::string readable(std::string pattern) {
+  for (auto star = pattern.find('*'); star != std::string::npos; star = pattern.find('*'))
+    pattern.replace(star, 1, "NAME");
+  return pattern;
 }
 
 const std::vector<const Key*>& members_of(const std::string& pattern) {

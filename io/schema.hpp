@@ -80,6 +80,9 @@ const std::vector<Key>& schema();
 /// The key with this pattern; nullptr when there is none.
 const Key* find_key(std::string_view pattern);
 
+/// A pattern for people: "tools.NAME.velocity".
+std::string readable(std::string pattern);
+
 /// Members of the table with this pattern, in order.
 const std::vector<const Key*>& members_of(const std::string& pattern);
 

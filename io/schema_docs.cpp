@@ -81,12 +81,6 @@ bool belongs_to_outline(const Key& key) {
   return false;
 }
 
-std::string readable(std::string pattern) {
-  for (auto star = pattern.find('*'); star != std::string::npos; star = pattern.find('*'))
-    pattern.replace(star, 1, "NAME");
-  return pattern;
-}
-
 std::string kind(const Key& key) {
   const std::string unit = describe(key.dimension).si_unit;
   switch (key.type) {

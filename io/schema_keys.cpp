@@ -266,7 +266,8 @@ void add_output(Keys& k) {
       .in(not_negative)
       .example("\"1 us\"")
       .computed("`time.end`/24");
-  k.add("output.pictures", quantities, "Times of the pictures in the report.")
+  k.add("output.pictures", quantities,
+        "Times of the pictures in the report; those beyond `time.end` are skipped.")
       .unit(d::time)
       .in(not_negative)
       .example("\"2 4 5 12 us\"")

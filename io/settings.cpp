@@ -20,13 +20,6 @@ bool valid_name(std::string_view name) {
   });
 }
 
-/// Patterns with '*' read better as "tools.NAME.velocity".
-std::string readable(std::string pattern) {
-  for (auto star = pattern.find('*'); star != std::string::npos; star = pattern.find('*'))
-    pattern.replace(star, 1, "NAME");
-  return pattern;
-}
-
 std::size_t common_prefix(std::string_view a, std::string_view b) {
   std::size_t n = 0;
   while (n < std::min(a.size(), b.size()) && a[n] == b[n]) ++n;

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -14,7 +15,8 @@ namespace cnem::io {
 namespace {
 
 struct BaseUnit {
-  double numerator, denominator;
+  int power;
+  double factor;
   Dimension dimension;
   bool prefixes = true;
 };
@@ -23,35 +25,35 @@ const std::map<std::string, BaseUnit, std::less<>>& base_units() {
   namespace d = dimension;
   constexpr double pi = std::numbers::pi;
   static const std::map<std::string, BaseUnit, std::less<>> units{
-      {"m", {1, 1, d::length}},
-      {"g", {1, 1e3, Dimension::of(0, 1, 0)}},
-      {"t", {1e3, 1, Dimension::of(0, 1, 0), false}},
-      {"s", {1, 1, d::time}},
-      {"min", {60, 1, d::time, false}},
-      {"h", {3600, 1, d::time, false}},
-      {"K", {1, 1, d::temperature}},
-      {"N", {1, 1, Dimension::of(1, 1, -2)}},
-      {"Pa", {1, 1, d::pressure}},
-      {"bar", {1e5, 1, d::pressure}},
-      {"J", {1, 1, Dimension::of(2, 1, -2)}},
-      {"W", {1, 1, Dimension::of(2, 1, -3)}},
-      {"Hz", {1, 1, d::rate}},
-      {"rad", {1, 1, d::angle}},
-      {"deg", {pi, 180, d::angle, false}},
-      {"rev", {2 * pi, 1, d::angle, false}},
-      {"rpm", {2 * pi, 60, d::angular_velocity, false}},
-      {"%", {1, 100, d::none, false}},
+      {"m", {0, 1.0, d::length}},
+      {"g", {-3, 1.0, Dimension::of(0, 1, 0)}},
+      {"t", {3, 1.0, Dimension::of(0, 1, 0), false}},
+      {"s", {0, 1.0, d::time}},
+      {"min", {0, 60.0, d::time, false}},
+      {"h", {0, 3600.0, d::time, false}},
+      {"K", {0, 1.0, d::temperature}},
+      {"N", {0, 1.0, Dimension::of(1, 1, -2)}},
+      {"Pa", {0, 1.0, d::pressure}},
+      {"bar", {5, 1.0, d::pressure}},
+      {"J", {0, 1.0, Dimension::of(2, 1, -2)}},
+      {"W", {0, 1.0, Dimension::of(2, 1, -3)}},
+      {"Hz", {0, 1.0, d::rate}},
+      {"rad", {0, 1.0, d::angle}},
+      {"deg", {0, pi / 180.0, d::angle, false}},
+      {"rev", {0, 2.0 * pi, d::angle, false}},
+      {"rpm", {0, pi / 30.0, d::angular_velocity, false}},
+      {"%", {-2, 1.0, d::none, false}},
   };
   return units;
 }
 
 struct Prefix {
   std::string_view symbol;
-  double numerator, denominator;
+  int power;
 };
 
-const Prefix prefixes[] = {{"n", 1, 1e9}, {"u", 1, 1e6}, {"µ", 1, 1e6}, {"μ", 1, 1e6}, {"m", 1, 1e3},
-                           {"c", 1, 100}, {"d", 1, 10},  {"k", 1e3, 1}, {"M", 1e6, 1}, {"G", 1e9, 1}};
+const Prefix prefixes[] = {{"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3},
+                           {"c", -2}, {"d", -1}, {"k", 3},  {"M", 6},  {"G", 9}};
 
 struct DimensionName {
   Dimension dimension;
@@ -102,7 +104,7 @@ public:
   Unit parse() {
     skip_spaces();
     if (at_end()) fail("it is empty");
-    if (trimmed() == "degC") return {1.0, 1.0, 273.15, dimension::temperature};
+    if (trimmed() == "degC") return {0, 1.0, 273.15, dimension::temperature};
     const Unit unit = product();
     if (!at_end()) fail(fmt::format("'{}' has no opening parenthesis", text_[at_]));
     return unit;
@@ -146,8 +148,8 @@ private:
   }
 
   static void multiply(Unit& result, const Unit& unit, int sign) {
-    result.numerator *= sign > 0 ? unit.numerator : unit.denominator;
-    result.denominator *= sign > 0 ? unit.denominator : unit.numerator;
+    result.power += sign * unit.power;
+    result.factor = sign > 0 ? result.factor * unit.factor : result.factor / unit.factor;
     for (std::size_t k = 0; k < result.dimension.halves.size(); ++k)
       result.dimension.halves[k] += sign * unit.dimension.halves[k];
   }
@@ -156,9 +158,9 @@ private:
     Unit unit = primary();
     const std::optional<double> exponent = read_exponent();
     if (!exponent) return unit;
-    if (*exponent < 0.0) std::swap(unit.numerator, unit.denominator);
-    unit.numerator = std::pow(unit.numerator, std::abs(*exponent));
-    unit.denominator = std::pow(unit.denominator, std::abs(*exponent));
+    const double power = unit.power * *exponent;
+    unit.power = static_cast<int>(std::floor(power));
+    unit.factor = std::pow(unit.factor, *exponent) * std::pow(10.0, power - unit.power);
     for (int& half : unit.dimension.halves) half = static_cast<int>(std::lround(half * *exponent));
     return unit;
   }
@@ -206,13 +208,13 @@ private:
     if (symbol == "degC") fail("degC has an offset and cannot be part of another unit, use K");
     const auto whole = base_units().find(symbol);
     if (whole != base_units().end())
-      return {whole->second.numerator, whole->second.denominator, 0.0, whole->second.dimension};
+      return {whole->second.power, whole->second.factor, 0.0, whole->second.dimension};
     for (const Prefix& prefix : prefixes) {
       if (!symbol.starts_with(prefix.symbol)) continue;
       const auto found = base_units().find(symbol.substr(prefix.symbol.size()));
       if (found == base_units().end() || !found->second.prefixes) continue;
       const BaseUnit& unit = found->second;
-      return {prefix.numerator * unit.numerator, prefix.denominator * unit.denominator, 0.0, unit.dimension};
+      return {prefix.power + unit.power, unit.factor, 0.0, unit.dimension};
     }
     static const std::vector<std::string> common{"m",  "mm",  "um",  "s",   "ms",  "us",  "ns", "K",  "degC",
                                                  "Pa", "kPa", "MPa", "GPa", "N",   "kN",  "J",  "kJ", "W",
@@ -241,9 +243,17 @@ std::pair<double, std::size_t> leading_number(std::string_view text) {
 } // namespace
 
 double Unit::to_si(double value) const {
-  const double scaled =
-      numerator >= denominator ? value * (numerator / denominator) : value / (denominator / numerator);
-  return scaled + offset;
+  if (power == 0) return value * factor + offset;
+  // Shifting the decimal exponent rounds once, multiplying by 0.001 twice.
+  const std::string decimal = fmt::format("{}", value * factor);
+  const auto e = decimal.find('e');
+  int exponent = power;
+  if (e != std::string::npos) exponent += std::stoi(decimal.substr(e + 1));
+  const std::string shifted = fmt::format("{}e{}", decimal.substr(0, e), exponent);
+  double result = 0.0;
+  const auto [end, error] = std::from_chars(shifted.data(), shifted.data() + shifted.size(), result);
+  if (error == std::errc::result_out_of_range && exponent > 0) return std::numeric_limits<double>::infinity();
+  return result + offset;
 }
 
 DimensionText describe(const Dimension& dimension) {

@@ -50,14 +50,15 @@ struct DimensionText {
 /// For dimensions that no case uses the name is "a quantity in …".
 DimensionText describe(const Dimension& dimension);
 
-/// A unit such as "W/(m K)". The factor is kept as a quotient so that "12 us" is 12/10⁶ s, the number nearest
-/// to 1.2e-5, and not 12 · 10⁻⁶ with two roundings. Only degC has an offset.
+/// A unit such as "W/(m K)": SI value = value · factor · 10^power + offset. Powers of ten stay apart so that
+/// "5.1 mm" and "0.0051 m" are the same bits. Only degC has an offset.
 struct Unit {
-  double numerator = 1.0;
-  double denominator = 1.0;
+  int power = 0;
+  double factor = 1.0;
   double offset = 0.0;
   Dimension dimension;
 
+  /// Infinite when the result is beyond what a double can hold.
   double to_si(double value) const;
 };
 

@@ -63,6 +63,16 @@ TEST(Units, DegreesCelsiusAreAbsoluteTemperaturesOnly) {
   EXPECT_TRUE(has(message_of("5 degC2", d::temperature), "degC has an offset"));
 }
 
+TEST(Units, DecimalPrefixesDoNotChangeBits) {
+  EXPECT_EQ(parse_quantity("5.1 mm", d::length), 0.0051);
+  EXPECT_EQ(parse_quantity("0.05 us", d::time), 5e-8);
+  EXPECT_EQ(parse_quantity("1e-3 mm", d::length), 1e-6);
+  EXPECT_EQ(parse_quantity("7.85 g/cm3", d::density), 7850.0);
+  EXPECT_EQ(parse_quantity("7.85e-9 t/mm^3", d::density), 7850.0);
+  EXPECT_EQ(parse_quantity("-0.3 mm", d::length), -0.0003);
+  EXPECT_EQ(parse_quantity("1e-320 nm", d::length), 0.0);
+}
+
 TEST(Units, MilliAndMetreAndMinute) {
   EXPECT_EQ(parse_quantity("3 m", d::length), 3.0);
   EXPECT_EQ(parse_quantity("3 mm", d::length), 0.003);

@@ -1,0 +1,41 @@
+#include "io/case.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace cnem::io {
+
+std::vector<std::string> Domain::piece_names() const {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const CurvePiece& piece : outer.pieces) add(piece.name);
+  for (const Hole& hole : holes)
+    for (const CurvePiece& piece : hole.outline.pieces) add(piece.name);
+  for (const Crack& crack : cracks) {
+    add(crack.name + "+");
+    add(crack.name + "-");
+  }
+  return names;
+}
+
+const Material& Case::material(const std::string& wanted) const {
+  const auto found = std::find_if(materials.begin(), materials.end(),
+                                  [&](const Material& candidate) { return candidate.name == wanted; });
+  if (found == materials.end())
+    throw error("materials", fmt::format("found no material '{}', expected one that is defined", wanted));
+  return *found;
+}
+
+InputError Case::error(const std::string& key, const std::string& message) const {
+  std::string written = key;
+  while (!written.empty() && !location.contains(written)) {
+    const auto cut = written.find_last_of(".[");
+    written.resize(cut == std::string::npos ? 0 : cut);
+  }
+  return InputError(
+      fmt::format("{}: key '{}': {}", written.empty() ? path : location.at(written), key, message));
+}
+
+} // namespace cnem::io

@@ -1,0 +1,257 @@
+// The geometric part of the case reader: domain, tools, cloud.
+#include "io/case_parts.hpp"
+#include "io/curve_checks.hpp"
+#include "io/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace cnem::io {
+namespace {
+
+std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
+
+/// The curve of a table; nothing, and a mistake recorded, when it cannot be made.
+std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Diagnostics& diagnostics) {
+  try {
+    return make_outline(table, names);
+  } catch (const OutlineError& error) {
+    const std::string key = error.key.empty() ? table.path : table.path + "." + error.key;
+    // Elements of a list are "path[2]" in keys and two steps in the tree.
+    std::string steps = error.key;
+    if (const auto bracket = steps.find('['); bracket != std::string::npos) steps.insert(bracket, ".");
+    const Setting* culprit = table.find(steps);
+    diagnostics.add(Mistake::geometry, culprit && culprit->given ? culprit->where : table.where, key,
+                    error.what());
+    return std::nullopt;
+  }
+}
+
+/// Where a polyline crosses, touches or overlaps itself.
+std::optional<Vec2> self_crossing(const std::vector<CurvePiece>& segments, double tolerance) {
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    for (std::size_t j = i + 1; j < segments.size(); ++j)
+      for (const Vec2& x : meeting_points(segments[i], segments[j], tolerance))
+        if (j > i + 1 || (x - segments[i].to).norm() > tolerance) return x;
+  return std::nullopt;
+}
+
+std::vector<CurvePiece> segments_of(const Crack& crack) {
+  std::vector<CurvePiece> segments;
+  for (std::size_t i = 1; i < crack.points.size(); ++i)
+    segments.push_back({crack.points[i - 1], crack.points[i], {0, 0}, 0.0, false, crack.name});
+  return segments;
+}
+
+/// All boundary curves of a domain.
+std::vector<std::pair<std::string, const Curve*>> curves_of(const Domain& domain) {
+  std::vector<std::pair<std::string, const Curve*>> curves{{"domain.outer", &domain.outer}};
+  for (const Hole& hole : domain.holes) curves.emplace_back("domain.holes." + hole.name, &hole.outline);
+  return curves;
+}
+
+/// Why the point is not in the domain or on its boundary; empty when it is.
+std::string outside_reason(const Domain& domain, const Vec2& x) {
+  const double tolerance = 1e-9 * extent(domain.outer);
+  if (!inside(domain.outer, x) && distance(domain.outer, x) > tolerance) return "outside domain.outer";
+  for (const Hole& hole : domain.holes)
+    if (inside(hole.outline, x) && distance(hole.outline, x) > tolerance)
+      return "in the hole domain.holes." + hole.name;
+  return "";
+}
+
+void check_holes(const Setting& holes, const Domain& domain, Diagnostics& diagnostics) {
+  const auto fail = [&](std::size_t i, const std::string& message) {
+    const Setting& setting = *holes.find(domain.holes[i].name);
+    diagnostics.add(Mistake::geometry, setting.where, setting.path, message);
+  };
+  for (std::size_t i = 0; i < domain.holes.size(); ++i) {
+    const Curve& hole = domain.holes[i].outline;
+    if (const auto point = common_point(hole, domain.outer)) {
+      fail(i, fmt::format("the hole meets domain.outer at {}, expected it to lie inside", show(*point)));
+      continue;
+    }
+    if (!inside(domain.outer, hole.pieces.front().from))
+      fail(i, fmt::format("the hole lies outside domain.outer at {}", show(hole.pieces.front().from)));
+    for (std::size_t j = 0; j < i; ++j) {
+      const Curve& other = domain.holes[j].outline;
+      if (const auto point = common_point(hole, other))
+        fail(i, fmt::format("the hole meets domain.holes.{} at {}", domain.holes[j].name, show(*point)));
+      else if (inside(other, hole.pieces.front().from) || inside(hole, other.pieces.front().from))
+        fail(i, fmt::format("one of the holes {} and {} lies in the other", domain.holes[i].name,
+                            domain.holes[j].name));
+    }
+  }
+}
+
+/// First thing wrong with a crack; empty when nothing is.
+std::string crack_problem(const Domain& domain, std::size_t index) {
+  const Crack& crack = domain.cracks[index];
+  const double tolerance = 1e-9 * extent(domain.outer);
+  if (crack.points.size() < 2)
+    return fmt::format("found {} points, expected at least two", crack.points.size());
+  const std::vector<CurvePiece> segments = segments_of(crack);
+  for (const CurvePiece& segment : segments)
+    if (segment.length() <= tolerance)
+      return fmt::format("two consecutive points coincide at {}", show(segment.from));
+  if (const auto point = self_crossing(segments, tolerance))
+    return fmt::format("the crack crosses or touches itself at {}", show(*point));
+  for (const Vec2& point : crack.points)
+    if (const std::string reason = outside_reason(domain, point); !reason.empty())
+      return fmt::format("the point {} is {}", show(point), reason);
+  for (const auto& [name, curve] : curves_of(domain))
+    for (const CurvePiece& piece : curve->pieces)
+      for (const CurvePiece& segment : segments)
+        for (const Vec2& x : meeting_points(segment, piece, tolerance))
+          if ((x - crack.points.front()).norm() > tolerance && (x - crack.points.back()).norm() > tolerance)
+            return fmt::format("the crack meets {} at {}, expected only its ends to do so", name, show(x));
+  for (std::size_t other = 0; other < index; ++other)
+    for (const CurvePiece& a : segments)
+      for (const CurvePiece& b : segments_of(domain.cracks[other]))
+        if (const auto points = meeting_points(a, b, tolerance); !points.empty())
+          return fmt::format("the crack meets domain.cracks.{} at {}", domain.cracks[other].name,
+                             show(points.front()));
+  return "";
+}
+
+std::array<Vec2, 2> box(const Setting& setting, Diagnostics& diagnostics) {
+  const auto& corners = std::get<std::vector<Vec2>>(setting.value);
+  if (corners.size() != 2) {
+    diagnostics.add(Mistake::type, setting.where, setting.path,
+                    fmt::format("found {} points, expected two opposite corners such as {}", corners.size(),
+                                setting.key->example_text()));
+    return {Vec2(0, 0), Vec2(0, 0)};
+  }
+  const Vec2 low = corners[0].cwiseMin(corners[1]), high = corners[0].cwiseMax(corners[1]);
+  if (!((high - low).minCoeff() > 0.0))
+    diagnostics.add(Mistake::geometry, setting.where, setting.path,
+                    fmt::format("a box from {} to {} has no area", show(corners[0]), show(corners[1])));
+  return {low, high};
+}
+
+Refinement read_refinement(const Setting& table, double cloud_spacing, Diagnostics& diagnostics) {
+  Refinement refinement;
+  refinement.name = table.name;
+  refinement.growth = table.get<double>("growth");
+  const Setting *region = table.find("box"), *points = table.find("points");
+  const Setting *spacing = table.find("spacing"), *factor = table.find("factor");
+  if (!region == !points)
+    diagnostics.add(region ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+                    fmt::format("found {} of box and points, expected one", region ? "both" : "none"));
+  if (!spacing == !factor)
+    diagnostics.add(spacing ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+                    fmt::format("found {} of spacing and factor, expected one", spacing ? "both" : "none"));
+  if (region) refinement.box = box(*region, diagnostics);
+  if (points) {
+    refinement.points = std::get<std::vector<Vec2>>(points->value);
+    if (refinement.points.empty())
+      diagnostics.add(Mistake::type, points->where, points->path, "found no points, expected at least one");
+  }
+  refinement.spacing = spacing ? std::get<double>(spacing->value)
+                               : table.maybe<double>("factor").value_or(1.0) * cloud_spacing;
+  return refinement;
+}
+
+} // namespace
+
+void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting& table = *root.find("domain");
+  Domain& domain = result.domain;
+  domain.material = table.get<std::string>("material");
+  const auto outer = outline(*table.find("outer"), {"outer", true}, diagnostics);
+  bool complete = outer.has_value();
+  if (outer) domain.outer = *outer;
+  for (const Setting& hole : table.entries("holes")) {
+    const auto curve = outline(hole, {hole.name, false}, diagnostics);
+    complete = complete && curve;
+    if (curve) domain.holes.push_back({hole.name, curve->reversed()});
+  }
+  for (const Setting& crack : table.entries("cracks"))
+    domain.cracks.push_back({crack.name, crack.get<std::vector<Vec2>>("points")});
+  if (!complete) return;
+  if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);
+  for (std::size_t i = 0; i < domain.cracks.size(); ++i) {
+    const Setting& points = *table.entries("cracks")[i].find("points");
+    if (const std::string problem = crack_problem(domain, i); !problem.empty())
+      diagnostics.add(Mistake::geometry, points.where, points.path, problem);
+  }
+  for (const Setting& probe : root.entries("output.probes")) {
+    const Setting& at = *probe.find("at");
+    const auto& point = std::get<Vec2>(at.value);
+    if (const std::string reason = outside_reason(domain, point); !reason.empty())
+      diagnostics.add(Mistake::geometry, at.where, at.path,
+                      fmt::format("the probe at {} is {}, expected a material point", show(point), reason));
+  }
+}
+
+void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  for (const Setting& table : root.entries("tools")) {
+    Tool tool;
+    tool.name = table.name;
+    tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
+    const auto& velocity = table.get<VectorFunction>("velocity");
+    for (std::size_t k = 0; k < 2; ++k) tool.velocity[k] = velocity[k].value_or(TimeTable(0.0));
+    tool.friction.law = table.choice<Friction::Law>("friction.law");
+    tool.friction.coefficient = table.maybe<double>("friction.coefficient").value_or(0.0);
+    tool.friction.shear_factor = table.maybe<double>("friction.shear_factor").value_or(1.0);
+    if (const Setting* heat = table.find("heat")) {
+      ToolHeat& tool_heat = tool.heat.emplace();
+      tool_heat.conductance = heat->get<double>("conductance");
+      tool_heat.temperature = heat->get<double>("temperature");
+      tool_heat.effusivity = heat->maybe<double>("effusivity");
+      const auto k = heat->maybe<double>("conductivity"), density = heat->maybe<double>("density"),
+                 c = heat->maybe<double>("specific_heat");
+      const int parts = int(k.has_value()) + int(density.has_value()) + int(c.has_value());
+      if (parts > 0 && (parts < 3 || tool_heat.effusivity))
+        diagnostics.add(Mistake::conflict, heat->where, heat->path,
+                        "expected either effusivity, or conductivity, density and specific_heat together");
+      else if (parts == 3)
+        tool_heat.effusivity = std::sqrt(*k * *density * *c);
+    }
+    result.tools.push_back(std::move(tool));
+  }
+}
+
+void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
+  Setting& table = *root.find("cloud");
+  CloudSpec& cloud = result.cloud;
+  cloud.pattern = table.choice<CloudSpec::Pattern>("pattern");
+  cloud.jitter = table.get<double>("jitter");
+  cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
+  cloud.spacing = table.maybe<double>("spacing").value_or(0.0);
+  const bool list = cloud.pattern == CloudSpec::Pattern::list;
+  if (!list && !table.find("spacing"))
+    diagnostics.add(Mistake::missing_key, table.where, "cloud.spacing",
+                    "missing, expected " + find_key("cloud.spacing")->expectation());
+  const Setting *nodes = table.find("nodes"), *file = table.find("nodes_file");
+  for (const Setting* given : {nodes, file})
+    if (given && !list)
+      diagnostics.add(Mistake::conflict, given->where, given->path,
+                      "goes with pattern = \"list\", found another pattern");
+  if (list && !nodes == !file)
+    diagnostics.add(nodes ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+                    fmt::format("found {} of nodes and nodes_file, expected one with pattern = \"list\"",
+                                nodes ? "both" : "none"));
+  else if (list && file) {
+    const std::filesystem::path folder = std::filesystem::path(result.path).parent_path();
+    try {
+      cloud.nodes = read_points((folder / std::get<std::string>(file->value)).string());
+    } catch (const InputError& error) {
+      diagnostics.add(Mistake::reference, file->where, file->path, error.what());
+    }
+    std::erase_if(table.members, [](const Setting& member) { return member.name == "nodes_file"; });
+    table.set_default("nodes", cloud.nodes);
+  } else if (list) {
+    cloud.nodes = std::get<std::vector<Vec2>>(nodes->value);
+  }
+  for (const Setting& refinement : table.entries("refine"))
+    cloud.refine.push_back(read_refinement(refinement, cloud.spacing, diagnostics));
+  for (const Setting& window : root.entries("output.windows")) {
+    const std::array<Vec2, 2> corners = box(*window.find("box"), diagnostics);
+    result.output.windows.push_back({window.name, corners[0], corners[1]});
+  }
+}
+
+} // namespace cnem::io

@@ -1,0 +1,28 @@
+#pragma once
+// The steps of the case reader, between its translation units.
+#include "io/case.hpp"
+#include "io/settings.hpp"
+
+#include <string>
+
+namespace cnem::io {
+
+/// Domain and tools: outlines, holes and cracks, and whether they fit into one another.
+void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
+void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Spacing, refinements and node lists. A node file is read and its nodes are put into the settings, so that
+/// the resolved case stands alone.
+void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Materials, and whether the domain's exists and has what is needed.
+void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Boundary conditions: pieces exist, conditions do not fight over them. Expects the domain.
+void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file and line for a file
+/// that is absent or malformed, IoError when it cannot be read.
+std::vector<Vec2> read_points(const std::string& path);
+
+} // namespace cnem::io

@@ -1,0 +1,126 @@
+#include "io/case_reader.hpp"
+
+#include "io/case_parts.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace cnem::io {
+namespace {
+
+std::string case_name(const std::string& path) {
+  const std::filesystem::path file = std::filesystem::absolute(path).lexically_normal();
+  if (file.filename().string().starts_with("case.")) return file.parent_path().filename().string();
+  return file.stem().string();
+}
+
+/// Defaults that depend on other keys.
+void compute_defaults(Setting& root) {
+  const double end = root.get<double>("time.end"), temperature = root.get<double>("initial.temperature");
+  const Setting* materials = root.find("materials");
+  const Setting* material = materials->find(root.get<std::string>("domain.material"));
+  root.set_default("analysis.thermal", material && material->find("heat"));
+  root.set_default("output.history_every", end / 400.0);
+  root.set_default("output.fields_every", end / 24.0);
+  root.set_default("output.pictures", std::vector<double>{end});
+  for (const Setting& entry : root.entries("materials"))
+    if (entry.find("heat")) root.set_default(entry.path + ".heat.reference_temperature", temperature);
+  for (const Setting& entry : root.entries("tools"))
+    if (entry.find("heat")) root.set_default(entry.path + ".heat.temperature", temperature);
+}
+
+void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting& step = *root.find("time.step");
+  result.time = {root.get<double>("time.end"), step.get<double>("safety"), step.maybe<double>("max"),
+                 step.maybe<double>("fixed"), static_cast<int>(step.get<std::int64_t>("check_every"))};
+  if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
+    diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
+                    "found a fixed step and a largest step, expected one of them");
+}
+
+void read_initial_and_loads(const Setting& root, Case& result) {
+  const Setting& initial = *root.find("initial");
+  result.initial.temperature = initial.get<double>("temperature");
+  result.initial.velocity = initial.get<Vec2>("velocity");
+  if (const Setting* spin = initial.find("spin"))
+    result.initial.spin = Spin{spin->get<double>("rate"), spin->get<Vec2>("centre")};
+  result.loads.body_force = root.maybe<VectorFunction>("loads.body_force").value_or(VectorFunction{});
+}
+
+void read_method(const Setting& root, Case& result) {
+  const Setting& table = *root.find("method");
+  Method& method = result.method;
+  method.name = table.choice<Method::Name>("name");
+  method.functions = table.choice<Method::Functions>("functions");
+  method.gauss_points = static_cast<int>(table.get<std::int64_t>("gauss_points"));
+  method.stabilisation = table.get<double>("stabilisation");
+  method.lagrangian = table.choice<Method::Lagrangian>("lagrangian");
+  method.rereference_every = static_cast<int>(table.get<std::int64_t>("rereference.every"));
+  method.rereference_strain = table.get<double>("rereference.strain");
+  method.viscosity_linear = table.get<double>("bulk_viscosity.linear");
+  method.viscosity_quadratic = table.get<double>("bulk_viscosity.quadratic");
+  method.energy_tolerance = table.get<double>("energy_tolerance");
+}
+
+void read_output(const Setting& root, Case& result) {
+  const Setting& table = *root.find("output");
+  Output& output = result.output;
+  output.history_every = table.get<double>("history_every");
+  output.fields_every = table.get<double>("fields_every");
+  output.pictures = table.get<std::vector<double>>("pictures");
+  std::sort(output.pictures.begin(), output.pictures.end());
+  output.pictures.erase(std::unique(output.pictures.begin(), output.pictures.end()), output.pictures.end());
+  output.picture_fields = table.get<std::vector<std::string>>("picture_fields");
+  for (const Setting& probe : table.entries("probes"))
+    output.probes.push_back(
+        {probe.name, probe.get<Vec2>("at"), probe.get<std::vector<std::string>>("fields")});
+}
+
+void collect_locations(const Setting& setting, std::map<std::string, std::string>& location) {
+  if (setting.given) location[setting.path] = setting.where.text();
+  for (const Setting& member : setting.members) collect_locations(member, location);
+}
+
+Case read(Value document, const std::string& path, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides) apply_override(document, assignment);
+  Diagnostics diagnostics;
+  Setting root = apply_schema(document, diagnostics);
+  diagnostics.throw_if_any();
+  compute_defaults(root);
+
+  Case result;
+  result.path = path;
+  result.name = case_name(path);
+  result.title = root.get<std::string>("title");
+  result.analysis = {root.choice<Analysis::Type>("analysis.type"),
+                     root.choice<Analysis::Kinematics>("analysis.kinematics"),
+                     root.get<bool>("analysis.thermal")};
+  collect_locations(root, result.location);
+  read_time(root, result, diagnostics);
+  read_materials(root, result, diagnostics);
+  read_output(root, result);
+  read_cloud(root, result, diagnostics);
+  read_domain(root, result, diagnostics);
+  read_tools(root, result, diagnostics);
+  diagnostics.throw_if_any();
+  read_boundary(root, result, diagnostics);
+  read_initial_and_loads(root, result);
+  read_method(root, result);
+  diagnostics.throw_if_any();
+  result.resolved = write_resolved(root, fmt::format("Resolved from {}: SI units, defaults included.", path));
+  return result;
+}
+
+} // namespace
+
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  return read(read_document(path), path, overrides);
+}
+
+Case read_case_text(std::string_view text, const std::string& source,
+                    const std::vector<std::string>& overrides) {
+  return read(parse_document(text, source), source, overrides);
+}
+
+} // namespace cnem::io

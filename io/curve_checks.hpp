@@ -1,0 +1,29 @@
+#pragma once
+// Whether outlines are simple, and where points lie relative to them. Pieces are exact segments and arcs of
+// at most half a turn.
+#include "core/curve.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace cnem::io {
+
+/// Diagonal of the bounding box of points on the curve, m: what tolerances are relative to.
+double extent(const Curve& curve);
+
+/// Points where two pieces meet, closer than `tolerance` (m): crossings, touching ends, ends of overlaps.
+std::vector<Vec2> meeting_points(const CurvePiece& a, const CurvePiece& b, double tolerance);
+
+/// A point where the curve meets itself other than where consecutive pieces join; nothing when it is simple.
+std::optional<Vec2> self_crossing(const Curve& curve);
+
+/// A point where two curves meet; nothing when they are apart.
+std::optional<Vec2> common_point(const Curve& a, const Curve& b);
+
+/// Distance from x to the nearest point of the curve, m.
+double distance(const Curve& curve, const Vec2& x);
+
+/// Whether x lies inside a closed curve, whatever its sense. Undecided within rounding of the curve itself.
+bool inside(const Curve& curve, const Vec2& x);
+
+} // namespace cnem::io
