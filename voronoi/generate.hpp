@@ -88,7 +88,7 @@ struct GeneratedCloud {
 /// Throws GeometryError, with positions: curves that do not close or cross, cracks that leave the domain or
 /// touch themselves, each other or the boundary other than by an end, more than `nodes_limit` nodes (with the
 /// estimate), and for lists a corner without node, nodes outside (with index) and duplicates.
-/// About 5 µs per node.
+/// About 1 µs per node with a uniform spacing, 5 µs graded.
 GeneratedCloud generate_cloud(const DomainShape& domain, const SpacingField& spacing,
                               const CloudOptions& options);
 
