@@ -43,14 +43,24 @@ TEST(GenerateCloud, ShearingBlank) {
   EXPECT_NEAR(quality.edge_mean, 1.0, 0.01);
   EXPECT_LT(quality.hole_max, 0.7);
   EXPECT_LT(quality.grading_max, 1.25);
-  double asymmetry = 0.0;
-  for (const Vec2& x : cloud.position) {
-    double nearest = 1.0;
-    for (const Vec2& y : cloud.position)
-      nearest = std::min(nearest, (Vec2(0.02 - x.x(), x.y()) - y).squaredNorm());
-    asymmetry = std::max(asymmetry, std::sqrt(nearest));
+  for (const bool upright : {false, true}) {
+    double asymmetry = 0.0;
+    for (const Vec2& x : cloud.position) {
+      const Vec2 image = upright ? Vec2(x.x(), 0.01 - x.y()) : Vec2(0.02 - x.x(), x.y());
+      double nearest = 1.0;
+      for (const Vec2& y : cloud.position) nearest = std::min(nearest, (image - y).squaredNorm());
+      asymmetry = std::max(asymmetry, std::sqrt(nearest));
+    }
+    EXPECT_LT(asymmetry, 1e-9);
   }
-  EXPECT_LT(asymmetry, 1e-9);
+}
+
+// 1 m at 0.075 m is 15.4 rows high: 16 are made, not 15, so that the nodes of both sides are staggered alike.
+TEST(GenerateCloud, HexagonalRowsEndInStepWithBothSides) {
+  const SpacingField spacing{0.075, {}};
+  const auto cloud = generate_cloud({rectangle(3, 1), {}, {}}, spacing, with(Pattern::hexagonal)).cloud;
+  EXPECT_EQ(nodes_at(cloud, {1.5 + 0.0375, 15.0 / 16}), 1);
+  EXPECT_EQ(nodes_at(cloud, {1.5 + 0.0375, 1.0 / 16}), 1);
 }
 
 TEST(GenerateCloud, BoundaryPiecesKeepTheirNamesAndLengths) {
