@@ -25,9 +25,8 @@ const std::vector<FieldDescription>& field_descriptions() {
       {"temperature", "K", "Temperature"},
       {"plastic_strain", "1", "Equivalent plastic strain"},
       {"plastic_rate", "1/s", "Rate of the equivalent plastic strain"},
-      {"plastic_work", "J/m3", "Plastic work per stress-free volume"},
-      {"equivalent_stress", "Pa", "Von Mises stress, Kirchhoff measure"},
-      {"pressure", "Pa", "Pressure, positive in compression, Kirchhoff measure"},
+      {"equivalent_stress", "Pa", "Von Mises equivalent of the Cauchy stress"},
+      {"pressure", "Pa", "Pressure of the Cauchy stress, positive in compression"},
       {"stress_xx", "Pa", "Cauchy stress, component xx"},
       {"stress_yy", "Pa", "Cauchy stress, component yy"},
       {"stress_zz", "Pa", "Cauchy stress, out of plane"},
@@ -36,8 +35,7 @@ const std::vector<FieldDescription>& field_descriptions() {
       {"displacement_y", "m", "Displacement along y"},
       {"velocity_x", "m/s", "Velocity along x"},
       {"velocity_y", "m/s", "Velocity along y"},
-      {"position_x", "m", "Present position x"},
-      {"position_y", "m", "Present position y"}};
+      {"volume_ratio", "1", "Present over stress-free volume"}};
   return fields;
 }
 

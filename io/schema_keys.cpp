@@ -282,7 +282,7 @@ void add_output(Keys& k) {
       .required()
       .example("[\"4 0 mm\", \"6 10 mm\"]");
   k.add("output.probes", named_tables, "Histories at material points.");
-  k.add("output.probes.*", table, "A probe: columns `NAME.field` of `history.csv`.");
+  k.add("output.probes.*", table, "A probe: columns `probe.NAME.field` of `history.csv`.");
   k.add("output.probes.*.at", vector, "Initial position.").unit(d::length).required().example("\"5.1 5 mm\"");
   k.add("output.probes.*.fields", choices, "Fields recorded.")
       .one_of(fields)
