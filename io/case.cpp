@@ -20,6 +20,33 @@ std::vector<std::string> Domain::piece_names() const {
   return names;
 }
 
+const std::vector<FieldDescription>& field_descriptions() {
+  static const std::vector<FieldDescription> fields{
+      {"temperature", "K", "Temperature"},
+      {"plastic_strain", "1", "Equivalent plastic strain"},
+      {"plastic_rate", "1/s", "Rate of the equivalent plastic strain"},
+      {"plastic_work", "J/m3", "Plastic work per stress-free volume"},
+      {"equivalent_stress", "Pa", "Von Mises stress, Kirchhoff measure"},
+      {"pressure", "Pa", "Pressure, positive in compression, Kirchhoff measure"},
+      {"stress_xx", "Pa", "Cauchy stress, component xx"},
+      {"stress_yy", "Pa", "Cauchy stress, component yy"},
+      {"stress_zz", "Pa", "Cauchy stress, out of plane"},
+      {"stress_xy", "Pa", "Cauchy stress, component xy"},
+      {"displacement_x", "m", "Displacement along x"},
+      {"displacement_y", "m", "Displacement along y"},
+      {"velocity_x", "m/s", "Velocity along x"},
+      {"velocity_y", "m/s", "Velocity along y"},
+      {"position_x", "m", "Present position x"},
+      {"position_y", "m", "Present position y"}};
+  return fields;
+}
+
+std::vector<std::string> field_names() {
+  std::vector<std::string> names;
+  for (const FieldDescription& field : field_descriptions()) names.push_back(field.name);
+  return names;
+}
+
 const Material& Case::material(const std::string& wanted) const {
   const auto found = std::find_if(materials.begin(), materials.end(),
                                   [&](const Material& candidate) { return candidate.name == wanted; });

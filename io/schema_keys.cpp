@@ -254,7 +254,7 @@ void add_method(Keys& k) {
 }
 
 void add_output(Keys& k) {
-  const std::vector<std::string>& fields = field_names();
+  const std::vector<std::string> fields = field_names();
   k.add("output", table, "What is written.").always();
   k.add("output.history_every", quantity, "Time between rows of `history.csv`; 0: every step.")
       .unit(d::time)
@@ -306,14 +306,6 @@ const std::vector<Key>& schema() {
     return std::move(k.all);
   }();
   return keys;
-}
-
-const std::vector<std::string>& field_names() {
-  static const std::vector<std::string> names{
-      "temperature", "plastic_strain", "plastic_rate", "equivalent_stress", "pressure",       "stress_xx",
-      "stress_yy",   "stress_zz",      "stress_xy",    "displacement_x",    "displacement_y", "velocity_x",
-      "velocity_y",  "position_x",     "position_y",   "plastic_work"};
-  return names;
 }
 
 } // namespace cnem::io

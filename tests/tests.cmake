@@ -12,7 +12,7 @@ function(cnem_tests folder)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${target} PRIVATE CNEM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   cnem_warnings(${target})
-  gtest_discover_tests(${target} TEST_PREFIX ${prefix} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(${target} TEST_PREFIX ${prefix} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ENVIRONMENT "GOMP_SPINCOUNT=1000")
 endfunction()
 
 cnem_tests(unit/core cnem_core)
