@@ -197,6 +197,37 @@ TEST(Corner, AtAConvexNodeOnlyTheEdgeItCameThroughIsPushed) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(scene.velocity(i).x(), 0.0, 0.01) << i; // the edge turns a little
 }
 
+TEST(Corner, InASlotDoesNotFeelTheOuterSide) {
+  // a tool moves left in a wide slot; the far wall's outer side faces its corner, but through material
+  Masses scene;
+  for (const Vec2& at : {Vec2(0, 0), Vec2(2, 0), Vec2(2, 1), Vec2(1.9, 1), Vec2(1.9, 0.2), Vec2(0.5, 0.2),
+                         Vec2(0.5, 1), Vec2(0, 1)})
+    scene.add(at, 1.0);
+  scene.loop({0, 1, 2, 3, 4, 5, 6, 7});
+  scene.start({tool(box({1.7, 0.5}, {1.8, 2.0}), {-1, 0})});
+  EXPECT_TRUE(scene.contact->overlaps(scene.x, 0.0).empty());
+  for (int i = 0; i < 100; ++i) scene.step(1e-3);
+  EXPECT_EQ(scene.momentum().norm(), 0.0);
+}
+
+TEST(Corner, ShearStrengthCountsEachAreaOnce) {
+  // pure shear friction on a face over one node and on the corner in the middle of the edge beside it
+  Masses scene;
+  scene.add({0.0, 0.0}, 1.0);
+  scene.add({1.0, 0.0}, 1.0);
+  scene.add({1.0, 1.0}, 1.0);
+  scene.add({0.0, 1.0}, 1.0);
+  scene.loop({0, 1, 2, 3});
+  Tool<2> belt = tool(box({-1, 1}, {0.5, 2}), {1.0, -0.1}, std::numeric_limits<double>::infinity());
+  belt.friction.shear_factor = 0.7;
+  scene.start({belt});
+  scene.flow_stress.assign(4, 10.0);
+  const double dt = 1e-3;
+  scene.step(dt);
+  const double shear = 0.7 * 10.0 / std::numbers::sqrt3;
+  EXPECT_NEAR(scene.contact->results()[0].force.x(), shear * (1.0 + 0.5 * 1.0), 1e-3 * shear);
+}
+
 TEST(Corner, NodeOnTheSideWallSlidesFreely) {
   // nodes exactly on the plane of the punch's side, moving along it
   Masses scene = block(3, 3, 0.1, {0.5, 0.0}, 100.0, 0.0, 0.0, {0.0, 0.3});
