@@ -2,6 +2,7 @@
 #include "masses.hpp"
 
 #include <gtest/gtest.h>
+#include <random>
 
 using namespace cnem;
 using namespace cnem::contact;
@@ -261,4 +262,27 @@ TEST(Face, ConcaveCornerOfAToolHoldsANodeOnBothFaces) {
   for (int i = 0; i < 150; ++i) scene.step(1e-3);
   EXPECT_LT(scene.position(0).norm(), 1e-12);
   EXPECT_LT(scene.velocity(0).norm(), 1e-12);
+}
+
+TEST(Corner, RandomPressesLeaveNothingInside) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int trial = 0; trial < 24; ++trial) {
+    const double angle = 6.2 * uniform(random), friction = trial % 2 == 0 ? 0.0 : uniform(random);
+    const double radius = trial % 3 == 0 ? 0.0 : 0.12 * uniform(random), side = 0.2 + 0.6 * uniform(random);
+    const Vec2 low(-1.0, 0.4), high(side, 2.0);
+    Masses scene = block(9, 5, 0.1, {0.0, 0.0}, 60.0, 2.0, angle);
+    const Curve punch = radius > 0.0 ? rounded_box(low, high, radius) : box(low, high);
+    const Curve die = box({side + 0.02 * uniform(random), -1.0}, {3.0, 0.0});
+    const Vec2 velocity(0.02 * (uniform(random) - 0.5), -0.1);
+    scene.start({tool(rotated(punch, angle), rotation(angle) * velocity, friction),
+                 tool(rotated(die, angle), {0, 0}, friction)});
+    for (int i = 0; i < 1600; ++i) {
+      scene.step(5e-4);
+      if (i % 20 == 0) {
+        ASSERT_TRUE(scene.contact->overlaps(scene.x, scene.time).empty()) << trial << " at step " << i;
+      }
+    }
+    EXPECT_GT(scene.contact->results()[0].impulse.norm(), 1e-2) << trial;
+  }
 }
