@@ -6,9 +6,9 @@
 namespace {
 
 // libgomp reads its environment when it is loaded, before any of our code. By default its threads spin for
-// milliseconds at every barrier: on a busy machine the one that spins keeps the core from the one it waits for, and a
-// run takes ten to thirty times as long. So the program starts itself once more with a short spin; a user's own choice
-// stands.
+// milliseconds at every barrier: on a busy machine the one that spins keeps the core from the one it waits
+// for, and a run takes ten to thirty times as long. So the program starts itself once more with a short spin;
+// a user's own choice stands.
 void limit_spinning(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
   if (setenv("GOMP_SPINCOUNT", "1000", 0) == 0) execv("/proc/self/exe", argv); // goes on here if it cannot
