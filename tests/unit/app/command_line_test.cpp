@@ -15,7 +15,7 @@
 namespace cnem::app {
 namespace {
 
-constexpr const char *block = R"(
+constexpr const char* block = R"toml(
 [time]
 end = "2 us"
 [domain]
@@ -27,9 +27,7 @@ spacing = "0.4 mm"
 density = "7850 kg/m3"
 elastic = { young = "210 GPa", poisson = 0.3 }
 plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0.0973, rate0 = "1 /s", m = 2.044, T0 = "296 K", Tmelt = "1698 K" }
-heat = { specific_heat = "500 J/(kg K)",
-                     conductivity = "15 W/(m K)"
-}
+heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
 [boundary.base]
 pieces = ["bottom"]
 symmetry = true
@@ -38,7 +36,7 @@ rectangle = { from = "-1 2 mm", to = "1.1 4 mm" }
 velocity = "0 -30 m/s"
 [output]
 history_every = "0.1 us"
-)";
+)toml";
 
 class CommandLine : public ::testing::Test {
 protected:
