@@ -60,8 +60,8 @@ private:
   std::mt19937 generator;
 };
 
-/// Largest difference in stress relative to |τ| (or to that of a strain of 1e-3 if it is smaller, as in nearly
-/// molten points: b_e from a large F carries cond(F)² roundings), and in plastic strain.
+/// Largest difference in stress relative to |τ| (or to that of a strain of 1e-3 if it is smaller, as in
+/// nearly molten points: b_e from a large F carries cond(F)² roundings), and in plastic strain.
 template<int dim> void compare(unsigned seed, int batches, std::size_t paths, int steps) {
   RandomPaths random(seed);
   double worst_stress = 0.0, worst_strain = 0.0;
