@@ -12,6 +12,7 @@ inline std::size_t blocks(std::size_t n) { return (n + block_size - 1) / block_s
 /// body(begin, end) for consecutive blocks of [0, n), shared out to the threads. body must write only to its block.
 template<class Body> void for_each_block(std::size_t n, Body&& body) {
   const auto count = static_cast<std::ptrdiff_t>(blocks(n));
+  if (count == 1) return body(std::size_t{0}, n); // no barrier where there is nothing to share
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t b = 0; b < count; ++b) {
     const std::size_t begin = static_cast<std::size_t>(b) * block_size;
