@@ -1,5 +1,6 @@
 #pragma once
 // The linearised force of a method, from the very functions the explicit step uses: K u = −f for small u.
+#include "core/error.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/stabilisation.hpp"
 #include "tests/unit/mechanics/models.hpp"
