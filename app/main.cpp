@@ -1,3 +1,22 @@
 #include "app/command_line.hpp"
 
-int main(int argc, char** argv) { return cnem::app::command_line(argc, argv); }
+#include <cstdlib>
+#include <unistd.h>
+
+namespace {
+
+// libgomp reads its environment when it is loaded, before any of our code. By default its threads spin for
+// milliseconds at every barrier: on a busy machine the one that spins keeps the core from the one it waits
+// for, and a run takes ten to thirty times as long. So the program starts itself once more with a short spin;
+// a user's own choice stands.
+void limit_spinning(char** argv) {
+  if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
+  if (setenv("GOMP_SPINCOUNT", "1000", 0) == 0) execv("/proc/self/exe", argv); // goes on here if it cannot
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  limit_spinning(argv);
+  return cnem::app::command_line(argc, argv);
+}

@@ -163,6 +163,21 @@ io::PostMortem post_mortem(const DivergenceError& error, const State<2>& state) 
   return dead;
 }
 
+/// The energy residual has no place of its own: the fastest node shows where the run has come apart.
+DivergenceError energy_divergence(double share, double tolerance, const State<2>& state) {
+  const Fields<2>& v = state.node.velocity;
+  std::size_t fastest = 0;
+  for (std::size_t i = 0; i < state.node.size(); ++i)
+    if (!(std::hypot(v[0][i], v[1][i]) <= std::hypot(v[0][fastest], v[1][fastest]))) fastest = i;
+  return {
+      fmt::format(
+          "the energy residual is {:.3g} of the work done, more than method.energy_tolerance = {:.3g} "
+          "allows, at step {}, t = {:.6g} s; the fastest node is {} at ({:.6g}, {:.6g}) m with {:.3g} m/s",
+          share, tolerance, state.step, state.time, fastest, state.node.position[0][fastest],
+          state.node.position[1][fastest], std::hypot(v[0][fastest], v[1][fastest])),
+      static_cast<int>(fastest), "energy residual"};
+}
+
 } // namespace
 
 Exit run(const io::Case& input, const RunOptions& options) {
@@ -206,10 +221,7 @@ Exit run(const io::Case& input, const RunOptions& options) {
       if (state.time >= end - tolerance) break;
       if (const double share = std::abs(history.last_residual()) / history.energy_scale();
           history.energy_scale() > 0.0 && share > input.method.energy_tolerance)
-        throw DivergenceError(fmt::format("the energy residual is {:.3g} of the work done, more than "
-                                          "method.energy_tolerance = {:.3g} allows, at step {}, t = {:.6g} s",
-                                          share, input.method.energy_tolerance, state.step, state.time),
-                              -1, "energy residual");
+        throw energy_divergence(share, input.method.energy_tolerance, state);
       const bool rereference =
           watch.time("step", [&] { return reference_due(input.method, solver, last_reference); });
       if (rereference) {

@@ -31,7 +31,7 @@ Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
   Approximation<2> result;
   result.mechanics = smoothed_gradients(cloud, cells, around, means);
   result.conduction = voronoi::linear_triangles(cloud, triangulation);
-  result.links = delaunay_links(cloud, cells, around);
+  result.links = delaunay_links(cloud, triangulation, cells, around);
   result.node_volume = cells.volume;
   result.cells = voronoi::cell_geometry(cloud, triangulation, circles, cells);
   return result;

@@ -143,31 +143,37 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
   return op;
 }
 
-StabilisationLinks<2> delaunay_links(const Cloud<2>& cloud, const voronoi::Cells& cells,
-                                     const CellFacets& around) {
+StabilisationLinks<2> delaunay_links(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
+                                     const voronoi::Cells& cells, const CellFacets& around) {
+  constexpr double least = 0.1, most = 2.0;
+  std::vector<std::array<std::int32_t, 2>> edges;
+  edges.reserve(3 * index(cloud.nodes()));
+  for (std::size_t t = 0; t < triangulation.node.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (triangulation.neighbour[t][k] < static_cast<std::int32_t>(t))
+        edges.push_back({triangulation.node[t][(k + 1) % 3], triangulation.node[t][(k + 2) % 3]});
+  CellFacets ends = group_by_cell(
+      cloud.nodes(), edges.size(), [&](std::size_t e) -> const auto& { return edges[e]; });
+
   StabilisationLinks<2> links;
-  links.begin = around.begin;
-  links.neighbour.resize(around.facet.size());
-  links.weight.resize(around.facet.size());
-#pragma omp parallel
-  {
-    std::vector<std::pair<std::int32_t, double>> list;
-#pragma omp for schedule(static)
-    for (std::size_t i = 0; i < index(cloud.nodes()); ++i) {
-      list.clear();
-      for (auto a = index(around.begin[i]); a < index(around.begin[i + 1]); ++a) {
-        const voronoi::InteriorFacet& facet = cells.interior[index(around.facet[a])];
-        const Vec2 between = cloud.position[index(facet.cell[1])] - cloud.position[index(facet.cell[0])];
-        const double ratio = (facet.end - facet.start).norm() / between.norm();
-        list.emplace_back(index(facet.cell[0]) == i ? facet.cell[1] : facet.cell[0],
-                          std::clamp(ratio, 0.1, 2.0));
-      }
-      std::sort(list.begin(), list.end());
-      auto e = index(links.begin[i]);
-      for (const auto& [neighbour, weight] : list) {
-        links.neighbour[e] = neighbour;
-        links.weight[e++] = weight;
-      }
+  links.begin = std::move(ends.begin);
+  links.neighbour = std::move(ends.facet);
+  links.weight.assign(links.neighbour.size(), least);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < index(cloud.nodes()); ++i) {
+    const auto other = [i](const std::array<std::int32_t, 2>& pair) {
+      return pair[index(pair[0]) == i ? 1 : 0];
+    };
+    const auto first = links.neighbour.begin() + links.begin[i];
+    const auto last = links.neighbour.begin() + links.begin[i + 1];
+    for (auto link = first; link < last; ++link) *link = other(edges[index(*link)]);
+    std::sort(first, last);
+    for (auto a = index(around.begin[i]); a < index(around.begin[i + 1]); ++a) {
+      const voronoi::InteriorFacet& facet = cells.interior[index(around.facet[a])];
+      const Vec2 between = cloud.position[index(facet.cell[1])] - cloud.position[index(facet.cell[0])];
+      const auto link = std::find(first, last, other(facet.cell)) - links.neighbour.begin();
+      links.weight[static_cast<std::size_t>(link)] =
+          std::clamp((facet.end - facet.start).norm() / between.norm(), least, most);
     }
   }
   return links;

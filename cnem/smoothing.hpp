@@ -24,8 +24,9 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
                                         const CellFacets& around, const FacetMeans& means);
 
 /// The Delaunay edges, whose weight is the length of the facet between two cells over the distance of their
-/// nodes, clamped to [0.1, 2]. Sorted by neighbour.
-StabilisationLinks<2> delaunay_links(const Cloud<2>& cloud, const voronoi::Cells& cells,
-                                     const CellFacets& around);
+/// nodes, clamped to [0.1, 2]; an edge whose facet the boundary cuts away entirely gets 0.1. Sorted by
+/// neighbour.
+StabilisationLinks<2> delaunay_links(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
+                                     const voronoi::Cells& cells, const CellFacets& around);
 
 } // namespace cnem::scni

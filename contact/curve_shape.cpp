@@ -13,67 +13,7 @@ namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
-Vec2 normal_at(const CurvePiece& piece, double s) { return right_normal(piece.tangent(s)); }
-
 double angle_between(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
-
-/// Is the direction `d` from the centre of an arc on the arc?
-bool on_arc(const CurvePiece& arc, const Vec2& d) {
-  const double sweep = arc.sweep();
-  double angle = angle_between(arc.from - arc.centre, d);
-  if (sweep < 0.0) angle = -angle;
-  if (angle < 0.0) angle += full_turn;
-  return angle <= std::abs(sweep);
-}
-
-struct Foot {
-  Vec2 point{0, 0};
-  int end = 0; ///< −1: at `from`, +1: at `to`, 0: between them
-};
-
-Foot foot_on(const CurvePiece& piece, const Vec2& x) {
-  if (piece.is_arc()) {
-    const Vec2 d = x - piece.centre;
-    const double r = d.norm();
-    if (r > 0.0 && on_arc(piece, d)) return {piece.centre + piece.radius / r * d, 0};
-    if (r == 0.0) return {piece.point(0.5), 0};
-    return (x - piece.from).squaredNorm() <= (x - piece.to).squaredNorm() ? Foot{piece.from, -1}
-                                                                          : Foot{piece.to, 1};
-  }
-  const Vec2 t = piece.to - piece.from;
-  const double s = t.dot(x - piece.from) / t.squaredNorm();
-  if (s <= 0.0) return {piece.from, -1};
-  if (s >= 1.0) return {piece.to, 1};
-  return {piece.from + s * t, 0};
-}
-
-/// Outward normal of a piece, continued beyond its ends, where it faces x.
-Vec2 normal_towards(const CurvePiece& piece, const Vec2& x) {
-  if (!piece.is_arc()) return normal_at(piece, 0.0);
-  const Vec2 d = x - piece.centre;
-  if (d.squaredNorm() == 0.0) return normal_at(piece, 0.5);
-  return piece.clockwise ? Vec2(-d.normalized()) : Vec2(d.normalized());
-}
-
-/// Signed distance from a piece continued to its whole line or circle, positive out of the solid.
-double gap_to(const CurvePiece& piece, const Vec2& x) {
-  if (!piece.is_arc()) return normal_at(piece, 0.0).dot(x - piece.from);
-  const double gap = (x - piece.centre).norm() - piece.radius;
-  return piece.clockwise ? -gap : gap;
-}
-
-/// Fraction of the path a → b where it passes from outside to inside of the continued piece, given the gaps
-/// there (start ≥ 0 > end).
-double crossing(const CurvePiece& piece, const Vec2& a, const Vec2& b, double start, double end) {
-  if (!piece.is_arc()) return start / (start - end);
-  const Vec2 d = b - a;
-  const double along = (a - piece.centre).dot(d), length2 = d.squaredNorm();
-  const double power = (piece.clockwise ? -start : start) * ((a - piece.centre).norm() + piece.radius);
-  const double root = std::sqrt(std::max(0.0, along * along - length2 * power));
-  const double s = piece.clockwise ? (along < 0.0 ? (root - along) / length2 : -power / (along + root))
-                                   : power / (root - along);
-  return std::clamp(s, 0.0, 1.0);
-}
 
 void check(const Curve& curve) {
   if (curve.pieces.empty()) throw InputError("a tool needs a closed curve, got one without pieces");
@@ -116,6 +56,64 @@ double Ridge<2>::sagitta(double l) const {
   return std::min(most, 0.25 * l * l / (radius + std::sqrt(radius * radius - 0.25 * l * l)));
 }
 
+CurveShape::Face::Face(const CurvePiece& piece)
+    : from(piece.from), to(piece.to), along(piece.tangent(0.0)), normal(right_normal(along)),
+      length(piece.length()), centre(piece.centre), radius(piece.radius), side(piece.clockwise ? -1.0 : 1.0),
+      sweep(std::abs(piece.sweep())) {}
+
+/// Is a direction from the centre of an arc on the arc?
+bool CurveShape::Face::spans(const Vec2& direction) const {
+  const Vec2 &first = side > 0.0 ? from : to, &last = side > 0.0 ? to : from;
+  const double after = cross(first - centre, direction), before = cross(direction, last - centre);
+  if (sweep <= std::numbers::pi) return after >= 0.0 && before >= 0.0;
+  return after >= 0.0 || before >= 0.0 || sweep >= full_turn;
+}
+
+/// Closest point; `end` is −1 at `from`, +1 at `to` and 0 between them.
+Vec2 CurveShape::Face::foot(const Vec2& x, int& end) const {
+  end = 0;
+  if (radius > 0.0) {
+    const Vec2 d = x - centre;
+    const double r = d.norm();
+    if (r > 0.0 && spans(d)) return centre + radius / r * d;
+    end = (x - from).squaredNorm() <= (x - to).squaredNorm() ? -1 : 1;
+  } else {
+    const double s = along.dot(x - from);
+    if (s > 0.0 && s < length) return from + s * along;
+    end = s <= 0.0 ? -1 : 1;
+  }
+  return end < 0 ? from : to;
+}
+
+/// Outward normal of the face, continued beyond its ends, where it faces x.
+Vec2 CurveShape::Face::normal_towards(const Vec2& x) const {
+  if (radius == 0.0) return normal;
+  const Vec2 d = x - centre;
+  const double r = d.norm();
+  return r > 0.0 ? Vec2(side / r * d) : normal;
+}
+
+/// Signed distance from the face continued to its whole line or circle, positive out of the solid.
+double CurveShape::Face::gap(const Vec2& x) const {
+  return radius == 0.0 ? normal.dot(x - from) : side * ((x - centre).norm() - radius);
+}
+
+/// Fraction of the path a → b where it passes from outside to inside of the continued face, given the gaps
+/// at both (start ≥ 0 > stop).
+double CurveShape::Face::crossing(const Vec2& a, const Vec2& b, double start, double stop) const {
+  if (radius == 0.0) return start / (start - stop);
+  const Vec2 d = b - a;
+  const double along_d = (a - centre).dot(d), length2 = d.squaredNorm();
+  const double power = side * start * ((a - centre).norm() + radius);
+  const double root = std::sqrt(std::max(0.0, along_d * along_d - length2 * power));
+  double s = 0.0;
+  if (side > 0.0)
+    s = power / (root - along_d);
+  else
+    s = along_d < 0.0 ? (root - along_d) / length2 : -power / (along_d + root);
+  return std::clamp(s, 0.0, 1.0);
+}
+
 CurveShape::CurveShape(Curve curve) : curve_(std::move(curve)) {
   check(curve_);
   bounds_ = {curve_.pieces[0].from, curve_.pieces[0].from};
@@ -137,9 +135,10 @@ CurveShape::CurveShape(Curve curve) : curve_(std::move(curve)) {
     if (turn > 1e-6) ridges_.push_back({piece.from, 0.0, right_normal(arriving), turn});
     if (piece.is_arc() && !piece.clockwise)
       ridges_.push_back({piece.centre, piece.radius, right_normal(leaving), piece.sweep()});
+    faces_.emplace_back(piece);
     include(piece.from);
     for (const Vec2& axis : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)})
-      if (piece.is_arc() && on_arc(piece, axis)) include(piece.centre + piece.radius * axis);
+      if (piece.is_arc() && faces_.back().spans(axis)) include(piece.centre + piece.radius * axis);
   }
   tolerance_ = 1e-12 * (bounds_.high - bounds_.low).norm();
 }
@@ -147,31 +146,30 @@ CurveShape::CurveShape(Curve curve) : curve_(std::move(curve)) {
 SurfacePoint<2> CurveShape::closest(const Vec2& x) const {
   SurfacePoint<2> best;
   double least = std::numeric_limits<double>::infinity();
-  int end = 0;
-  for (std::size_t i = 0; i < curve_.pieces.size(); ++i) {
-    const Foot foot = foot_on(curve_.pieces[i], x);
-    const double distance2 = (x - foot.point).squaredNorm();
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    int end = 0;
+    const Vec2 foot = faces_[i].foot(x, end);
+    const double distance2 = (x - foot).squaredNorm();
     if (distance2 >= least) continue;
     least = distance2;
-    best.point = foot.point;
+    best.point = foot;
     best.feature = static_cast<std::int32_t>(i);
-    end = foot.end;
   }
-  const auto piece = static_cast<std::size_t>(best.feature);
-  if ((best.point - curve_.pieces[piece].from).squaredNorm() <= tolerance_ * tolerance_) end = -1;
-  if ((best.point - curve_.pieces[piece].to).squaredNorm() <= tolerance_ * tolerance_) end = 1;
+  const auto i = static_cast<std::size_t>(best.feature);
+  const Face& face = faces_[i];
   const Vec2 away = x - best.point;
-  const double length = away.norm();
-  if (end == 0 && length > 0.0) {
-    best.normal = normal_towards(curve_.pieces[piece], x);
+  const double length = std::sqrt(least), rounding2 = tolerance_ * tolerance_;
+  const bool at_from = (best.point - face.from).squaredNorm() <= rounding2,
+             at_to = (best.point - face.to).squaredNorm() <= rounding2;
+  if (!at_from && !at_to) {
+    best.normal = face.normal_towards(x);
     best.distance = away.dot(best.normal);
     return best;
   }
   // At an end shared by two pieces the sum of their normals tells inside from outside.
-  const Vec2& corner = corner_normal_[end > 0 ? (piece + 1) % curve_.pieces.size() : piece];
-  const Vec2 mean = end == 0 ? normal_towards(curve_.pieces[piece], x) : corner;
-  const double side = away.dot(mean) < 0.0 ? -1.0 : 1.0;
-  best.normal = length > tolerance_ ? Vec2(side / length * away) : mean;
+  const Vec2& corner = corner_normal_[at_to ? (i + 1) % faces_.size() : i];
+  const double side = away.dot(corner) < 0.0 ? -1.0 : 1.0;
+  best.normal = length > tolerance_ ? Vec2(side / length * away) : corner;
   best.distance = side * length;
   return best;
 }
@@ -185,27 +183,30 @@ void CurveShape::entries(std::span<const Vec2> from, std::span<const Vec2> to,
     if (nearest.distance >= -1e-3 * tolerance_) continue; // rounding, not contact
     const double reach = (b - a).norm() + tolerance_;
     double latest = -1.0, shallowest = 0.0;
-    std::size_t through = curve_.pieces.size();
-    for (std::size_t i = 0; i < curve_.pieces.size(); ++i) {
-      const CurvePiece& piece = curve_.pieces[i];
-      const double start = gap_to(piece, a), end = gap_to(piece, b);
-      if (end >= 0.0 || start < -tolerance_ || -end > reach) continue;
-      const double s = crossing(piece, a, b, std::max(start, 0.0), end);
+    std::size_t through = faces_.size();
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const Face& face = faces_[i];
+      const double stop = face.gap(b);
+      if (stop >= 0.0 || -stop > reach) continue;
+      const double start = face.gap(a);
+      if (start < -tolerance_) continue;
+      const double s = face.crossing(a, b, std::max(start, 0.0), stop);
       const Vec2 gate = a + s * (b - a);
-      if ((foot_on(piece, gate).point - gate).norm() > 10.0 * tolerance_) continue;
-      if (s < latest || (s == latest && end <= shallowest)) continue;
+      int end = 0;
+      if ((face.foot(gate, end) - gate).norm() > 10.0 * tolerance_) continue;
+      if (s < latest || (s == latest && stop <= shallowest)) continue;
       latest = s;
-      shallowest = end;
+      shallowest = stop;
       through = i;
     }
     Entry<2> entry{static_cast<std::int32_t>(k), nearest, 0.0};
-    if (through < curve_.pieces.size()) {
-      const CurvePiece& piece = curve_.pieces[through];
-      entry.at.distance = gap_to(piece, b);
-      entry.at.normal = normal_towards(piece, b);
+    if (through < faces_.size()) {
+      const Face& face = faces_[through];
+      entry.at.distance = face.gap(b);
+      entry.at.normal = face.normal_towards(b);
       entry.at.point = b - entry.at.distance * entry.at.normal;
       entry.at.feature = static_cast<std::int32_t>(through);
-      entry.start = gap_to(piece, a);
+      entry.start = face.gap(a);
     } else {
       entry.start = closest(a).distance;
     }

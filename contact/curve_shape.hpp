@@ -19,7 +19,26 @@ public:
   const Curve& curve() const { return curve_; }
 
 private:
+  /// A piece with what its distances need, computed once.
+  struct Face {
+    Vec2 from{0, 0}, to{0, 0};
+    Vec2 along{0, 0}, normal{0, 0}; ///< –, unit, at `from`
+    double length = 0.0;            ///< m
+    Vec2 centre{0, 0};
+    double radius = 0.0; ///< m, 0 for a segment
+    double side = 1.0;   ///< +1: the arc is convex; −1: it is a hollow of the tool
+    double sweep = 0.0;  ///< rad, ≥ 0
+
+    explicit Face(const CurvePiece& piece);
+    bool spans(const Vec2& direction) const;
+    Vec2 foot(const Vec2& x, int& end) const;
+    Vec2 normal_towards(const Vec2& x) const;
+    double gap(const Vec2& x) const;
+    double crossing(const Vec2& a, const Vec2& b, double start, double stop) const;
+  };
+
   Curve curve_;
+  std::vector<Face> faces_;
   std::vector<Vec2> corner_normal_; ///< [piece] sum of the outward normals on both sides of its `from`
   std::vector<Ridge<2>> ridges_;
   Box<2> bounds_;

@@ -136,10 +136,12 @@ void ridge_hits(const Surface<2>& surface, const ToolShape<2>& shape, std::span<
     const Ridge<2>& ridge = ridges[r];
     const std::size_t first = hits.size();
     for (const std::size_t f : near) {
+      const Vec2 &a = end[static_cast<std::size_t>(surface.facets[f][0])],
+                 &b = end[static_cast<std::size_t>(surface.facets[f][1])];
+      const double reach = ridge.radius + 1.5 * (b - a).lpNorm<1>();
+      if ((ridge.centre + shift_end - a).squaredNorm() > reach * reach) continue;
       const EdgeView now(surface, f, end);
-      const Vec2 away = ridge.centre + shift_end - 0.5 * (now.a + now.b);
-      const double reach = ridge.radius + now.length;
-      if (away.squaredNorm() > reach * reach || !ridge.faces(now.normal)) continue;
+      if (!ridge.faces(now.normal)) continue;
       const double gap = now.gap(ridge, shift_end);
       if (gap >= 0.0 || gap < -0.5 * now.length) continue;
       const Vec2 tip = ridge.extreme(now.normal) + shift_end;

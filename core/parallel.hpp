@@ -9,9 +9,11 @@ inline constexpr std::size_t block_size = 512;
 
 inline std::size_t blocks(std::size_t n) { return (n + block_size - 1) / block_size; }
 
-/// body(begin, end) for consecutive blocks of [0, n), shared out to the threads. body must write only to its block.
+/// body(begin, end) for consecutive blocks of [0, n), shared out to the threads. body must write only to its
+/// block.
 template<class Body> void for_each_block(std::size_t n, Body&& body) {
   const auto count = static_cast<std::ptrdiff_t>(blocks(n));
+  if (count == 1) return body(std::size_t{0}, n); // no barrier where there is nothing to share
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t b = 0; b < count; ++b) {
     const std::size_t begin = static_cast<std::size_t>(b) * block_size;
@@ -22,7 +24,8 @@ template<class Body> void for_each_block(std::size_t n, Body&& body) {
 /// Sum of body(begin, end) over the blocks, added up in the order of the blocks.
 template<class Body> double sum_blocks(std::size_t n, Body&& body) {
   std::vector<double> partial(blocks(n), 0.0);
-  for_each_block(n, [&](std::size_t begin, std::size_t end) { partial[begin / block_size] = body(begin, end); });
+  for_each_block(n,
+                 [&](std::size_t begin, std::size_t end) { partial[begin / block_size] = body(begin, end); });
   double sum = 0.0;
   for (const double value : partial) sum += value;
   return sum;
@@ -35,7 +38,8 @@ struct BlockMaximum {
 };
 template<class Body> BlockMaximum max_blocks(std::size_t n, Body&& body) {
   std::vector<BlockMaximum> partial(blocks(n), BlockMaximum{0.0, 0});
-  for_each_block(n, [&](std::size_t begin, std::size_t end) { partial[begin / block_size] = body(begin, end); });
+  for_each_block(n,
+                 [&](std::size_t begin, std::size_t end) { partial[begin / block_size] = body(begin, end); });
   BlockMaximum best{0.0, 0};
   bool first = true;
   for (const BlockMaximum& candidate : partial)

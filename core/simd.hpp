@@ -34,6 +34,10 @@ CNEM_INLINE double select(bool mask, double a, double b) { return mask ? a : b; 
 CNEM_INLINE bool any(bool mask) { return mask; }
 CNEM_INLINE bool lane(bool mask, int) { return mask; }
 CNEM_INLINE double sqrt(double x) { return __builtin_sqrt(x); }
+/// The larger; b where either is NaN.
+CNEM_INLINE double max(double a, double b) { return a > b ? a : b; }
+/// The smaller; b where either is NaN.
+CNEM_INLINE double min(double a, double b) { return a < b ? a : b; }
 CNEM_INLINE void store(double* p, double x) { *p = x; }
 
 // --- T = Pack ---
@@ -41,115 +45,157 @@ CNEM_INLINE void store(double* p, double x) { *p = x; }
 #ifdef CNEM_PACK
 
 #if defined(CNEM_ISA_avx512)
-inline constexpr int pack_width = 8;
+inline constexpr int register_width = 8;
 #elif defined(CNEM_ISA_avx2)
-inline constexpr int pack_width = 4;
+inline constexpr int register_width = 4;
 #else
-inline constexpr int pack_width = 2;
+inline constexpr int register_width = 2;
 #endif
 
-using DoubleVector [[gnu::vector_size(8 * pack_width)]] = double;
-using UnalignedVector [[gnu::vector_size(8 * pack_width), gnu::aligned(8), gnu::may_alias]] = double;
-using BitsVector [[gnu::vector_size(8 * pack_width)]] = Bits;
-using MaskVector [[gnu::vector_size(8 * pack_width)]] = long long;
+using DoubleVector [[gnu::vector_size(8 * register_width)]] = double;
+using UnalignedVector [[gnu::vector_size(8 * register_width), gnu::aligned(8), gnu::may_alias]] = double;
+using BitsVector [[gnu::vector_size(8 * register_width)]] = Bits;
+using MaskVector [[gnu::vector_size(8 * register_width)]] = long long;
 
-CNEM_INLINE DoubleVector broadcast(double x) {
+// GCC makes single instructions of these only from intrinsics.
 #if defined(CNEM_ISA_avx512)
-  return DoubleVector{x, x, x, x, x, x, x, x};
+CNEM_INLINE DoubleVector broadcast(double x) { return DoubleVector{x, x, x, x, x, x, x, x}; }
+CNEM_INLINE DoubleVector maximum(DoubleVector a, DoubleVector b) { return _mm512_maskz_max_pd(0xff, a, b); }
+CNEM_INLINE DoubleVector minimum(DoubleVector a, DoubleVector b) { return _mm512_maskz_min_pd(0xff, a, b); }
+CNEM_INLINE DoubleVector square_root(DoubleVector x) { return _mm512_maskz_sqrt_pd(0xff, x); }
+CNEM_INLINE bool any_negative(MaskVector m) { return _mm512_movepi64_mask((__m512i)m) != 0; }
 #elif defined(CNEM_ISA_avx2)
-  return DoubleVector{x, x, x, x};
+CNEM_INLINE DoubleVector broadcast(double x) { return DoubleVector{x, x, x, x}; }
+CNEM_INLINE DoubleVector maximum(DoubleVector a, DoubleVector b) { return _mm256_max_pd(a, b); }
+CNEM_INLINE DoubleVector minimum(DoubleVector a, DoubleVector b) { return _mm256_min_pd(a, b); }
+CNEM_INLINE DoubleVector square_root(DoubleVector x) { return _mm256_sqrt_pd(x); }
+CNEM_INLINE bool any_negative(MaskVector m) { return _mm256_movemask_pd((__m256d)m) != 0; }
 #else
-  return DoubleVector{x, x};
+CNEM_INLINE DoubleVector broadcast(double x) { return DoubleVector{x, x}; }
+CNEM_INLINE DoubleVector maximum(DoubleVector a, DoubleVector b) { return _mm_max_pd(a, b); }
+CNEM_INLINE DoubleVector minimum(DoubleVector a, DoubleVector b) { return _mm_min_pd(a, b); }
+CNEM_INLINE DoubleVector square_root(DoubleVector x) { return _mm_sqrt_pd(x); }
+CNEM_INLINE bool any_negative(MaskVector m) { return _mm_movemask_pd((__m128d)m) != 0; }
 #endif
-}
 
-struct PackBits {
-  BitsVector v;
+#define CNEM_EACH(...)                                                                                       \
+  for (int k = 0; k < n; ++k) __VA_ARGS__
+#define CNEM_OPERATOR(Result, A, B, op, right)                                                               \
+  CNEM_INLINE friend Result operator op(A a, B b) {                                                          \
+    Result r;                                                                                                \
+    CNEM_EACH(r.v[k] = a.v[k] op right);                                                                     \
+    return r;                                                                                                \
+  }
+
+template<int n> struct PackBits {
+  BitsVector v[n];
+
+  CNEM_OPERATOR(PackBits, PackBits, PackBits, +, b.v[k])
+  CNEM_OPERATOR(PackBits, PackBits, Bits, +, b)
+  CNEM_OPERATOR(PackBits, PackBits, Bits, &, b)
+  CNEM_OPERATOR(PackBits, PackBits, Bits, |, b)
+  CNEM_OPERATOR(PackBits, PackBits, int, <<, b)
+  CNEM_OPERATOR(PackBits, PackBits, int, >>, b)
 };
 
 /// True or false per lane.
-struct PackMask {
-  MaskVector v;
-  CNEM_INLINE friend PackMask operator&(PackMask a, PackMask b) { return {a.v & b.v}; }
-  CNEM_INLINE friend PackMask operator|(PackMask a, PackMask b) { return {a.v | b.v}; }
-  CNEM_INLINE friend PackMask operator!(PackMask a) { return {~a.v}; }
+template<int n> struct PackMask {
+  MaskVector v[n];
+
+  CNEM_OPERATOR(PackMask, PackMask, PackMask, &, b.v[k])
+  CNEM_OPERATOR(PackMask, PackMask, PackMask, |, b.v[k])
+  CNEM_INLINE friend PackMask operator!(PackMask a) {
+    CNEM_EACH(a.v[k] = ~a.v[k]);
+    return a;
+  }
 };
 
-struct Pack {
-  DoubleVector v;
+/// n registers of doubles: with n = 2 two independent chains of operations hide each other's latency.
+template<int n> struct Pack {
+  DoubleVector v[n];
 
   Pack() = default;
-  CNEM_INLINE Pack(DoubleVector x) : v(x) {}
-  CNEM_INLINE Pack(double x) : v(broadcast(x)) {}
+  CNEM_INLINE Pack(double x) { CNEM_EACH(v[k] = broadcast(x)); }
 
-  CNEM_INLINE friend Pack operator+(Pack a, Pack b) { return a.v + b.v; }
-  CNEM_INLINE friend Pack operator-(Pack a, Pack b) { return a.v - b.v; }
-  CNEM_INLINE friend Pack operator*(Pack a, Pack b) { return a.v * b.v; }
-  CNEM_INLINE friend Pack operator/(Pack a, Pack b) { return a.v / b.v; }
-  CNEM_INLINE friend Pack operator-(Pack a) { return -a.v; }
-  CNEM_INLINE friend PackMask operator<(Pack a, Pack b) { return {a.v < b.v}; }
-  CNEM_INLINE friend PackMask operator>(Pack a, Pack b) { return {a.v > b.v}; }
-  CNEM_INLINE friend PackMask operator<=(Pack a, Pack b) { return {a.v <= b.v}; }
-  CNEM_INLINE friend PackMask operator>=(Pack a, Pack b) { return {a.v >= b.v}; }
+  CNEM_OPERATOR(Pack, Pack, Pack, +, b.v[k])
+  CNEM_OPERATOR(Pack, Pack, Pack, -, b.v[k])
+  CNEM_OPERATOR(Pack, Pack, Pack, *, b.v[k])
+  CNEM_OPERATOR(Pack, Pack, Pack, /, b.v[k])
+  CNEM_OPERATOR(PackMask<n>, Pack, Pack, <, b.v[k])
+  CNEM_OPERATOR(PackMask<n>, Pack, Pack, >, b.v[k])
+  CNEM_OPERATOR(PackMask<n>, Pack, Pack, <=, b.v[k])
+  CNEM_OPERATOR(PackMask<n>, Pack, Pack, >=, b.v[k])
+  CNEM_INLINE friend Pack operator-(Pack a) {
+    CNEM_EACH(a.v[k] = -a.v[k]);
+    return a;
+  }
 };
 
-CNEM_INLINE PackBits operator+(PackBits a, Bits b) { return {a.v + b}; }
-CNEM_INLINE PackBits operator+(PackBits a, PackBits b) { return {a.v + b.v}; }
-CNEM_INLINE PackBits operator&(PackBits a, Bits b) { return {a.v & b}; }
-CNEM_INLINE PackBits operator|(PackBits a, Bits b) { return {a.v | b}; }
-CNEM_INLINE PackBits operator<<(PackBits a, int b) { return {a.v << b}; }
-CNEM_INLINE PackBits operator>>(PackBits a, int b) { return {a.v >> b}; }
-
-template<> struct Number<Pack> {
-  using Mask = PackMask;
-  using Bits = PackBits;
-  static constexpr int width = pack_width;
+template<int n> struct Number<Pack<n>> {
+  using Mask = PackMask<n>;
+  static constexpr int width = n * register_width;
 };
 
-CNEM_INLINE PackBits to_bits(Pack x) { return {(BitsVector)x.v}; }
-CNEM_INLINE Pack from_bits(PackBits x) { return (DoubleVector)x.v; }
-CNEM_INLINE Pack select(PackMask mask, Pack a, Pack b) { return mask.v ? a.v : b.v; }
-CNEM_INLINE bool lane(PackMask mask, int k) { return mask.v[k] != 0; }
-CNEM_INLINE void store(double* p, Pack x) { *reinterpret_cast<UnalignedVector*>(p) = x.v; }
-
-CNEM_INLINE bool any(PackMask mask) {
-#if defined(CNEM_ISA_avx512)
-  return _mm512_movepi64_mask((__m512i)mask.v) != 0;
-#elif defined(CNEM_ISA_avx2)
-  return _mm256_movemask_pd((__m256d)mask.v) != 0;
-#else
-  return _mm_movemask_pd((__m128d)mask.v) != 0;
-#endif
+template<int n> CNEM_INLINE PackBits<n> to_bits(Pack<n> x) {
+  PackBits<n> r;
+  CNEM_EACH(r.v[k] = (BitsVector)x.v[k]);
+  return r;
+}
+template<int n> CNEM_INLINE Pack<n> from_bits(PackBits<n> x) {
+  Pack<n> r;
+  CNEM_EACH(r.v[k] = (DoubleVector)x.v[k]);
+  return r;
+}
+template<int n> CNEM_INLINE Pack<n> select(PackMask<n> mask, Pack<n> a, Pack<n> b) {
+  CNEM_EACH(b.v[k] = mask.v[k] ? a.v[k] : b.v[k]);
+  return b;
+}
+template<int n> CNEM_INLINE bool lane(PackMask<n> mask, int i) {
+  return mask.v[i / register_width][i % register_width] != 0;
+}
+template<int n> CNEM_INLINE void store(double* p, Pack<n> x) {
+  CNEM_EACH(*reinterpret_cast<UnalignedVector*>(p + k * register_width) = x.v[k]);
 }
 
-CNEM_INLINE Pack sqrt(Pack x) {
-#if defined(CNEM_ISA_avx512)
-  return (DoubleVector)_mm512_maskz_sqrt_pd(0xff, (__m512d)x.v);
-#elif defined(CNEM_ISA_avx2)
-  return (DoubleVector)_mm256_sqrt_pd((__m256d)x.v);
-#else
-  return (DoubleVector)_mm_sqrt_pd((__m128d)x.v);
-#endif
+template<int n> CNEM_INLINE bool any(PackMask<n> mask) {
+  MaskVector m = mask.v[0];
+  for (int k = 1; k < n; ++k) m |= mask.v[k];
+  return any_negative(m);
 }
 
+template<int n> CNEM_INLINE Pack<n> max(Pack<n> a, Pack<n> b) {
+  CNEM_EACH(a.v[k] = maximum(a.v[k], b.v[k]));
+  return a;
+}
+template<int n> CNEM_INLINE Pack<n> min(Pack<n> a, Pack<n> b) {
+  CNEM_EACH(a.v[k] = minimum(a.v[k], b.v[k]));
+  return a;
+}
+template<int n> CNEM_INLINE Pack<n> sqrt(Pack<n> x) {
+  CNEM_EACH(x.v[k] = square_root(x.v[k]));
+  return x;
+}
+
+#undef CNEM_OPERATOR
 #endif // CNEM_PACK
 
 // --- either ---
 
 template<class T> using Mask = typename Number<T>::Mask;
 
-template<class T> CNEM_INLINE T load(const double* p) {
-  if constexpr (Number<T>::width == 1) return *p;
 #ifdef CNEM_PACK
-  else
-    return T(DoubleVector(*reinterpret_cast<const UnalignedVector*>(p)));
+template<int n> CNEM_INLINE void load(const double* p, Pack<n>& x) {
+  CNEM_EACH(x.v[k] = *reinterpret_cast<const UnalignedVector*>(p + k * register_width));
+}
+#undef CNEM_EACH
 #endif
+CNEM_INLINE void load(const double* p, double& x) { x = *p; }
+template<class T> CNEM_INLINE T load(const double* p) {
+  T x;
+  load(p, x);
+  return x;
 }
 
-/// The larger; b where a is NaN.
-template<class T> CNEM_INLINE T max(T a, T b) { return select(a > b, a, b); }
-/// The smaller; b where a is NaN.
-template<class T> CNEM_INLINE T min(T a, T b) { return select(a < b, a, b); }
 template<class T> CNEM_INLINE T abs(T x) { return from_bits(to_bits(x) & ~(Bits(1) << 63)); }
 
 /// Σ c_k x^k by Horner's rule.
@@ -162,25 +208,53 @@ template<class T, int n> CNEM_INLINE T polynomial(T x, const double (&c)[n]) {
 inline constexpr double ln2_high = 0x1.62e42p-1; ///< 20 bits, so that its products with exponents are exact
 inline constexpr double ln2_low = 0x1.fdf473de6af28p-22;
 
-/// ln x for positive normal x, to 1 ulp; ≤ −708 for zero and subnormal x, meaningless for negative x.
+/// 1/x of every entry with one division; the product of all must stay in the normal range.
+template<class T, int n> CNEM_INLINE void reciprocals(const T (&x)[n], T (&inverse)[n]) {
+  T before[n]; // product of the entries before k
+  before[0] = T(1.0);
+  for (int k = 1; k < n; ++k) before[k] = k == 1 ? x[0] : before[k - 1] * x[k - 1];
+  T rest = T(1.0) / (n == 1 ? x[0] : before[n - 1] * x[n - 1]);
+  for (int k = n - 1; k > 0; --k) {
+    inverse[k] = rest * before[k];
+    rest = rest * x[k];
+  }
+  inverse[0] = rest;
+}
+
+/// ln x of every entry, for positive normal x, to 1 ulp; ≤ −708 for zero and subnormal x, meaningless for
+/// negative x. One division for all.
 ///
 /// x = 2^k m, m in [√½, √2); with f = m − 1 and s = f/(2 + f): ln m = 2s + s³ q(s²) = f − s (f − s² q), where
 /// q is the minimax fit of degree 6 (relative error of ln m 1.3e-18).
-template<class T> CNEM_INLINE T log(T x) {
+template<class T, int n> CNEM_INLINE void logarithms(const T (&x)[n], T (&result)[n]) {
   constexpr double q[] = {0x1.5555555555592p-1, 0x1.999999997fde0p-2, 0x1.24924941ef442p-2,
                           0x1.c71c520aafe6ap-3, 0x1.74663eaa73b2bp-3, 0x1.39a1c06527908p-3,
                           0x1.2f052ec134cc6p-3};
   constexpr Bits root_half = 0x3fe6a09e00000000, one = 0x3ff0000000000000, mantissa = 0x000fffffffffffff;
   constexpr Bits two52 = 0x4330000000000000;
-  const auto shifted = to_bits(x) + (one - root_half);
-  const T k = from_bits((shifted >> 52) | two52) - T(0x1p52 + 1023.0);
-  const T f = from_bits((shifted & mantissa) + root_half) - T(1.0);
-  const T s = f / (f + T(2.0));
-  const T z = s * s;
-  return k * T(ln2_high) + (f - (s * (f - z * polynomial(z, q)) - k * T(ln2_low)));
+  T exponent[n], f[n], sum[n], inverse[n];
+  for (int k = 0; k < n; ++k) {
+    const auto shifted = to_bits(x[k]) + (one - root_half);
+    exponent[k] = from_bits((shifted >> 52) | two52) - T(0x1p52 + 1023.0);
+    f[k] = from_bits((shifted & mantissa) + root_half) - T(1.0);
+    sum[k] = f[k] + T(2.0);
+  }
+  reciprocals(sum, inverse);
+  for (int k = 0; k < n; ++k) {
+    const T s = f[k] * inverse[k];
+    const T z = s * s;
+    result[k] =
+        exponent[k] * T(ln2_high) + (f[k] - (s * (f[k] - z * polynomial(z, q)) - exponent[k] * T(ln2_low)));
+  }
 }
 
-/// e^x to 1 ulp; clamped to the normal range, so that x < −708 gives about 3e-308 and x > 709 about 8e307.
+template<class T> CNEM_INLINE T log(T x) {
+  T result[1];
+  logarithms({x}, result);
+  return result[0];
+}
+
+/// e^x to 1 ulp for −708 ≤ x ≤ 709; meaningless beyond.
 ///
 /// x = n ln 2 + r, e^r = 1 + r + r² q(r), q the minimax fit of degree 9 (error 3.5e-18).
 template<class T> CNEM_INLINE T exp(T x) {
@@ -189,15 +263,11 @@ template<class T> CNEM_INLINE T exp(T x) {
                           2.4801489941433627e-05, 2.75572162956521e-06,  2.7631280580566606e-07,
                           2.511786284311365e-08};
   constexpr double round = 0x1.8p52; // adding it leaves the nearest integer in the low bits
-  const T y = min(max(x, T(-708.0)), T(709.0));
-  const T shifted = y * T(0x1.71547652b82fep+0) + T(round);
+  const T shifted = x * T(0x1.71547652b82fep+0) + T(round);
   const T n = shifted - T(round);
-  const T r = (y - n * T(ln2_high)) - n * T(ln2_low);
+  const T r = (x - n * T(ln2_high)) - n * T(ln2_low);
   const T e = T(1.0) + (r + r * r * polynomial(r, q));
   return from_bits(to_bits(e) + (to_bits(shifted) << 52));
 }
-
-/// x^p for x ≥ 0 and p > 0; 0 at x = 0.
-template<class T> CNEM_INLINE T pow(T x, T p) { return select(x > T(0.0), exp(p * log(x)), T(0.0)); }
 
 } // namespace cnem::CNEM_ISA

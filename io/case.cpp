@@ -20,6 +20,31 @@ std::vector<std::string> Domain::piece_names() const {
   return names;
 }
 
+const std::vector<FieldDescription>& field_descriptions() {
+  static const std::vector<FieldDescription> fields{
+      {"temperature", "K", "Temperature"},
+      {"plastic_strain", "1", "Equivalent plastic strain"},
+      {"plastic_rate", "1/s", "Rate of the equivalent plastic strain"},
+      {"equivalent_stress", "Pa", "Von Mises equivalent of the Cauchy stress"},
+      {"pressure", "Pa", "Pressure of the Cauchy stress, positive in compression"},
+      {"stress_xx", "Pa", "Cauchy stress, component xx"},
+      {"stress_yy", "Pa", "Cauchy stress, component yy"},
+      {"stress_zz", "Pa", "Cauchy stress, out of plane"},
+      {"stress_xy", "Pa", "Cauchy stress, component xy"},
+      {"displacement_x", "m", "Displacement along x"},
+      {"displacement_y", "m", "Displacement along y"},
+      {"velocity_x", "m/s", "Velocity along x"},
+      {"velocity_y", "m/s", "Velocity along y"},
+      {"volume_ratio", "1", "Present over stress-free volume"}};
+  return fields;
+}
+
+std::vector<std::string> field_names() {
+  std::vector<std::string> names;
+  for (const FieldDescription& field : field_descriptions()) names.push_back(field.name);
+  return names;
+}
+
 const Material& Case::material(const std::string& wanted) const {
   const auto found = std::find_if(materials.begin(), materials.end(),
                                   [&](const Material& candidate) { return candidate.name == wanted; });

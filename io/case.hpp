@@ -196,7 +196,7 @@ struct Method {
 struct Probe {
   std::string name;
   Vec2 at{0, 0};                   ///< m, initial position
-  std::vector<std::string> fields; ///< of io::field_names()
+  std::vector<std::string> fields; ///< of field_names()
 };
 
 struct Window {
@@ -209,13 +209,19 @@ struct Output {
   double history_every = 0.0;              ///< s
   double fields_every = 0.0;               ///< s
   std::vector<double> pictures;            ///< s, increasing; times beyond the end are kept here
-  std::vector<std::string> picture_fields; ///< of io::field_names()
+  std::vector<std::string> picture_fields; ///< of field_names()
   std::vector<Window> windows;             ///< parts of the domain drawn enlarged, beside the whole
   std::vector<Probe> probes;
 };
 
-/// The fields that probes and pictures know, e.g. "temperature", "plastic_strain", "stress_xy".
-const std::vector<std::string>& field_names();
+/// A field that probes and pictures know.
+struct FieldDescription {
+  std::string name;    ///< "plastic_strain"
+  std::string unit;    ///< SI; "1" for plain numbers
+  std::string meaning; ///< one line for people
+};
+const std::vector<FieldDescription>& field_descriptions();
+std::vector<std::string> field_names();
 
 struct Case {
   std::string path;  ///< file it was read from

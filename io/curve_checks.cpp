@@ -118,12 +118,13 @@ bool inside(const Curve& curve, const Vec2& x) {
   double winding = 0.0;
   for (const CurvePiece& piece : curve.pieces) {
     const Vec2 a = piece.from - x, b = piece.to - x;
-    winding += std::atan2(cross(a, b), a.dot(b));
-    if (!piece.is_arc() || (x - piece.centre).norm() >= piece.radius) continue;
-    // Between chord and arc, the arc passes x on the other side than its chord.
-    const double side = cross(piece.to - piece.from, x - piece.from);
-    if (piece.clockwise ? side > 0.0 : side < 0.0)
-      winding += piece.clockwise ? -2.0 * std::numbers::pi : 2.0 * std::numbers::pi;
+    double angle = std::atan2(cross(a, b), a.dot(b));
+    // Seen from inside its circle, an arc turns one way only; from outside it turns like its chord.
+    if (piece.is_arc() && (x - piece.centre).norm() < piece.radius) {
+      if (piece.clockwise && angle > 0.0) angle -= 2.0 * std::numbers::pi;
+      if (!piece.clockwise && angle < 0.0) angle += 2.0 * std::numbers::pi;
+    }
+    winding += angle;
   }
   return std::abs(winding) > std::numbers::pi;
 }

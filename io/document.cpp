@@ -112,8 +112,8 @@ std::vector<Step> split_key(std::string_view key) {
   return steps;
 }
 
-/// The value a step leads to from `value`, made when a table lacks it.
-Value& descend(Value& value, const Step& step, const std::string& so_far, const Location& where) {
+/// The value a step leads to from `value`, made when a table lacks it. The last step is what is overridden.
+Value& descend(Value& value, const Step& step, const std::string& so_far, const Location& where, bool last) {
   if (step.key.empty()) {
     if (value.kind != Value::Kind::array)
       throw InputError(fmt::format("{}: '{}' is {}, not an array", where.text(), so_far, value.show()));
@@ -125,7 +125,10 @@ Value& descend(Value& value, const Step& step, const std::string& so_far, const 
   if (value.kind != Value::Kind::table)
     throw InputError(
         fmt::format("{}: '{}' is {}, so it has no key '{}'", where.text(), so_far, value.show(), step.key));
-  if (Member* member = value.find(step.key)) return member->value;
+  if (Member* member = value.find(step.key)) {
+    if (last) member->where = where;
+    return member->value;
+  }
   Value table;
   table.kind = Value::Kind::table;
   table.where = where;
@@ -205,7 +208,7 @@ void apply_override(Value& root, std::string_view assignment) {
   Value* value = &root;
   std::string so_far;
   for (const Step& step : steps) {
-    value = &descend(*value, step, so_far, where);
+    value = &descend(*value, step, so_far, where, &step == &steps.back());
     so_far += step.key.empty() ? fmt::format("[{}]", step.index) : (so_far.empty() ? "" : ".") + step.key;
   }
   *value = override_value(assignment.substr(equals + 1), where);

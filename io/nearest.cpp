@@ -30,7 +30,9 @@ std::optional<std::string> nearest(std::string_view word, const std::vector<std:
   std::optional<std::string> best;
   int least = 0;
   for (const std::string& candidate : candidates) {
-    const int distance = edit_distance(word, candidate);
+    // "johnson" for "johnson-cook": a long common beginning is one edit.
+    const bool begins = word.size() >= 4 && std::string_view(candidate).starts_with(word);
+    const int distance = begins ? 1 : edit_distance(word, candidate);
     const int allowed = std::max<int>(1, static_cast<int>(std::max(word.size(), candidate.size()) + 1) / 3);
     if (distance > allowed || (best && distance >= least)) continue;
     best = candidate;

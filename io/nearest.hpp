@@ -12,7 +12,7 @@ namespace cnem::io {
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate closest to the word, if it is close enough to be what was meant (about one edit in three
-/// letters). The first of equally close ones.
+/// letters, or the word is its beginning). The first of equally close ones.
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// " (did you mean 'x'?)", or nothing when no candidate is near.

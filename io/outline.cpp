@@ -229,6 +229,12 @@ Curve make_outline(const Setting& table, const OutlineNames& names) {
   const std::string form = has_path ? "path" : has_circle ? "circle" : "rectangle";
   if (const auto point = self_crossing(curve))
     throw OutlineError(form, fmt::format("the outline crosses or touches itself at {}", show(*point)));
+  for (const CurvePiece& piece : curve.pieces)
+    if (piece.name.empty() || piece.name == "all")
+      throw OutlineError(form,
+                         fmt::format("found a piece named \"{}\", expected a name that is neither empty nor "
+                                     "\"all\", which stands for every piece",
+                                     piece.name));
   const double size = extent(curve);
   if (!(std::abs(curve.area()) > 1e-9 * size * size))
     throw OutlineError(form, "the outline encloses no area");

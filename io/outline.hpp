@@ -24,7 +24,7 @@ struct OutlineNames {
 /// The counter-clockwise curve of a table with `start` and `path`, or `rectangle`, or `circle`. Arcs longer
 /// than half a turn are split in two of the same name. Throws OutlineError: several or no forms given,
 /// pieces without length, arcs whose ends are not on a circle, fillets that do not fit, a curve that crosses
-/// itself.
+/// itself, names that are empty or "all".
 Curve make_outline(const Setting& table, const OutlineNames& names);
 
 } // namespace cnem::io

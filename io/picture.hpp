@@ -34,10 +34,10 @@ struct Picture {
   std::optional<ColourRange> range; ///< SI; by default that of the values
   std::vector<PictureTool> tools;
   std::optional<PictureWindow> window; ///< part shown; by default the whole body with a margin
-  std::optional<bool> edges;    ///< outlines of cells; by default where cells are large enough to be seen
-  std::string title;            ///< upper left: the case
-  double time = 0.0;            ///< s, shown upper right
-  int width = 1400;             ///< px; the height follows from the window
+  std::optional<bool> edges; ///< outlines of cells; by default where cells are large enough to be seen
+  std::string title;         ///< upper left: the case
+  double time = 0.0;         ///< s, shown upper right
+  int width = 1400;          ///< px; the height follows from the window
 };
 
 /// Where things are in the finished picture, px from the upper left corner.

@@ -1,4 +1,5 @@
 // The case reference in Markdown.
+#include "io/case.hpp"
 #include "io/schema.hpp"
 
 #include <fmt/format.h>
@@ -143,7 +144,7 @@ std::string case_reference() {
     const bool is_list = table.type == Type::table_list;
     if ((table.type != Type::table && !is_list) || belongs_to_outline(table)) continue;
     const std::string pattern = is_list ? table.path + "[]" : table.path;
-    text += fmt::format("\n### `{}`\n\n{}{}\n", readable(pattern), table.doc,
+    text += fmt::format("\n### `{}`\n\n{}{}\n", readable(pattern), is_list ? "A piece." : table.doc,
                         table.presence == Presence::required ? " Required." : "");
     std::string rows;
     for (const Key* key : members_of(pattern)) {
@@ -153,6 +154,9 @@ std::string case_reference() {
     }
     if (!rows.empty()) text += "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n" + rows;
   }
+  text += "\n## Fields\n\n| name | unit | meaning |\n| --- | --- | --- |\n";
+  for (const FieldDescription& field : field_descriptions())
+    text += fmt::format("| `{}` | {} | {} |\n", field.name, field.unit, field.meaning);
   std::string top;
   for (const Key* key : members_of(""))
     if (key->type == Type::text) top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);

@@ -66,9 +66,9 @@ void add_domain(Keys& k) {
   k.add("domain.holes.*", table, "A hole: either `start` and `path`, or `rectangle`, or `circle`.");
   add_outline(k, "domain.holes.*", "the name of the hole");
   k.add("domain.cracks", named_tables, "Cracks.");
-  k.add(
-      "domain.cracks.*", table,
-      "A crack with two faces: the boundary pieces `NAME+` (material on the left of the path) and `NAME-`.");
+  k.add("domain.cracks.*", table,
+        "A crack with two faces: the boundary pieces `NAME+` (material on the left of the path) and `NAME-`; "
+        "`NAME` stands for both.");
   k.add("domain.cracks.*.points", vectors,
         "Polyline inside the domain; its first or last point may lie on the boundary, then it is open there.")
       .unit(d::length)

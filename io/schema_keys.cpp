@@ -254,7 +254,7 @@ void add_method(Keys& k) {
 }
 
 void add_output(Keys& k) {
-  const std::vector<std::string>& fields = field_names();
+  const std::vector<std::string> fields = field_names();
   k.add("output", table, "What is written.").always();
   k.add("output.history_every", quantity, "Time between rows of `history.csv`; 0: every step.")
       .unit(d::time)
@@ -282,7 +282,7 @@ void add_output(Keys& k) {
       .required()
       .example("[\"4 0 mm\", \"6 10 mm\"]");
   k.add("output.probes", named_tables, "Histories at material points.");
-  k.add("output.probes.*", table, "A probe: columns `NAME.field` of `history.csv`.");
+  k.add("output.probes.*", table, "A probe: columns `probe.NAME.field` of `history.csv`.");
   k.add("output.probes.*.at", vector, "Initial position.").unit(d::length).required().example("\"5.1 5 mm\"");
   k.add("output.probes.*.fields", choices, "Fields recorded.")
       .one_of(fields)
@@ -306,14 +306,6 @@ const std::vector<Key>& schema() {
     return std::move(k.all);
   }();
   return keys;
-}
-
-const std::vector<std::string>& field_names() {
-  static const std::vector<std::string> names{
-      "temperature", "plastic_strain", "plastic_rate", "equivalent_stress", "pressure",       "stress_xx",
-      "stress_yy",   "stress_zz",      "stress_xy",    "displacement_x",    "displacement_y", "velocity_x",
-      "velocity_y",  "position_x",     "position_y",   "plastic_work"};
-  return names;
 }
 
 } // namespace cnem::io

@@ -195,8 +195,12 @@ void Setting::set_default(std::string_view relative, SettingValue computed) {
   Setting& table = dot == std::string_view::npos ? *this : *find(relative.substr(0, dot));
   const std::string member(dot == std::string_view::npos ? relative : relative.substr(dot + 1));
   const std::string pattern = table.key ? join(table.key->path, member) : member;
-  table.members.push_back(
-      {find_key(pattern), member, join(table.path, member), table.where, false, std::move(computed), {}});
+  const Key* spec = find_key(pattern);
+  // Keys point into the schema, so their order is its order.
+  const auto place = std::find_if(table.members.begin(), table.members.end(),
+                                  [&](const Setting& other) { return other.key > spec; });
+  table.members.insert(place,
+                       {spec, member, join(table.path, member), table.where, false, std::move(computed), {}});
 }
 
 Setting apply_schema(const Value& document, Diagnostics& diagnostics) {

@@ -10,11 +10,14 @@ namespace cnem::plasticity::CNEM_ISA {
 
 using namespace ::cnem::CNEM_ISA;
 
+/// Elastic logarithmic strain beyond which a point is reported as meaningless.
+inline constexpr double largest_strain = 100.0;
+
 /// One step of the points i … i + Number<T>::width − 1. Returns the lanes that mean nothing and were left
 /// alone.
 template<int dim, class T>
 CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const StressPoints<dim>& points,
-                                    std::ptrdiff_t i, double dt) {
+                                    std::ptrdiff_t i) {
   constexpr int general = StressPoints<dim>::general, symmetric = StressPoints<dim>::symmetric;
 
   // (i) total deformation gradient
@@ -35,16 +38,18 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   const T(&l)[3] = spectrum.value;
 
   // (iv) trial logarithmic strain, without its thermal part
-  const T strain[3] = {T(0.5) * log(l[0]), T(0.5) * log(l[1]), T(0.5) * log(l[2])};
+  T strain[3];
+  logarithms(l, strain);
+  for (T& e : strain) e = T(0.5) * e;
   const T total = strain[0] + strain[1] + strain[2];
   T volumetric = total;
-  if (law.expansion != 0.0)
-    volumetric = total - T(3.0 * law.expansion) * (temperature - T(law.expansion_reference));
+  if (law.three_expansion != 0.0)
+    volumetric = total - T(law.three_expansion) * (temperature - T(law.reference));
 
   // (v) trial stress
   const T mean = total * T(1.0 / 3.0);
   T deviator[3];
-  for (int k = 0; k < 3; ++k) deviator[k] = T(2.0 * law.mu) * (strain[k] - mean);
+  for (int k = 0; k < 3; ++k) deviator[k] = T(law.two_mu) * (strain[k] - mean);
   const T tension = T(law.kappa) * volumetric;
   const T q =
       sqrt(T(1.5) * (deviator[0] * deviator[0] + deviator[1] * deviator[1] + deviator[2] * deviator[2]));
@@ -52,40 +57,45 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   const Mask<T> valid = (deformation.determinant > T(0.0)) & (l[0] > T(0.0)) & (l[1] > T(0.0)) &
                         (l[2] > T(0.0)) & (temperature >= T(0.0)) & (plastic_strain >= T(0.0)) &
                         (last_rate >= T(0.0)) & (abs(plastic_work) + abs(last_stress) < T(1e300)) &
-                        (abs(tension) + q < T(1e300));
+                        (abs(tension) < T(1e300)) & (q < T(largest_strain * law.two_mu));
   Mask<T> bad = !valid;
+
+  T inverse[4];
+  reciprocals(
+      {deformation.determinant, l[0] * l[1] * l[2], max(q, T(1e-100)), max(plastic_strain, T(1e-100))},
+      inverse);
 
   // (vi) plastic consistency, (vii) plastic corrector
   T increment = T(0.0), reduction = T(1.0), work = T(0.0);
-  if (law.plastic && dt > 0.0) {
-    const PlasticCorrector<T> corrector(law, plastic_strain, temperature, dt);
+  if (law.plastic) {
+    const PlasticCorrector<T> corrector(law, plastic_strain, temperature);
     const Mask<T> yielding = valid & (q > corrector.initial_flow_stress);
     if (any(yielding)) {
       Mask<T> failed;
-      increment = corrector.solve(q, last_rate * T(dt), yielding, failed);
+      increment = corrector.solve(q, inverse[3], last_rate * T(law.dt), yielding, failed);
       bad = bad | failed;
-      const T shrink = T(3.0 * law.mu) * increment / max(q, T(1e-150));
+      const T shrink = T(law.three_mu) * increment * inverse[2];
       reduction = max(T(1.0) - shrink, T(0.0));
       work = T(0.5) * (last_stress + q * reduction) * increment;
 
       // (ix) b_e = exp(−2 Δγ N) b_e^trial; C_p⁻¹ takes the difference, so that it does not drift when Δγ = 0
       T change[3], tensor[symmetric], delta[symmetric];
-      for (int k = 0; k < 3; ++k) change[k] = l[k] * (exp(T(-1.0 / law.mu) * shrink * deviator[k]) - T(1.0));
+      for (int k = 0; k < 3; ++k) change[k] = l[k] * (exp(T(-law.by_mu) * shrink * deviator[k]) - T(1.0));
       spectrum.isotropic(change, tensor);
-      deformation.pull_back(tensor, delta);
+      deformation.pull_back(tensor, inverse[0], delta);
       for (int c = 0; c < symmetric; ++c) {
         const T updated = elastic[c] + delta[c];
         store(points.elastic[c] + i, select(yielding & !bad, updated, elastic[c]));
       }
     }
-    store(points.plastic_rate + i, select(bad, last_rate, increment * T(1.0 / dt)));
+    store(points.plastic_rate + i, select(bad, last_rate, increment * T(law.by_dt)));
   }
 
   // (viii) stress: τ = dev τ^trial (1 − 3μ Δγ/q) − p 1, and P = τ cof F / J_e
   T principal[3], tau[symmetric], piola[general];
   for (int k = 0; k < 3; ++k) principal[k] = deviator[k] * reduction + tension;
   spectrum.isotropic(principal, tau);
-  const T inverse_elastic_volume = T(1.0) / sqrt(l[0] * l[1] * l[2]);
+  const T inverse_elastic_volume = sqrt(inverse[1]);
   deformation.piola(tau, inverse_elastic_volume, piola);
   const T stress = q * reduction;
 
@@ -100,7 +110,7 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   write(points.plastic_work, plastic_work + work);
   write(points.dissipation, work);
   write(points.pressure, -tension);
-  write(points.stored_energy, stress * stress * T(1.0 / (6.0 * law.mu)) + T(0.5) * tension * volumetric);
+  write(points.stored_energy, stress * stress * T(law.by_six_mu) + T(0.5) * tension * volumetric);
   write(points.stress_free, deformation.determinant * inverse_elastic_volume);
   return bad;
 }

@@ -15,14 +15,15 @@ using namespace ::cnem::CNEM_ISA;
 /// that it leaves (first yield, ε̄p ≪ x, the kink at the reference rate) are finished within a bracket.
 template<class T> class PlasticCorrector {
 public:
-  CNEM_INLINE PlasticCorrector(const ReturnMapParameters& parameters, T plastic_strain, T temperature,
-                               double dt)
-      : law(parameters), strain(plastic_strain), rate_scale(1.0 / (dt * parameters.rate0)) {
+  CNEM_INLINE PlasticCorrector(const ReturnMapParameters& parameters, T plastic_strain, T temperature)
+      : law(parameters), strain(plastic_strain) {
+    const T homologous = min(max((temperature - T(law.T0)) * T(law.by_melting_range), T(0.0)), T(1.0));
+    T logarithm[2];
+    logarithms({homologous, strain}, logarithm);
+    power = law.B > 0.0 ? power_of(strain, logarithm[1], law.n) : T(0.0);
     softening = T(1.0);
-    const T homologous = min(max((temperature - T(law.T0)) * T(law.inverse_melting_range), T(0.0)), T(1.0));
     if (any(homologous > T(0.0)))
-      softening = T(1.0) - (law.m == 1.0 ? homologous : pow(homologous, T(law.m)));
-    power = law.B > 0.0 ? pow(strain, T(law.n)) : T(0.0);
+      softening = T(1.0) - (law.m == 1.0 ? homologous : power_of(homologous, logarithm[0], law.m));
     initial_flow_stress = (T(law.A) + T(law.B) * power) * softening;
   }
 
@@ -31,18 +32,17 @@ public:
 
   /// Δγ of the lanes in `yielding` (q > initial_flow_stress), 0 in the others; `guess` is Δγ of the last
   /// step. Lanes that fail to converge (none is known) are taken out of `yielding` and into `failed`.
-  CNEM_INLINE T solve(T q, T guess, Mask<T> yielding, Mask<T>& failed) const {
-    const T cap = (q - initial_flow_stress) * T(1.0 / (3.0 * law.mu));
+  CNEM_INLINE T solve(T q, T by_strain, T guess, Mask<T> yielding, Mask<T>& failed) const {
+    const T cap = (q - initial_flow_stress) * T(law.by_three_mu);
     T x = min(guess, cap);
     const Mask<T> fresh = yielding & (guess <= T(0.0));
     if (any(fresh)) x = select(fresh, first_guess(q, cap), x);
 
-    const T inverse_strain = T(1.0) / max(strain, T(1e-150));
     Mask<T> open = yielding;
     for (int k = 0; k < 4; ++k) {
-      const Mask<T> in_range = open & (x * inverse_strain <= T(law.series_range));
+      const Mask<T> in_range = open & (x * by_strain <= T(law.series_range));
       if (!any(in_range)) break;
-      const T eta = halley(q, x, series(x * inverse_strain));
+      const T eta = halley(q, x, series(x * by_strain));
       x = select(in_range, advance(x, eta, cap), x);
       open = open & !(in_range & (abs(eta) <= T(tolerance)));
     }
@@ -62,9 +62,13 @@ private:
 
   const ReturnMapParameters& law;
   T strain;
-  double rate_scale;
   T softening;
   T power; ///< ε̄pⁿ at t_n
+
+  /// x^p, 0 at x = 0.
+  CNEM_INLINE static T power_of(T x, T logarithm, double p) {
+    return select(x > T(0.0), exp(max(T(p) * logarithm, T(-708.0))), T(0.0));
+  }
 
   CNEM_INLINE Hardening series(T y) const {
     if (law.B == 0.0) return {T(0.0), T(0.0), T(0.0)};
@@ -80,7 +84,7 @@ private:
   CNEM_INLINE Hardening full(T x) const {
     if (law.B == 0.0) return {T(0.0), T(0.0), T(0.0)};
     const T total = strain + x, y = x / total;
-    const T value = pow(total, T(law.n));
+    const T value = power_of(total, log(total), law.n);
     const T first = T(law.n) * value * y;
     return {value, first, T(law.n - 1.0) * first * y};
   }
@@ -90,12 +94,12 @@ private:
     const T slope = T(law.B) * h.first * softening, curvature = T(law.B) * h.second * softening;
     T rate_factor = T(1.0), c = T(0.0);
     if (law.C > 0.0) {
-      const T logarithm = log(x * T(rate_scale));
+      const T logarithm = log(x * T(law.by_reference_increment));
       const Mask<T> above = logarithm > T(0.0);
       rate_factor = T(1.0) + T(law.C) * select(above, logarithm, T(0.0));
       c = select(above, T(law.C), T(0.0));
     }
-    const T elastic = T(3.0 * law.mu) * x;
+    const T elastic = T(law.three_mu) * x;
     first = elastic + slope * rate_factor + stress * c;                 // −r′ x
     second = stress * c - curvature * rate_factor - T(2.0) * slope * c; // r″ x²
     return q - elastic - stress * rate_factor;
@@ -119,8 +123,8 @@ private:
   /// Below the cap and the solution without its elastic term, both of which are upper bounds.
   CNEM_INLINE T first_guess(T q, T cap) const {
     if (law.C == 0.0) return cap;
-    const T overstress = (q / max(initial_flow_stress, T(1e-150)) - T(1.0)) * T(1.0 / law.C);
-    const T viscous = exp(min(overstress, T(600.0))) * T(1.0 / rate_scale);
+    const T overstress = (q / max(initial_flow_stress, T(1e-150)) - T(1.0)) * T(law.by_C);
+    const T viscous = exp(min(overstress, T(600.0))) * T(law.reference_increment);
     return cap * viscous / (cap + viscous);
   }
 

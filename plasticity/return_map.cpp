@@ -8,22 +8,31 @@
 
 namespace cnem::plasticity {
 
-ReturnMapParameters return_map_parameters(const Material& material) {
+ReturnMapParameters return_map_parameters(const Material& material, double dt) {
   const JohnsonCook law = material.hardening.value_or(JohnsonCook{});
+  const double mu = material.elasticity.mu();
   ReturnMapParameters p{};
-  p.mu = material.elasticity.mu();
   p.kappa = material.elasticity.kappa();
-  p.expansion = material.expansion;
-  p.expansion_reference = material.expansion_reference;
-  p.plastic = material.hardening.has_value();
+  p.two_mu = 2.0 * mu;
+  p.three_mu = 3.0 * mu;
+  p.by_mu = 1.0 / mu;
+  p.by_three_mu = 1.0 / (3.0 * mu);
+  p.by_six_mu = 1.0 / (6.0 * mu);
+  p.three_expansion = 3.0 * material.expansion;
+  p.reference = material.expansion_reference;
+  p.dt = dt;
+  p.by_dt = 1.0 / dt;
+  p.plastic = material.hardening.has_value() && dt > 0.0;
   p.A = law.A;
   p.B = law.B;
   p.n = law.n;
   p.C = law.C;
-  p.rate0 = law.rate0;
   p.m = law.m;
   p.T0 = law.T0;
-  p.inverse_melting_range = 1.0 / (law.Tmelt - law.T0);
+  p.by_melting_range = 1.0 / (law.Tmelt - law.T0);
+  p.reference_increment = dt * law.rate0;
+  p.by_reference_increment = 1.0 / p.reference_increment;
+  p.by_C = 1.0 / law.C;
   double coefficient = 1.0;
   for (int k = 0; k <= series_order; ++k) {
     p.series[k] = coefficient;
@@ -60,16 +69,16 @@ template<int dim> StressPoints<dim> stress_points(PointState<dim>& state) {
 template<int dim>
 std::ptrdiff_t update_stress(const Material& material, const StressPoints<dim>& points, std::ptrdiff_t begin,
                              std::ptrdiff_t end, double dt) {
-  const ReturnMapParameters parameters = return_map_parameters(material);
+  const ReturnMapParameters parameters = return_map_parameters(material, dt);
   switch (active_isa()) {
   case Isa::avx512:
-    return avx512::return_map(parameters, points, begin, end, dt);
+    return avx512::return_map(parameters, points, begin, end);
   case Isa::avx2:
-    return avx2::return_map(parameters, points, begin, end, dt);
+    return avx2::return_map(parameters, points, begin, end);
   case Isa::baseline:
     break;
   }
-  return baseline::return_map(parameters, points, begin, end, dt);
+  return baseline::return_map(parameters, points, begin, end);
 }
 
 template StressPoints<2> stress_points(PointState<2>&);

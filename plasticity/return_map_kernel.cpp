@@ -4,16 +4,23 @@ namespace cnem::plasticity::CNEM_ISA {
 
 namespace {
 
-constexpr int width = Number<Pack>::width;
+#ifdef CNEM_ISA_baseline
+constexpr int registers = 1;
+#else
+constexpr int registers = 2;
+#endif
+/// Two registers at a time in the plane; the rotations of space need too many.
+template<int dim> using Points = Pack<dim == 2 ? registers : 1>;
+template<int dim> inline constexpr int width = Number<Points<dim>>::width;
 
 /// Not inlined: whole packs and tails must run the very same instructions, or their bits could differ.
 template<int dim>
-[[gnu::noinline]] PackMask pack_step(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
-                                     std::ptrdiff_t i, double dt) {
-  return return_map_step<dim, Pack>(parameters, points, i, dt);
+[[gnu::noinline]] Mask<Points<dim>> pack_step(const ReturnMapParameters& parameters,
+                                              const StressPoints<dim>& points, std::ptrdiff_t i) {
+  return return_map_step<dim, Points<dim>>(parameters, points, i);
 }
 
-int first_lane(PackMask mask, int lanes) {
+template<class M> int first_lane(M mask, int lanes) {
   for (int k = 0; k < lanes; ++k)
     if (lane(mask, k)) return k;
   return lanes;
@@ -35,21 +42,21 @@ template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, V
 
 /// Fewer than `width` points, through buffers padded with the last of them.
 template<int dim>
-PackMask tail_step(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
-                   std::ptrdiff_t begin, int count, double dt) {
+Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
+                            std::ptrdiff_t begin, int count) {
   constexpr int fields = StressPoints<dim>::general * 2 + StressPoints<dim>::symmetric + 9;
-  double buffer[fields][width];
+  double buffer[fields][width<dim>];
   StressPoints<dim> local = points, target = points;
   int used = 0;
   const auto copy = [&](auto& field) {
-    for (int k = 0; k < width; ++k) buffer[used][k] = field[begin + (k < count ? k : count - 1)];
+    for (int k = 0; k < width<dim>; ++k) buffer[used][k] = field[begin + (k < count ? k : count - 1)];
     field = buffer[used++];
   };
   for_each_input(local, copy);
   const int first_output = used;
   for_each_output(local, copy);
 
-  const PackMask bad = pack_step(parameters, local, 0, dt);
+  const auto bad = pack_step(parameters, local, 0);
 
   used = first_output;
   for_each_output(target, [&](double* field) {
@@ -63,20 +70,20 @@ PackMask tail_step(const ReturnMapParameters& parameters, const StressPoints<dim
 
 template<int dim>
 std::ptrdiff_t return_map(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
-                          std::ptrdiff_t begin, std::ptrdiff_t end, double dt) {
+                          std::ptrdiff_t begin, std::ptrdiff_t end) {
   std::ptrdiff_t first_bad = -1;
-  for (std::ptrdiff_t i = begin; i < end; i += width) {
-    const int count = end - i < width ? static_cast<int>(end - i) : width;
-    const PackMask bad =
-        count == width ? pack_step(parameters, points, i, dt) : tail_step(parameters, points, i, count, dt);
+  for (std::ptrdiff_t i = begin; i < end; i += width<dim>) {
+    const int count = end - i < width<dim> ? static_cast<int>(end - i) : width<dim>;
+    const auto bad = count == width<dim> ? pack_step<dim>(parameters, points, i)
+                                         : tail_step<dim>(parameters, points, i, count);
     if (any(bad) && first_bad < 0 && first_lane(bad, count) < count) first_bad = i + first_lane(bad, count);
   }
   return first_bad;
 }
 
 template std::ptrdiff_t return_map<2>(const ReturnMapParameters&, const StressPoints<2>&, std::ptrdiff_t,
-                                      std::ptrdiff_t, double);
+                                      std::ptrdiff_t);
 template std::ptrdiff_t return_map<3>(const ReturnMapParameters&, const StressPoints<3>&, std::ptrdiff_t,
-                                      std::ptrdiff_t, double);
+                                      std::ptrdiff_t);
 
 } // namespace cnem::plasticity::CNEM_ISA

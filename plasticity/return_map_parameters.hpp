@@ -10,23 +10,28 @@ inline constexpr int series_order = 10;
 
 struct Material;
 
+/// Constants of a material and a step. What would cost a division is kept inverted.
 struct ReturnMapParameters {
-  double mu, kappa;                      ///< Pa
-  double expansion, expansion_reference; ///< 1/K, K
-  bool plastic;                          ///< has a flow stress
-  double A, B, n, C, rate0, m, T0;       ///< as in JohnsonCook
-  double inverse_melting_range;          ///< 1/K  1/(T_m − T0); 0: no thermal softening
-  double series[series_order + 1];       ///< –    binomial coefficients: (1 + y)ⁿ = Σ series_k y^k
-  double series_range;                   ///< –    |y| up to which the series is exact to rounding
+  double kappa, two_mu, three_mu;       ///< Pa
+  double by_mu, by_three_mu, by_six_mu; ///< 1/Pa
+  double three_expansion, reference;    ///< 1/K, K
+  double dt, by_dt;                     ///< s, 1/s
+  bool plastic;                         ///< has a flow stress and time to flow
+  double A, B, n, C, m, T0;             ///< as in JohnsonCook
+  double by_melting_range;              ///< 1/K  1/(T_m − T0); 0: no thermal softening
+  double by_reference_increment, by_C;  ///< –    1/(ε̄̇p0 dt), 1/C
+  double reference_increment;           ///< –    ε̄̇p0 dt
+  double series[series_order + 1];      ///< –    binomial coefficients: (1 + y)ⁿ = Σ series_k y^k
+  double series_range;                  ///< –    |y| up to which the series is exact to rounding
 };
 
-ReturnMapParameters return_map_parameters(const Material& material);
+ReturnMapParameters return_map_parameters(const Material& material, double dt);
 
 #define CNEM_RETURN_MAP(isa)                                                                                 \
   namespace isa {                                                                                            \
   template<int dim>                                                                                          \
   std::ptrdiff_t return_map(const ReturnMapParameters& parameters, const StressPoints<dim>& points,          \
-                            std::ptrdiff_t begin, std::ptrdiff_t end, double dt);                            \
+                            std::ptrdiff_t begin, std::ptrdiff_t end);                                       \
   }
 CNEM_RETURN_MAP(baseline)
 CNEM_RETURN_MAP(avx2)

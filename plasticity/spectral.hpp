@@ -18,11 +18,12 @@ template<class T> struct Spectrum<2, T> {
   CNEM_INLINE explicit Spectrum(const T (&b)[4]) {
     const T mean = T(0.5) * (b[0] + b[1]), difference = T(0.5) * (b[0] - b[1]);
     const T radius = sqrt(difference * difference + b[3] * b[3]);
-    const T inverse = T(1.0) / max(radius, T(1e-150));
-    cosine = difference * inverse;
-    sine = b[3] * inverse;
     value[0] = mean + radius;
-    value[1] = (b[0] * b[1] - b[3] * b[3]) / value[0];
+    T inverse[2];
+    reciprocals({max(radius, T(1e-150)), value[0]}, inverse);
+    cosine = difference * inverse[0];
+    sine = b[3] * inverse[0];
+    value[1] = (b[0] * b[1] - b[3] * b[3]) * inverse[1];
     value[2] = b[2];
   }
 
@@ -108,9 +109,9 @@ template<class T> struct Deformation<2, T> {
     b[3] = a_xx * yx + a_xy * yy;
   }
 
-  /// F⁻¹ b F⁻ᵀ.
-  CNEM_INLINE void pull_back(const T (&b)[4], T (&c)[4]) const {
-    const T inverse = T(1.0) / determinant, in_plane = zz * inverse, out_of_plane = plane * inverse;
+  /// F⁻¹ b F⁻ᵀ, given 1/det F.
+  CNEM_INLINE void pull_back(const T (&b)[4], T inverse, T (&c)[4]) const {
+    const T in_plane = zz * inverse, out_of_plane = plane * inverse;
     const T i_xx = yy * in_plane, i_xy = -xy * in_plane, i_yx = -yx * in_plane, i_yy = xx * in_plane;
     const T a_xx = i_xx * b[0] + i_xy * b[3], a_xy = i_xx * b[3] + i_xy * b[1];
     const T a_yx = i_yx * b[0] + i_yy * b[3], a_yy = i_yx * b[3] + i_yy * b[1];
@@ -150,12 +151,11 @@ template<class T> struct Deformation<3, T> {
 
   CNEM_INLINE void push_forward(const T (&c)[6], T (&b)[6]) const { congruence(f, c, b); }
 
-  CNEM_INLINE void pull_back(const T (&b)[6], T (&c)[6]) const {
-    const T factor = T(1.0) / determinant;
-    T inverse[3][3];
+  CNEM_INLINE void pull_back(const T (&b)[6], T inverse, T (&c)[6]) const {
+    T m[3][3];
     for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) inverse[i][k] = cofactor[k][i] * factor;
-    congruence(inverse, b, c);
+      for (int k = 0; k < 3; ++k) m[i][k] = cofactor[k][i] * inverse;
+    congruence(m, b, c);
   }
 
   CNEM_INLINE void piola(const T (&tau)[6], T factor, T (&p)[9]) const {

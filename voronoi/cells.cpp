@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "voronoi/boundary_checks.hpp"
-#include "voronoi/locate.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -36,11 +35,12 @@ public:
 private:
   const Vec2& at(std::int32_t node) const { return cloud_.position[u(node)]; }
 
-  bool is_hidden_by(std::int32_t t, std::int32_t facet) const {
+  /// The circumcentre of t is on the far side of the facet's line. For the triangle at the facet, and from
+  /// there for each neighbour of a hidden triangle, this means hidden by the facet itself: the bisector of
+  /// the common edge meets the line inside both circles, where no end of the facet can be.
+  bool is_beyond(std::int32_t t, std::int32_t facet) const {
     const auto& [a, b] = cloud_.facets[u(facet)].node;
-    const Vec2& centre = circles_.centre[u(t)];
-    if (cross(at(b) - at(a), centre - at(a)) >= 0.0) return false;
-    return walk(cloud_, mesh_, t, centre).facet == facet;
+    return cross(at(b) - at(a), circles_.centre[u(t)] - at(a)) < 0.0;
   }
 
   /// The part of the facet that belongs to `cell` ends at s.
@@ -64,11 +64,12 @@ private:
 
   /// Divides a boundary facet among cells. The triangles whose circumcentres it hides are connected with it
   /// (a circle with a hidden centre meets the facet in a chord, and so do those between); going round them
-  /// clockwise from one end of the facet to the other gives its owners in order.
+  /// clockwise from one end of the facet to the other gives its owners in order. Which triangles these are is
+  /// decided once, so that the cells close even where rounding decides it.
   void share_facet(std::int32_t facet) {
     const auto& [a, b] = cloud_.facets[u(facet)].node;
     const std::int32_t first = facet_triangle_[u(facet)];
-    if (!is_hidden_by(first, facet)) {
+    if (cells_.hidden_of_triangle[u(first)] >= 0 || !is_beyond(first, facet)) {
       cells_.crossing_of_facet[u(facet)] = static_cast<std::int32_t>(cells_.crossing.size());
       cells_.crossing.push_back({facet, 0.5});
       end_piece(facet, a, 0.0, 0.5);
@@ -85,7 +86,7 @@ private:
       const auto [t, k] = stack_.back();
       stack_.pop_back();
       const std::int32_t across = mesh_.neighbour[u(t)][u(k)];
-      if (across >= 0 && cells_.hidden_of_triangle[u(across)] < 0 && is_hidden_by(across, facet)) {
+      if (across >= 0 && cells_.hidden_of_triangle[u(across)] < 0 && is_beyond(across, facet)) {
         hide(across, facet);
         std::int32_t back = 0;
         while (mesh_.neighbour[u(across)][u(back)] != t) ++back;

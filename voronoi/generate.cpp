@@ -97,6 +97,7 @@ GeneratedCloud generate_cloud(const DomainShape& domain, const SpacingField& spa
                               const CloudOptions& options) {
   check_options(spacing, options);
   const DomainShape shape = checked_and_oriented(domain);
+  check_holes(shape);
   GeneratedCloud result;
   if (options.pattern == Pattern::list) {
     result.cloud = listed(shape, options);

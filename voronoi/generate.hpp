@@ -88,12 +88,12 @@ struct GeneratedCloud {
 /// Throws GeometryError, with positions: curves that do not close or cross, cracks that leave the domain or
 /// touch themselves, each other or the boundary other than by an end, more than `nodes_limit` nodes (with the
 /// estimate), and for lists a corner without node, nodes outside (with index) and duplicates.
-/// About 5 µs per node.
+/// About 1 µs per node with a uniform spacing, 5 µs graded.
 GeneratedCloud generate_cloud(const DomainShape& domain, const SpacingField& spacing,
                               const CloudOptions& options);
 
-/// Number of nodes that generate_cloud would make, within about 10%, in milliseconds; counting stops a little
-/// above `limit`. For pattern list the number given.
+/// Number of nodes that generate_cloud would make, within about 10%, in milliseconds (below a second when
+/// they are millions); counting stops a little above `limit`. For pattern list the number given.
 double estimate_nodes(const DomainShape& domain, const SpacingField& spacing, const CloudOptions& options);
 
 /// How well a cloud follows a spacing field.

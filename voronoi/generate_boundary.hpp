@@ -49,6 +49,9 @@ BoundaryChains discretise_boundary(const DomainShape& domain, const SpacingField
 /// wedges of material get further copies, declared as twins.
 Cloud<2> assemble_boundary(const BoundaryChains& chains);
 
+/// Throws GeometryError when a hole starts outside the outline. Expects an oriented domain.
+void check_holes(const DomainShape& domain);
+
 /// Throws GeometryError unless every crack lies inside the domain and keeps at least a quarter of a spacing
 /// away from the boundary (except at its mouths), from other cracks and from itself.
 /// `outline`: the loops without cracks.

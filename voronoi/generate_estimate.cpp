@@ -22,18 +22,20 @@ public:
   void add(const Vec2& middle, double side) {
     const double h = spacing_.at(middle), variation = growth_ * side * std::sqrt(0.5);
     if (sum > limit_ || (h >= spacing_.spacing && tree_free(middle, side))) return;
-    if (side <= coarsest_ && variation < 0.35 * h) {
-      for (const double dx : {-0.25, 0.25})
-        for (const double dy : {-0.25, 0.25}) {
-          const Vec2 x = middle + side * Vec2(dx, dy);
-          const double hx = spacing_.at(x);
-          if (tree_.inside(x))
-            sum += 0.25 * side * side * (1.0 / (hx * hx) - 1.0 / (spacing_.spacing * spacing_.spacing));
-        }
-      return;
-    }
+    const auto count = [&](const Vec2& x, double area) {
+      const double hx = spacing_.at(x);
+      if (tree_.inside(x)) sum += area * (1.0 / (hx * hx) - 1.0 / (spacing_.spacing * spacing_.spacing));
+    };
+    const bool leaf = side <= coarsest_ && variation < 0.35 * h;
+    if (leaf && side < coarsest_ / 4.0) return count(middle, side * side);
     for (const double dx : {-0.25, 0.25})
-      for (const double dy : {-0.25, 0.25}) add(middle + side * Vec2(dx, dy), 0.5 * side);
+      for (const double dy : {-0.25, 0.25}) {
+        const Vec2 quarter = middle + side * Vec2(dx, dy);
+        if (leaf)
+          count(quarter, 0.25 * side * side);
+        else
+          add(quarter, 0.5 * side);
+      }
   }
 
 private:

@@ -25,7 +25,7 @@ Necks find_necks(const Cloud<2>& cloud, const Triangulation& mesh);
 
 /// Moves interior nodes towards the centroids of their Voronoi cells with density h⁻⁴ (Lloyd's iteration),
 /// fills holes and thins crowds, so that distances follow h(x). With a uniform spacing, only nodes within
-/// 2.5 h of the boundary are touched. Returns what is left without a node between its sides.
+/// 2.55 h of the boundary are touched. Returns what is left without a node between its sides.
 Necks smooth_nodes(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingField& spacing,
                    std::vector<Vec2>& interior);
 

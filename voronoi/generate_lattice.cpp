@@ -24,7 +24,11 @@ std::vector<Vec2> lattice_nodes(const Cloud<2>& boundary, const EdgeTree& tree, 
   const bool square = pattern == Pattern::regular;
   const double rise = square ? h : 0.5 * std::sqrt(3.0) * h;
   const int columns = std::max(1, static_cast<int>(std::round(size.x() / h)));
-  const int rows = std::max(1, static_cast<int>(std::round(size.y() / rise)));
+  int rows = std::max(1, static_cast<int>(std::round(size.y() / rise)));
+  if (!square && rows % 2 == 1) { // an even number of rows ends in step with the nodes of the opposite side
+    const int even = 2 * static_cast<int>(std::round(0.5 * size.y() / rise));
+    if (std::abs(even * rise / size.y() - 1.0) < 0.08) rows = even;
+  }
   // A boundary node's own half cell is h/2 deep in a square lattice; the zigzag ends of hexagonal rows at
   // h/2 from a wall are kept, since without them the strip along it would be a quarter too sparse.
   const double clearance = 0.48 * h;

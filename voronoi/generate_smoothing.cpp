@@ -14,7 +14,7 @@ namespace {
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Interior nodes on the move, behind the fixed boundary nodes in one cloud. With a uniform spacing, nodes
-/// beyond 2.5 h from the boundary stay, and those beyond 5 h are left out.
+/// beyond `mobile` from the boundary stay, and those beyond `near` are left out.
 class Smoother {
 public:
   Smoother(const Cloud<2>& boundary, const EdgeTree& tree, const SpacingField& spacing,
@@ -27,14 +27,14 @@ public:
     }
     for (const std::int32_t k : hilbert_order(interior)) {
       const Vec2& x = interior[u(k)];
-      const double h = spacing.at(x), room = uniform_ ? tree.distance(x, 5.0 * h) : 0.0;
-      if (room >= 5.0 * h) {
+      const double h = spacing.at(x), room = uniform_ ? tree.distance(x, near * h) : 0.0;
+      if (room >= near * h) {
         far_.push_back(x);
         continue;
       }
       cloud_.position.push_back(x);
       h_.push_back(h);
-      movable_.push_back(room < 2.5 * h);
+      movable_.push_back(room < mobile * h);
     }
     mesh_ = triangulate(cloud_);
   }
@@ -98,6 +98,8 @@ public:
 
 private:
   static constexpr double over_relaxation = 1.4;
+  // Over h; between the distances of lattice rows from a wall, so that rounding decides nothing.
+  static constexpr double mobile = 2.55, near = 5.1;
 
   /// Takes the nodes of triangles that turned over back to where they were.
   void undo_inversions(const std::vector<Vec2>& before) {

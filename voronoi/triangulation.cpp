@@ -4,6 +4,7 @@
 #include "voronoi/boundary_checks.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
@@ -27,9 +28,10 @@ using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Ker
 using FaceBase =
     CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel,
                                               CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Unconstrained = CGAL::Delaunay_triangulation_2<Kernel, Structure>;
 using Delaunay =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel,
-                                               CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Vertex = Delaunay::Vertex_handle;
 using Face = Delaunay::Face_handle;
@@ -55,18 +57,21 @@ private:
   const Vec2& at(std::int32_t node) const { return cloud_.position[u(node)]; }
   bool on_boundary(std::int32_t node) const { return leaving_[u(node)] >= 0; }
 
-  /// Nodes at the same position share one CGAL vertex, which is allowed to declared twins only.
+  /// Nodes at the same position share one CGAL vertex, which is allowed to declared twins only. The nodes go
+  /// into an unconstrained triangulation, whose flips are cheaper; the constrained one takes over its
+  /// structure.
   void insert_nodes() {
     const auto group = twin_groups(cloud_);
     vertex_.resize(u(cloud_.nodes()));
     is_merged_.assign(u(cloud_.nodes()), false);
+    Unconstrained nodes;
     Face hint;
     for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
-      const std::size_t before = delaunay_.number_of_vertices();
-      const Vertex v = delaunay_.insert({at(i).x(), at(i).y()}, hint);
+      const std::size_t before = nodes.number_of_vertices();
+      const Vertex v = nodes.insert({at(i).x(), at(i).y()}, hint);
       hint = v->face();
       vertex_[u(i)] = v;
-      if (delaunay_.number_of_vertices() > before) {
+      if (nodes.number_of_vertices() > before) {
         v->info() = i;
         continue;
       }
@@ -77,8 +82,11 @@ private:
                                         describe_node(cloud_, i), first));
       is_merged_[u(first)] = is_merged_[u(i)] = merged_ = true;
     }
-    if (delaunay_.dimension() < 2)
+    if (nodes.dimension() < 2)
       throw GeometryError(fmt::format("empty domain: the {} nodes lie on one line", cloud_.nodes()));
+    const Vertex infinite = nodes.infinite_vertex();
+    delaunay_.tds().swap(nodes.tds());
+    delaunay_.set_infinite_vertex(infinite);
   }
 
   void insert_facets() {

@@ -1,4 +1,7 @@
-// Geometry kernels, ns per node: triangulation of a jittered square in Hilbert order.
+// Geometry kernels, ns per node: a jittered square in Hilbert order is triangulated, cut into cells, and the
+// functions are evaluated once on every cell facet, as a rebuild of the operators does with one Gauss point.
+#include "voronoi/cells.hpp"
+#include "voronoi/natural_neighbours.hpp"
 #include "voronoi/order.hpp"
 #include "voronoi/triangulation.hpp"
 
@@ -48,6 +51,58 @@ void triangulate(benchmark::State& state) {
   ns_per_node(state, cloud);
 }
 BENCHMARK(triangulate)->Arg(20000)->Arg(200000)->Unit(benchmark::kMillisecond);
+
+void circumcircles(benchmark::State& state) {
+  const auto cloud = jittered_square(state.range(0));
+  const auto mesh = cnem::voronoi::triangulate(cloud);
+  for (auto _ : state) benchmark::DoNotOptimize(cnem::voronoi::circumcircles(cloud, mesh));
+  ns_per_node(state, cloud);
+}
+BENCHMARK(circumcircles)->Arg(20000)->Arg(200000)->Unit(benchmark::kMillisecond);
+
+void constrained_cells(benchmark::State& state) {
+  const auto cloud = jittered_square(state.range(0));
+  const auto mesh = cnem::voronoi::triangulate(cloud);
+  const auto circles = cnem::voronoi::circumcircles(cloud, mesh);
+  for (auto _ : state) benchmark::DoNotOptimize(cnem::voronoi::constrained_cells(cloud, mesh, circles));
+  ns_per_node(state, cloud);
+}
+BENCHMARK(constrained_cells)->Arg(20000)->Arg(200000)->Unit(benchmark::kMillisecond);
+
+void cell_geometry(benchmark::State& state) {
+  const auto cloud = jittered_square(state.range(0));
+  const auto mesh = cnem::voronoi::triangulate(cloud);
+  const auto circles = cnem::voronoi::circumcircles(cloud, mesh);
+  const auto cells = cnem::voronoi::constrained_cells(cloud, mesh, circles);
+  for (auto _ : state) benchmark::DoNotOptimize(cnem::voronoi::cell_geometry(cloud, mesh, circles, cells));
+  ns_per_node(state, cloud);
+}
+BENCHMARK(cell_geometry)->Arg(20000)->Arg(200000)->Unit(benchmark::kMillisecond);
+
+void functions_on_facets(benchmark::State& state, cnem::voronoi::Functions functions) {
+  const auto cloud = jittered_square(state.range(0));
+  const auto mesh = cnem::voronoi::triangulate(cloud);
+  const auto circles = cnem::voronoi::circumcircles(cloud, mesh);
+  const auto cells = cnem::voronoi::constrained_cells(cloud, mesh, circles);
+  cnem::voronoi::NaturalNeighbours at(cloud, mesh, circles);
+  for (auto _ : state)
+    for (const auto& facet : cells.interior) {
+      at.evaluate_on_facet(functions, 0.5 * (facet.start + facet.end), facet.triangle);
+      benchmark::DoNotOptimize(at.values().data());
+    }
+  ns_per_node(state, cloud);
+  state.counters["per_point"] =
+      benchmark::Counter(static_cast<double>(cells.interior.size()),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(functions_on_facets, sibson, cnem::voronoi::Functions::sibson)
+    ->Arg(20000)
+    ->Arg(200000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(functions_on_facets, laplace, cnem::voronoi::Functions::laplace)
+    ->Arg(20000)
+    ->Arg(200000)
+    ->Unit(benchmark::kMillisecond);
 
 } // namespace
 

@@ -258,6 +258,13 @@ const std::vector<std::pair<const char*, Family>>& table() {
        [](Cloud<2>& cloud, Random& random, double h) {
          add_loop(cloud, resample(integer(random, 0, 1) ? l_shape : star(random), h, random, 0.3));
        }},
+      {"stretched and sheared", // what large strain leaves behind between two rebuilds
+       [](Cloud<2>& cloud, Random& random, double h) {
+         add_loop(cloud, resample(integer(random, 0, 1) ? square : l_shape, h, random, 0.3));
+         fill(cloud, pattern(any_pattern(random), h, random), 0.1 * h);
+         const double flat = std::pow(10.0, uniform(random, -3.0, 0.0)), shear = uniform(random, -5.0, 5.0);
+         for (Vec2& x : cloud.position) x = Vec2(x.x() + shear * x.y(), flat * x.y());
+       }},
       {"ragged boundary", // what a cut leaves behind
        [](Cloud<2>& cloud, Random& random, double h) {
          Loop loop = resample(square, h, random, 0.3);
@@ -286,11 +293,17 @@ RandomCloud random_cloud(int family, std::uint32_t seed) {
     const Vec2 shift(uniform(random, -3.0, 3.0), uniform(random, -3.0, 3.0));
     for (Vec2& x : cloud.position) x = Vec2(c * x.x() - s * x.y(), s * x.x() + c * x.y()) + shift;
   }
-  RandomCloud result{renumber(cloud, hilbert_order(cloud.position)), 0.0,
+  RandomCloud result{renumber(cloud, hilbert_order(cloud.position)), 0.0, 0.0,
                      std::string(name).append(" ").append(std::to_string(seed))};
   for (const auto& facet : cloud.facets)
     result.area += 0.5 * cross(cloud.position[static_cast<std::size_t>(facet.node[0])] - cloud.position[0],
                                cloud.position[static_cast<std::size_t>(facet.node[1])] - cloud.position[0]);
+  Vec2 low = cloud.position[0], high = low;
+  for (const Vec2& x : cloud.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  result.size = (high - low).norm();
   return result;
 }
 

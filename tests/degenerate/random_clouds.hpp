@@ -13,6 +13,7 @@ namespace cnem::voronoi::test {
 struct RandomCloud {
   Cloud<2> cloud;
   double area = 0.0; ///< of the domain, from its loops
+  double size = 0.0; ///< diagonal of its box
   std::string name;
 };
 

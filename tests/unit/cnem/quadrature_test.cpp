@@ -91,8 +91,6 @@ TEST(Quadrature, more_points_come_closer_to_the_integral) {
     l[k] = difference(by_laplace[k], laplace);
     RecordProperty("sibson_" + std::to_string(k + 1), std::to_string(s[k]));
     RecordProperty("laplace_" + std::to_string(k + 1), std::to_string(l[k]));
-    std::printf("%zu sibson %.4f laplace %.4f rows %.2f %.2f\n", k + 1, s[k], l[k],
-                mean_row_length(by_sibson[k]), mean_row_length(by_laplace[k]));
   }
   EXPECT_LT(s[0], 0.3);
   EXPECT_LT(s[1], 0.25 * s[0]);

@@ -88,7 +88,7 @@ struct Masses {
   Vec2 gravity{0, 0};
   double time = 0.0, dt_before = 0.0;
   double applied_work = 0.0; ///< by gravity and springs on the nodes, same measure as contact's
-  std::unique_ptr<RigidContact<2>> contact;
+  std::shared_ptr<RigidContact<2>> contact;
   std::vector<double> flow_stress, effusivity;
 
   int add(const Vec2& at, double m, const Vec2& velocity = {0, 0}) {
@@ -109,7 +109,7 @@ struct Masses {
       facets.push_back({{nodes[i], nodes[(i + 1) % nodes.size()]}, 0});
   }
   void start(std::vector<Tool<2>> tools) {
-    contact = std::make_unique<RigidContact<2>>(std::move(tools));
+    contact = std::make_shared<RigidContact<2>>(std::move(tools));
     contact->set_boundary(facets, mass.size(), constraints);
   }
 

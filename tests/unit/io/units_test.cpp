@@ -122,6 +122,7 @@ TEST(Nearest, FindsMisspellingsAndStaysSilentOtherwise) {
   EXPECT_EQ(nearest("Pattern", keys), "pattern");
   EXPECT_EQ(nearest("jittre", keys), "jitter");
   EXPECT_EQ(nearest("viscosity", keys), std::nullopt);
+  EXPECT_EQ(nearest("patt", keys), "pattern");
   EXPECT_EQ(did_you_mean("sed", keys), " (did you mean 'seed'?)");
   EXPECT_EQ(did_you_mean("conductivity", keys), "");
   EXPECT_EQ(edit_distance("abcd", "bacd"), 1);

@@ -7,10 +7,14 @@
 
 #include <cmath>
 #include <functional>
+#include <ostream>
 
 namespace cnem::testing {
 
 enum class Method { cnem, triangles };
+inline void PrintTo(Method method, std::ostream* out) {
+  *out << (method == Method::cnem ? "cnem" : "triangles");
+}
 
 inline std::unique_ptr<Discretisation<2>> make(Method method) {
   if (method == Method::triangles) return std::make_unique<alternatives::FeTriangles>();

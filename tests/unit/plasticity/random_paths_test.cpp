@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <random>
 
 namespace cnem::plasticity::test {
@@ -59,7 +60,8 @@ private:
   std::mt19937 generator;
 };
 
-/// Largest difference in stress relative to |τ|, and in plastic strain.
+/// Largest difference in stress relative to |τ| (or to that of a strain of 1e-3 if it is smaller, as in
+/// nearly molten points: b_e from a large F carries cond(F)² roundings), and in plastic strain.
 template<int dim> void compare(unsigned seed, int batches, std::size_t paths, int steps) {
   RandomPaths random(seed);
   double worst_stress = 0.0, worst_strain = 0.0;
@@ -73,7 +75,7 @@ template<int dim> void compare(unsigned seed, int batches, std::size_t paths, in
       for (std::size_t i = 0; i < paths; ++i) {
         const Mat3 f = random.increment<dim>(random.log_uniform(1e-4, 0.25)) * general<dim>(s.deformation, i);
         set_deformation(s, i, f);
-        s.temperature[i] = random.uniform(250.0, 1500.0);
+        s.temperature[i] = random.uniform(250.0, 1600.0);
       }
       ASSERT_EQ(update(material, s, dt), -1);
       for (std::size_t i = 0; i < paths; ++i) {
@@ -81,8 +83,9 @@ template<int dim> void compare(unsigned seed, int batches, std::size_t paths, in
         const Mat3& tau = reference[i].kirchhoff;
         const double q = std::sqrt(1.5) * (tau - tau.trace() / 3.0 * Mat3::Identity()).norm();
         plastic += reference[i].increment > 0.0;
-        worst_stress = std::max(worst_stress, (kirchhoff(s, i) - tau).norm() / tau.norm());
-        worst_stress = std::max(worst_stress, std::abs(s.equivalent_stress[i] - q) / tau.norm());
+        const double scale = std::max(tau.norm(), 2e-3 * material.elasticity.mu());
+        worst_stress = std::max(worst_stress, (kirchhoff(s, i) - tau).norm() / scale);
+        worst_stress = std::max(worst_stress, std::abs(s.equivalent_stress[i] - q) / scale);
         worst_strain = std::max(worst_strain, std::abs(s.plastic_strain[i] - reference[i].plastic_strain));
       }
     }
@@ -90,9 +93,8 @@ template<int dim> void compare(unsigned seed, int batches, std::size_t paths, in
   EXPECT_GT(plastic, static_cast<std::size_t>(batches) * paths * static_cast<std::size_t>(steps) / 2);
   EXPECT_LT(worst_stress, 1e-10);
   EXPECT_LT(worst_strain, 1e-10);
-  ::testing::Test::RecordProperty("worst_stress", std::to_string(worst_stress));
-  std::printf("worst relative stress %.2e, plastic strain %.2e, plastic steps %zu\n", worst_stress,
-              worst_strain, plastic);
+  std::printf("largest relative difference in stress %.1e, difference in plastic strain %.1e\n", worst_stress,
+              worst_strain);
 }
 
 TEST(random_paths, plane_equal_to_fp_form) { compare<2>(1, 200, 300, 4); }

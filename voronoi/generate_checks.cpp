@@ -95,6 +95,18 @@ void check_itself(const Crack& crack, const SpacingField& spacing) {
 
 } // namespace
 
+void check_holes(const DomainShape& domain) {
+  if (domain.holes.empty()) return;
+  const SpacingField fine{domain_size(domain) / 1000.0, {}};
+  const EdgeTree outline(assemble_boundary(discretise_boundary({domain.outer, {}, {}}, fine)));
+  for (std::size_t k = 0; k < domain.holes.size(); ++k) {
+    const CurvePiece& piece = domain.holes[k].pieces.front();
+    if (!outline.inside(piece.from))
+      throw GeometryError(fmt::format("hole {} ('{}') is not inside the outline: its point {} is outside",
+                                      k + 1, piece.name, at(piece.from)));
+  }
+}
+
 void check_cracks(const DomainShape& domain, const SpacingField& spacing, const Cloud<2>& outline) {
   if (domain.cracks.empty()) return;
   std::vector<std::array<bool, 2>> open(domain.cracks.size(), {false, false});

@@ -1,0 +1,147 @@
+// The command line as a user calls it: exit codes, files, messages.
+#include "app/command_line.hpp"
+
+#include "app/fields.hpp"
+#include "io/case.hpp"
+#include "io/history_writer.hpp"
+#include "io/status.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace cnem::app {
+namespace {
+
+constexpr const char* block = R"toml(
+[time]
+end = "2 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "0.4 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0.0973, rate0 = "1 /s", m = 2.044, T0 = "296 K", Tmelt = "1698 K" }
+heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
+[boundary.base]
+pieces = ["bottom"]
+symmetry = true
+[tools.punch]
+rectangle = { from = "-1 2 mm", to = "1.1 4 mm" }
+velocity = "0 -30 m/s"
+[output]
+history_every = "0.1 us"
+)toml";
+
+class CommandLine : public ::testing::Test {
+protected:
+  void SetUp() override {
+    folder = std::filesystem::temp_directory_path() / ("cnem_cli_" + std::to_string(::getpid()));
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "block.toml") << block;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  int call(std::vector<std::string> words) {
+    words.insert(words.begin(), "cnem");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    ::testing::internal::CaptureStderr();
+    ::testing::internal::CaptureStdout();
+    const int code = command_line(static_cast<int>(argv.size()), argv.data());
+    printed = ::testing::internal::GetCapturedStdout();
+    message = ::testing::internal::GetCapturedStderr();
+    return code;
+  }
+  std::string file() const { return (folder / "block.toml").string(); }
+  std::string results() const { return (folder / "results").string(); }
+
+  std::filesystem::path folder;
+  std::string message, printed;
+};
+
+TEST_F(CommandLine, run_leaves_every_promised_file_and_closes_its_books) {
+  ASSERT_EQ(call({"run", file(), "--output", results(), "--threads", "1"}), 0) << message;
+  for (const char* name : {"case.resolved.toml", "history.csv", "fields.pvd", "status.json", "report.html"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "results" / name)) << name;
+  const io::RunStatus status = io::read_status(results());
+  EXPECT_EQ(status.exit, 0);
+  EXPECT_LT(status.energy_residual, 5e-3);
+  const io::HistoryTable history = io::read_history(folder / "results" / "history.csv");
+  EXPECT_EQ(history.names.front(), "time[s]");
+  EXPECT_NEAR(history.column.front().back(), 2e-6, 1e-15);
+  EXPECT_EQ(history.rows(), 21U);
+  for (const char* name :
+       {"punch.force_y", "punch.stroke", "energy.residual", "max.plastic_strain", "mass", "area"})
+    EXPECT_GE(history.find(name), 0) << name;
+  // The resolved case is a case: it runs to the same bits.
+  ASSERT_EQ(call({"run", (folder / "results" / "case.resolved.toml").string(), "--output",
+                  (folder / "again").string(), "--threads", "1"}),
+            0)
+      << message;
+  EXPECT_EQ(io::read_history(folder / "again" / "history.csv").column, history.column);
+}
+
+TEST_F(CommandLine, a_folder_that_holds_a_run_is_kept_unless_forced) {
+  ASSERT_EQ(call({"run", file(), "--output", results()}), 0);
+  EXPECT_EQ(call({"run", file(), "--output", results()}), 2);
+  EXPECT_NE(message.find("--force"), std::string::npos);
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--force", "--set", "time.end=1 us"}), 0);
+  EXPECT_NEAR(io::read_status(results()).time, 1e-6, 1e-15);
+  EXPECT_EQ(call({"report", results()}), 0);
+}
+
+TEST_F(CommandLine, wrong_input_and_usage_exit_with_2) {
+  EXPECT_EQ(call({"run", (folder / "absent.toml").string()}), 2);
+  EXPECT_EQ(call({"run"}), 2);
+  EXPECT_EQ(call({"walk", file()}), 2);
+  EXPECT_EQ(call({"run", file(), "--threads", "0"}), 2);
+  EXPECT_EQ(call({"check", file(), "--set", "cloud.spacin=0.1 mm"}), 2);
+  EXPECT_NE(message.find("cloud.spacing"), std::string::npos) << message;
+  EXPECT_EQ(call({"check", file(), "--set", "cloud.spacing=1e-8 m"}), 2);
+  EXPECT_EQ(call({"check", file(), "--set", "method.name=fe-triangles"}), 2);
+  EXPECT_NE(message.find("total"), std::string::npos) << message;
+  EXPECT_FALSE(std::filesystem::exists("results/block"));
+}
+
+TEST_F(CommandLine, unwritable_output_exits_with_4) {
+  EXPECT_EQ(call({"run", file(), "--output", "/proc/cnem"}), 4);
+}
+
+TEST_F(CommandLine, divergence_exits_with_3_and_names_node_step_and_field) {
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "time.step.fixed=0.4 us"}), 3);
+  const io::RunStatus status = io::read_status(results());
+  EXPECT_EQ(status.exit, 3);
+  ASSERT_TRUE(status.post_mortem.has_value());
+  EXPECT_GE(status.post_mortem->node, 0);
+  EXPECT_FALSE(status.post_mortem->field.empty());
+  EXPECT_TRUE(std::filesystem::exists(folder / "results" / "fields.pvd")) << "the last good state stays";
+}
+
+TEST_F(CommandLine, check_says_what_a_run_would_be) {
+  ASSERT_EQ(call({"check", file(), "--output", results()}), 0) << message;
+  for (const char* word : {"nodes", "first step", "elastic waves", "steps", "memory", "tools"})
+    EXPECT_NE(printed.find(word), std::string::npos) << word;
+  EXPECT_TRUE(std::filesystem::exists(folder / "results" / "initial" / "fields.pvd"));
+  ASSERT_EQ(call({"check", file(), "--output", results(), "--set", "tools.punch.rectangle.from=-1 1.9 mm"}),
+            0);
+  EXPECT_NE(printed.find("overlap"), std::string::npos);
+}
+
+TEST(FieldCatalogue, is_the_one_the_case_reader_knows) {
+  std::vector<std::string> names;
+  for (const FieldInfo& info : field_catalogue()) names.push_back(info.name);
+  std::vector<std::string> known = io::field_names();
+  std::sort(names.begin(), names.end());
+  std::sort(known.begin(), known.end());
+  EXPECT_EQ(names, known);
+}
+
+} // namespace
+} // namespace cnem::app

@@ -1,0 +1,232 @@
+// Explicit conduction with the operators a discretisation hands over, against exact solutions.
+#include "cnem/scni.hpp"
+#include "tests/clouds.hpp"
+#include "thermal/boundaries.hpp"
+#include "thermal/conduction.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <functional>
+#include <gtest/gtest.h>
+
+namespace cnem::testing {
+namespace {
+
+constexpr double k = 50.0, rho = 7850.0, c = 477.0; // benchmarks of the field: steel
+constexpr double diffusivity = k / (rho * c);
+
+/// A body that conducts, with its own explicit steps.
+struct Body {
+  Cloud<2> cloud;
+  Approximation<2> approximation;
+  Fields<2> position;
+  Field capacity, temperature, flow;
+  Conduction<2> conduction;
+
+  Body(
+      Cloud<2> made, const std::function<Vec2(const Vec2&)>& deform = [](const Vec2& x) { return x; },
+      bool nodal_operator = false)
+      : cloud(std::move(made)), approximation(scni::Cnem().rebuild(cloud)) {
+    const auto n = static_cast<std::size_t>(cloud.nodes());
+    resize_all(position, n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 x = deform(cloud.position[i]);
+      position[0][i] = x.x();
+      position[1][i] = x.y();
+    }
+    capacity = approximation.mechanics.node_volume();
+    for (double& value : capacity) value *= rho * c;
+    temperature.assign(n, 0.0);
+    flow.assign(n, 0.0);
+    const DiscreteOperators<2>& op = nodal_operator ? approximation.mechanics : approximation.conduction;
+    conduction.set_operators(op, Field(static_cast<std::size_t>(op.points), k));
+  }
+  Body(const Body&) = delete;
+  double stable_step() { return 2.0 / conduction.fastest_decay(position, capacity); }
+  double heat() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < capacity.size(); ++i) sum += capacity[i] * temperature[i];
+    return sum;
+  }
+  void step(double dt, const ThermalBoundaries<2>& boundaries = {}, double time = 0.0,
+            const std::vector<ToolConductance>& tools = {}) {
+    std::fill(flow.begin(), flow.end(), 0.0);
+    boundaries.add_flow(time, position, temperature, tools, flow);
+    conduction.add_flow(position, temperature, flow);
+    for (std::size_t i = 0; i < flow.size(); ++i) temperature[i] += dt * flow[i] / capacity[i];
+    boundaries.hold(time + dt, capacity, temperature);
+  }
+  void run(double end, const ThermalBoundaries<2>& boundaries) {
+    const int steps = static_cast<int>(std::ceil(end / (0.9 * stable_step())));
+    for (int n = 0; n < steps; ++n) step(end / steps, boundaries, end * n / steps);
+  }
+};
+
+Cloud<2> strip(double length, double width, double h, double jitter = 0.15) {
+  Cloud<2> cloud;
+  add_loop(cloud, {{0, 0}, {length, 0}, {length, width}, {0, width}}, h);
+  fill(cloud, Lattice::hexagonal, h, jitter, 0.5 * h, 3);
+  return cloud;
+}
+
+std::vector<Facet<2>> facets_at_x(const Cloud<2>& cloud, double x) {
+  std::vector<Facet<2>> facets;
+  for (const Facet<2>& facet : cloud.facets)
+    if (std::abs(cloud.position[static_cast<std::size_t>(facet.node[0])].x() - x) < 1e-12 &&
+        std::abs(cloud.position[static_cast<std::size_t>(facet.node[1])].x() - x) < 1e-12)
+      facets.push_back(facet);
+  return facets;
+}
+
+std::vector<std::int32_t> nodes_at_x(const Cloud<2>& cloud, double x) {
+  std::vector<std::int32_t> nodes;
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+    if (std::abs(cloud.position[static_cast<std::size_t>(i)].x() - x) < 1e-12) nodes.push_back(i);
+  return nodes;
+}
+
+/// Largest error of a half space whose face jumps from 0 to 1, at t = 1 ms.
+double half_space_error(double h) {
+  const double length = 0.8e-3, end = 1e-3;
+  Body body(strip(length, 6 * h, h));
+  body.run(end, ThermalBoundaries<2>({{"face", TimeTable(1.0), nodes_at_x(body.cloud, 0.0)}}, {}, {}));
+  double worst = 0.0;
+  for (std::size_t i = 0; i < body.temperature.size(); ++i) {
+    const double exact = std::erfc(body.cloud.position[i].x() / (2.0 * std::sqrt(diffusivity * end)));
+    worst = std::max(worst, std::abs(body.temperature[i] - exact));
+  }
+  return worst;
+}
+
+TEST(Conduction, half_space_follows_erfc_with_second_order) {
+  // The tabulated values themselves: θ at 20, 50, 100, 200 µm after 1 ms.
+  const double table[4][2] = {{20e-6, 0.902595}, {50e-6, 0.759635}, {100e-6, 0.540591}, {200e-6, 0.221013}};
+  for (const auto& [x, theta] : table)
+    EXPECT_NEAR(std::erfc(x / (2.0 * std::sqrt(diffusivity * 1e-3))), theta, 1e-5);
+  const double coarse = half_space_error(40e-6), fine = half_space_error(20e-6);
+  EXPECT_LT(fine, 2e-3);
+  EXPECT_GT(std::log2(coarse / fine), 1.7);
+}
+
+TEST(Conduction, flux_into_a_half_space) {
+  const double end = 1e-3, h = 10e-6;
+  Body body(strip(0.8e-3, 4 * h, h));
+  body.run(end, ThermalBoundaries<2>({}, {{"face", TimeTable(1e8), facets_at_x(body.cloud, 0.0)}}, {}));
+  for (const std::int32_t i : nodes_at_x(body.cloud, 0.0))
+    EXPECT_NEAR(body.temperature[static_cast<std::size_t>(i)], 260.781, 0.5); // 2q √(αt/π)/k
+}
+
+TEST(Conduction, convection_settles_to_the_series_resistance) {
+  // Hot face held at 100, h (T_wall − 0) on the other: T_wall = 100/(1 + hL/k).
+  const double length = 1e-3, h = 5e4;
+  Body body(strip(length, 0.3e-3, 1e-4));
+  const ThermalBoundaries<2> boundaries(
+      {{"hot", TimeTable(100.0), nodes_at_x(body.cloud, 0.0)}}, {},
+      {{"cold", TimeTable(h), TimeTable(0.0), facets_at_x(body.cloud, length)}});
+  body.run(0.6, boundaries);
+  for (const std::int32_t i : nodes_at_x(body.cloud, length))
+    EXPECT_NEAR(body.temperature[static_cast<std::size_t>(i)], 100.0 / (1.0 + h * length / k), 1e-3);
+}
+
+TEST(Conduction, conductance_to_a_tool_relaxes_as_a_lump) {
+  Body body(strip(1e-4, 1e-4, 5e-5));
+  std::fill(body.temperature.begin(), body.temperature.end(), 400.0);
+  const double conductance = 100.0, tool = 300.0;
+  std::vector<ToolConductance> touch;
+  for (const std::int32_t i : nodes_at_x(body.cloud, 0.0)) touch.push_back({i, conductance, 1e-4 / 3, tool});
+  ASSERT_EQ(touch.size(), 3U);
+  double capacity = 0.0;
+  for (const double value : body.capacity) capacity += value;
+  const double rate = conductance * 1e-4 / capacity, end = 0.5 / rate;
+  const int steps = 4000;
+  ASSERT_LT(end / steps, body.stable_step() * 100);
+  const int inner = static_cast<int>(std::ceil(end / (0.9 * body.stable_step())));
+  for (int n = 0; n < inner; ++n) body.step(end / inner, {}, 0.0, touch);
+  EXPECT_NEAR(body.temperature[0], tool + 100.0 * std::exp(-0.5), 0.05);
+}
+
+TEST(Conduction, insulated_body_keeps_its_heat_on_any_deformation) {
+  Body body(strip(1e-3, 1e-3, 1e-4, 0.25), [](const Vec2& x) -> Vec2 {
+    return {1.4 * x.x() + 0.6 * x.y() + 200.0 * x.x() * x.y(), 0.8 * x.y() - 0.3 * x.x()};
+  });
+  for (std::size_t i = 0; i < body.temperature.size(); ++i)
+    body.temperature[i] = 300.0 + 50.0 * static_cast<double>(i % 7);
+  const double before = body.heat(), dt = 0.9 * body.stable_step();
+  for (int n = 0; n < 500; ++n) body.step(dt);
+  EXPECT_NEAR(body.heat(), before, 1e-12 * before);
+}
+
+TEST(Conduction, stretched_body_conducts_as_the_stretched_geometry) {
+  const Mat2 F = (Mat2() << 0.0, -1.6, 0.7, 0.0).finished(); // quarter turn with stretches 0.7 and 1.6
+  const auto deform = [&](const Vec2& x) -> Vec2 { return F * x; };
+  Body moved(strip(1e-3, 0.5e-3, 1e-4), deform);
+  Cloud<2> there = moved.cloud;
+  for (Vec2& x : there.position) x = deform(x);
+  // Linear triangles see the same linear fields on either configuration when the triangles are the same; the
+  // flows they make of one linear temperature must agree: k ∇T·n over the present boundary.
+  const Vec2 slope(3e5, -2e5);
+  for (std::size_t i = 0; i < moved.temperature.size(); ++i)
+    moved.temperature[i] = slope.dot(Vec2(moved.position[0][i], moved.position[1][i]));
+  std::fill(moved.flow.begin(), moved.flow.end(), 0.0);
+  moved.conduction.add_flow(moved.position, moved.temperature, moved.flow);
+  Field expected(moved.flow.size(), 0.0);
+  for (const Facet<2>& facet : there.facets) {
+    const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
+    const double through = -k * slope.dot(right_normal(there.position[b] - there.position[a]));
+    expected[a] += 0.5 * through;
+    expected[b] += 0.5 * through;
+  }
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(moved.flow[i], expected[i], 1e-9 * k * slope.norm() * 1e-3);
+}
+
+/// Lowest temperature over a run that starts with one hot node in a cold body.
+double coldest_after_hot_spot(bool nodal_operator) {
+  Body body(
+      strip(1e-3, 1e-3, 1e-4, 0.1), [](const Vec2& x) { return x; }, nodal_operator);
+  std::size_t centre = 0;
+  for (std::size_t i = 0; i < body.temperature.size(); ++i)
+    if ((body.cloud.position[i] - Vec2(5e-4, 5e-4)).norm() <
+        (body.cloud.position[centre] - Vec2(5e-4, 5e-4)).norm())
+      centre = i;
+  body.temperature[centre] = 1000.0;
+  const double dt = 0.25 * body.stable_step();
+  double coldest = 0.0;
+  for (int n = 0; n < 400; ++n) {
+    body.step(dt);
+    coldest = std::min(coldest, *std::min_element(body.temperature.begin(), body.temperature.end()));
+  }
+  return coldest;
+}
+
+TEST(Conduction, hot_spot_spreads_without_checkerboard) {
+  EXPECT_GT(coldest_after_hot_spot(false), -1e-9) << "nothing may get colder than the coldest";
+  EXPECT_LT(coldest_after_hot_spot(true), -10.0) << "the nodal operator does: that is why it is not used";
+}
+
+TEST(Conduction, fastest_decay_bounds_the_exact_rate) {
+  for (const bool deformed : {false, true}) {
+    Body body(strip(1e-3, 1e-3, 1.25e-4, 0.25), [&](const Vec2& x) -> Vec2 {
+      return deformed ? Vec2(1.5 * x.x() + 0.8 * x.y(), 0.6 * x.y()) : x;
+    });
+    const auto n = static_cast<Eigen::Index>(body.temperature.size());
+    Eigen::MatrixXd K(n, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      std::fill(body.temperature.begin(), body.temperature.end(), 0.0);
+      body.temperature[static_cast<std::size_t>(j)] = 1.0;
+      std::fill(body.flow.begin(), body.flow.end(), 0.0);
+      body.conduction.add_flow(body.position, body.temperature, body.flow);
+      for (Eigen::Index i = 0; i < n; ++i)
+        K(i, j) =
+            -body.flow[static_cast<std::size_t>(i)] / std::sqrt(body.capacity[static_cast<std::size_t>(i)] *
+                                                                body.capacity[static_cast<std::size_t>(j)]);
+    }
+    const double exact =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[n - 1];
+    const double bound = body.conduction.fastest_decay(body.position, body.capacity);
+    EXPECT_GT(bound, exact);
+    EXPECT_LT(bound, 6.0 * exact);
+  }
+}
+
+} // namespace
+} // namespace cnem::testing

@@ -1,0 +1,89 @@
+#include "voronoi/cells.hpp"
+
+#include "tests/unit/voronoi/small_clouds.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace cnem::voronoi::test {
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+Cells cells_of(const Cloud<2>& cloud) {
+  const auto mesh = triangulate(cloud);
+  return constrained_cells(cloud, mesh, circumcircles(cloud, mesh));
+}
+
+CellGeometry<2> polygons_of(const Cloud<2>& cloud) {
+  const auto mesh = triangulate(cloud);
+  const auto circles = circumcircles(cloud, mesh);
+  return cell_geometry(cloud, mesh, circles, constrained_cells(cloud, mesh, circles));
+}
+
+TEST(Cells, GridHasSquareCellsHalvedAndQuarteredOnTheBoundary) {
+  const auto cloud = grid(4);
+  const auto cells = cells_of(cloud);
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+    const Vec2& x = cloud.position[u(i)];
+    const double half_x = x.x() == 0 || x.x() == 4 ? 0.5 : 1.0, half_y = x.y() == 0 || x.y() == 4 ? 0.5 : 1.0;
+    EXPECT_DOUBLE_EQ(cells.volume[u(i)], half_x * half_y) << "node " << i;
+  }
+  for (const auto& f : cells.interior) {
+    const Vec2 link = cloud.position[u(f.cell[1])] - cloud.position[u(f.cell[0])];
+    EXPECT_GE(right_normal(f.end - f.start).dot(link), 0.0);
+  }
+}
+
+TEST(Cells, ThirdNodeOwnsPartOfABoundaryFacet) {
+  Cloud<2> cloud; // obtuse at node 2: the circumcentre lies at (2, -3.75), below the long side
+  add_loop(cloud, {{0, 0}, {4, 0}, {2, 0.5}});
+  const auto cells = cells_of(cloud);
+  std::vector<BoundaryPiece> base;
+  for (const auto& piece : cells.boundary)
+    if (piece.facet == 0) base.push_back(piece);
+  ASSERT_EQ(base.size(), 3u);
+  EXPECT_EQ(base[0].cell, 0);
+  EXPECT_EQ(base[1].cell, 2);
+  EXPECT_EQ(base[2].cell, 1);
+  EXPECT_DOUBLE_EQ(base[0].s1, 1.0625 / 4); // the bisector of (0, 0) and (2, 0.5) meets y = 0 at x = 1.0625
+  EXPECT_DOUBLE_EQ(base[1].s1, 1.0 - 1.0625 / 4);
+  EXPECT_DOUBLE_EQ(cells.volume[0], 0.5 * 1.0625 * 0.25);
+  EXPECT_DOUBLE_EQ(cells.volume[2], 1.0 - 1.0625 * 0.25);
+}
+
+TEST(Cells, CrackFacesShareNothing) {
+  const auto cloud = embedded_crack();
+  const auto cells = cells_of(cloud);
+  EXPECT_DOUBLE_EQ(cells.volume[17], cells.volume[19]); // mirror images
+  for (const auto& f : cells.interior) {
+    EXPECT_FALSE((f.cell[0] == 17 && f.cell[1] == 19) || (f.cell[0] == 19 && f.cell[1] == 17));
+    // No facet cuts through the crack 1 < x < 3, y = 2.
+    if ((f.start.y() - 2.0) * (f.end.y() - 2.0) < 0.0) {
+      const double x =
+          f.start.x() + (f.end.x() - f.start.x()) * (2.0 - f.start.y()) / (f.end.y() - f.start.y());
+      EXPECT_TRUE(x <= 1.0 || x >= 3.0);
+    }
+  }
+  double sum = 0.0;
+  for (const double v : cells.volume) sum += v;
+  EXPECT_NEAR(sum, 16.0, 1e-13);
+}
+
+TEST(Cells, PolygonsMoveWithTheNodes) {
+  auto cloud = grid(3);
+  for (auto& x : cloud.position)
+    x += 0.1 * Vec2(std::sin(7 * x.x() + 3 * x.y()), std::cos(5 * x.x() - 2 * x.y()));
+  const auto cells = polygons_of(cloud);
+  Mat2 gradient;
+  gradient << 1.3, 0.4, -0.2, 0.8;
+  for (std::size_t v = 0; v < cells.vertex.size(); ++v) {
+    Vec2 moved = Vec2::Zero();
+    for (std::int32_t e = cells.vertex_begin[v]; e < cells.vertex_begin[v + 1]; ++e)
+      moved += cells.vertex_weight[u(e)] * gradient * cloud.position[u(cells.vertex_node[u(e)])];
+    EXPECT_LT((moved - gradient * cells.vertex[v]).norm(), 1e-13);
+  }
+}
+
+} // namespace
+} // namespace cnem::voronoi::test

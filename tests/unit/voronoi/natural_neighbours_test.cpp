@@ -1,0 +1,188 @@
+#include "voronoi/natural_neighbours.hpp"
+
+#include "core/error.hpp"
+#include "tests/unit/voronoi/small_clouds.hpp"
+#include "voronoi/cells.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace cnem::voronoi::test {
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The functions of one cloud, as a map from node to value.
+class Evaluated {
+public:
+  explicit Evaluated(Cloud<2> cloud)
+      : cloud_(std::move(cloud)), mesh_(triangulate(cloud_)), circles_(circumcircles(cloud_, mesh_)),
+        at_(cloud_, mesh_, circles_) {}
+
+  std::map<std::int32_t, double> operator()(Functions functions, const Vec2& x, std::int32_t hint = 0) {
+    at_.evaluate(functions, x, hint);
+    std::map<std::int32_t, double> result;
+    for (std::size_t k = 0; k < at_.nodes().size(); ++k) result[at_.nodes()[k]] = at_.values()[k];
+    return result;
+  }
+
+  const Cloud<2>& cloud() const { return cloud_; }
+  const Triangulation& mesh() const { return mesh_; }
+
+private:
+  Cloud<2> cloud_;
+  Triangulation mesh_;
+  Circumcircles circles_;
+  NaturalNeighbours at_;
+};
+
+/// grid(8) with its inner nodes moved by up to 0.3.
+Cloud<2> wavy_grid() {
+  auto cloud = grid(8);
+  for (auto& x : cloud.position)
+    if (x.minCoeff() > 0.0 && x.maxCoeff() < 8.0)
+      x += 0.3 * Vec2(std::sin(7 * x.x() + 3 * x.y()), std::cos(5 * x.x() - 2 * x.y()));
+  return cloud;
+}
+
+TEST(NaturalNeighbours, CentreOfASquareBelongsToAllCornersAlike) {
+  Evaluated phi(unit_square());
+  for (const auto functions : {Functions::sibson, Functions::laplace})
+    for (std::int32_t hint : {0, 1}) {
+      const auto value = phi(functions, {0.5, 0.5}, hint);
+      for (std::int32_t i = 0; i < 4; ++i) EXPECT_NEAR(value.contains(i) ? value.at(i) : 0.0, 0.25, 1e-15);
+    }
+}
+
+TEST(NaturalNeighbours, EdgeMidpointOfAStructuredGrid) { // where Watson's form divides by zero
+  Evaluated phi(grid(4));
+  // The new cell is a hexagon of area 9/16: 1/4 from each near node, 1/64 from each of the four far ones.
+  for (const std::int32_t hint : {0, 13}) {
+    const auto value = phi(Functions::sibson, {1.5, 2.0}, hint);
+    EXPECT_EQ(value.size(), 6u);
+    for (const auto& [i, v] : value)
+      EXPECT_NEAR(v, phi.cloud().position[u(i)].y() == 2.0 ? 4.0 / 9.0 : 1.0 / 36.0, 1e-15);
+  }
+}
+
+TEST(NaturalNeighbours, SibsonIsTheRatioOfStolenAreas) {
+  // Inside, away from the boundary, inserting x into the cloud takes exactly the stolen areas from the cells.
+  const auto cloud = wavy_grid();
+  Evaluated phi(cloud);
+  const auto before = constrained_cells(cloud, phi.mesh(), circumcircles(cloud, phi.mesh())).volume;
+  for (const Vec2& x : {Vec2(4.1, 3.9), Vec2(3.3, 4.6), Vec2(5.05, 5.0), Vec2(4.5, 4.5)}) {
+    auto with_x = cloud;
+    with_x.position.push_back(x);
+    const auto mesh = triangulate(with_x);
+    const auto after = constrained_cells(with_x, mesh, circumcircles(with_x, mesh)).volume;
+    const auto value = phi(Functions::sibson, x);
+    for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+      EXPECT_NEAR(value.contains(i) ? value.at(i) : 0.0, (before[u(i)] - after[u(i)]) / after.back(), 1e-13)
+          << "node " << i << " at " << x.transpose();
+  }
+}
+
+TEST(NaturalNeighbours, LaplaceIsTheRatioOfFacetToDistance) {
+  const auto cloud = wavy_grid();
+  Evaluated phi(cloud);
+  const Vec2 x(4.1, 3.9);
+  auto with_x = cloud;
+  with_x.position.push_back(x);
+  const auto mesh = triangulate(with_x);
+  std::map<std::int32_t, double> expected;
+  double sum = 0.0;
+  for (const auto& f : constrained_cells(with_x, mesh, circumcircles(with_x, mesh)).interior)
+    for (const std::size_t side : {0u, 1u})
+      if (f.cell[side] == cloud.nodes()) {
+        const std::int32_t i = f.cell[1 - side];
+        expected[i] = (f.end - f.start).norm() / (cloud.position[u(i)] - x).norm();
+        sum += expected[i];
+      }
+  const auto value = phi(Functions::laplace, x);
+  ASSERT_EQ(value.size(), expected.size());
+  for (const auto& [i, v] : value) EXPECT_NEAR(v, expected.at(i) / sum, 1e-13);
+}
+
+TEST(NaturalNeighbours, LinearOnConcaveBoundaries) {
+  Cloud<2> cloud;
+  add_loop(cloud, {{0, 0}, {2, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}, {0, 2}});
+  cloud.position.emplace_back(1.0, 1.1);
+  cloud.position.emplace_back(2.9, 1.2);
+  cloud.position.emplace_back(1.2, 3.1);
+  Evaluated phi(cloud);
+  for (const auto functions : {Functions::sibson, Functions::laplace})
+    for (const auto& facet : cloud.facets)
+      for (const double s : {0.1, 0.5, 0.77}) {
+        const auto [a, b] = facet.node;
+        const auto value = phi(functions, (1.0 - s) * cloud.position[u(a)] + s * cloud.position[u(b)]);
+        EXPECT_EQ(value.size(), 2u);
+        EXPECT_NEAR(value.at(a), 1.0 - s, 1e-14);
+        EXPECT_NEAR(value.at(b), s, 1e-14);
+      }
+}
+
+TEST(NaturalNeighbours, TendToLinearNearTheBoundary) {
+  const auto cloud = wavy_grid();
+  Evaluated phi(cloud);
+  for (const double depth : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    const Vec2 x(3.3, depth);
+    const auto value = phi(Functions::sibson, x);
+    EXPECT_NEAR(value.at(3), 0.7, 3.0 * depth);
+    EXPECT_NEAR(value.at(4), 0.3, 3.0 * depth);
+    Vec2 mean = Vec2::Zero();
+    for (const auto& [i, v] : value) mean += v * cloud.position[u(i)];
+    EXPECT_LT((mean - x).norm(), 1e-14) << "depth " << depth;
+  }
+}
+
+TEST(NaturalNeighbours, NoInfluenceThroughACrack) {
+  Evaluated phi(embedded_crack());
+  for (const auto& [i, v] : phi(Functions::sibson, {2.0, 2.1})) {
+    EXPECT_NE(i, 19); // the lower face
+    EXPECT_GE(phi.cloud().position[u(i)].y(), 2.0);
+  }
+  for (const auto& [i, v] : phi(Functions::sibson, {2.0, 1.9})) {
+    EXPECT_NE(i, 17); // the upper face
+    EXPECT_LE(phi.cloud().position[u(i)].y(), 2.0);
+  }
+}
+
+TEST(NaturalNeighbours, ThrowOutsideTheDomain) {
+  Evaluated phi(grid(3));
+  EXPECT_THROW(phi(Functions::sibson, {3.1, 1.0}), GeometryError);
+  EXPECT_THROW(phi(Functions::laplace, {-0.001, 1.0}), GeometryError);
+}
+
+TEST(Locate, FindsPointsFromAnyHintAlsoBehindWalls) {
+  Cloud<2> cloud;
+  add_loop(cloud, {{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {1, 1}, {1, 4}, {0, 4}});
+  const auto mesh = triangulate(cloud);
+  for (std::int32_t hint = 0; hint < mesh.triangles(); ++hint)
+    for (const Vec2& x : {Vec2(0.5, 3.7), Vec2(3.5, 3.7), Vec2(2.0, 0.5), Vec2(4.0, 4.0), Vec2(0.0, 2.2)}) {
+      const Location at = locate(cloud, mesh, x, hint);
+      EXPECT_TRUE(at.inside);
+      Vec2 mean = Vec2::Zero();
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_GE(at.weight[k], -1e-12);
+        mean += at.weight[k] * cloud.position[u(mesh.node[u(at.triangle)][k])];
+      }
+      EXPECT_LT((mean - x).norm(), 1e-14);
+    }
+  EXPECT_FALSE(locate(cloud, mesh, {2.0, 2.0}).inside);
+  EXPECT_FALSE(locate(cloud, mesh, {9.0, 9.0}).inside);
+}
+
+TEST(Locate, OnACrackTheHintChoosesTheFace) {
+  const auto cloud = embedded_crack();
+  const auto mesh = triangulate(cloud);
+  for (const std::int32_t face : {17, 19}) {
+    const Location here = locate(cloud, mesh, {1.5, 2.0}, mesh.triangle_of_node[u(face)]);
+    EXPECT_TRUE(here.inside);
+    const auto& nodes = mesh.node[u(here.triangle)];
+    EXPECT_TRUE(nodes[0] == face || nodes[1] == face || nodes[2] == face);
+  }
+}
+
+} // namespace
+} // namespace cnem::voronoi::test
