@@ -188,14 +188,14 @@ private:
   }
 
   void conservation() {
-    Chart chart = against_time("Mass and area, relative change", "relative change", "");
+    Chart chart = against_time("Mass and area", "change", "%");
     for (const char* quantity : {"mass", "area"}) {
       const int k = history_.find(quantity);
       if (k < 0) continue;
       use(k);
       ChartSeries line = series(quantity, k, chart.series.size());
       const double initial = line.y.front();
-      for (double& value : line.y) value = value / initial - 1.0;
+      for (double& value : line.y) value = 100.0 * (value / initial - 1.0);
       chart.series.push_back(std::move(line));
     }
     if (!chart.series.empty()) charts_.push_back(std::move(chart));

@@ -57,7 +57,8 @@ std::string number_format(double value, int digits) {
                                                                                      {'9', "⁹"}}})
       for (std::size_t at = power.find(digit); at != std::string::npos; at = power.find(digit))
         power.replace(at, 1, raised);
-    text = text.substr(0, e) + "·10" + power;
+    const std::string mantissa = text.substr(0, e);
+    text = mantissa == "1" ? "10" + power : mantissa == "-1" ? "-10" + power : mantissa + "·10" + power;
   }
   if (text.front() == '-') text.replace(0, 1, "−");
   return text;

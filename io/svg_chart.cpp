@@ -46,11 +46,22 @@ Ticks decade_ticks(double low, double high) {
   return ticks;
 }
 
+// A prefix where the unit takes one, else a power of ten: tick labels must stay short.
+DisplayUnit axis_unit(double magnitude, const std::string& unit) {
+  DisplayUnit display = display_unit(magnitude, unit);
+  const double shown = magnitude / display.factor;
+  if (!(shown > 0.0) || (shown >= 1e-2 && shown < 1e5)) return display;
+  const double power = std::pow(10.0, 3.0 * std::floor(std::log10(shown) / 3.0));
+  display.factor *= power;
+  display.unit =
+      unit.empty() ? number_format(power, 1) : fmt::format("{} {}", number_format(power, 1), display.unit);
+  return display;
+}
+
 Axis make_axis(const Extent& extent, const std::string& unit, bool logarithmic, bool padded) {
   Axis axis;
   axis.logarithmic = logarithmic;
-  axis.unit =
-      display_unit(extent.empty() ? 1.0 : std::max(std::abs(extent.low), std::abs(extent.high)), unit);
+  axis.unit = axis_unit(extent.empty() ? 1.0 : std::max(std::abs(extent.low), std::abs(extent.high)), unit);
   if (!extent.empty()) {
     axis.low = extent.low / axis.unit.factor;
     axis.high = extent.high / axis.unit.factor;
@@ -168,7 +179,7 @@ std::string svg_chart(const Chart& chart) {
   int legend_rows = 0;
   const std::vector<LegendPlace> legend = place_legend(chart, legend_rows);
   Frame frame{make_axis(x, chart.x_unit, false, false), make_axis(y, chart.y_unit, chart.log_y, true),
-              30.0 + row * legend_rows};
+              30.0 + (row + 2) * legend_rows};
   const double base = frame.top + plot_height, end = width - right;
 
   std::string svg = fmt::format("<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
