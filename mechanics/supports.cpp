@@ -73,6 +73,19 @@ void Supports<dim>::apply(double time, double dt, double dt_mean, const Field& m
   }
 }
 
+template<int dim> double Supports<dim>::displacement(std::int32_t s, double time) const {
+  const Support<dim>& support = support_[static_cast<std::size_t>(s)];
+  switch (support.kind) {
+  case Support<dim>::Kind::velocity:
+    return support.value.integral(time);
+  case Support<dim>::Kind::displacement:
+    return support.value(time);
+  case Support<dim>::Kind::symmetry:
+    break;
+  }
+  return 0.0;
+}
+
 template class Supports<2>;
 template class Supports<3>;
 

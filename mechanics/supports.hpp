@@ -40,6 +40,16 @@ public:
   /// Held nodes with the projector on the directions they are free to move in.
   const std::vector<contact::NodeConstraint<dim>>& constraints() const { return constraints_; }
 
+  /// A direction in which a node is held; those of one node are orthonormal.
+  struct Prescribed {
+    std::int32_t node;
+    std::int32_t support; ///< index into list()
+    Vec<dim> direction;
+  };
+  const std::vector<Prescribed>& prescribed() const { return prescribed_; }
+  /// Displacement (m) along its direction that support s has prescribed since time 0.
+  double displacement(std::int32_t s, double time) const;
+
   const std::vector<Support<dim>>& list() const { return support_; }
   /// Reaction of support s on the body in the last step, N/m^(3−dim).
   const std::vector<Vec<dim>>& reactions() const { return reaction_; }
@@ -47,11 +57,6 @@ public:
   double work() const { return work_; }
 
 private:
-  struct Prescribed {
-    std::int32_t node;
-    std::int32_t support;
-    Vec<dim> direction;
-  };
   std::vector<Support<dim>> support_;
   std::vector<Prescribed> prescribed_;
   std::vector<contact::NodeConstraint<dim>> constraints_;
