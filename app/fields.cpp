@@ -11,17 +11,15 @@ namespace cnem::app {
 
 namespace {
 
-using Solver = ExplicitSolver<2>;
-
-Field displacement(const Solver& solver, std::size_t k) {
-  Field u = solver.state().node.position[k];
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] -= solver.initial_position()[k][i];
+Field displacement(const Snapshot& shot, std::size_t k) {
+  Field u = shot.state.node.position[k];
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] -= shot.initial_position[k][i];
   return u;
 }
 
 /// Cauchy stress σ = P Fᵀ/det F; components i, j of the plane, or zz for i = j = 2.
-Field cauchy(const Solver& solver, std::size_t i, std::size_t j) {
-  const PointState<2>& point = solver.state().point;
+Field cauchy(const Snapshot& shot, std::size_t i, std::size_t j) {
+  const PointState<2>& point = shot.state.point;
   Field sigma(point.size());
   for (std::size_t p = 0; p < sigma.size(); ++p) {
     const double J = jacobian<2>(point.deformation, p);
@@ -34,8 +32,8 @@ Field cauchy(const Solver& solver, std::size_t i, std::size_t j) {
 }
 
 /// Volume ratio J of the present to the stress-free configuration.
-Field volume_ratio(const Solver& solver) {
-  const PointState<2>& point = solver.state().point;
+Field volume_ratio(const Snapshot& shot) {
+  const PointState<2>& point = shot.state.point;
   Field J(point.size());
   for (std::size_t p = 0; p < J.size(); ++p) J[p] = jacobian<2>(point.deformation, p) / point.stress_free[p];
   return J;
@@ -48,38 +46,38 @@ Field divided(Field a, const Field& b) {
 
 struct Entry {
   FieldInfo info;
-  Field (*values)(const Solver&);
+  Field (*values)(const Snapshot&);
 };
 
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> list{
       {{"plastic_strain", "equivalent plastic strain", "", "", 1.0, io::ColourMap::strain, false},
-       [](const Solver& s) { return s.state().point.plastic_strain; }},
+       [](const Snapshot& s) { return s.state.point.plastic_strain; }},
       {{"plastic_rate", "equivalent plastic strain rate", "1/s", "1/s", 1.0, io::ColourMap::heat, false},
-       [](const Solver& s) { return s.state().point.plastic_rate; }},
+       [](const Snapshot& s) { return s.state.point.plastic_rate; }},
       {{"temperature", "temperature", "K", "K", 1.0, io::ColourMap::heat, true},
-       [](const Solver& s) { return s.state().node.temperature; }},
+       [](const Snapshot& s) { return s.state.node.temperature; }},
       {{"equivalent_stress", "von Mises stress", "Pa", "MPa", 1e6, io::ColourMap::heat, false},
-       [](const Solver& s) { return divided(s.state().point.equivalent_stress, volume_ratio(s)); }},
+       [](const Snapshot& s) { return divided(s.state.point.equivalent_stress, volume_ratio(s)); }},
       {{"pressure", "pressure", "Pa", "MPa", 1e6, io::ColourMap::diverging, false},
-       [](const Solver& s) { return divided(s.state().point.pressure, volume_ratio(s)); }},
+       [](const Snapshot& s) { return divided(s.state.point.pressure, volume_ratio(s)); }},
       {{"stress_xx", "stress xx", "Pa", "MPa", 1e6, io::ColourMap::diverging, false},
-       [](const Solver& s) { return cauchy(s, 0, 0); }},
+       [](const Snapshot& s) { return cauchy(s, 0, 0); }},
       {{"stress_yy", "stress yy", "Pa", "MPa", 1e6, io::ColourMap::diverging, false},
-       [](const Solver& s) { return cauchy(s, 1, 1); }},
+       [](const Snapshot& s) { return cauchy(s, 1, 1); }},
       {{"stress_zz", "stress zz", "Pa", "MPa", 1e6, io::ColourMap::diverging, false},
-       [](const Solver& s) { return cauchy(s, 2, 2); }},
+       [](const Snapshot& s) { return cauchy(s, 2, 2); }},
       {{"stress_xy", "stress xy", "Pa", "MPa", 1e6, io::ColourMap::diverging, false},
-       [](const Solver& s) { return cauchy(s, 0, 1); }},
+       [](const Snapshot& s) { return cauchy(s, 0, 1); }},
       {{"volume_ratio", "volume ratio J", "", "", 1.0, io::ColourMap::strain, false}, volume_ratio},
       {{"velocity_x", "velocity x", "m/s", "m/s", 1.0, io::ColourMap::diverging, true},
-       [](const Solver& s) { return s.state().node.velocity[0]; }},
+       [](const Snapshot& s) { return s.state.node.velocity[0]; }},
       {{"velocity_y", "velocity y", "m/s", "m/s", 1.0, io::ColourMap::diverging, true},
-       [](const Solver& s) { return s.state().node.velocity[1]; }},
+       [](const Snapshot& s) { return s.state.node.velocity[1]; }},
       {{"displacement_x", "displacement x", "m", "mm", 1e-3, io::ColourMap::diverging, true},
-       [](const Solver& s) { return displacement(s, 0); }},
+       [](const Snapshot& s) { return displacement(s, 0); }},
       {{"displacement_y", "displacement y", "m", "mm", 1e-3, io::ColourMap::diverging, true},
-       [](const Solver& s) { return displacement(s, 1); }},
+       [](const Snapshot& s) { return displacement(s, 1); }},
   };
   return list;
 }
@@ -103,27 +101,27 @@ const std::vector<FieldInfo>& field_catalogue() {
 
 const FieldInfo& field_info(const std::string& name) { return entry(name).info; }
 
-Field values_at_points(const Solver& solver, const std::string& name) {
+Field values_at_points(const Snapshot& shot, const std::string& name) {
   const Entry& e = entry(name);
-  const DiscreteOperators<2>& op = solver.approximation().mechanics;
-  Field values = e.values(solver);
+  const DiscreteOperators<2>& op = shot.approximation.mechanics;
+  Field values = e.values(shot);
   if (!e.info.at_nodes || op.nodal) return values;
   Field at_points(static_cast<std::size_t>(op.points));
   interpolate<2>(op, values, at_points, 0, at_points.size());
   return at_points;
 }
 
-Field values_at_nodes(const Solver& solver, const std::string& name) {
+Field values_at_nodes(const Snapshot& shot, const std::string& name) {
   const Entry& e = entry(name);
-  const DiscreteOperators<2>& op = solver.approximation().mechanics;
-  Field values = e.values(solver);
+  const DiscreteOperators<2>& op = shot.approximation.mechanics;
+  Field values = e.values(shot);
   return e.info.at_nodes ? values : average_at_nodes<2>(op, values);
 }
 
-double boundary_area(const Solver& solver) {
-  const Fields<2>& x = solver.state().node.position;
+double boundary_area(const Snapshot& shot) {
+  const Fields<2>& x = shot.state.node.position;
   double twice = 0.0;
-  for (const Facet<2>& facet : solver.model().cloud.facets) {
+  for (const Facet<2>& facet : shot.cloud.facets) {
     const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
     twice += x[0][a] * x[1][b] - x[1][a] * x[0][b];
   }

@@ -1,7 +1,7 @@
 #pragma once
 // The fields a user can ask for by name: in pictures, probes and files.
+#include "app/snapshot.hpp"
 #include "io/colour_map.hpp"
-#include "mechanics/explicit_solver.hpp"
 
 #include <string>
 #include <vector>
@@ -26,12 +26,12 @@ const std::vector<FieldInfo>& field_catalogue();
 const FieldInfo& field_info(const std::string& name);
 
 /// Values at stress points [point]; fields of nodes are interpolated with N.
-Field values_at_points(const ExplicitSolver<2>& solver, const std::string& name);
+Field values_at_points(const Snapshot& shot, const std::string& name);
 
 /// Values at nodes [node]; fields of stress points are averaged by shared volume (identity for C-NEM).
-Field values_at_nodes(const ExplicitSolver<2>& solver, const std::string& name);
+Field values_at_nodes(const Snapshot& shot, const std::string& name);
 
 /// Area enclosed by the boundary as it stands, m².
-double boundary_area(const ExplicitSolver<2>& solver);
+double boundary_area(const Snapshot& shot);
 
 } // namespace cnem::app

@@ -1,6 +1,7 @@
 #include "app/recorder.hpp"
 
 #include "app/fields.hpp"
+#include "core/error.hpp"
 #include "io/output_folder.hpp"
 #include "io/picture.hpp"
 #include "voronoi/natural_neighbours.hpp"
@@ -51,7 +52,7 @@ double total_mass(const ExplicitSolver<2>& solver) {
 HistoryRecorder::HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver,
                                  const std::filesystem::path& folder)
     : probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
-      initial_area_(boundary_area(solver)), initial_mass_(total_mass(solver)) {}
+      initial_area_(boundary_area(snapshot(solver))), initial_mass_(total_mass(solver)) {}
 
 std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitSolver<2>& solver) const {
   const State<2>& state = solver.state();
@@ -98,20 +99,21 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     row.emplace_back(fmt::format("energy.{}[J/m]", name), value);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
-    const Field values = info.at_nodes ? values_at_nodes(solver, name) : values_at_points(solver, name);
+    const Field values =
+        info.at_nodes ? values_at_nodes(snapshot(solver), name) : values_at_points(snapshot(solver), name);
     row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
                      *std::max_element(values.begin(), values.end()));
   }
   for (const ProbeWeights& probe : probes_)
     for (const std::string& name : probe.fields) {
-      const Field values = values_at_nodes(solver, name);
+      const Field values = values_at_nodes(snapshot(solver), name);
       double sum = 0.0;
       for (std::size_t k = 0; k < probe.node.size(); ++k)
         sum += probe.weight[k] * values[static_cast<std::size_t>(probe.node[k])];
       row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit), sum);
     }
   row.emplace_back("mass[kg/m]", total_mass(solver));
-  row.emplace_back("area[m^2]", boundary_area(solver));
+  row.emplace_back("area[m^2]", boundary_area(snapshot(solver)));
   return row;
 }
 
@@ -158,31 +160,72 @@ double HistoryRecorder::energy_residual() const {
   return scale_ > 0.0 ? worst_residual_ / scale_ : worst_residual_;
 }
 
-void FieldRecorder::record(const ExplicitSolver<2>& solver) {
-  const NodeState<2>& node = solver.state().node;
+void write_lines(const io::Case& input, const Snapshot& shot, const std::filesystem::path& folder) {
+  if (input.output.lines.empty()) return;
+  Cloud<2> initial = shot.cloud;
+  for (std::size_t i = 0; i < initial.position.size(); ++i)
+    initial.position[i] = {shot.initial_position[0][i], shot.initial_position[1][i]};
+  const voronoi::Triangulation mesh = voronoi::triangulate(initial);
+  const voronoi::Circumcircles circles = voronoi::circumcircles(initial, mesh);
+  voronoi::NaturalNeighbours functions(initial, mesh, circles);
+  std::filesystem::create_directories(folder / io::files::lines_folder);
+  for (const io::SampleLine& line : input.output.lines) {
+    std::string text = "distance[m],x[m],y[m]";
+    std::vector<Field> fields;
+    for (const std::string& name : line.fields) {
+      text += fmt::format(",{}", with_unit(name, field_info(name).unit));
+      fields.push_back(values_at_nodes(shot, name));
+    }
+    text += "\n";
+    for (int k = 0; k < line.samples; ++k) {
+      const Vec2 x = line.from + (line.to - line.from) * (static_cast<double>(k) / (line.samples - 1));
+      try {
+        functions.evaluate(voronoi::Functions::sibson, x);
+      } catch (const GeometryError& error) { throw input.error("output.lines." + line.name, error.what()); }
+      text += fmt::format("{},{},{}", (x - line.from).norm(), x.x(), x.y());
+      for (const Field& field : fields) {
+        double sum = 0.0;
+        for (std::size_t j = 0; j < functions.nodes().size(); ++j)
+          sum += functions.values()[j] * field[static_cast<std::size_t>(functions.nodes()[j])];
+        text += fmt::format(",{}", sum);
+      }
+      text += "\n";
+    }
+    io::write_atomically(folder / io::files::lines_folder / (line.name + ".csv"), text);
+  }
+}
+
+void FieldRecorder::record(const Snapshot& shot) {
+  const NodeState<2>& node = shot.state.node;
   io::FieldFrame frame;
-  frame.time = solver.state().time;
-  frame.cells = &solver.approximation().cells;
+  frame.time = shot.state.time;
+  frame.cells = &shot.approximation.cells;
   frame.position = spans(node.position);
   std::vector<Field> storage;
   storage.reserve(2 * field_catalogue().size());
   for (const FieldInfo& info : field_catalogue()) {
     const std::string name = info.unit.empty() ? info.label : fmt::format("{} [{}]", info.label, info.unit);
-    frame.cell_scalars.push_back({name, storage.emplace_back(values_at_points(solver, info.name))});
-    frame.node_scalars.push_back({name, storage.emplace_back(values_at_nodes(solver, info.name))});
+    frame.cell_scalars.push_back({name, storage.emplace_back(values_at_points(shot, info.name))});
+    frame.node_scalars.push_back({name, storage.emplace_back(values_at_nodes(shot, info.name))});
   }
   frame.node_vectors.push_back({"velocity [m/s]", {node.velocity[0], node.velocity[1], {}}});
   writer_.write(frame);
 }
 
-void PictureRecorder::record(const ExplicitSolver<2>& solver) {
-  const NodeState<2>& node = solver.state().node;
+void PictureRecorder::record(const Snapshot& shot) {
+  Fields<2> drawn = shot.state.node.position;
+  if (shot.displacement_scale != 1.0)
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t i = 0; i < drawn[k].size(); ++i) {
+        const double start = shot.initial_position[k][i];
+        drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
+      }
   for (const std::string& name : case_->output.picture_fields) {
     const FieldInfo& info = field_info(name);
-    const Field values = values_at_points(solver, name);
+    const Field values = values_at_points(shot, name);
     io::Picture picture;
-    picture.cells = &solver.approximation().cells;
-    picture.position = spans(node.position);
+    picture.cells = &shot.approximation.cells;
+    picture.position = spans(drawn);
     picture.value = values;
     picture.label = info.label;
     picture.unit = info.shown_unit;
@@ -190,11 +233,11 @@ void PictureRecorder::record(const ExplicitSolver<2>& solver) {
     picture.map = info.map;
     if (info.map == io::ColourMap::diverging) picture.range = io::symmetric_range(values, 0.999);
     picture.title = case_->title;
-    picture.time = solver.state().time;
-    const auto& contact = solver.model().contact;
+    picture.time = shot.state.time;
+    const auto& contact = shot.contact;
     for (std::size_t t = 0; t < contact.tools().size(); ++t)
       picture.tools.push_back({&case_->tools[t].outline,
-                               contact.tools()[t].motion.displacement(solver.state().time),
+                               contact.tools()[t].motion.displacement(shot.state.time),
                                case_->tools[t].name});
     album_.add(name, info.label, picture.time, io::draw_png(picture));
     for (const io::Window& window : case_->output.windows) {

@@ -1,5 +1,6 @@
 #pragma once
 // What a run leaves behind: rows of history, fields, pictures.
+#include "app/snapshot.hpp"
 #include "io/case.hpp"
 #include "io/history_writer.hpp"
 #include "io/picture_album.hpp"
@@ -49,11 +50,15 @@ private:
   std::vector<std::pair<std::string, double>> metrics_;
 };
 
+/// Writes lines/NAME.csv for every line of the case: distance and initial position, then the fields, from
+/// natural-neighbour interpolation of nodal values.
+void write_lines(const io::Case& input, const Snapshot& shot, const std::filesystem::path& folder);
+
 /// Writes fields.pvd frames with every field of the catalogue.
 class FieldRecorder {
 public:
   explicit FieldRecorder(const std::filesystem::path& folder) : writer_(folder) {}
-  void record(const ExplicitSolver<2>& solver);
+  void record(const Snapshot& shot);
 
 private:
   io::FieldWriter writer_;
@@ -64,7 +69,7 @@ class PictureRecorder {
 public:
   PictureRecorder(const io::Case& input, const std::filesystem::path& folder)
       : case_(&input), album_(folder) {}
-  void record(const ExplicitSolver<2>& solver);
+  void record(const Snapshot& shot);
 
 private:
   const io::Case* case_;

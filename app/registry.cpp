@@ -26,14 +26,19 @@ voronoi::SpacingField spacing_field(const io::CloudSpec& spec) {
   field.spacing = spec.spacing;
   for (const io::Refinement& refine : spec.refine) {
     voronoi::Refinement region;
+    region.spacing = refine.spacing;
+    region.growth = refine.growth;
+    for (const Vec2& tip : refine.tips) {
+      region.points = {tip};
+      field.refinements.push_back(region);
+    }
+    if (!refine.tips.empty()) continue;
     if (refine.box) {
       region.region = voronoi::Refinement::Region::box;
       region.points = {(*refine.box)[0], (*refine.box)[1]};
     } else {
       region.points = refine.points;
     }
-    region.spacing = refine.spacing;
-    region.growth = refine.growth;
     field.refinements.push_back(std::move(region));
   }
   return field;
@@ -121,9 +126,34 @@ struct Conditions {
   std::vector<Convection<2>> convections;
 };
 
-void add_condition(const io::BoundaryCondition& spec, const Cloud<2>& cloud, Conditions& all) {
+/// The nodes nearest to the points of a condition.
+std::vector<std::int32_t> nodes_at(const io::Case& input, const io::BoundaryCondition& spec,
+                                   const Cloud<2>& cloud) {
+  std::vector<std::int32_t> nodes;
+  for (const Vec2& point : spec.points) {
+    std::int32_t best = 0;
+    const auto distance = [&](std::int32_t i) {
+      return (cloud.position[static_cast<std::size_t>(i)] - point).norm();
+    };
+    for (std::int32_t i = 1; i < cloud.nodes(); ++i)
+      if (distance(i) < distance(best)) best = i;
+    if (input.cloud.spacing > 0.0 && distance(best) > input.cloud.spacing)
+      throw input.error(
+          "boundary." + spec.name + ".points",
+          fmt::format("found ({:g}, {:g}) m, expected a point of the workpiece: the nearest node "
+                      "is {:.3g} m away",
+                      point.x(), point.y(), distance(best)));
+    nodes.push_back(best);
+  }
+  return nodes;
+}
+
+void add_condition(const io::Case& input, const io::BoundaryCondition& spec, const Cloud<2>& cloud,
+                   Conditions& all) {
   const std::vector<Facet<2>> facets = facets_of(cloud, spec.pieces);
-  const std::vector<std::int32_t> nodes = nodes_of(facets);
+  std::vector<std::int32_t> nodes = nodes_of(facets);
+  for (const std::int32_t node : nodes_at(input, spec, cloud))
+    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
   using Kind = Support<2>::Kind;
   if (spec.symmetry) {
     // One plane per straight piece: pieces of one condition may face different ways.
@@ -209,7 +239,8 @@ Setup build(const io::Case& input) {
   model.safety = input.time.safety;
 
   Conditions all;
-  for (const io::BoundaryCondition& condition : input.boundary) add_condition(condition, model.cloud, all);
+  for (const io::BoundaryCondition& condition : input.boundary)
+    add_condition(input, condition, model.cloud, all);
   const auto nodes = static_cast<std::size_t>(model.cloud.nodes());
   try {
     model.supports = Supports<2>(std::move(all.supports), nodes);

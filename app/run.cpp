@@ -3,13 +3,14 @@
 #include "app/fields.hpp"
 #include "app/recorder.hpp"
 #include "app/registry.hpp"
+#include "app/statics.hpp"
+#include "app/stopwatch.hpp"
 #include "io/output_folder.hpp"
 #include "io/progress.hpp"
 #include "io/report.hpp"
 #include "io/status.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -19,35 +20,6 @@
 namespace cnem::app {
 
 namespace {
-
-double wall_time() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// Wall time by phase.
-class Stopwatch {
-public:
-  template<class Work> auto time(const char* phase, Work&& work) {
-    struct Guard {
-      double& sum;
-      double start = wall_time();
-      ~Guard() { sum += wall_time() - start; }
-    } guard{spent_[phase]};
-    return work();
-  }
-  std::vector<std::pair<std::string, double>> spent() const {
-    std::vector<std::pair<std::string, double>> list{{"total", wall_time() - start_}};
-    for (const char* phase : {"setup", "step", "rebuild", "output"}) {
-      const auto found = spent_.find(phase);
-      list.emplace_back(phase, found == spent_.end() ? 0.0 : found->second);
-    }
-    return list;
-  }
-
-private:
-  double start_ = wall_time();
-  std::map<std::string, double> spent_;
-};
 
 /// Times at which something is due: every `interval`, or a list; the run lands on them exactly.
 class Schedule {
@@ -181,6 +153,7 @@ DivergenceError energy_divergence(double share, double tolerance, const State<2>
 } // namespace
 
 Exit run(const io::Case& input, const RunOptions& options) {
+  if (input.analysis.type == io::Analysis::Type::statics) return run_static(input, options);
   set_threads(options.threads);
   Stopwatch watch;
   std::vector<std::string> warnings;
@@ -210,8 +183,8 @@ Exit run(const io::Case& input, const RunOptions& options) {
     while (true) {
       watch.time("output", [&] {
         if (history_due.due(state.time, tolerance)) history.record(solver);
-        if (fields_due.due(state.time, tolerance)) fields.record(solver);
-        if (pictures_due.due(state.time, tolerance)) pictures.record(solver);
+        if (fields_due.due(state.time, tolerance)) fields.record(snapshot(solver));
+        if (pictures_due.due(state.time, tolerance)) pictures.record(snapshot(solver));
         progress.update({.time = state.time,
                          .end = end,
                          .step = state.step,
@@ -247,6 +220,7 @@ Exit run(const io::Case& input, const RunOptions& options) {
                          state.time, error.what());
     dead = post_mortem(DivergenceError(reason, -1, "geometry"), state);
   }
+  watch.time("output", [&] { write_lines(input, snapshot(solver), options.output); });
   progress.finish();
 
   io::RunStatus status;
@@ -277,6 +251,7 @@ Exit run(const io::Case& input, const RunOptions& options) {
 }
 
 void check(const io::Case& input, const RunOptions& options) {
+  if (input.analysis.type == io::Analysis::Type::statics) return check_static(input, options);
   set_threads(options.threads);
   std::vector<std::string> warnings;
   ExplicitSolver<2> solver = make_solver(input, warnings);
@@ -292,7 +267,7 @@ void check(const io::Case& input, const RunOptions& options) {
   fmt::print("case        {}\n", input.title.empty() ? input.name : input.title);
   fmt::print("nodes       {}\n", state.node.size());
   fmt::print("points      {}\n", state.point.size());
-  fmt::print("area        {:.9g} m²\n", boundary_area(solver));
+  fmt::print("area        {:.9g} m²\n", boundary_area(snapshot(solver)));
   fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
   if (!input.time.fixed)
     fmt::print(" at ({:.4g}, {:.4g}) m", state.node.position[0][node], state.node.position[1][node]);
@@ -311,7 +286,7 @@ void check(const io::Case& input, const RunOptions& options) {
   }
   const std::filesystem::path folder = options.output / "initial";
   io::prepare_output_folder(folder, true);
-  FieldRecorder(folder).record(solver);
+  FieldRecorder(folder).record(snapshot(solver));
   fmt::print("fields      {}\n", (folder / io::files::fields).string());
 }
 

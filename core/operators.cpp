@@ -10,7 +10,7 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
 
   point.resize(entries);
   for (Field& f : weighted_gradient) f.resize(entries);
-  weighted_value.resize(nodal ? 0 : entries);
+  weighted_value.resize(value.size());
 
   std::vector<std::int32_t> next(col_begin.begin(), col_begin.end() - 1);
   for (std::int32_t p = 0; p < points; ++p) {
@@ -20,7 +20,7 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
       const auto t = static_cast<std::size_t>(next[static_cast<std::size_t>(node[e])]++);
       point[t] = p;
       for (std::size_t k = 0; k < dim; ++k) weighted_gradient[k][t] = v * gradient[k][e];
-      if (!nodal) weighted_value[t] = v * value[e];
+      if (!value.empty()) weighted_value[t] = v * value[e];
     }
   }
 }

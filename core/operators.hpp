@@ -23,7 +23,7 @@ template<int dim> struct DiscreteOperators {
   std::vector<std::int32_t> row_begin; ///< [point + 1]
   std::vector<std::int32_t> node;      ///< [entry]
   Fields<dim> gradient;                ///< [k][entry] b_pJ,k, 1/m
-  Field value;                         ///< [entry] N_pJ; empty when nodal
+  Field value;                         ///< [entry] N_pJ; empty when nodal, and in statics
 
   // The transpose, weighted by volume. Entries of a column are in increasing order of the point.
   std::vector<std::int32_t> col_begin; ///< [node + 1]

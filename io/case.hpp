@@ -22,15 +22,15 @@ namespace cnem::io {
 using VectorFunction = std::array<std::optional<TimeTable>, 2>;
 
 struct Analysis {
-  enum class Type { explicit_dynamics };
-  enum class Kinematics { plane_strain };
+  enum class Type { explicit_dynamics, statics };
+  enum class Kinematics { plane_strain, plane_stress };
   Type type = Type::explicit_dynamics;
   Kinematics kinematics = Kinematics::plane_strain;
   bool thermal = false; ///< solve for temperatures: plastic and friction heating, conduction
 };
 
 struct TimeControl {
-  double end = 0.0;               ///< s
+  double end = 0.0;               ///< s; of statics the time at which loads are taken
   double safety = 0.9;            ///< – factor on the stable step
   std::optional<double> max_step; ///< s  upper bound of the step
   std::optional<double> fixed;    ///< s  step used as it is, without an estimate
@@ -41,7 +41,8 @@ struct TimeControl {
 /// the boundary pieces NAME+ (material on the left of the path, seen along it) and NAME-.
 struct Crack {
   std::string name;
-  std::vector<Vec2> points; ///< m, at least two
+  std::vector<Vec2> points;        ///< m, at least two
+  std::array<std::string, 2> tips; ///< names of the first and the last end, for results
 };
 
 struct Hole {
@@ -64,6 +65,7 @@ struct Refinement {
   std::string name;
   std::optional<std::array<Vec2, 2>> box; ///< lower left, upper right, m; else `points`
   std::vector<Vec2> points;               ///< m; one: a point, more: a polyline
+  std::vector<Vec2> tips;                 ///< m; ends of cracks, each on its own
   double spacing = 0.0;                   ///< m
   double growth = 0.3;                    ///< –
 };
@@ -129,6 +131,7 @@ struct Convection {
 struct BoundaryCondition {
   std::string name;
   std::vector<std::string> pieces;      ///< names; "all" is spelt out
+  std::vector<Vec2> points;             ///< m; the nodes nearest to them are held too
   bool symmetry = false;                ///< zero normal velocity, free tangentially
   VectorFunction velocity;              ///< m/s
   VectorFunction displacement;          ///< m, from the initial position
@@ -199,6 +202,14 @@ struct Probe {
   std::vector<std::string> fields; ///< of field_names()
 };
 
+/// Fields sampled along a straight line through the initial configuration at the end of the run.
+struct SampleLine {
+  std::string name;
+  Vec2 from{0, 0}, to{0, 0}; ///< m
+  int samples = 101;
+  std::vector<std::string> fields; ///< of field_names()
+};
+
 struct Window {
   std::string name;
   Vec2 lower{0, 0}; ///< m
@@ -212,6 +223,15 @@ struct Output {
   std::vector<std::string> picture_fields; ///< of field_names()
   std::vector<Window> windows;             ///< parts of the domain drawn enlarged, beside the whole
   std::vector<Probe> probes;
+  std::vector<SampleLine> lines;
+};
+
+/// Evaluation of crack tips.
+struct Fracture {
+  bool enrichment = true;                  ///< branch functions near tips (statics, cnem)
+  std::optional<double> enrichment_radius; ///< m
+  std::optional<double> integral_inner;    ///< m, the weight of the domain integral is 1 within
+  std::optional<double> integral_outer;    ///< m, and 0 beyond
 };
 
 /// A field that probes and pictures know.
@@ -237,6 +257,7 @@ struct Case {
   Loads loads;
   std::vector<Tool> tools;
   Method method;
+  Fracture fracture;
   Output output;
 
   std::string resolved;                        ///< the whole case in SI, defaults included, as TOML

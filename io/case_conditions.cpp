@@ -170,7 +170,20 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
   for (const Setting& table : root.entries("boundary")) {
     BoundaryCondition condition;
     condition.name = table.name;
-    condition.pieces = chosen_pieces(*table.find("pieces"), result.domain, diagnostics);
+    const Setting* pieces = table.find("pieces");
+    if (pieces) condition.pieces = chosen_pieces(*pieces, result.domain, diagnostics);
+    const Setting* points = table.find("points");
+    if (points) condition.points = std::get<std::vector<Vec2>>(points->value);
+    if (!pieces && !points)
+      diagnostics.add(Mistake::missing_key, table.where, table.path + ".pieces",
+                      "missing, expected " + find_key("boundary.*.pieces")->expectation() +
+                          ", or points that name single nodes");
+    if (points)
+      for (const Setting& member : table.members)
+        if (member.given && member.name != "pieces" && member.name != "points" && member.name != "velocity" &&
+            member.name != "displacement")
+          diagnostics.add(Mistake::conflict, member.where, member.path,
+                          "found in a condition with points, expected velocity or displacement there");
     condition.symmetry = table.get<bool>("symmetry");
     condition.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     condition.displacement = table.maybe<VectorFunction>("displacement").value_or(VectorFunction{});
@@ -182,7 +195,10 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
       condition.convection =
           Convection{convection->get<double>("coefficient"), convection->get<TimeTable>("ambient")};
 
-    if (table.members.size() == 2 && !condition.symmetry)
+    const bool nothing = std::all_of(table.members.begin(), table.members.end(), [](const Setting& member) {
+      return member.name == "pieces" || member.name == "points" || member.name == "symmetry";
+    });
+    if (nothing && !condition.symmetry)
       diagnostics.add(Mistake::missing_key, table.where, table.path,
                       "sets nothing, expected symmetry = true, velocity, displacement, traction, pressure, "
                       "temperature, heat_flux or convection");

@@ -1,12 +1,14 @@
 // The geometric part of the case reader: domain, tools, cloud.
 #include "io/case_parts.hpp"
 #include "io/curve_checks.hpp"
+#include "io/nearest.hpp"
 #include "io/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace cnem::io {
 namespace {
@@ -27,6 +29,40 @@ std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Di
                     error.what());
     return std::nullopt;
   }
+}
+
+/// Points of a crack, turned as it says.
+std::vector<Vec2> crack_path(const Setting& table) {
+  const Setting* points = table.find("points");
+  std::vector<Vec2> path = points ? std::get<std::vector<Vec2>>(points->value) : std::vector<Vec2>{};
+  if (const Setting* turn = table.find("rotate")) {
+    const double angle = turn->get<double>("angle");
+    const auto& centre = turn->get<Vec2>("centre");
+    for (Vec2& x : path) {
+      const Vec2 d = x - centre;
+      x = centre + std::cos(angle) * d + std::sin(angle) * left_normal(d);
+    }
+  }
+  return path;
+}
+
+/// Names of the ends of a crack: given, or from where they lie.
+std::array<std::string, 2> tip_names(const Setting& crack, const Setting& domain, Diagnostics& diagnostics) {
+  if (const Setting* given = crack.find("tips")) {
+    const auto& names = std::get<std::vector<std::string>>(given->value);
+    if (names.size() == 2 && names[0] != names[1]) return {names[0], names[1]};
+    diagnostics.add(Mistake::type, given->where, given->path, "expected two different names");
+    return {};
+  }
+  const std::vector<Vec2> path = crack_path(crack);
+  if (path.size() < 2) return {};
+  const Vec2 d = path.back() - path.front();
+  const bool upright = std::abs(d.x()) <= 1e-9 * d.norm();
+  const std::array<std::string, 2> sides =
+      upright ? std::array<std::string, 2>{"bottom", "top"} : std::array<std::string, 2>{"left", "right"};
+  const bool forward = upright ? d.y() > 0.0 : d.x() > 0.0;
+  const std::string prefix = domain.entries("cracks").size() > 1 ? crack.name + "_" : "";
+  return {prefix + sides[forward ? 0 : 1], prefix + sides[forward ? 1 : 0]};
 }
 
 /// Where a polyline crosses, touches or overlaps itself.
@@ -131,15 +167,39 @@ std::array<Vec2, 2> box(const Setting& setting, Diagnostics& diagnostics) {
   return {low, high};
 }
 
-Refinement read_refinement(const Setting& table, double cloud_spacing, Diagnostics& diagnostics) {
+/// Ends of the cracks named, or of all.
+std::vector<Vec2> crack_ends(const Setting& names, const Setting& cracks, Diagnostics& diagnostics) {
+  std::vector<Vec2> ends;
+  std::vector<std::string> known;
+  for (const Setting& crack : cracks.members) known.push_back(crack.name);
+  for (const std::string& name : std::get<std::vector<std::string>>(names.value)) {
+    bool found = name == "all";
+    for (const Setting& crack : cracks.members)
+      if (name == "all" || name == crack.name) {
+        const std::vector<Vec2> path = crack_path(crack);
+        if (!path.empty()) ends.insert(ends.end(), {path.front(), path.back()});
+        found = true;
+      }
+    if (!found)
+      diagnostics.add(Mistake::reference, names.where, names.path,
+                      fmt::format("found \"{}\", expected a crack: {} or all{}", name, fmt::join(known, ", "),
+                                  did_you_mean(name, known)));
+  }
+  return ends;
+}
+
+Refinement read_refinement(const Setting& root, const Setting& table, double cloud_spacing,
+                           Diagnostics& diagnostics) {
   Refinement refinement;
   refinement.name = table.name;
   refinement.growth = table.get<double>("growth");
   const Setting *region = table.find("box"), *points = table.find("points");
   const Setting *spacing = table.find("spacing"), *factor = table.find("factor");
-  if (!region == !points)
-    diagnostics.add(region ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-                    fmt::format("found {} of box and points, expected one", region ? "both" : "none"));
+  const Setting* tips = table.find("tips");
+  if (const int given = int(region != nullptr) + int(points != nullptr) + int(tips != nullptr); given != 1)
+    diagnostics.add(
+        given ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+        fmt::format("found {} of box, points and tips, expected one", given ? "several" : "none"));
   if (!spacing == !factor)
     diagnostics.add(spacing ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
                     fmt::format("found {} of spacing and factor, expected one", spacing ? "both" : "none"));
@@ -148,6 +208,10 @@ Refinement read_refinement(const Setting& table, double cloud_spacing, Diagnosti
     refinement.points = std::get<std::vector<Vec2>>(points->value);
     if (refinement.points.empty())
       diagnostics.add(Mistake::type, points->where, points->path, "found no points, expected at least one");
+  }
+  if (tips) {
+    const Setting* cracks = root.find("domain.cracks");
+    refinement.tips = crack_ends(*tips, cracks ? *cracks : Setting{}, diagnostics);
   }
   refinement.spacing = spacing ? std::get<double>(spacing->value)
                                : table.maybe<double>("factor").value_or(1.0) * cloud_spacing;
@@ -169,7 +233,7 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
     if (curve) domain.holes.push_back({hole.name, curve->reversed()});
   }
   for (const Setting& crack : table.entries("cracks"))
-    domain.cracks.push_back({crack.name, crack.get<std::vector<Vec2>>("points")});
+    domain.cracks.push_back({crack.name, crack_path(crack), tip_names(crack, table, diagnostics)});
   if (!complete) return;
   if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);
   for (std::size_t i = 0; i < domain.cracks.size(); ++i) {
@@ -177,6 +241,14 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
     if (const std::string problem = crack_problem(domain, i); !problem.empty())
       diagnostics.add(Mistake::geometry, points.where, points.path, problem);
   }
+  for (const Setting& line : root.entries("output.lines"))
+    for (const char* end : {"from", "to"}) {
+      const Setting& at = *line.find(end);
+      if (const std::string reason = outside_reason(domain, std::get<Vec2>(at.value)); !reason.empty())
+        diagnostics.add(Mistake::geometry, at.where, at.path,
+                        fmt::format("the point {} is {}, expected a material point",
+                                    show(std::get<Vec2>(at.value)), reason));
+    }
   for (const Setting& probe : root.entries("output.probes")) {
     const Setting& at = *probe.find("at");
     const auto& point = std::get<Vec2>(at.value);
@@ -247,7 +319,7 @@ void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
     cloud.nodes = std::get<std::vector<Vec2>>(nodes->value);
   }
   for (const Setting& refinement : table.entries("refine"))
-    cloud.refine.push_back(read_refinement(refinement, cloud.spacing, diagnostics));
+    cloud.refine.push_back(read_refinement(root, refinement, cloud.spacing, diagnostics));
   for (const Setting& window : root.entries("output.windows")) {
     const std::array<Vec2, 2> corners = box(*window.find("box"), diagnostics);
     result.output.windows.push_back({window.name, corners[0], corners[1]});

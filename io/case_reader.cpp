@@ -17,10 +17,12 @@ std::string case_name(const std::string& path) {
 
 /// Defaults that depend on other keys.
 void compute_defaults(Setting& root) {
+  const bool statics = root.get<std::string>("analysis.type") == "static";
+  if (statics) root.set_default("time.end", 1.0);
   const double end = root.get<double>("time.end"), temperature = root.get<double>("initial.temperature");
   const Setting* materials = root.find("materials");
   const Setting* material = materials->find(root.get<std::string>("domain.material"));
-  root.set_default("analysis.thermal", material && material->find("heat"));
+  root.set_default("analysis.thermal", material && material->find("heat") && !statics);
   root.set_default("output.history_every", end / 400.0);
   root.set_default("output.fields_every", end / 24.0);
   root.set_default("output.pictures", std::vector<double>{end});
@@ -75,6 +77,10 @@ void read_output(const Setting& root, Case& result) {
   for (const Setting& probe : table.entries("probes"))
     output.probes.push_back(
         {probe.name, probe.get<Vec2>("at"), probe.get<std::vector<std::string>>("fields")});
+  for (const Setting& line : table.entries("lines"))
+    output.lines.push_back({line.name, line.get<Vec2>("from"), line.get<Vec2>("to"),
+                            static_cast<int>(line.get<std::int64_t>("samples")),
+                            line.get<std::vector<std::string>>("fields")});
 }
 
 void collect_locations(const Setting& setting, std::map<std::string, std::string>& location) {
@@ -86,6 +92,10 @@ Case read(Value document, const std::string& path, const std::vector<std::string
   for (const std::string& assignment : overrides) apply_override(document, assignment);
   Diagnostics diagnostics;
   Setting root = apply_schema(document, diagnostics);
+  diagnostics.throw_if_any();
+  if (!root.find("time.end") && root.get<std::string>("analysis.type") != "static")
+    diagnostics.add(Mistake::missing_key, root.find("time")->where, "time.end",
+                    "missing, expected " + find_key("time.end")->expectation());
   diagnostics.throw_if_any();
   compute_defaults(root);
 
@@ -107,6 +117,8 @@ Case read(Value document, const std::string& path, const std::vector<std::string
   read_boundary(root, result, diagnostics);
   read_initial_and_loads(root, result);
   read_method(root, result);
+  read_fracture(root, result, diagnostics);
+  check_analysis(root, result, diagnostics);
   diagnostics.throw_if_any();
   result.resolved = write_resolved(root, fmt::format("Resolved from {}: SI units, defaults included.", path));
   return result;

@@ -144,6 +144,7 @@ std::vector<fs::path> files_of_a_run(const fs::path& folder) {
   collect(folder / files::pictures_folder, [](const fs::path& file) {
     return is_numbered(file, files::pictures_folder, ".png") || file.filename() == "index.json";
   });
+  collect(folder / files::lines_folder, [](const fs::path& file) { return file.extension() == ".csv"; });
   return found;
 }
 
@@ -166,7 +167,7 @@ void prepare_output_folder(const fs::path& folder, bool force) {
     fs::remove(file, error);
     if (error) fail("remove", file, error.message());
   }
-  for (const char* sub : {files::fields_folder, files::pictures_folder})
+  for (const char* sub : {files::fields_folder, files::pictures_folder, files::lines_folder})
     fs::remove(folder / sub, error); // only when empty
   const fs::path probe = beside(folder / "probe");
   {

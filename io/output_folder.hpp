@@ -12,6 +12,7 @@ inline constexpr const char* history = "history.csv";
 inline constexpr const char* fields = "fields.pvd";
 inline constexpr const char* fields_folder = "fields";     ///< .vtu files
 inline constexpr const char* pictures_folder = "pictures"; ///< .png files and their index.json
+inline constexpr const char* lines_folder = "lines";       ///< fields along lines, .csv
 inline constexpr const char* checkpoint = "checkpoint.h5";
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";

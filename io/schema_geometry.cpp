@@ -74,6 +74,13 @@ void add_domain(Keys& k) {
       .unit(d::length)
       .required()
       .example("[\"8 5 mm\", \"12 5 mm\"]");
+  k.add("domain.cracks.*.tips", texts, "Names of the first and the last end, for results.")
+      .example("[\"left\", \"right\"]")
+      .computed("`left` and `right`, or `bottom` and `top`, from their positions; with several cracks "
+                "`CRACK_left` and so on");
+  k.add("domain.cracks.*.rotate", table, "Turns the crack.");
+  k.add("domain.cracks.*.rotate.angle", quantity, "Counter-clockwise.").unit(d::angle).required();
+  k.add("domain.cracks.*.rotate.centre", vector, "Centre of the turn.").unit(d::length).fallback("\"0 0 m\"");
 }
 
 void add_cloud(Keys& k) {
@@ -101,13 +108,15 @@ void add_cloud(Keys& k) {
       .example("\"cloud.csv\"");
   k.add("cloud.refine", named_tables, "Regions with a finer spacing.");
   k.add("cloud.refine.*", table,
-        "A region given by `box` or `points`, with its `spacing` or `factor`; the finest one wins.");
+        "A region given by `box`, `points` or `tips`, with its `spacing` or `factor`; the finest one wins.");
   k.add("cloud.refine.*.box", vectors, "Two opposite corners.")
       .unit(d::length)
       .example("[\"4 0 mm\", \"6 10 mm\"]");
   k.add("cloud.refine.*.points", vectors, "A point, or the corners of a polyline.")
       .unit(d::length)
       .example("[\"5 0 mm\", \"5 10 mm\"]");
+  k.add("cloud.refine.*.tips", texts, "Names of cracks, whose ends are refined, or `all`.")
+      .example("[\"all\"]");
   k.add("cloud.refine.*.spacing", quantity, "Spacing in the region.")
       .unit(d::length)
       .in(positive)

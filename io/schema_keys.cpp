@@ -14,17 +14,26 @@ constexpr Range fraction{.low = 0.0, .high = 1.0};
 void add_general(Keys& k) {
   k.add("title", text, "One line for the report.").fallback("\"\"");
   k.add("analysis", table, "What is computed.").always();
-  k.add("analysis.type", choice, "Explicit dynamics.").one_of({"explicit"}).fallback("\"explicit\"");
-  k.add("analysis.kinematics", choice, "Per unit thickness, no strain out of the plane.")
-      .one_of({"plane strain"})
+  k.add("analysis.type", choice,
+        "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution.")
+      .one_of({"explicit", "static"})
+      .fallback("\"explicit\"");
+  k.add("analysis.kinematics", choice,
+        "Per unit thickness: no strain out of the plane, or no stress (static only).")
+      .one_of({"plane strain", "plane stress"})
       .fallback("\"plane strain\"");
   k.add("analysis.thermal", boolean,
         "Solve for temperatures: heat of plastic work and friction, conduction. Without, the temperature "
         "stays at `initial.temperature`.")
       .example("true")
-      .computed("true when the domain's material has a `heat` table");
-  k.add("time", table, "Duration and step.").required();
-  k.add("time.end", quantity, "End of the run; it starts at 0.").unit(d::time).in(positive).required();
+      .computed("true when the domain's material has a `heat` table and the analysis is explicit");
+  k.add("time", table, "Duration and step.").always();
+  k.add("time.end", quantity,
+        "End of the run, which starts at 0; required in explicit analyses. In static ones the time at which "
+        "loads and displacements are taken.")
+      .unit(d::time)
+      .in(positive)
+      .computed("1 s in static analyses");
   k.add("time.step", table, "Size of the explicit step.").always();
   k.add("time.step.safety", quantity, "Factor on the stable step.")
       .in({.low = 0.0, .high = 1.0, .low_open = true})
@@ -134,7 +143,12 @@ void add_conditions(Keys& k) {
   const std::string at = "boundary.*.";
   k.add("boundary", named_tables, "Conditions on boundary pieces.");
   k.add("boundary.*", table, "A set of conditions; pieces without any are free and insulated.");
-  k.add(at + "pieces", texts, "Names of boundary pieces, or `all`.").required().example("[\"left\"]");
+  k.add(at + "pieces", texts, "Names of boundary pieces, or `all`.").example("[\"left\"]");
+  k.add(
+       at + "points", vectors,
+       "Instead of or beside `pieces`: the nodes nearest to these points, for `velocity` and `displacement`.")
+      .unit(d::length)
+      .example("[\"0 0 mm\"]");
   k.add(at + "symmetry", boolean, "No velocity normal to the piece, which must be straight.")
       .fallback("false");
   k.add(at + "velocity", vector_function, "Prescribed velocity; one component alone leaves the other free.")
@@ -253,6 +267,27 @@ void add_method(Keys& k) {
       .fallback("0.05");
 }
 
+void add_fracture(Keys& k) {
+  k.add("fracture", table, "Crack tips (static analyses).").always();
+  k.add("fracture.enrichment", boolean,
+        "Functions that carry the √r field near tips, for `method.name = \"cnem\"`.")
+      .fallback("true");
+  k.add("fracture.enrichment_radius", quantity, "Nodes within this distance of a tip are enriched.")
+      .unit(d::length)
+      .in(positive)
+      .computed("a fifth of the half-length of the crack, at least 2.5 spacings there");
+  k.add("fracture.integral", table, "Domain of the interaction integral.").always();
+  k.add("fracture.integral.inner", quantity, "Its weight is 1 within this distance of the tip.")
+      .unit(d::length)
+      .in(positive)
+      .computed("half of `outer`");
+  k.add("fracture.integral.outer", quantity, "Its weight is 0 beyond this distance.")
+      .unit(d::length)
+      .in(positive)
+      .computed(
+          "0.7 of the smallest of half-length, straight piece at the tip, and distance to other boundaries");
+}
+
 void add_output(Keys& k) {
   const std::vector<std::string> fields = field_names();
   k.add("output", table, "What is written.").always();
@@ -275,6 +310,19 @@ void add_output(Keys& k) {
   k.add("output.picture_fields", choices, "Fields drawn.")
       .one_of(fields)
       .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");
+  k.add(
+      "output.lines", named_tables,
+      "Fields along straight lines at the end of the run, in `lines/NAME.csv`: distance and position first.");
+  k.add("output.lines.*", table, "A line.");
+  k.add("output.lines.*.from", vector, "Its start.").unit(d::length).required().example("\"1.1 1 mm\"");
+  k.add("output.lines.*.to", vector, "Its end.").unit(d::length).required().example("\"2 1 mm\"");
+  k.add("output.lines.*.samples", integer, "Number of points, ends included.")
+      .in({.low = 2, .high = 1e6})
+      .fallback("101");
+  k.add("output.lines.*.fields", choices, "Fields sampled.")
+      .one_of(fields)
+      .required()
+      .example("[\"stress_yy\"]");
   k.add("output.windows", named_tables, "Parts drawn enlarged, beside the whole.");
   k.add("output.windows.*", table, "A window.");
   k.add("output.windows.*.box", vectors, "Two opposite corners.")
@@ -302,6 +350,7 @@ const std::vector<Key>& schema() {
     add_conditions(k);
     add_tools(k);
     add_method(k);
+    add_fracture(k);
     add_output(k);
     return std::move(k.all);
   }();

@@ -44,6 +44,24 @@ template<int dim> void Loads<dim>::evaluate(double time, const Fields<dim>& posi
   }
 }
 
+template<int dim>
+std::vector<typename Loads<dim>::FacetTraction>
+Loads<dim>::facet_tractions(double time, const Fields<dim>& position) const {
+  std::vector<FacetTraction> list;
+  for (const Traction<dim>& traction : tractions_) {
+    Vec<dim> t;
+    for (std::size_t k = 0; k < dim; ++k) t[static_cast<Eigen::Index>(k)] = traction.value[k](time);
+    for (const Facet<dim>& facet : traction.facets) list.push_back({facet, t});
+  }
+  for (const Pressure<dim>& pressure : pressures_)
+    for (const Facet<dim>& facet : pressure.facets) {
+      const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
+      const Vec2 edge(position[0][b] - position[0][a], position[1][b] - position[1][a]);
+      list.push_back({facet, -pressure.value(time) * right_normal(edge).normalized()});
+    }
+  return list;
+}
+
 template class Loads<2>;
 
 } // namespace cnem

@@ -37,6 +37,14 @@ public:
   void evaluate(double time, const Fields<dim>& position, const Field& mass);
   const Fields<dim>& force() const { return force_; }
 
+  /// A traction (Pa) that is uniform on a facet.
+  struct FacetTraction {
+    Facet<dim> facet;
+    Vec<dim> traction;
+  };
+  /// Tractions and pressures on all loaded facets.
+  std::vector<FacetTraction> facet_tractions(double time, const Fields<dim>& position) const;
+
 private:
   std::vector<Traction<dim>> tractions_;
   std::vector<std::vector<double>> traction_share_; ///< area of each facet over its number of nodes

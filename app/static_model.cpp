@@ -1,0 +1,214 @@
+#include "app/static_model.hpp"
+
+#include "core/error.hpp"
+#include "mechanics/kinematics.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace cnem::app {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+std::vector<fracture::CrackTip> tips_of(const io::Case& input, const Cloud<2>& cloud) {
+  std::vector<fracture::CrackPath> paths;
+  for (const io::Crack& crack : input.domain.cracks) paths.push_back({crack.name, crack.points, crack.tips});
+  return fracture::find_tips(cloud, paths);
+}
+
+double enrichment_radius(const io::Case& input, const fracture::CrackTip& tip) {
+  if (!input.fracture.enrichment || input.method.name != io::Method::Name::cnem) return 0.0;
+  const double room = 0.9 * std::min({tip.straight, tip.clearance});
+  return std::min(
+      room, input.fracture.enrichment_radius.value_or(std::max(0.2 * tip.half_length, 2.5 * tip.spacing)));
+}
+
+voronoi::Functions functions_of(const io::Method& method) {
+  return method.functions == io::Method::Functions::laplace ? voronoi::Functions::laplace
+                                                            : voronoi::Functions::sibson;
+}
+
+bool plane_stress(const io::Case& input) {
+  return input.analysis.kinematics == io::Analysis::Kinematics::plane_stress;
+}
+
+} // namespace
+
+StaticModel::StaticModel(const io::Case& in) : input(in), setup(build(in)) {
+  Model<2>& model = setup.model;
+  const Cloud<2>& cloud = model.cloud;
+  approximation = model.method->rebuild(cloud);
+  tips = tips_of(input, cloud);
+  for (const fracture::CrackTip& tip : tips) enrichment_radius.push_back(app::enrichment_radius(input, tip));
+  try {
+    enriched = fracture::enrich(cloud, approximation, tips, enrichment_radius, functions_of(input.method));
+  } catch (const GeometryError& error) { throw input.error("fracture.enrichment", error.what()); }
+  resize_all(position, u(cloud.nodes()));
+  Field mass = approximation.mechanics.node_volume();
+  for (double& m : mass) m *= model.material.density;
+  for (std::size_t i = 0; i < u(cloud.nodes()); ++i)
+    for (std::size_t k = 0; k < 2; ++k) position[k][i] = cloud.position[i][static_cast<Eigen::Index>(k)];
+  model.loads.evaluate(input.time.end, position, mass);
+  force = model.loads.force();
+}
+
+StaticProblem StaticModel::problem() const {
+  return {.operators = enriched.operators,
+          .position = setup.model.cloud.position,
+          .links = enriched.links,
+          .link_points = approximation.mechanics,
+          .elasticity = setup.model.material.elasticity,
+          .out_of_plane = plane_stress(input) ? OutOfPlane::stress_free : OutOfPlane::strain_free,
+          .stabilisation = setup.model.stabilisation,
+          .supports = setup.model.supports,
+          .time = input.time.end,
+          .force = force};
+}
+
+std::vector<fracture::Ring> rings(const io::Fracture& spec, const fracture::CrackTip& tip) {
+  std::vector<fracture::Ring> list = fracture::default_rings(tip);
+  if (!spec.integral_outer && !spec.integral_inner) return list;
+  const double outer =
+      spec.integral_outer.value_or(std::max(list.back().outer, 2.0 * spec.integral_inner.value_or(0.0)));
+  const double inner = spec.integral_inner.value_or(0.5 * outer);
+  const double share = inner / outer;
+  for (fracture::Ring& ring : list) ring = {share * ring.outer, ring.outer};
+  std::erase_if(list, [&](const fracture::Ring& ring) { return ring.outer >= outer; });
+  list.push_back({inner, outer});
+  return list;
+}
+
+std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolution& solution) {
+  const auto& elastic = model.setup.model.material.elasticity;
+  const fracture::PlaneElasticity plane =
+      plane_stress(model.input) ? fracture::PlaneElasticity::plane_stress(elastic.young, elastic.poisson)
+                                : fracture::PlaneElasticity::plane_strain(elastic.young, elastic.poisson);
+  std::vector<fracture::FacetLoad> loads;
+  for (const auto& load : model.setup.model.loads.facet_tractions(model.input.time.end, model.position))
+    loads.push_back({model.setup.model.cloud.position[u(load.facet.node[0])],
+                     model.setup.model.cloud.position[u(load.facet.node[1])], load.traction});
+  const fracture::ElasticField field{model.enriched.operators, model.setup.model.cloud.position,
+                                     model.enriched.position, solution.gradient, solution.stress};
+  std::vector<TipResult> results;
+  for (const fracture::CrackTip& tip : model.tips) {
+    TipResult result;
+    result.name = tip.name;
+    std::vector<fracture::StressIntensity> found;
+    for (const fracture::Ring& ring : rings(model.input.fracture, tip)) {
+      found.push_back(fracture::stress_intensity(tip, ring, plane, field, loads));
+      result.ring = ring;
+    }
+    result.intensity = found.back();
+    const double size = std::hypot(found.back().K_I, found.back().K_II);
+    for (const auto& k : found)
+      if (size > 0.0)
+        result.spread =
+            std::max(result.spread, std::hypot(k.K_I - found.back().K_I, k.K_II - found.back().K_II) / size);
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution& solution) {
+  const Cloud<2>& cloud = model.setup.model.cloud;
+  std::vector<std::string> warnings;
+  for (const io::Crack& crack : model.input.domain.cracks) {
+    std::map<std::int32_t, Vec2> normal; // of nodes on the left face, out of the right one
+    for (const Facet<2>& facet : cloud.facets)
+      if (cloud.piece_names[u(facet.piece)] == crack.name + "+")
+        for (const std::int32_t i : facet.node)
+          normal.try_emplace(i, Vec2::Zero()).first->second +=
+              left_normal(cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])]).normalized();
+    double largest = 0.0, overlap = 0.0;
+    int pairs = 0, closed = 0;
+    std::vector<std::pair<double, Vec2>> openings;
+    for (const auto& twin : cloud.twins)
+      for (const bool swap : {false, true}) {
+        const std::int32_t left = twin[swap ? 1 : 0], right = twin[swap ? 0 : 1];
+        const auto found = normal.find(left);
+        if (found == normal.end()) continue;
+        const Vec2 jump(solution.displacement[0][u(left)] - solution.displacement[0][u(right)],
+                        solution.displacement[1][u(left)] - solution.displacement[1][u(right)]);
+        largest = std::max(largest, jump.norm());
+        openings.emplace_back(jump.dot(found->second.normalized()), cloud.position[u(left)]);
+        break;
+      }
+    Vec2 where = Vec2::Zero();
+    for (const auto& [opening, x] : openings) {
+      ++pairs;
+      if (opening >= -1e-3 * largest) continue;
+      ++closed;
+      if (-opening > overlap) {
+        overlap = -opening;
+        where = x;
+      }
+    }
+    if (closed > 0)
+      warnings.push_back(
+          fmt::format("crack '{}' closes: its faces overlap at {} of {} places, most by {:.3g} m at "
+                      "({:.4g}, {:.4g}) m; a static analysis does not hold them apart",
+                      crack.name, closed, pairs, overlap, where.x(), where.y()));
+  }
+  return warnings;
+}
+
+State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
+  const DiscreteOperators<2>& op = model.approximation.mechanics;
+  State<2> state;
+  state.time = model.input.time.end;
+  const auto nodes = u(op.nodes), points = u(op.points);
+  NodeState<2>& node = state.node;
+  node.reference = node.position = model.position;
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < nodes; ++i) node.position[k][i] += solution.displacement[k][i];
+  resize_all(node.velocity, nodes);
+  node.force = model.force;
+  node.mass = op.node_volume();
+  for (double& m : node.mass) m *= model.setup.model.material.density;
+  node.temperature = model.setup.temperature;
+
+  PointState<2>& point = state.point;
+  Fields<5> gradient;
+  Fields<4> stress;
+  resize_all(gradient, points);
+  resize_all(stress, points);
+  for (std::size_t p = 0; p < u(model.enriched.operators.points); ++p) {
+    const auto cell = u(model.enriched.cell[p]);
+    const double share = model.enriched.operators.volume[p] / op.volume[cell];
+    for (std::size_t k = 0; k < 5; ++k) gradient[k][cell] += share * solution.gradient[k][p];
+    for (std::size_t k = 0; k < 4; ++k) stress[k][cell] += share * solution.stress[k][p];
+  }
+  point.deformation = gradient;
+  for (const std::size_t k : {0U, 3U, 4U})
+    for (double& f : point.deformation[k]) f += 1.0;
+  resize_all(point.piola, points);
+  resize_all(point.elastic, points);
+  for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress, &point.pressure,
+                       &point.stored_energy, &point.plastic_work, &point.dissipation, &point.temperature})
+    field->assign(points, 0.0);
+  point.stress_free.assign(points, 1.0);
+  interpolate<2>(op, node.temperature, point.temperature, 0, points);
+  for (std::size_t p = 0; p < points; ++p) {
+    const double J = jacobian<2>(point.deformation, p);
+    Mat2 F, sigma;
+    F << point.deformation[0][p], point.deformation[1][p], point.deformation[2][p], point.deformation[3][p];
+    sigma << stress[0][p], stress[3][p], stress[3][p], stress[1][p];
+    const Mat2 P = J * sigma * F.inverse().transpose();
+    for (std::size_t k = 0; k < 4; ++k)
+      point.piola[k][p] = P(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2));
+    point.piola[4][p] = J * stress[2][p] / point.deformation[4][p];
+    const double mean = (stress[0][p] + stress[1][p] + stress[2][p]) / 3.0;
+    double deviator = 2.0 * stress[3][p] * stress[3][p];
+    for (std::size_t k = 0; k < 3; ++k) deviator += (stress[k][p] - mean) * (stress[k][p] - mean);
+    point.pressure[p] = -J * mean;
+    point.equivalent_stress[p] = J * std::sqrt(1.5 * deviator);
+  }
+  return state;
+}
+
+} // namespace cnem::app

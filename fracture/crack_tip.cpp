@@ -1,0 +1,114 @@
+#include "fracture/crack_tip.hpp"
+
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+
+namespace cnem::fracture {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
+  const Vec2 d = b - a;
+  const double s = std::clamp((x - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+  return (a + s * d - x).norm();
+}
+
+std::int32_t nearest_node(const Cloud<2>& cloud, const Vec2& x) {
+  std::int32_t best = 0;
+  for (std::int32_t i = 1; i < cloud.nodes(); ++i)
+    if ((cloud.position[u(i)] - x).squaredNorm() < (cloud.position[u(best)] - x).squaredNorm()) best = i;
+  return best;
+}
+
+bool is_face(const std::string& piece, const std::string& crack) {
+  return piece == crack + "+" || piece == crack + "-";
+}
+
+} // namespace
+
+double CrackTip::angle(const Vec2& x) const {
+  const Vec2 l = local(x);
+  return std::atan2(l.y(), l.x());
+}
+
+double CrackTip::angle_of_node(std::int32_t i, const Vec2& x) const {
+  if (face[u(i)] != 0) {
+    // Beyond a kink the faces leave the line θ = ±π; the side still tells which way round to go.
+    const double theta = angle(x);
+    return std::abs(theta) > 0.5 * std::numbers::pi ? std::copysign(std::abs(theta), face[u(i)]) : theta;
+  }
+  return angle(x);
+}
+
+std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPath>& cracks) {
+  std::vector<bool> twinned(u(cloud.nodes()), false);
+  for (const auto& pair : cloud.twins)
+    for (const std::int32_t i : pair) twinned[u(i)] = true;
+  std::vector<CrackTip> tips;
+  for (const CrackPath& crack : cracks) {
+    double length = 0.0;
+    for (std::size_t k = 1; k < crack.points.size(); ++k)
+      length += (crack.points[k] - crack.points[k - 1]).norm();
+    std::vector<CrackTip> mine;
+    for (const bool last : {false, true}) {
+      const Vec2 end = last ? crack.points.back() : crack.points.front();
+      const Vec2 before = last ? crack.points[crack.points.size() - 2] : crack.points[1];
+      CrackTip tip;
+      tip.name = crack.tip_names[last ? 1 : 0];
+      tip.crack = crack.name;
+      tip.node = nearest_node(cloud, end);
+      tip.position = cloud.position[u(tip.node)];
+      if ((tip.position - end).norm() > 1e-6 * length)
+        throw GeometryError(fmt::format("the crack '{}' ends at ({:g}, {:g}) m, where there is no node",
+                                        crack.name, end.x(), end.y()));
+      if (twinned[u(tip.node)]) continue; // a mouth
+      tip.direction = (end - before).normalized();
+      tip.straight = (end - before).norm();
+      tip.face.assign(u(cloud.nodes()), 0);
+      tip.clearance = std::numeric_limits<double>::infinity();
+      double edges = 0.0;
+      for (const Facet<2>& facet : cloud.facets) {
+        const std::string& piece = cloud.piece_names[u(facet.piece)];
+        const Vec2 &a = cloud.position[u(facet.node[0])], &b = cloud.position[u(facet.node[1])];
+        if (!is_face(piece, crack.name)) {
+          tip.clearance = std::min(tip.clearance, distance_to_segment(tip.position, a, b));
+          continue;
+        }
+        for (const std::int32_t i : facet.node) {
+          if (i == tip.node) {
+            edges += 0.5;
+            tip.spacing += 0.5 * (b - a).norm();
+          } else {
+            tip.face[u(i)] = static_cast<std::int8_t>((piece.back() == '+') == last ? 1 : -1);
+          }
+        }
+      }
+      if (edges == 0.0) continue; // on the boundary without faces: not an end of the slit
+      tip.spacing /= edges;
+      mine.push_back(std::move(tip));
+    }
+    for (CrackTip& tip : mine) {
+      tip.half_length = length / static_cast<double>(mine.size());
+      tips.push_back(std::move(tip));
+    }
+  }
+  return tips;
+}
+
+std::array<std::string, 2> tip_names(const Vec2& first, const Vec2& last) {
+  const Vec2 d = last - first;
+  if (std::abs(d.x()) > 1e-9 * d.norm())
+    return d.x() > 0.0 ? std::array<std::string, 2>{"left", "right"}
+                       : std::array<std::string, 2>{"right", "left"};
+  return d.y() > 0.0 ? std::array<std::string, 2>{"bottom", "top"}
+                     : std::array<std::string, 2>{"top", "bottom"};
+}
+
+} // namespace cnem::fracture

@@ -1,0 +1,277 @@
+#include "fracture/enrichment.hpp"
+
+#include "core/error.hpp"
+#include "fracture/williams.hpp"
+#include "voronoi/circumcircles.hpp"
+#include "voronoi/triangulation.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace cnem::fracture {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Gauss-Legendre points and weights on [0, 1].
+struct LineRule {
+  std::vector<double> x, w;
+};
+
+template<unsigned n> LineRule line_rule() {
+  using Rule = boost::math::quadrature::gauss<double, n>;
+  LineRule rule;
+  for (std::size_t k = 0; k < Rule::abscissa().size(); ++k)
+    for (const double sign : {-1.0, 1.0}) {
+      const double x = Rule::abscissa()[k];
+      if (x == 0.0 && sign > 0.0) continue;
+      rule.x.push_back(0.5 + 0.5 * sign * x);
+      rule.w.push_back(0.5 * Rule::weights()[k]);
+    }
+  return rule;
+}
+
+struct QuadraturePoint {
+  Vec2 position;
+  double weight; ///< m²
+};
+
+/// Points on the triangles between the node and the edges of its cell, collapsed towards the node. With
+/// `at_tip` the radius goes with the square of its parameter, which takes out the singularity there.
+std::vector<QuadraturePoint> fan(const CellGeometry<2>& cells, std::size_t cell, const Vec2& apex,
+                                 bool at_tip, const LineRule& rule) {
+  std::vector<QuadraturePoint> points;
+  const auto first = u(cells.begin[cell]), last = u(cells.begin[cell + 1]);
+  for (std::size_t k = first; k < last; ++k) {
+    const Vec2& a = cells.vertex[u(cells.index[k])];
+    const Vec2& b = cells.vertex[u(cells.index[k + 1 < last ? k + 1 : first])];
+    const double twice_area = cross(a - apex, b - apex);
+    if (std::abs(twice_area) < 1e-14 * ((a - apex).squaredNorm() + (b - apex).squaredNorm())) continue;
+    for (std::size_t i = 0; i < rule.x.size(); ++i) {
+      const double rho = at_tip ? rule.x[i] * rule.x[i] : rule.x[i];
+      const double radial = rule.w[i] * rho * (at_tip ? 2.0 * rule.x[i] : 1.0);
+      for (std::size_t j = 0; j < rule.x.size(); ++j)
+        points.push_back({apex + rho * (a + rule.x[j] * (b - a) - apex), twice_area * radial * rule.w[j]});
+    }
+  }
+  return points;
+}
+
+/// Which functions enrich, and where they are felt.
+struct Layout {
+  struct Function {
+    std::size_t tip;
+    std::array<double, branch_count> shift; ///< F_k(x_J)
+    std::int32_t column;                    ///< of the first branch function
+  };
+  std::vector<std::vector<Function>> of_node; ///< [node]
+  std::vector<bool> zone;                     ///< [cell] integrated with Gauss points
+  std::vector<double> tip_distance;           ///< [cell] to the nearest tip, in its spacings
+  std::int32_t columns = 0;
+  int enriched_nodes = 0;
+};
+
+Layout lay_out(const Cloud<2>& cloud, const Approximation<2>& base, const std::vector<CrackTip>& tips,
+               const std::vector<double>& radius) {
+  const auto nodes = u(cloud.nodes());
+  Layout layout;
+  layout.of_node.resize(nodes);
+  layout.zone.assign(nodes, false);
+  layout.tip_distance.assign(nodes, 1e9);
+  layout.columns = cloud.nodes();
+  for (std::size_t i = 0; i < nodes; ++i)
+    for (std::size_t t = 0; t < tips.size(); ++t) {
+      const double r = (cloud.position[i] - tips[t].position).norm();
+      layout.tip_distance[i] = std::min(layout.tip_distance[i], r / tips[t].spacing);
+      if (r > radius[t] || radius[t] <= 0.0) continue;
+      layout.of_node[i].push_back(
+          {t, branch(r, tips[t].angle_of_node(static_cast<std::int32_t>(i), cloud.position[i])),
+           layout.columns});
+      layout.columns += static_cast<std::int32_t>(branch_count);
+      layout.zone[i] = true;
+    }
+  layout.enriched_nodes = static_cast<int>(std::count(layout.zone.begin(), layout.zone.end(), true));
+  // φ_J is felt in the cells of its neighbours and may reach into those of theirs.
+  for (int ring = 0; ring < 2; ++ring) {
+    std::vector<bool> wider = layout.zone;
+    for (std::size_t i = 0; i < nodes; ++i)
+      if (layout.zone[i])
+        for (auto l = u(base.links.begin[i]); l < u(base.links.begin[i + 1]); ++l)
+          wider[u(base.links.neighbour[l])] = true;
+    layout.zone = std::move(wider);
+  }
+  return layout;
+}
+
+/// Rows in the making.
+struct Rows {
+  EnrichedOperators& result;
+  DiscreteOperators<2>& op = result.operators;
+
+  void entry(std::int32_t column, const Vec2& b) {
+    op.node.push_back(column);
+    op.gradient[0].push_back(b.x());
+    op.gradient[1].push_back(b.y());
+  }
+  void close(std::int32_t cell, double volume, const Vec2& position) {
+    op.volume.push_back(volume);
+    op.row_begin.push_back(static_cast<std::int32_t>(op.node.size()));
+    result.position.push_back(position);
+    result.cell.push_back(cell);
+    ++op.points;
+  }
+};
+
+Vec2 centroid(const CellGeometry<2>& cells, std::size_t cell) {
+  const auto first = u(cells.begin[cell]), last = u(cells.begin[cell + 1]);
+  const Vec2 origin = cells.vertex[u(cells.index[first])];
+  double twice_area = 0.0;
+  Vec2 moment = Vec2::Zero();
+  for (std::size_t k = first; k < last; ++k) {
+    const Vec2 a = cells.vertex[u(cells.index[k])] - origin;
+    const Vec2 b = cells.vertex[u(cells.index[k + 1 < last ? k + 1 : first])] - origin;
+    twice_area += cross(a, b);
+    moment += cross(a, b) * (a + b) / 3.0;
+  }
+  return origin + moment / twice_area;
+}
+
+void copy_cell(const DiscreteOperators<2>& base, std::size_t cell, const Vec2& position, Rows& rows) {
+  for (auto e = u(base.row_begin[cell]); e < u(base.row_begin[cell + 1]); ++e)
+    rows.entry(base.node[e], {base.gradient[0][e], base.gradient[1][e]});
+  rows.close(static_cast<std::int32_t>(cell), base.volume[cell], position);
+}
+
+/// Functions and gradients at the points of one cell.
+struct Sample {
+  QuadraturePoint point;
+  std::vector<std::int32_t> node;
+  std::vector<double> value;
+  std::vector<Vec2> gradient;
+};
+
+void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& tips, const Layout& layout,
+                    std::size_t cell, const std::vector<QuadraturePoint>& points,
+                    voronoi::NaturalNeighbours& neighbours, voronoi::Functions functions, std::int32_t hint,
+                    Rows& rows) {
+  const DiscreteOperators<2>& op = base.mechanics;
+  double area = 0.0;
+  for (const QuadraturePoint& point : points) area += point.weight;
+  const double to_volume = op.volume[cell] / area;
+  std::vector<Sample> samples;
+  std::map<std::int32_t, Vec2> correction; // V b − ∫ ∇φ, then per volume
+  for (auto e = u(op.row_begin[cell]); e < u(op.row_begin[cell + 1]); ++e)
+    correction[op.node[e]] = op.volume[cell] * Vec2(op.gradient[0][e], op.gradient[1][e]);
+  for (QuadraturePoint point : points) {
+    point.weight *= to_volume;
+    neighbours.evaluate_with_gradients(functions, point.position, hint);
+    Sample& sample = samples.emplace_back();
+    sample.point = point;
+    sample.node.assign(neighbours.nodes().begin(), neighbours.nodes().end());
+    sample.value.assign(neighbours.values().begin(), neighbours.values().end());
+    sample.gradient.assign(neighbours.gradients().begin(), neighbours.gradients().end());
+    for (std::size_t k = 0; k < sample.node.size(); ++k) {
+      const auto [entry, fresh] = correction.try_emplace(sample.node[k], Vec2::Zero());
+      entry->second -= point.weight * sample.gradient[k];
+    }
+  }
+  for (auto& [node, sum] : correction) sum /= op.volume[cell];
+
+  for (const Sample& sample : samples) {
+    std::map<std::int32_t, std::pair<double, Vec2>> phi;
+    for (const auto& [node, constant] : correction) phi[node] = {0.0, constant};
+    for (std::size_t k = 0; k < sample.node.size(); ++k) {
+      phi[sample.node[k]].first = sample.value[k];
+      phi[sample.node[k]].second += sample.gradient[k];
+    }
+    for (const auto& [node, f] : phi) rows.entry(node, f.second);
+    for (const auto& [node, f] : phi)
+      for (const Layout::Function& function : layout.of_node[u(node)]) {
+        const CrackTip& tip = tips[function.tip];
+        const double r = (sample.point.position - tip.position).norm();
+        const double theta = tip.angle(sample.point.position);
+        const auto F = branch(r, theta);
+        const auto dF = branch_gradient(r, theta);
+        for (std::size_t k = 0; k < branch_count; ++k) {
+          const Vec2 slope = dF[k].x() * tip.direction + dF[k].y() * left_normal(tip.direction);
+          rows.entry(function.column + static_cast<std::int32_t>(k),
+                     f.second * (F[k] - function.shift[k]) + f.first * slope);
+        }
+      }
+    rows.close(static_cast<std::int32_t>(cell), sample.point.weight, sample.point.position);
+  }
+}
+
+StabilisationLinks<2> links_outside(const StabilisationLinks<2>& all, const std::vector<bool>& zone) {
+  StabilisationLinks<2> links;
+  links.begin.push_back(0);
+  for (std::size_t i = 0; i < zone.size(); ++i) {
+    for (auto l = u(all.begin[i]); l < u(all.begin[i + 1]); ++l)
+      if (!zone[i] && !zone[u(all.neighbour[l])]) {
+        links.neighbour.push_back(all.neighbour[l]);
+        links.weight.push_back(all.weight[l]);
+      }
+    links.begin.push_back(static_cast<std::int32_t>(links.neighbour.size()));
+  }
+  return links;
+}
+
+} // namespace
+
+EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
+                         const std::vector<CrackTip>& tips, const std::vector<double>& radius,
+                         voronoi::Functions functions) {
+  EnrichedOperators result;
+  const bool wanted = std::any_of(radius.begin(), radius.end(), [](double r) { return r > 0.0; });
+  if (!wanted) {
+    result.operators = base.mechanics;
+    result.links = base.links;
+    for (std::size_t p = 0; p < u(base.mechanics.points); ++p) {
+      result.position.push_back(centroid(base.cells, p));
+      result.cell.push_back(static_cast<std::int32_t>(p));
+    }
+    return result;
+  }
+  if (!base.mechanics.nodal)
+    throw InputError("enrichment needs natural-neighbour functions: expected method.name = \"cnem\"");
+  const Layout layout = lay_out(cloud, base, tips, radius);
+  const auto mesh = voronoi::triangulate(cloud);
+  const auto circles = voronoi::circumcircles(cloud, mesh);
+  voronoi::NaturalNeighbours neighbours(cloud, mesh, circles);
+  const LineRule near_rule = line_rule<8>(), far_rule = line_rule<5>();
+  constexpr double near = 3.5; // spacings of the tip
+
+  Rows rows{result};
+  DiscreteOperators<2>& op = result.operators;
+  op.nodes = layout.columns;
+  op.row_begin.push_back(0);
+  for (std::size_t i = 0; i < u(cloud.nodes()); ++i) {
+    if (!layout.zone[i]) {
+      copy_cell(base.mechanics, i, centroid(base.cells, i), rows);
+      continue;
+    }
+    const bool at_tip = std::any_of(tips.begin(), tips.end(), [&](const CrackTip& tip) {
+      return tip.node == static_cast<std::int32_t>(i);
+    });
+    try {
+      integrate_cell(
+          base, tips, layout, i,
+          fan(base.cells, i, cloud.position[i], at_tip, layout.tip_distance[i] < near ? near_rule : far_rule),
+          neighbours, functions, mesh.triangle_of_node[i], rows);
+    } catch (const GeometryError& error) {
+      throw GeometryError(fmt::format("the cell of the node at ({:g}, {:g}) m near a crack tip cannot be "
+                                      "integrated ({}): refine the cloud there or leave enrichment out",
+                                      cloud.position[i].x(), cloud.position[i].y(), error.what()));
+    }
+  }
+  op.build_transpose();
+  result.links = links_outside(base.links, layout.zone);
+  result.enriched_nodes = layout.enriched_nodes;
+  return result;
+}
+
+} // namespace cnem::fracture

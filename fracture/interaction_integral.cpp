@@ -1,0 +1,96 @@
+#include "fracture/interaction_integral.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cnem::fracture {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+double plateau(const Ring& ring, double r) {
+  return std::clamp((ring.outer - r) / (ring.outer - ring.inner), 0.0, 1.0);
+}
+
+/// ∫ t·u^a_,1 q dΓ on one facet: the substitution s = ξ² takes out the singularity at an end on the tip.
+double facet_integral(const CrackTip& tip, const Ring& ring, const PlaneElasticity& elasticity, int mode,
+                      const FacetLoad& load, const Mat2& to_frame) {
+  constexpr std::array<double, 4> x{0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                    0.9305681557970263};
+  constexpr std::array<double, 4> w{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                    0.1739274225687269};
+  const bool from_nearer = (load.from - tip.position).norm() < (load.to - tip.position).norm();
+  const Vec2 near = from_nearer ? load.from : load.to, far = from_nearer ? load.to : load.from;
+  const double length = (far - near).norm();
+  // The side of the facet: material lies on the left of from → to.
+  const Vec2 inward = left_normal(load.to - load.from).normalized();
+  const Vec2 t = to_frame * load.traction;
+  double sum = 0.0;
+  for (std::size_t g = 0; g < 4; ++g) {
+    const double s = x[g] * x[g];
+    const Vec2 point = near + s * (far - near);
+    const double r = (point - tip.position).norm();
+    const double theta = tip.angle(point + 1e-9 * length * inward);
+    sum += w[g] * 2.0 * x[g] * length * plateau(ring, r) *
+           t.dot(tip_field(mode, elasticity, r, theta).gradient.col(0));
+  }
+  return sum;
+}
+
+} // namespace
+
+StressIntensity stress_intensity(const CrackTip& tip, const Ring& ring, const PlaneElasticity& elasticity,
+                                 const ElasticField& field, const std::vector<FacetLoad>& loads) {
+  const DiscreteOperators<2>& op = field.operators;
+  Mat2 to_frame;
+  to_frame.row(0) = tip.direction.transpose();
+  to_frame.row(1) = left_normal(tip.direction).transpose();
+  std::vector<double> q(field.node.size());
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = plateau(ring, (field.node[i] - tip.position).norm());
+
+  std::array<double, 2> sum{0.0, 0.0};
+  for (std::size_t p = 0; p < u(op.points); ++p) {
+    Vec2 dq = Vec2::Zero();
+    bool touched = false;
+    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
+      const auto i = u(op.node[e]);
+      if (i >= q.size() || q[i] == 0.0) continue;
+      touched = true;
+      dq += q[i] * Vec2(op.gradient[0][e], op.gradient[1][e]);
+    }
+    if (!touched || dq.squaredNorm() == 0.0) continue;
+    const Vec2 slope = to_frame * dq;
+    Mat2 gradient, stress;
+    gradient << field.gradient[0][p], field.gradient[1][p], field.gradient[2][p], field.gradient[3][p];
+    stress << field.stress[0][p], field.stress[3][p], field.stress[3][p], field.stress[1][p];
+    gradient = to_frame * gradient * to_frame.transpose();
+    stress = to_frame * stress * to_frame.transpose();
+    const double r = (field.position[p] - tip.position).norm(), theta = tip.angle(field.position[p]);
+    if (r == 0.0) continue;
+    for (int mode = 0; mode < 2; ++mode) {
+      const TipField unit = tip_field(mode, elasticity, r, theta);
+      const Vec2 flow = stress * unit.gradient.col(0) + unit.stress * gradient.col(0);
+      const double mixed = unit.stress.cwiseProduct(gradient).sum();
+      sum[static_cast<std::size_t>(mode)] += op.volume[p] * (flow.dot(slope) - mixed * slope.x());
+    }
+  }
+  for (const FacetLoad& load : loads) {
+    const double nearest = std::min((load.from - tip.position).norm(), (load.to - tip.position).norm());
+    if (nearest >= ring.outer || load.traction.squaredNorm() == 0.0) continue;
+    for (int mode = 0; mode < 2; ++mode)
+      sum[static_cast<std::size_t>(mode)] -= facet_integral(tip, ring, elasticity, mode, load, to_frame);
+  }
+  return {0.5 * elasticity.effective * sum[0], 0.5 * elasticity.effective * sum[1]};
+}
+
+std::vector<Ring> default_rings(const CrackTip& tip) {
+  const double room = std::min({tip.half_length, tip.straight, tip.clearance});
+  std::vector<Ring> rings;
+  for (const double factor : {0.55, 0.7, 0.85, 1.0})
+    rings.push_back({0.5 * factor * 0.7 * room, factor * 0.7 * room});
+  return rings;
+}
+
+} // namespace cnem::fracture
