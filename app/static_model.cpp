@@ -25,7 +25,7 @@ double enrichment_radius(const io::Case& input, const fracture::CrackTip& tip) {
   if (!input.fracture.enrichment || input.method.name != io::Method::Name::cnem) return 0.0;
   const double room = 0.9 * std::min({tip.straight, tip.clearance});
   return std::min(
-      room, input.fracture.enrichment_radius.value_or(std::max(0.2 * tip.half_length, 2.5 * tip.spacing)));
+      room, input.fracture.enrichment_radius.value_or(std::max(0.3 * tip.half_length, 2.5 * tip.spacing)));
 }
 
 voronoi::Functions functions_of(const io::Method& method) {

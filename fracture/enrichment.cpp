@@ -69,7 +69,7 @@ struct Layout {
     std::int32_t column;                    ///< of the first branch function
   };
   std::vector<std::vector<Function>> of_node; ///< [node]
-  std::vector<bool> zone;                     ///< [cell] integrated with Gauss points
+  std::vector<bool> enriched;                 ///< [cell] where an enrichment function may be felt
   std::vector<double> tip_distance;           ///< [cell] to the nearest tip, in its spacings
   std::int32_t columns = 0;
   int enriched_nodes = 0;
@@ -80,7 +80,7 @@ Layout lay_out(const Cloud<2>& cloud, const Approximation<2>& base, const std::v
   const auto nodes = u(cloud.nodes());
   Layout layout;
   layout.of_node.resize(nodes);
-  layout.zone.assign(nodes, false);
+  layout.enriched.assign(nodes, false);
   layout.tip_distance.assign(nodes, 1e9);
   layout.columns = cloud.nodes();
   for (std::size_t i = 0; i < nodes; ++i)
@@ -92,17 +92,17 @@ Layout lay_out(const Cloud<2>& cloud, const Approximation<2>& base, const std::v
           {t, branch(r, tips[t].angle_of_node(static_cast<std::int32_t>(i), cloud.position[i])),
            layout.columns});
       layout.columns += static_cast<std::int32_t>(branch_count);
-      layout.zone[i] = true;
+      layout.enriched[i] = true;
     }
-  layout.enriched_nodes = static_cast<int>(std::count(layout.zone.begin(), layout.zone.end(), true));
+  layout.enriched_nodes = static_cast<int>(std::count(layout.enriched.begin(), layout.enriched.end(), true));
   // φ_J is felt in the cells of its neighbours and may reach into those of theirs.
   for (int ring = 0; ring < 2; ++ring) {
-    std::vector<bool> wider = layout.zone;
+    std::vector<bool> wider = layout.enriched;
     for (std::size_t i = 0; i < nodes; ++i)
-      if (layout.zone[i])
+      if (layout.enriched[i])
         for (auto l = u(base.links.begin[i]); l < u(base.links.begin[i + 1]); ++l)
           wider[u(base.links.neighbour[l])] = true;
-    layout.zone = std::move(wider);
+    layout.enriched = std::move(wider);
   }
   return layout;
 }
@@ -138,12 +138,6 @@ Vec2 centroid(const CellGeometry<2>& cells, std::size_t cell) {
     moment += cross(a, b) * (a + b) / 3.0;
   }
   return origin + moment / twice_area;
-}
-
-void copy_cell(const DiscreteOperators<2>& base, std::size_t cell, const Vec2& position, Rows& rows) {
-  for (auto e = u(base.row_begin[cell]); e < u(base.row_begin[cell + 1]); ++e)
-    rows.entry(base.node[e], {base.gradient[0][e], base.gradient[1][e]});
-  rows.close(static_cast<std::int32_t>(cell), base.volume[cell], position);
 }
 
 /// Functions and gradients at the points of one cell.
@@ -182,15 +176,11 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
   for (auto& [node, sum] : correction) sum /= op.volume[cell];
 
   for (const Sample& sample : samples) {
-    std::map<std::int32_t, std::pair<double, Vec2>> phi;
-    for (const auto& [node, constant] : correction) phi[node] = {0.0, constant};
-    for (std::size_t k = 0; k < sample.node.size(); ++k) {
-      phi[sample.node[k]].first = sample.value[k];
-      phi[sample.node[k]].second += sample.gradient[k];
-    }
-    for (const auto& [node, f] : phi) rows.entry(node, f.second);
-    for (const auto& [node, f] : phi)
-      for (const Layout::Function& function : layout.of_node[u(node)]) {
+    std::map<std::int32_t, Vec2> slope_of = correction;
+    for (std::size_t k = 0; k < sample.node.size(); ++k) slope_of[sample.node[k]] += sample.gradient[k];
+    for (const auto& [node, slope] : slope_of) rows.entry(node, slope);
+    for (std::size_t j = 0; j < sample.node.size(); ++j)
+      for (const Layout::Function& function : layout.of_node[u(sample.node[j])]) {
         const CrackTip& tip = tips[function.tip];
         const double r = (sample.point.position - tip.position).norm();
         const double theta = tip.angle(sample.point.position);
@@ -199,25 +189,11 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
         for (std::size_t k = 0; k < branch_count; ++k) {
           const Vec2 slope = dF[k].x() * tip.direction + dF[k].y() * left_normal(tip.direction);
           rows.entry(function.column + static_cast<std::int32_t>(k),
-                     f.second * (F[k] - function.shift[k]) + f.first * slope);
+                     sample.gradient[j] * (F[k] - function.shift[k]) + sample.value[j] * slope);
         }
       }
     rows.close(static_cast<std::int32_t>(cell), sample.point.weight, sample.point.position);
   }
-}
-
-StabilisationLinks<2> links_outside(const StabilisationLinks<2>& all, const std::vector<bool>& zone) {
-  StabilisationLinks<2> links;
-  links.begin.push_back(0);
-  for (std::size_t i = 0; i < zone.size(); ++i) {
-    for (auto l = u(all.begin[i]); l < u(all.begin[i + 1]); ++l)
-      if (!zone[i] && !zone[u(all.neighbour[l])]) {
-        links.neighbour.push_back(all.neighbour[l]);
-        links.weight.push_back(all.weight[l]);
-      }
-    links.begin.push_back(static_cast<std::int32_t>(links.neighbour.size()));
-  }
-  return links;
 }
 
 } // namespace
@@ -242,7 +218,7 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
   const auto mesh = voronoi::triangulate(cloud);
   const auto circles = voronoi::circumcircles(cloud, mesh);
   voronoi::NaturalNeighbours neighbours(cloud, mesh, circles);
-  const LineRule near_rule = line_rule<8>(), far_rule = line_rule<5>();
+  const LineRule tip_rule = line_rule<8>(), enriched_rule = line_rule<5>(), plain_rule = line_rule<2>();
   constexpr double near = 3.5; // spacings of the tip
 
   Rows rows{result};
@@ -250,18 +226,16 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
   op.nodes = layout.columns;
   op.row_begin.push_back(0);
   for (std::size_t i = 0; i < u(cloud.nodes()); ++i) {
-    if (!layout.zone[i]) {
-      copy_cell(base.mechanics, i, centroid(base.cells, i), rows);
-      continue;
-    }
     const bool at_tip = std::any_of(tips.begin(), tips.end(), [&](const CrackTip& tip) {
       return tip.node == static_cast<std::int32_t>(i);
     });
     try {
-      integrate_cell(
-          base, tips, layout, i,
-          fan(base.cells, i, cloud.position[i], at_tip, layout.tip_distance[i] < near ? near_rule : far_rule),
-          neighbours, functions, mesh.triangle_of_node[i], rows);
+      integrate_cell(base, tips, layout, i,
+                     fan(base.cells, i, cloud.position[i], at_tip,
+                         layout.tip_distance[i] < near ? tip_rule
+                         : layout.enriched[i]          ? enriched_rule
+                                                       : plain_rule),
+                     neighbours, functions, mesh.triangle_of_node[i], rows);
     } catch (const GeometryError& error) {
       throw GeometryError(fmt::format("the cell of the node at ({:g}, {:g}) m near a crack tip cannot be "
                                       "integrated ({}): refine the cloud there or leave enrichment out",
@@ -269,7 +243,7 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
     }
   }
   op.build_transpose();
-  result.links = links_outside(base.links, layout.zone);
+  result.links.begin.assign(u(cloud.nodes()) + 1, 0);
   result.enriched_nodes = layout.enriched_nodes;
   return result;
 }

@@ -13,15 +13,16 @@ namespace cnem::fracture {
 /// Operators whose columns are the nodes followed by the enrichment functions ψ = φ_J (F_k(x) − F_k(x_J)) of
 /// the nodes J within a fixed radius of a tip. Shifted, they vanish at all nodes.
 ///
-/// Stress points are the cells of the base, except near enriched nodes: those cells are integrated with Gauss
-/// points on the triangles between node and cell edges, since one point has three strains for up to ten
-/// unknowns of a node. There ∇φ_J is corrected by a constant per cell so that its mean is the smoothed
-/// gradient of the base: the operators stay exact on linear fields and keep the patch test.
+/// All cells are integrated with Gauss points on the triangles between node and cell edges: near a tip one
+/// point has three strains for up to ten unknowns of a node, and further out smoothing makes the graded cells
+/// around it too soft (docs/theory.md). ∇φ_J is corrected by a constant per cell so that its mean is the
+/// smoothed gradient of the base: the operators stay exact on linear fields and keep the patch test. Weak
+/// modes are gone, and the stabilisation with them.
 struct EnrichedOperators {
   DiscreteOperators<2> operators;
   std::vector<Vec2> position;     ///< [point] m; of cells their centroid
   std::vector<std::int32_t> cell; ///< [point] stress point of the base that it is part of
-  StabilisationLinks<2> links;    ///< those of the base with neither end near a tip
+  StabilisationLinks<2> links;    ///< those of the base; none with Gauss points
   int enriched_nodes = 0;
 };
 

@@ -238,7 +238,8 @@ void add_method(Keys& k) {
       .fallback("\"sibson\"");
   k.add("method.gauss_points", integer, "Per edge of a Voronoi cell (cnem).")
       .in({.low = 1, .high = 3})
-      .fallback("1");
+      .example("2")
+      .computed("1; in static analyses 3");
   k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem).")
       .in(not_negative)
       .fallback("0.05");
@@ -275,7 +276,7 @@ void add_fracture(Keys& k) {
   k.add("fracture.enrichment_radius", quantity, "Nodes within this distance of a tip are enriched.")
       .unit(d::length)
       .in(positive)
-      .computed("a fifth of the half-length of the crack, at least 2.5 spacings there");
+      .computed("0.3 of the half-length of the crack, at least 2.5 spacings there");
   k.add("fracture.integral", table, "Domain of the interaction integral.").always();
   k.add("fracture.integral.inner", quantity, "Its weight is 1 within this distance of the tip.")
       .unit(d::length)

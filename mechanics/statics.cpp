@@ -163,20 +163,18 @@ SparseMatrix matrix(std::size_t rows, Eigen::Index columns, const Triplets& entr
   return m;
 }
 
-/// Tᵀ K T: isotropic elasticity as Bᵀ (V D) B, and the edge defect.
-SparseMatrix stiffness(const StaticProblem& problem, const FreeUnknowns& unknowns) {
+/// Σ Bᵀ (V D) B over the points [begin, end).
+SparseMatrix elastic_stiffness(const StaticProblem& problem, const FreeUnknowns& unknowns, std::size_t begin,
+                               std::size_t end) {
   const DiscreteOperators<2>& op = problem.operators;
   const double lambda = lame_lambda(problem), mu = problem.elasticity.mu();
   Triplets strain, stress; // rows per point: xx, yy, and the engineering shear
-  const auto points = static_cast<std::size_t>(op.points);
-  strain.reserve(4 * op.node.size());
-  stress.reserve(6 * op.node.size());
-  for (std::size_t p = 0; p < points; ++p)
+  for (std::size_t p = begin; p < end; ++p)
     for (auto e = static_cast<std::size_t>(op.row_begin[p]);
          e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
       const auto a = static_cast<std::size_t>(op.node[e]);
       const double bx = op.gradient[0][e], by = op.gradient[1][e], V = op.volume[p];
-      const auto row = static_cast<int>(3 * p);
+      const auto row = static_cast<int>(3 * (p - begin));
       const double b[2][3] = {{bx, 0.0, by}, {0.0, by, bx}};
       for (std::size_t k = 0; k < 2; ++k)
         unknowns.each(a, k, [&](int q, double c) {
@@ -189,8 +187,17 @@ SparseMatrix stiffness(const StaticProblem& problem, const FreeUnknowns& unknown
           if (s[2] != 0.0) stress.emplace_back(row + 2, q, V * c * mu * s[2]);
         });
     }
-  const SparseMatrix B = matrix(3 * points, unknowns.size(), strain);
-  SparseMatrix K = B.transpose() * matrix(3 * points, unknowns.size(), stress);
+  const std::size_t rows = 3 * (end - begin);
+  return matrix(rows, unknowns.size(), strain).transpose() * matrix(rows, unknowns.size(), stress);
+}
+
+/// Tᵀ K T with the edge defect. Points go in portions, so that memory follows K and not their number.
+SparseMatrix stiffness(const StaticProblem& problem, const FreeUnknowns& unknowns) {
+  constexpr std::size_t portion = 50000;
+  const auto points = static_cast<std::size_t>(problem.operators.points);
+  SparseMatrix K(unknowns.size(), unknowns.size());
+  for (std::size_t begin = 0; begin < points; begin += portion)
+    K += elastic_stiffness(problem, unknowns, begin, std::min(begin + portion, points));
   Triplets defect;
   const std::size_t rows = each_defect(problem, [&](std::size_t row, std::size_t a, double value) {
     for (std::size_t k = 0; k < 2; ++k)
