@@ -238,8 +238,7 @@ void add_method(Keys& k) {
       .fallback("\"sibson\"");
   k.add("method.gauss_points", integer, "Per edge of a Voronoi cell (cnem).")
       .in({.low = 1, .high = 3})
-      .example("2")
-      .computed("1; in static analyses 3");
+      .fallback("2");
   k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem).")
       .in(not_negative)
       .fallback("0.05");
