@@ -132,7 +132,7 @@ TEST(BadCase, TimeFunctions) {
   expect_parts(with("{ x = \"1 m\" }"), {"found '1 m', which is a length, expected a velocity"});
   expect_parts(with("{ x = \"1 m/s\", value = \"0 1 m/s\" }"), {"unknown part 'value', expected x, y"});
   expect_parts(with("{ x = { value = \"1 m/s\", ramp = \"0 us\" } }"),
-               {"found a ramp of \"0 us\", expected a time such as"});
+               {"found a ramp of \"0 us\", expected a time > 0 s"});
   expect_parts(with("{ x = { value = \"1 m/s\", from = \"0 m/s\" } }"), {"'from' without 'ramp'"});
   expect_parts(with("{ x = { times = \"0 1 us\", values = \"0 1 2 m/s\" } }"), {"as many times as values"});
   expect_parts(with("{ x = { times = \"0 0 us\", values = \"0 1 m/s\" } }"), {"must increase"});
@@ -146,7 +146,7 @@ TEST(BadCase, Ranges) {
     return refusal_of(replaced(small_case, from, to));
   };
   expect_parts(with("\"20 us\"", "\"-1 us\""),
-               {"case.toml:2:7: key 'time.end': found \"-1 us\", expected a time such as"});
+               {"case.toml:2:7: key 'time.end': found \"-1 us\", expected a time > 0 s"});
   expect_parts(with("poisson = 0.3", "poisson = 0.5"), {"found 0.5, expected a plain number in (-1, 0.5)"});
   expect_parts(with("poisson = 0.3", "poisson = nan"), {"found nan, expected a finite number"});
   expect_parts(with("\"7850 kg/m3\"", "\"0 kg/m3\""), {"expected a density > 0 kg/m3"});
