@@ -19,8 +19,10 @@ void add_general(Keys& k) {
       .one_of({"explicit", "static"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
-        "Per unit thickness: no strain out of the plane, or no stress (static only).")
-      .one_of({"plane strain", "plane stress"})
+        "Per unit thickness: no strain out of the plane, or no stress (static only). `axisymmetric` (explicit only): "
+        "a body of revolution about x = 0, x the radius and y the axial coordinate; nodes on the axis stay on it, "
+        "and masses, forces and energies are those of the whole body.")
+      .one_of({"plane strain", "plane stress", "axisymmetric"})
       .fallback("\"plane strain\"");
   k.add("analysis.thermal", boolean,
         "Solve for temperatures: heat of plastic work and friction, conduction. Without, the temperature "
