@@ -69,7 +69,7 @@ TEST_F(Axisymmetric, statics_refuses_it) {
 }
 
 TEST_F(Axisymmetric, nodes_on_the_axis_are_held_and_at_least_two_gauss_points_taken) {
-  const Setup setup = build(read({}));
+  const app::Setup setup = build(read({}));
   const auto& supports = setup.model.supports.list();
   ASSERT_EQ(supports.size(), 2U);
   EXPECT_EQ(supports[0].name, "axis");
