@@ -196,9 +196,10 @@ void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& 
       r = 0.0;
       axis.push_back(i);
     } else if (r < 0.0) {
-      throw input.error("domain", fmt::format("found a workpiece that reaches to x = {:.6g} m, expected x >= 0: an "
-                                              "axisymmetric body turns about x = 0",
-                                              r));
+      throw input.error("domain",
+                        fmt::format("found a workpiece that reaches to x = {:.6g} m, expected x >= 0: an "
+                                    "axisymmetric body turns about x = 0",
+                                    r));
     }
   }
   if (!axis.empty())
@@ -229,7 +230,8 @@ Space space_of(const io::Case& input) {
 }
 
 std::unique_ptr<Discretisation<2>> make_method(const io::Method& method, Space space) {
-  if (method.name == io::Method::Name::fe_triangles) return std::make_unique<alternatives::FeTriangles>(space);
+  if (method.name == io::Method::Name::fe_triangles)
+    return std::make_unique<alternatives::FeTriangles>(space);
   scni::Options options;
   options.functions =
       method.functions == io::Method::Functions::laplace ? scni::Functions::laplace : scni::Functions::sibson;
@@ -277,8 +279,8 @@ Setup build(const io::Case& input) {
   for (std::size_t k = 0; k < 2; ++k) acceleration[k] = input.loads.body_force[k].value_or(TimeTable());
   model.loads =
       Loads<2>(std::move(all.tractions), std::move(all.pressures), acceleration, model.cloud.position, space);
-  model.heat_boundaries =
-      ThermalBoundaries<2>(std::move(all.temperatures), std::move(all.fluxes), std::move(all.convections), space);
+  model.heat_boundaries = ThermalBoundaries<2>(std::move(all.temperatures), std::move(all.fluxes),
+                                               std::move(all.convections), space);
 
   resize_all(setup.velocity, nodes);
   setup.temperature.assign(nodes, input.initial.temperature);

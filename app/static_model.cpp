@@ -54,7 +54,14 @@ StaticModel::StaticModel(const io::Case& in) : input(in), setup(build(in)) {
   for (std::size_t i = 0; i < u(cloud.nodes()); ++i)
     for (std::size_t k = 0; k < 2; ++k) position[k][i] = cloud.position[i][static_cast<Eigen::Index>(k)];
   model.loads.evaluate(input.time.end, position, mass);
-  force = model.loads.force();
+  for (const auto& load : model.loads.facet_tractions(input.time.end, position))
+    loads.push_back({load.facet.node, cloud.position[u(load.facet.node[0])],
+                     cloud.position[u(load.facet.node[1])], load.traction});
+  Vec2 body_force = Vec2::Zero();
+  for (std::size_t k = 0; k < 2; ++k)
+    if (const auto& acceleration = input.loads.body_force[k])
+      body_force[static_cast<Eigen::Index>(k)] = model.material.density * (*acceleration)(input.time.end);
+  force = fracture::forces_on_functions(enriched, tips, model.loads.force(), loads, body_force);
 }
 
 StaticProblem StaticModel::problem() const {
@@ -88,10 +95,6 @@ std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolut
   const fracture::PlaneElasticity plane =
       plane_stress(model.input) ? fracture::PlaneElasticity::plane_stress(elastic.young, elastic.poisson)
                                 : fracture::PlaneElasticity::plane_strain(elastic.young, elastic.poisson);
-  std::vector<fracture::FacetLoad> loads;
-  for (const auto& load : model.setup.model.loads.facet_tractions(model.input.time.end, model.position))
-    loads.push_back({model.setup.model.cloud.position[u(load.facet.node[0])],
-                     model.setup.model.cloud.position[u(load.facet.node[1])], load.traction});
   const fracture::ElasticField field{model.enriched.operators, model.setup.model.cloud.position,
                                      model.enriched.position, solution.gradient, solution.stress};
   std::vector<TipResult> results;
@@ -100,7 +103,7 @@ std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolut
     result.name = tip.name;
     std::vector<fracture::StressIntensity> found;
     for (const fracture::Ring& ring : rings(model.input.fracture, tip)) {
-      found.push_back(fracture::stress_intensity(tip, ring, plane, field, loads));
+      found.push_back(fracture::stress_intensity(tip, ring, plane, field, model.loads));
       result.ring = ring;
     }
     result.intensity = found.back();
@@ -168,6 +171,7 @@ State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
     for (std::size_t i = 0; i < nodes; ++i) node.position[k][i] += solution.displacement[k][i];
   resize_all(node.velocity, nodes);
   node.force = model.force;
+  for (Field& component : node.force) component.resize(nodes);
   node.mass = op.node_volume();
   for (double& m : node.mass) m *= model.setup.model.material.density;
   node.temperature = model.setup.temperature;

@@ -25,7 +25,8 @@ struct StaticModel {
   std::vector<double> enrichment_radius; ///< [tip] m, 0: none
   fracture::EnrichedOperators enriched;
   Fields<2> position; ///< [k][node] m
-  Fields<2> force;    ///< [k][node] N/m
+  std::vector<fracture::FacetLoad> loads;
+  Fields<2> force; ///< [k][function] N/m
 };
 
 /// K at one tip, from rings of several sizes.

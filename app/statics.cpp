@@ -106,7 +106,7 @@ io::RunStatus make_status(const StaticModel& model, const StaticSolution& soluti
   status.metrics.emplace_back("external_work", solution.external_work);
   status.metrics.emplace_back("largest_displacement", largest_displacement(model, solution));
   status.metrics.emplace_back("condition_number", solution.condition);
-  status.metrics.emplace_back("enriched_nodes", model.enriched.enriched_nodes);
+  status.metrics.emplace_back("enriched_nodes", model.enriched.enriched_nodes());
   return status;
 }
 

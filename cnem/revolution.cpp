@@ -28,8 +28,7 @@ std::vector<Vec2> centroids(const Cloud<2>& cloud, const voronoi::Cells& cells) 
     const std::size_t i = index(piece.cell);
     moment[i] += first_moment(cloud.position[i], a + piece.s0 * (b - a), a + piece.s1 * (b - a));
   }
-  for (std::size_t i = 0; i < moment.size(); ++i)
-    moment[i] = cloud.position[i] + moment[i] / cells.volume[i];
+  for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = cloud.position[i] + moment[i] / cells.volume[i];
   return moment;
 }
 

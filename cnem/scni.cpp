@@ -25,8 +25,7 @@ Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
   const auto triangulation = voronoi::triangulate(cloud);
   const auto circles = voronoi::circumcircles(cloud, triangulation);
   const auto cells = voronoi::constrained_cells(cloud, triangulation, circles);
-  const auto means =
-      facet_means(cloud, triangulation, circles, cells, options_.functions,
+  const auto means = facet_means(cloud, triangulation, circles, cells, options_.functions,
                                  options_.gauss_points, options_.space);
   const auto around = facets_of_cells(cloud.nodes(), cells);
 

@@ -11,9 +11,9 @@ using voronoi::Functions;
 
 struct Options {
   Functions functions = Functions::sibson;
-  /// Per Voronoi edge, 1 to 3; linear fields are exact with each. One point is the cheapest and, on smooth
-  /// problems, the most accurate (tests/unit/cnem/statics_test.cpp), though the furthest from the integral.
-  int gauss_points = 1;
+  /// Per Voronoi edge, 1 to 3; linear fields are exact with each. One point is the cheapest, two are the most
+  /// accurate in elasticity (cases/verification/convergence).
+  int gauss_points = 2;
   Space space = Space::plane; ///< of revolution at least 2 Gauss points are taken
 };
 

@@ -15,15 +15,15 @@ namespace cnem {
 /// the same pattern. Invariants (tests/contract): Σ_J b_pJ = 0; Σ_J x_J ⊗ b_pJ = 1; Σ_J N_pJ = 1; Σ_p V_p =
 /// |Ω|.
 ///
-/// Bodies of revolution add the hoop rows h_pJ = N_pJ/r̄_p, N_pJ = φ_J at the centroid of the cell: Σ_J h_pJ r_J =
-/// r/R. There V_p = 2π r̄_p A_p, and b_pJ is weighted with the radius: V_p b_pJ = 2π (∮ r φ_J n dΓ − e_r A_p
-/// N_pJ).
+/// Bodies of revolution add the hoop rows h_pJ = N_pJ/r̄_p, N_pJ = φ_J at the centroid of the cell: Σ_J h_pJ
+/// r_J = r/R. There V_p = 2π r̄_p A_p, and b_pJ is weighted with the radius: V_p b_pJ = 2π (∮ r φ_J n dΓ − e_r
+/// A_p N_pJ).
 template<int dim> struct DiscreteOperators {
   int points = 0;
   int nodes = 0;
   bool nodal = false; ///< rows are nodes and N is the identity (C-NEM); then `value` is empty
 
-  Field volume;                        ///< [point] V_p in the reference: m² (per unit thickness), m³ in 3D and of revolution
+  Field volume; ///< [point] V_p in the reference: m² (per unit thickness), m³ in 3D and of revolution
   std::vector<std::int32_t> row_begin; ///< [point + 1]
   std::vector<std::int32_t> node;      ///< [entry]
   Fields<dim> gradient;                ///< [k][entry] b_pJ,k, 1/m

@@ -47,6 +47,25 @@ double CrackTip::angle_of_node(std::int32_t i, const Vec2& x) const {
   return angle(x);
 }
 
+std::array<FacetPoint, 4> facet_points(const CrackTip& tip, const FacetLoad& facet) {
+  constexpr std::array<double, 4> x{0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                    0.9305681557970263};
+  constexpr std::array<double, 4> w{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                    0.1739274225687269};
+  const Vec2 edge = facet.to - facet.from;
+  const bool from_nearer = (facet.from - tip.position).norm() < (facet.to - tip.position).norm();
+  std::array<FacetPoint, 4> points;
+  for (std::size_t g = 0; g < 4; ++g) {
+    FacetPoint& point = points[g];
+    point.s = from_nearer ? x[g] * x[g] : 1.0 - x[g] * x[g];
+    point.weight = 2.0 * x[g] * w[g] * edge.norm();
+    point.position = facet.from + point.s * edge;
+    point.r = (point.position - tip.position).norm();
+    point.theta = tip.angle(point.position + 1e-9 * left_normal(edge));
+  }
+  return points;
+}
+
 std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPath>& cracks) {
   std::vector<bool> twinned(u(cloud.nodes()), false);
   for (const auto& pair : cloud.twins)

@@ -41,6 +41,25 @@ struct CrackTip {
   double angle_of_node(std::int32_t i, const Vec2& x) const;
 };
 
+/// A traction on a boundary facet, uniform along it.
+struct FacetLoad {
+  std::array<std::int32_t, 2> node;
+  Vec2 from{0, 0}, to{0, 0}; ///< m, of these nodes; material on the left
+  Vec2 traction{0, 0};       ///< Pa
+};
+
+/// A point of a facet to integrate at.
+struct FacetPoint {
+  double s = 0.0;              ///< along the facet, from `from` (0) to `to` (1)
+  double weight = 0.0;         ///< m
+  Vec2 position{0, 0};         ///< m
+  double r = 0.0, theta = 0.0; ///< in the frame of the tip, on the side of the material
+};
+
+/// Gauss points on a facet seen from a tip; the substitution s = ξ² from the nearer end takes out the root
+/// singularity of a facet that ends at the tip.
+std::array<FacetPoint, 4> facet_points(const CrackTip& tip, const FacetLoad& facet);
+
 /// The tips of the cracks, in the order of the cracks, first point before last. Ends on the boundary are
 /// mouths, not tips. Throws GeometryError when the cloud has no node at a tip.
 std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPath>& cracks);

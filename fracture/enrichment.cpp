@@ -1,7 +1,6 @@
 #include "fracture/enrichment.hpp"
 
 #include "core/error.hpp"
-#include "fracture/williams.hpp"
 #include "voronoi/circumcircles.hpp"
 #include "voronoi/triangulation.hpp"
 
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 
 namespace cnem::fracture {
 
@@ -63,16 +63,10 @@ std::vector<QuadraturePoint> fan(const CellGeometry<2>& cells, std::size_t cell,
 
 /// Which functions enrich, and where they are felt.
 struct Layout {
-  struct Function {
-    std::size_t tip;
-    std::array<double, branch_count> shift; ///< F_k(x_J)
-    std::int32_t column;                    ///< of the first branch function
-  };
-  std::vector<std::vector<Function>> of_node; ///< [node]
-  std::vector<bool> enriched;                 ///< [cell] where an enrichment function may be felt
-  std::vector<double> tip_distance;           ///< [cell] to the nearest tip, in its spacings
+  std::vector<std::vector<EnrichedOperators::Function>> of_node; ///< [node]
+  std::vector<bool> enriched;       ///< [cell] where an enrichment function may be felt
+  std::vector<double> tip_distance; ///< [cell] to the nearest tip, in its spacings
   std::int32_t columns = 0;
-  int enriched_nodes = 0;
 };
 
 Layout lay_out(const Cloud<2>& cloud, const Approximation<2>& base, const std::vector<CrackTip>& tips,
@@ -83,18 +77,16 @@ Layout lay_out(const Cloud<2>& cloud, const Approximation<2>& base, const std::v
   layout.enriched.assign(nodes, false);
   layout.tip_distance.assign(nodes, 1e9);
   layout.columns = cloud.nodes();
-  for (std::size_t i = 0; i < nodes; ++i)
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
     for (std::size_t t = 0; t < tips.size(); ++t) {
-      const double r = (cloud.position[i] - tips[t].position).norm();
-      layout.tip_distance[i] = std::min(layout.tip_distance[i], r / tips[t].spacing);
+      const Vec2& x = cloud.position[u(i)];
+      const double r = (x - tips[t].position).norm();
+      layout.tip_distance[u(i)] = std::min(layout.tip_distance[u(i)], r / tips[t].spacing);
       if (r > radius[t] || radius[t] <= 0.0) continue;
-      layout.of_node[i].push_back(
-          {t, branch(r, tips[t].angle_of_node(static_cast<std::int32_t>(i), cloud.position[i])),
-           layout.columns});
+      layout.of_node[u(i)].push_back({i, t, branch(r, tips[t].angle_of_node(i, x)), layout.columns});
       layout.columns += static_cast<std::int32_t>(branch_count);
-      layout.enriched[i] = true;
+      layout.enriched[u(i)] = true;
     }
-  layout.enriched_nodes = static_cast<int>(std::count(layout.enriched.begin(), layout.enriched.end(), true));
   // φ_J is felt in the cells of its neighbours and may reach into those of theirs.
   for (int ring = 0; ring < 2; ++ring) {
     std::vector<bool> wider = layout.enriched;
@@ -112,8 +104,9 @@ struct Rows {
   EnrichedOperators& result;
   DiscreteOperators<2>& op = result.operators;
 
-  void entry(std::int32_t column, const Vec2& b) {
+  void entry(std::int32_t column, double value, const Vec2& b) {
     op.node.push_back(column);
+    op.value.push_back(value);
     op.gradient[0].push_back(b.x());
     op.gradient[1].push_back(b.y());
   }
@@ -176,11 +169,15 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
   for (auto& [node, sum] : correction) sum /= op.volume[cell];
 
   for (const Sample& sample : samples) {
-    std::map<std::int32_t, Vec2> slope_of = correction;
-    for (std::size_t k = 0; k < sample.node.size(); ++k) slope_of[sample.node[k]] += sample.gradient[k];
-    for (const auto& [node, slope] : slope_of) rows.entry(node, slope);
+    std::map<std::int32_t, std::pair<double, Vec2>> phi;
+    for (const auto& [node, constant] : correction) phi[node] = {0.0, constant};
+    for (std::size_t k = 0; k < sample.node.size(); ++k) {
+      phi[sample.node[k]].first = sample.value[k];
+      phi[sample.node[k]].second += sample.gradient[k];
+    }
+    for (const auto& [node, f] : phi) rows.entry(node, f.first, f.second);
     for (std::size_t j = 0; j < sample.node.size(); ++j)
-      for (const Layout::Function& function : layout.of_node[u(sample.node[j])]) {
+      for (const auto& function : layout.of_node[u(sample.node[j])]) {
         const CrackTip& tip = tips[function.tip];
         const double r = (sample.point.position - tip.position).norm();
         const double theta = tip.angle(sample.point.position);
@@ -188,8 +185,9 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
         const auto dF = branch_gradient(r, theta);
         for (std::size_t k = 0; k < branch_count; ++k) {
           const Vec2 slope = dF[k].x() * tip.direction + dF[k].y() * left_normal(tip.direction);
-          rows.entry(function.column + static_cast<std::int32_t>(k),
-                     sample.gradient[j] * (F[k] - function.shift[k]) + sample.value[j] * slope);
+          const double shifted = F[k] - function.shift[k];
+          rows.entry(function.column + static_cast<std::int32_t>(k), sample.value[j] * shifted,
+                     sample.gradient[j] * shifted + sample.value[j] * slope);
         }
       }
     rows.close(static_cast<std::int32_t>(cell), sample.point.weight, sample.point.position);
@@ -218,8 +216,8 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
   const auto mesh = voronoi::triangulate(cloud);
   const auto circles = voronoi::circumcircles(cloud, mesh);
   voronoi::NaturalNeighbours neighbours(cloud, mesh, circles);
-  const LineRule tip_rule = line_rule<8>(), enriched_rule = line_rule<5>(), plain_rule = line_rule<2>();
-  constexpr double near = 3.5; // spacings of the tip
+  const LineRule tip_rule = line_rule<12>(), enriched_rule = line_rule<5>(), plain_rule = line_rule<2>();
+  constexpr double near = 2.2; // spacings of the tip
 
   Rows rows{result};
   DiscreteOperators<2>& op = result.operators;
@@ -244,8 +242,46 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
   }
   op.build_transpose();
   result.links.begin.assign(u(cloud.nodes()) + 1, 0);
-  result.enriched_nodes = layout.enriched_nodes;
+  for (const auto& list : layout.of_node)
+    result.functions.insert(result.functions.end(), list.begin(), list.end());
   return result;
+}
+
+int EnrichedOperators::enriched_nodes() const {
+  std::set<std::int32_t> nodes;
+  for (const Function& function : functions) nodes.insert(function.node);
+  return static_cast<int>(nodes.size());
+}
+
+Fields<2> forces_on_functions(const EnrichedOperators& enriched, const std::vector<CrackTip>& tips,
+                              const Fields<2>& nodal, const std::vector<FacetLoad>& loads,
+                              const Vec2& body_force) {
+  const DiscreteOperators<2>& op = enriched.operators;
+  Fields<2> force = nodal;
+  for (Field& component : force) component.resize(u(op.nodes), 0.0);
+  const auto add = [&](std::int32_t column, const Vec2& f) {
+    force[0][u(column)] += f.x();
+    force[1][u(column)] += f.y();
+  };
+  for (const EnrichedOperators::Function& function : enriched.functions) {
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(branch_count); ++k) {
+      const auto a = u(function.column + k);
+      double integral = 0.0;
+      for (auto e = u(op.col_begin[a]); e < u(op.col_begin[a + 1]); ++e) integral += op.weighted_value[e];
+      add(function.column + k, integral * body_force);
+    }
+    for (const FacetLoad& load : loads) {
+      if (load.node[0] != function.node && load.node[1] != function.node) continue;
+      for (const FacetPoint& point : facet_points(tips[function.tip], load)) {
+        const double phi = load.node[0] == function.node ? 1.0 - point.s : point.s; // linear on the boundary
+        const auto F = branch(point.r, point.theta);
+        for (std::size_t k = 0; k < branch_count; ++k)
+          add(function.column + static_cast<std::int32_t>(k),
+              point.weight * phi * (F[k] - function.shift[k]) * load.traction);
+      }
+    }
+  }
+  return force;
 }
 
 } // namespace cnem::fracture

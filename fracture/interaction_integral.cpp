@@ -1,7 +1,6 @@
 #include "fracture/interaction_integral.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace cnem::fracture {
@@ -14,28 +13,17 @@ double plateau(const Ring& ring, double r) {
   return std::clamp((ring.outer - r) / (ring.outer - ring.inner), 0.0, 1.0);
 }
 
-/// ∫ t·u^a_,1 q dΓ on one facet: the substitution s = ξ² takes out the singularity at an end on the tip.
+/// ∫ t·u^a_,1 q dΓ on one facet.
 double facet_integral(const CrackTip& tip, const Ring& ring, const PlaneElasticity& elasticity, int mode,
                       const FacetLoad& load, const Mat2& to_frame) {
-  constexpr std::array<double, 4> x{0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
-                                    0.9305681557970263};
-  constexpr std::array<double, 4> w{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
-                                    0.1739274225687269};
-  const bool from_nearer = (load.from - tip.position).norm() < (load.to - tip.position).norm();
-  const Vec2 near = from_nearer ? load.from : load.to, far = from_nearer ? load.to : load.from;
-  const double length = (far - near).norm();
-  // The side of the facet: material lies on the left of from → to.
-  const Vec2 inward = left_normal(load.to - load.from).normalized();
   const Vec2 t = to_frame * load.traction;
+  // q is nodal and linear along the boundary, here as in the domain.
+  const double q_from = plateau(ring, (load.from - tip.position).norm()),
+               q_to = plateau(ring, (load.to - tip.position).norm());
   double sum = 0.0;
-  for (std::size_t g = 0; g < 4; ++g) {
-    const double s = x[g] * x[g];
-    const Vec2 point = near + s * (far - near);
-    const double r = (point - tip.position).norm();
-    const double theta = tip.angle(point + 1e-9 * length * inward);
-    sum += w[g] * 2.0 * x[g] * length * plateau(ring, r) *
-           t.dot(tip_field(mode, elasticity, r, theta).gradient.col(0));
-  }
+  for (const FacetPoint& point : facet_points(tip, load))
+    sum += point.weight * ((1.0 - point.s) * q_from + point.s * q_to) *
+           t.dot(tip_field(mode, elasticity, point.r, point.theta).gradient.col(0));
   return sum;
 }
 

@@ -17,12 +17,6 @@ struct ElasticField {
   const Fields<4>& stress;               ///< [·][point] Pa
 };
 
-/// A traction on a boundary facet, uniform along it.
-struct FacetLoad {
-  Vec2 from, to; ///< m
-  Vec2 traction; ///< Pa
-};
-
 /// q = 1 within `inner` of the tip, falls linearly to 0 at `outer`; m.
 struct Ring {
   double inner = 0.0, outer = 0.0;

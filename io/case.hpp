@@ -185,7 +185,7 @@ struct Method {
   enum class Lagrangian { total, periodic, updated };
   Name name = Name::cnem;
   Functions functions = Functions::sibson;
-  int gauss_points = 1;        ///< per cell edge, 1 to 3
+  int gauss_points = 2;        ///< per cell edge, 1 to 3
   double stabilisation = 0.05; ///< – α of the edge defect; 0: off
   Lagrangian lagrangian = Lagrangian::periodic;
   int rereference_every = 0;        ///< steps (periodic); 0: never by count

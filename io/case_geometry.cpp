@@ -269,6 +269,9 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     tool.friction.coefficient = table.maybe<double>("friction.coefficient").value_or(0.0);
     tool.friction.shear_factor = table.maybe<double>("friction.shear_factor").value_or(1.0);
     if (const Setting* heat = table.find("heat")) {
+      if (!result.analysis.thermal)
+        diagnostics.add(Mistake::conflict, heat->where, heat->path,
+                        "found the thermal side of a tool, expected it with analysis.thermal = true only");
       ToolHeat& tool_heat = tool.heat.emplace();
       tool_heat.conductance = heat->get<double>("conductance");
       tool_heat.temperature = heat->get<double>("temperature");

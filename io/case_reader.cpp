@@ -23,8 +23,6 @@ void compute_defaults(Setting& root) {
   const Setting* materials = root.find("materials");
   const Setting* material = materials->find(root.get<std::string>("domain.material"));
   root.set_default("analysis.thermal", material && material->find("heat") && !statics);
-  const bool revolution = root.get<std::string>("analysis.kinematics") == "axisymmetric";
-  root.set_default("method.gauss_points", std::int64_t{statics ? 3 : revolution ? 2 : 1});
   root.set_default("output.history_every", end / 400.0);
   root.set_default("output.fields_every", end / 24.0);
   root.set_default("output.pictures", std::vector<double>{end});

@@ -19,8 +19,10 @@ void add_general(Keys& k) {
       .one_of({"explicit", "static"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
-        "Per unit thickness: no strain out of the plane, or no stress (static only). `axisymmetric` (explicit only): "
-        "a body of revolution about x = 0, x the radius and y the axial coordinate; nodes on the axis stay on it, "
+        "Per unit thickness: no strain out of the plane, or no stress (static only). `axisymmetric` "
+        "(explicit only): "
+        "a body of revolution about x = 0, x the radius and y the axial coordinate; nodes on the axis stay "
+        "on it, "
         "and masses, forces and energies are those of the whole body.")
       .one_of({"plane strain", "plane stress", "axisymmetric"})
       .fallback("\"plane strain\"");
@@ -238,10 +240,10 @@ void add_method(Keys& k) {
   k.add("method.functions", choice, "Natural neighbour functions (cnem).")
       .one_of({"sibson", "laplace"})
       .fallback("\"sibson\"");
-  k.add("method.gauss_points", integer, "Per edge of a Voronoi cell (cnem).")
+  k.add("method.gauss_points", integer,
+        "Per edge of a Voronoi cell (cnem); axisymmetric analyses take at least 2.")
       .in({.low = 1, .high = 3})
-      .example("2")
-      .computed("1; in static analyses 3");
+      .fallback("2");
   k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem).")
       .in(not_negative)
       .fallback("0.05");

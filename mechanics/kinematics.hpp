@@ -23,7 +23,8 @@ template<int dim>
 double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, std::size_t node);
 template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators, const Field& at_points);
 
-/// force_J −= Σ_p V_p (P_p b_pJ + P_θθ h_pJ e_r) for the nodes [begin, end): minus the internal force (52), gathered.
+/// force_J −= Σ_p V_p (P_p b_pJ + P_θθ h_pJ e_r) for the nodes [begin, end): minus the internal force (52),
+/// gathered.
 template<int dim>
 void subtract_internal_force(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& piola,
                              Fields<dim>& force, std::size_t begin, std::size_t end);

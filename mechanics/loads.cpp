@@ -4,8 +4,7 @@ namespace cnem {
 
 template<int dim>
 Loads<dim>::Loads(std::vector<Traction<dim>> tractions, std::vector<Pressure<dim>> pressures,
-                  std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial,
-                  Space space)
+                  std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial, Space space)
     : tractions_(std::move(tractions)), pressures_(std::move(pressures)),
       acceleration_(std::move(acceleration)), space_(space) {
   for (const TimeTable& component : acceleration_) body_force_ |= !component.empty();

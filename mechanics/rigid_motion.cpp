@@ -45,13 +45,15 @@ std::string describe(const Part& part, const Eigen::Vector3d& motion, bool sever
     const bool x = std::abs(motion[0]) > std::abs(motion[1]);
     return fmt::format("nothing holds the translation{} along ({:.3g}, {:.3g}): expected a support with a "
                        "displacement in {} somewhere",
-                       where, motion[0], motion[1], x ? "x" : "y");
+                       where, motion[0] + 0.0, motion[1] + 0.0, x ? "x" : "y");
   }
   const double angle = motion[2] / part.radius;
-  const Vec2 pole = part.centre + Vec2(-motion[1], motion[0]) / angle;
+  Vec2 pole = part.centre + Vec2(-motion[1], motion[0]) / angle;
+  for (Eigen::Index k = 0; k < 2; ++k)
+    if (std::abs(pole[k]) < 1e-9 * part.radius) pole[k] = 0.0;
   return fmt::format(
-      "nothing holds the rotation{} about ({:.4g}, {:.4g}) m: expected a support there is not yet, "
-      "with a displacement across the line to that point",
+      "nothing holds the rotation{} about ({:.4g}, {:.4g}) m: expected another support, with a "
+      "displacement that is not along the line to that point",
       where, pole.x(), pole.y());
 }
 

@@ -66,7 +66,8 @@ typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteO
            e < static_cast<std::size_t>(operators.row_begin[p + 1]); ++e) {
         Vec<dim> b;
         for (int k = 0; k < dim; ++k) b[k] = operators.gradient[static_cast<std::size_t>(k)][e];
-        sum += block_norm<dim>(inv.transpose() * b, hoop(operators.hoop, e, p)) * transfer_[static_cast<std::size_t>(operators.node[e])];
+        sum += block_norm<dim>(inv.transpose() * b, hoop(operators.hoop, e, p)) *
+               transfer_[static_cast<std::size_t>(operators.node[e])];
       }
       const double value = modulus[p] * sum;
       if (!(value <= best.value)) best = {value, p};

@@ -29,7 +29,7 @@ struct StaticProblem {
   double stabilisation = 0.05; ///< α of the edge defect, on μ
   const Supports<2>& supports;
   double time = 0.0;      ///< s, at which prescribed displacements are taken
-  const Fields<2>& force; ///< [k][node] N/m, external forces
+  const Fields<2>& force; ///< [k][function] N/m, external forces; functions beyond its length are not loaded
 };
 
 struct StaticSolution {

@@ -27,6 +27,7 @@ cnem_tests(unit/mechanics cnem_mechanics cnem_cnem cnem_alternatives)
 cnem_tests(unit/app cnem_app)
 cnem_tests(degenerate cnem_voronoi cnem_cnem cnem_alternatives)
 cnem_tests(contract cnem_cnem cnem_alternatives)
+cnem_tests(convergence cnem_app)
 cnem_tests(verification cnem_app)
 
 add_test(NAME include_rule COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}

@@ -67,7 +67,8 @@ DiscreteOperators<2> linear_triangles(const Cloud<2>& cloud, const Triangulation
     op.hoop.resize(3 * triangles);
     for (std::size_t t = 0; t < triangles; ++t) {
       double sum = 0.0;
-      for (const std::int32_t i : triangulation.node[t]) sum += cloud.position[static_cast<std::size_t>(i)].x();
+      for (const std::int32_t i : triangulation.node[t])
+        sum += cloud.position[static_cast<std::size_t>(i)].x();
       op.radius[t] = sum / 3.0;
       op.volume[t] *= 2.0 * std::numbers::pi * op.radius[t];
       for (std::size_t e = 3 * t; e < 3 * t + 3; ++e) op.hoop[e] = op.value[e] / op.radius[t];

@@ -1,7 +1,7 @@
 // What every discretisation promises of bodies of revolution, to rounding, on domains that touch the axis and
 // on domains away from it.
-#include "core/revolution.hpp"
 #include "contract.hpp"
+#include "core/revolution.hpp"
 
 namespace cnem::testing {
 namespace {
@@ -19,10 +19,11 @@ std::vector<Revolved> revolved_methods() {
       {"fe_triangle", [] { return std::make_unique<alternatives::FeTriangles>(Space::revolution); }}};
   for (const auto functions : {scni::Functions::sibson, scni::Functions::laplace})
     for (int points = 1; points <= 3; ++points)
-      list.push_back({(functions == scni::Functions::sibson ? "sibson_" : "laplace_") + std::to_string(points), [=] {
-                        return std::make_unique<scni::Cnem>(scni::Options{
-                            .functions = functions, .gauss_points = points, .space = Space::revolution});
-                      }});
+      list.push_back(
+          {(functions == scni::Functions::sibson ? "sibson_" : "laplace_") + std::to_string(points), [=] {
+             return std::make_unique<scni::Cnem>(
+                 scni::Options{.functions = functions, .gauss_points = points, .space = Space::revolution});
+           }});
   return list;
 }
 

@@ -8,16 +8,17 @@ namespace cnem::testing {
 namespace {
 
 struct Shape {
-  double length, radius;          ///< m
-  double plastic_strain, centre;  ///< largest and on the axis at the wall
-  double temperature;             ///< K, there
-  double residual;                ///< of the energy over the initial one
+  double length, radius;         ///< m
+  double plastic_strain, centre; ///< largest and on the axis at the wall
+  double temperature;            ///< K, there
+  double residual;               ///< of the energy over the initial one
 };
 
 /// Runs a case of cases/verification with a spacing of a fifth of the radius.
 Shape run(const std::string& name, const std::string& spacing) {
-  const io::Case input = io::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
-                                       {"cloud.spacing=\"" + spacing + "\""});
+  const io::Case input =
+      io::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
+                    {"cloud.spacing=\"" + spacing + "\""});
   app::Setup setup = app::build(input);
   ExplicitSolver<2> solver(std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature));
   while (solver.state().time < input.time.end) {

@@ -85,6 +85,9 @@ TEST_F(Axisymmetric, history_counts_the_whole_body) {
   const io::HistoryTable history = io::read_history(folder / "out" / "history.csv");
   for (const char* name : {"mass[kg]", "energy.kinetic[J]", "support.wall.force_y[N]"})
     EXPECT_GE(history.find(name), 0) << name;
+  std::ifstream report(folder / "out" / "report.html");
+  const std::string html{std::istreambuf_iterator<char>(report), {}};
+  EXPECT_NE(html.find("axisymmetric: x is the radius"), std::string::npos);
   const double mass = 7850.0 * std::numbers::pi * 4e-6 * 4e-3;
   const auto first = [&](const char* name) {
     return history.column[static_cast<std::size_t>(history.find(name))].front();

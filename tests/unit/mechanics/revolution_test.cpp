@@ -40,8 +40,7 @@ ExplicitSolver<2> stretched(Method method, double radius, double a, double b, do
   }
   Model<2> model = solid(cloud, method, std::move(material));
   model.supports = Supports<2>(std::move(supports), static_cast<std::size_t>(cloud.nodes()));
-  return start(std::move(model),
-               [&](const Vec2& x) -> Vec2 { return {a * x.x() / end, b * x.y() / end}; });
+  return start(std::move(model), [&](const Vec2& x) -> Vec2 { return {a * x.x() / end, b * x.y() / end}; });
 }
 
 void expect_stretched(const ExplicitSolver<2>& solver, double a, double b) {
@@ -83,8 +82,9 @@ TEST(RevolutionRereferenced, plastic_stretch_stays_uniform_through_new_reference
 
 TEST_P(Revolution, rigid_axial_motion_does_nothing) {
   const Cloud<2> cloud = rectangle(1e-2, 0.8e-2, 1e-3);
-  ExplicitSolver<2> solver =
-      start(solid(cloud, GetParam(), steel()), [](const Vec2&) -> Vec2 { return {0.0, 100.0}; });
+  ExplicitSolver<2> solver = start(solid(cloud, GetParam(), steel()), [](const Vec2&) -> Vec2 {
+    return {0.0, 100.0};
+  });
   for (int n = 0; n < 50; ++n) solver.advance(1e-8);
   for (std::size_t p = 0; p < solver.state().point.size(); ++p)
     EXPECT_LT(solver.state().point.equivalent_stress[p], 1e-9 * 210e9);
@@ -94,9 +94,11 @@ TEST_P(Revolution, rigid_axial_motion_does_nothing) {
   EXPECT_NEAR(solver.ledger().kinetic, 0.5 * mass * 1e4, 1e-9 * mass * 1e4);
 }
 
-/// Static displacements under a pressure of 1 Pa on the facets of `loaded`. Nodes in `held` [dof] do not move.
+/// Static displacements under a pressure of 1 Pa on the facets of `loaded`. Nodes in `held` [dof] do not
+/// move.
 Eigen::VectorXd statics(const Cloud<2>& cloud, Method method, const plasticity::Material& material,
-                        const std::vector<Facet<2>>& loaded, const std::function<bool(const Vec2&, int)>& held) {
+                        const std::vector<Facet<2>>& loaded,
+                        const std::function<bool(const Vec2&, int)>& held) {
   Approximation<2> approximation = make(method, Space::revolution)->rebuild(cloud);
   Linear linear = linearise(approximation, cloud, material, 0.05);
   Loads<2> loads({}, {{"p", TimeTable(1.0), loaded}}, {}, cloud.position, Space::revolution);
@@ -194,9 +196,8 @@ double sphere_error(Method method, double h) {
     if (middle.norm() < 1.001 && middle.x() > 1e-9 && middle.y() > 1e-9) bore.push_back(facet);
   }
   const plasticity::Material material = steel();
-  const auto u = statics(cloud, method, material, bore, [](const Vec2& x, int k) {
-    return std::abs(x[k]) < 1e-12;
-  });
+  const auto u =
+      statics(cloud, method, material, bore, [](const Vec2& x, int k) { return std::abs(x[k]) < 1e-12; });
   // u = A r + B/r² with p = 1 at a = 1, none at b = 2
   const double G = material.elasticity.mu(), K = material.elasticity.lambda() + 2.0 * G / 3.0;
   const double A = 1.0 / 7.0 / (3 * K), B = 8.0 / 7.0 / (4 * G);
@@ -247,12 +248,14 @@ TEST_P(Revolution, slender_bar_carries_waves_at_the_rod_speed) {
   model.supports = Supports<2>({held_axis(cloud)}, static_cast<std::size_t>(cloud.nodes()));
   model.viscosity = {0.0, 0.0};
   const auto mode = [&](double y) { return std::cos(std::numbers::pi * y / L); };
-  ExplicitSolver<2> solver =
-      start(std::move(model), [&](const Vec2& x) -> Vec2 { return {0.0, 0.01 * mode(x.y())}; });
+  ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
+    return {0.0, 0.01 * mode(x.y())};
+  });
   const Field start_y = solver.initial_position()[1];
   const double quarter = first_zero(solver, solver.stable_step().dt, [&](const State<2>& s) {
     double p = 0.0;
-    for (std::size_t i = 0; i < s.node.size(); ++i) p += s.node.mass[i] * mode(start_y[i]) * s.node.velocity[1][i];
+    for (std::size_t i = 0; i < s.node.size(); ++i)
+      p += s.node.mass[i] * mode(start_y[i]) * s.node.velocity[1][i];
     return p;
   });
   const double correction = 0.33 * std::numbers::pi * R / L;
@@ -279,8 +282,7 @@ TEST_P(Revolution, bound_on_the_step_holds_and_is_not_far) {
     for (const double alpha : {0.0, 0.05}) {
       const double step =
           stable_mechanical_step<2>(bound, op, F, Field(points, modulus), mass, alpha, 0.0).dt;
-      const double highest =
-          squared_frequencies(linearise(approximation, cloud, material, alpha)).maxCoeff();
+      const double highest = squared_frequencies(linearise(approximation, cloud, material, alpha)).maxCoeff();
       EXPECT_LE(step, 2.0 / std::sqrt(highest));
       EXPECT_GE(step, 0.4 * 2.0 / std::sqrt(highest));
     }

@@ -1,0 +1,40 @@
+#pragma once
+// A square with a central crack, and its tips.
+#include "cnem/scni.hpp"
+#include "fracture/crack_tip.hpp"
+#include "voronoi/generate.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace cnem::testing {
+
+/// The square [−1, 1]² with sides named "side".
+inline voronoi::DomainShape square_shape() {
+  voronoi::DomainShape shape;
+  const std::array<Vec2, 4> corner{Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)};
+  for (std::size_t k = 0; k < 4; ++k)
+    shape.outer.pieces.push_back({corner[k], corner[(k + 1) % 4], {0, 0}, 0.0, false, "side"});
+  return shape;
+}
+
+struct CrackedSquare {
+  Cloud<2> cloud;
+  std::vector<fracture::CrackTip> tips; ///< "first", "last"
+  Approximation<2> approximation;
+};
+
+/// Crack of half-length 0.3 about the origin at `angle` from x.
+inline CrackedSquare cracked_square(double spacing, double angle) {
+  voronoi::DomainShape shape = square_shape();
+  const Vec2 tip(0.3 * std::cos(angle), 0.3 * std::sin(angle));
+  shape.cracks.push_back({"crack", {-tip, tip}});
+  CrackedSquare result;
+  result.cloud = voronoi::generate_cloud(shape, {spacing, {}}, {}).cloud;
+  result.tips = fracture::find_tips(result.cloud, {{"crack", {-tip, tip}, {"first", "last"}}});
+  result.approximation = scni::Cnem().rebuild(result.cloud);
+  return result;
+}
+
+} // namespace cnem::testing

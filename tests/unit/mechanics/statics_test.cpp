@@ -1,0 +1,157 @@
+// Linear statics: patch tests, a tensile bar, energy, and supports that are missing.
+#include "alternatives/fe_triangle.hpp"
+#include "cnem/scni.hpp"
+#include "core/error.hpp"
+#include "mechanics/rigid_motion.hpp"
+#include "mechanics/statics.hpp"
+#include "tests/clouds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace cnem::testing {
+namespace {
+
+using Kind = Support<2>::Kind;
+
+struct Body {
+  Cloud<2> cloud;
+  Approximation<2> approximation;
+  Supports<2> supports;
+  Fields<2> force;
+
+  Body(Cloud<2> c, Discretisation<2>& method, std::vector<Support<2>> list)
+      : cloud(std::move(c)), approximation(method.rebuild(cloud)),
+        supports(std::move(list), static_cast<std::size_t>(cloud.nodes())) {
+    resize_all(force, static_cast<std::size_t>(cloud.nodes()));
+  }
+  StaticProblem problem(OutOfPlane kind) const {
+    return {.operators = approximation.mechanics,
+            .position = cloud.position,
+            .links = approximation.links,
+            .link_points = approximation.mechanics,
+            .elasticity = {2.0, 0.3},
+            .out_of_plane = kind,
+            .supports = supports,
+            .force = force};
+  }
+};
+
+std::vector<std::unique_ptr<Discretisation<2>>> methods() {
+  std::vector<std::unique_ptr<Discretisation<2>>> list;
+  list.push_back(std::make_unique<scni::Cnem>());
+  list.push_back(std::make_unique<alternatives::FeTriangles>());
+  return list;
+}
+
+std::vector<std::int32_t> nodes_where(const Cloud<2>& cloud, auto&& wanted) {
+  std::vector<std::int32_t> nodes;
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+    if (wanted(cloud.position[static_cast<std::size_t>(i)])) nodes.push_back(i);
+  return nodes;
+}
+
+/// The unit square pulled along x by 1: held at x = 0 along x, and at the origin along y.
+Body pulled_square(Discretisation<2>& method) {
+  const Cloud<2> cloud = jittered_square(0.1, 0.25, 3);
+  const auto left = nodes_where(cloud, [](const Vec2& x) { return x.x() == 0.0; });
+  const auto corner = nodes_where(cloud, [](const Vec2& x) { return x.norm() == 0.0; });
+  Body body(cloud, method,
+            {{"left", Kind::symmetry, Vec2(1, 0), {}, left},
+             {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner}});
+  for (const Facet<2>& facet : body.cloud.facets) {
+    const Vec2 a = body.cloud.position[static_cast<std::size_t>(facet.node[0])],
+               b = body.cloud.position[static_cast<std::size_t>(facet.node[1])];
+    if (a.x() == 1.0 && b.x() == 1.0)
+      for (const std::int32_t i : facet.node)
+        body.force[0][static_cast<std::size_t>(i)] += 0.5 * (b - a).norm();
+  }
+  return body;
+}
+
+TEST(Statics, patch_uniaxial_tension_is_exact_in_plane_strain_and_plane_stress) {
+  for (const auto& method : methods()) {
+    SCOPED_TRACE(method->name());
+    const Body body = pulled_square(*method);
+    for (const OutOfPlane kind : {OutOfPlane::strain_free, OutOfPlane::stress_free}) {
+      const StaticSolution s = solve_statics(body.problem(kind));
+      const bool stress = kind == OutOfPlane::stress_free;
+      const double E = stress ? 2.0 : 2.0 / (1.0 - 0.09), nu = stress ? 0.3 : 0.3 / 0.7;
+      for (std::size_t i = 0; i < body.cloud.position.size(); ++i) {
+        EXPECT_NEAR(s.displacement[0][i], body.cloud.position[i].x() / E, 1e-12);
+        EXPECT_NEAR(s.displacement[1][i], -nu * body.cloud.position[i].y() / E, 1e-12);
+      }
+      for (std::size_t p = 0; p < s.stress[0].size(); ++p) {
+        EXPECT_NEAR(s.stress[0][p], 1.0, 1e-11);
+        EXPECT_NEAR(s.stress[1][p], 0.0, 1e-11);
+        EXPECT_NEAR(s.stress[2][p], stress ? 0.0 : 0.3, 1e-11);
+        EXPECT_NEAR(s.gradient[4][p], stress ? -0.15 : 0.0, 1e-12);
+      }
+      EXPECT_NEAR(s.strain_energy, 0.5 / E, 1e-12);
+      EXPECT_NEAR(s.external_work, 0.5 / E, 1e-12);
+      EXPECT_LT(s.stabilisation_energy, 1e-20);
+      EXPECT_LT(s.residual, 1e-12);
+      double reaction = 0.0;
+      for (const double r : s.reaction[0]) reaction += r;
+      EXPECT_NEAR(reaction, -1.0, 1e-12);
+    }
+  }
+}
+
+TEST(Statics, oblique_symmetry_plane_gives_the_turned_solution) {
+  const double angle = 0.6;
+  Mat2 turn;
+  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  scni::Cnem method;
+  const Body straight = pulled_square(method);
+  Cloud<2> cloud = straight.cloud;
+  for (Vec2& x : cloud.position) x = turn * x;
+  std::vector<Support<2>> supports = straight.supports.list();
+  for (Support<2>& support : supports) {
+    support.direction = turn * support.direction;
+    support.kind = Kind::symmetry;
+  }
+  Body turned(cloud, method, supports);
+  for (std::size_t i = 0; i < straight.force[0].size(); ++i) {
+    turned.force[0][i] = turn(0, 0) * straight.force[0][i];
+    turned.force[1][i] = turn(1, 0) * straight.force[0][i];
+  }
+  const StaticSolution a = solve_statics(straight.problem(OutOfPlane::strain_free)),
+                       b = solve_statics(turned.problem(OutOfPlane::strain_free));
+  for (std::size_t i = 0; i < straight.force[0].size(); ++i) {
+    const Vec2 expected = turn * Vec2(a.displacement[0][i], a.displacement[1][i]);
+    EXPECT_NEAR(b.displacement[0][i], expected.x(), 1e-11);
+    EXPECT_NEAR(b.displacement[1][i], expected.y(), 1e-11);
+  }
+}
+
+TEST(MissingSupport, is_named) {
+  const Cloud<2> cloud = jittered_square(0.25, 0.2, 1);
+  const auto op = scni::Cnem().rebuild(cloud).mechanics;
+  const auto left = nodes_where(cloud, [](const Vec2& x) { return x.x() == 0.0; });
+  const auto corner = nodes_where(cloud, [](const Vec2& x) { return x.norm() == 0.0; });
+  const auto missing = [&](std::vector<Support<2>> list) {
+    return missing_support(op, cloud.position,
+                           Supports<2>(std::move(list), static_cast<std::size_t>(cloud.nodes())));
+  };
+  EXPECT_NE(missing({}), "");
+  EXPECT_NE(missing({{"left", Kind::symmetry, Vec2(1, 0), {}, left}}).find("displacement in y"),
+            std::string::npos);
+  EXPECT_NE(missing({{"corner", Kind::displacement, Vec2(1, 0), TimeTable(0.0), corner},
+                     {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner}})
+                .find("rotation about (0, 0) m"),
+            std::string::npos);
+  EXPECT_EQ(missing({{"left", Kind::symmetry, Vec2(1, 0), {}, left},
+                     {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner}}),
+            "");
+}
+
+TEST(MissingSupport, stops_the_solution) {
+  scni::Cnem method;
+  const Body body(jittered_square(0.25, 0.2, 1), method, {});
+  EXPECT_THROW(solve_statics(body.problem(OutOfPlane::strain_free)), InputError);
+}
+
+} // namespace
+} // namespace cnem::testing
