@@ -14,7 +14,7 @@ struct Shape {
   double residual;               ///< of the energy over the initial one
 };
 
-/// Runs a case of cases/verification with a spacing of a fifth of the radius.
+/// Runs a case of cases/verification.
 Shape run(const std::string& name, const std::string& spacing) {
   const io::Case input =
       io::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
@@ -63,7 +63,7 @@ TEST(TaylorBar, stainless_steel_with_heat) {
 }
 
 TEST(TaylorBar, plane_strain_slab) {
-  const Shape shape = run("taylor_slab_copper", "0.64 mm");
+  const Shape shape = run("taylor_slab_copper", "0.32 mm");
   expect_near(shape.length, 28.830e-3, 0.01, "length");
   expect_near(shape.radius, 6.372e-3, 0.02, "half width");
   expect_near(shape.plastic_strain, 1.82, 0.15, "plastic strain");
