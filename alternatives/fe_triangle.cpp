@@ -29,7 +29,7 @@ CellGeometry<2> triangle_cells(const Cloud<2>& cloud, const voronoi::Triangulati
 Approximation<2> FeTriangles::rebuild(const Cloud<2>& cloud) {
   const voronoi::Triangulation triangulation = voronoi::triangulate(cloud);
   Approximation<2> result;
-  result.mechanics = voronoi::linear_triangles(cloud, triangulation);
+  result.mechanics = voronoi::linear_triangles(cloud, triangulation, space_);
   result.conduction = result.mechanics;
   result.node_volume = result.mechanics.node_volume();
   result.links.begin.assign(cloud.position.size() + 1, 0);

@@ -1,6 +1,7 @@
 #pragma once
 // Linear finite-element triangles behind the same contract as C-NEM: the method it is compared with.
 #include "core/discretisation.hpp"
+#include "core/revolution.hpp"
 
 namespace cnem::alternatives {
 
@@ -9,9 +10,14 @@ namespace cnem::alternatives {
 /// operators.
 class FeTriangles final : public Discretisation<2> {
 public:
+  explicit FeTriangles(Space space = Space::plane) : space_(space) {}
+
   /// Throws GeometryError as voronoi::triangulate and voronoi::linear_triangles do.
   Approximation<2> rebuild(const Cloud<2>& cloud) override;
   std::string name() const override { return "fe_triangle"; }
+
+private:
+  Space space_;
 };
 
 } // namespace cnem::alternatives

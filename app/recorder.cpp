@@ -1,6 +1,7 @@
 #include "app/recorder.hpp"
 
 #include "app/fields.hpp"
+#include "app/registry.hpp"
 #include "core/error.hpp"
 #include "io/output_folder.hpp"
 #include "io/picture.hpp"
@@ -51,7 +52,8 @@ double total_mass(const ExplicitSolver<2>& solver) {
 
 HistoryRecorder::HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver,
                                  const std::filesystem::path& folder)
-    : probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
+    : units_(space_of(input) == Space::revolution ? Units{"[N]", "[J]", "[kg]"} : Units{}),
+      probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
       initial_area_(boundary_area(snapshot(solver))), initial_mass_(total_mass(solver)) {}
 
 std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitSolver<2>& solver) const {
@@ -64,8 +66,8 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
   for (std::size_t t = 0; t < contact.tools().size(); ++t) {
     const std::string& name = contact.tools()[t].name;
     const auto& result = contact.results()[t];
-    row.emplace_back(name + ".force_x[N/m]", result.force.x());
-    row.emplace_back(name + ".force_y[N/m]", result.force.y());
+    row.emplace_back(name + ".force_x" + units_.force, result.force.x());
+    row.emplace_back(name + ".force_y" + units_.force, result.force.y());
     row.emplace_back(name + ".stroke[m]", contact.tools()[t].motion.displacement(state.time).norm());
   }
   const auto& supports = solver.model().supports;
@@ -74,8 +76,8 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     Vec2 force = Vec2::Zero();
     for (std::size_t o = s; o < supports.list().size(); ++o)
       if (supports.list()[o].name == supports.list()[s].name) force += supports.reactions()[o];
-    row.emplace_back("support." + supports.list()[s].name + ".force_x[N/m]", force.x());
-    row.emplace_back("support." + supports.list()[s].name + ".force_y[N/m]", force.y());
+    row.emplace_back("support." + supports.list()[s].name + ".force_x" + units_.force, force.x());
+    row.emplace_back("support." + supports.list()[s].name + ".force_y" + units_.force, force.y());
   }
   const EnergyLedger e = solver.ledger();
   for (const auto& [name, value] :
@@ -96,7 +98,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"heat_generated", e.heat_generated},
                                                              {"heat_exchanged", e.heat_exchanged},
                                                              {"residual", e.residual()}})
-    row.emplace_back(fmt::format("energy.{}[J/m]", name), value);
+    row.emplace_back(fmt::format("energy.{}{}", name, units_.energy), value);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
     const Field values =
@@ -112,7 +114,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
         sum += probe.weight[k] * values[static_cast<std::size_t>(probe.node[k])];
       row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit), sum);
     }
-  row.emplace_back("mass[kg/m]", total_mass(solver));
+  row.emplace_back("mass" + units_.mass, total_mass(solver));
   row.emplace_back("area[m^2]", boundary_area(snapshot(solver)));
   return row;
 }
@@ -149,7 +151,7 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
     if (name == "max.plastic_strain") keep_metric("max_plastic_strain", value, true);
     if (name == "max.temperature[K]") keep_metric("max_temperature", value, true);
     if (name == "area[m^2]") keep_metric("area_drift", value / initial_area_ - 1.0, false);
-    if (name == "mass[kg/m]") keep_metric("mass_drift", value / initial_mass_ - 1.0, false);
+    if (name == "mass" + units_.mass) keep_metric("mass_drift", value / initial_mass_ - 1.0, false);
   }
   const std::array<double, 2> balance = solver.mass_balance();
   keep_metric("mass_balance.low", balance[0], false);

@@ -33,7 +33,7 @@ public:
 
   /// Largest |residual| seen over the largest (external work + initial energy) seen.
   double energy_residual() const;
-  double last_residual() const { return last_residual_; } ///< J/m
+  double last_residual() const { return last_residual_; } ///< J/m, J of revolution
   double energy_scale() const { return scale_; }          ///< J/m
   /// Named results for status.json.
   std::vector<std::pair<std::string, double>> metrics() const { return metrics_; }
@@ -42,6 +42,11 @@ private:
   std::vector<std::pair<std::string, double>> row(const ExplicitSolver<2>& solver) const;
   void keep_metric(const std::string& name, double value, bool largest);
 
+  /// In the headers: per metre of thickness, or of the whole body of revolution.
+  struct Units {
+    std::string force = "[N/m]", energy = "[J/m]", mass = "[kg/m]";
+  };
+  Units units_;
   std::vector<ProbeWeights> probes_;
   std::vector<io::HistoryWriter> writer_; ///< one; made with the first row, when the columns are known
   std::filesystem::path folder_;

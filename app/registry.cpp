@@ -185,6 +185,27 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
         {spec.name, TimeTable(spec.convection->coefficient), spec.convection->ambient, facets});
 }
 
+/// Nodes on the axis of revolution stay on it. Throws InputError when the workpiece reaches beyond the axis.
+void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& supports) {
+  double size = 0.0;
+  for (const Vec2& x : cloud.position) size = std::max(size, x.norm());
+  std::vector<std::int32_t> axis;
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+    double& r = cloud.position[static_cast<std::size_t>(i)].x();
+    if (std::abs(r) <= 1e-12 * size) {
+      r = 0.0;
+      axis.push_back(i);
+    } else if (r < 0.0) {
+      throw input.error("domain",
+                        fmt::format("found a workpiece that reaches to x = {:.6g} m, expected x >= 0: an "
+                                    "axisymmetric body turns about x = 0",
+                                    r));
+    }
+  }
+  if (!axis.empty())
+    supports.insert(supports.begin(), {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis)});
+}
+
 contact::Tool<2> make_tool(const io::Tool& spec) {
   contact::Tool<2> tool;
   tool.name = spec.name;
@@ -203,12 +224,19 @@ contact::Tool<2> make_tool(const io::Tool& spec) {
 
 } // namespace
 
-std::unique_ptr<Discretisation<2>> make_method(const io::Method& method) {
-  if (method.name == io::Method::Name::fe_triangles) return std::make_unique<alternatives::FeTriangles>();
+Space space_of(const io::Case& input) {
+  return input.analysis.kinematics == io::Analysis::Kinematics::axisymmetric ? Space::revolution
+                                                                             : Space::plane;
+}
+
+std::unique_ptr<Discretisation<2>> make_method(const io::Method& method, Space space) {
+  if (method.name == io::Method::Name::fe_triangles)
+    return std::make_unique<alternatives::FeTriangles>(space);
   scni::Options options;
   options.functions =
       method.functions == io::Method::Functions::laplace ? scni::Functions::laplace : scni::Functions::sibson;
   options.gauss_points = method.gauss_points;
+  options.space = space;
   return std::make_unique<scni::Cnem>(options);
 }
 
@@ -229,9 +257,10 @@ Setup build(const io::Case& input) {
   Setup setup;
   setup.warnings = std::move(generated.warnings);
   Model<2>& model = setup.model;
-  model.contact = contact::RigidContact<2>(std::move(tools));
+  const Space space = space_of(input);
+  model.contact = contact::RigidContact<2>(std::move(tools), space);
   model.cloud = std::move(generated.cloud);
-  model.method = make_method(input.method);
+  model.method = make_method(input.method, space);
   model.material = make_material(input.material(input.domain.material));
   model.stabilisation = input.method.stabilisation;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
@@ -241,6 +270,7 @@ Setup build(const io::Case& input) {
   Conditions all;
   for (const io::BoundaryCondition& condition : input.boundary)
     add_condition(input, condition, model.cloud, all);
+  if (space == Space::revolution) hold_axis(input, model.cloud, all.supports);
   const auto nodes = static_cast<std::size_t>(model.cloud.nodes());
   try {
     model.supports = Supports<2>(std::move(all.supports), nodes);
@@ -248,9 +278,9 @@ Setup build(const io::Case& input) {
   std::array<TimeTable, 2> acceleration;
   for (std::size_t k = 0; k < 2; ++k) acceleration[k] = input.loads.body_force[k].value_or(TimeTable());
   model.loads =
-      Loads<2>(std::move(all.tractions), std::move(all.pressures), acceleration, model.cloud.position);
-  model.heat_boundaries =
-      ThermalBoundaries<2>(std::move(all.temperatures), std::move(all.fluxes), std::move(all.convections));
+      Loads<2>(std::move(all.tractions), std::move(all.pressures), acceleration, model.cloud.position, space);
+  model.heat_boundaries = ThermalBoundaries<2>(std::move(all.temperatures), std::move(all.fluxes),
+                                               std::move(all.convections), space);
 
   resize_all(setup.velocity, nodes);
   setup.temperature.assign(nodes, input.initial.temperature);

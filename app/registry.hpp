@@ -23,6 +23,9 @@ struct Setup {
 Setup build(const io::Case& input);
 
 /// The names of the methods a case can ask for, as in the schema.
-std::unique_ptr<Discretisation<2>> make_method(const io::Method& method);
+std::unique_ptr<Discretisation<2>> make_method(const io::Method& method, Space space = Space::plane);
+
+/// What the plane of a case stands for.
+Space space_of(const io::Case& input);
 
 } // namespace cnem::app

@@ -36,9 +36,9 @@ std::span<const double> FacetMeans::values(std::size_t facet) const {
 
 FacetMeans facet_means(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
                        const voronoi::Circumcircles& circles, const voronoi::Cells& cells,
-                       voronoi::Functions functions, int gauss_points) {
+                       voronoi::Functions functions, int gauss_points, Space space) {
   constexpr double shortest = 1e-14;
-  const auto rule = gauss_rule(gauss_points);
+  const auto rule = gauss_rule(space == Space::revolution ? std::max(gauss_points, 2) : gauss_points);
   const std::size_t facets = cells.interior.size();
   FacetMeans means;
   means.blocks_.resize((facets + FacetMeans::block_size - 1) / FacetMeans::block_size);
@@ -63,7 +63,9 @@ FacetMeans facet_means(const Cloud<2>& cloud, const voronoi::Triangulation& tria
         if (along.squaredNorm() > shortest * shortest * between.squaredNorm()) {
           const std::size_t start = block.node.size();
           for (const GaussPoint& point : rule) {
-            neighbours.evaluate_on_facet(functions, facet.start + point.at * along, facet.triangle);
+            const Vec2 at = facet.start + point.at * along;
+            const double weight = space == Space::revolution ? point.weight * at.x() : point.weight;
+            neighbours.evaluate_on_facet(functions, at, facet.triangle);
             const auto node = neighbours.nodes();
             const auto value = neighbours.values();
             const std::size_t known = block.node.size();
@@ -71,10 +73,10 @@ FacetMeans facet_means(const Cloud<2>& cloud, const voronoi::Triangulation& tria
               std::size_t e = start;
               while (e < known && block.node[e] != node[k]) ++e;
               if (e < known) {
-                block.value[e] += point.weight * value[k];
+                block.value[e] += weight * value[k];
               } else {
                 block.node.push_back(node[k]);
-                block.value.push_back(point.weight * value[k]);
+                block.value.push_back(weight * value[k]);
               }
             }
           }

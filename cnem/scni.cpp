@@ -1,6 +1,7 @@
 #include "cnem/scni.hpp"
 
 #include "cnem/quadrature.hpp"
+#include "cnem/revolution.hpp"
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
 #include "voronoi/cells.hpp"
@@ -24,15 +25,21 @@ Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
   const auto triangulation = voronoi::triangulate(cloud);
   const auto circles = voronoi::circumcircles(cloud, triangulation);
   const auto cells = voronoi::constrained_cells(cloud, triangulation, circles);
-  const auto means =
-      facet_means(cloud, triangulation, circles, cells, options_.functions, options_.gauss_points);
+  const auto means = facet_means(cloud, triangulation, circles, cells, options_.functions,
+                                 options_.gauss_points, options_.space);
   const auto around = facets_of_cells(cloud.nodes(), cells);
 
   Approximation<2> result;
-  result.mechanics = smoothed_gradients(cloud, cells, around, means);
-  result.conduction = voronoi::linear_triangles(cloud, triangulation);
+  if (options_.space == Space::revolution) {
+    const auto values = centroid_values(cloud, triangulation, circles, cells, options_.functions);
+    result.mechanics = smoothed_gradients(cloud, cells, around, means, &values);
+  } else {
+    result.mechanics = smoothed_gradients(cloud, cells, around, means);
+  }
+  result.conduction = voronoi::linear_triangles(cloud, triangulation, options_.space);
   result.links = delaunay_links(cloud, triangulation, cells, around);
-  result.node_volume = cells.volume;
+  if (options_.space == Space::revolution) revolve(result.mechanics.radius, result.links);
+  result.node_volume = result.mechanics.volume;
   result.cells = voronoi::cell_geometry(cloud, triangulation, circles, cells);
   return result;
 }

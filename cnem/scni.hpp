@@ -2,6 +2,7 @@
 // The constrained natural element method: smoothed gradients on constrained Voronoi cells by stabilised
 // conforming nodal integration (paper 004, section 5.3 and (75)–(79)).
 #include "core/discretisation.hpp"
+#include "core/revolution.hpp"
 #include "voronoi/natural_neighbours.hpp"
 
 namespace cnem::scni {
@@ -10,15 +11,17 @@ using voronoi::Functions;
 
 struct Options {
   Functions functions = Functions::sibson;
-  /// Per Voronoi edge, 1 to 3; linear fields are exact with each. One point is the cheapest, two are the most accurate
-  /// in elasticity (cases/verification/convergence).
+  /// Per Voronoi edge, 1 to 3; linear fields are exact with each. One point is the cheapest, two are the most
+  /// accurate in elasticity (cases/verification/convergence).
   int gauss_points = 2;
+  Space space = Space::plane; ///< of revolution at least 2 Gauss points are taken
 };
 
 /// C-NEM: rows are nodes with their constrained Voronoi cells, N is the identity, and
 ///   b_iJ = 1/V_i ∮ φ_J n dΓ
 /// over the boundary of cell i. Every Voronoi edge is integrated once and serves its two cells with either
 /// sign; on the boundary of the domain φ is linear between the ends of each facet and integrated exactly.
+/// Of revolution integrals are weighted with the radius (core/operators.hpp).
 /// Links are the Delaunay edges; heat conducts with the linear operators of the Delaunay triangles.
 class Cnem final : public Discretisation<2> {
 public:

@@ -1,6 +1,7 @@
 #include "cnem/smoothing.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace cnem::scni {
@@ -28,19 +29,21 @@ class RowAccumulator {
 public:
   explicit RowAccumulator(int nodes) : slot_(index(nodes), -1) {}
 
-  void add(std::int32_t node, const Vec2& b) {
+  void add(std::int32_t node, const Vec2& b, double value = 0.0) {
     std::int32_t& slot = slot_[index(node)];
     if (slot < 0) {
       slot = static_cast<std::int32_t>(entry_.size());
-      entry_.push_back({node, b});
+      entry_.push_back({node, b, value});
     } else {
       entry_[index(slot)].b += b;
+      entry_[index(slot)].value += value;
     }
   }
 
   struct Entry {
     std::int32_t node;
     Vec2 b;
+    double value; ///< at the centroid, of revolution
   };
 
   const std::vector<Entry>& sorted() {
@@ -62,7 +65,19 @@ private:
 struct RowBlock {
   std::vector<std::int32_t> node;
   std::array<std::vector<double>, 2> gradient;
+  std::vector<double> hoop;
 };
+
+/// ∫ (1 − s, s) ds over a piece of a boundary facet; of revolution ∫ r (1 − s, s) ds.
+std::array<double, 2> end_integrals(const voronoi::BoundaryPiece& piece, const Vec2& a, const Vec2& b,
+                                    bool revolution) {
+  const double middle = 0.5 * (piece.s0 + piece.s1), length = piece.s1 - piece.s0;
+  if (!revolution) return {(1.0 - middle) * length, middle * length};
+  const auto r = [&](double s) { return (1.0 - s) * a.x() + s * b.x(); };
+  const double r0 = r(piece.s0) / 6.0, r1 = 4.0 * r(middle) / 6.0, r2 = r(piece.s1) / 6.0; // Simpson: exact
+  const double second = piece.s0 * r0 + middle * r1 + piece.s1 * r2;
+  return {length * (r0 + r1 + r2 - second), length * second};
+}
 
 } // namespace
 
@@ -72,7 +87,8 @@ CellFacets facets_of_cells(int nodes, const voronoi::Cells& cells) {
 }
 
 DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Cells& cells,
-                                        const CellFacets& around, const FacetMeans& means) {
+                                        const CellFacets& around, const FacetMeans& means,
+                                        const CentroidValues* revolution) {
   constexpr std::size_t block_size = 512;
   const auto nodes = index(cloud.nodes());
   const CellFacets boundary = group_by_cell(cloud.nodes(), cells.boundary.size(), [&](std::size_t f) {
@@ -83,6 +99,10 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
   op.points = op.nodes = cloud.nodes();
   op.nodal = true;
   op.volume = cells.volume;
+  if (revolution) {
+    op.radius = revolution->radius;
+    for (std::size_t i = 0; i < nodes; ++i) op.volume[i] *= 2.0 * std::numbers::pi * op.radius[i];
+  }
   op.row_begin.assign(nodes + 1, 0);
 
   std::vector<RowBlock> blocks((nodes + block_size - 1) / block_size);
@@ -108,16 +128,24 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
         for (auto a = index(boundary.begin[i]); a < index(boundary.begin[i + 1]); ++a) {
           const voronoi::BoundaryPiece& piece = cells.boundary[index(boundary.facet[a])];
           const auto& ends = cloud.facets[index(piece.facet)].node;
-          const Vec2 normal = (piece.s1 - piece.s0) *
-                              right_normal(cloud.position[index(ends[1])] - cloud.position[index(ends[0])]);
-          const double middle = 0.5 * (piece.s0 + piece.s1);
-          row.add(ends[0], (1.0 - middle) * normal);
-          row.add(ends[1], middle * normal);
+          const Vec2 &a0 = cloud.position[index(ends[0])], &a1 = cloud.position[index(ends[1])];
+          const Vec2 normal = right_normal(a1 - a0);
+          const auto share = end_integrals(piece, a0, a1, revolution != nullptr);
+          row.add(ends[0], share[0] * normal);
+          row.add(ends[1], share[1] * normal);
+        }
+        double measure = cells.volume[i];
+        if (revolution) {
+          for (auto e = index(revolution->begin[i]); e < index(revolution->begin[i + 1]); ++e)
+            row.add(revolution->node[e], Vec2(-cells.volume[i] * revolution->value[e], 0.0),
+                    revolution->value[e]);
+          measure *= op.radius[i];
         }
         for (const auto& entry : row.sorted()) {
           block.node.push_back(entry.node);
           for (std::size_t d = 0; d < 2; ++d)
-            block.gradient[d].push_back(entry.b[static_cast<Eigen::Index>(d)] / cells.volume[i]);
+            block.gradient[d].push_back(entry.b[static_cast<Eigen::Index>(d)] / measure);
+          if (revolution) block.hoop.push_back(entry.value / op.radius[i]);
         }
         row.clear();
         op.row_begin[i + 1] = static_cast<std::int32_t>(block.node.size()); // of the block, so far
@@ -130,6 +158,7 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
     offset[k + 1] = offset[k] + static_cast<std::int32_t>(blocks[k].node.size());
   op.node.resize(index(offset.back()));
   for (Field& g : op.gradient) g.resize(index(offset.back()));
+  if (revolution) op.hoop.resize(index(offset.back()));
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const std::size_t first = k * block_size, last = std::min(first + block_size, nodes);
@@ -138,6 +167,7 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
     for (std::size_t d = 0; d < 2; ++d)
       std::copy(blocks[k].gradient[d].begin(), blocks[k].gradient[d].end(),
                 op.gradient[d].begin() + offset[k]);
+    std::copy(blocks[k].hoop.begin(), blocks[k].hoop.end(), op.hoop.begin() + (revolution ? offset[k] : 0));
   }
   op.build_transpose();
   return op;

@@ -45,7 +45,9 @@ template<int dim> struct RigidContact<dim>::Pose {
   double recovery = 0.0;     ///< m/s, half the speed of the fastest tool
 };
 
-template<int dim> RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools) : tools_(std::move(tools)) {
+template<int dim>
+RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space)
+    : tools_(std::move(tools)), space_(space) {
   for (const Tool<dim>& tool : tools_) {
     if (!tool.shape) throw InputError(fmt::format("tool '{}' has no shape", tool.name));
     if (!(tool.friction.coulomb >= 0.0) || !(tool.friction.shear_factor >= 0.0))
@@ -140,7 +142,7 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
     reaction.change.setZero();
     start_[b] = reaction.position - step.dt * reaction.velocity;
   }
-  area_ = surface_.areas(end_);
+  area_ = surface_.areas(end_, space_);
   contacts_.clear();
   std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec<dim>::Zero());

@@ -79,7 +79,7 @@ template<int dim> struct Overlap {
 /// threads; looks at boundary nodes alone.
 template<int dim> class RigidContact {
 public:
-  explicit RigidContact(std::vector<Tool<dim>> tools);
+  explicit RigidContact(std::vector<Tool<dim>> tools, Space space = Space::plane);
 
   /// Takes the boundary of the cloud and the nodes that are not free. Costs O(nodes + facets).
   void set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
@@ -121,6 +121,7 @@ private:
   void list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step);
 
   std::vector<Tool<dim>> tools_;
+  Space space_ = Space::plane;
   Surface<dim> surface_;
   std::vector<Mat<dim>> free_; ///< [boundary node]
   double size_ = 0.0;          ///< m, of the largest tool: the scale of rounding

@@ -27,13 +27,13 @@ template<> Surface<2>::Surface(const std::vector<Facet<2>>& boundary, std::size_
   }
 }
 
-template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position) const {
+template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position, Space space) const {
   std::vector<double> area(node.size(), 0.0);
   for (const auto& facet : facets) {
     const auto a = static_cast<std::size_t>(facet[0]), b = static_cast<std::size_t>(facet[1]);
-    const double half = 0.5 * (position[b] - position[a]).norm();
-    area[a] += half;
-    area[b] += half;
+    const std::array<double, 2> share = end_areas(space, position[a], position[b]);
+    area[a] += share[0];
+    area[b] += share[1];
   }
   return area;
 }

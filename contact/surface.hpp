@@ -2,6 +2,7 @@
 // The boundary of the workpiece as contact sees it, and where ridges of tools press on its facets.
 #include "contact/tool_shape.hpp"
 #include "core/cloud.hpp"
+#include "core/revolution.hpp"
 
 #include <array>
 #include <span>
@@ -18,12 +19,12 @@ template<int dim> struct Surface {
   Surface() = default;
   Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes);
 
-  /// [boundary node] share of the facets around it, m^(dim−1).
-  std::vector<double> areas(std::span<const Vec<dim>> position) const;
+  /// [boundary node] share of the facets around it, m^(dim−1) (m² of revolution).
+  std::vector<double> areas(std::span<const Vec<dim>> position, Space space) const;
 };
 
 template<> Surface<2>::Surface(const std::vector<Facet<2>>& boundary, std::size_t nodes);
-template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position) const;
+template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position, Space space) const;
 
 /// A ridge that has gone through a facet.
 template<int dim> struct RidgeHit {

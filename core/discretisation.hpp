@@ -15,7 +15,8 @@ namespace cnem {
 template<int dim> struct StabilisationLinks {
   std::vector<std::int32_t> begin;     ///< [node + 1]
   std::vector<std::int32_t> neighbour; ///< [link]
-  Field weight; ///< [link] facet measure over distance, L_ij/d_ij clamped to [0.1, 2], –
+  Field weight; ///< [link] facet measure over distance, L_ij/d_ij clamped to [0.1, 2], –; of revolution times
+                ///< 2π r, m
 };
 
 /// Polygons (2D) or polyhedra surfaces of the stress points, for output and pictures.

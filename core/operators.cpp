@@ -11,6 +11,7 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
   point.resize(entries);
   for (Field& f : weighted_gradient) f.resize(entries);
   weighted_value.resize(value.size());
+  weighted_hoop.resize(hoop.size());
 
   std::vector<std::int32_t> next(col_begin.begin(), col_begin.end() - 1);
   for (std::int32_t p = 0; p < points; ++p) {
@@ -21,6 +22,7 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
       point[t] = p;
       for (std::size_t k = 0; k < dim; ++k) weighted_gradient[k][t] = v * gradient[k][e];
       if (!value.empty()) weighted_value[t] = v * value[e];
+      if (!hoop.empty()) weighted_hoop[t] = v * hoop[e];
     }
   }
 }

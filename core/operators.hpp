@@ -14,22 +14,31 @@ namespace cnem {
 /// Row p holds b_pJ = ∇φ_J averaged over the volume V_p of stress point p (paper 004, (75)–(79)) and N_pJ, on
 /// the same pattern. Invariants (tests/contract): Σ_J b_pJ = 0; Σ_J x_J ⊗ b_pJ = 1; Σ_J N_pJ = 1; Σ_p V_p =
 /// |Ω|.
+///
+/// Bodies of revolution add the hoop rows h_pJ = N_pJ/r̄_p, N_pJ = φ_J at the centroid of the cell: Σ_J h_pJ
+/// r_J = r/R. There V_p = 2π r̄_p A_p, and b_pJ is weighted with the radius: V_p b_pJ = 2π (∮ r φ_J n dΓ − e_r
+/// A_p N_pJ).
 template<int dim> struct DiscreteOperators {
   int points = 0;
   int nodes = 0;
   bool nodal = false; ///< rows are nodes and N is the identity (C-NEM); then `value` is empty
 
-  Field volume;                        ///< [point] V_p in the reference, m² (per unit thickness) or m³
+  Field volume; ///< [point] V_p in the reference: m² (per unit thickness), m³ in 3D and of revolution
   std::vector<std::int32_t> row_begin; ///< [point + 1]
   std::vector<std::int32_t> node;      ///< [entry]
   Fields<dim> gradient;                ///< [k][entry] b_pJ,k, 1/m
   Field value;                         ///< [entry] N_pJ; empty when nodal, and in statics
+  Field radius;                        ///< [point] r̄_p of the centroid, m; empty in plane problems
+  Field hoop;                          ///< [entry] h_pJ, 1/m; empty in plane problems
 
   // The transpose, weighted by volume. Entries of a column are in increasing order of the point.
   std::vector<std::int32_t> col_begin; ///< [node + 1]
   std::vector<std::int32_t> point;     ///< [entry]
   Fields<dim> weighted_gradient;       ///< [k][entry] V_p b_pJ,k
   Field weighted_value;                ///< [entry] V_p N_pJ; empty when nodal
+  Field weighted_hoop;                 ///< [entry] V_p h_pJ; empty in plane problems
+
+  bool of_revolution() const { return !radius.empty(); }
 
   /// Fills the transpose from the rows. To be called once the rows are complete.
   void build_transpose();

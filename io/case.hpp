@@ -23,7 +23,7 @@ using VectorFunction = std::array<std::optional<TimeTable>, 2>;
 
 struct Analysis {
   enum class Type { explicit_dynamics, statics };
-  enum class Kinematics { plane_strain, plane_stress };
+  enum class Kinematics { plane_strain, plane_stress, axisymmetric };
   Type type = Type::explicit_dynamics;
   Kinematics kinematics = Kinematics::plane_strain;
   bool thermal = false; ///< solve for temperatures: plastic and friction heating, conduction

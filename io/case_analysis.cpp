@@ -43,6 +43,9 @@ void check_analysis(const Setting& root, const Case& result, Diagnostics& diagno
              "found \"plane stress\", expected it with analysis.type = \"static\" only", diagnostics);
     return;
   }
+  if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
+    refuse(root, "analysis.kinematics",
+           "found \"axisymmetric\", expected it with analysis.type = \"explicit\" only", diagnostics);
   const std::string dynamic =
       "found in a static analysis, expected it with analysis.type = \"explicit\" only";
   if (result.analysis.thermal)

@@ -144,8 +144,10 @@ private:
     if (!(most > 0.0)) return;
     const double cutoff = std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * sigma);
     chart.note =
-        fmt::format("Force of the tool on the workpiece, per unit thickness, of the part that is modelled. "
+        fmt::format("Force of the tool on the workpiece, {}. "
                     "Pale: every recorded value; full: Gaussian low-pass in time, σ = {} (−3 dB at {}).",
+                    chart.y_unit == "N" ? "of the whole body of revolution"
+                                        : "per unit thickness, of the part that is modelled",
                     si_format(sigma, "s", 3), si_format(cutoff, "Hz", 3));
     charts_.push_back(std::move(chart));
   }

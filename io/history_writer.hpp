@@ -8,6 +8,7 @@
 //   max.<field>[unit], e.g. max.plastic_strain, max.temperature[K]
 //   probe.<name>.<field>[unit]
 //   mass[kg/m], area[m^2]
+// Axisymmetric runs count the whole body: N, J and kg; the area is that of the meridian plane.
 #include <filesystem>
 #include <fstream>
 #include <span>

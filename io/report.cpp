@@ -107,6 +107,8 @@ ReportData collect_report(const fs::path& folder) {
   if (fs::exists(folder / files::history)) history = read_history(folder / files::history);
   collect_figures(report, status, history ? &*history : nullptr);
   if (history) report.charts = history_charts(*history);
+  if (history && history->find("mass[kg]") >= 0)
+    report.subtitle += " · axisymmetric: x is the radius, totals of the whole body";
 
   const PictureAlbum album(folder);
   for (const AlbumEntry& entry : album.entries())

@@ -19,8 +19,12 @@ void add_general(Keys& k) {
       .one_of({"explicit", "static"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
-        "Per unit thickness: no strain out of the plane, or no stress (static only).")
-      .one_of({"plane strain", "plane stress"})
+        "Per unit thickness: no strain out of the plane, or no stress (static only). `axisymmetric` "
+        "(explicit only): "
+        "a body of revolution about x = 0, x the radius and y the axial coordinate; nodes on the axis stay "
+        "on it, "
+        "and masses, forces and energies are those of the whole body.")
+      .one_of({"plane strain", "plane stress", "axisymmetric"})
       .fallback("\"plane strain\"");
   k.add("analysis.thermal", boolean,
         "Solve for temperatures: heat of plastic work and friction, conduction. Without, the temperature "
@@ -236,7 +240,8 @@ void add_method(Keys& k) {
   k.add("method.functions", choice, "Natural neighbour functions (cnem).")
       .one_of({"sibson", "laplace"})
       .fallback("\"sibson\"");
-  k.add("method.gauss_points", integer, "Per edge of a Voronoi cell (cnem).")
+  k.add("method.gauss_points", integer,
+        "Per edge of a Voronoi cell (cnem); axisymmetric analyses take at least 2.")
       .in({.low = 1, .high = 3})
       .fallback("2");
   k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem).")

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cnem {
 
@@ -21,8 +22,10 @@ ViscousBlock add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOp
     double q = 0.0;
     if (rate < 0.0) {
       const double rho = density[p] / J;
-      const double length =
-          dim == 2 ? std::sqrt(operators.volume[p] * J) : std::cbrt(operators.volume[p] * J);
+      double volume = operators.volume[p] * J;
+      if (operators.of_revolution())
+        volume /= 2.0 * std::numbers::pi * operators.radius[p] * deformation[4][p];
+      const double length = dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
       const double speed = std::sqrt(wave_modulus[p] / rho);
       const double damping = viscosity.linear - viscosity.quadratic * length * rate / speed;
       block.damping = std::max(block.damping, damping);

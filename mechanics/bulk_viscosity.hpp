@@ -5,7 +5,8 @@
 
 namespace cnem {
 
-/// q = ρ l (c₁ l tr²D − c₂ c_d tr D) where tr D < 0, else 0; l = V^{1/dim} of the current cell, c_d the
+/// q = ρ l (c₁ l tr²D − c₂ c_d tr D) where tr D < 0, else 0; l = V^{1/dim} of the current cell (of
+/// revolution √ of its meridian area), c_d the
 /// dilatational wave speed. Both coefficients zero switch it off.
 struct BulkViscosity {
   double quadratic = 0.0; ///< c₁

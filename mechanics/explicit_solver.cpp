@@ -358,6 +358,7 @@ template<int dim> double ExplicitSolver<dim>::strain_since_reference() const {
                             const double d = f[i * dim + k][p] - (i == k ? 1.0 : 0.0);
                             sum += d * d;
                           }
+                        if constexpr (dim == 2) sum += (f[4][p] - 1.0) * (f[4][p] - 1.0);
                         if (sum > best.value) best = {sum, p};
                       }
                       best.value = std::sqrt(best.value);

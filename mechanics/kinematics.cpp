@@ -23,6 +23,15 @@ void deformation_gradient(const DiscreteOperators<dim>& operators, const Fields<
     for (std::size_t i = 0; i < dim; ++i)
       for (std::size_t k = 0; k < dim; ++k) deformation[i * dim + k][p] = f[i][k];
   }
+  if constexpr (dim == 2) {
+    if (!operators.of_revolution()) return;
+    for (std::size_t p = begin; p < end; ++p) {
+      double stretch = 0.0;
+      for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e)
+        stretch += operators.hoop[e] * x[0][at(operators.node, e)];
+      deformation[4][p] = stretch;
+    }
+  }
 }
 
 template<int dim>
@@ -72,6 +81,15 @@ void subtract_internal_force(const DiscreteOperators<dim>& operators, const Fiel
         for (std::size_t k = 0; k < dim; ++k) f[i] += stress[i * dim + k][p] * vb[k][e];
     }
     for (std::size_t i = 0; i < dim; ++i) force[i][j] -= f[i];
+  }
+  if constexpr (dim == 2) {
+    if (!operators.of_revolution()) return;
+    for (std::size_t j = begin; j < end; ++j) {
+      double f = 0.0;
+      for (std::size_t e = at(operators.col_begin, j); e < at(operators.col_begin, j + 1); ++e)
+        f += piola[4][at(operators.point, e)] * operators.weighted_hoop[e];
+      force[0][j] -= f;
+    }
   }
 }
 

@@ -6,7 +6,8 @@
 namespace cnem {
 
 /// F_p = Σ_J x_J ⊗ b_pJ for the points [begin, end) (paper 004, (75); Box 2 (i)). `deformation` as in
-/// PointState; its out-of-plane component in 2D is left as it is (1 in plane strain).
+/// PointState; its out-of-plane component in 2D is Σ_J h_pJ r_J
+/// in a body of revolution, else left as it is (1 in plane strain).
 template<int dim>
 void deformation_gradient(const DiscreteOperators<dim>& operators, const Fields<dim>& position,
                           Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end);
@@ -22,7 +23,8 @@ template<int dim>
 double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, std::size_t node);
 template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators, const Field& at_points);
 
-/// force_J −= Σ_p V_p P_p b_pJ for the nodes [begin, end): minus the internal force (52), gathered.
+/// force_J −= Σ_p V_p (P_p b_pJ + P_θθ h_pJ e_r) for the nodes [begin, end): minus the internal force (52),
+/// gathered.
 template<int dim>
 void subtract_internal_force(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& piola,
                              Fields<dim>& force, std::size_t begin, std::size_t end);

@@ -4,16 +4,16 @@ namespace cnem {
 
 template<int dim>
 Loads<dim>::Loads(std::vector<Traction<dim>> tractions, std::vector<Pressure<dim>> pressures,
-                  std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial)
+                  std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial, Space space)
     : tractions_(std::move(tractions)), pressures_(std::move(pressures)),
-      acceleration_(std::move(acceleration)) {
+      acceleration_(std::move(acceleration)), space_(space) {
   for (const TimeTable& component : acceleration_) body_force_ |= !component.empty();
   for (const Traction<dim>& traction : tractions_) {
-    std::vector<double>& share = traction_share_.emplace_back();
+    std::vector<std::array<double, dim>>& share = traction_share_.emplace_back();
     for (const Facet<dim>& facet : traction.facets) {
       const Vec<dim>& a = initial[static_cast<std::size_t>(facet.node[0])];
       const Vec<dim>& b = initial[static_cast<std::size_t>(facet.node[1])];
-      share.push_back(0.5 * (b - a).norm());
+      share.push_back(end_areas(space, a, b));
     }
   }
   resize_all(force_, initial.size());
@@ -29,17 +29,21 @@ template<int dim> void Loads<dim>::evaluate(double time, const Fields<dim>& posi
     for (std::size_t k = 0; k < dim; ++k) {
       const double value = tractions_[t].value[k](time);
       for (std::size_t f = 0; f < tractions_[t].facets.size(); ++f)
-        for (const std::int32_t node : tractions_[t].facets[f].node)
-          force_[k][static_cast<std::size_t>(node)] += value * traction_share_[t][f];
+        for (std::size_t end = 0; end < dim; ++end)
+          force_[k][static_cast<std::size_t>(tractions_[t].facets[f].node[end])] +=
+              value * traction_share_[t][f][end];
     }
   for (const Pressure<dim>& pressure : pressures_) {
     const double value = pressure.value(time);
     for (const Facet<dim>& facet : pressure.facets) {
       const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
-      const Vec2 edge(position[0][b] - position[0][a], position[1][b] - position[1][a]);
-      const Vec2 half = -0.5 * value * right_normal(edge);
-      for (const std::size_t node : {a, b})
-        for (std::size_t k = 0; k < dim; ++k) force_[k][node] += half[static_cast<Eigen::Index>(k)];
+      const Vec2 start(position[0][a], position[1][a]), end(position[0][b], position[1][b]);
+      const std::array<double, 2> area = end_areas(space_, start, end);
+      const Vec2 push = -value * right_normal(end - start).normalized();
+      for (std::size_t k = 0; k < dim; ++k) {
+        force_[k][a] += area[0] * push[static_cast<Eigen::Index>(k)];
+        force_[k][b] += area[1] * push[static_cast<Eigen::Index>(k)];
+      }
     }
   }
 }

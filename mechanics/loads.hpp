@@ -1,6 +1,7 @@
 #pragma once
 // Applied forces: tractions and pressures on boundary pieces, body forces.
 #include "core/cloud.hpp"
+#include "core/revolution.hpp"
 #include "core/state.hpp"
 #include "core/time_table.hpp"
 
@@ -29,11 +30,12 @@ public:
   Loads() = default;
   /// `initial` holds the positions in which tractions are measured.
   Loads(std::vector<Traction<dim>> tractions, std::vector<Pressure<dim>> pressures,
-        std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial);
+        std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial,
+        Space space = Space::plane);
 
   bool empty() const { return tractions_.empty() && pressures_.empty() && !body_force_; }
 
-  /// External force at nodes, N/m^(3−dim), written to force().
+  /// External force at nodes, N/m^(3−dim) (N of revolution), written to force().
   void evaluate(double time, const Fields<dim>& position, const Field& mass);
   const Fields<dim>& force() const { return force_; }
 
@@ -47,10 +49,11 @@ public:
 
 private:
   std::vector<Traction<dim>> tractions_;
-  std::vector<std::vector<double>> traction_share_; ///< area of each facet over its number of nodes
+  std::vector<std::vector<std::array<double, dim>>> traction_share_; ///< area of each facet its nodes carry
   std::vector<Pressure<dim>> pressures_;
   std::array<TimeTable, dim> acceleration_;
   bool body_force_ = false;
+  Space space_ = Space::plane;
   Fields<dim> force_;
 };
 

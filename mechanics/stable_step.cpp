@@ -4,6 +4,7 @@
 #include "core/vec.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,13 @@ template<int dim> Mat<dim> inverse(const Fields<tensor_size<dim>>& deformation, 
   return inv;
 }
 
+/// Norm of what a node does to a point: |b|, of revolution with the hoop entry h.
+template<int dim> double block_norm(Vec<dim> b, double h) {
+  const double squares = b.squaredNorm() + h * h;
+  b[0] += h;
+  return std::sqrt(std::max(b.squaredNorm(), squares));
+}
+
 } // namespace
 
 template<int dim>
@@ -30,6 +38,9 @@ typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteO
                                                                  const Field& modulus, const Field& weight) {
   const auto nodes = static_cast<std::size_t>(operators.nodes),
              points = static_cast<std::size_t>(operators.points);
+  const auto hoop = [&](const Field& entries, std::size_t e, std::size_t p) {
+    return operators.of_revolution() ? entries[e] / deformation[4][p] : 0.0;
+  };
   transfer_.resize(nodes);
   for_each_block(nodes, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
@@ -40,7 +51,8 @@ typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteO
         const Mat<dim> inv = inverse<dim>(deformation, static_cast<std::size_t>(operators.point[e]), det);
         Vec<dim> vb;
         for (int k = 0; k < dim; ++k) vb[k] = operators.weighted_gradient[static_cast<std::size_t>(k)][e];
-        sum += det * (inv.transpose() * vb).norm();
+        const double vh = hoop(operators.weighted_hoop, e, static_cast<std::size_t>(operators.point[e]));
+        sum += det * block_norm<dim>(inv.transpose() * vb, vh);
       }
       transfer_[j] = sum / weight[j];
     }
@@ -54,7 +66,8 @@ typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteO
            e < static_cast<std::size_t>(operators.row_begin[p + 1]); ++e) {
         Vec<dim> b;
         for (int k = 0; k < dim; ++k) b[k] = operators.gradient[static_cast<std::size_t>(k)][e];
-        sum += (inv.transpose() * b).norm() * transfer_[static_cast<std::size_t>(operators.node[e])];
+        sum += block_norm<dim>(inv.transpose() * b, hoop(operators.hoop, e, p)) *
+               transfer_[static_cast<std::size_t>(operators.node[e])];
       }
       const double value = modulus[p] * sum;
       if (!(value <= best.value)) best = {value, p};

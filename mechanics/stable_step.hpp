@@ -17,7 +17,8 @@ struct StableStep {
 ///
 /// (norms of the blocks of a Gershgorin row, at stress points). With k = λ + 2μ it bounds ω² of elastic
 /// waves, with the conductivity the decay rate of heat. Moves with |F⁻ᵀ b| ≤ the bound's own tensor norm, so
-/// it holds for any F.
+/// it holds for any F. Of revolution |b| becomes max(|b + h e_r|, √(|b|² + h²)), which bounds the energy norm
+/// of u ↦ (u ⊗ b, u_r h) for λ ≥ 0.
 template<int dim> class SpectralBound {
 public:
   struct Result {

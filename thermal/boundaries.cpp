@@ -6,9 +6,9 @@ namespace cnem {
 
 namespace {
 
-double half_length(const Facet<2>& facet, const Fields<2>& position) {
+std::array<double, 2> areas(Space space, const Facet<2>& facet, const Fields<2>& position) {
   const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
-  return 0.5 * Vec2(position[0][b] - position[0][a], position[1][b] - position[1][a]).norm();
+  return end_areas(space, {position[0][a], position[1][a]}, {position[0][b], position[1][b]});
 }
 
 } // namespace
@@ -18,17 +18,21 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
                                       const std::vector<ToolConductance>& tools, Field& flow) const {
   for (const HeatFlux<dim>& flux : fluxes_) {
     const double value = flux.value(time);
-    for (const Facet<dim>& facet : flux.facets)
-      for (const std::int32_t node : facet.node)
-        flow[static_cast<std::size_t>(node)] += value * half_length(facet, position);
+    for (const Facet<dim>& facet : flux.facets) {
+      const auto area = areas(space_, facet, position);
+      for (std::size_t end = 0; end < dim; ++end)
+        flow[static_cast<std::size_t>(facet.node[end])] += value * area[end];
+    }
   }
   for (const Convection<dim>& convection : convections_) {
     const double h = convection.coefficient(time), ambient = convection.ambient(time);
-    for (const Facet<dim>& facet : convection.facets)
-      for (const std::int32_t node : facet.node) {
-        const auto i = static_cast<std::size_t>(node);
-        flow[i] += h * (ambient - temperature[i]) * half_length(facet, position);
+    for (const Facet<dim>& facet : convection.facets) {
+      const auto area = areas(space_, facet, position);
+      for (std::size_t end = 0; end < dim; ++end) {
+        const auto i = static_cast<std::size_t>(facet.node[end]);
+        flow[i] += h * (ambient - temperature[i]) * area[end];
       }
+    }
   }
   for (const ToolConductance& tool : tools) {
     const auto i = static_cast<std::size_t>(tool.node);
@@ -55,10 +59,12 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
                                              const Field& heat_capacity) const {
   double worst = 0.0;
   for (const Convection<dim>& convection : convections_)
-    for (const Facet<dim>& facet : convection.facets)
-      for (const std::int32_t node : facet.node)
-        worst = std::max(worst, 2.0 * convection.coefficient(time) * half_length(facet, position) /
-                                    heat_capacity[static_cast<std::size_t>(node)]);
+    for (const Facet<dim>& facet : convection.facets) {
+      const auto area = areas(space_, facet, position);
+      for (std::size_t end = 0; end < dim; ++end)
+        worst = std::max(worst, 2.0 * convection.coefficient(time) * area[end] /
+                                    heat_capacity[static_cast<std::size_t>(facet.node[end])]);
+    }
   return worst;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Heat through the boundary: prescribed temperature, flux, convection, conductance to tools.
 #include "core/cloud.hpp"
+#include "core/revolution.hpp"
 #include "core/state.hpp"
 #include "core/time_table.hpp"
 
@@ -45,8 +46,9 @@ template<int dim> class ThermalBoundaries {
 public:
   ThermalBoundaries() = default;
   ThermalBoundaries(std::vector<FixedTemperature> fixed, std::vector<HeatFlux<dim>> fluxes,
-                    std::vector<Convection<dim>> convections)
-      : fixed_(std::move(fixed)), fluxes_(std::move(fluxes)), convections_(std::move(convections)) {}
+                    std::vector<Convection<dim>> convections, Space space = Space::plane)
+      : fixed_(std::move(fixed)), fluxes_(std::move(fluxes)), convections_(std::move(convections)),
+        space_(space) {}
 
   /// Adds what flows into the nodes at `time` to `flow`, W/m^(3−dim).
   void add_flow(double time, const Fields<dim>& position, const Field& temperature,
@@ -62,6 +64,7 @@ private:
   std::vector<FixedTemperature> fixed_;
   std::vector<HeatFlux<dim>> fluxes_;
   std::vector<Convection<dim>> convections_;
+  Space space_ = Space::plane;
 };
 
 extern template class ThermalBoundaries<2>;

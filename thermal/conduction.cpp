@@ -13,15 +13,18 @@ namespace {
 template<int dim> struct Row {
   Mat<dim> deformation = Mat<dim>::Zero();
   Vec<dim> gradient = Vec<dim>::Zero(); ///< ∇_X T
+  double hoop = 1.0;                    ///< r/R of revolution
 };
 
 template<int dim>
 Row<dim> row_of(const DiscreteOperators<dim>& operators, const Fields<dim>& position,
                 const double* temperature, std::size_t p) {
   Row<dim> row;
+  if (operators.of_revolution()) row.hoop = 0.0;
   for (auto e = static_cast<std::size_t>(operators.row_begin[p]);
        e < static_cast<std::size_t>(operators.row_begin[p + 1]); ++e) {
     const auto j = static_cast<std::size_t>(operators.node[e]);
+    if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[0][j];
     for (int k = 0; k < dim; ++k) {
       const double b = operators.gradient[static_cast<std::size_t>(k)][e];
       if (temperature) row.gradient[k] += temperature[j] * b;
@@ -46,7 +49,7 @@ void Conduction<dim>::add_flow(const Fields<dim>& position, const Field& tempera
   for_each_block(static_cast<std::size_t>(op.points), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const Row<dim> row = row_of<dim>(op, position, temperature.data(), p);
-      const double det = row.deformation.determinant();
+      const double det = row.deformation.determinant() * row.hoop;
       const Mat<dim> inverse = row.deformation.inverse();
       const Vec<dim> q = conductivity_[p] * det * (inverse * (inverse.transpose() * row.gradient));
       for (int k = 0; k < dim; ++k) flux_[static_cast<std::size_t>(k)][p] = q[k];
@@ -74,7 +77,7 @@ double Conduction<dim>::fastest_decay(const Fields<dim>& position, const Field& 
   for (std::size_t p = 0; p < points; ++p) {
     const Row<dim> row = row_of<dim>(op, position, nullptr, p);
     const Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
-    const double volume = op.volume[p] * row.deformation.determinant();
+    const double volume = op.volume[p] * row.deformation.determinant() * row.hoop;
     for (auto e = static_cast<std::size_t>(op.row_begin[p]);
          e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
       Vec<dim> b;

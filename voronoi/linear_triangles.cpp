@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cnem::voronoi {
 namespace {
@@ -19,7 +20,8 @@ namespace {
 
 } // namespace
 
-DiscreteOperators<2> linear_triangles(const Cloud<2>& cloud, const Triangulation& triangulation) {
+DiscreteOperators<2> linear_triangles(const Cloud<2>& cloud, const Triangulation& triangulation,
+                                      Space space) {
   const auto triangles = static_cast<std::size_t>(triangulation.triangles());
   DiscreteOperators<2> op;
   op.points = triangulation.triangles();
@@ -60,6 +62,18 @@ DiscreteOperators<2> linear_triangles(const Cloud<2>& cloud, const Triangulation
                           cloud.position[static_cast<std::size_t>(corner[2])]);
     }
 
+  if (space == Space::revolution) {
+    op.radius.resize(triangles);
+    op.hoop.resize(3 * triangles);
+    for (std::size_t t = 0; t < triangles; ++t) {
+      double sum = 0.0;
+      for (const std::int32_t i : triangulation.node[t])
+        sum += cloud.position[static_cast<std::size_t>(i)].x();
+      op.radius[t] = sum / 3.0;
+      op.volume[t] *= 2.0 * std::numbers::pi * op.radius[t];
+      for (std::size_t e = 3 * t; e < 3 * t + 3; ++e) op.hoop[e] = op.value[e] / op.radius[t];
+    }
+  }
   op.build_transpose();
   return op;
 }

@@ -10,8 +10,8 @@
 namespace cnem::testing {
 
 struct Linear {
-  Eigen::MatrixXd stiffness; ///< N/m², dofs node-major
-  Eigen::VectorXd mass;      ///< kg/m, per dof
+  Eigen::MatrixXd stiffness; ///< N/m² (N/m of revolution), dofs node-major
+  Eigen::VectorXd mass;      ///< kg/m (kg), per dof
 };
 
 inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
@@ -38,8 +38,10 @@ inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
       deformation_gradient<2>(op, x, F, 0, points);
       for (std::size_t p = 0; p < points; ++p) {
         const double exx = F[0][p] - 1.0, eyy = F[3][p] - 1.0, exy = 0.5 * (F[1][p] + F[2][p]);
-        P[0][p] = lambda * (exx + eyy) + 2.0 * mu * exx;
-        P[3][p] = lambda * (exx + eyy) + 2.0 * mu * eyy;
+        const double ezz = op.of_revolution() ? F[4][p] - 1.0 : 0.0;
+        P[0][p] = lambda * (exx + eyy + ezz) + 2.0 * mu * exx;
+        P[3][p] = lambda * (exx + eyy + ezz) + 2.0 * mu * eyy;
+        P[4][p] = lambda * (exx + eyy + ezz) + 2.0 * mu * ezz;
         P[1][p] = P[2][p] = 2.0 * mu * exy;
       }
       resize_all(force, n);

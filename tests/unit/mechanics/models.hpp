@@ -16,9 +16,9 @@ inline void PrintTo(Method method, std::ostream* out) {
   *out << (method == Method::cnem ? "cnem" : "triangles");
 }
 
-inline std::unique_ptr<Discretisation<2>> make(Method method) {
-  if (method == Method::triangles) return std::make_unique<alternatives::FeTriangles>();
-  return std::make_unique<scni::Cnem>(scni::Options{});
+inline std::unique_ptr<Discretisation<2>> make(Method method, Space space = Space::plane) {
+  if (method == Method::triangles) return std::make_unique<alternatives::FeTriangles>(space);
+  return std::make_unique<scni::Cnem>(scni::Options{.space = space});
 }
 
 inline plasticity::Material steel() {

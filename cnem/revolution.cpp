@@ -1,0 +1,72 @@
+#include "cnem/revolution.hpp"
+
+#include <numbers>
+
+namespace cnem::scni {
+namespace {
+
+std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// ∮ ½ (ρ_x² n_x, ρ_y² n_y) ds over a segment, ρ from `origin`, n ds the right normal of the segment: its
+/// share of the first moments of area.
+Vec2 first_moment(const Vec2& origin, const Vec2& start, const Vec2& end) {
+  const Vec2 a = start - origin, b = end - origin;
+  const Vec2 mean_square = (a.cwiseProduct(a) + a.cwiseProduct(b) + b.cwiseProduct(b)) / 3.0;
+  return 0.5 * mean_square.cwiseProduct(right_normal(end - start));
+}
+
+std::vector<Vec2> centroids(const Cloud<2>& cloud, const voronoi::Cells& cells) {
+  std::vector<Vec2> moment(cloud.position.size(), Vec2::Zero());
+  for (const voronoi::InteriorFacet& facet : cells.interior) {
+    const std::size_t i = index(facet.cell[0]), j = index(facet.cell[1]);
+    moment[i] += first_moment(cloud.position[i], facet.start, facet.end);
+    moment[j] -= first_moment(cloud.position[j], facet.start, facet.end);
+  }
+  for (const voronoi::BoundaryPiece& piece : cells.boundary) {
+    const auto& ends = cloud.facets[index(piece.facet)].node;
+    const Vec2 &a = cloud.position[index(ends[0])], &b = cloud.position[index(ends[1])];
+    const std::size_t i = index(piece.cell);
+    moment[i] += first_moment(cloud.position[i], a + piece.s0 * (b - a), a + piece.s1 * (b - a));
+  }
+  for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = cloud.position[i] + moment[i] / cells.volume[i];
+  return moment;
+}
+
+/// Any triangle at each node.
+std::vector<std::int32_t> triangle_at_nodes(std::size_t nodes, const voronoi::Triangulation& triangulation) {
+  std::vector<std::int32_t> triangle(nodes, 0);
+  for (std::size_t t = 0; t < triangulation.node.size(); ++t)
+    for (const std::int32_t i : triangulation.node[t]) triangle[index(i)] = static_cast<std::int32_t>(t);
+  return triangle;
+}
+
+} // namespace
+
+CentroidValues centroid_values(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
+                               const voronoi::Circumcircles& circles, const voronoi::Cells& cells,
+                               voronoi::Functions functions) {
+  const std::vector<Vec2> centroid = centroids(cloud, cells);
+  const auto hint = triangle_at_nodes(centroid.size(), triangulation);
+  CentroidValues result;
+  result.radius.resize(centroid.size());
+  result.begin.push_back(0);
+  result.node.reserve(7 * centroid.size());
+  result.value.reserve(7 * centroid.size());
+  voronoi::NaturalNeighbours neighbours(cloud, triangulation, circles);
+  for (std::size_t i = 0; i < centroid.size(); ++i) {
+    result.radius[i] = centroid[i].x();
+    neighbours.evaluate(functions, centroid[i], hint[i]);
+    result.node.insert(result.node.end(), neighbours.nodes().begin(), neighbours.nodes().end());
+    result.value.insert(result.value.end(), neighbours.values().begin(), neighbours.values().end());
+    result.begin.push_back(static_cast<std::int32_t>(result.node.size()));
+  }
+  return result;
+}
+
+void revolve(const Field& radius, StabilisationLinks<2>& links) {
+  for (std::size_t i = 0; i + 1 < links.begin.size(); ++i)
+    for (auto e = index(links.begin[i]); e < index(links.begin[i + 1]); ++e)
+      links.weight[e] *= std::numbers::pi * (radius[i] + radius[index(links.neighbour[e])]);
+}
+
+} // namespace cnem::scni

@@ -1,0 +1,73 @@
+// Taylor bars on coarse clouds against independent finite-element solutions (cases/verification/taylor_*).
+#include "app/registry.hpp"
+#include "io/case_reader.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::testing {
+namespace {
+
+struct Shape {
+  double length, radius;         ///< m
+  double plastic_strain, centre; ///< largest and on the axis at the wall
+  double temperature;            ///< K, there
+  double residual;               ///< of the energy over the initial one
+};
+
+/// Runs a case of cases/verification.
+Shape run(const std::string& name, const std::string& spacing) {
+  const io::Case input =
+      io::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
+                    {"cloud.spacing=\"" + spacing + "\""});
+  app::Setup setup = app::build(input);
+  ExplicitSolver<2> solver(std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature));
+  while (solver.state().time < input.time.end) {
+    const double dt = solver.stable_step().dt;
+    for (int n = 0; n < 10; ++n) solver.advance(dt);
+  }
+  const State<2>& state = solver.state();
+  Shape shape{};
+  for (std::size_t i = 0; i < state.node.size(); ++i) {
+    const double X = solver.initial_position()[0][i], Y = solver.initial_position()[1][i];
+    shape.length = std::max(shape.length, state.node.position[1][i]);
+    if (Y == 0.0) shape.radius = std::max(shape.radius, state.node.position[0][i]);
+    shape.plastic_strain = std::max(shape.plastic_strain, state.point.plastic_strain[i]);
+    if (X == 0.0 && Y == 0.0) {
+      shape.centre = state.point.plastic_strain[i];
+      shape.temperature = state.node.temperature[i];
+    }
+    if (X == 0.0) { EXPECT_EQ(state.node.position[0][i], 0.0); }
+  }
+  shape.residual = std::abs(solver.ledger().residual()) / solver.ledger().initial;
+  return shape;
+}
+
+void expect_near(double found, double reference, double share, const char* what) {
+  EXPECT_NEAR(found, reference, share * reference) << what;
+}
+
+TEST(TaylorBar, copper_with_linear_hardening) {
+  const Shape shape = run("taylor_copper", "0.64 mm");
+  expect_near(shape.length, 21.438e-3, 0.01, "length");
+  expect_near(shape.radius, 7.225e-3, 0.02, "radius");
+  expect_near(shape.plastic_strain, 3.351, 0.15, "plastic strain");
+  EXPECT_LT(shape.residual, 1e-3);
+}
+
+TEST(TaylorBar, stainless_steel_with_heat) {
+  const Shape shape = run("taylor_304l", "0.64 mm");
+  expect_near(shape.length, 27.786e-3, 0.01, "length");
+  expect_near(shape.radius, 4.2065e-3, 0.02, "radius");
+  expect_near(shape.centre, 0.630, 0.15, "plastic strain");
+  expect_near(shape.temperature - 296.0, 505.7 - 296.0, 0.15, "rise of temperature");
+}
+
+TEST(TaylorBar, plane_strain_slab) {
+  const Shape shape = run("taylor_slab_copper", "0.32 mm");
+  expect_near(shape.length, 28.830e-3, 0.01, "length");
+  expect_near(shape.radius, 6.372e-3, 0.02, "half width");
+  expect_near(shape.plastic_strain, 1.82, 0.15, "plastic strain");
+}
+
+} // namespace
+} // namespace cnem::testing
