@@ -7,8 +7,10 @@
 #include "io/output_folder.hpp"
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace cnem::app {
@@ -212,6 +214,36 @@ TEST_F(Sweep, a_signal_ends_the_children_and_is_told) {
   EXPECT_FALSE(complete);
   EXPECT_EQ(begun, 2U);
   EXPECT_EQ(ended, 0);
+}
+
+TEST_F(Sweep, a_sweep_that_is_terminated_exits_with_5_and_keeps_what_is_done) {
+  // The second run takes many seconds; the signal comes as soon as the first one is done.
+  std::ofstream(folder / "study.toml") << "case = \"plate\"\nprocesses = 1\n[grid]\n"
+                                          "\"cloud.spacing\" = [\"0.5 mm\", \"0.005 mm\"]\n";
+  const std::string command =
+      "'" CNEM_PROGRAM "' sweep " + folder.string() + " --output " + out().string() +
+      " > /dev/null 2>&1 & sweep=$!; tries=0; until grep -q '\"done\"' " +
+      (out() / "manifest.json").string() +
+      " || [ $tries -gt 400 ]; do sleep 0.05; tries=$((tries + 1)); done 2> /dev/null; kill -TERM $sweep; "
+      "wait $sweep";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 5);
+  EXPECT_NE(io::read_file(out() / "table.csv").find("spacing_0.005_mm,0.005 mm,pending"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out() / "spacing_0.005_mm" / "status.json"));
+  ASSERT_EQ(run(study("[grid]\n\"cloud.spacing\" = [\"0.5 mm\"]\n")), 0);
+  expect_parts(printed, {"1 done before, 0 to do"});
+}
+
+TEST_F(Sweep, wrong_usage_exits_with_2) {
+  const auto code = [&](const std::string& arguments) {
+    const int status = std::system(("'" CNEM_PROGRAM "' sweep " + arguments + " > /dev/null 2>&1").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  EXPECT_EQ(code((folder / "absent.toml").string()), 2);
+  std::ofstream(folder / "study.toml") << "case = \"absent\"\n[[run]]\nname = \"a\"\n";
+  EXPECT_EQ(code(folder.string()), 2);
+  EXPECT_EQ(code(folder.string() + " --processes 0"), 2);
 }
 
 TEST_F(Sweep, jobs_report_their_code_signal_and_output) {
