@@ -30,10 +30,8 @@ constexpr const char* table_style = R"css(
 .runs .bad { color: var(--bad); }
 )css";
 
-std::string words(std::string name) {
-  if (name.starts_with("metrics.")) name = name.substr(8);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+std::string column_name(const std::string& path) {
+  return path.starts_with("metrics.") ? path.substr(8) : path;
 }
 
 /// The own values of a run except that of `without`: what a curve is called.
@@ -63,7 +61,7 @@ std::string x_label(const io::Study& study, const std::string& x) {
   for (const io::StudyRun& run : study.runs)
     if (const io::Value* value = run.find(x); value && io::split_number(*value, number, unit))
       return x.substr(x.rfind('.') + 1) + (unit.empty() ? "" : " [" + unit + "]");
-  return words(x);
+  return column_name(x);
 }
 
 /// One curve per column and per value of the other keys of a grid.
@@ -72,7 +70,7 @@ io::Chart column_chart(const io::Study& study, const std::vector<SweepRun>& runs
   io::Chart chart;
   chart.x_label = x_label(study, wanted.x);
   chart.x_unit = "";
-  chart.y_label = wanted.y.size() == 1 ? words(wanted.y.front()) : "";
+  chart.y_label = wanted.y.size() == 1 ? column_name(wanted.y.front()) : "";
   const bool along_key = std::find(study.keys.begin(), study.keys.end(), wanted.x) != study.keys.end();
   std::vector<std::string> groups;
   std::map<std::string, std::vector<std::size_t>> members;
@@ -90,7 +88,7 @@ io::Chart column_chart(const io::Study& study, const std::vector<SweepRun>& runs
     std::stable_sort(list.begin(), list.end(), [&](std::size_t a, std::size_t b) { return x[a] < x[b]; });
     for (const std::string& column : wanted.y) {
       io::ChartSeries line;
-      line.label = wanted.y.size() == 1 ? group : words(column) + (group.empty() ? "" : ", " + group);
+      line.label = wanted.y.size() == 1 ? group : column_name(column) + (group.empty() ? "" : ", " + group);
       line.colour = static_cast<int>(chart.series.size()) % colours;
       line.dashed = chart.series.size() >= colours;
       for (const std::size_t k : list) {
@@ -102,7 +100,7 @@ io::Chart column_chart(const io::Study& study, const std::vector<SweepRun>& runs
     }
   }
   std::string title;
-  for (const std::string& column : wanted.y) title += (title.empty() ? "" : ", ") + words(column);
+  for (const std::string& column : wanted.y) title += (title.empty() ? "" : ", ") + column_name(column);
   chart.title = title + " against " + wanted.x.substr(wanted.x.rfind('.') + 1);
   return chart;
 }
@@ -111,8 +109,8 @@ io::Chart column_chart(const io::Study& study, const std::vector<SweepRun>& runs
 io::Chart history_chart(const io::Study& study, const std::vector<io::HistoryTable>& histories,
                         const std::string& column) {
   io::Chart chart;
-  chart.title = words(column);
-  chart.y_label = words(column);
+  chart.title = column_name(column);
+  chart.y_label = column_name(column);
   std::size_t drawn = 0;
   for (std::size_t k = 0; k < histories.size(); ++k) {
     const io::HistoryTable& history = histories[k];
@@ -153,7 +151,7 @@ std::string run_table(const io::Study& study, const std::vector<SweepRun>& runs)
   std::string html =
       "<section id=\"runs\">\n<h2>Runs</h2>\n<div class=\"runs\"><table>\n<tr>" + cell("run", "th");
   for (const std::string& key : study.keys) html += cell(key.substr(key.rfind('.') + 1), "th");
-  for (const std::string& column : columns) html += cell(words(column), "th");
+  for (const std::string& column : columns) html += cell(column_name(column), "th");
   html += "</tr>\n";
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const std::string name = io::html_escape(study.runs[k].name);

@@ -146,7 +146,7 @@ TEST_F(Sweep, leaves_manifest_table_report_and_a_folder_per_run) {
     EXPECT_EQ(status.threads, 1);
   }
   const std::string report = io::read_file(out() / "report.html");
-  expect_parts(report, {"strain energy against spacing", "spacing [mm]", "2 of 2 runs done",
+  expect_parts(report, {"strain_energy against spacing", "spacing [mm]", "2 of 2 runs done",
                         "spacing_0.25_mm/report.html", "energy.elastic"});
   EXPECT_EQ(report.find("http"), std::string::npos) << "it needs nothing from elsewhere";
 }
