@@ -92,9 +92,11 @@ template<class Changes> Case read(Value document, const std::string& path, const
   for (const auto& change : changes) apply_override(document, change);
   Diagnostics diagnostics;
   Setting root = apply_schema(document, diagnostics);
-  diagnostics.throw_if_any();
-  if (!root.find("time.end") && root.get<std::string>("analysis.type") != "static")
-    diagnostics.add(Mistake::missing_key, root.find("time")->where, "time.end",
+  const Member* time = document.find("time");
+  const bool ended = time && time->value.find("end");
+  if (const Setting* type = root.find("analysis.type");
+      !ended && type && std::get<std::string>(type->value) != "static")
+    diagnostics.add(Mistake::missing_key, time ? time->value.where : document.where, "time.end",
                     "missing, expected " + find_key("time.end")->expectation());
   diagnostics.throw_if_any();
   compute_defaults(root);

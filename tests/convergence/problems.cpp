@@ -122,7 +122,7 @@ Problem plate_with_hole() {
   p.name = "plate_with_hole";
   p.title = "Plate with a hole, a quarter of 5 × 5 radii, exact tractions, plane strain, ν = 0.3";
   p.elasticity = {1.0, 0.3};
-  p.spacings = {0.4, 0.2, 0.1};
+  p.spacings = {0.2, 0.1, 0.05};
   p.cloud = [](double h) {
     return generate({line({1, 0}, {5, 0}, "bottom"), line({5, 0}, {5, 5}, "free"),
                      line({5, 5}, {0, 5}, "free"), line({0, 5}, {0, 1}, "left"),

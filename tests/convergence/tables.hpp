@@ -18,8 +18,10 @@ struct Table {
   std::vector<double> seconds; ///< [row] of wall time for the whole row: reported, never compared
 };
 
-/// All tables, computed. Takes about a minute.
-std::vector<Table> all_tables();
+std::vector<std::string> table_names();
+
+/// Computes one table: seconds each.
+Table compute(const std::string& name);
 
 /// The rows of a baseline file. Throws IoError when it is absent.
 Table read_baseline(const std::string& folder, const std::string& name);

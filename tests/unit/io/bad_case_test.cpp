@@ -33,16 +33,42 @@ TEST(BadCase, SyntaxAndDuplicateKeys) {
 }
 
 TEST(BadCase, EmptyFileListsWhatIsMissing) {
-  expect_parts(refusal_of(""), {"key 'time': missing, expected a table [time]", "key 'domain': missing",
-                                "key 'cloud': missing", "and 1 more missing keys"});
+  expect_parts(refusal_of(""), {"key 'domain': missing", "key 'cloud': missing", "key 'materials': missing",
+                                "and 1 more missing keys"});
+}
+
+TEST(BadCase, ExplicitAnalysesNeedAnEnd) {
+  expect_parts(
+      refusal_of("[time]\nstep.safety = 0.5\n"
+                 "[domain]\nmaterial = \"m\"\nouter.rectangle = { from = \"0 0 mm\", to = \"1 1 mm\" }\n"
+                 "[cloud]\nspacing = \"0.1 mm\"\n"
+                 "[materials.m]\ndensity = \"1 kg/m3\"\nelastic = { young = \"1 MPa\", poisson = 0.3 }\n"),
+      {"case.toml:1:1: key 'time.end': missing, expected a time such as"});
+}
+
+TEST(BadCase, StaticAnalysesRefuseWhatMoves) {
+  const std::string head = "[analysis]\ntype = \"static\"\n";
+  expect_parts(refusal(head + "[boundary.b]\npieces = \"left\"\nvelocity = \"1 0 m/s\"\n"),
+               {"key 'boundary.b.velocity': found a velocity in a static analysis, expected a displacement"});
+  expect_parts(refusal(head + "[initial]\nvelocity = \"1 0 m/s\"\n"),
+               {"key 'initial.velocity': found in a static"});
+  expect_parts(
+      refusal("[analysis]\nkinematics = \"plane stress\"\n"),
+      {"key 'analysis.kinematics': found \"plane stress\", expected it with analysis.type = \"static\""});
+}
+
+TEST(BadCase, ThermalToolsNeedAThermalAnalysis) {
+  expect_parts(refusal("[tools.t]\ncircle = { centre = \"5 7 mm\", radius = \"1 mm\" }\nheat.conductance = "
+                       "\"1 W/(m2 K)\"\n"),
+               {"key 'tools.t.heat': found the thermal side of a tool"});
 }
 
 TEST(BadCase, UnknownKeysWithTheNearestOne) {
-  EXPECT_EQ(
-      refusal("[boundary.b]\npeices = \"left\"\npieces = \"left\"\nsymmetry = true\n"),
-      "case.toml:15:1: key 'boundary.b.peices': unknown key, expected one of pieces, symmetry, velocity, "
-      "displacement, traction, pressure, temperature, heat_flux, convection (did you mean "
-      "'boundary.b.pieces'?)");
+  EXPECT_EQ(refusal("[boundary.b]\npeices = \"left\"\npieces = \"left\"\nsymmetry = true\n"),
+            "case.toml:15:1: key 'boundary.b.peices': unknown key, expected one of pieces, points, symmetry, "
+            "velocity, "
+            "displacement, traction, pressure, temperature, heat_flux, convection (did you mean "
+            "'boundary.b.pieces'?)");
   expect_parts(refusal("[tool.punch]\n"), {"case.toml:14:2", "key 'tool'", "did you mean 'tools'?"});
   expect_parts(refusal_of("spacing = 3\n" + small_case),
                {"case.toml:1:1: key 'spacing': unknown key", "did you mean 'cloud.spacing'?"});
@@ -217,7 +243,7 @@ TEST(BadCase, Clouds) {
                {"found both of nodes and nodes_file"});
   const auto refine = [](const std::string& keys) { return refusal("[cloud.refine.r]\n" + keys); };
   expect_parts(refine("spacing = \"1 mm\"\n"),
-               {"case.toml:14:", "found none of box and points, expected one"});
+               {"case.toml:14:", "found none of box, points and tips, expected one"});
   expect_parts(refine("box = [\"0 0 mm\", \"1 1 mm\"]\n"), {"found none of spacing and factor"});
   expect_parts(refine("points = []\nfactor = 0.5\n"), {"found no points"});
   expect_parts(refine("points = [\"0 0 mm\"]\nfactor = 1.5\n"), {"in (0, 1]"});

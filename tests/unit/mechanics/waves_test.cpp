@@ -46,9 +46,10 @@ class Waves : public ::testing::TestWithParam<Method> {};
 TEST_P(Waves, pulse_follows_dalembert_and_converges) {
   double residual = 0.0;
   const double coarse = pulse_error(GetParam(), 0.8e-3, residual);
-  const double fine = pulse_error(GetParam(), 0.4e-3, residual);
-  EXPECT_LT(fine, 0.02);
-  EXPECT_GT(std::log2(coarse / fine), 1.6);
+  EXPECT_LT(pulse_error(GetParam(), 0.4e-3, residual), 0.02);
+  const double fine = pulse_error(GetParam(), 0.2e-3, residual);
+  EXPECT_LT(fine, 0.005);
+  EXPECT_GT(0.5 * std::log2(coarse / fine), 1.8);
   EXPECT_LT(residual, 1e-4);
 }
 
