@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
@@ -21,35 +22,46 @@ namespace {
       fmt::format("cannot {}: {}", action, std::error_code(errno, std::generic_category()).message()));
 }
 
-/// Signals that wait until they are asked for, so that none is lost between two looks.
-class HeldSignals {
+int wake_pipe = -1; // end that the handler writes to
+
+extern "C" void wake(int signal) {
+  const int error = errno;
+  const auto byte = static_cast<unsigned char>(signal);
+  [[maybe_unused]] const ssize_t written = write(wake_pipe, &byte, 1); // a full pipe wakes as well
+  errno = error;
+}
+
+/// Signals as bytes of a pipe, whichever thread they are delivered to.
+class SignalPipe {
 public:
-  HeldSignals() {
-    sigemptyset(&held_);
-    for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&held_, signal);
-    pthread_sigmask(SIG_BLOCK, &held_, &before_);
-    struct sigaction usual {};
-    usual.sa_handler = SIG_DFL; // ignored, the ends of children could not be waited for
-    sigaction(SIGCHLD, &usual, &child_before_);
+  SignalPipe() {
+    if (pipe2(end_.data(), O_CLOEXEC) != 0) fail("make a pipe");
+    fcntl(end_[1], F_SETFL, O_NONBLOCK);
+    wake_pipe = end_[1];
+    struct sigaction action {};
+    action.sa_handler = wake;
+    action.sa_flags = SA_RESTART;
+    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &action, &before_[k]);
   }
-  ~HeldSignals() {
-    sigaction(SIGCHLD, &child_before_, nullptr);
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  ~SignalPipe() {
+    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
+    for (const int fd : end_) close(fd);
   }
-  HeldSignals(const HeldSignals&) = delete;
-  HeldSignals& operator=(const HeldSignals&) = delete;
+  SignalPipe(const SignalPipe&) = delete;
+  SignalPipe& operator=(const SignalPipe&) = delete;
 
   int wait() const {
-    int signal = 0;
-    do signal = sigwaitinfo(&held_, nullptr);
-    while (signal < 0 && errno == EINTR);
+    unsigned char signal = 0;
+    while (read(end_[0], &signal, 1) != 1)
+      if (errno != EINTR) fail("wait for processes");
     return signal;
   }
-  const sigset_t& before() const { return before_; }
+
+  static constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGCHLD};
 
 private:
-  sigset_t held_{}, before_{};
-  struct sigaction child_before_ {};
+  std::array<int, 2> end_{-1, -1};
+  std::array<struct sigaction, 3> before_{};
 };
 
 class Children {
@@ -62,7 +74,7 @@ public:
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
 
-  void start(const Job& job, std::size_t index, const sigset_t& mask) {
+  void start(const Job& job, std::size_t index) {
     // Everything that allocates comes before the fork.
     std::vector<char*> arguments;
     for (const std::string& word : job.command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -70,6 +82,10 @@ public:
     const int log = open(job.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (log < 0) fail("write " + job.log.string());
     const pid_t parent = getpid();
+    // A signal to the child must not be lost to the handler that it has until exec.
+    sigset_t all, mask;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &mask);
     const pid_t pid = fork();
     if (pid == 0) {
       prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -78,11 +94,13 @@ public:
       dup2(nothing, STDIN_FILENO);
       dup2(log, STDOUT_FILENO);
       dup2(log, STDERR_FILENO);
+      for (const int number : SignalPipe::signals) signal(number, SIG_DFL);
       sigprocmask(SIG_SETMASK, &mask, nullptr);
       execv(arguments.front(), arguments.data());
       _exit(127);
     }
     const int error = errno;
+    pthread_sigmask(SIG_SETMASK, &mask, nullptr);
     close(log);
     errno = error;
     if (pid < 0) fail("start a process");
@@ -121,12 +139,12 @@ private:
 bool run_jobs(const std::vector<Job>& jobs, std::size_t processes,
               const std::function<void(std::size_t)>& begin,
               const std::function<void(std::size_t, JobEnd)>& end) {
-  const HeldSignals signals;
+  const SignalPipe signals;
   Children children;
   for (std::size_t next = 0; next < jobs.size() || children.running() > 0;) {
     while (next < jobs.size() && children.running() < processes) {
       begin(next);
-      children.start(jobs[next], next, signals.before());
+      children.start(jobs[next], next);
       ++next;
     }
     if (signals.wait() != SIGCHLD) return false;
