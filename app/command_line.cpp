@@ -1,6 +1,7 @@
 #include "app/command_line.hpp"
 
 #include "app/run.hpp"
+#include "app/sweep.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "io/case_reader.hpp"
@@ -64,12 +65,30 @@ int act(CLI::App& program, int argc, char** argv) {
   std::string folder;
   report_command->add_option("folder", folder, "folder of results")->required();
 
+  CLI::App* sweep_command = program.add_subcommand("sweep", "run a parameter study: one case, many values");
+  std::string study_path, sweep_output;
+  SweepOptions sweep_options;
+  sweep_command->add_option("study", study_path, "study file (TOML), or a folder that holds study.toml")
+      ->required();
+  sweep_command->add_option("--output", sweep_output, "folder of results (default: results/<study name>)");
+  sweep_command->add_flag("--force", sweep_options.force, "run all again, also what is done");
+  sweep_command
+      ->add_option("--processes", sweep_options.processes, "runs at a time (default: as the study says)")
+      ->check(CLI::PositiveNumber);
+
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) { return program.exit(error) == 0 ? Exit::done : Exit::bad_input; }
   if (*run_command) {
     const io::Case input = run_options.read();
     return run(input, run_options.options(input));
+  }
+  if (*sweep_command) {
+    const io::Study study = io::read_study(study_path);
+    sweep_options.output = sweep_output.empty() ? std::filesystem::path("results") / study.name
+                                                : std::filesystem::path(sweep_output);
+    sweep_options.version = version();
+    return sweep(study, sweep_options);
   }
   if (*check_command) {
     const io::Case input = check_options.read();

@@ -8,7 +8,7 @@
 namespace cnem::app {
 
 /// Documented exit codes (docs/user_guide.md).
-enum Exit : int { done = 0, bad_input = 2, diverged = 3, io_failed = 4 };
+enum Exit : int { done = 0, bad_input = 2, diverged = 3, io_failed = 4, interrupted = 5 };
 
 struct RunOptions {
   std::filesystem::path output; ///< folder of results

@@ -88,8 +88,8 @@ void collect_locations(const Setting& setting, std::map<std::string, std::string
   for (const Setting& member : setting.members) collect_locations(member, location);
 }
 
-Case read(Value document, const std::string& path, const std::vector<std::string>& overrides) {
-  for (const std::string& assignment : overrides) apply_override(document, assignment);
+template<class Changes> Case read(Value document, const std::string& path, const Changes& changes) {
+  for (const auto& change : changes) apply_override(document, change);
   Diagnostics diagnostics;
   Setting root = apply_schema(document, diagnostics);
   const Member* time = document.find("time");
@@ -130,6 +130,10 @@ Case read(Value document, const std::string& path, const std::vector<std::string
 
 Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
   return read(read_document(path), path, overrides);
+}
+
+Case read_case_with(const std::string& path, const std::vector<Override>& changes) {
+  return read(read_document(path), path, changes);
 }
 
 Case read_case_text(std::string_view text, const std::string& source,

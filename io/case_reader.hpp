@@ -1,6 +1,7 @@
 #pragma once
 // Reads and checks case files; the format is described in docs/case_reference.md.
 #include "io/case.hpp"
+#include "io/document.hpp"
 
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@ namespace cnem::io {
 /// file:line:column (or the override) and names the key, what was found and what was expected; up to three
 /// mistakes of a kind are listed, then counted. Throws IoError when a file that exists cannot be read.
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same with values that were written in another file, which messages about them name.
+Case read_case_with(const std::string& path, const std::vector<Override>& changes);
 
 /// The same for text; `source` is what messages call it, and its folder is where files it names are found.
 Case read_case_text(std::string_view text, const std::string& source,

@@ -196,6 +196,21 @@ Value read_document(const std::string& path) {
   return parse_document(text.str(), path);
 }
 
+namespace {
+
+/// Where a key such as "a.b[2].c" leads to; tables that lack are made.
+Value& find_or_make(Value& root, const std::vector<Step>& steps, const Location& where) {
+  Value* value = &root;
+  std::string so_far;
+  for (const Step& step : steps) {
+    value = &descend(*value, step, so_far, where, &step == &steps.back());
+    so_far += step.key.empty() ? fmt::format("[{}]", step.index) : (so_far.empty() ? "" : ".") + step.key;
+  }
+  return *value;
+}
+
+} // namespace
+
 void apply_override(Value& root, std::string_view assignment) {
   const Location where{fmt::format("--set {}", assignment), 0, 0};
   const auto equals = assignment.find('=');
@@ -205,13 +220,55 @@ void apply_override(Value& root, std::string_view assignment) {
     throw InputError(fmt::format("{}: expected key=value, such as time.end=\"3 us\" or "
                                  "tools.punch.path[1].fillet=\"0.5 mm\"",
                                  where.text()));
-  Value* value = &root;
-  std::string so_far;
-  for (const Step& step : steps) {
-    value = &descend(*value, step, so_far, where, &step == &steps.back());
-    so_far += step.key.empty() ? fmt::format("[{}]", step.index) : (so_far.empty() ? "" : ".") + step.key;
+  find_or_make(root, steps, where) = override_value(assignment.substr(equals + 1), where);
+}
+
+void apply_override(Value& root, const Override& change) {
+  const std::vector<Step> steps = split_key(change.key);
+  if (steps.empty())
+    throw InputError(fmt::format("{}: found '{}', expected a key of the case, such as \"time.end\" or "
+                                 "\"tools.punch.path[1].fillet\"",
+                                 change.where.text(), change.key));
+  find_or_make(root, steps, change.where) = change.value;
+}
+
+std::string toml_quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    else
+      result += c;
   }
-  *value = override_value(assignment.substr(equals + 1), where);
+  return result + '"';
+}
+
+std::string toml_text(const Value& value) {
+  std::string list;
+  switch (value.kind) {
+  case Value::Kind::boolean:
+    return value.boolean ? "true" : "false";
+  case Value::Kind::integer:
+    return std::to_string(value.integer);
+  case Value::Kind::real: {
+    const std::string number = fmt::format("{}", value.real);
+    return number.find_first_of(".en") == std::string::npos ? number + ".0" : number;
+  }
+  case Value::Kind::text:
+    return toml_quoted(value.text);
+  case Value::Kind::array:
+    for (const Value& element : value.elements) list += (list.empty() ? "" : ", ") + toml_text(element);
+    return "[" + list + "]";
+  case Value::Kind::table:
+    for (const Member& member : value.members)
+      list += (list.empty() ? "" : ", ") + toml_quoted(member.key) + " = " + toml_text(member.value);
+    return "{" + list + "}";
+  case Value::Kind::other:
+    break;
+  }
+  return "";
 }
 
 } // namespace cnem::io

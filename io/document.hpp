@@ -53,4 +53,18 @@ Value read_document(const std::string& path);
 /// it has no '=' or its key addresses something that cannot be there.
 void apply_override(Value& root, std::string_view assignment);
 
+/// The same for a value that was written elsewhere, in the file of a study say.
+struct Override {
+  std::string key;
+  Value value;
+  Location where; ///< of the key
+};
+void apply_override(Value& root, const Override& change);
+
+/// The text as a TOML string, in quotes.
+std::string toml_quoted(std::string_view text);
+
+/// The value as TOML on one line, as it may follow "key = ". Dates have no such text: "".
+std::string toml_text(const Value& value);
+
 } // namespace cnem::io

@@ -1,5 +1,5 @@
 #pragma once
-// The look of report.html. Private to report_page.cpp.
+// The look of report.html, of runs and of parameter studies.
 
 namespace cnem::io {
 

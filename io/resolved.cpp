@@ -6,19 +6,6 @@
 namespace cnem::io {
 namespace {
 
-std::string quoted(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      result += fmt::format("\\{}", c);
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
-    else
-      result += c;
-  }
-  return result + '"';
-}
-
 template<class List, class Write> std::string array(const List& list, const Write& write) {
   std::string result;
   for (const auto& element : list) result += (result.empty() ? "" : ", ") + write(element);
@@ -37,7 +24,7 @@ public:
   std::string operator()(double value) const {
     return unit_.empty() ? format_number(value) : fmt::format("\"{} {}\"", format_number(value), unit_);
   }
-  std::string operator()(const std::string& value) const { return quoted(value); }
+  std::string operator()(const std::string& value) const { return toml_quoted(value); }
   std::string operator()(const std::vector<double>& list) const { return array(list, *this); }
   std::string operator()(const Vec2& v) const {
     return fmt::format("\"{} {}{}{}\"", format_number(v.x()), format_number(v.y()), unit_.empty() ? "" : " ",
@@ -50,7 +37,7 @@ public:
     return "[\n" + lines + "]";
   }
   std::string operator()(const std::vector<std::string>& list) const {
-    return array(list, [](const std::string& text) { return quoted(text); });
+    return array(list, [](const std::string& text) { return toml_quoted(text); });
   }
   std::string operator()(const TimeTable& table) const {
     if (table.times().size() == 1) return (*this)(table.values().front());

@@ -25,6 +25,8 @@ cnem_tests(unit/cnem cnem_cnem)
 cnem_tests(unit/fracture cnem_fracture cnem_mechanics)
 cnem_tests(unit/mechanics cnem_mechanics cnem_cnem cnem_alternatives)
 cnem_tests(unit/app cnem_app)
+target_compile_definitions(test_unit_app PRIVATE CNEM_PROGRAM="$<TARGET_FILE:cnem>") # a sweep runs the program
+add_dependencies(test_unit_app cnem)
 cnem_tests(degenerate cnem_voronoi cnem_cnem cnem_alternatives)
 cnem_tests(contract cnem_cnem cnem_alternatives)
 cnem_tests(convergence cnem_app)

@@ -1,0 +1,265 @@
+#include "app/sweep.hpp"
+
+#include "app/process_pool.hpp"
+#include "core/error.hpp"
+#include "io/case_reader.hpp"
+#include "io/nearest.hpp"
+#include "io/output_folder.hpp"
+#include "io/si_format.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <thread>
+#include <unistd.h>
+
+namespace cnem::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using State = SweepRun::State;
+
+constexpr const char* manifest_file = "manifest.json";
+
+/// FNV-1a, 64 bits.
+std::string hash(std::string_view text) {
+  std::uint64_t h = 0xcbf29ce484222325U;
+  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return fmt::format("{:016x}", h);
+}
+
+/// What a run depends on: the resolved case without its first line, which names the file, and the nodes,
+/// which may come from a file of their own.
+std::string inputs_of(const io::Case& input) {
+  std::string text = input.resolved.substr(input.resolved.find('\n') + 1);
+  for (const Vec2& node : input.cloud.nodes) text += fmt::format("{:a} {:a}\n", node.x(), node.y());
+  return hash(text);
+}
+
+/// Reads the case of every run, so that a mistake in the last one shows before the first one starts.
+std::vector<SweepRun> read_cases(const io::Study& study) {
+  std::vector<SweepRun> runs;
+  for (const io::StudyRun& run : study.runs) {
+    try {
+      runs.emplace_back().inputs = inputs_of(io::read_case_with(study.case_file.string(), run.changes()));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}\nin run '{}' of the study", error.what(), run.name));
+    }
+  }
+  return runs;
+}
+
+/// Keeps a second sweep out of the folder while this one lives.
+class FolderLock {
+public:
+  explicit FolderLock(const fs::path& folder)
+      : fd_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (fd_ >= 0 && flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(fd_);
+      throw InputError(fmt::format("another sweep is at work in {}: wait for it, or choose another folder "
+                                   "with --output",
+                                   folder.string()));
+    }
+  }
+  ~FolderLock() {
+    if (fd_ >= 0) close(fd_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+  int fd_;
+};
+
+void prepare_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw IoError(fmt::format("cannot create the output folder {}: {}", folder.string(),
+                              error ? error.message() : "a file of this name is in the way"));
+  if (fs::exists(folder / io::files::status))
+    throw InputError(fmt::format("the output folder {} holds a single run: choose another with --output",
+                                 folder.string()));
+}
+
+std::string manifest(const io::Study& study, const std::vector<SweepRun>& runs, const std::string& version) {
+  Json json{{"study", study.name}, {"case", study.case_file.string()}, {"version", version}};
+  json["runs"] = Json::array();
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    Json set = Json::object();
+    for (const io::Override& change : study.runs[k].changes()) set[change.key] = io::plain_text(change.value);
+    Json run{{"name", study.runs[k].name}, {"set", set}, {"inputs", runs[k].inputs}};
+    run["state"] = runs[k].state == State::done     ? "done"
+                   : runs[k].state == State::failed ? "failed"
+                                                    : "pending";
+    if (runs[k].state == State::failed) {
+      run["exit"] = runs[k].exit;
+      run["reason"] = runs[k].reason;
+    }
+    json["runs"].push_back(std::move(run));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// The status of a run that ended well; none for others.
+std::optional<io::RunStatus> good_status(const fs::path& folder) {
+  if (!fs::exists(folder / io::files::status)) return {};
+  try {
+    io::RunStatus status = io::read_status(folder);
+    if (status.exit == Exit::done) return status;
+  } catch (const IoError&) {} // half a status is none: the run is done again
+  return {};
+}
+
+/// Marks the runs that an earlier sweep has done with the same inputs.
+void find_done(const io::Study& study, std::vector<SweepRun>& runs, const fs::path& folder) {
+  const fs::path path = folder / manifest_file;
+  if (!fs::exists(path)) return;
+  try {
+    const Json json = Json::parse(io::read_file(path));
+    for (const Json& old : json.at("runs"))
+      for (std::size_t k = 0; k < runs.size(); ++k)
+        if (old.at("name") == study.runs[k].name && old.at("inputs") == runs[k].inputs &&
+            old.at("state") == "done")
+          if ((runs[k].status = good_status(folder / study.runs[k].name))) runs[k].state = State::done;
+  } catch (const Json::exception& error) {
+    throw IoError(fmt::format("{} is not the manifest of a sweep ({}): run all again with --force",
+                              path.string(), error.what()));
+  }
+}
+
+std::string last_line(const fs::path& log) {
+  std::string text = io::read_file(log);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+void conclude(SweepRun& run, const JobEnd& end, const fs::path& folder, const fs::path& log) {
+  run.exit = end.code;
+  run.status = end.code == Exit::done ? good_status(folder) : std::nullopt;
+  run.state = run.status ? State::done : State::failed;
+  if (run.status) return;
+  if (end.signal != 0)
+    run.reason = fmt::format("killed by signal {}", end.signal);
+  else if (fs::exists(folder / io::files::status))
+    run.reason = io::read_status(folder).reason;
+  else
+    run.reason = last_line(log);
+  if (run.reason.empty()) run.reason = fmt::format("ended with code {} and no message", end.code);
+}
+
+fs::path log_of(const fs::path& folder) { return folder.string() + ".log"; }
+
+std::vector<std::string> command(const io::Study& study, const io::StudyRun& run, const fs::path& folder,
+                                 const SweepOptions& options) {
+  std::vector<std::string> words{options.program.string(), "run", study.case_file.string()};
+  for (const io::Override& change : run.changes()) {
+    words.emplace_back("--set");
+    words.push_back(change.key + "=" + io::toml_text(change.value));
+  }
+  words.insert(words.end(),
+               {"--output", folder.string(), "--force", "--threads", std::to_string(study.threads)});
+  return words;
+}
+
+std::size_t processes_for(const io::Study& study, const SweepOptions& options) {
+  const int wanted = options.processes > 0 ? options.processes : study.processes;
+  if (wanted > 0) return static_cast<std::size_t>(wanted);
+  return std::max<std::size_t>(1,
+                               std::thread::hardware_concurrency() / static_cast<std::size_t>(study.threads));
+}
+
+/// Columns and charts that name what no run has.
+void warn_of_absent_numbers(const io::Study& study, const std::vector<SweepRun>& runs) {
+  std::vector<std::string> wanted = study.columns, there;
+  for (const io::StudyChart& chart : study.charts)
+    wanted.insert(wanted.end(), chart.y.begin(), chart.y.end());
+  bool any = false;
+  for (const SweepRun& run : runs) {
+    if (!run.status) continue;
+    any = true;
+    for (const auto& [name, value] : run.status->metrics) there.push_back("metrics." + name);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  for (const std::string& name : wanted)
+    if (any && std::none_of(runs.begin(), runs.end(), [&](const SweepRun& run) {
+          return run.status && status_number(*run.status, name);
+        }))
+      fmt::print(stderr, "warning: no run has '{}'{}\n", name, io::did_you_mean(name, there));
+}
+
+} // namespace
+
+Exit sweep(const io::Study& study, const SweepOptions& options) {
+  std::vector<SweepRun> runs = read_cases(study);
+  prepare_folder(options.output);
+  const FolderLock lock(options.output);
+  if (!options.force) find_done(study, runs, options.output);
+  const auto write_manifest = [&] {
+    io::write_atomically(options.output / manifest_file, manifest(study, runs, options.version));
+  };
+  write_manifest();
+
+  std::vector<Job> jobs;
+  std::vector<std::size_t> run_of;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (runs[k].state == State::done) continue;
+    const fs::path folder = options.output / study.runs[k].name;
+    jobs.push_back({command(study, study.runs[k], folder, options), log_of(folder)});
+    run_of.push_back(k);
+  }
+  const std::size_t processes =
+      std::min(processes_for(study, options), std::max<std::size_t>(1, jobs.size()));
+  fmt::print("{} runs: {} done before, {} to do in {} processes\n", runs.size(), runs.size() - jobs.size(),
+             jobs.size(), processes);
+  std::fflush(stdout);
+
+  using Clock = std::chrono::steady_clock;
+  std::vector<Clock::time_point> began(runs.size());
+  std::size_t finished = runs.size() - jobs.size();
+  const bool complete = run_jobs(
+      jobs, processes,
+      [&](std::size_t job) {
+        began[run_of[job]] = Clock::now();
+        // A status left by an earlier run must not speak for this one.
+        fs::remove(options.output / study.runs[run_of[job]].name / io::files::status);
+      },
+      [&](std::size_t job, JobEnd end) {
+        const std::size_t k = run_of[job];
+        conclude(runs[k], end, options.output / study.runs[k].name, jobs[job].log);
+        write_manifest();
+        const double seconds = std::chrono::duration<double>(Clock::now() - began[k]).count();
+        const std::string what = runs[k].status ? fmt::format("done, {} nodes", runs[k].status->nodes)
+                                                : "FAILED: " + runs[k].reason;
+        fmt::print("[{}/{}] {}: {}, {}\n", ++finished, runs.size(), study.runs[k].name, what,
+                   io::duration_format(seconds));
+        std::fflush(stdout);
+      });
+
+  io::write_atomically(options.output / "table.csv", sweep_table(study, runs));
+  const fs::path report = options.output / io::files::report;
+  io::write_atomically(report, sweep_report(study, runs, options.output, options.version));
+  warn_of_absent_numbers(study, runs);
+  bool failed = false;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (runs[k].state != State::failed) continue;
+    failed = true;
+    fmt::print(stderr, "failed: {}: {} (exit code {}, log {})\n", study.runs[k].name, runs[k].reason,
+               runs[k].exit, log_of(options.output / study.runs[k].name).string());
+  }
+  fmt::print("table: {}\nreport: {}\n", (options.output / "table.csv").string(), report.string());
+  if (!complete) {
+    fmt::print(stderr, "interrupted: {} of {} runs ended; the same command goes on from here\n", finished,
+               runs.size());
+    return Exit::interrupted;
+  }
+  return failed ? Exit::diverged : Exit::done;
+}
+
+} // namespace cnem::app

@@ -1,0 +1,353 @@
+#include "io/study.hpp"
+
+#include "core/error.hpp"
+#include "io/diagnostics.hpp"
+#include "io/nearest.hpp"
+#include "io/output_folder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace cnem::io {
+namespace fs = std::filesystem;
+namespace {
+
+using Kind = Value::Kind;
+
+constexpr std::size_t longest_name = 100;
+
+/// Reads the members of one table and remembers what was wrong with them.
+class TableReader {
+public:
+  TableReader(const Value& table, std::string path, std::vector<std::string> known, Diagnostics& diagnostics)
+      : table_(table), path_(std::move(path)), diagnostics_(diagnostics) {
+    for (const Member& member : table_.members)
+      if (std::find(known.begin(), known.end(), member.key) == known.end())
+        diagnostics_.add(Mistake::unknown_key, member.where, path_ + member.key,
+                         "unknown" + did_you_mean(member.key, known));
+  }
+
+  const Value* find(const std::string& key, Kind kind, const std::string& expected) {
+    const Member* member = table_.find(key);
+    if (!member) return nullptr;
+    if (member->value.kind == kind) return &member->value;
+    wrong(key, member->value, expected);
+    return nullptr;
+  }
+  const Value* require(const std::string& key, Kind kind, const std::string& expected) {
+    if (!table_.find(key))
+      diagnostics_.add(Mistake::missing_key, table_.where, path_ + key, "missing, expected " + expected);
+    return find(key, kind, expected);
+  }
+  std::string text(const std::string& key) {
+    const Value* value = find(key, Kind::text, "a text");
+    return value ? value->text : "";
+  }
+  int count(const std::string& key, int fallback) {
+    const Value* value = find(key, Kind::integer, "a whole number from 1");
+    if (!value) return fallback;
+    if (value->integer < 1 || value->integer > 4096) wrong(key, *value, "a whole number from 1 to 4096");
+    return static_cast<int>(value->integer);
+  }
+  std::vector<std::string> texts(const std::string& key) {
+    std::vector<std::string> list;
+    const Value* value = find(key, Kind::array, "a list of texts");
+    if (!value) return list;
+    for (const Value& element : value->elements) {
+      if (element.kind == Kind::text)
+        list.push_back(element.text);
+      else
+        wrong(key, element, "texts in the list");
+    }
+    return list;
+  }
+  void wrong(const std::string& key, const Value& value, const std::string& expected) {
+    diagnostics_.add(Mistake::type, value.where, path_ + key,
+                     fmt::format("found {}, expected {}", value.show(), expected));
+  }
+
+private:
+  const Value& table_;
+  std::string path_;
+  Diagnostics& diagnostics_;
+};
+
+/// The part of each key that tells it from the others: "angle" for domain.cracks.main.rotate.angle.
+std::vector<std::string> short_names(const std::vector<std::string>& keys) {
+  const auto tail = [](const std::string& key, int parts) {
+    std::size_t at = key.size();
+    for (; parts > 0 && at != std::string::npos && at > 0; --parts) at = key.rfind('.', at - 1);
+    return at == std::string::npos || at == 0 ? key : key.substr(at + 1);
+  };
+  std::vector<std::string> names;
+  for (const std::string& key : keys) {
+    int parts = 1;
+    const auto shared = [&](const std::string& other) {
+      return other != key && tail(other, parts) == tail(key, parts);
+    };
+    while (tail(key, parts) != key && std::any_of(keys.begin(), keys.end(), shared)) ++parts;
+    names.push_back(tail(key, parts));
+  }
+  return names;
+}
+
+std::vector<Override> read_set(const Value& table, const std::string& path, Diagnostics& diagnostics) {
+  std::vector<Override> list;
+  for (const Member& member : table.members) {
+    if (member.value.kind == Kind::table && member.key.find('.') == std::string::npos)
+      diagnostics.add(
+          Mistake::type, member.where, path + member.key,
+          "found a table, expected a key of the case in quotes, such as \"cloud.spacing\" = \"0.1 mm\"");
+    list.push_back({member.key, member.value, member.where});
+  }
+  return list;
+}
+
+struct GridAxis {
+  const Member* member;
+  std::string name;
+};
+
+std::vector<StudyRun> expand_grid(const std::vector<GridAxis>& axes, const std::vector<Override>& common) {
+  std::vector<StudyRun> runs{{"", common, {}}};
+  for (const GridAxis& axis : axes) {
+    std::vector<StudyRun> finer;
+    for (const StudyRun& run : runs)
+      for (const Value& value : axis.member->value.elements) {
+        StudyRun next = run;
+        if (!next.name.empty()) next.name += '-';
+        next.name += file_name(axis.name + "_" + plain_text(value));
+        next.own.push_back({axis.member->key, value, value.where});
+        finer.push_back(std::move(next));
+      }
+    runs = std::move(finer);
+  }
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (runs[k].name.size() > longest_name)
+      runs[k].name = fmt::format("{}_{}", runs[k].name.substr(0, longest_name), k + 1);
+  return runs;
+}
+
+std::vector<StudyRun> read_grid(const Value& grid, const std::vector<Override>& common, Study& study,
+                                Diagnostics& diagnostics) {
+  constexpr std::size_t most_runs = 100000;
+  std::vector<GridAxis> axes;
+  std::size_t count = 1;
+  for (const Member& member : grid.members) {
+    if (member.value.kind != Kind::array || member.value.elements.empty())
+      diagnostics.add(Mistake::type, member.where, "grid." + member.key,
+                      fmt::format("found {}, expected a key of the case in quotes and a list of its values, "
+                                  "such as \"cloud.spacing\" = [\"0.2 mm\", \"0.1 mm\"]",
+                                  member.value.show()));
+    count = std::min(most_runs + 1, count * std::max<std::size_t>(1, member.value.elements.size()));
+    study.keys.push_back(member.key);
+    axes.push_back({&member, ""});
+  }
+  if (axes.empty())
+    diagnostics.add(Mistake::missing_key, grid.where, "grid", "empty, expected keys of the case");
+  if (count > most_runs)
+    diagnostics.add(Mistake::range, grid.where, "grid", fmt::format("more than {} runs", most_runs));
+  diagnostics.throw_if_any();
+  const std::vector<std::string> names = short_names(study.keys);
+  for (std::size_t k = 0; k < axes.size(); ++k) axes[k].name = names[k];
+  return expand_grid(axes, common);
+}
+
+std::vector<StudyRun> read_runs(const Value& list, const std::vector<Override>& common, Study& study,
+                                Diagnostics& diagnostics) {
+  std::vector<StudyRun> runs;
+  for (const Value& entry : list.elements) {
+    if (entry.kind != Kind::table) {
+      diagnostics.add(Mistake::type, entry.where, "run",
+                      fmt::format("found {}, expected a table [[run]]", entry.show()));
+      continue;
+    }
+    TableReader table(entry, "run.", {"name", "set"}, diagnostics);
+    StudyRun run{"", common, {}};
+    if (const Value* name = table.require("name", Kind::text, "a name for the folder of the run")) {
+      run.name = name->text;
+      if (run.name.empty() || run.name != file_name(run.name) || run.name.front() == '.' ||
+          run.name.size() > longest_name)
+        table.wrong("name", *name, "letters, digits and _ - + . only, as the name of a folder");
+    }
+    if (const Value* set = table.find("set", Kind::table, "a table of keys of the case in quotes"))
+      run.own = read_set(*set, "run.set.", diagnostics);
+    for (const Override& change : run.own)
+      if (std::find(study.keys.begin(), study.keys.end(), change.key) == study.keys.end())
+        study.keys.push_back(change.key);
+    runs.push_back(std::move(run));
+  }
+  if (runs.empty())
+    diagnostics.add(Mistake::missing_key, list.where, "run", "empty, expected tables [[run]]");
+  return runs;
+}
+
+void check_names(const Study& study, const Location& where, Diagnostics& diagnostics) {
+  for (std::size_t k = 0; k < study.runs.size(); ++k)
+    for (std::size_t o = 0; o < k; ++o)
+      if (study.runs[o].name == study.runs[k].name) {
+        const auto& own = study.runs[k].own;
+        diagnostics.add(
+            Mistake::conflict, own.empty() ? where : own.back().where, own.empty() ? "run" : own.back().key,
+            fmt::format("found two runs named '{}', expected different ones", study.runs[k].name));
+        break;
+      }
+}
+
+void check_column(const std::string& name, const Location& where, const std::string& key,
+                  std::vector<std::string> also, Diagnostics& diagnostics) {
+  if ((name.starts_with("metrics.") && name.size() > 8) || (name.starts_with("wall_s.") && name.size() > 7))
+    return;
+  also.insert(also.end(), {"nodes", "steps", "node_steps", "time", "energy_residual", "peak_rss_bytes",
+                           "metrics.NAME", "wall_s.NAME"});
+  if (std::find(also.begin(), also.end(), name) != also.end() && !name.ends_with(".NAME")) return;
+  diagnostics.add(Mistake::reference, where, key,
+                  fmt::format("found '{}', expected a number of status.json such as nodes or "
+                              "metrics.strain_energy{}",
+                              name, did_you_mean(name, also)));
+}
+
+/// Values of a key along an axis: numbers of one unit.
+void check_axis(const Study& study, const StudyChart& chart, Diagnostics& diagnostics) {
+  std::string first_unit;
+  bool first = true;
+  for (const StudyRun& run : study.runs) {
+    const Value* value = run.find(chart.x);
+    double number = 0.0;
+    std::string unit;
+    if (!value) continue;
+    if (split_number(*value, number, unit) && (first || unit == first_unit)) {
+      first_unit = unit;
+      first = false;
+      continue;
+    }
+    diagnostics.add(Mistake::type, value->where, chart.x,
+                    fmt::format("found {}, expected {}, because charts.x names this key", value->show(),
+                                first ? "a number" : fmt::format("a number with unit '{}'", first_unit)));
+    return;
+  }
+}
+
+void read_charts(const Value& list, Study& study, Diagnostics& diagnostics) {
+  for (const Value& entry : list.elements) {
+    if (entry.kind != Kind::table) {
+      diagnostics.add(Mistake::type, entry.where, "charts",
+                      fmt::format("found {}, expected tables with x and y", entry.show()));
+      continue;
+    }
+    TableReader table(entry, "charts.", {"x", "y"}, diagnostics);
+    StudyChart chart;
+    chart.where = entry.where;
+    if (table.require("x", Kind::text, "a key of the grid or a column")) chart.x = table.text("x");
+    if (table.require("y", Kind::array, "a list of columns")) chart.y = table.texts("y");
+    if (!chart.x.empty()) check_column(chart.x, entry.where, "charts.x", study.keys, diagnostics);
+    for (const std::string& column : chart.y) check_column(column, entry.where, "charts.y", {}, diagnostics);
+    check_axis(study, chart, diagnostics);
+    study.charts.push_back(std::move(chart));
+  }
+}
+
+std::string study_name(const fs::path& path) {
+  const fs::path file = fs::absolute(path).lexically_normal();
+  return file.stem() == "study" ? file.parent_path().filename().string() : file.stem().string();
+}
+
+} // namespace
+
+std::vector<Override> StudyRun::changes() const {
+  std::vector<Override> all = common;
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+const Value* StudyRun::find(const std::string& key) const {
+  const auto found = std::find_if(own.begin(), own.end(), [&](const Override& o) { return o.key == key; });
+  return found == own.end() ? nullptr : &found->value;
+}
+
+Study read_study_text(std::string_view text, const fs::path& path) {
+  const Value root = parse_document(text, path.string());
+  Diagnostics diagnostics;
+  TableReader table(
+      root, "",
+      {"title", "case", "set", "grid", "run", "processes", "threads", "columns", "charts", "history"},
+      diagnostics);
+  Study study;
+  study.name = study_name(path);
+  study.text = text;
+  study.title = table.text("title");
+  if (const Value* name = table.require("case", Kind::text, "the case file or its folder")) {
+    study.case_file = (path.parent_path() / name->text).lexically_normal();
+    if (fs::is_directory(study.case_file)) study.case_file /= "case.toml";
+    if (!fs::exists(study.case_file))
+      diagnostics.add(Mistake::reference, name->where, "case",
+                      fmt::format("there is no file {}, expected a case file or its folder, seen from the "
+                                  "folder of the study",
+                                  study.case_file.string()));
+  }
+  std::vector<Override> common;
+  if (const Value* set = table.find("set", Kind::table, "a table of keys of the case in quotes"))
+    common = read_set(*set, "set.", diagnostics);
+  const Value* grid = table.find("grid", Kind::table, "a table of keys of the case in quotes");
+  const Value* runs = table.find("run", Kind::array, "tables [[run]]");
+  study.processes = table.count("processes", 0);
+  study.threads = table.count("threads", 1);
+  study.columns = table.texts("columns");
+  study.history = table.texts("history");
+  for (const std::string& column : study.columns)
+    check_column(column, root.find("columns")->where, "columns", {}, diagnostics);
+  if (grid && runs)
+    diagnostics.add(Mistake::conflict, runs->where, "run", "found [grid] and [[run]], expected one of them");
+  if (!root.find("grid") && !root.find("run"))
+    diagnostics.add(Mistake::missing_key, root.where, "grid", "missing, expected [grid] or [[run]]");
+  diagnostics.throw_if_any();
+  study.runs =
+      grid ? read_grid(*grid, common, study, diagnostics) : read_runs(*runs, common, study, diagnostics);
+  check_names(study, (grid ? grid : runs)->where, diagnostics);
+  if (const Value* charts = table.find("charts", Kind::array, "a list of tables with x and y"))
+    read_charts(*charts, study, diagnostics);
+  diagnostics.throw_if_any();
+  return study;
+}
+
+Study read_study(const fs::path& path) {
+  const fs::path file = fs::is_directory(path) ? path / "study.toml" : path;
+  if (!fs::exists(file))
+    throw InputError(fmt::format("{}: no such file, expected a study such as study.toml", file.string()));
+  return read_study_text(read_file(file), file);
+}
+
+std::string plain_text(const Value& value) {
+  return value.kind == Kind::text ? value.text : toml_text(value);
+}
+
+std::string file_name(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '_' || c == '-' || c == '+' || c == '.';
+    if (plain || name.empty() || name.back() != '_') name += plain ? c : '_';
+  }
+  while (name.size() > 1 && name.back() == '_') name.pop_back();
+  return name;
+}
+
+bool split_number(const Value& value, double& number, std::string& unit) {
+  unit.clear();
+  if (value.kind == Kind::integer || value.kind == Kind::real) {
+    number = value.kind == Kind::integer ? static_cast<double>(value.integer) : value.real;
+    return true;
+  }
+  if (value.kind != Kind::text) return false;
+  const char *from = value.text.data(), *end = from + value.text.size();
+  if (from != end && *from == '+') ++from;
+  const auto [rest, error] = std::from_chars(from, end, number);
+  if (error != std::errc{}) return false;
+  const std::string tail(rest, end);
+  const auto first = tail.find_first_not_of(' ');
+  if (first != std::string::npos) unit = tail.substr(first);
+  return unit.find_first_of("0123456789+-.") != 0; // "0 -11 m/s" is a vector
+}
+
+} // namespace cnem::io
