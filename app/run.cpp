@@ -111,6 +111,40 @@ bool reference_due(const io::Method& method, const ExplicitSolver<2>& solver, st
          solver.strain_since_reference() > method.rereference_strain;
 }
 
+/// Renews the reference. Where two nodes have passed each other the present configuration cannot be one: the
+/// run then goes on with the old reference, which still holds it, and tries again later, unless it is
+/// stretched too far to mean anything.
+class ReferenceRenewal {
+public:
+  void renew(ExplicitSolver<2>& solver) {
+    wait_ = 0;
+    try {
+      solver.prepare();
+    } catch (const GeometryError& error) {
+      constexpr double too_far = 4.0;
+      if (solver.strain_since_reference() > too_far) throw;
+      wait_ = 100;
+      if (postponed_++ == 0)
+        first_ =
+            fmt::format("step {}, t = {:.4g} s ({})", solver.state().step, solver.state().time, error.what());
+    }
+  }
+  /// Steps to let pass before the next attempt.
+  std::int64_t wait() const { return wait_; }
+  /// What to tell about it; empty when every renewal succeeded.
+  std::string warning() const {
+    if (postponed_ == 0) return "";
+    return fmt::format(
+        "the reference could not be renewed {} times, first at {}: the run went on with an older one",
+        postponed_, first_);
+  }
+
+private:
+  std::int64_t wait_ = 0;
+  int postponed_ = 0;
+  std::string first_;
+};
+
 void set_threads(int threads) {
   if (threads > 0) omp_set_num_threads(threads);
 }
@@ -173,6 +207,7 @@ Exit run(const io::Case& input, const RunOptions& options) {
   io::Progress progress;
   for (const std::string& warning : warnings) progress.message("warning: " + warning);
 
+  ReferenceRenewal renewal;
   std::int64_t last_reference = 0, last_check = -1;
   double node_steps = 0.0;
   Exit exit = Exit::done;
@@ -198,8 +233,8 @@ Exit run(const io::Case& input, const RunOptions& options) {
       const bool rereference =
           watch.time("step", [&] { return reference_due(input.method, solver, last_reference); });
       if (rereference) {
-        watch.time("rebuild", [&] { solver.prepare(); });
-        last_reference = state.step;
+        watch.time("rebuild", [&] { renewal.renew(solver); });
+        last_reference = state.step + renewal.wait();
       }
       watch.time("step", [&] {
         if (rereference || state.step - last_check >= input.time.check_every) {
@@ -239,6 +274,10 @@ Exit run(const io::Case& input, const RunOptions& options) {
   status.metrics.emplace_back("references", solver.references());
   status.step_limits = control.shares();
   status.warnings = warnings;
+  if (const std::string warning = renewal.warning(); !warning.empty()) {
+    status.warnings.push_back(warning);
+    progress.message("warning: " + warning);
+  }
   status.post_mortem = dead;
   status.wall_s = watch.spent();
   io::write_status(options.output, status);

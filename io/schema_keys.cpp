@@ -246,7 +246,8 @@ void add_method(Keys& k) {
       .fallback("2");
   k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem).")
       .in(not_negative)
-      .fallback("0.05");
+      .example("0.1")
+      .computed("0.05; in axisymmetric analyses 0.2");
   k.add("method.lagrangian", choice,
         "Reference configuration: `total`: the initial one; `periodic`: renewed as `rereference` says; "
         "`updated`: renewed every step.")

@@ -75,18 +75,21 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   const plasticity::Material& material = model_.material;
   const bool start = references_ == 0;
 
+  Cloud<dim> cloud = model_.cloud;
+  for (std::size_t i = 0; i < node.size(); ++i)
+    for (std::size_t k = 0; k < dim; ++k)
+      cloud.position[i][static_cast<Eigen::Index>(k)] = node.position[k][i];
+  Approximation<dim> rebuilt = model_.method->rebuild(cloud);
+
   double elastic_before = 0.0, plastic_before = 0.0;
   if (!start) {
     elastic_before = integrate(point, approximation_.mechanics.volume, point.stored_energy);
     plastic_before = integrate(point, approximation_.mechanics.volume, point.plastic_work);
     running_.penalty_release += running_.stabilisation;
     push_forward(point);
-    for (std::size_t i = 0; i < node.size(); ++i)
-      for (std::size_t k = 0; k < dim; ++k)
-        model_.cloud.position[i][static_cast<Eigen::Index>(k)] = node.position[k][i];
   }
-
-  approximation_ = model_.method->rebuild(model_.cloud);
+  model_.cloud = std::move(cloud);
+  approximation_ = std::move(rebuilt);
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   const auto points = static_cast<std::size_t>(op.points);
   node.reference = node.position;

@@ -46,7 +46,8 @@ public:
 
   /// Makes the present configuration the reference: cells and functions are rebuilt, b_e is pushed forward,
   /// nodes keep mass, velocity and temperature, and what this changes in energy is booked. Start-up comes
-  /// through here too.
+  /// through here too. Throws GeometryError, with everything left as it was, when the cloud has no valid
+  /// structure.
   void prepare();
 
   /// Stable step for the present configuration with the safety factor, and what limits it.

@@ -1,8 +1,12 @@
 // Taylor bars on coarse clouds against independent finite-element solutions (cases/verification/taylor_*).
 #include "app/registry.hpp"
+#include "app/run.hpp"
 #include "io/case_reader.hpp"
+#include "io/status.hpp"
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
 
 namespace cnem::testing {
 namespace {
@@ -52,6 +56,19 @@ TEST(TaylorBar, copper_with_linear_hardening) {
   expect_near(shape.radius, 7.225e-3, 0.02, "radius");
   expect_near(shape.plastic_strain, 3.351, 0.15, "plastic strain");
   EXPECT_LT(shape.residual, 1e-3);
+}
+
+TEST(TaylorBar, goes_on_with_the_old_reference_where_nodes_have_passed_each_other) {
+  const auto folder = std::filesystem::temp_directory_path() / "cnem_taylor_renewal";
+  const io::Case input =
+      io::read_case(CNEM_SOURCE_DIR "/cases/verification/taylor_copper/case.toml",
+                    {"cloud.spacing=0.64 mm", "output.pictures=[]", "output.fields_every=80 us"});
+  EXPECT_EQ(app::run(input, {.output = folder, .force = true, .version = "test"}), app::Exit::done);
+  const io::RunStatus status = io::read_status(folder);
+  ASSERT_EQ(status.warnings.size(), 1U);
+  EXPECT_NE(status.warnings[0].find("the reference could not be renewed"), std::string::npos);
+  EXPECT_LT(status.energy_residual, 1e-3);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(TaylorBar, stainless_steel_with_heat) {
