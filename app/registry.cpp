@@ -186,7 +186,8 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
 }
 
 /// Nodes on the axis of revolution stay on it. Throws InputError when the workpiece reaches beyond the axis.
-void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& supports) {
+void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& supports,
+               std::vector<std::string>& warnings) {
   double size = 0.0;
   for (const Vec2& x : cloud.position) size = std::max(size, x.norm());
   std::vector<std::int32_t> axis;
@@ -201,6 +202,15 @@ void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& 
                                     "axisymmetric body turns about x = 0",
                                     r));
     }
+  }
+  for (const Support<2>& support : supports) {
+    const auto& values = support.value.values();
+    const bool moves = support.direction.x() != 0.0 &&
+                       std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
+    if (moves && std::any_of(support.nodes.begin(), support.nodes.end(),
+                             [&](std::int32_t i) { return std::binary_search(axis.begin(), axis.end(), i); }))
+      warnings.push_back(fmt::format("boundary.{} moves nodes on the axis along x, where the axis holds them",
+                                     support.name));
   }
   if (!axis.empty())
     supports.insert(supports.begin(), {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis)});
@@ -270,7 +280,7 @@ Setup build(const io::Case& input) {
   Conditions all;
   for (const io::BoundaryCondition& condition : input.boundary)
     add_condition(input, condition, model.cloud, all);
-  if (space == Space::revolution) hold_axis(input, model.cloud, all.supports);
+  if (space == Space::revolution) hold_axis(input, model.cloud, all.supports, setup.warnings);
   const auto nodes = static_cast<std::size_t>(model.cloud.nodes());
   try {
     model.supports = Supports<2>(std::move(all.supports), nodes);

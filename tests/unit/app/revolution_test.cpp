@@ -63,6 +63,14 @@ TEST_F(Axisymmetric, the_workpiece_must_not_cross_the_axis) {
   EXPECT_EQ(refusal({"domain.outer.rectangle.from=\"1 0 mm\""}), "");
 }
 
+TEST_F(Axisymmetric, radial_motion_prescribed_on_the_axis_is_warned_of) {
+  EXPECT_TRUE(build(read({})).warnings.empty());
+  const app::Setup setup =
+      build(read({"boundary.pull={ pieces = [\"top\"], velocity = { x = \"1 m/s\" } }"}));
+  ASSERT_EQ(setup.warnings.size(), 1U);
+  EXPECT_NE(setup.warnings[0].find("boundary.pull moves nodes on the axis"), std::string::npos);
+}
+
 TEST_F(Axisymmetric, statics_refuses_it) {
   const std::string message = refusal({"analysis.type=\"static\"", "initial.velocity=\"0 0 m/s\""});
   EXPECT_NE(message.find("analysis.kinematics"), std::string::npos) << message;
