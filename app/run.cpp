@@ -64,7 +64,7 @@ public:
     const auto stable = solver.stable_step();
     limit_ = stable.dt;
     point_ = stable.point;
-    limited_by_ = "elastic waves";
+    limited_by_ = stable.limit;
     if (time_->max_step && *time_->max_step < limit_) {
       limit_ = *time_->max_step;
       limited_by_ = "time.step.max";
