@@ -51,7 +51,8 @@ void check_analysis(const Setting& root, const Case& result, Diagnostics& diagno
   if (result.analysis.thermal)
     refuse(root, "analysis.thermal", "found true in a static analysis, which solves for displacements alone",
            diagnostics);
-  for (const char* path : {"time.step", "tools", "initial.velocity", "initial.spin"})
+  for (const char* path :
+       {"time.step", "time.max_steps", "tools", "initial.velocity", "initial.spin", "output.checkpoint"})
     refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))

@@ -131,12 +131,8 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
 
   edge_defect_.reset(shear_modulus_);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
-  if (model_.thermal) {
-    conduction_.set_operators(
-        approximation_.conduction,
-        Field(static_cast<std::size_t>(approximation_.conduction.points), material.conductivity));
-    conduction_step_ = 0.0;
-  }
+  if (model_.thermal) set_conduction();
+  conduction_step_ = 0.0;
   if (!start) {
     running_.rereference += elastic_before - integrate(point, op.volume, point.stored_energy);
     plastic_offset_ += plastic_before - integrate(point, op.volume, point.plastic_work);
@@ -145,6 +141,11 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   running_.stabilisation = 0.0;
   assemble_forces();
   ++references_;
+}
+
+template<int dim> void ExplicitSolver<dim>::set_conduction() {
+  const DiscreteOperators<dim>& op = approximation_.conduction;
+  conduction_.set_operators(op, Field(static_cast<std::size_t>(op.points), model_.material.conductivity));
 }
 
 template<int dim> void ExplicitSolver<dim>::advance(double dt) {
@@ -339,37 +340,6 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
   }
 }
 
-template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable_step() {
-  const PointState<dim>& point = state_.point;
-  conduction_step_ = 0.0; // measured anew with the configuration
-  const StableStep step = stable_mechanical_step(
-      bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
-      edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);
-  if (!(step.dt > 0.0)) diverged(step.point, "stable step");
-  return {model_.safety * step.dt, step.point};
-}
-
-template<int dim> double ExplicitSolver<dim>::strain_since_reference() const {
-  const auto& f = state_.point.deformation;
-  return max_blocks(state_.point.size(),
-                    [&](std::size_t begin, std::size_t end) {
-                      BlockMaximum best{0.0, begin};
-                      for (std::size_t p = begin; p < end; ++p) {
-                        double sum = 0.0;
-                        for (std::size_t i = 0; i < dim; ++i)
-                          for (std::size_t k = 0; k < dim; ++k) {
-                            const double d = f[i * dim + k][p] - (i == k ? 1.0 : 0.0);
-                            sum += d * d;
-                          }
-                        if constexpr (dim == 2) sum += (f[4][p] - 1.0) * (f[4][p] - 1.0);
-                        if (sum > best.value) best = {sum, p};
-                      }
-                      best.value = std::sqrt(best.value);
-                      return best;
-                    })
-      .value;
-}
-
 template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
   const NodeState<dim>& node = state_.node;
   const PointState<dim>& point = state_.point;
@@ -405,18 +375,6 @@ template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() cons
     range = {std::min(range[0], r), std::max(range[1], r)};
   }
   return range;
-}
-
-template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
-  const std::size_t node =
-      op.nodal ? point : static_cast<std::size_t>(op.node[static_cast<std::size_t>(op.row_begin[point])]);
-  throw DivergenceError(
-      fmt::format("the {} of {} {} means nothing any more at step {}, t = {:.6g} s: node {} stood at "
-                  "({:.6g}, {:.6g}) m",
-                  field, op.nodal ? "node" : "stress point", point, state_.step, state_.time, node,
-                  state_.node.position[0][node], state_.node.position[1][node]),
-      static_cast<int>(node), field);
 }
 
 template class ExplicitSolver<2>;

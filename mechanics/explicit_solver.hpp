@@ -2,6 +2,7 @@
 // The coupled explicit solver: central differences with a variable step (paper 004, 5.1.4) and staggered
 // heat.
 #include "contact/contact.hpp"
+#include "core/archive.hpp"
 #include "core/discretisation.hpp"
 #include "core/state.hpp"
 #include "mechanics/bulk_viscosity.hpp"
@@ -62,6 +63,10 @@ public:
 
   EnergyLedger ledger() const;
 
+  /// Carries everything that evolves out or in, so that a solver of the same model goes on with the same
+  /// bits. Throws IoError when what is carried in does not fit the model.
+  void archive(Archive& archive);
+
   const State<dim>& state() const { return state_; }
   const Model<dim>& model() const { return model_; }
   const Approximation<dim>& approximation() const { return approximation_; }
@@ -77,6 +82,7 @@ private:
   void strain_and_stress(double dt);
   void assemble_forces();
   void conduct(double dt);
+  void set_conduction();
   [[noreturn]] void diverged(std::size_t point, const std::string& field) const;
 
   Model<dim> model_;
