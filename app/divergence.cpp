@@ -89,8 +89,9 @@ void blame_place(const io::Case& input, const ExplicitSolver<2>& solver, std::si
         fmt::format("The material there has flowed by a plastic strain of {:.2g}, more than this "
                     "cloud can follow: refine there.",
                     plastic));
-  const auto& hardening = solver.model().material.hardening;
-  if (hardening && state.point.temperature[point] > hardening->T0 + 0.95 * (hardening->Tmelt - hardening->T0))
+  const auto& materials = solver.model().materials;
+  const auto& hardening = materials[static_cast<std::size_t>(state.point.material[point])].hardening;
+  if (hardening && hardening->homologous_temperature(state.point.temperature[point]) > 0.95)
     causes.push_back(fmt::format("The material there is at {:.4g} K, where it melts ({:.4g} K) and has no "
                                  "strength left.",
                                  state.point.temperature[point], hardening->Tmelt));

@@ -271,7 +271,7 @@ Setup build(const io::Case& input) {
   model.contact = contact::RigidContact<2>(std::move(tools), space);
   model.cloud = std::move(generated.cloud);
   model.method = make_method(input.method, space);
-  model.material = make_material(input.material(input.domain.material));
+  model.materials = {make_material(input.material(input.domain.material))};
   model.stabilisation = input.method.stabilisation;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
   model.thermal = input.analysis.thermal;

@@ -67,7 +67,7 @@ void write_history(const StaticModel& model, const StaticSolution& solution, con
   double mass = 0.0;
   for (const double m : shot.state.node.mass) mass += m;
   row.emplace_back("mass[kg/m]", mass);
-  row.emplace_back("area[m^2]", mass / model.setup.model.material.density);
+  row.emplace_back("area[m^2]", mass / model.setup.model.materials.front().density);
   std::vector<std::string> names;
   std::vector<double> values;
   for (const auto& [name, value] : row) {

@@ -11,6 +11,7 @@
 #include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
+#include "mechanics/ties.hpp"
 #include "plasticity/material.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
@@ -25,7 +26,11 @@ namespace cnem {
 template<int dim> struct Model {
   std::unique_ptr<Discretisation<dim>> method;
   Cloud<dim> cloud; ///< boundary; its positions follow the reference
-  plasticity::Material material;
+  std::vector<plasticity::Material> materials;
+  std::vector<std::int32_t> node_material; ///< [node] index into materials; empty: the first everywhere
+  Field strength;                          ///< [node] – factor on the flow stress; empty: 1 everywhere
+  Ties<dim> ties;                          ///< nodes that move as one
+  Ties<dim> heat_ties;                     ///< nodes that have one temperature
   Supports<dim> supports;
   Loads<dim> loads;
   ThermalBoundaries<dim> heat_boundaries;
@@ -77,12 +82,22 @@ public:
   std::array<double, 2> mass_balance() const;
 
 private:
+  void start_points();
+  const plasticity::Material& material_of(std::size_t point) const {
+    return model_.materials[static_cast<std::size_t>(state_.point.material[point])];
+  }
+  const plasticity::Material& material_of_node(std::size_t node) const {
+    return model_
+        .materials[model_.node_material.empty() ? 0 : static_cast<std::size_t>(model_.node_material[node])];
+  }
   void accelerate_and_move(double dt, double dt_mean);
   void correct_contact(double dt, double dt_mean);
   void strain_and_stress(double dt);
   void assemble_forces();
-  void conduct(double dt);
   void set_conduction();
+  void conduct(double dt);
+  /// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).
+  double energy_over_body(const Field& density) const;
   [[noreturn]] void diverged(std::size_t point, const std::string& field) const;
 
   Model<dim> model_;
@@ -103,7 +118,8 @@ private:
   Field heat_flow_;                       ///< [node] W/m^(3−dim)
   Field contact_heat_;                    ///< [node] J/m^(3−dim) friction heat of this step
   std::vector<ToolConductance> tool_conductance_;
-  EnergyLedger running_;         ///< cumulative terms
+  EnergyLedger running_;  ///< cumulative terms
+  double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
   double plastic_offset_ = 0.0;  ///< keeps plastic work continuous over references
   double viscosity_ratio_ = 0.0; ///< largest share of critical damping by the bulk viscosity in the last step
   double conduction_step_ = 0.0; ///< s, stable for heat at the last reference

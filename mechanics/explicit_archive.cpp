@@ -64,6 +64,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive.field("solver/point/viscous_pressure", "Pa", viscous_pressure_);
   archive_ledger(archive, running_);
   archive.number("solver/energy/plastic_offset", "J/m", plastic_offset_);
+  archive.number("solver/energy/tie_loss", "J/m", tie_loss_);
   archive.number("solver/viscosity_ratio", "1", viscosity_ratio_);
   archive.number("solver/conduction_step", "s", conduction_step_);
   archive.integer("solver/references", references_);
