@@ -122,7 +122,7 @@ Exit Simulation::run() {
 }
 
 void Simulation::loop() {
-  if (last_check_ < 0) watch_.time("step", [&] { look_at_step(); });
+  if (control_.limit() == 0.0) watch_.time("step", [&] { control_.refresh(solver_); });
   while (true) {
     watch_.time("output", [&] { record_due(); });
     if (finished()) return;
