@@ -24,7 +24,7 @@ RunSignals::RunSignals() {
   checkpoint_wanted = false;
   for (std::size_t k = 0; k < signals.size(); ++k) {
     struct sigaction action {};
-    action.sa_handler = signals[k] == SIGXFSZ ? SIG_IGN : note_signal;
+    action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART;
     sigaction(signals[k], &action, &before_[k]);
   }

@@ -5,8 +5,7 @@
 
 namespace cnem::app {
 
-/// While one lives, SIGTERM and SIGINT ask to stop at a checkpoint, SIGUSR1 for a checkpoint; and a file that
-/// grows beyond its limit is an error of writing instead of the end.
+/// While one lives, SIGTERM and SIGINT ask to stop at a checkpoint, SIGUSR1 for a checkpoint.
 class RunSignals {
 public:
   RunSignals();
@@ -20,8 +19,8 @@ public:
   static bool take_checkpoint();
 
 private:
-  static constexpr std::array<int, 4> signals{SIGTERM, SIGINT, SIGUSR1, SIGXFSZ};
-  std::array<struct sigaction, 4> before_{};
+  static constexpr std::array<int, 3> signals{SIGTERM, SIGINT, SIGUSR1};
+  std::array<struct sigaction, 3> before_{};
 };
 
 } // namespace cnem::app

@@ -219,7 +219,6 @@ void Simulation::diverge(const DivergenceError& error) {
     dead_->causes.push_back(fmt::format("Nodes have passed each other: {}.", warning));
   dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", io::files::checkpoint,
                                  last_checkpoint_.empty() ? "no step" : last_checkpoint_, fields_due_.last());
-  if (error.node < 0) return;
   const Place place = place_of(solver_, static_cast<std::size_t>(error.node));
   dead_->picture = pictures_->record_place(snapshot(solver_), place.centre, place.radius);
 }

@@ -7,10 +7,15 @@
 namespace cnem::io {
 namespace {
 
-/// Records that a key has no meaning in this analysis.
-void refuse(const Setting& root, std::string_view path, const std::string& why, Diagnostics& diagnostics) {
+/// Records that a key has no meaning in this analysis; a default is dropped, so that the resolved case can be
+/// read again.
+void refuse(Setting& root, std::string_view path, const std::string& why, Diagnostics& diagnostics) {
   const Setting* setting = root.find(path);
-  if (setting && setting->given) diagnostics.add(Mistake::conflict, setting->where, setting->path, why);
+  if (!setting) return;
+  if (setting->given) return diagnostics.add(Mistake::conflict, setting->where, setting->path, why);
+  const auto dot = path.rfind('.');
+  Setting& table = dot == std::string_view::npos ? root : *root.find(path.substr(0, dot));
+  std::erase_if(table.members, [&](const Setting& member) { return &member == setting; });
 }
 
 bool moves(const VectorFunction& velocity) {
@@ -36,7 +41,7 @@ void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics) 
                                 *fracture.integral_inner, *fracture.integral_outer));
 }
 
-void check_analysis(const Setting& root, const Case& result, Diagnostics& diagnostics) {
+void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics) {
   if (result.analysis.type != Analysis::Type::statics) {
     if (result.analysis.kinematics == Analysis::Kinematics::plane_stress)
       refuse(root, "analysis.kinematics",

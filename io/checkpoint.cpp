@@ -6,6 +6,7 @@
 
 #include <hdf5.h>
 
+#include <atomic>
 #include <charconv>
 #include <utility>
 
@@ -86,6 +87,12 @@ hid_t in_memory() {
   return properties;
 }
 
+/// A name of its own: HDF5 takes two open files of one name for one file.
+std::string unused_name() {
+  static std::atomic<int> used{0};
+  return fmt::format("checkpoint {}", ++used);
+}
+
 } // namespace
 
 void CheckpointInfo::archive(Archive& archive) {
@@ -105,7 +112,7 @@ struct CheckpointWriter::File {
   Handle access{in_memory(), H5Pclose, "file properties"};
   Handle links{H5Pcreate(H5P_LINK_CREATE), H5Pclose, "link properties"};
   Handle sets{H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "data properties"};
-  Handle file{H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "a file"};
+  Handle file{H5Fcreate(unused_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "a file"};
 
   File() {
     check(H5Pset_create_intermediate_group(links, 1), "groups");
@@ -163,7 +170,8 @@ struct CheckpointReader::File {
 
   explicit File(std::string_view body) {
     check(H5Pset_file_image(access, const_cast<char*>(body.data()), body.size()), "its content"); // copies
-    file = std::make_unique<Handle>(H5Fopen("checkpoint", H5F_ACC_RDONLY, access), H5Fclose, "its content");
+    file = std::make_unique<Handle>(H5Fopen(unused_name().c_str(), H5F_ACC_RDONLY, access), H5Fclose,
+                                    "its content");
   }
   /// A set of the kind and length expected, 0 for any length.
   hid_t open(const std::string& name, H5T_class_t kind, std::size_t length) const {
