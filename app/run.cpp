@@ -1,6 +1,7 @@
 #include "app/run.hpp"
 
 #include "app/folder_lock.hpp"
+#include "app/run_signals.hpp"
 #include "app/simulation.hpp"
 #include "app/statics.hpp"
 #include "core/isa.hpp"
@@ -92,6 +93,7 @@ std::unique_ptr<Simulation> at_last_checkpoint(io::Case& input, const RunOptions
 Exit run(const io::Case& input, const RunOptions& options) {
   if (input.analysis.type == io::Analysis::Type::statics) return run_static(input, options);
   if (options.threads > 0) omp_set_num_threads(options.threads);
+  const RunSignals signals;
   const bool fresh = !io::holds_run(options.output);
   // A new folder is taken before the set-up, so that a run killed meanwhile can be restarted; one that holds
   // a run loses it only when the set-up has succeeded.
@@ -134,6 +136,7 @@ Exit restart(const RunOptions& options) {
     return run_static(input, again);
   }
   if (options.threads > 0) omp_set_num_threads(options.threads);
+  const RunSignals signals;
   std::unique_ptr<Simulation> simulation = at_last_checkpoint(input, options);
   if (simulation) {
     io::clear_leftovers(options.output);

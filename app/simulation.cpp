@@ -91,7 +91,6 @@ void Simulation::archive(Archive& archive) {
 }
 
 Exit Simulation::run() {
-  const RunSignals signals;
   for (const std::string& warning : warnings_) progress_.message("warning: " + warning);
   try {
     try {

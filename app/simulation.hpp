@@ -45,7 +45,8 @@ public:
   /// To be told in the status.
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
 
-  /// Runs to the end, or until it diverges, writing fails or a signal stops it; writes status and report.
+  /// Runs to the end, or until it diverges, writing fails or a signal (app/run_signals.hpp) stops it; writes
+  /// status and report.
   Exit run();
 
 private:

@@ -157,7 +157,18 @@ std::vector<fs::path> files_of_a_run(const fs::path& folder) {
 
 } // namespace
 
-bool holds_run(const fs::path& folder) { return !files_of_a_run(folder).empty(); }
+namespace {
+
+// A file of a run in the folder, "" when there is none. What a killed run left half-written is no run.
+fs::path any_file_of_a_run(const fs::path& folder) {
+  for (const fs::path& file : files_of_a_run(folder))
+    if (!is_temporary(file)) return file;
+  return {};
+}
+
+} // namespace
+
+bool holds_run(const fs::path& folder) { return !any_file_of_a_run(folder).empty(); }
 
 void clear_results(const fs::path& folder) {
   std::error_code error;
@@ -182,12 +193,12 @@ void prepare_output_folder(const fs::path& folder, bool force) {
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
     fail("create the output folder", folder, error ? error.message() : "a file of this name is in the way");
-  const std::vector<fs::path> old = files_of_a_run(folder);
+  const fs::path old = any_file_of_a_run(folder);
   if (!old.empty() && !force)
     throw InputError(
         fmt::format("the output folder {} already holds a run ({}): choose another with --output, "
                     "or replace it with --force",
-                    folder.string(), fs::relative(old.front(), folder).string()));
+                    folder.string(), fs::relative(old, folder).string()));
   clear_results(folder);
   fs::remove(folder / files::resolved_case, error);
   const fs::path probe = beside(folder / "probe");

@@ -127,6 +127,17 @@ TEST_F(Restart, sigterm_stops_at_a_checkpoint_with_5_and_goes_on) {
   }
 }
 
+TEST_F(Restart, sigterm_in_the_set_up_stops_at_step_0) {
+  reference("punched");
+  Process process(run_of("punched", "early"));
+  wait_for(process, folder / "early" / "case.resolved.toml");
+  process.send(SIGTERM);
+  const Ending ending = process.wait();
+  EXPECT_EQ(ending.code, 5) << ending.printed;
+  EXPECT_EQ(restart("early").code, 0);
+  expect_reference("early");
+}
+
 TEST_F(Restart, sigusr1_writes_a_checkpoint_and_goes_on) {
   reference("punched");
   Process process(run_of("punched", "asked", {"--set", "output.checkpoint.every_steps=0"}));
