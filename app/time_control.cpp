@@ -59,7 +59,7 @@ void StepControl::refresh(ExplicitSolver<2>& solver) {
   const auto stable = solver.stable_step();
   limit_ = stable.dt;
   point_ = stable.point;
-  limited_by_ = "elastic waves";
+  limited_by_ = stable.limit;
   if (first_ == 0.0) first_ = stable.dt;
   constexpr double collapsed = 1e-3;
   if (const double least = time_->min_step.value_or(collapsed * first_); stable.dt < least)

@@ -43,6 +43,13 @@ void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics) 
 
 void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics) {
   if (result.analysis.type != Analysis::Type::statics) {
+    if (!result.analysis.mechanical && !result.analysis.thermal)
+      refuse(root, "analysis.mechanical",
+             "found false where analysis.thermal is false: nothing is solved for", diagnostics);
+    if (!result.analysis.mechanical)
+      for (const char* path : {"tools", "initial.velocity", "initial.spin", "initial.velocity_gradient"})
+        refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
+               diagnostics);
     if (result.analysis.kinematics == Analysis::Kinematics::plane_stress)
       refuse(root, "analysis.kinematics",
              "found \"plane stress\", expected it with analysis.type = \"static\" only", diagnostics);
@@ -53,11 +60,15 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
            "found \"axisymmetric\", expected it with analysis.type = \"explicit\" only", diagnostics);
   const std::string dynamic =
       "found in a static analysis, expected it with analysis.type = \"explicit\" only";
+  if (!result.analysis.mechanical)
+    refuse(root, "analysis.mechanical", "found false in a static analysis, which solves for displacements",
+           diagnostics);
   if (result.analysis.thermal)
     refuse(root, "analysis.thermal", "found true in a static analysis, which solves for displacements alone",
            diagnostics);
-  for (const char* path :
-       {"time.step", "time.max_steps", "tools", "initial.velocity", "initial.spin", "output.checkpoint"})
+  for (const char* path : {"time.step", "time.max_steps", "tools", "initial.velocity", "initial.spin",
+                           "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",
+                           "domain.regions", "periodic", "output.checkpoint"})
     refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))

@@ -1,5 +1,6 @@
 // The geometric part of the case reader: domain, tools, cloud.
 #include "io/case_parts.hpp"
+#include "io/case_walls.hpp"
 #include "io/curve_checks.hpp"
 #include "io/nearest.hpp"
 #include "io/outline.hpp"
@@ -12,8 +13,6 @@
 
 namespace cnem::io {
 namespace {
-
-std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
 
 /// The curve of a table; nothing, and a mistake recorded, when it cannot be made.
 std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Diagnostics& diagnostics) {
@@ -29,73 +28,6 @@ std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Di
                     error.what());
     return std::nullopt;
   }
-}
-
-/// Points of a crack, turned as it says.
-std::vector<Vec2> crack_path(const Setting& table) {
-  const Setting* points = table.find("points");
-  std::vector<Vec2> path = points ? std::get<std::vector<Vec2>>(points->value) : std::vector<Vec2>{};
-  if (const Setting* turn = table.find("rotate")) {
-    const double angle = turn->get<double>("angle");
-    const auto& centre = turn->get<Vec2>("centre");
-    for (Vec2& x : path) {
-      const Vec2 d = x - centre;
-      x = centre + std::cos(angle) * d + std::sin(angle) * left_normal(d);
-    }
-  }
-  return path;
-}
-
-/// Names of the ends of a crack: given, or from where they lie.
-std::array<std::string, 2> tip_names(const Setting& crack, const Setting& domain, Diagnostics& diagnostics) {
-  if (const Setting* given = crack.find("tips")) {
-    const auto& names = std::get<std::vector<std::string>>(given->value);
-    if (names.size() == 2 && names[0] != names[1]) return {names[0], names[1]};
-    diagnostics.add(Mistake::type, given->where, given->path, "expected two different names");
-    return {};
-  }
-  const std::vector<Vec2> path = crack_path(crack);
-  if (path.size() < 2) return {};
-  const Vec2 d = path.back() - path.front();
-  const bool upright = std::abs(d.x()) <= 1e-9 * d.norm();
-  const std::array<std::string, 2> sides =
-      upright ? std::array<std::string, 2>{"bottom", "top"} : std::array<std::string, 2>{"left", "right"};
-  const bool forward = upright ? d.y() > 0.0 : d.x() > 0.0;
-  const std::string prefix = domain.entries("cracks").size() > 1 ? crack.name + "_" : "";
-  return {prefix + sides[forward ? 0 : 1], prefix + sides[forward ? 1 : 0]};
-}
-
-/// Where a polyline crosses, touches or overlaps itself.
-std::optional<Vec2> self_crossing(const std::vector<CurvePiece>& segments, double tolerance) {
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    for (std::size_t j = i + 1; j < segments.size(); ++j)
-      for (const Vec2& x : meeting_points(segments[i], segments[j], tolerance))
-        if (j > i + 1 || (x - segments[i].to).norm() > tolerance) return x;
-  return std::nullopt;
-}
-
-std::vector<CurvePiece> segments_of(const Crack& crack) {
-  std::vector<CurvePiece> segments;
-  for (std::size_t i = 1; i < crack.points.size(); ++i)
-    segments.push_back({crack.points[i - 1], crack.points[i], {0, 0}, 0.0, false, crack.name});
-  return segments;
-}
-
-/// All boundary curves of a domain.
-std::vector<std::pair<std::string, const Curve*>> curves_of(const Domain& domain) {
-  std::vector<std::pair<std::string, const Curve*>> curves{{"domain.outer", &domain.outer}};
-  for (const Hole& hole : domain.holes) curves.emplace_back("domain.holes." + hole.name, &hole.outline);
-  return curves;
-}
-
-/// Why the point is not in the domain or on its boundary; empty when it is.
-std::string outside_reason(const Domain& domain, const Vec2& x) {
-  const double tolerance = 1e-9 * extent(domain.outer);
-  if (!inside(domain.outer, x) && distance(domain.outer, x) > tolerance) return "outside domain.outer";
-  for (const Hole& hole : domain.holes)
-    if (inside(hole.outline, x) && distance(hole.outline, x) > tolerance)
-      return "in the hole domain.holes." + hole.name;
-  return "";
 }
 
 void check_holes(const Setting& holes, const Domain& domain, Diagnostics& diagnostics) {
@@ -120,36 +52,6 @@ void check_holes(const Setting& holes, const Domain& domain, Diagnostics& diagno
                             domain.holes[j].name));
     }
   }
-}
-
-/// First thing wrong with a crack; empty when nothing is.
-std::string crack_problem(const Domain& domain, std::size_t index) {
-  const Crack& crack = domain.cracks[index];
-  const double tolerance = 1e-9 * extent(domain.outer);
-  if (crack.points.size() < 2)
-    return fmt::format("found {} points, expected at least two", crack.points.size());
-  const std::vector<CurvePiece> segments = segments_of(crack);
-  for (const CurvePiece& segment : segments)
-    if (segment.length() <= tolerance)
-      return fmt::format("two consecutive points coincide at {}", show(segment.from));
-  if (const auto point = self_crossing(segments, tolerance))
-    return fmt::format("the crack crosses or touches itself at {}", show(*point));
-  for (const Vec2& point : crack.points)
-    if (const std::string reason = outside_reason(domain, point); !reason.empty())
-      return fmt::format("the point {} is {}", show(point), reason);
-  for (const auto& [name, curve] : curves_of(domain))
-    for (const CurvePiece& piece : curve->pieces)
-      for (const CurvePiece& segment : segments)
-        for (const Vec2& x : meeting_points(segment, piece, tolerance))
-          if ((x - crack.points.front()).norm() > tolerance && (x - crack.points.back()).norm() > tolerance)
-            return fmt::format("the crack meets {} at {}, expected only its ends to do so", name, show(x));
-  for (std::size_t other = 0; other < index; ++other)
-    for (const CurvePiece& a : segments)
-      for (const CurvePiece& b : segments_of(domain.cracks[other]))
-        if (const auto points = meeting_points(a, b, tolerance); !points.empty())
-          return fmt::format("the crack meets domain.cracks.{} at {}", domain.cracks[other].name,
-                             show(points.front()));
-  return "";
 }
 
 std::array<Vec2, 2> box(const Setting& setting, Diagnostics& diagnostics) {
@@ -232,15 +134,10 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
     complete = complete && curve;
     if (curve) domain.holes.push_back({hole.name, curve->reversed()});
   }
-  for (const Setting& crack : table.entries("cracks"))
-    domain.cracks.push_back({crack.name, crack_path(crack), tip_names(crack, table, diagnostics)});
+  read_walls(table, domain, diagnostics);
   if (!complete) return;
   if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);
-  for (std::size_t i = 0; i < domain.cracks.size(); ++i) {
-    const Setting& points = *table.entries("cracks")[i].find("points");
-    if (const std::string problem = crack_problem(domain, i); !problem.empty())
-      diagnostics.add(Mistake::geometry, points.where, points.path, problem);
-  }
+  check_walls(table, domain, diagnostics);
   for (const Setting& line : root.entries("output.lines"))
     for (const char* end : {"from", "to"}) {
       const Setting& at = *line.find(end);

@@ -11,6 +11,15 @@ namespace cnem::io {
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// Parts of the workpiece with a state of their own. Expects the domain.
+void read_regions(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Initial state and body loads.
+void read_initial_and_loads(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Pieces that continue at others. Expects the domain.
+void read_periodic(const Setting& root, Case& result, Diagnostics& diagnostics);
+
 /// Spacing, refinements and node lists. A node file is read and its nodes are put into the settings, so that
 /// the resolved case stands alone.
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics);

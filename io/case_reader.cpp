@@ -31,6 +31,11 @@ void compute_defaults(Setting& root) {
   root.set_default("output.pictures", std::vector<double>{end});
   for (const Setting& entry : root.entries("materials"))
     if (entry.find("heat")) root.set_default(entry.path + ".heat.reference_temperature", temperature);
+  for (const Setting& entry : root.entries("domain.regions")) {
+    root.set_default(entry.path + ".material", root.get<std::string>("domain.material"));
+    root.set_default(entry.path + ".temperature", temperature);
+    root.set_default(entry.path + ".velocity", root.get<Vec2>("initial.velocity"));
+  }
   for (const Setting& entry : root.entries("tools"))
     if (entry.find("heat")) root.set_default(entry.path + ".heat.temperature", temperature);
 }
@@ -50,15 +55,6 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
   if (const Setting* least = step.find("min"); least && result.time.fixed)
     diagnostics.add(Mistake::conflict, least->where, least->path,
                     "found a fixed step and a least step, expected one of them");
-}
-
-void read_initial_and_loads(const Setting& root, Case& result) {
-  const Setting& initial = *root.find("initial");
-  result.initial.temperature = initial.get<double>("temperature");
-  result.initial.velocity = initial.get<Vec2>("velocity");
-  if (const Setting* spin = initial.find("spin"))
-    result.initial.spin = Spin{spin->get<double>("rate"), spin->get<Vec2>("centre")};
-  result.loads.body_force = root.maybe<VectorFunction>("loads.body_force").value_or(VectorFunction{});
 }
 
 void read_method(const Setting& root, Case& result) {
@@ -122,7 +118,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   result.title = root.get<std::string>("title");
   result.analysis = {root.choice<Analysis::Type>("analysis.type"),
                      root.choice<Analysis::Kinematics>("analysis.kinematics"),
-                     root.get<bool>("analysis.thermal")};
+                     root.get<bool>("analysis.mechanical"), root.get<bool>("analysis.thermal")};
   collect_locations(root, result.location);
   read_time(root, result, diagnostics);
   read_materials(root, result, diagnostics);
@@ -131,8 +127,10 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_domain(root, result, diagnostics);
   read_tools(root, result, diagnostics);
   diagnostics.throw_if_any();
+  read_regions(root, result, diagnostics);
   read_boundary(root, result, diagnostics);
-  read_initial_and_loads(root, result);
+  read_periodic(root, result, diagnostics);
+  read_initial_and_loads(root, result, diagnostics);
   read_method(root, result);
   read_fracture(root, result, diagnostics);
   check_analysis(root, result, diagnostics);

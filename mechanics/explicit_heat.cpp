@@ -8,6 +8,13 @@
 
 namespace cnem {
 
+template<int dim> void ExplicitSolver<dim>::measure_conduction_step() {
+  const NodeState<dim>& node = state_.node;
+  const double decay = conduction_.fastest_decay(node.position, node.heat_capacity) +
+                       model_.heat_boundaries.fastest_decay(state_.time, node.position, node.heat_capacity);
+  conduction_step_ = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
+}
+
 /// Plastic and friction heat, then explicit conduction (58), in as many sub-steps as are stable.
 template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
   NodeState<dim>& node = state_.node;
@@ -36,11 +43,7 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
     return sum;
   });
   if (!model_.heat_ties.empty()) model_.heat_ties.share(node.heat_capacity, node.temperature);
-  if (conduction_step_ == 0.0) {
-    const double decay = conduction_.fastest_decay(node.position, node.heat_capacity) +
-                         model_.heat_boundaries.fastest_decay(state_.time, node.position, node.heat_capacity);
-    conduction_step_ = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
-  }
+  if (conduction_step_ == 0.0) measure_conduction_step();
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt / (0.9 * conduction_step_))));
   const double h = dt / substeps;
   for (int s = 0; s < substeps; ++s) {
@@ -58,5 +61,6 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
 }
 
 template void ExplicitSolver<2>::conduct(double);
+template void ExplicitSolver<2>::measure_conduction_step();
 
 } // namespace cnem

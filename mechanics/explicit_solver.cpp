@@ -47,6 +47,8 @@ ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Fiel
   heat_flow_.assign(n, 0.0);
   resize_all(node.force, n);
   prepare();
+  if (!model_.ties.empty())
+    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
   running_.initial = ledger().total();
 }
 
@@ -145,13 +147,15 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
 
 template<int dim> void ExplicitSolver<dim>::advance(double dt) {
   const double dt_mean = 0.5 * (state_.step_before + dt);
-  accelerate_and_move(dt, dt_mean); // (i)   (54), (55), corrected by supports and contact
-  strain_and_stress(dt);            // (ii)  Box 2
+  if (model_.mechanical) {
+    accelerate_and_move(dt, dt_mean); // (i)   (54), (55), corrected by supports and contact
+    strain_and_stress(dt);            // (ii)  Box 2
+  }
   state_.time += dt;
   state_.step_before = dt;
   ++state_.step;
-  assemble_forces();               // (iii) (52), (53)
-  if (model_.thermal) conduct(dt); // (58), staggered
+  if (model_.mechanical) assemble_forces(); // (iii) (52), (53)
+  if (model_.thermal) conduct(dt);          // (58), staggered
 }
 
 template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, double dt_mean) {
@@ -299,11 +303,15 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces() {
 template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable_step() {
   const PointState<dim>& point = state_.point;
   conduction_step_ = 0.0; // measured anew with the configuration
+  if (!model_.mechanical) {
+    measure_conduction_step();
+    return {model_.safety * conduction_step_, 0, "conduction"};
+  }
   const StableStep step = stable_mechanical_step(
       bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
       edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);
   if (!(step.dt > 0.0)) diverged(step.point, "stable step");
-  return {model_.safety * step.dt, step.point};
+  return {model_.safety * step.dt, step.point, "elastic waves"};
 }
 
 template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {

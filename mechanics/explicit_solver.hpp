@@ -38,7 +38,8 @@ template<int dim> struct Model {
   double stabilisation = 0.05; ///< α of the edge defect
   BulkViscosity viscosity;
   bool thermal = true;
-  double safety = 0.9; ///< factor on the stable step
+  bool mechanical = true; ///< false: nothing moves, heat alone
+  double safety = 0.9;    ///< factor on the stable step
 };
 
 /// Advances a State. One object per run.
@@ -58,8 +59,9 @@ public:
 
   /// Stable step for the present configuration with the safety factor, and what limits it.
   struct Step {
-    double dt;
-    std::size_t point;
+    double dt;         ///< s
+    std::size_t point; ///< where
+    std::string limit; ///< by what
   };
   Step stable_step();
 
@@ -96,6 +98,7 @@ private:
   void assemble_forces();
   void set_conduction();
   void conduct(double dt);
+  void measure_conduction_step();
   /// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).
   double energy_over_body(const Field& density) const;
   [[noreturn]] void diverged(std::size_t point, const std::string& field) const;

@@ -1,0 +1,160 @@
+#include "io/case_walls.hpp"
+
+#include "io/curve_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::io {
+
+namespace {
+
+/// What cracks and interfaces have in common.
+struct Wall {
+  const char* what;         ///< "crack"
+  std::string key;          ///< "domain.cracks.main"
+  std::vector<Vec2> points; ///< m
+  bool divides;             ///< has to run from boundary to boundary
+  const Setting* setting;   ///< its key `points`
+};
+
+std::vector<Wall> walls_of(const Setting& table, const Domain& domain) {
+  std::vector<Wall> walls;
+  for (std::size_t i = 0; i < domain.cracks.size(); ++i)
+    walls.push_back({"crack", "domain.cracks." + domain.cracks[i].name, domain.cracks[i].points, false,
+                     table.entries("cracks")[i].find("points")});
+  for (std::size_t i = 0; i < domain.interfaces.size(); ++i)
+    walls.push_back({"interface", "domain.interfaces." + domain.interfaces[i].name,
+                     domain.interfaces[i].points, true, table.entries("interfaces")[i].find("points")});
+  return walls;
+}
+
+/// Names of the ends of a crack: given, or from where they lie.
+std::array<std::string, 2> tip_names(const Setting& crack, const Setting& domain, Diagnostics& diagnostics) {
+  if (const Setting* given = crack.find("tips")) {
+    const auto& names = std::get<std::vector<std::string>>(given->value);
+    if (names.size() == 2 && names[0] != names[1]) return {names[0], names[1]};
+    diagnostics.add(Mistake::type, given->where, given->path, "expected two different names");
+    return {};
+  }
+  const std::vector<Vec2> path = crack_path(crack);
+  if (path.size() < 2) return {};
+  const Vec2 d = path.back() - path.front();
+  const bool upright = std::abs(d.x()) <= 1e-9 * d.norm();
+  const std::array<std::string, 2> sides =
+      upright ? std::array<std::string, 2>{"bottom", "top"} : std::array<std::string, 2>{"left", "right"};
+  const bool forward = upright ? d.y() > 0.0 : d.x() > 0.0;
+  const std::string prefix = domain.entries("cracks").size() > 1 ? crack.name + "_" : "";
+  return {prefix + sides[forward ? 0 : 1], prefix + sides[forward ? 1 : 0]};
+}
+
+/// Where a polyline crosses, touches or overlaps itself.
+std::optional<Vec2> self_crossing(const std::vector<CurvePiece>& segments, double tolerance) {
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    for (std::size_t j = i + 1; j < segments.size(); ++j)
+      for (const Vec2& x : meeting_points(segments[i], segments[j], tolerance))
+        if (j > i + 1 || (x - segments[i].to).norm() > tolerance) return x;
+  return std::nullopt;
+}
+
+std::vector<CurvePiece> segments_of(const std::vector<Vec2>& points) {
+  std::vector<CurvePiece> segments;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    segments.push_back({points[i - 1], points[i], {0, 0}, 0.0, false, ""});
+  return segments;
+}
+
+/// All boundary curves of a domain.
+std::vector<std::pair<std::string, const Curve*>> curves_of(const Domain& domain) {
+  std::vector<std::pair<std::string, const Curve*>> curves{{"domain.outer", &domain.outer}};
+  for (const Hole& hole : domain.holes) curves.emplace_back("domain.holes." + hole.name, &hole.outline);
+  return curves;
+}
+
+/// First thing wrong with a wall; empty when nothing is.
+std::string problem_of(const Domain& domain, const std::vector<Wall>& walls, std::size_t index) {
+  const Wall& wall = walls[index];
+  const double tolerance = 1e-9 * extent(domain.outer);
+  if (wall.points.size() < 2)
+    return fmt::format("found {} points, expected at least two", wall.points.size());
+  const std::vector<CurvePiece> segments = segments_of(wall.points);
+  for (const CurvePiece& segment : segments)
+    if (segment.length() <= tolerance)
+      return fmt::format("two consecutive points coincide at {}", show(segment.from));
+  if (const auto point = self_crossing(segments, tolerance))
+    return fmt::format("the {} crosses or touches itself at {}", wall.what, show(*point));
+  for (const Vec2& point : wall.points)
+    if (const std::string reason = outside_reason(domain, point); !reason.empty())
+      return fmt::format("the point {} is {}", show(point), reason);
+  const auto curves = curves_of(domain);
+  for (const auto& [name, curve] : curves)
+    for (const CurvePiece& piece : curve->pieces)
+      for (const CurvePiece& segment : segments)
+        for (const Vec2& x : meeting_points(segment, piece, tolerance))
+          if ((x - wall.points.front()).norm() > tolerance && (x - wall.points.back()).norm() > tolerance)
+            return fmt::format("the {} meets {} at {}, expected only its ends to do so", wall.what, name,
+                               show(x));
+  for (std::size_t other = 0; other < index; ++other)
+    for (const CurvePiece& a : segments)
+      for (const CurvePiece& b : segments_of(walls[other].points))
+        if (const auto points = meeting_points(a, b, tolerance); !points.empty())
+          return fmt::format("the {} meets {} at {}", wall.what, walls[other].key, show(points.front()));
+  if (wall.divides)
+    for (const Vec2& end : {wall.points.front(), wall.points.back()})
+      if (std::none_of(curves.begin(), curves.end(),
+                       [&](const auto& curve) { return distance(*curve.second, end) <= tolerance; }))
+        return fmt::format("the end {} lies inside, expected both ends on the boundary", show(end));
+  return "";
+}
+
+} // namespace
+
+std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
+
+/// Why the point is not in the domain or on its boundary; empty when it is.
+std::string outside_reason(const Domain& domain, const Vec2& x) {
+  const double tolerance = 1e-9 * extent(domain.outer);
+  if (!inside(domain.outer, x) && distance(domain.outer, x) > tolerance) return "outside domain.outer";
+  for (const Hole& hole : domain.holes)
+    if (inside(hole.outline, x) && distance(hole.outline, x) > tolerance)
+      return "in the hole domain.holes." + hole.name;
+  return "";
+}
+
+/// Points of a crack, turned as it says.
+std::vector<Vec2> crack_path(const Setting& table) {
+  const Setting* points = table.find("points");
+  std::vector<Vec2> path = points ? std::get<std::vector<Vec2>>(points->value) : std::vector<Vec2>{};
+  if (const Setting* turn = table.find("rotate")) {
+    const double angle = turn->get<double>("angle");
+    const auto& centre = turn->get<Vec2>("centre");
+    for (Vec2& x : path) {
+      const Vec2 d = x - centre;
+      x = centre + std::cos(angle) * d + std::sin(angle) * left_normal(d);
+    }
+  }
+  return path;
+}
+
+void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics) {
+  for (const Setting& crack : table.entries("cracks"))
+    domain.cracks.push_back({crack.name, crack_path(crack), tip_names(crack, table, diagnostics)});
+  for (const Setting& interface : table.entries("interfaces")) {
+    for (const Crack& crack : domain.cracks)
+      if (crack.name == interface.name)
+        diagnostics.add(Mistake::conflict, interface.where, interface.path,
+                        fmt::format("found the name of a crack, expected another name than {}", crack.name));
+    domain.interfaces.push_back(
+        {interface.name, interface.get<std::vector<Vec2>>("points"), interface.maybe<double>("conductance")});
+  }
+}
+
+void check_walls(const Setting& table, const Domain& domain, Diagnostics& diagnostics) {
+  const std::vector<Wall> walls = walls_of(table, domain);
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    if (const std::string problem = problem_of(domain, walls, i); !problem.empty())
+      diagnostics.add(Mistake::geometry, walls[i].setting->where, walls[i].setting->path, problem);
+}
+
+} // namespace cnem::io
