@@ -3,6 +3,7 @@
 #include "app/snapshot.hpp"
 #include "io/case.hpp"
 #include "io/history_writer.hpp"
+#include "io/picture.hpp"
 #include "io/picture_album.hpp"
 #include "io/vtk_writer.hpp"
 #include "mechanics/explicit_solver.hpp"
@@ -37,6 +38,12 @@ public:
 
   void record(const ExplicitSolver<2>& solver);
 
+  /// What a checkpoint keeps of it.
+  void archive(Archive& archive);
+  /// Goes on with the history that is there: rows later than the solver's time are dropped. Throws IoError
+  /// when earlier ones are missing.
+  void resume(const ExplicitSolver<2>& solver);
+
   /// Largest |residual| seen over the largest (external work + initial energy) seen.
   double energy_residual() const;
   double last_residual() const { return last_residual_; } ///< J/m, J of revolution
@@ -53,6 +60,7 @@ private:
   std::vector<io::HistoryWriter> writer_; ///< one; made with the first row, when the columns are known
   std::filesystem::path folder_;
   double initial_area_ = 0.0, initial_mass_ = 0.0;
+  std::int64_t rows_ = 0;
   double worst_residual_ = 0.0, last_residual_ = 0.0, scale_ = 0.0;
   std::vector<std::pair<std::string, double>> metrics_;
 };
@@ -65,7 +73,11 @@ void write_lines(const io::Case& input, const Snapshot& shot, const std::filesys
 class FieldRecorder {
 public:
   explicit FieldRecorder(const std::filesystem::path& folder) : writer_(folder) {}
+  /// Goes on with the series that is there: frames later than `time` (s) are dropped. Throws IoError.
+  FieldRecorder(const std::filesystem::path& folder, double time)
+      : writer_(io::FieldWriter::resume(folder, time)) {}
   void record(const Snapshot& shot);
+  int frames() const { return writer_.frames(); }
 
 private:
   io::FieldWriter writer_;
@@ -77,8 +89,15 @@ public:
   PictureRecorder(const io::Case& input, const std::filesystem::path& folder)
       : case_(&input), album_(folder) {}
   void record(const Snapshot& shot);
+  /// Draws the plastic strain around a place that went wrong, within `radius` (m). Returns the file's name in
+  /// the folder of pictures.
+  std::string record_place(const Snapshot& shot, const Vec2& centre, double radius);
+  /// Drops the pictures later than `time` (s).
+  void truncate(double time) { album_.truncate(time); }
 
 private:
+  io::Picture picture_of(const Snapshot& shot, const std::string& field, const Fields<2>& drawn,
+                         const Field& values) const;
   const io::Case* case_;
   io::PictureAlbum album_;
 };

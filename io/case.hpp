@@ -36,6 +36,9 @@ struct TimeControl {
   std::optional<double> max_step; ///< s  upper bound of the step
   std::optional<double> fixed;    ///< s  step used as it is, without an estimate
   int check_every = 10;           ///< steps between estimates of the stable step
+  std::optional<double>
+      min_step; ///< s  a smaller stable step means divergence; absent: 1e-3 of the first one
+  std::optional<std::int64_t> max_steps; ///< – the run ends after so many
 };
 
 /// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are
@@ -265,6 +268,14 @@ struct Window {
   Vec2 upper{0, 0}; ///< m
 };
 
+/// When checkpoints are written besides the one at step 0; 0: not by this.
+struct CheckpointControl {
+  std::int64_t every_steps = 0;
+  double every_time = 0.0;   ///< s, simulated
+  double every_wall = 600.0; ///< s of the wall clock
+  int keep = 2;
+};
+
 struct Output {
   double history_every = 0.0;              ///< s
   double fields_every = 0.0;               ///< s
@@ -273,6 +284,7 @@ struct Output {
   std::vector<Window> windows;             ///< parts of the domain drawn enlarged, beside the whole
   std::vector<Probe> probes;
   std::vector<SampleLine> lines;
+  CheckpointControl checkpoint;
 };
 
 /// Evaluation of crack tips.

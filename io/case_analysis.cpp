@@ -7,10 +7,15 @@
 namespace cnem::io {
 namespace {
 
-/// Records that a key has no meaning in this analysis.
-void refuse(const Setting& root, std::string_view path, const std::string& why, Diagnostics& diagnostics) {
+/// Records that a key has no meaning in this analysis; a default is dropped, so that the resolved case can be
+/// read again.
+void refuse(Setting& root, std::string_view path, const std::string& why, Diagnostics& diagnostics) {
   const Setting* setting = root.find(path);
-  if (setting && setting->given) diagnostics.add(Mistake::conflict, setting->where, setting->path, why);
+  if (!setting) return;
+  if (setting->given) return diagnostics.add(Mistake::conflict, setting->where, setting->path, why);
+  const auto dot = path.rfind('.');
+  Setting& table = dot == std::string_view::npos ? root : *root.find(path.substr(0, dot));
+  std::erase_if(table.members, [&](const Setting& member) { return &member == setting; });
 }
 
 bool moves(const VectorFunction& velocity) {
@@ -36,7 +41,7 @@ void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics) 
                                 *fracture.integral_inner, *fracture.integral_outer));
 }
 
-void check_analysis(const Setting& root, const Case& result, Diagnostics& diagnostics) {
+void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics) {
   if (result.analysis.type != Analysis::Type::statics) {
     if (!result.analysis.mechanical && !result.analysis.thermal)
       refuse(root, "analysis.mechanical",
@@ -61,9 +66,9 @@ void check_analysis(const Setting& root, const Case& result, Diagnostics& diagno
   if (result.analysis.thermal)
     refuse(root, "analysis.thermal", "found true in a static analysis, which solves for displacements alone",
            diagnostics);
-  for (const char* path :
-       {"time.step", "tools", "initial.velocity", "initial.spin", "initial.velocity_gradient",
-        "initial.imperfections", "domain.interfaces", "domain.regions", "periodic"})
+  for (const char* path : {"time.step", "time.max_steps", "tools", "initial.velocity", "initial.spin",
+                           "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",
+                           "domain.regions", "periodic", "output.checkpoint"})
     refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))

@@ -196,7 +196,7 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
     if (points)
       for (const Setting& member : table.members)
         if (member.given && member.name != "pieces" && member.name != "points" && member.name != "velocity" &&
-            member.name != "displacement")
+            member.name != "displacement" && (member.name != "symmetry" || std::get<bool>(member.value)))
           diagnostics.add(Mistake::conflict, member.where, member.path,
                           "found in a condition with points, expected velocity or displacement there");
     condition.symmetry = table.get<bool>("symmetry");

@@ -33,8 +33,8 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// Crack tips: enrichment and domain of the interaction integral.
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
 
-/// What the kind of analysis does not allow. Expects everything else.
-void check_analysis(const Setting& root, const Case& result, Diagnostics& diagnostics);
+/// What the kind of analysis does not allow; defaults of such keys are dropped. Expects everything else.
+void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics);
 
 /// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file and line for a file
 /// that is absent or malformed, IoError when it cannot be read.

@@ -42,11 +42,19 @@ void compute_defaults(Setting& root) {
 
 void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& step = *root.find("time.step");
-  result.time = {root.get<double>("time.end"), step.get<double>("safety"), step.maybe<double>("max"),
-                 step.maybe<double>("fixed"), static_cast<int>(step.get<std::int64_t>("check_every"))};
+  result.time = {root.get<double>("time.end"),
+                 step.get<double>("safety"),
+                 step.maybe<double>("max"),
+                 step.maybe<double>("fixed"),
+                 static_cast<int>(step.get<std::int64_t>("check_every")),
+                 step.maybe<double>("min"),
+                 root.maybe<std::int64_t>("time.max_steps")};
   if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
     diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
                     "found a fixed step and a largest step, expected one of them");
+  if (const Setting* least = step.find("min"); least && result.time.fixed)
+    diagnostics.add(Mistake::conflict, least->where, least->path,
+                    "found a fixed step and a least step, expected one of them");
 }
 
 void read_method(const Setting& root, Case& result) {
@@ -73,6 +81,10 @@ void read_output(const Setting& root, Case& result) {
   std::sort(output.pictures.begin(), output.pictures.end());
   output.pictures.erase(std::unique(output.pictures.begin(), output.pictures.end()), output.pictures.end());
   output.picture_fields = table.get<std::vector<std::string>>("picture_fields");
+  const Setting& checkpoint = *table.find("checkpoint");
+  output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
+                       checkpoint.get<double>("every_wall"),
+                       static_cast<int>(checkpoint.get<std::int64_t>("keep"))};
   for (const Setting& probe : table.entries("probes"))
     output.probes.push_back(
         {probe.name, probe.get<Vec2>("at"), probe.get<std::vector<std::string>>("fields")});

@@ -29,7 +29,7 @@ PictureAlbum::PictureAlbum(fs::path output_folder)
   }
 }
 
-void PictureAlbum::add(const std::string& key, const std::string& field, double time, const std::string& png,
+std::string PictureAlbum::add(const std::string& key, const std::string& field, double time, const std::string& png,
                        const std::string& caption) {
   std::error_code error;
   fs::create_directories(folder_, error);
@@ -45,6 +45,7 @@ void PictureAlbum::add(const std::string& key, const std::string& field, double 
   write_atomically(folder_ / name(), png);
   entries_.push_back({name(), field, time, caption});
   write_index();
+  return entries_.back().file;
 }
 
 void PictureAlbum::truncate(double time) {

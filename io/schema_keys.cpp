@@ -48,12 +48,20 @@ void add_general(Keys& k) {
       .in({.low = 0.0, .high = 1.0, .low_open = true})
       .fallback("0.9");
   k.add("time.step.max", quantity, "Largest step allowed.").unit(d::time).in(positive);
+  k.add("time.step.min", quantity, "The run has diverged when the stable step falls below this.")
+      .unit(d::time)
+      .in(positive)
+      .example("\"0.01 ns\"")
+      .computed("a thousandth of the first stable step");
   k.add("time.step.fixed", quantity, "This step, without an estimate of the stable one.")
       .unit(d::time)
       .in(positive);
   k.add("time.step.check_every", integer, "Steps between estimates of the stable step.")
       .in({.low = 1, .high = 1e6})
       .fallback("10");
+  k.add("time.max_steps", integer,
+        "The run ends after this many steps, when it has not reached `time.end` before.")
+      .in({.low = 1, .high = 1e15});
 }
 
 void add_materials(Keys& k) {
@@ -359,6 +367,26 @@ void add_output(Keys& k) {
       .in(not_negative)
       .example("\"2 4 5 12 us\"")
       .computed("`time.end`");
+  k.add("output.checkpoint", table,
+        "When `checkpoint.h5` is written, from which `cnem restart` goes on: at step 0 and whenever one of "
+        "these is "
+        "due.")
+      .always();
+  k.add("output.checkpoint.every_steps", integer, "Steps from one to the next; 0: not by steps.")
+      .in({.low = 0, .high = 1e15})
+      .fallback("0");
+  k.add("output.checkpoint.every_time", quantity, "Simulated time from one to the next; 0: not by it.")
+      .unit(d::time)
+      .in(not_negative)
+      .fallback("\"0 s\"");
+  k.add("output.checkpoint.every_wall", quantity, "Wall-clock time from one to the next; 0: not by it.")
+      .unit(d::time)
+      .in(not_negative)
+      .fallback("\"10 min\"");
+  k.add("output.checkpoint.keep", integer,
+        "Checkpoints kept: `checkpoint.h5`, then `checkpoint.1.h5` and so on.")
+      .in({.low = 1, .high = 1000})
+      .fallback("2");
   k.add("output.picture_fields", choices, "Fields drawn.")
       .one_of(fields)
       .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");

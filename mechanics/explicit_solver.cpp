@@ -86,14 +86,8 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
 
   edge_defect_.reset(shear_modulus_);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
-  if (model_.thermal) {
-    const DiscreteOperators<dim>& conducting = approximation_.conduction;
-    Field conductivity(static_cast<std::size_t>(conducting.points));
-    for (std::size_t p = 0; p < conductivity.size(); ++p)
-      conductivity[p] = material_of_node(first_node(conducting, p)).conductivity;
-    conduction_.set_operators(conducting, std::move(conductivity));
-    conduction_step_ = 0.0;
-  }
+  if (model_.thermal) set_conduction();
+  conduction_step_ = 0.0;
   if (!start) {
     running_.rereference += elastic_before - energy_over_body(point.stored_energy);
     plastic_offset_ += plastic_before - energy_over_body(point.plastic_work);
@@ -102,6 +96,14 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   running_.stabilisation = 0.0;
   assemble_forces();
   ++references_;
+}
+
+template<int dim> void ExplicitSolver<dim>::set_conduction() {
+  const DiscreteOperators<dim>& op = approximation_.conduction;
+  Field conductivity(static_cast<std::size_t>(op.points));
+  for (std::size_t p = 0; p < conductivity.size(); ++p)
+    conductivity[p] = material_of_node(first_node(op, p)).conductivity;
+  conduction_.set_operators(op, std::move(conductivity));
 }
 
 /// Masses, and stress points at rest.

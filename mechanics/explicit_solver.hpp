@@ -2,6 +2,7 @@
 // The coupled explicit solver: central differences with a variable step (paper 004, 5.1.4) and staggered
 // heat.
 #include "contact/contact.hpp"
+#include "core/archive.hpp"
 #include "core/discretisation.hpp"
 #include "core/state.hpp"
 #include "mechanics/bulk_viscosity.hpp"
@@ -69,6 +70,10 @@ public:
 
   EnergyLedger ledger() const;
 
+  /// Carries everything that evolves out or in, so that a solver of the same model goes on with the same
+  /// bits. Throws IoError when what is carried in does not fit the model.
+  void archive(Archive& archive);
+
   const State<dim>& state() const { return state_; }
   const Model<dim>& model() const { return model_; }
   const Approximation<dim>& approximation() const { return approximation_; }
@@ -91,6 +96,7 @@ private:
   void correct_contact(double dt, double dt_mean);
   void strain_and_stress(double dt);
   void assemble_forces();
+  void set_conduction();
   void conduct(double dt);
   void measure_conduction_step();
   /// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).

@@ -179,6 +179,9 @@ TEST(BadCase, KeysThatGoWithAChoice) {
                {"key 'tools.a.friction.coefficient': missing"});
   expect_parts(refusal("", {"time.step.fixed=1 ns", "time.step.max=1 ns"}),
                {"fixed step and a largest step"});
+  expect_parts(refusal("", {"time.step.fixed=1 ns", "time.step.min=1 ns"}), {"fixed step and a least step"});
+  for (const char* key : {"output.checkpoint.keep=3", "time.max_steps=5"})
+    expect_parts(refusal("", {"analysis.type=static", key}), {"found in a static analysis"});
 }
 
 TEST(BadCase, References) {
