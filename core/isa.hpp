@@ -19,4 +19,17 @@ Isa active_isa();
 /// Forces a set; not to be called while kernels run. Throws InputError when the machine lacks it.
 void set_isa(Isa isa);
 
+/// Returns what the entry of the set in use returns: CNEM_ON_ACTIVE_ISA(kernel(a, b)) calls avx2::kernel(a,
+/// b) or another.
+#define CNEM_ON_ACTIVE_ISA(...)                                                                              \
+  switch (active_isa()) {                                                                                    \
+  case Isa::avx512:                                                                                          \
+    return avx512::__VA_ARGS__;                                                                              \
+  case Isa::avx2:                                                                                            \
+    return avx2::__VA_ARGS__;                                                                                \
+  case Isa::baseline:                                                                                        \
+    break;                                                                                                   \
+  }                                                                                                          \
+  return baseline::__VA_ARGS__
+
 } // namespace cnem

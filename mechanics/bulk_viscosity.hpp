@@ -2,6 +2,8 @@
 // Bulk viscosity: spreads shocks over a few cells.
 #include "core/operators.hpp"
 #include "core/state.hpp"
+#include "mechanics/kinematics.hpp"
+#include "mechanics/step_kernels.hpp"
 
 namespace cnem {
 
@@ -11,23 +13,16 @@ namespace cnem {
 struct BulkViscosity {
   double quadratic = 0.0; ///< c₁
   double linear = 0.0;    ///< c₂
-
-  bool active() const { return quadratic > 0.0 || linear > 0.0; }
 };
 
-struct ViscousBlock {
-  double dissipated = 0.0; ///< J/m^(3−dim) in the step
-  double damping =
-      0.0; ///< largest share of critical damping ξ = c₂ + c₁ l |tr D|/c_d, which shortens the stable step
-};
-
-/// Adds −q J F⁻ᵀ to `total` for the points [begin, end) and says what this dissipated.
-/// `jacobian` and `pressure` [point] hold det F and q of the step before and are brought up to date.
-/// `density` is ρ at det F = 1 of each point, `wave_modulus` λ + 2μ.
+/// Writes P − q J F⁻ᵀ of the points [begin, end) to `total`, P from the stress in `point`, and returns what q
+/// dissipated in the step, J/m^(3−dim), and the largest share of critical damping ξ = c₂ + c₁ l |tr D|/c_d,
+/// which shortens the stable step. `jacobian` and `pressure` [point] hold det F and q of the step before and
+/// are brought up to date. `density` is ρ at det F = 1 of each point, `wave_modulus` λ + 2μ.
 template<int dim>
-ViscousBlock add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
-                                const Fields<tensor_size<dim>>& deformation, const Field& density,
-                                const Field& wave_modulus, double dt, Field& jacobian, Field& pressure,
-                                Fields<tensor_size<dim>>& total, std::size_t begin, std::size_t end);
+ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
+                               const PointState<dim>& point, const Field& density, const Field& wave_modulus,
+                               double dt, Field& jacobian, Field& pressure, ColumnStress<dim>& total,
+                               std::size_t begin, std::size_t end);
 
 } // namespace cnem

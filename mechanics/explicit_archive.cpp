@@ -79,6 +79,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
       model_.cloud.position[i][static_cast<Eigen::Index>(k)] = node.reference[k][i];
   approximation_ = model_.method->rebuild(model_.cloud);
   if (model_.thermal) set_conduction();
+  place_reference();
   model_.loads.evaluate(state_.time, node.position, node.mass);
 }
 

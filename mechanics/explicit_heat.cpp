@@ -10,7 +10,7 @@ namespace cnem {
 
 template<int dim> void ExplicitSolver<dim>::measure_conduction_step() {
   const NodeState<dim>& node = state_.node;
-  const double decay = conduction_.fastest_decay(node.position, node.heat_capacity) +
+  const double decay = conduction_.fastest_decay(position_, node.heat_capacity) +
                        model_.heat_boundaries.fastest_decay(state_.time, node.position, node.heat_capacity);
   conduction_step_ = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
 }
@@ -50,10 +50,16 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
     std::fill(heat_flow_.begin(), heat_flow_.end(), 0.0);
     model_.heat_boundaries.add_flow(state_.time, node.position, node.temperature, tool_conductance_,
                                     heat_flow_);
-    double received = 0.0;
-    for (const double q : heat_flow_) received += h * q;
-    conduction_.add_flow(node.position, node.temperature, heat_flow_);
-    for (std::size_t i = 0; i < n; ++i) node.temperature[i] += h * heat_flow_[i] / node.heat_capacity[i];
+    double received = h * sum_blocks(n, [&](std::size_t begin, std::size_t end) {
+                        double sum = 0.0;
+                        for (std::size_t i = begin; i < end; ++i) sum += heat_flow_[i];
+                        return sum;
+                      });
+    conduction_.add_flow(position_, node.temperature, heat_flow_);
+    for_each_block(n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        node.temperature[i] += h * heat_flow_[i] / node.heat_capacity[i];
+    });
     if (!model_.heat_ties.empty()) model_.heat_ties.share(node.heat_capacity, node.temperature);
     received += model_.heat_boundaries.hold(state_.time, node.heat_capacity, node.temperature);
     running_.heat_exchanged += received;

@@ -76,6 +76,7 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   const auto points = static_cast<std::size_t>(op.points);
   node.reference = node.position;
   if (start) start_points();
+  place_reference();
   set_identity<dim>(point.deformation, points);
   jacobian_.assign(points, 1.0);
   const auto stress_points = plasticity::stress_points(point);
@@ -85,6 +86,7 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   for (std::size_t p = 0; p < points; ++p) density_[p] = material_of(p).density * point.stress_free[p];
 
   edge_defect_.reset(shear_modulus_);
+  if (edge_defect_.active(approximation_.links)) edge_defect_.take(point.deformation, 0, points);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
   if (model_.thermal) set_conduction();
   conduction_step_ = 0.0;
@@ -92,7 +94,7 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
     running_.rereference += elastic_before - energy_over_body(point.stored_energy);
     plastic_offset_ += plastic_before - energy_over_body(point.plastic_work);
   }
-  for (std::size_t k = 0; k < total_stress_.size(); ++k) total_stress_[k] = point.piola[k];
+  take_columns<dim>(point.piola, stress_);
   running_.stabilisation = 0.0;
   assemble_forces();
   ++references_;
@@ -104,6 +106,13 @@ template<int dim> void ExplicitSolver<dim>::set_conduction() {
   for (std::size_t p = 0; p < conductivity.size(); ++p)
     conductivity[p] = material_of_node(first_node(op, p)).conductivity;
   conduction_.set_operators(op, std::move(conductivity));
+}
+
+/// What gathering passes read, on a new reference.
+template<int dim> void ExplicitSolver<dim>::place_reference() {
+  reference_ = side_by_side<dim>(state_.node.reference);
+  position_ = side_by_side<dim>(state_.node.position);
+  take_columns<dim>(state_.point.piola, stress_);
 }
 
 /// Masses, and stress points at rest.
@@ -123,7 +132,6 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   resize_all(point.elastic, points, 0.0);
   for (std::size_t k = 0; k < 3; ++k) point.elastic[k].assign(points, 1.0);
   resize_all(point.piola, points);
-  resize_all(total_stress_, points);
   for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress, &point.pressure,
                        &point.stored_energy, &point.plastic_work, &point.dissipation, &point.temperature,
                        &viscous_pressure_, &jacobian_, &shear_modulus_, &wave_modulus_, &density_})
@@ -179,6 +187,10 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
   correct_contact(dt, dt_mean);
   if (!model_.ties.empty())
     tie_loss_ += model_.ties.share_motion(node.mass, dt, node.velocity, node.position);
+
+  for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
+    place_side_by_side<dim>(node.position, position_, begin, end);
+  });
 
   if (!model_.loads.empty()) {
     const Fields<dim>& f = model_.loads.force();
@@ -246,23 +258,20 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   std::vector<std::ptrdiff_t> bad(blocks(n), -1);
   std::vector<double> damping(blocks(n), 0.0);
   running_.viscosity += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
-    deformation_gradient<dim>(op, state_.node.position, point.deformation, begin, end);
+    deformation_gradient<dim>(op, position_, point.deformation, begin, end);
     interpolate<dim>(op, state_.node.temperature, point.temperature, begin, end);
     bad[begin / block_size] =
         plasticity::update_stress(model_.materials, point.material, stress_points,
                                   static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end), dt);
     for (std::size_t p = begin; p < end; ++p)
       if (point.plastic_rate[p] > 0.0) flow_stress_[p] = point.equivalent_stress[p];
-    for (std::size_t k = 0; k < total_stress_.size(); ++k)
-      std::copy(point.piola[k].begin() + static_cast<std::ptrdiff_t>(begin),
-                point.piola[k].begin() + static_cast<std::ptrdiff_t>(end),
-                total_stress_[k].begin() + static_cast<std::ptrdiff_t>(begin));
-    if (penalised)
+    if (penalised) {
       edge_defect_.update_modulus(shear_modulus_, flow_stress_, point.plastic_strain, begin, end);
-    if (!model_.viscosity.active()) return 0.0;
-    const ViscousBlock viscous =
-        add_bulk_viscosity<dim>(model_.viscosity, op, point.deformation, density_, wave_modulus_, dt,
-                                jacobian_, viscous_pressure_, total_stress_, begin, end);
+      edge_defect_.take(point.deformation, begin, end);
+    }
+    const ViscousSums viscous =
+        add_bulk_viscosity<dim>(model_.viscosity, op, point, density_, wave_modulus_, dt, jacobian_,
+                                viscous_pressure_, stress_, begin, end);
     damping[begin / block_size] = viscous.damping;
     return viscous.dissipated;
   });
@@ -283,20 +292,19 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces() {
       node.force[k] = model_.loads.force()[k];
   }
   if (edge_defect_.active(approximation_.links)) {
-    std::vector<typename EdgeDefect<dim>::Energy> energy(blocks(n));
+    std::vector<EdgeEnergy> energy(blocks(n));
     for_each_block(n, [&](std::size_t begin, std::size_t end) {
-      energy[begin / block_size] =
-          edge_defect_.apply(approximation_.links, op, node.reference, node.position,
-                             state_.point.deformation, total_stress_, node.force, begin, end);
+      energy[begin / block_size] = edge_defect_.apply(approximation_.links, op.volume, reference_, position_,
+                                                      stress_, node.force, begin, end);
     });
     running_.stabilisation = 0.0;
-    for (const auto& e : energy) {
+    for (const EdgeEnergy& e : energy) {
       running_.stabilisation += e.stored;
       running_.penalty_release += e.released;
     }
   }
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    subtract_internal_force<dim>(op, total_stress_, node.force, begin, end);
+    subtract_internal_force<dim>(op, stress_, node.force, begin, end);
   });
 }
 

@@ -85,6 +85,7 @@ public:
 
 private:
   void start_points();
+  void place_reference();
   const plasticity::Material& material_of(std::size_t point) const {
     return model_.materials[static_cast<std::size_t>(state_.point.material[point])];
   }
@@ -110,16 +111,17 @@ private:
   Conduction<dim> conduction_;
   SpectralBound<dim> bound_;
 
-  Fields<dim> initial_position_;          ///< [node] m
-  Field initial_temperature_;             ///< [node] K
-  Fields<dim> velocity_before_;           ///< [node] v_{n−1/2} while v_{n+1/2} is made
-  Fields<tensor_size<dim>> total_stress_; ///< [point] P with viscosity and penalty: what forces are made from
-  Field flow_stress_;                     ///< [point] σ_y where and when the point last flowed, Pa
-  Field shear_modulus_, wave_modulus_;    ///< [point] μ, λ + 2μ, Pa
-  Field density_;                         ///< [point] ρ at F = 1, kg/m³
-  Field jacobian_, viscous_pressure_;     ///< [point] of the last step, for the bulk viscosity
-  Field heat_flow_;                       ///< [node] W/m^(3−dim)
-  Field contact_heat_;                    ///< [node] J/m^(3−dim) friction heat of this step
+  Fields<dim> initial_position_;       ///< [node] m
+  Field initial_temperature_;          ///< [node] K
+  Fields<dim> velocity_before_;        ///< [node] v_{n−1/2} while v_{n+1/2} is made
+  Field reference_, position_;         ///< [node] m, side by side
+  ColumnStress<dim> stress_;           ///< P with viscosity and penalty: what forces are made from
+  Field flow_stress_;                  ///< [point] σ_y where and when the point last flowed, Pa
+  Field shear_modulus_, wave_modulus_; ///< [point] μ, λ + 2μ, Pa
+  Field density_;                      ///< [point] ρ at F = 1, kg/m³
+  Field jacobian_, viscous_pressure_;  ///< [point] of the last step, for the bulk viscosity
+  Field heat_flow_;                    ///< [node] W/m^(3−dim)
+  Field contact_heat_;                 ///< [node] J/m^(3−dim) friction heat of this step
   std::vector<ToolConductance> tool_conductance_;
   EnergyLedger running_;  ///< cumulative terms
   double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently

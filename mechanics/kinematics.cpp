@@ -1,34 +1,43 @@
 #include "mechanics/kinematics.hpp"
 
+#include "core/isa.hpp"
+#include "mechanics/step_kernels.hpp"
+
 #include <algorithm>
 
 namespace cnem {
 
 namespace {
+
 std::size_t at(const std::vector<std::int32_t>& v, std::size_t i) { return static_cast<std::size_t>(v[i]); }
+
+template<int dim>
+void deformation_rows_of(const DiscreteOperators<dim>& op, const double* position, double* const* deformation,
+                         std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
+  CNEM_ON_ACTIVE_ISA(deformation_rows(rows, position, deformation, begin, end));
+}
+
+template<int dim>
+void force_columns_of(const DiscreteOperators<dim>& op, const double* stress, double* const* force,
+                      std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto columns = sparse_rows<dim>(op.col_begin, op.point, op.weighted_gradient);
+  CNEM_ON_ACTIVE_ISA(force_columns(columns, stress, force, begin, end));
+}
+
 } // namespace
 
 template<int dim>
-void deformation_gradient(const DiscreteOperators<dim>& operators, const Fields<dim>& position,
+void deformation_gradient(const DiscreteOperators<dim>& operators, const Field& position,
                           Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end) {
-  const auto x = pointers(position);
-  const auto b = pointers(operators.gradient);
-  for (std::size_t p = begin; p < end; ++p) {
-    double f[dim][dim] = {};
-    for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e) {
-      const std::size_t j = at(operators.node, e);
-      for (std::size_t i = 0; i < dim; ++i)
-        for (std::size_t k = 0; k < dim; ++k) f[i][k] += x[i][j] * b[k][e];
-    }
-    for (std::size_t i = 0; i < dim; ++i)
-      for (std::size_t k = 0; k < dim; ++k) deformation[i * dim + k][p] = f[i][k];
-  }
+  deformation_rows_of(operators, position.data(), pointers(deformation).data(),
+                      static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
   if constexpr (dim == 2) {
     if (!operators.of_revolution()) return;
     for (std::size_t p = begin; p < end; ++p) {
       double stretch = 0.0;
       for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e)
-        stretch += operators.hoop[e] * x[0][at(operators.node, e)];
+        stretch += operators.hoop[e] * position[dim * at(operators.node, e)];
       deformation[4][p] = stretch;
     }
   }
@@ -68,26 +77,26 @@ template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators
   return nodal;
 }
 
+template<int dim> void take_columns(const Fields<tensor_size<dim>>& piola, ColumnStress<dim>& stress) {
+  const std::size_t n = piola[0].size();
+  stress.columns.resize(dim * dim * n);
+  for (std::size_t p = 0; p < n; ++p)
+    for (std::size_t i = 0; i < dim; ++i)
+      for (std::size_t k = 0; k < dim; ++k) stress.columns[(p * dim + k) * dim + i] = piola[i * dim + k][p];
+  if constexpr (dim == 2) stress.out_of_plane = piola[4];
+}
+
 template<int dim>
-void subtract_internal_force(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& piola,
+void subtract_internal_force(const DiscreteOperators<dim>& operators, const ColumnStress<dim>& stress,
                              Fields<dim>& force, std::size_t begin, std::size_t end) {
-  const auto vb = pointers(operators.weighted_gradient);
-  const auto stress = pointers(piola);
-  for (std::size_t j = begin; j < end; ++j) {
-    double f[dim] = {};
-    for (std::size_t e = at(operators.col_begin, j); e < at(operators.col_begin, j + 1); ++e) {
-      const std::size_t p = at(operators.point, e);
-      for (std::size_t i = 0; i < dim; ++i)
-        for (std::size_t k = 0; k < dim; ++k) f[i] += stress[i * dim + k][p] * vb[k][e];
-    }
-    for (std::size_t i = 0; i < dim; ++i) force[i][j] -= f[i];
-  }
+  force_columns_of(operators, stress.columns.data(), pointers(force).data(),
+                   static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
   if constexpr (dim == 2) {
     if (!operators.of_revolution()) return;
     for (std::size_t j = begin; j < end; ++j) {
       double f = 0.0;
       for (std::size_t e = at(operators.col_begin, j); e < at(operators.col_begin, j + 1); ++e)
-        f += piola[4][at(operators.point, e)] * operators.weighted_hoop[e];
+        f += stress.out_of_plane[at(operators.point, e)] * operators.weighted_hoop[e];
       force[0][j] -= f;
     }
   }
@@ -117,13 +126,14 @@ template<> double jacobian<3>(const Fields<9>& f, std::size_t p) {
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \
-  template void deformation_gradient<dim>(const DiscreteOperators<dim>&, const Fields<dim>&,                 \
+  template void deformation_gradient<dim>(const DiscreteOperators<dim>&, const Field&,                       \
                                           Fields<tensor_size<dim>>&, std::size_t, std::size_t);              \
   template void interpolate<dim>(const DiscreteOperators<dim>&, const Field&, Field&, std::size_t,           \
                                  std::size_t);                                                               \
   template double average_at_node<dim>(const DiscreteOperators<dim>&, const Field&, std::size_t);            \
   template Field average_at_nodes<dim>(const DiscreteOperators<dim>&, const Field&);                         \
-  template void subtract_internal_force<dim>(const DiscreteOperators<dim>&, const Fields<tensor_size<dim>>&, \
+  template void take_columns<dim>(const Fields<tensor_size<dim>>&, ColumnStress<dim>&);                      \
+  template void subtract_internal_force<dim>(const DiscreteOperators<dim>&, const ColumnStress<dim>&,        \
                                              Fields<dim>&, std::size_t, std::size_t);
 CNEM_INSTANTIATE(2)
 CNEM_INSTANTIATE(3)

@@ -1,15 +1,16 @@
 #pragma once
 // Deformation gradient at stress points and forces at nodes: the two products with the gradient operator.
 #include "core/operators.hpp"
+#include "core/side_by_side.hpp"
 #include "core/state.hpp"
 
 namespace cnem {
 
-/// F_p = Σ_J x_J ⊗ b_pJ for the points [begin, end) (paper 004, (75); Box 2 (i)). `deformation` as in
-/// PointState; its out-of-plane component in 2D is Σ_J h_pJ r_J
-/// in a body of revolution, else left as it is (1 in plane strain).
+/// F_p = Σ_J x_J ⊗ b_pJ for the points [begin, end) (paper 004, (75); Box 2 (i)). `position` side by side;
+/// `deformation` as in PointState; its out-of-plane component in 2D is Σ_J h_pJ r_J in a body of revolution,
+/// else left as it is (1 in plane strain).
 template<int dim>
-void deformation_gradient(const DiscreteOperators<dim>& operators, const Fields<dim>& position,
+void deformation_gradient(const DiscreteOperators<dim>& operators, const Field& position,
                           Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end);
 
 /// value_p = Σ_J N_pJ value_J for the points [begin, end).
@@ -23,10 +24,19 @@ template<int dim>
 double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, std::size_t node);
 template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators, const Field& at_points);
 
+/// Stresses as forces are made from them.
+template<int dim> struct ColumnStress {
+  Field columns;      ///< [point][k][i] P_ik, Pa
+  Field out_of_plane; ///< [point] in the plane: P_zz, Pa
+};
+
+/// Takes the stresses of all points.
+template<int dim> void take_columns(const Fields<tensor_size<dim>>& piola, ColumnStress<dim>& stress);
+
 /// force_J −= Σ_p V_p (P_p b_pJ + P_θθ h_pJ e_r) for the nodes [begin, end): minus the internal force (52),
 /// gathered.
 template<int dim>
-void subtract_internal_force(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& piola,
+void subtract_internal_force(const DiscreteOperators<dim>& operators, const ColumnStress<dim>& stress,
                              Fields<dim>& force, std::size_t begin, std::size_t end);
 
 /// b_e = F C_p⁻¹ Fᵀ in place of C_p⁻¹: the elastic state on a reference that is the present configuration.

@@ -1,5 +1,7 @@
 #include "mechanics/stabilisation.hpp"
 
+#include "core/isa.hpp"
+
 namespace cnem {
 
 template<int dim> void EdgeDefect<dim>::reset(const Field& shear_modulus) {
@@ -19,46 +21,38 @@ void EdgeDefect<dim>::update_modulus(const Field& shear_modulus, const Field& fl
 }
 
 template<int dim>
-typename EdgeDefect<dim>::Energy
-EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const DiscreteOperators<dim>& operators,
-                       const Fields<dim>& reference, const Fields<dim>& position,
-                       const Fields<tensor_size<dim>>& deformation, Fields<tensor_size<dim>>& piola,
-                       Fields<dim>& force, std::size_t begin, std::size_t end) const {
-  const auto X = pointers(reference);
-  const auto x = pointers(position);
+void EdgeDefect<dim>::take(const Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end) {
+  constexpr std::size_t stride = dim * dim + 2;
+  if (record_.size() != stride * modulus_.size()) record_.resize(stride * modulus_.size());
   const auto F = pointers(deformation);
-  const std::int32_t* neighbour = links.neighbour.data();
-  double stored = 0.0, released = 0.0;
   for (std::size_t i = begin; i < end; ++i) {
-    double fi[dim] = {}, moment[dim][dim] = {};
-    for (auto e = static_cast<std::size_t>(links.begin[i]); e < static_cast<std::size_t>(links.begin[i + 1]);
-         ++e) {
-      const auto j = static_cast<std::size_t>(neighbour[e]);
-      double dX[dim], r[dim], r2 = 0.0;
-      for (std::size_t k = 0; k < dim; ++k) dX[k] = X[k][j] - X[k][i];
-      for (std::size_t a = 0; a < dim; ++a) {
-        r[a] = x[a][j] - x[a][i];
-        for (std::size_t k = 0; k < dim; ++k) r[a] -= 0.5 * (F[a * dim + k][i] + F[a * dim + k][j]) * dX[k];
-        r2 += r[a] * r[a];
-      }
-      const double scale = 0.5 * alpha_ * links.weight[e];
-      const double k_now = scale * (modulus_[i] + modulus_[j]);
-      const double k_fall = scale * (modulus_before_[i] + modulus_before_[j]) - k_now;
-      stored += k_now * r2;
-      released += k_fall * r2;
-      for (std::size_t a = 0; a < dim; ++a) {
-        const double kr = k_now * r[a];
-        fi[a] += kr;
-        for (std::size_t k = 0; k < dim; ++k) moment[a][k] += kr * dX[k];
-      }
-    }
-    const double half_inverse_volume = 0.5 / operators.volume[i];
-    for (std::size_t a = 0; a < dim; ++a) {
-      force[a][i] += fi[a];
-      for (std::size_t k = 0; k < dim; ++k) piola[a * dim + k][i] -= half_inverse_volume * moment[a][k];
-    }
+    double* own = record_.data() + stride * i;
+    for (std::size_t a = 0; a < dim; ++a)
+      for (std::size_t k = 0; k < dim; ++k) own[k * dim + a] = F[a * dim + k][i];
+    own[dim * dim] = modulus_[i];
+    own[dim * dim + 1] = modulus_before_[i];
   }
-  return {0.25 * stored, 0.25 * released}; // ½ of ½ Σ k|r|²: every link is seen from both its ends
+}
+
+namespace {
+
+template<int dim>
+EdgeEnergy defect(const LinkRows& links, double alpha, const Field& volume, const Field& reference,
+                  const Field& position, const Field& record, Field& stress, double* const* force,
+                  std::size_t begin, std::size_t end) {
+  CNEM_ON_ACTIVE_ISA(edge_defect<dim>(links, alpha, volume.data(), reference.data(), position.data(),
+                                      record.data(), stress.data(), force, static_cast<std::ptrdiff_t>(begin),
+                                      static_cast<std::ptrdiff_t>(end)));
+}
+
+} // namespace
+
+template<int dim>
+EdgeEnergy EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const Field& volume,
+                                  const Field& reference, const Field& position, ColumnStress<dim>& stress,
+                                  Fields<dim>& force, std::size_t begin, std::size_t end) const {
+  return defect<dim>({links.begin.data(), links.neighbour.data(), links.weight.data()}, alpha_, volume,
+                     reference, position, record_, stress.columns, pointers(force).data(), begin, end);
 }
 
 template<int dim> void EdgeDefect<dim>::archive(Archive& archive) {

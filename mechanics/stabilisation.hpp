@@ -5,6 +5,8 @@
 #include "core/archive.hpp"
 #include "core/discretisation.hpp"
 #include "core/state.hpp"
+#include "mechanics/kinematics.hpp"
+#include "mechanics/step_kernels.hpp"
 
 namespace cnem {
 
@@ -27,17 +29,14 @@ public:
   void update_modulus(const Field& shear_modulus, const Field& flow_stress, const Field& plastic_strain,
                       std::size_t begin, std::size_t end);
 
-  struct Energy {
-    double stored = 0.0;   ///< J/m^(3−dim) ½ Σ k |r|² of the block's half of its links
-    double released = 0.0; ///< J/m^(3−dim) given up by falling moduli in this step
-  };
+  /// Takes what `apply` reads of the nodes [begin, end): F and moduli.
+  void take(const Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end);
 
   /// Adds k r to the force of the nodes [begin, end) and the penalty's share −½ Σ_j k r ⊗ X_ij / V_i to their
-  /// first Piola stress. Rows of `operators` are nodes.
-  Energy apply(const StabilisationLinks<dim>& links, const DiscreteOperators<dim>& operators,
-               const Fields<dim>& reference, const Fields<dim>& position,
-               const Fields<tensor_size<dim>>& deformation, Fields<tensor_size<dim>>& piola,
-               Fields<dim>& force, std::size_t begin, std::size_t end) const;
+  /// first Piola stress. `reference` and `position` side by side; volume [node]. Expects `take` of all nodes.
+  EdgeEnergy apply(const StabilisationLinks<dim>& links, const Field& volume, const Field& reference,
+                   const Field& position, ColumnStress<dim>& stress, Fields<dim>& force, std::size_t begin,
+                   std::size_t end) const;
 
   /// Carries the moduli out or in.
   void archive(Archive& archive);
@@ -46,6 +45,7 @@ private:
   double alpha_;
   Field modulus_;        ///< [node] μ̃ of this step, Pa
   Field modulus_before_; ///< [node] μ̃ of the step before, Pa
+  Field record_;         ///< [node] as edge_defect of mechanics/step_kernels.hpp reads them
 };
 
 extern template class EdgeDefect<2>;

@@ -73,15 +73,7 @@ template<int dim>
 std::ptrdiff_t update_stress(const Material& material, const StressPoints<dim>& points, std::ptrdiff_t begin,
                              std::ptrdiff_t end, double dt) {
   const ReturnMapParameters parameters = return_map_parameters(material, dt);
-  switch (active_isa()) {
-  case Isa::avx512:
-    return avx512::return_map(parameters, points, begin, end);
-  case Isa::avx2:
-    return avx2::return_map(parameters, points, begin, end);
-  case Isa::baseline:
-    break;
-  }
-  return baseline::return_map(parameters, points, begin, end);
+  CNEM_ON_ACTIVE_ISA(return_map(parameters, points, begin, end));
 }
 
 template<int dim>

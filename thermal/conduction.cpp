@@ -1,7 +1,10 @@
 #include "thermal/conduction.hpp"
 
+#include "core/isa.hpp"
 #include "core/parallel.hpp"
+#include "core/side_by_side.hpp"
 #include "core/vec.hpp"
+#include "thermal/conduction_kernels.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -12,23 +15,21 @@ namespace {
 
 template<int dim> struct Row {
   Mat<dim> deformation = Mat<dim>::Zero();
-  Vec<dim> gradient = Vec<dim>::Zero(); ///< ∇_X T
-  double hoop = 1.0;                    ///< r/R of revolution
+  double hoop = 1.0; ///< r/R of revolution
 };
 
 template<int dim>
-Row<dim> row_of(const DiscreteOperators<dim>& operators, const Fields<dim>& position,
-                const double* temperature, std::size_t p) {
+Row<dim> row_of(const DiscreteOperators<dim>& operators, const Field& position, std::size_t p) {
   Row<dim> row;
   if (operators.of_revolution()) row.hoop = 0.0;
   for (auto e = static_cast<std::size_t>(operators.row_begin[p]);
        e < static_cast<std::size_t>(operators.row_begin[p + 1]); ++e) {
     const auto j = static_cast<std::size_t>(operators.node[e]);
-    if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[0][j];
+    if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[dim * j];
     for (int k = 0; k < dim; ++k) {
       const double b = operators.gradient[static_cast<std::size_t>(k)][e];
-      if (temperature) row.gradient[k] += temperature[j] * b;
-      for (int i = 0; i < dim; ++i) row.deformation(i, k) += position[static_cast<std::size_t>(i)][j] * b;
+      for (int i = 0; i < dim; ++i)
+        row.deformation(i, k) += position[dim * j + static_cast<std::size_t>(i)] * b;
     }
   }
   return row;
@@ -40,42 +41,50 @@ template<int dim>
 void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Field conductivity) {
   operators_ = &operators;
   conductivity_ = std::move(conductivity);
-  resize_all(flux_, static_cast<std::size_t>(operators.points));
+  flux_.assign(dim * static_cast<std::size_t>(operators.points), 0.0);
+}
+
+namespace {
+
+template<int dim>
+void flux(const SparseRows<dim>& rows, const double* hoop, const Field& position, const Field& temperature,
+          const Field& conductivity, Field& flux, std::size_t begin, std::size_t end) {
+  CNEM_ON_ACTIVE_ISA(conduction_flux(rows, hoop, position.data(), temperature.data(), conductivity.data(),
+                                     flux.data(), static_cast<std::ptrdiff_t>(begin),
+                                     static_cast<std::ptrdiff_t>(end)));
 }
 
 template<int dim>
-void Conduction<dim>::add_flow(const Fields<dim>& position, const Field& temperature, Field& flow) {
+void subtract_flow(const SparseRows<dim>& columns, const Field& flux, Field& flow, std::size_t begin,
+                   std::size_t end) {
+  CNEM_ON_ACTIVE_ISA(conduction_flow(columns, flux.data(), flow.data(), static_cast<std::ptrdiff_t>(begin),
+                                     static_cast<std::ptrdiff_t>(end)));
+}
+
+} // namespace
+
+template<int dim>
+void Conduction<dim>::add_flow(const Field& position, const Field& temperature, Field& flow) {
   const DiscreteOperators<dim>& op = *operators_;
+  const auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
+  const auto columns = sparse_rows<dim>(op.col_begin, op.point, op.weighted_gradient);
+  const double* hoop = op.of_revolution() ? op.hoop.data() : nullptr;
   for_each_block(static_cast<std::size_t>(op.points), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      const Row<dim> row = row_of<dim>(op, position, temperature.data(), p);
-      const double det = row.deformation.determinant() * row.hoop;
-      const Mat<dim> inverse = row.deformation.inverse();
-      const Vec<dim> q = conductivity_[p] * det * (inverse * (inverse.transpose() * row.gradient));
-      for (int k = 0; k < dim; ++k) flux_[static_cast<std::size_t>(k)][p] = q[k];
-    }
+    flux(rows, hoop, position, temperature, conductivity_, flux_, begin, end);
   });
   for_each_block(static_cast<std::size_t>(op.nodes), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
-      double sum = 0.0;
-      for (auto e = static_cast<std::size_t>(op.col_begin[j]);
-           e < static_cast<std::size_t>(op.col_begin[j + 1]); ++e)
-        for (std::size_t k = 0; k < dim; ++k)
-          sum += flux_[k][static_cast<std::size_t>(op.point[e])] * op.weighted_gradient[k][e];
-      flow[j] -= sum;
-    }
+    subtract_flow(columns, flux_, flow, begin, end);
   });
 }
 
-template<int dim>
-double Conduction<dim>::fastest_decay(const Fields<dim>& position, const Field& heat_capacity) {
+template<int dim> double Conduction<dim>::fastest_decay(const Field& position, const Field& heat_capacity) {
   const DiscreteOperators<dim>& op = *operators_;
   const auto points = static_cast<std::size_t>(op.points);
   transfer_.assign(static_cast<std::size_t>(op.nodes), 0.0);
   // The same Gershgorin bound as for waves, with b = F⁻ᵀ b_r and V = V_r det F (mechanics/stable_step.hpp).
   std::vector<double> norm(op.node.size());
   for (std::size_t p = 0; p < points; ++p) {
-    const Row<dim> row = row_of<dim>(op, position, nullptr, p);
+    const Row<dim> row = row_of<dim>(op, position, p);
     const Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
     const double volume = op.volume[p] * row.deformation.determinant() * row.hoop;
     for (auto e = static_cast<std::size_t>(op.row_begin[p]);

@@ -13,17 +13,17 @@ public:
   void set_operators(const DiscreteOperators<dim>& operators, Field conductivity);
 
   /// flow_J += −Σ_p V_p k J (F⁻¹F⁻ᵀ ∇_X T)·b_pJ: heat that arrives at node J, W/m^(3−dim). The flows of all
-  /// nodes add up to zero. Position [node] is the current one.
-  void add_flow(const Fields<dim>& position, const Field& temperature, Field& flow);
+  /// nodes add up to zero. Positions are the current ones, side by side (core/side_by_side.hpp).
+  void add_flow(const Field& position, const Field& temperature, Field& flow);
 
   /// The decay rate no mode exceeds, 1/s: explicit steps are stable below 2 over it.
-  double fastest_decay(const Fields<dim>& position, const Field& heat_capacity);
+  double fastest_decay(const Field& position, const Field& heat_capacity);
 
 private:
   const DiscreteOperators<dim>* operators_ = nullptr;
   Field conductivity_;
-  Fields<dim> flux_; ///< [row] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned
-  Field transfer_;   ///< [node] scratch of fastest_decay
+  Field flux_;     ///< [row][k] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned
+  Field transfer_; ///< [node] scratch of fastest_decay
 };
 
 extern template class Conduction<2>;

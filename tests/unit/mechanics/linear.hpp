@@ -35,7 +35,8 @@ inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t d = 0; d < 2; ++d) {
       x[d][j] += unit;
-      deformation_gradient<2>(op, x, F, 0, points);
+      const Field side = side_by_side<2>(x);
+      deformation_gradient<2>(op, side, F, 0, points);
       for (std::size_t p = 0; p < points; ++p) {
         const double exx = F[0][p] - 1.0, eyy = F[3][p] - 1.0, exy = 0.5 * (F[1][p] + F[2][p]);
         const double ezz = op.of_revolution() ? F[4][p] - 1.0 : 0.0;
@@ -45,8 +46,13 @@ inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
         P[1][p] = P[2][p] = 2.0 * mu * exy;
       }
       resize_all(force, n);
-      if (edges.active(approximation.links)) edges.apply(approximation.links, op, X, x, F, P, force, 0, n);
-      subtract_internal_force<2>(op, P, force, 0, n);
+      ColumnStress<2> stress;
+      take_columns<2>(P, stress);
+      if (edges.active(approximation.links)) {
+        edges.take(F, 0, n);
+        edges.apply(approximation.links, op.volume, side_by_side<2>(X), side, stress, force, 0, n);
+      }
+      subtract_internal_force<2>(op, stress, force, 0, n);
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t k = 0; k < 2; ++k)
           linear.stiffness(static_cast<Eigen::Index>(2 * i + k), static_cast<Eigen::Index>(2 * j + d)) =

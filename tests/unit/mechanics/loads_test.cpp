@@ -144,9 +144,14 @@ TEST(EdgeDefect, force_is_minus_the_slope_of_its_energy_and_blind_to_rotation) {
   const auto energy = [&] {
     resize_all(P, n);
     resize_all(force, n);
-    deformation_gradient<2>(op, x, F, 0, n);
-    const double stored = edges.apply(approximation.links, op, X, x, F, P, force, 0, n).stored;
-    subtract_internal_force<2>(op, P, force, 0, n);
+    const Field side = side_by_side<2>(x);
+    deformation_gradient<2>(op, side, F, 0, n);
+    edges.take(F, 0, n);
+    ColumnStress<2> stress;
+    take_columns<2>(P, stress);
+    const double stored =
+        edges.apply(approximation.links, op.volume, side_by_side<2>(X), side, stress, force, 0, n).stored;
+    subtract_internal_force<2>(op, stress, force, 0, n);
     return stored;
   };
   x = X;

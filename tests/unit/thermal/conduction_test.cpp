@@ -1,5 +1,6 @@
 // Explicit conduction with the operators a discretisation hands over, against exact solutions.
 #include "cnem/scni.hpp"
+#include "core/side_by_side.hpp"
 #include "tests/clouds.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
@@ -41,7 +42,7 @@ struct Body {
     conduction.set_operators(op, Field(static_cast<std::size_t>(op.points), k));
   }
   Body(const Body&) = delete;
-  double stable_step() { return 2.0 / conduction.fastest_decay(position, capacity); }
+  double stable_step() { return 2.0 / conduction.fastest_decay(side_by_side<2>(position), capacity); }
   double heat() const {
     double sum = 0.0;
     for (std::size_t i = 0; i < capacity.size(); ++i) sum += capacity[i] * temperature[i];
@@ -51,7 +52,7 @@ struct Body {
             const std::vector<ToolConductance>& tools = {}) {
     std::fill(flow.begin(), flow.end(), 0.0);
     boundaries.add_flow(time, position, temperature, tools, flow);
-    conduction.add_flow(position, temperature, flow);
+    conduction.add_flow(side_by_side<2>(position), temperature, flow);
     for (std::size_t i = 0; i < flow.size(); ++i) temperature[i] += dt * flow[i] / capacity[i];
     boundaries.hold(time + dt, capacity, temperature);
   }
@@ -167,7 +168,7 @@ TEST(Conduction, stretched_body_conducts_as_the_stretched_geometry) {
   for (std::size_t i = 0; i < moved.temperature.size(); ++i)
     moved.temperature[i] = slope.dot(Vec2(moved.position[0][i], moved.position[1][i]));
   std::fill(moved.flow.begin(), moved.flow.end(), 0.0);
-  moved.conduction.add_flow(moved.position, moved.temperature, moved.flow);
+  moved.conduction.add_flow(side_by_side<2>(moved.position), moved.temperature, moved.flow);
   Field expected(moved.flow.size(), 0.0);
   for (const Facet<2>& facet : there.facets) {
     const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
@@ -214,7 +215,7 @@ TEST(Conduction, fastest_decay_bounds_the_exact_rate) {
       std::fill(body.temperature.begin(), body.temperature.end(), 0.0);
       body.temperature[static_cast<std::size_t>(j)] = 1.0;
       std::fill(body.flow.begin(), body.flow.end(), 0.0);
-      body.conduction.add_flow(body.position, body.temperature, body.flow);
+      body.conduction.add_flow(side_by_side<2>(body.position), body.temperature, body.flow);
       for (Eigen::Index i = 0; i < n; ++i)
         K(i, j) =
             -body.flow[static_cast<std::size_t>(i)] / std::sqrt(body.capacity[static_cast<std::size_t>(i)] *
@@ -222,7 +223,7 @@ TEST(Conduction, fastest_decay_bounds_the_exact_rate) {
     }
     const double exact =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[n - 1];
-    const double bound = body.conduction.fastest_decay(body.position, body.capacity);
+    const double bound = body.conduction.fastest_decay(side_by_side<2>(body.position), body.capacity);
     EXPECT_GT(bound, exact);
     EXPECT_LT(bound, 6.0 * exact);
   }

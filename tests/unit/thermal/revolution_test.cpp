@@ -1,5 +1,6 @@
 // Conduction and boundaries in bodies of revolution.
 #include "cnem/scni.hpp"
+#include "core/side_by_side.hpp"
 #include "tests/clouds.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
@@ -37,13 +38,13 @@ struct Cylinder {
   Cylinder(const Cylinder&) = delete;
 
   void run(double end, const ThermalBoundaries<2>& boundaries) {
-    const double decay =
-        conduction.fastest_decay(position, capacity) + boundaries.fastest_decay(0.0, position, capacity);
+    const double decay = conduction.fastest_decay(side_by_side<2>(position), capacity) +
+                         boundaries.fastest_decay(0.0, position, capacity);
     const int steps = static_cast<int>(std::ceil(end / (0.9 * 2.0 / decay)));
     for (int n = 0; n < steps; ++n) {
       std::fill(flow.begin(), flow.end(), 0.0);
       boundaries.add_flow(0.0, position, temperature, {}, flow);
-      conduction.add_flow(position, temperature, flow);
+      conduction.add_flow(side_by_side<2>(position), temperature, flow);
       for (std::size_t i = 0; i < flow.size(); ++i) temperature[i] += end / steps * flow[i] / capacity[i];
       boundaries.hold(0.0, capacity, temperature);
     }

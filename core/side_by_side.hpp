@@ -1,0 +1,35 @@
+#pragma once
+// Vector fields with their components side by side, [node · dim + component]: what passes that gather over
+// neighbours read, so that a neighbour costs one cache line.
+#include "core/aligned.hpp"
+#include "core/sparse_rows.hpp"
+
+#include <cstdint>
+
+namespace cnem {
+
+/// An operator as kernels read it.
+template<int dim>
+SparseRows<dim> sparse_rows(const std::vector<std::int32_t>& begin, const std::vector<std::int32_t>& index,
+                            const Fields<dim>& weight) {
+  SparseRows<dim> rows{begin.data(), index.data(), {}};
+  for (std::size_t k = 0; k < dim; ++k) rows.weight[k] = weight[k].data();
+  return rows;
+}
+
+/// Copies the nodes [begin, end).
+template<int dim>
+void place_side_by_side(const Fields<dim>& field, Field& side_by_side, std::size_t begin, std::size_t end) {
+  const auto from = pointers(field);
+  double* to = side_by_side.data();
+  for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t k = 0; k < dim; ++k) to[i * dim + k] = from[k][i];
+}
+
+template<int dim> Field side_by_side(const Fields<dim>& field) {
+  Field result(dim * field[0].size());
+  place_side_by_side<dim>(field, result, 0, field[0].size());
+  return result;
+}
+
+} // namespace cnem

@@ -1,0 +1,176 @@
+#include "mechanics/step_kernels.hpp"
+
+#include "core/simd.hpp"
+#include "core/small_vector.hpp"
+#include "core/sparse_rows.hpp"
+
+namespace cnem::CNEM_ISA {
+
+template<int dim>
+void deformation_rows(const SparseRows<dim>& rows, const double* position, double* const* deformation,
+                      std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for (std::ptrdiff_t p = begin; p < end; ++p) {
+    Small<dim> column[dim];
+    for (int k = 0; k < dim; ++k) column[k] = Small<dim>::zero();
+    for (std::int32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
+      const auto x = Small<dim>::load(position + dim * static_cast<std::ptrdiff_t>(rows.index[e]));
+      for (int k = 0; k < dim; ++k) column[k] += x * rows.weight[k][e];
+    }
+    for (int i = 0; i < dim; ++i)
+      for (int k = 0; k < dim; ++k) deformation[i * dim + k][p] = column[k][i];
+  }
+}
+
+template<int dim>
+void force_columns(const SparseRows<dim>& columns, const double* stress, double* const* force,
+                   std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for (std::ptrdiff_t j = begin; j < end; ++j) {
+    auto f = Small<dim>::zero();
+    for (std::int32_t e = columns.begin[j]; e < columns.begin[j + 1]; ++e) {
+      const double* P = stress + dim * dim * static_cast<std::ptrdiff_t>(columns.index[e]);
+      for (int k = 0; k < dim; ++k) f += Small<dim>::load(P + k * dim) * columns.weight[k][e];
+    }
+    for (int i = 0; i < dim; ++i) force[i][j] -= f[i];
+  }
+}
+
+template<int dim>
+EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* reference,
+                       const double* position, const double* record, double* stress, double* const* force,
+                       std::ptrdiff_t begin, std::ptrdiff_t end) {
+  constexpr int stride = dim * dim + 2;
+  double stored = 0.0, released = 0.0;
+  for (std::ptrdiff_t i = begin; i < end; ++i) {
+    const auto X = Small<dim>::load(reference + dim * i), x = Small<dim>::load(position + dim * i);
+    const double* own = record + stride * i;
+    Small<dim> F[dim], moment[dim];
+    for (int k = 0; k < dim; ++k) {
+      F[k] = Small<dim>::load(own + k * dim);
+      moment[k] = Small<dim>::zero();
+    }
+    auto pull = Small<dim>::zero();
+    for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e) {
+      const std::ptrdiff_t j = links.neighbour[e];
+      const double* other = record + stride * j;
+      const auto dX = Small<dim>::load(reference + dim * j) - X;
+      auto r = Small<dim>::load(position + dim * j) - x;
+      for (int k = 0; k < dim; ++k) r -= (F[k] + Small<dim>::load(other + k * dim)) * (0.5 * dX[k]);
+      const double scale = 0.5 * alpha * links.weight[e], r2 = r.dot(r);
+      const double stiffness = scale * (own[dim * dim] + other[dim * dim]);
+      stored += stiffness * r2;
+      released += (scale * (own[dim * dim + 1] + other[dim * dim + 1]) - stiffness) * r2;
+      const auto tension = r * stiffness;
+      pull += tension;
+      for (int k = 0; k < dim; ++k) moment[k] += tension * dX[k];
+    }
+    const double half_inverse_volume = 0.5 / volume[i];
+    for (int k = 0; k < dim; ++k) {
+      double* P = stress + dim * dim * i + dim * k;
+      (Small<dim>::load(P) - moment[k] * half_inverse_volume).store(P);
+      force[k][i] += pull[k];
+    }
+  }
+  return {0.25 * stored, 0.25 * released}; // ½ of ½ Σ k|r|²: every link is seen from both its ends
+}
+
+namespace {
+
+inline constexpr double two_pi = 6.283185307179586;
+
+template<class T> CNEM_INLINE T root_of_volume(T volume, bool plane) {
+  return plane ? sqrt(volume) : exp(log(volume) * T(1.0 / 3.0));
+}
+
+/// The points p … p + width − 1.
+template<int dim, class T>
+CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic, double linear, double by_dt,
+                              std::ptrdiff_t p, T& dissipated, T& damping) {
+  constexpr int general = ViscousPoints<dim>::general;
+  T f[general], stress[general], cofactor[general];
+  for (int c = 0; c < general; ++c) {
+    f[c] = load<T>(points.deformation[c] + p);
+    stress[c] = load<T>(points.piola[c] + p);
+  }
+  T J;
+  if constexpr (dim == 2) {
+    const T plane = f[0] * f[3] - f[1] * f[2];
+    J = plane * f[4];
+    cofactor[0] = f[3] * f[4];
+    cofactor[1] = -f[2] * f[4];
+    cofactor[2] = -f[1] * f[4];
+    cofactor[3] = f[0] * f[4];
+    cofactor[4] = plane;
+  } else {
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, d = (k + 2) % 3;
+        cofactor[i * 3 + k] = f[a * 3 + c] * f[b * 3 + d] - f[a * 3 + d] * f[b * 3 + c];
+      }
+    J = f[0] * cofactor[0] + f[1] * cofactor[1] + f[2] * cofactor[2];
+  }
+  const T before = load<T>(points.jacobian + p), change = J - before;
+  const T volume = load<T>(points.volume + p);
+  const Mask<T> closing = change < T(0.0);
+  T q = T(0.0);
+  if (any(closing)) {
+    const T rate = T(2.0 * by_dt) * change / (J + before);
+    const T rho = load<T>(points.density + p) / J;
+    T extent = volume * J;
+    if (dim == 2 && points.radius)
+      extent = extent / (T(two_pi) * load<T>(points.radius + p) * f[general - 1]);
+    const T length = root_of_volume(extent, dim == 2);
+    const T speed = sqrt(load<T>(points.wave_modulus + p) / rho);
+    const T share = T(linear) - T(quadratic) * length * rate / speed;
+    q = select(closing, -rho * length * rate * speed * share, T(0.0));
+    damping = max(damping, select(closing, share, T(0.0)));
+  }
+  for (int c = 0; c < general; ++c) stress[c] = stress[c] - q * cofactor[c];
+  dissipated = dissipated - T(0.5) * (load<T>(points.pressure + p) + q) * volume * change;
+  store(points.pressure + p, q);
+  store(points.jacobian + p, J);
+  if constexpr (dim == 2) store(points.out_of_plane + p, stress[4]);
+  constexpr int width = Number<T>::width;
+  double rows[dim * dim][width];
+  for (int i = 0; i < dim; ++i)
+    for (int k = 0; k < dim; ++k) store(rows[k * dim + i], stress[i * dim + k]);
+  for (int lane = 0; lane < width; ++lane)
+    for (int c = 0; c < dim * dim; ++c) points.columns[dim * dim * (p + lane) + c] = rows[c][lane];
+}
+
+} // namespace
+
+template<int dim>
+ViscousSums viscous_stress(const ViscousPoints<dim>& points, double quadratic, double linear, double dt,
+                           std::ptrdiff_t begin, std::ptrdiff_t end) {
+  using Packed = Pack<1>;
+  constexpr int width = Number<Packed>::width;
+  Packed dissipated = Packed(0.0), damping = Packed(0.0);
+  double rest_dissipated = 0.0, rest_damping = 0.0;
+  std::ptrdiff_t p = begin;
+  for (; p + width <= end; p += width)
+    viscous_step<dim>(points, quadratic, linear, 1.0 / dt, p, dissipated, damping);
+  for (; p < end; ++p)
+    viscous_step<dim>(points, quadratic, linear, 1.0 / dt, p, rest_dissipated, rest_damping);
+  double lanes[width];
+  store(lanes, dissipated);
+  for (const double lane : lanes) rest_dissipated += lane;
+  store(lanes, damping);
+  for (const double lane : lanes) rest_damping = max(rest_damping, lane);
+  return {rest_dissipated, rest_damping};
+}
+
+#define CNEM_INSTANTIATE(dim)                                                                                \
+  template void deformation_rows<dim>(const SparseRows<dim>&, const double*, double* const*, std::ptrdiff_t, \
+                                      std::ptrdiff_t);                                                       \
+  template void force_columns<dim>(const SparseRows<dim>&, const double*, double* const*, std::ptrdiff_t,    \
+                                   std::ptrdiff_t);                                                          \
+  template EdgeEnergy edge_defect<dim>(const LinkRows&, double, const double*, const double*, const double*, \
+                                       const double*, double*, double* const*, std::ptrdiff_t,               \
+                                       std::ptrdiff_t);                                                      \
+  template ViscousSums viscous_stress<dim>(const ViscousPoints<dim>&, double, double, double,                \
+                                           std::ptrdiff_t, std::ptrdiff_t);
+CNEM_INSTANTIATE(2)
+CNEM_INSTANTIATE(3)
+#undef CNEM_INSTANTIATE
+
+} // namespace cnem::CNEM_ISA

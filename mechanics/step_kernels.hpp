@@ -1,0 +1,67 @@
+#pragma once
+// The passes of an explicit step that gather over neighbours or sweep over points, one entry per instruction
+// set. Raw pointers only: kernels see no standard containers (cmake/cnem.cmake, cnem_kernel).
+//
+// What is gathered lies side by side, one record per node or point, so that a neighbour costs one cache line:
+// positions [node][k]; stresses by columns [point][k][i] = P_ik; edge records [node]: F by columns [k][i],
+// then the penalty's modulus of this step and of the step before.
+#include <cstddef>
+#include <cstdint>
+
+namespace cnem {
+
+template<int dim> struct SparseRows;
+
+/// Neighbour links of the stabilisation, each in the lists of both its ends.
+struct LinkRows {
+  const std::int32_t* begin;
+  const std::int32_t* neighbour;
+  const double* weight;
+};
+
+/// ½ Σ k |r|² of the block's half of its links, and what falling moduli let go, J/m^(3−dim).
+struct EdgeEnergy {
+  double stored, released;
+};
+
+/// What the bulk viscosity reads and writes, [point].
+template<int dim> struct ViscousPoints {
+  static constexpr int general = dim == 2 ? 5 : 9;
+  const double* deformation[general];
+  const double* piola[general];
+  const double* density;      ///< kg/m³ at F = 1
+  const double* wave_modulus; ///< λ + 2μ, Pa
+  const double* volume;       ///< V_p
+  const double* radius;       ///< r̄_p of revolution, else null
+  double* jacobian;           ///< in: of the step before
+  double* pressure;           ///< q, in: of the step before
+  double* columns;            ///< out: P − q J F⁻ᵀ by columns
+  double* out_of_plane;       ///< out, in the plane: its zz component
+};
+
+struct ViscousSums {
+  double dissipated, damping;
+};
+
+#define CNEM_STEP_KERNELS(isa)                                                                               \
+  namespace isa {                                                                                            \
+  template<int dim>                                                                                          \
+  void deformation_rows(const SparseRows<dim>& rows, const double* position, double* const* deformation,     \
+                        std::ptrdiff_t begin, std::ptrdiff_t end);                                           \
+  template<int dim>                                                                                          \
+  void force_columns(const SparseRows<dim>& columns, const double* stress, double* const* force,             \
+                     std::ptrdiff_t begin, std::ptrdiff_t end);                                              \
+  template<int dim>                                                                                          \
+  EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* reference, \
+                         const double* position, const double* record, double* stress, double* const* force, \
+                         std::ptrdiff_t begin, std::ptrdiff_t end);                                          \
+  template<int dim>                                                                                          \
+  ViscousSums viscous_stress(const ViscousPoints<dim>& points, double quadratic, double linear, double dt,   \
+                             std::ptrdiff_t begin, std::ptrdiff_t end);                                      \
+  }
+CNEM_STEP_KERNELS(baseline)
+CNEM_STEP_KERNELS(avx2)
+CNEM_STEP_KERNELS(avx512)
+#undef CNEM_STEP_KERNELS
+
+} // namespace cnem

@@ -1,0 +1,73 @@
+#include "thermal/conduction_kernels.hpp"
+
+#include "core/small_vector.hpp"
+#include "core/sparse_rows.hpp"
+
+namespace cnem::CNEM_ISA {
+
+namespace {
+
+/// det F · F⁻ᵀ as columns, from F as columns; returns det F.
+CNEM_INLINE double cofactor(const Small<2> (&f)[2], Small<2> (&c)[2]) {
+  c[0] = Small<2>::of(f[1][1], -f[1][0]);
+  c[1] = Small<2>::of(-f[0][1], f[0][0]);
+  return f[0][0] * f[1][1] - f[1][0] * f[0][1];
+}
+CNEM_INLINE double cofactor(const Small<3> (&f)[3], Small<3> (&c)[3]) {
+  for (int k = 0; k < 3; ++k) {
+    const Small<3>&a = f[(k + 1) % 3], &b = f[(k + 2) % 3];
+    for (int i = 0; i < 3; ++i) c[k].v[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+  }
+  return f[0][0] * c[0][0] + f[0][1] * c[0][1] + f[0][2] * c[0][2];
+}
+
+} // namespace
+
+template<int dim>
+void conduction_flux(const SparseRows<dim>& rows, const double* hoop, const double* position,
+                     const double* temperature, const double* conductivity, double* flux,
+                     std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for (std::ptrdiff_t p = begin; p < end; ++p) {
+    Small<dim> F[dim], cof[dim];
+    double gradient[dim] = {}, stretch = hoop ? 0.0 : 1.0;
+    for (int k = 0; k < dim; ++k) F[k] = Small<dim>::zero();
+    for (std::int32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
+      const std::ptrdiff_t j = rows.index[e];
+      const auto x = Small<dim>::load(position + dim * j);
+      if (hoop) stretch += hoop[e] * x[0];
+      for (int k = 0; k < dim; ++k) {
+        F[k] += x * rows.weight[k][e];
+        gradient[k] += temperature[j] * rows.weight[k][e];
+      }
+    }
+    const double det = cofactor(F, cof);
+    auto spatial = Small<dim>::zero(); // det F · F⁻ᵀ ∇_X T
+    for (int k = 0; k < dim; ++k) spatial += cof[k] * gradient[k];
+    const double scale = conductivity[p] * stretch / det;
+    for (int k = 0; k < dim; ++k) flux[dim * p + k] = scale * cof[k].dot(spatial);
+  }
+}
+
+template<int dim>
+void conduction_flow(const SparseRows<dim>& columns, const double* flux, double* flow, std::ptrdiff_t begin,
+                     std::ptrdiff_t end) {
+  for (std::ptrdiff_t j = begin; j < end; ++j) {
+    double sum = 0.0;
+    for (std::int32_t e = columns.begin[j]; e < columns.begin[j + 1]; ++e) {
+      const double* q = flux + dim * static_cast<std::ptrdiff_t>(columns.index[e]);
+      for (int k = 0; k < dim; ++k) sum += q[k] * columns.weight[k][e];
+    }
+    flow[j] -= sum;
+  }
+}
+
+#define CNEM_INSTANTIATE(dim)                                                                                \
+  template void conduction_flux<dim>(const SparseRows<dim>&, const double*, const double*, const double*,    \
+                                     const double*, double*, std::ptrdiff_t, std::ptrdiff_t);                \
+  template void conduction_flow<dim>(const SparseRows<dim>&, const double*, double*, std::ptrdiff_t,         \
+                                     std::ptrdiff_t);
+CNEM_INSTANTIATE(2)
+CNEM_INSTANTIATE(3)
+#undef CNEM_INSTANTIATE
+
+} // namespace cnem::CNEM_ISA

@@ -1,0 +1,28 @@
+#pragma once
+// The two passes of conduction, one entry per instruction set; raw pointers only (cmake/cnem.cmake,
+// cnem_kernel). Vectors side by side (core/side_by_side.hpp).
+#include <cstddef>
+#include <cstdint>
+
+namespace cnem {
+
+template<int dim> struct SparseRows;
+
+#define CNEM_CONDUCTION_KERNELS(isa)                                                                         \
+  namespace isa {                                                                                            \
+  /* flux [point][k] = k J F⁻¹F⁻ᵀ ∇_X T; hoop [entry] of revolution, else null */                   \
+  template<int dim>                                                                                          \
+  void conduction_flux(const SparseRows<dim>& rows, const double* hoop, const double* position,              \
+                       const double* temperature, const double* conductivity, double* flux,                  \
+                       std::ptrdiff_t begin, std::ptrdiff_t end);                                            \
+  /* flow −= Σ V b · flux */                                                                             \
+  template<int dim>                                                                                          \
+  void conduction_flow(const SparseRows<dim>& columns, const double* flux, double* flow,                     \
+                       std::ptrdiff_t begin, std::ptrdiff_t end);                                            \
+  }
+CNEM_CONDUCTION_KERNELS(baseline)
+CNEM_CONDUCTION_KERNELS(avx2)
+CNEM_CONDUCTION_KERNELS(avx512)
+#undef CNEM_CONDUCTION_KERNELS
+
+} // namespace cnem
