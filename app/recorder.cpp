@@ -55,10 +55,13 @@ double total_mass(const ExplicitSolver<2>& solver) {
 
 } // namespace
 
+HistoryUnits history_units(const io::Case& input) {
+  return space_of(input) == Space::revolution ? HistoryUnits{"[N]", "[J]", "[kg]"} : HistoryUnits{};
+}
+
 HistoryRecorder::HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver,
                                  const std::filesystem::path& folder)
-    : units_(space_of(input) == Space::revolution ? Units{"[N]", "[J]", "[kg]"} : Units{}),
-      probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
+    : units_(history_units(input)), probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
       initial_area_(boundary_area(snapshot(solver))), initial_mass_(total_mass(solver)) {}
 
 std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitSolver<2>& solver) const {

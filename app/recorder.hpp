@@ -23,6 +23,12 @@ struct ProbeWeights {
   std::vector<double> weight;
 };
 
+/// Units in the headers of histories: per metre of thickness, or of the whole body of revolution.
+struct HistoryUnits {
+  std::string force = "[N/m]", energy = "[J/m]", mass = "[kg/m]";
+};
+HistoryUnits history_units(const io::Case& input);
+
 /// Names and values of history.csv.
 class HistoryRecorder {
 public:
@@ -49,11 +55,7 @@ private:
   std::vector<std::pair<std::string, double>> row(const ExplicitSolver<2>& solver) const;
   void keep_metric(const std::string& name, double value, bool largest);
 
-  /// In the headers: per metre of thickness, or of the whole body of revolution.
-  struct Units {
-    std::string force = "[N/m]", energy = "[J/m]", mass = "[kg/m]";
-  };
-  Units units_;
+  HistoryUnits units_;
   std::vector<ProbeWeights> probes_;
   std::vector<io::HistoryWriter> writer_; ///< one; made with the first row, when the columns are known
   std::filesystem::path folder_;

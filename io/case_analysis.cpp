@@ -56,8 +56,8 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
     return;
   }
   if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
-    refuse(root, "analysis.kinematics",
-           "found \"axisymmetric\", expected it with analysis.type = \"explicit\" only", diagnostics);
+    refuse(root, "domain.cracks", "found in an axisymmetric static analysis, expected a plane one",
+           diagnostics);
   const std::string dynamic =
       "found in a static analysis, expected it with analysis.type = \"explicit\" only";
   if (!result.analysis.mechanical)

@@ -127,7 +127,7 @@ TEST(BadCase, TimeFunctions) {
     return refusal("[boundary.b]\npieces = \"top\"\nvelocity = " + velocity + "\n");
   };
   expect_parts(with("{ ramp = \"1 us\" }"),
-               {"case.toml:16:12", "either { value, ramp, from }", "{ times, values }"});
+               {"case.toml:16:12", "either { value, ramp, from, smooth }", "{ times, values }"});
   expect_parts(with("{ value = \"0 1 m/s\", times = \"0 1 s\", values = [] }"), {"either { value"});
   expect_parts(with("{ x = \"1 m\" }"), {"found '1 m', which is a length, expected a velocity"});
   expect_parts(with("{ x = \"1 m/s\", value = \"0 1 m/s\" }"), {"unknown part 'value', expected x, y"});
