@@ -19,8 +19,8 @@ DivergenceError step_collapse(const ExplicitSolver<2>& solver, std::size_t point
 /// Throws DivergenceError when a position, velocity or temperature is not a number.
 void check_finite(const State<2>& state);
 
-/// Throws DivergenceError when the energy residual is more than the case allows; it has no place of its own:
-/// the fastest node shows where the run has come apart.
+/// Throws DivergenceError when the energy residual is more than the case allows, from step 10 on; it has no
+/// place of its own: the fastest node shows where the run has come apart.
 void check_energy(double residual, double scale, double tolerance, const State<2>& state);
 
 /// The reference could not be renewed: the place is the most strained cell.

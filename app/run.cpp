@@ -120,6 +120,7 @@ Exit restart(const RunOptions& options) {
         fmt::format("{} holds no run to restart: expected the output folder of `cnem run`, with its {}",
                     options.output.string(), io::files::resolved_case));
   const FolderLock lock(options.output, another_run);
+  io::clear_leftovers(options.output);
   if (fs::exists(options.output / io::files::status) && io::read_status(options.output).exit == Exit::done) {
     const fs::path report = options.output / io::files::report;
     if (!fs::exists(report)) io::write_report(options.output);
@@ -139,7 +140,7 @@ Exit restart(const RunOptions& options) {
   const RunSignals signals;
   std::unique_ptr<Simulation> simulation = at_last_checkpoint(input, options);
   if (simulation) {
-    io::clear_leftovers(options.output);
+    for (const char* end : {io::files::status, io::files::report}) fs::remove(options.output / end);
   } else {
     fmt::print("there is no checkpoint to go on from: starting at step 0\n");
     simulation = std::make_unique<Simulation>(input, options);

@@ -185,7 +185,6 @@ void clear_leftovers(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::path& file : files_of_a_run(folder))
     if (is_temporary(file)) fs::remove(file, ignored);
-  for (const char* end : {files::status, files::report}) fs::remove(folder / end, ignored);
 }
 
 void prepare_output_folder(const fs::path& folder, bool force) {

@@ -52,7 +52,7 @@ bool holds_run(const std::filesystem::path& folder);
 /// Removes the files that a run makes, and no others, but for the resolved case. Throws IoError.
 void clear_results(const std::filesystem::path& folder);
 
-/// Removes what must not stay when a run goes on: half-written files of a killed run, status and report.
+/// Removes what a killed run left half-written.
 void clear_leftovers(const std::filesystem::path& folder);
 
 /// Makes `folder` ready for a new run: creates it with its parents and checks that files can be written.

@@ -29,8 +29,8 @@ PictureAlbum::PictureAlbum(fs::path output_folder)
   }
 }
 
-std::string PictureAlbum::add(const std::string& key, const std::string& field, double time, const std::string& png,
-                       const std::string& caption) {
+std::string PictureAlbum::add(const std::string& key, const std::string& field, double time,
+                              const std::string& png, const std::string& caption) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw IoError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));

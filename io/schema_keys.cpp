@@ -322,7 +322,8 @@ void add_method(Keys& k) {
       .in(not_negative)
       .fallback("1.2");
   k.add("method.energy_tolerance", quantity,
-        "The run has diverged when the energy residual exceeds this part of work done and initial energy.")
+        "The run has diverged when, from step 10 on, the energy residual exceeds this part of work done and "
+        "initial energy.")
       .in(positive)
       .fallback("0.05");
 }

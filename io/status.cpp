@@ -71,10 +71,11 @@ std::string status_json(const RunStatus& status) {
   json["warnings"] = status.warnings;
   if (status.post_mortem) {
     const PostMortem& post = *status.post_mortem;
-    json["post_mortem"] = {{"step", post.step},   {"time", number(post.time)}, {"node", post.node},
-                           {"x", number(post.x)}, {"y", number(post.y)},       {"field", post.field},
-                           {"text", post.text},   {"causes", post.causes},     {"last_good", post.last_good},
-                           {"picture", post.picture}};
+    json["post_mortem"] = {{"step", post.step},           {"time", number(post.time)},
+                           {"node", post.node},           {"x", number(post.x)},
+                           {"y", number(post.y)},         {"field", post.field},
+                           {"text", post.text},           {"causes", post.causes},
+                           {"last_good", post.last_good}, {"picture", post.picture}};
   }
   // Names may come from a user's file in any encoding: never fail on them.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

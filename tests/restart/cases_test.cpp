@@ -1,7 +1,8 @@
-// The same bits for any number of threads: every case in the repository, its first steps, or whole runs when
-// CNEM_WHOLE_RUNS is set.
+// The same bits for any number of threads, and after a restart: every case in the repository, its first
+// steps, or whole runs with all threads when CNEM_WHOLE_RUNS is set.
 #include "core/isa.hpp"
 #include "io/case_reader.hpp"
+#include "io/output_folder.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
 
@@ -29,19 +30,21 @@ const std::vector<fs::path>& all_cases() {
   return folders;
 }
 
+bool is_explicit(const fs::path& input) {
+  return io::read_case((input / "case.toml").string()).analysis.type == io::Analysis::Type::explicit_dynamics;
+}
+
 /// Runs a case with 1, 2, 3, 4 and 7 threads.
 void expect_same_bits(const fs::path& input, const std::string& isa,
                       const std::vector<std::string>& set = {}) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("cnem_threads_{}", ::getpid());
   fs::remove_all(folder);
-  const bool explicit_run =
-      io::read_case((input / "case.toml").string()).analysis.type == io::Analysis::Type::explicit_dynamics;
   for (const int threads : {1, 2, 3, 4, 7}) {
     const fs::path output = folder / fmt::format("{}", threads);
     std::vector<std::string> words{
         "run",       input.string(),          "--output", output.string(),
         "--threads", std::to_string(threads), "--set",    "output.picture_fields=[\"pressure\"]"};
-    if (explicit_run && !std::getenv("CNEM_WHOLE_RUNS"))
+    if (is_explicit(input) && !std::getenv("CNEM_WHOLE_RUNS"))
       words.insert(words.end(), {"--set", "time.max_steps=200"});
     words.insert(words.end(), set.begin(), set.end());
     const Ending ending = run_cnem(words, 0, {"CNEM_ISA=" + isa});
@@ -59,6 +62,26 @@ TEST_P(Threads, do_not_change_the_bits) {
 }
 INSTANTIATE_TEST_SUITE_P(Of, Threads, ::testing::Range(std::size_t{0}, all_cases().size()),
                          [](const auto& index) { return all_cases()[index.param].filename().string(); });
+
+// A run that lost what it wrote last: its checkpoint is ten steps older than its end.
+TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
+  const fs::path& input = all_cases()[GetParam()];
+  if (!is_explicit(input)) GTEST_SKIP() << "a static analysis has no checkpoints";
+  const fs::path folder = fs::temp_directory_path() / fmt::format("cnem_restarted_{}", ::getpid());
+  fs::remove_all(folder);
+  const Ending whole =
+      run_cnem({"run", input.string(), "--output", (folder / "whole").string(), "--threads", "1", "--set",
+                "output.picture_fields=[\"pressure\"]", "--set", "time.max_steps=60", "--set",
+                "output.checkpoint.every_steps=25", "--set", "output.history_every=0 s"});
+  ASSERT_EQ(whole.code, 0) << whole.printed;
+  fs::copy(folder / "whole", folder / "restarted", fs::copy_options::recursive);
+  fs::remove(folder / "restarted" / io::files::status);
+  const Ending rest = run_cnem({"restart", (folder / "restarted").string(), "--threads", "2"});
+  EXPECT_EQ(rest.code, 0) << rest.printed;
+  EXPECT_NE(rest.printed.find("going on from"), std::string::npos) << rest.printed;
+  EXPECT_EQ(difference(folder / "whole", folder / "restarted"), "");
+  fs::remove_all(folder);
+}
 
 TEST(ThreadsWith, every_instruction_set_do_not_change_the_bits) {
   for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512})
