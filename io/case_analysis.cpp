@@ -13,6 +13,13 @@ void refuse(const Setting& root, std::string_view path, const std::string& why, 
   if (setting && setting->given) diagnostics.add(Mistake::conflict, setting->where, setting->path, why);
 }
 
+/// Keys that have no meaning in this kind of analysis.
+const std::vector<std::string>& meaningless(Analysis::Type type) {
+  static const std::vector<std::string> in_explicit{"fracture"};
+  static const std::vector<std::string> in_static{"time.step", "tools", "initial.velocity", "initial.spin"};
+  return type == Analysis::Type::statics ? in_static : in_explicit;
+}
+
 bool moves(const VectorFunction& velocity) {
   return std::any_of(velocity.begin(), velocity.end(), [](const std::optional<TimeTable>& component) {
     return component && std::any_of(component->values().begin(), component->values().end(),
@@ -36,23 +43,32 @@ void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics) 
                                 *fracture.integral_inner, *fracture.integral_outer));
 }
 
-void check_analysis(const Setting& root, const Case& result, Diagnostics& diagnostics) {
-  if (result.analysis.type != Analysis::Type::statics) {
+void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics) {
+  const bool statics = result.analysis.type == Analysis::Type::statics;
+  for (const std::string& path : meaningless(result.analysis.type)) {
+    refuse(root, path,
+           fmt::format("found in {} analysis, expected it with analysis.type = \"{}\" only",
+                       statics ? "a static" : "an explicit", statics ? "explicit" : "static"),
+           diagnostics);
+    root.erase(path);
+  }
+  if (!statics) {
     if (result.analysis.kinematics == Analysis::Kinematics::plane_stress)
       refuse(root, "analysis.kinematics",
              "found \"plane stress\", expected it with analysis.type = \"static\" only", diagnostics);
+    if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
+      refuse(root, "initial.spin",
+             "found a rotation in the meridian plane, expected none in an axisymmetric analysis",
+             diagnostics);
     return;
   }
   if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
     refuse(root, "analysis.kinematics",
            "found \"axisymmetric\", expected it with analysis.type = \"explicit\" only", diagnostics);
-  const std::string dynamic =
-      "found in a static analysis, expected it with analysis.type = \"explicit\" only";
   if (result.analysis.thermal)
-    refuse(root, "analysis.thermal", "found true in a static analysis, which solves for displacements alone",
+    refuse(root, "analysis.thermal",
+           "found true in a static analysis, which solves for displacements alone, expected false",
            diagnostics);
-  for (const char* path : {"time.step", "tools", "initial.velocity", "initial.spin"})
-    refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))
       refuse(root, "boundary." + condition.name + ".velocity",

@@ -1,19 +1,15 @@
 // The geometric part of the case reader: domain, tools, cloud.
 #include "io/case_parts.hpp"
 #include "io/curve_checks.hpp"
-#include "io/nearest.hpp"
 #include "io/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <map>
 
 namespace cnem::io {
 namespace {
-
-std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
 
 /// The curve of a table; nothing, and a mistake recorded, when it cannot be made.
 std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Diagnostics& diagnostics) {
@@ -23,7 +19,7 @@ std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Di
     const std::string key = error.key.empty() ? table.path : table.path + "." + error.key;
     // Elements of a list are "path[2]" in keys and two steps in the tree.
     std::string steps = error.key;
-    if (const auto bracket = steps.find('['); bracket != std::string::npos) steps.insert(bracket, ".");
+    if (const auto bracket = steps.find('['); bracket != std::string::npos) steps.insert(bracket, 1, '.');
     const Setting* culprit = table.find(steps);
     diagnostics.add(Mistake::geometry, culprit && culprit->given ? culprit->where : table.where, key,
                     error.what());
@@ -31,27 +27,14 @@ std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Di
   }
 }
 
-/// Points of a crack, turned as it says.
-std::vector<Vec2> crack_path(const Setting& table) {
-  const Setting* points = table.find("points");
-  std::vector<Vec2> path = points ? std::get<std::vector<Vec2>>(points->value) : std::vector<Vec2>{};
-  if (const Setting* turn = table.find("rotate")) {
-    const double angle = turn->get<double>("angle");
-    const auto& centre = turn->get<Vec2>("centre");
-    for (Vec2& x : path) {
-      const Vec2 d = x - centre;
-      x = centre + std::cos(angle) * d + std::sin(angle) * left_normal(d);
-    }
-  }
-  return path;
-}
-
 /// Names of the ends of a crack: given, or from where they lie.
 std::array<std::string, 2> tip_names(const Setting& crack, const Setting& domain, Diagnostics& diagnostics) {
   if (const Setting* given = crack.find("tips")) {
     const auto& names = std::get<std::vector<std::string>>(given->value);
-    if (names.size() == 2 && names[0] != names[1]) return {names[0], names[1]};
-    diagnostics.add(Mistake::type, given->where, given->path, "expected two different names");
+    if (names.size() == 2) return {names[0], names[1]};
+    diagnostics.add(
+        Mistake::type, given->where, given->path,
+        fmt::format("found {} names, expected two such as {}", names.size(), given->key->example_text()));
     return {};
   }
   const std::vector<Vec2> path = crack_path(crack);
@@ -110,33 +93,37 @@ void check_holes(const Setting& holes, const Domain& domain, Diagnostics& diagno
       continue;
     }
     if (!inside(domain.outer, hole.pieces.front().from))
-      fail(i, fmt::format("the hole lies outside domain.outer at {}", show(hole.pieces.front().from)));
+      fail(i, fmt::format("the hole lies outside domain.outer at {}, expected it to lie inside",
+                          show(hole.pieces.front().from)));
     for (std::size_t j = 0; j < i; ++j) {
       const Curve& other = domain.holes[j].outline;
       if (const auto point = common_point(hole, other))
-        fail(i, fmt::format("the hole meets domain.holes.{} at {}", domain.holes[j].name, show(*point)));
+        fail(i, fmt::format("the hole meets domain.holes.{} at {}, expected holes apart",
+                            domain.holes[j].name, show(*point)));
       else if (inside(other, hole.pieces.front().from) || inside(hole, other.pieces.front().from))
-        fail(i, fmt::format("one of the holes {} and {} lies in the other", domain.holes[i].name,
-                            domain.holes[j].name));
+        fail(i, fmt::format("one of the holes {} and {} lies in the other, expected holes apart",
+                            domain.holes[i].name, domain.holes[j].name));
     }
   }
 }
 
-/// First thing wrong with a crack; empty when nothing is.
-std::string crack_problem(const Domain& domain, std::size_t index) {
+/// First thing wrong with the polyline of a crack; empty when nothing is. `culprit`: the point to blame.
+std::string crack_problem(const Domain& domain, std::size_t index, std::size_t& culprit) {
   const Crack& crack = domain.cracks[index];
   const double tolerance = 1e-9 * extent(domain.outer);
   if (crack.points.size() < 2)
     return fmt::format("found {} points, expected at least two", crack.points.size());
   const std::vector<CurvePiece> segments = segments_of(crack);
-  for (const CurvePiece& segment : segments)
-    if (segment.length() <= tolerance)
-      return fmt::format("two consecutive points coincide at {}", show(segment.from));
+  for (culprit = 1; culprit < crack.points.size(); ++culprit)
+    if (segments[culprit - 1].length() <= tolerance)
+      return fmt::format("two consecutive points coincide at {}, expected different ones",
+                         show(crack.points[culprit]));
+  for (culprit = 0; culprit < crack.points.size(); ++culprit)
+    if (const std::string reason = outside_reason(domain, crack.points[culprit]); !reason.empty())
+      return fmt::format("the point {} is {}, expected points of the domain", show(crack.points[culprit]),
+                         reason);
   if (const auto point = self_crossing(segments, tolerance))
-    return fmt::format("the crack crosses or touches itself at {}", show(*point));
-  for (const Vec2& point : crack.points)
-    if (const std::string reason = outside_reason(domain, point); !reason.empty())
-      return fmt::format("the point {} is {}", show(point), reason);
+    return fmt::format("the crack crosses or touches itself at {}, expected a simple polyline", show(*point));
   for (const auto& [name, curve] : curves_of(domain))
     for (const CurvePiece& piece : curve->pieces)
       for (const CurvePiece& segment : segments)
@@ -147,78 +134,99 @@ std::string crack_problem(const Domain& domain, std::size_t index) {
     for (const CurvePiece& a : segments)
       for (const CurvePiece& b : segments_of(domain.cracks[other]))
         if (const auto points = meeting_points(a, b, tolerance); !points.empty())
-          return fmt::format("the crack meets domain.cracks.{} at {}", domain.cracks[other].name,
-                             show(points.front()));
+          return fmt::format("the crack meets domain.cracks.{} at {}, expected cracks apart",
+                             domain.cracks[other].name, show(points.front()));
   return "";
 }
 
-std::array<Vec2, 2> box(const Setting& setting, Diagnostics& diagnostics) {
-  const auto& corners = std::get<std::vector<Vec2>>(setting.value);
-  if (corners.size() != 2) {
-    diagnostics.add(Mistake::type, setting.where, setting.path,
-                    fmt::format("found {} points, expected two opposite corners such as {}", corners.size(),
-                                setting.key->example_text()));
-    return {Vec2(0, 0), Vec2(0, 0)};
+/// Names of cracks and of their tips tell results and boundary pieces apart.
+void check_crack_names(const Setting& table, const Domain& domain, Diagnostics& diagnostics) {
+  std::map<std::string, std::string> owner_of_tip;
+  for (std::size_t i = 0; i < domain.cracks.size(); ++i) {
+    const Crack& crack = domain.cracks[i];
+    const Setting& setting = table.entries("cracks")[i];
+    for (const auto& [name, curve] : curves_of(domain))
+      if (std::any_of(curve->pieces.begin(), curve->pieces.end(),
+                      [&](const CurvePiece& piece) { return piece.name == crack.name; }))
+        diagnostics.add(Mistake::conflict, setting.where, setting.path,
+                        fmt::format("{} has a boundary piece of this name, expected another one", name));
+    const Setting* tips = setting.find("tips");
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::string& tip = crack.tips[end];
+      const auto [found, is_new] = owner_of_tip.emplace(tip, crack.name);
+      if (!is_new && !tip.empty())
+        diagnostics.add(Mistake::conflict, tips ? tips->where_of(end) : setting.where, setting.path + ".tips",
+                        fmt::format("the tip {} is one of crack '{}' already, expected different names",
+                                    toml_quoted(tip), found->second));
+    }
   }
-  const Vec2 low = corners[0].cwiseMin(corners[1]), high = corners[0].cwiseMax(corners[1]);
-  if (!((high - low).minCoeff() > 0.0))
-    diagnostics.add(Mistake::geometry, setting.where, setting.path,
-                    fmt::format("a box from {} to {} has no area", show(corners[0]), show(corners[1])));
-  return {low, high};
 }
 
-/// Ends of the cracks named, or of all.
-std::vector<Vec2> crack_ends(const Setting& names, const Setting& cracks, Diagnostics& diagnostics) {
-  std::vector<Vec2> ends;
-  std::vector<std::string> known;
-  for (const Setting& crack : cracks.members) known.push_back(crack.name);
-  for (const std::string& name : std::get<std::vector<std::string>>(names.value)) {
-    bool found = name == "all";
-    for (const Setting& crack : cracks.members)
-      if (name == "all" || name == crack.name) {
-        const std::vector<Vec2> path = crack_path(crack);
-        if (!path.empty()) ends.insert(ends.end(), {path.front(), path.back()});
-        found = true;
+/// A body of revolution lies on one side of its axis.
+void check_axis(const Setting& outer, const Domain& domain, Diagnostics& diagnostics) {
+  double least = 0.0;
+  for (const CurvePiece& piece : domain.outer.pieces)
+    for (int k = 0; k < 16; ++k) least = std::min(least, piece.point(k / 16.0).x());
+  if (least < -1e-9 * extent(domain.outer))
+    diagnostics.add(Mistake::geometry, outer.where, outer.path,
+                    fmt::format("found an outline that reaches to x = {:g} m, expected x >= 0: an "
+                                "axisymmetric body turns about x = 0",
+                                least));
+}
+
+/// How deep a point lies in the domain, m; 0 outside.
+double depth_in(const Domain& domain, const Vec2& x) {
+  if (!inside(domain.outer, x)) return 0.0;
+  double depth = distance(domain.outer, x);
+  for (const Hole& hole : domain.holes) {
+    if (inside(hole.outline, x)) return 0.0;
+    depth = std::min(depth, distance(hole.outline, x));
+  }
+  return depth;
+}
+
+/// The workpiece has no place where a tool is. Overlaps of less than half a spacing are left to contact,
+/// which pushes the nodes out.
+void check_overlap(const Setting& table, const Tool& tool, const Case& input, Diagnostics& diagnostics) {
+  constexpr int samples = 16; // of each piece
+  double deepest = 0.0;
+  Vec2 where{0, 0};
+  const auto look = [&](const Curve& curve, const auto& depth_at) {
+    for (const CurvePiece& piece : curve.pieces)
+      for (int k = 0; k < samples; ++k) {
+        const Vec2 x = piece.point(double(k) / samples);
+        const double depth = depth_at(x);
+        if (depth > deepest) deepest = depth, where = x;
       }
-    if (!found)
-      diagnostics.add(Mistake::reference, names.where, names.path,
-                      fmt::format("found \"{}\", expected a crack: {} or all{}", name, fmt::join(known, ", "),
-                                  did_you_mean(name, known)));
-  }
-  return ends;
-}
-
-Refinement read_refinement(const Setting& root, const Setting& table, double cloud_spacing,
-                           Diagnostics& diagnostics) {
-  Refinement refinement;
-  refinement.name = table.name;
-  refinement.growth = table.get<double>("growth");
-  const Setting *region = table.find("box"), *points = table.find("points");
-  const Setting *spacing = table.find("spacing"), *factor = table.find("factor");
-  const Setting* tips = table.find("tips");
-  if (const int given = int(region != nullptr) + int(points != nullptr) + int(tips != nullptr); given != 1)
+  };
+  look(tool.outline, [&](const Vec2& x) { return depth_in(input.domain, x); });
+  for (const auto& [name, curve] : curves_of(input.domain))
+    look(*curve, [&](const Vec2& x) { return inside(tool.outline, x) ? distance(tool.outline, x) : 0.0; });
+  const double size = extent(input.domain.outer);
+  const double allowed = input.cloud.spacing > 0.0 ? 0.5 * input.cloud.spacing : 0.01 * size;
+  if (deepest > allowed)
     diagnostics.add(
-        given ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-        fmt::format("found {} of box, points and tips, expected one", given ? "several" : "none"));
-  if (!spacing == !factor)
-    diagnostics.add(spacing ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-                    fmt::format("found {} of spacing and factor, expected one", spacing ? "both" : "none"));
-  if (region) refinement.box = box(*region, diagnostics);
-  if (points) {
-    refinement.points = std::get<std::vector<Vec2>>(points->value);
-    if (refinement.points.empty())
-      diagnostics.add(Mistake::type, points->where, points->path, "found no points, expected at least one");
-  }
-  if (tips) {
-    const Setting* cracks = root.find("domain.cracks");
-    refinement.tips = crack_ends(*tips, cracks ? *cracks : Setting{}, diagnostics);
-  }
-  refinement.spacing = spacing ? std::get<double>(spacing->value)
-                               : table.maybe<double>("factor").value_or(1.0) * cloud_spacing;
-  return refinement;
+        Mistake::geometry, table.where, table.path,
+        fmt::format("the tool lies {:.3g} m deep in the workpiece at {}, expected it outside at the "
+                    "start",
+                    deepest, show(where)));
 }
 
 } // namespace
+
+std::vector<Vec2> crack_path(const Setting& table) {
+  const Setting* points = table.find("points");
+  std::vector<Vec2> path = points ? std::get<std::vector<Vec2>>(points->value) : std::vector<Vec2>{};
+  if (const Setting* turn = table.find("rotate")) {
+    const double angle = turn->get<double>("angle");
+    const auto& centre = turn->get<Vec2>("centre");
+    for (Vec2& x : path) {
+      const Vec2 d = x - centre;
+      x = centre + std::cos(angle) * d + std::sin(angle) * left_normal(d);
+    }
+  }
+  return path;
+}
 
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("domain");
@@ -234,14 +242,18 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   }
   for (const Setting& crack : table.entries("cracks"))
     domain.cracks.push_back({crack.name, crack_path(crack), tip_names(crack, table, diagnostics)});
+  check_crack_names(table, domain, diagnostics);
   if (!complete) return;
+  if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
+    check_axis(*table.find("outer"), domain, diagnostics);
   if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);
   for (std::size_t i = 0; i < domain.cracks.size(); ++i) {
     const Setting& points = *table.entries("cracks")[i].find("points");
-    if (const std::string problem = crack_problem(domain, i); !problem.empty())
-      diagnostics.add(Mistake::geometry, points.where, points.path, problem);
+    std::size_t culprit = 0;
+    if (const std::string problem = crack_problem(domain, i, culprit); !problem.empty())
+      diagnostics.add(Mistake::geometry, points.where_of(culprit), points.path, problem);
   }
-  for (const Setting& line : root.entries("output.lines"))
+  for (const Setting& line : root.entries("output.lines")) {
     for (const char* end : {"from", "to"}) {
       const Setting& at = *line.find(end);
       if (const std::string reason = outside_reason(domain, std::get<Vec2>(at.value)); !reason.empty())
@@ -249,6 +261,13 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
                         fmt::format("the point {} is {}, expected a material point",
                                     show(std::get<Vec2>(at.value)), reason));
     }
+    const Setting& to = *line.find("to");
+    if (line.get<Vec2>("from") == line.get<Vec2>("to"))
+      diagnostics.add(
+          Mistake::geometry, to.where, to.path,
+          fmt::format("the line has no length, it begins and ends at {}, expected two different points",
+                      show(line.get<Vec2>("to"))));
+  }
   for (const Setting& probe : root.entries("output.probes")) {
     const Setting& at = *probe.find("at");
     const auto& point = std::get<Vec2>(at.value);
@@ -263,6 +282,8 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     Tool tool;
     tool.name = table.name;
     tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
+    if (!result.domain.outer.pieces.empty() && !tool.outline.pieces.empty())
+      check_overlap(table, tool, result, diagnostics);
     const auto& velocity = table.get<VectorFunction>("velocity");
     for (std::size_t k = 0; k < 2; ++k) tool.velocity[k] = velocity[k].value_or(TimeTable(0.0));
     tool.friction.law = table.choice<Friction::Law>("friction.law");
@@ -286,46 +307,6 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
         tool_heat.effusivity = std::sqrt(*k * *density * *c);
     }
     result.tools.push_back(std::move(tool));
-  }
-}
-
-void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
-  Setting& table = *root.find("cloud");
-  CloudSpec& cloud = result.cloud;
-  cloud.pattern = table.choice<CloudSpec::Pattern>("pattern");
-  cloud.jitter = table.get<double>("jitter");
-  cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
-  cloud.spacing = table.maybe<double>("spacing").value_or(0.0);
-  const bool list = cloud.pattern == CloudSpec::Pattern::list;
-  if (!list && !table.find("spacing"))
-    diagnostics.add(Mistake::missing_key, table.where, "cloud.spacing",
-                    "missing, expected " + find_key("cloud.spacing")->expectation());
-  const Setting *nodes = table.find("nodes"), *file = table.find("nodes_file");
-  for (const Setting* given : {nodes, file})
-    if (given && !list)
-      diagnostics.add(Mistake::conflict, given->where, given->path,
-                      "goes with pattern = \"list\", found another pattern");
-  if (list && !nodes == !file)
-    diagnostics.add(nodes ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-                    fmt::format("found {} of nodes and nodes_file, expected one with pattern = \"list\"",
-                                nodes ? "both" : "none"));
-  else if (list && file) {
-    const std::filesystem::path folder = std::filesystem::path(result.path).parent_path();
-    try {
-      cloud.nodes = read_points((folder / std::get<std::string>(file->value)).string());
-    } catch (const InputError& error) {
-      diagnostics.add(Mistake::reference, file->where, file->path, error.what());
-    }
-    std::erase_if(table.members, [](const Setting& member) { return member.name == "nodes_file"; });
-    table.set_default("nodes", cloud.nodes);
-  } else if (list) {
-    cloud.nodes = std::get<std::vector<Vec2>>(nodes->value);
-  }
-  for (const Setting& refinement : table.entries("refine"))
-    cloud.refine.push_back(read_refinement(root, refinement, cloud.spacing, diagnostics));
-  for (const Setting& window : root.entries("output.windows")) {
-    const std::array<Vec2, 2> corners = box(*window.find("box"), diagnostics);
-    result.output.windows.push_back({window.name, corners[0], corners[1]});
   }
 }
 

@@ -11,8 +11,11 @@ namespace cnem::io {
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
 
-/// Spacing, refinements and node lists. A node file is read and its nodes are put into the settings, so that
-/// the resolved case stands alone.
+/// Points of a crack, turned as it says.
+std::vector<Vec2> crack_path(const Setting& table);
+
+/// Spacing, refinements, node lists and windows. A node file is read and its nodes are put into the settings,
+/// so that the resolved case stands alone. Expects the domain, which may lack its outline.
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// Materials, and whether the domain's exists and has what is needed.
@@ -24,11 +27,12 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// Crack tips: enrichment and domain of the interaction integral.
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
 
-/// What the kind of analysis does not allow. Expects everything else.
-void check_analysis(const Setting& root, const Case& result, Diagnostics& diagnostics);
+/// What the kind of analysis does not allow. Expects everything else. Defaults without meaning in this kind
+/// are taken out of the settings, so that the resolved case reads back.
+void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics);
 
-/// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file and line for a file
-/// that is absent or malformed, IoError when it cannot be read.
+/// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file, line and column for
+/// a file that is absent or malformed, IoError when it cannot be read.
 std::vector<Vec2> read_points(const std::string& path);
 
 } // namespace cnem::io
