@@ -181,13 +181,16 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
       diagnostics.add(Mistake::missing_key, table.where, table.path + ".pieces",
                       "missing, expected " + find_key("boundary.*.pieces")->expectation() +
                           ", or points that name single nodes");
+    condition.symmetry = table.get<bool>("symmetry");
+    const auto goes_with_points = [&](const Setting& member) {
+      return member.name == "pieces" || member.name == "points" || member.name == "velocity" ||
+             member.name == "displacement" || (member.name == "symmetry" && !condition.symmetry);
+    };
     if (points)
       for (const Setting& member : table.members)
-        if (member.given && member.name != "pieces" && member.name != "points" && member.name != "velocity" &&
-            member.name != "displacement")
+        if (member.given && !goes_with_points(member))
           diagnostics.add(Mistake::conflict, member.where, member.path,
                           "found in a condition with points, expected velocity or displacement there");
-    condition.symmetry = table.get<bool>("symmetry");
     condition.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     condition.displacement = table.maybe<VectorFunction>("displacement").value_or(VectorFunction{});
     condition.traction = table.maybe<VectorFunction>("traction").value_or(VectorFunction{});

@@ -1,6 +1,7 @@
 #include "io/document.hpp"
 
 #include "core/error.hpp"
+#include "io/toml_text.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -75,9 +76,12 @@ Value override_value(std::string_view text, const Location& where) {
   Value value;
   bool is_toml = false;
   try {
-    const toml::table table = toml::parse("value = " + std::string(text));
-    is_toml = table.size() == 1;
-    if (is_toml) value = convert(*table.get("value"), "");
+    const std::string assignment = fmt::format("value = {}", text);
+    if (!find_fault(assignment)) {
+      const toml::table table = toml::parse(assignment);
+      is_toml = table.size() == 1;
+      if (is_toml) value = convert(*table.get("value"), "");
+    }
   } catch (const toml::parse_error&) { is_toml = false; }
   if (!is_toml) {
     value.kind = Value::Kind::text;
@@ -200,7 +204,7 @@ char character_at(std::string_view text, const Location& where) {
   for (std::uint32_t line = 1; line < where.line; ++line)
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
   text = text.substr(0, text.find('\n'));
-  return where.column <= text.size() ? text[where.column - 1] : '\n';
+  return where.column > 0 && where.column <= text.size() ? text[where.column - 1] : '\n';
 }
 
 /// What the parser says, and in words where its users mostly mean one thing by it.
@@ -219,6 +223,9 @@ std::string explained(std::string_view description, char found) {
 } // namespace
 
 Value parse_document(std::string_view text, const std::string& source) {
+  if (const auto fault = find_fault(text))
+    throw InputError(
+        fmt::format("{}: not TOML: {}", Location{source, fault->line, fault->column}.text(), fault->message));
   try {
     return convert(toml::parse(text, source), source);
   } catch (const toml::parse_error& error) {
