@@ -18,7 +18,6 @@ public:
   }
 
   std::optional<TextFault> scan() {
-    int depth = 0; // of brackets and braces
     for (bool line_begins = true; !fault_ && !at_end();) {
       const char c = next();
       if (!is_ascii(c)) {
@@ -27,11 +26,13 @@ public:
       } else if (c == '#') {
         skip_comment();
       } else if (c == '"' || c == '\'') {
-        if (!skip_string(c)) return fault_;
+        if (!may_quote())
+          fail("found a quote in the middle of a word, expected the word to end before it");
+        else if (!skip_string(c))
+          return fault_;
       } else {
-        if (line_begins && depth == 0 && c == '[') check_header();
-        if (c == '[' || c == '{') ++depth;
-        if (c == ']' || c == '}') --depth;
+        if (line_begins && open_.empty() && c == '[') check_header();
+        follow(c);
         advance();
       }
       line_begins = c == '\n' || (line_begins && (c == ' ' || c == '\t'));
@@ -52,6 +53,24 @@ private:
     }
   }
   void fail(const std::string& message) { fault_ = TextFault{line_, column_, message}; }
+
+  /// Whether a key may stand next, and in which brackets and braces.
+  void follow(char c) {
+    const bool header = c == '[' && in_key_ && open_.empty();
+    if (c == '{' || (c == '[' && !header)) open_.push_back(c);
+    if ((c == ']' || c == '}') && !open_.empty()) open_.pop_back();
+    if (c == '\n' && open_.empty()) in_key_ = true;
+    if (c == '{') in_key_ = true;
+    if (c == '=' || (c == '[' && !header)) in_key_ = false;
+    if (c == ',') in_key_ = !open_.empty() && open_.back() == '{';
+  }
+
+  /// Whether a quote here begins a text; elsewhere the parser looks beyond it for the end of a word.
+  bool may_quote() const {
+    const char before = at_ == 0 ? '\n' : text_[at_ - 1];
+    return std::string_view(" \t\r\n=[,{").find(before) != std::string_view::npos ||
+           (before == '.' && in_key_);
+  }
 
   void skip_comment() {
     while (!at_end() && next() != '\n') advance();
@@ -100,6 +119,8 @@ private:
   std::string_view text_;
   std::size_t at_ = 0;
   std::uint32_t line_ = 1, column_ = 1;
+  std::string open_;   ///< brackets of arrays and braces that are open
+  bool in_key_ = true; ///< not in a value
   std::optional<TextFault> fault_;
 };
 

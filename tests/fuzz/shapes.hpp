@@ -93,7 +93,7 @@ private:
 
   voronoi::SpacingField spacing() {
     voronoi::SpacingField field;
-    field.spacing = scale_ / (1 + below(24));
+    field.spacing = scale_ / (1 + below(12));
     for (int k = below(3); k > 0; --k) {
       voronoi::Refinement refinement;
       const bool box = below(2) == 1;
@@ -111,7 +111,7 @@ private:
     result.pattern = static_cast<voronoi::Pattern>(below(4));
     result.jitter = 0.4 * byte() / 255.0;
     result.seed = static_cast<std::uint64_t>(byte());
-    result.nodes_limit = 600.0;
+    result.nodes_limit = 250.0;
     if (result.pattern == voronoi::Pattern::list)
       for (int k = below(32); k > 0; --k) result.nodes.push_back(point());
     return result;
