@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <sstream>
 #include <toml++/toml.h>
 
 namespace cnem::io {
@@ -242,12 +241,19 @@ Value read_document(const std::string& path) {
   if (std::filesystem::is_directory(path, status))
     throw InputError(fmt::format("{}: is a folder, expected a case file such as {}", path,
                                  (std::filesystem::path(path) / "case.toml").string()));
+  constexpr std::size_t largest = std::size_t{1}
+                                  << 28; // a list of all nodes that a cloud may have fits twice
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (stream.bad() || !stream.is_open() || text.bad())
+  std::string text;
+  for (std::vector<char> part(1 << 16); stream.is_open() && !stream.bad() && !stream.eof();) {
+    stream.read(part.data(), static_cast<std::streamsize>(part.size()));
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest)
+      throw InputError(fmt::format("{}: found more than {} bytes, expected a case file", path, largest));
+  }
+  if (stream.bad() || !stream.is_open())
     throw IoError(fmt::format("{}: cannot be read, expected a readable case file", path));
-  return parse_document(text.str(), path);
+  return parse_document(text, path);
 }
 
 namespace {

@@ -33,7 +33,7 @@ public:
       } else {
         if (line_begins && open_.empty() && c == '[') check_header();
         follow(c);
-        advance();
+        if (!fault_) advance();
       }
       line_begins = c == '\n' || (line_begins && (c == ' ' || c == '\t'));
     }
@@ -58,7 +58,11 @@ private:
   void follow(char c) {
     const bool header = c == '[' && in_key_ && open_.empty();
     if (c == '{' || (c == '[' && !header)) open_.push_back(c);
-    if ((c == ']' || c == '}') && !open_.empty()) open_.pop_back();
+    if ((c == ']' || c == '}') && !open_.empty()) {
+      if (c == '}' && open_.back() == '[') return fail("found '}' in an array, expected a value or ']'");
+      if (c == ']' && open_.back() == '{') return fail("found ']' in an inline table, expected '}'");
+      open_.pop_back();
+    }
     if (c == '\n' && open_.empty()) in_key_ = true;
     if (c == '{') in_key_ = true;
     if (c == '=' || (c == '[' && !header)) in_key_ = false;

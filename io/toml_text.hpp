@@ -15,8 +15,8 @@ struct TextFault {
 
 /// The first place where the text is wrong in a way that the parser of toml++ 3 takes to be impossible, so
 /// that its behaviour would be undefined: characters beyond ASCII outside of quotes and comments or behind a
-/// line of a text that ends with '\', quotes in the middle of a word, and table headers without a name.
-/// Whatever else is wrong is left to the parser.
+/// line of a text that ends with '\', quotes in the middle of a word, brackets and braces that do not match,
+/// and table headers without a name. Whatever else is wrong is left to the parser.
 std::optional<TextFault> find_fault(std::string_view text);
 
 } // namespace cnem::io

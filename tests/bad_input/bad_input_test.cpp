@@ -7,6 +7,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -156,7 +157,13 @@ TEST(BadInputFile, may_not_be_read) {
   expect_message(refusal, "cannot be read, expected a readable case file");
 }
 
-TEST(BadInputFile, is_a_device_that_never_ends) {
+TEST(BadInputFile, never_ends) {
+  const Refusal refusal = call("check", "/dev/zero");
+  EXPECT_EQ(refusal.exit, 2);
+  expect_message(refusal, "/dev/zero: found more than 268435456 bytes, expected a case file");
+}
+
+TEST(BadInputFile, is_a_device_that_cannot_be_read) {
   const Refusal refusal = call("check", "/proc/self/mem");
   EXPECT_EQ(refusal.exit, 4);
   expect_message(refusal, "/proc/self/mem: cannot be read, expected a readable case file");
