@@ -56,6 +56,12 @@ int act(CLI::App& program, int argc, char** argv) {
   CLI::App* check_command = program.add_subcommand(
       "check", "build a case without running it: nodes, first step, overlap, initial fields");
   check_options.declare(*check_command);
+  CLI::App* restart_command = program.add_subcommand(
+      "restart", "go on with a run that was stopped or killed, from its last checkpoint");
+  RunOptions restart_options;
+  restart_command->add_option("folder", restart_options.output, "folder of results")->required();
+  restart_command->add_option("--threads", restart_options.threads, "number of threads (default: all)")
+      ->check(CLI::PositiveNumber);
   CLI::App* schema_command = program.add_subcommand("schema", "print the JSON Schema of case files");
   bool markdown = false;
   schema_command->add_flag("--markdown", markdown,
@@ -82,6 +88,10 @@ int act(CLI::App& program, int argc, char** argv) {
   if (*run_command) {
     const io::Case input = run_options.read();
     return run(input, run_options.options(input));
+  }
+  if (*restart_command) {
+    restart_options.version = version();
+    return restart(restart_options);
   }
   if (*sweep_command) {
     const io::Study study = io::read_study(study_path);

@@ -1,5 +1,6 @@
 #include "app/command_line.hpp"
 
+#include <csignal>
 #include <cstdlib>
 #include <unistd.h>
 
@@ -18,5 +19,6 @@ void limit_spinning(char** argv) {
 
 int main(int argc, char** argv) {
   limit_spinning(argv);
+  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of writing, with its exit code
   return cnem::app::command_line(argc, argv);
 }

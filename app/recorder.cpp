@@ -4,7 +4,6 @@
 #include "app/registry.hpp"
 #include "core/error.hpp"
 #include "io/output_folder.hpp"
-#include "io/picture.hpp"
 #include "voronoi/natural_neighbours.hpp"
 
 #include <algorithm>
@@ -19,6 +18,12 @@ std::array<std::span<const double>, 2> spans(const Fields<2>& field) { return {f
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{}[{}]", name, unit);
+}
+
+std::vector<std::string> names_of(const std::vector<std::pair<std::string, double>>& named) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : named) names.push_back(name);
+  return names;
 }
 
 /// Natural-neighbour weights of the probes in the initial cloud.
@@ -50,10 +55,13 @@ double total_mass(const ExplicitSolver<2>& solver) {
 
 } // namespace
 
+HistoryUnits history_units(const io::Case& input) {
+  return space_of(input) == Space::revolution ? HistoryUnits{"[N]", "[J]", "[kg]"} : HistoryUnits{};
+}
+
 HistoryRecorder::HistoryRecorder(const io::Case& input, const ExplicitSolver<2>& solver,
                                  const std::filesystem::path& folder)
-    : units_(space_of(input) == Space::revolution ? Units{"[N]", "[J]", "[kg]"} : Units{}),
-      probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
+    : units_(history_units(input)), probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
       initial_area_(boundary_area(snapshot(solver))), initial_mass_(total_mass(solver)) {}
 
 std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitSolver<2>& solver) const {
@@ -130,14 +138,11 @@ void HistoryRecorder::keep_metric(const std::string& name, double value, bool la
 
 void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   const auto named = row(solver);
-  if (writer_.empty()) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : named) names.push_back(name);
-    writer_.emplace_back(folder_ / io::files::history, std::move(names));
-  }
+  if (writer_.empty()) writer_.emplace_back(folder_ / io::files::history, names_of(named));
   std::vector<double> values;
   for (const auto& [name, value] : named) values.push_back(value);
   writer_.front().write(values);
+  ++rows_;
 
   const EnergyLedger e = solver.ledger();
   last_residual_ = e.residual();
@@ -156,6 +161,34 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   const std::array<double, 2> balance = solver.mass_balance();
   keep_metric("mass_balance.low", balance[0], false);
   keep_metric("mass_balance.high", balance[1], false);
+}
+
+void HistoryRecorder::archive(Archive& archive) {
+  archive.integer("run/history/rows", rows_);
+  archive.number("run/history/initial_area", "m^2", initial_area_);
+  archive.number("run/history/initial_mass", "kg/m", initial_mass_);
+  archive.number("run/history/worst_residual", "J/m", worst_residual_);
+  archive.number("run/history/last_residual", "J/m", last_residual_);
+  archive.number("run/history/scale", "J/m", scale_);
+  std::vector<std::string> names = names_of(metrics_);
+  archive.texts("run/history/metrics", names);
+  metrics_.resize(names.size());
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    metrics_[k].first = names[k];
+    archive.number(fmt::format("run/history/metric/{}", k), "SI", metrics_[k].second);
+  }
+}
+
+void HistoryRecorder::resume(const ExplicitSolver<2>& solver) {
+  const std::filesystem::path path = folder_ / io::files::history;
+  const io::HistoryTable table = io::read_history(path);
+  const double now = solver.state().time;
+  const auto kept =
+      std::count_if(table.column[0].begin(), table.column[0].end(), [&](double t) { return t <= now; });
+  if (kept != rows_)
+    throw IoError(fmt::format("{} has {} of the {} rows written until then", path.string(), kept, rows_));
+  writer_.clear();
+  writer_.push_back(io::HistoryWriter::resume(path, names_of(row(solver)), now));
 }
 
 double HistoryRecorder::energy_residual() const {
@@ -214,6 +247,27 @@ void FieldRecorder::record(const Snapshot& shot) {
   writer_.write(frame);
 }
 
+io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string& field,
+                                        const Fields<2>& drawn, const Field& values) const {
+  const FieldInfo& info = field_info(field);
+  io::Picture picture;
+  picture.cells = &shot.approximation.cells;
+  picture.position = spans(drawn);
+  picture.value = values;
+  picture.label = info.label;
+  picture.unit = info.shown_unit;
+  picture.unit_factor = info.shown_factor;
+  picture.map = info.map;
+  if (info.map == io::ColourMap::diverging) picture.range = io::symmetric_range(values, 0.999);
+  picture.title = case_->title;
+  picture.time = shot.state.time;
+  const auto& contact = shot.contact;
+  for (std::size_t t = 0; t < contact.tools().size(); ++t)
+    picture.tools.push_back({&case_->tools[t].outline,
+                             contact.tools()[t].motion.displacement(shot.state.time), case_->tools[t].name});
+  return picture;
+}
+
 void PictureRecorder::record(const Snapshot& shot) {
   Fields<2> drawn = shot.state.node.position;
   if (shot.displacement_scale != 1.0)
@@ -223,30 +277,29 @@ void PictureRecorder::record(const Snapshot& shot) {
         drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
       }
   for (const std::string& name : case_->output.picture_fields) {
-    const FieldInfo& info = field_info(name);
     const Field values = values_at_points(shot, name);
-    io::Picture picture;
-    picture.cells = &shot.approximation.cells;
-    picture.position = spans(drawn);
-    picture.value = values;
-    picture.label = info.label;
-    picture.unit = info.shown_unit;
-    picture.unit_factor = info.shown_factor;
-    picture.map = info.map;
-    if (info.map == io::ColourMap::diverging) picture.range = io::symmetric_range(values, 0.999);
-    picture.title = case_->title;
-    picture.time = shot.state.time;
-    const auto& contact = shot.contact;
-    for (std::size_t t = 0; t < contact.tools().size(); ++t)
-      picture.tools.push_back({&case_->tools[t].outline,
-                               contact.tools()[t].motion.displacement(shot.state.time),
-                               case_->tools[t].name});
-    album_.add(name, info.label, picture.time, io::draw_png(picture));
+    io::Picture picture = picture_of(shot, name, drawn, values);
+    album_.add(name, picture.label, picture.time, io::draw_png(picture));
     for (const io::Window& window : case_->output.windows) {
       picture.window = io::PictureWindow{window.lower, window.upper};
-      album_.add(name + "_" + window.name, info.label, picture.time, io::draw_png(picture), window.name);
+      album_.add(name + "_" + window.name, picture.label, picture.time, io::draw_png(picture), window.name);
     }
   }
+}
+
+std::string PictureRecorder::record_place(const Snapshot& shot, const Vec2& centre, double radius) {
+  const NodeState<2>& node = shot.state.node;
+  Fields<2> drawn = node.position;
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < drawn[k].size(); ++i)
+      if (!std::isfinite(drawn[k][i])) drawn[k][i] = node.reference[k][i];
+  Field values = values_at_points(shot, "plastic_strain");
+  for (double& value : values)
+    if (!std::isfinite(value)) value = 0.0;
+  io::Picture picture = picture_of(shot, "plastic_strain", drawn, values);
+  picture.window = io::PictureWindow{centre.array() - radius, centre.array() + radius};
+  picture.edges = true;
+  return album_.add("post_mortem", picture.label, picture.time, io::draw_png(picture), "where it went wrong");
 }
 
 } // namespace cnem::app

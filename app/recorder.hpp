@@ -3,6 +3,7 @@
 #include "app/snapshot.hpp"
 #include "io/case.hpp"
 #include "io/history_writer.hpp"
+#include "io/picture.hpp"
 #include "io/picture_album.hpp"
 #include "io/vtk_writer.hpp"
 #include "mechanics/explicit_solver.hpp"
@@ -22,6 +23,12 @@ struct ProbeWeights {
   std::vector<double> weight;
 };
 
+/// Units in the headers of histories: per metre of thickness, or of the whole body of revolution.
+struct HistoryUnits {
+  std::string force = "[N/m]", energy = "[J/m]", mass = "[kg/m]";
+};
+HistoryUnits history_units(const io::Case& input);
+
 /// Names and values of history.csv.
 class HistoryRecorder {
 public:
@@ -30,6 +37,12 @@ public:
                   const std::filesystem::path& folder);
 
   void record(const ExplicitSolver<2>& solver);
+
+  /// What a checkpoint keeps of it.
+  void archive(Archive& archive);
+  /// Goes on with the history that is there: rows later than the solver's time are dropped. Throws IoError
+  /// when earlier ones are missing.
+  void resume(const ExplicitSolver<2>& solver);
 
   /// Largest |residual| seen over the largest (external work + initial energy) seen.
   double energy_residual() const;
@@ -42,15 +55,12 @@ private:
   std::vector<std::pair<std::string, double>> row(const ExplicitSolver<2>& solver) const;
   void keep_metric(const std::string& name, double value, bool largest);
 
-  /// In the headers: per metre of thickness, or of the whole body of revolution.
-  struct Units {
-    std::string force = "[N/m]", energy = "[J/m]", mass = "[kg/m]";
-  };
-  Units units_;
+  HistoryUnits units_;
   std::vector<ProbeWeights> probes_;
   std::vector<io::HistoryWriter> writer_; ///< one; made with the first row, when the columns are known
   std::filesystem::path folder_;
   double initial_area_ = 0.0, initial_mass_ = 0.0;
+  std::int64_t rows_ = 0;
   double worst_residual_ = 0.0, last_residual_ = 0.0, scale_ = 0.0;
   std::vector<std::pair<std::string, double>> metrics_;
 };
@@ -63,7 +73,11 @@ void write_lines(const io::Case& input, const Snapshot& shot, const std::filesys
 class FieldRecorder {
 public:
   explicit FieldRecorder(const std::filesystem::path& folder) : writer_(folder) {}
+  /// Goes on with the series that is there: frames later than `time` (s) are dropped. Throws IoError.
+  FieldRecorder(const std::filesystem::path& folder, double time)
+      : writer_(io::FieldWriter::resume(folder, time)) {}
   void record(const Snapshot& shot);
+  int frames() const { return writer_.frames(); }
 
 private:
   io::FieldWriter writer_;
@@ -75,8 +89,15 @@ public:
   PictureRecorder(const io::Case& input, const std::filesystem::path& folder)
       : case_(&input), album_(folder) {}
   void record(const Snapshot& shot);
+  /// Draws the plastic strain around a place that went wrong, within `radius` (m). Returns the file's name in
+  /// the folder of pictures.
+  std::string record_place(const Snapshot& shot, const Vec2& centre, double radius);
+  /// Drops the pictures later than `time` (s).
+  void truncate(double time) { album_.truncate(time); }
 
 private:
+  io::Picture picture_of(const Snapshot& shot, const std::string& field, const Fields<2>& drawn,
+                         const Field& values) const;
   const io::Case* case_;
   io::PictureAlbum album_;
 };

@@ -1,6 +1,7 @@
 #include "app/registry.hpp"
 
 #include "alternatives/fe_triangle.hpp"
+#include "app/bodies.hpp"
 #include "cnem/scni.hpp"
 #include "contact/curve_shape.hpp"
 #include "voronoi/generate.hpp"
@@ -18,6 +19,7 @@ voronoi::DomainShape domain_shape(const io::Domain& domain) {
   shape.outer = domain.outer;
   for (const io::Hole& hole : domain.holes) shape.holes.push_back(hole.outline);
   for (const io::Crack& crack : domain.cracks) shape.cracks.push_back({crack.name, crack.points});
+  for (const io::Interface& face : domain.interfaces) shape.cracks.push_back({face.name, face.points});
   return shape;
 }
 
@@ -75,6 +77,11 @@ plasticity::Material make_material(const io::Material& spec) {
     material.hardening = plasticity::JohnsonCook{.A = perfect->yield};
   } else if (const auto* linear = std::get_if<io::LinearHardening>(&spec.plastic)) {
     material.hardening = plasticity::JohnsonCook{.A = linear->yield, .B = linear->hardening};
+  } else if (const auto* voce = std::get_if<io::Voce>(&spec.plastic)) {
+    material.hardening = plasticity::JohnsonCook{.A = voce->yield,
+                                                 .B = voce->hardening,
+                                                 .saturation = voce->saturation - voce->yield,
+                                                 .saturation_exponent = voce->exponent};
   } else if (const auto* jc = std::get_if<io::JohnsonCook>(&spec.plastic)) {
     material.hardening = plasticity::JohnsonCook{.A = jc->A,
                                                  .B = jc->B,
@@ -95,26 +102,23 @@ plasticity::Material make_material(const io::Material& spec) {
   return material;
 }
 
-/// Facets of the named pieces; both faces NAME+ and NAME- of a crack answer to NAME.
-std::vector<Facet<2>> facets_of(const Cloud<2>& cloud, const std::vector<std::string>& pieces) {
-  std::vector<bool> wanted(cloud.piece_names.size(), false);
-  for (std::size_t p = 0; p < cloud.piece_names.size(); ++p)
-    for (const std::string& piece : pieces)
-      if (const std::string& name = cloud.piece_names[p];
-          name == piece || name == piece + "+" || name == piece + "-")
-        wanted[p] = true;
-  std::vector<Facet<2>> facets;
-  std::copy_if(cloud.facets.begin(), cloud.facets.end(), std::back_inserter(facets),
-               [&](const Facet<2>& facet) { return wanted[static_cast<std::size_t>(facet.piece)]; });
-  return facets;
-}
-
-std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>& facets) {
-  std::vector<std::int32_t> nodes;
-  for (const Facet<2>& facet : facets) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
+/// The materials in use and which node is of which. region: as region_of_nodes gives it.
+void set_materials(const io::Case& input, const std::vector<std::int32_t>& region, Model<2>& model) {
+  std::vector<std::string> names;
+  const auto index_of = [&](const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      names.push_back(name);
+      model.materials.push_back(make_material(input.material(name)));
+    }
+    return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const std::int32_t everywhere = index_of(input.domain.material);
+  std::vector<std::int32_t> of_region;
+  for (const io::Region& part : input.domain.regions) of_region.push_back(index_of(part.material));
+  if (model.materials.size() == 1) return;
+  for (const std::int32_t r : region)
+    model.node_material.push_back(r < 0 ? everywhere : of_region[static_cast<std::size_t>(r)]);
 }
 
 struct Conditions {
@@ -278,16 +282,26 @@ Setup build(const io::Case& input) {
   model.contact = contact::RigidContact<2>(std::move(tools), space);
   model.cloud = std::move(generated.cloud);
   model.method = make_method(input.method, space);
-  model.material = make_material(input.material(input.domain.material));
+  const std::vector<std::int32_t> region = region_of_nodes(input, model.cloud);
+  set_materials(input, region, model);
+  model.strength = strength(input, model.cloud);
+  const Pairs pairs = tied_pairs(input, model.cloud);
+  model.ties = Ties<2>(pairs.motion, model.cloud.position);
+  model.heat_ties = Ties<2>(pairs.heat, model.cloud.position);
   model.stabilisation = input.method.stabilisation;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
   model.thermal = input.analysis.thermal;
+  model.mechanical = input.analysis.mechanical;
   model.safety = input.time.safety;
 
   Conditions all;
   for (const io::BoundaryCondition& condition : input.boundary)
     add_condition(input, condition, model.cloud, all);
   if (space == Space::revolution) hold_axis(input, model.cloud, all.supports, setup.warnings);
+  // What holds one node of a tie holds them all.
+  for (Support<2>& support : all.supports) support.nodes = model.ties.with_partners(std::move(support.nodes));
+  for (FixedTemperature& fixed : all.temperatures)
+    fixed.nodes = model.heat_ties.with_partners(std::move(fixed.nodes));
   const auto nodes = static_cast<std::size_t>(model.cloud.nodes());
   try {
     model.supports = Supports<2>(std::move(all.supports), nodes);
@@ -296,18 +310,11 @@ Setup build(const io::Case& input) {
   for (std::size_t k = 0; k < 2; ++k) acceleration[k] = input.loads.body_force[k].value_or(TimeTable());
   model.loads =
       Loads<2>(std::move(all.tractions), std::move(all.pressures), acceleration, model.cloud.position, space);
-  model.heat_boundaries = ThermalBoundaries<2>(std::move(all.temperatures), std::move(all.fluxes),
-                                               std::move(all.convections), space);
+  model.heat_boundaries =
+      ThermalBoundaries<2>(std::move(all.temperatures), std::move(all.fluxes), std::move(all.convections),
+                           space, conductances(input, model.cloud));
 
-  resize_all(setup.velocity, nodes);
-  setup.temperature.assign(nodes, input.initial.temperature);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    Vec2 v = input.initial.velocity;
-    if (const auto& spin = input.initial.spin)
-      v += spin->rate * left_normal(model.cloud.position[i] - spin->centre);
-    setup.velocity[0][i] = v.x();
-    setup.velocity[1][i] = v.y();
-  }
+  set_initial_state(input, model.cloud, region, setup.velocity, setup.temperature);
   return setup;
 }
 

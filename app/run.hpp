@@ -1,5 +1,5 @@
 #pragma once
-// One run of a case: the time loop in a fixed order, output, adapt, step.
+// Runs of a case, as the command line asks for them.
 #include "io/case.hpp"
 
 #include <filesystem>
@@ -17,9 +17,15 @@ struct RunOptions {
   std::string version;
 };
 
-/// Runs the case into the folder and writes its report. Returns done or diverged (with the post-mortem in
-/// status.json and the report). Throws InputError and IoError.
+/// Runs the case into the folder and writes its report. Returns done, diverged (with the post-mortem in
+/// status.json and the report), interrupted (a signal stopped it at a checkpoint) or io_failed (writing
+/// failed on the way; checkpoints are whole). Throws InputError and IoError.
 Exit run(const io::Case& input, const RunOptions& options);
+
+/// Goes on with the run in options.output from its newest good checkpoint, from step 0 without one, and ends
+/// as the uninterrupted run would have, to the bit. Returns as run() does; done at once for a run that has
+/// finished. Throws InputError when the folder holds no run or only checkpoints of another case, and IoError.
+Exit restart(const RunOptions& options);
 
 /// Builds geometry and model without running: prints nodes, first step and what limits it, steps to come,
 /// memory, tool overlap, and writes the initial fields to output/initial. Throws InputError and IoError.

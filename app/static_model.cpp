@@ -52,7 +52,7 @@ StaticModel::StaticModel(const io::Case& in) : input(in), setup(build(in)) {
   } catch (const GeometryError& error) { throw input.error("fracture.enrichment", error.what()); }
   resize_all(position, u(cloud.nodes()));
   Field mass = approximation.mechanics.node_volume();
-  for (double& m : mass) m *= model.material.density;
+  for (double& m : mass) m *= model.materials.front().density;
   for (std::size_t i = 0; i < u(cloud.nodes()); ++i)
     for (std::size_t k = 0; k < 2; ++k) position[k][i] = cloud.position[i][static_cast<Eigen::Index>(k)];
   model.loads.evaluate(input.time.end, position, mass);
@@ -62,7 +62,8 @@ StaticModel::StaticModel(const io::Case& in) : input(in), setup(build(in)) {
   Vec2 body_force = Vec2::Zero();
   for (std::size_t k = 0; k < 2; ++k)
     if (const auto& acceleration = input.loads.body_force[k])
-      body_force[static_cast<Eigen::Index>(k)] = model.material.density * (*acceleration)(input.time.end);
+      body_force[static_cast<Eigen::Index>(k)] =
+          model.materials.front().density * (*acceleration)(input.time.end);
   force = fracture::forces_on_functions(enriched, tips, model.loads.force(), loads, body_force);
 }
 
@@ -71,7 +72,7 @@ StaticProblem StaticModel::problem() const {
           .position = setup.model.cloud.position,
           .links = enriched.links,
           .link_points = approximation.mechanics,
-          .elasticity = setup.model.material.elasticity,
+          .elasticity = setup.model.materials.front().elasticity,
           .out_of_plane = plane_stress(input) ? OutOfPlane::stress_free : OutOfPlane::strain_free,
           .stabilisation = setup.model.stabilisation,
           .supports = setup.model.supports,
@@ -93,7 +94,7 @@ std::vector<fracture::Ring> rings(const io::Fracture& spec, const fracture::Crac
 }
 
 std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolution& solution) {
-  const auto& elastic = model.setup.model.material.elasticity;
+  const auto& elastic = model.setup.model.materials.front().elasticity;
   const fracture::PlaneElasticity plane =
       plane_stress(model.input) ? fracture::PlaneElasticity::plane_stress(elastic.young, elastic.poisson)
                                 : fracture::PlaneElasticity::plane_strain(elastic.young, elastic.poisson);
@@ -175,7 +176,7 @@ State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
   node.force = model.force;
   for (Field& component : node.force) component.resize(nodes);
   node.mass = op.node_volume();
-  for (double& m : node.mass) m *= model.setup.model.material.density;
+  for (double& m : node.mass) m *= model.setup.model.materials.front().density;
   node.temperature = model.setup.temperature;
 
   PointState<2>& point = state.point;

@@ -42,6 +42,7 @@ double drawing_scale(const StaticModel& model, const StaticSolution& solution) {
 
 void write_history(const StaticModel& model, const StaticSolution& solution, const Snapshot& shot,
                    const std::filesystem::path& folder) {
+  const HistoryUnits units = history_units(model.input);
   std::vector<std::pair<std::string, double>> row{{"time[s]", model.input.time.end},
                                                   {"step", 0.0},
                                                   {"dt[s]", 0.0},
@@ -56,18 +57,18 @@ void write_history(const StaticModel& model, const StaticSolution& solution, con
       const auto i = static_cast<std::size_t>(p.node);
       force += p.direction.dot(Vec2(solution.reaction[0][i], solution.reaction[1][i])) * p.direction;
     }
-    row.emplace_back("support." + name + ".force_x[N/m]", force.x());
-    row.emplace_back("support." + name + ".force_y[N/m]", force.y());
+    row.emplace_back("support." + name + ".force_x" + units.force, force.x());
+    row.emplace_back("support." + name + ".force_y" + units.force, force.y());
   }
-  row.emplace_back("energy.elastic[J/m]", solution.strain_energy);
-  row.emplace_back("energy.stabilisation[J/m]", solution.stabilisation_energy);
-  row.emplace_back("energy.external_work[J/m]", solution.external_work);
-  row.emplace_back("energy.residual[J/m]",
+  row.emplace_back("energy.elastic" + units.energy, solution.strain_energy);
+  row.emplace_back("energy.stabilisation" + units.energy, solution.stabilisation_energy);
+  row.emplace_back("energy.external_work" + units.energy, solution.external_work);
+  row.emplace_back("energy.residual" + units.energy,
                    solution.strain_energy + solution.stabilisation_energy - solution.external_work);
   double mass = 0.0;
   for (const double m : shot.state.node.mass) mass += m;
-  row.emplace_back("mass[kg/m]", mass);
-  row.emplace_back("area[m^2]", mass / model.setup.model.material.density);
+  row.emplace_back("mass" + units.mass, mass);
+  row.emplace_back("area[m^2]", boundary_area(shot));
   std::vector<std::string> names;
   std::vector<double> values;
   for (const auto& [name, value] : row) {

@@ -23,6 +23,13 @@ public:
     } guard{spent_[phase]};
     return work();
   }
+  /// Counts what was spent before a restart.
+  void add(const std::string& phase, double seconds) {
+    if (phase == "total")
+      start_ -= seconds;
+    else
+      spent_[phase] += seconds;
+  }
   std::vector<std::pair<std::string, double>> spent() const {
     std::vector<std::pair<std::string, double>> list{{"total", wall_time() - start_}};
     for (const char* phase : {"setup", "step", "rebuild", "output"}) {

@@ -1,5 +1,6 @@
 #include "app/sweep.hpp"
 
+#include "app/folder_lock.hpp"
 #include "app/process_pool.hpp"
 #include "core/error.hpp"
 #include "io/case_reader.hpp"
@@ -9,12 +10,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
 #include <thread>
-#include <unistd.h>
 
 namespace cnem::app {
 
@@ -53,28 +51,6 @@ std::vector<SweepRun> read_cases(const io::Study& study) {
   }
   return runs;
 }
-
-/// Keeps a second sweep out of the folder while this one lives.
-class FolderLock {
-public:
-  explicit FolderLock(const fs::path& folder)
-      : fd_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (fd_ >= 0 && flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      close(fd_);
-      throw InputError(fmt::format("another sweep is at work in {}: wait for it, or choose another folder "
-                                   "with --output",
-                                   folder.string()));
-    }
-  }
-  ~FolderLock() {
-    if (fd_ >= 0) close(fd_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
-private:
-  int fd_;
-};
 
 void prepare_folder(const fs::path& folder) {
   std::error_code error;
@@ -199,7 +175,7 @@ void warn_of_absent_numbers(const io::Study& study, const std::vector<SweepRun>&
 Exit sweep(const io::Study& study, const SweepOptions& options) {
   std::vector<SweepRun> runs = read_cases(study);
   prepare_folder(options.output);
-  const FolderLock lock(options.output);
+  const FolderLock lock(options.output, "sweep");
   if (!options.force) find_done(study, runs, options.output);
   const auto write_manifest = [&] {
     io::write_atomically(options.output / manifest_file, manifest(study, runs, options.version));

@@ -376,6 +376,22 @@ std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& positio
   return found;
 }
 
+template<int dim> void RigidContact<dim>::archive(Archive& archive) {
+  for (std::size_t t = 0; t < results_.size(); ++t) {
+    const std::string at = fmt::format("solver/tools/{}/", t);
+    ToolResult<dim>& result = results_[t];
+    archive.vector<dim>(at + "displacement", "m", result.displacement);
+    archive.vector<dim>(at + "force", "N/m", result.force);
+    archive.vector<dim>(at + "impulse", "N s/m", result.impulse);
+    archive.number(at + "heat_to_tool", "J/m", result.heat_to_tool);
+    archive.number(at + "work/workpiece", "J/m", result.total.workpiece);
+    archive.number(at + "work/tool", "J/m", result.total.tool);
+    archive.number(at + "work/recovery", "J/m", result.total.recovery);
+    archive.number(at + "work/friction", "J/m", result.total.friction);
+    archive.number(at + "work/impact", "J/m", result.total.impact);
+  }
+}
+
 template class RigidContact<2>;
 
 } // namespace cnem::contact

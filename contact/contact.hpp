@@ -4,6 +4,7 @@
 #include "contact/surface.hpp"
 #include "contact/tool.hpp"
 #include "core/aligned.hpp"
+#include "core/archive.hpp"
 #include "core/cloud.hpp"
 
 #include <span>
@@ -107,6 +108,9 @@ public:
 
   /// Penetrations at a time, deepest first: what `check` prints. Only for a boundary that has been set.
   std::vector<Overlap<dim>> overlaps(const Fields<dim>& position, double time) const;
+
+  /// Carries the totals and last forces of the tools out or in; all else is made anew in each step.
+  void archive(Archive& archive);
 
 private:
   struct Pose; // of a tool during a step

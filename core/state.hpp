@@ -41,6 +41,7 @@ template<int dim> struct PointState {
   Field dissipation; ///< J/m³  plastic work of the last step per unit stress-free volume; χ of it is heat
   Field stress_free; ///< –     V_stress-free / V_reference = 1/√det C_p⁻¹, constant between re-references
   Field temperature;                  ///< K     N·T, temperature the material sees
+  Field strength;                     ///< –     factor on the flow stress: 1, but for initial imperfections
   std::vector<std::int32_t> material; ///< index of the material
 
   std::size_t size() const { return plastic_strain.size(); }

@@ -26,7 +26,8 @@ struct Analysis {
   enum class Kinematics { plane_strain, plane_stress, axisymmetric };
   Type type = Type::explicit_dynamics;
   Kinematics kinematics = Kinematics::plane_strain;
-  bool thermal = false; ///< solve for temperatures: plastic and friction heating, conduction
+  bool mechanical = true; ///< false: nothing moves, heat alone
+  bool thermal = false;   ///< solve for temperatures: plastic and friction heating, conduction
 };
 
 struct TimeControl {
@@ -35,6 +36,9 @@ struct TimeControl {
   std::optional<double> max_step; ///< s  upper bound of the step
   std::optional<double> fixed;    ///< s  step used as it is, without an estimate
   int check_every = 10;           ///< steps between estimates of the stable step
+  std::optional<double>
+      min_step; ///< s  a smaller stable step means divergence; absent: 1e-3 of the first one
+  std::optional<std::int64_t> max_steps; ///< – the run ends after so many
 };
 
 /// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are
@@ -50,11 +54,29 @@ struct Hole {
   Curve outline; ///< clockwise
 };
 
-struct Domain {
+/// A polyline from boundary to boundary that divides the workpiece. Its faces are bonded.
+struct Interface {
+  std::string name;
+  std::vector<Vec2> points;          ///< m, at least two
+  std::optional<double> conductance; ///< W/(m² K); absent: both faces have one temperature
+};
+
+/// The part of the workpiece, bounded by interfaces and cracks, that holds a point.
+struct Region {
+  std::string name;
+  Vec2 at{0, 0}; ///< m
   std::string material;
-  Curve outer; ///< counter-clockwise
+  double temperature = 293.15; ///< K, at t = 0
+  Vec2 velocity{0, 0};         ///< m/s, at t = 0
+};
+
+struct Domain {
+  std::string material; ///< where no region says otherwise
+  Curve outer;          ///< counter-clockwise
   std::vector<Hole> holes;
   std::vector<Crack> cracks;
+  std::vector<Interface> interfaces;
+  std::vector<Region> regions;
 
   /// Names of the boundary pieces of outline, holes and cracks, each once, in order of appearance.
   std::vector<std::string> piece_names() const;
@@ -102,6 +124,14 @@ struct JohnsonCook {
   double Tmelt = std::numeric_limits<double>::infinity(); ///< K
 };
 
+/// σ_y = yield + hardening ε̄p + (saturation − yield)(1 − exp(−exponent ε̄p)).
+struct Voce {
+  double yield = 0.0;      ///< Pa
+  double saturation = 0.0; ///< Pa, ≥ yield
+  double exponent = 0.0;   ///< –
+  double hardening = 0.0;  ///< Pa
+};
+
 struct HeatProperties {
   double specific_heat = 0.0;            ///< J/(kg K)
   double conductivity = 0.0;             ///< W/(m K)
@@ -115,7 +145,7 @@ struct Material {
   double density = 0.0; ///< kg/m³
   double young = 0.0;   ///< Pa
   double poisson = 0.0; ///< –
-  std::variant<std::monostate, PerfectPlasticity, LinearHardening, JohnsonCook>
+  std::variant<std::monostate, PerfectPlasticity, LinearHardening, JohnsonCook, Voce>
       plastic;                        ///< monostate: elastic
   std::optional<HeatProperties> heat; ///< always there when analysis.thermal
 };
@@ -147,10 +177,32 @@ struct Spin {
   Vec2 centre{0, 0}; ///< m
 };
 
+struct VelocityGradient {
+  Mat2 rate = Mat2::Zero(); ///< 1/s, ∂v_i/∂X_j
+  Vec2 centre{0, 0};        ///< m
+};
+
+/// The yield stress is lower by `reduction` exp(−(d/width)²) of itself, d the distance to the polyline.
+struct Imperfection {
+  std::string name;
+  std::vector<Vec2> points; ///< m; one: a point
+  double width = 0.0;       ///< m
+  double reduction = 0.0;   ///< –
+};
+
 struct InitialState {
-  double temperature = 293.15; ///< K
-  Vec2 velocity{0, 0};         ///< m/s
-  std::optional<Spin> spin;    ///< adds rate × (X − centre) to the velocity
+  double temperature = 293.15;              ///< K
+  Vec2 velocity{0, 0};                      ///< m/s
+  std::optional<Spin> spin;                 ///< adds rate × (X − centre) to the velocity
+  std::optional<VelocityGradient> gradient; ///< adds rate (X − centre)
+  std::vector<Imperfection> imperfections;
+};
+
+/// Two boundary pieces, one a shifted copy of the other, whose nodes move alike and have the same
+/// temperature.
+struct Periodicity {
+  std::string name;
+  std::array<std::string, 2> pieces;
 };
 
 struct Loads {
@@ -216,6 +268,14 @@ struct Window {
   Vec2 upper{0, 0}; ///< m
 };
 
+/// When checkpoints are written besides the one at step 0; 0: not by this.
+struct CheckpointControl {
+  std::int64_t every_steps = 0;
+  double every_time = 0.0;   ///< s, simulated
+  double every_wall = 600.0; ///< s of the wall clock
+  int keep = 2;
+};
+
 struct Output {
   double history_every = 0.0;              ///< s
   double fields_every = 0.0;               ///< s
@@ -224,6 +284,7 @@ struct Output {
   std::vector<Window> windows;             ///< parts of the domain drawn enlarged, beside the whole
   std::vector<Probe> probes;
   std::vector<SampleLine> lines;
+  CheckpointControl checkpoint;
 };
 
 /// Evaluation of crack tips.
@@ -253,6 +314,7 @@ struct Case {
   CloudSpec cloud;
   std::vector<Material> materials;
   std::vector<BoundaryCondition> boundary;
+  std::vector<Periodicity> periodic;
   InitialState initial;
   Loads loads;
   std::vector<Tool> tools;

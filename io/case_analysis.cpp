@@ -7,17 +7,13 @@
 namespace cnem::io {
 namespace {
 
-/// Records that a key has no meaning in this analysis.
-void refuse(const Setting& root, std::string_view path, const std::string& why, Diagnostics& diagnostics) {
+/// Records that a key has no meaning in this analysis; a default is dropped, so that the resolved case can be
+/// read again.
+void refuse(Setting& root, std::string_view path, const std::string& why, Diagnostics& diagnostics) {
   const Setting* setting = root.find(path);
-  if (setting && setting->given) diagnostics.add(Mistake::conflict, setting->where, setting->path, why);
-}
-
-/// Keys that have no meaning in this kind of analysis.
-const std::vector<std::string>& meaningless(Analysis::Type type) {
-  static const std::vector<std::string> in_explicit{"fracture"};
-  static const std::vector<std::string> in_static{"time.step", "tools", "initial.velocity", "initial.spin"};
-  return type == Analysis::Type::statics ? in_static : in_explicit;
+  if (!setting) return;
+  if (setting->given) return diagnostics.add(Mistake::conflict, setting->where, setting->path, why);
+  root.erase(path);
 }
 
 bool moves(const VectorFunction& velocity) {
@@ -44,15 +40,16 @@ void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics) 
 }
 
 void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics) {
-  const bool statics = result.analysis.type == Analysis::Type::statics;
-  for (const std::string& path : meaningless(result.analysis.type)) {
-    refuse(root, path,
-           fmt::format("found in {} analysis, expected it with analysis.type = \"{}\" only",
-                       statics ? "a static" : "an explicit", statics ? "explicit" : "static"),
-           diagnostics);
-    root.erase(path);
-  }
-  if (!statics) {
+  if (result.analysis.type != Analysis::Type::statics) {
+    if (!result.analysis.mechanical && !result.analysis.thermal)
+      refuse(root, "analysis.mechanical",
+             "found false where analysis.thermal is false: nothing is solved for, expected one of them to be "
+             "true",
+             diagnostics);
+    if (!result.analysis.mechanical)
+      for (const char* path : {"tools", "initial.velocity", "initial.spin", "initial.velocity_gradient"})
+        refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
+               diagnostics);
     if (result.analysis.kinematics == Analysis::Kinematics::plane_stress)
       refuse(root, "analysis.kinematics",
              "found \"plane stress\", expected it with analysis.type = \"static\" only", diagnostics);
@@ -60,15 +57,26 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
       refuse(root, "initial.spin",
              "found a rotation in the meridian plane, expected none in an axisymmetric analysis",
              diagnostics);
+    refuse(root, "fracture",
+           "found in an explicit analysis, expected it with analysis.type = \"static\" only", diagnostics);
     return;
   }
   if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
-    refuse(root, "analysis.kinematics",
-           "found \"axisymmetric\", expected it with analysis.type = \"explicit\" only", diagnostics);
+    refuse(root, "domain.cracks", "found in an axisymmetric static analysis, expected a plane one",
+           diagnostics);
+  const std::string dynamic =
+      "found in a static analysis, expected it with analysis.type = \"explicit\" only";
+  if (!result.analysis.mechanical)
+    refuse(root, "analysis.mechanical",
+           "found false in a static analysis, which solves for displacements, expected true", diagnostics);
   if (result.analysis.thermal)
     refuse(root, "analysis.thermal",
            "found true in a static analysis, which solves for displacements alone, expected false",
            diagnostics);
+  for (const char* path : {"time.step", "time.max_steps", "tools", "initial.velocity", "initial.spin",
+                           "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",
+                           "domain.regions", "periodic", "output.checkpoint"})
+    refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))
       refuse(root, "boundary." + condition.name + ".velocity",

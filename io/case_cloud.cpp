@@ -1,5 +1,6 @@
 // The nodes of a case: spacing, refinements, node lists; and the windows of its pictures.
 #include "io/case_parts.hpp"
+#include "io/case_walls.hpp"
 #include "io/curve_checks.hpp"
 #include "io/nearest.hpp"
 

@@ -22,6 +22,16 @@ Material read_material(const Setting& table, Diagnostics& diagnostics) {
     const std::string law = plastic->get<std::string>("law");
     if (law == "perfect") material.plastic = PerfectPlasticity{number("yield")};
     if (law == "linear") material.plastic = LinearHardening{number("yield"), number("hardening")};
+    if (law == "voce") {
+      const Voce voce{number("yield"), number("saturation"), number("exponent"), number("hardening")};
+      if (!(voce.saturation >= voce.yield)) {
+        const Setting& saturation = *plastic->find("saturation");
+        diagnostics.add(
+            Mistake::range, saturation.where, saturation.path,
+            fmt::format("found {:g} Pa, expected at least yield = {:g} Pa", voce.saturation, voce.yield));
+      }
+      material.plastic = voce;
+    }
     if (law == "johnson-cook") {
       JohnsonCook jc{number("A"), number("B"),     number("n"), number("C"),
                      number("m"), number("rate0"), number("T0")};
@@ -152,20 +162,26 @@ void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics)
     result.materials.push_back(read_material(table, diagnostics));
     names.push_back(table.name);
   }
-  const Setting& wanted = *root.find("domain.material");
-  const auto& name = std::get<std::string>(wanted.value);
-  const Setting* table =
-      std::find(names.begin(), names.end(), name) == names.end() ? nullptr : root.find("materials." + name);
-  if (!table) {
-    diagnostics.add(Mistake::reference, wanted.where, wanted.path,
-                    fmt::format("found {}, expected one of the materials {}{}", toml_quoted(shortened(name)),
-                                fmt::join(names, ", "), did_you_mean(name, names)));
-  } else if (result.analysis.thermal && !table->find("heat")) {
-    diagnostics.add(
-        Mistake::missing_key, table->where, table->path + ".heat",
-        "missing, expected a table with specific_heat and conductivity because analysis.thermal is "
-        "true");
-  }
+  const auto check = [&](const Setting& wanted) {
+    const auto& name = std::get<std::string>(wanted.value);
+    const Setting* table =
+        std::find(names.begin(), names.end(), name) == names.end() ? nullptr : root.find("materials." + name);
+    if (!table) {
+      diagnostics.add(Mistake::reference, wanted.where, wanted.path,
+                      fmt::format("found {}, expected one of the materials {}{}",
+                                  toml_quoted(shortened(name)), fmt::join(names, ", "),
+                                  did_you_mean(name, names)));
+    } else if (result.analysis.thermal && !table->find("heat")) {
+      diagnostics.add(
+          Mistake::missing_key, table->where, table->path + ".heat",
+          "missing, expected a table with specific_heat and conductivity because analysis.thermal is "
+          "true");
+    }
+  };
+  const Setting& everywhere = *root.find("domain.material");
+  check(everywhere);
+  for (const Setting& region : root.entries("domain.regions"))
+    if (const Setting& own = *region.find("material"); own.given) check(own);
 }
 
 void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) {

@@ -11,8 +11,14 @@ namespace cnem::io {
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
 
-/// Points of a crack, turned as it says.
-std::vector<Vec2> crack_path(const Setting& table);
+/// Parts of the workpiece with a state of their own. Expects the domain.
+void read_regions(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Initial state and body loads.
+void read_initial_and_loads(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Pieces that continue at others. Expects the domain.
+void read_periodic(const Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// Spacing, refinements, node lists and windows. A node file is read and its nodes are put into the settings,
 /// so that the resolved case stands alone. Expects the domain, which may lack its outline.
@@ -27,8 +33,7 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// Crack tips: enrichment and domain of the interaction integral.
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
 
-/// What the kind of analysis does not allow. Expects everything else. Defaults without meaning in this kind
-/// are taken out of the settings, so that the resolved case reads back.
+/// What the kind of analysis does not allow; defaults of such keys are dropped. Expects everything else.
 void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics);
 
 /// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file, line and column for

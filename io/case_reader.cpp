@@ -31,26 +31,30 @@ void compute_defaults(Setting& root) {
   root.set_default("output.pictures", std::vector<double>{end});
   for (const Setting& entry : root.entries("materials"))
     if (entry.find("heat")) root.set_default(entry.path + ".heat.reference_temperature", temperature);
+  for (const Setting& entry : root.entries("domain.regions")) {
+    root.set_default(entry.path + ".material", root.get<std::string>("domain.material"));
+    root.set_default(entry.path + ".temperature", temperature);
+    root.set_default(entry.path + ".velocity", root.get<Vec2>("initial.velocity"));
+  }
   for (const Setting& entry : root.entries("tools"))
     if (entry.find("heat")) root.set_default(entry.path + ".heat.temperature", temperature);
 }
 
 void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& step = *root.find("time.step");
-  result.time = {root.get<double>("time.end"), step.get<double>("safety"), step.maybe<double>("max"),
-                 step.maybe<double>("fixed"), static_cast<int>(step.get<std::int64_t>("check_every"))};
+  result.time = {root.get<double>("time.end"),
+                 step.get<double>("safety"),
+                 step.maybe<double>("max"),
+                 step.maybe<double>("fixed"),
+                 static_cast<int>(step.get<std::int64_t>("check_every")),
+                 step.maybe<double>("min"),
+                 root.maybe<std::int64_t>("time.max_steps")};
   if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
     diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
                     "found a fixed step and a largest step, expected one of them");
-}
-
-void read_initial_and_loads(const Setting& root, Case& result) {
-  const Setting& initial = *root.find("initial");
-  result.initial.temperature = initial.get<double>("temperature");
-  result.initial.velocity = initial.get<Vec2>("velocity");
-  if (const Setting* spin = initial.find("spin"))
-    result.initial.spin = Spin{spin->get<double>("rate"), spin->get<Vec2>("centre")};
-  result.loads.body_force = root.maybe<VectorFunction>("loads.body_force").value_or(VectorFunction{});
+  if (const Setting* least = step.find("min"); least && result.time.fixed)
+    diagnostics.add(Mistake::conflict, least->where, least->path,
+                    "found a fixed step and a least step, expected one of them");
 }
 
 void read_method(const Setting& root, Case& result) {
@@ -87,6 +91,10 @@ void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   std::sort(output.pictures.begin(), output.pictures.end());
   output.pictures.erase(std::unique(output.pictures.begin(), output.pictures.end()), output.pictures.end());
   output.picture_fields = table.get<std::vector<std::string>>("picture_fields");
+  const Setting& checkpoint = *table.find("checkpoint");
+  output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
+                       checkpoint.get<double>("every_wall"),
+                       static_cast<int>(checkpoint.get<std::int64_t>("keep"))};
   for (const Setting& probe : table.entries("probes"))
     output.probes.push_back(
         {probe.name, probe.get<Vec2>("at"), probe.get<std::vector<std::string>>("fields")});
@@ -120,7 +128,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   result.title = root.get<std::string>("title");
   result.analysis = {root.choice<Analysis::Type>("analysis.type"),
                      root.choice<Analysis::Kinematics>("analysis.kinematics"),
-                     root.get<bool>("analysis.thermal")};
+                     root.get<bool>("analysis.mechanical"), root.get<bool>("analysis.thermal")};
   collect_locations(root, result.location);
   read_time(root, result, diagnostics);
   read_materials(root, result, diagnostics);
@@ -129,8 +137,10 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
   diagnostics.throw_if_any();
+  read_regions(root, result, diagnostics);
   read_boundary(root, result, diagnostics);
-  read_initial_and_loads(root, result);
+  read_periodic(root, result, diagnostics);
+  read_initial_and_loads(root, result, diagnostics);
   read_method(root, result);
   read_fracture(root, result, diagnostics);
   check_analysis(root, result, diagnostics);

@@ -107,6 +107,20 @@ void check_members(const Value& table, const std::vector<std::string>& allowed) 
                                         fmt::join(allowed, ", "), did_you_mean(found.key, allowed)));
 }
 
+/// From `first` to `last`: straight, or along 10 s³ − 15 s⁴ + 6 s⁵, which starts and ends without a kink or a
+/// jump of curvature, in 64 straight pieces.
+TimeTable ramp_table(double duration, double first, double last, bool smooth) {
+  if (!smooth) return TimeTable({0.0, duration}, {first, last});
+  constexpr int pieces = 64;
+  std::vector<double> time, value;
+  for (int k = 0; k <= pieces; ++k) {
+    const double s = static_cast<double>(k) / pieces;
+    time.push_back(s * duration);
+    value.push_back(first + (last - first) * (s * s * s * (10.0 + s * (6.0 * s - 15.0))));
+  }
+  return {std::move(time), std::move(value)};
+}
+
 /// A value over time with n components, one table each.
 std::vector<TimeTable> functions(const Value& value, const Key& key, std::size_t n) {
   std::vector<TimeTable> result;
@@ -114,21 +128,28 @@ std::vector<TimeTable> functions(const Value& value, const Key& key, std::size_t
     for (const double constant : components(value, key, n)) result.emplace_back(constant);
     return result;
   }
-  check_members(value, n == 1
-                           ? std::vector<std::string>{"value", "ramp", "from", "times", "values"}
-                           : std::vector<std::string>{"x", "y", "value", "ramp", "from", "times", "values"});
+  check_members(value, n == 1 ? std::vector<std::string>{"value", "ramp", "from", "smooth", "times", "values"}
+                              : std::vector<std::string>{"x", "y", "value", "ramp", "from", "smooth", "times",
+                                                         "values"});
   const Value *end = member(value, "value"), *ramp = member(value, "ramp"), *from = member(value, "from");
+  const Value* smooth = member(value, "smooth");
   const Value *times = member(value, "times"), *values = member(value, "values");
   const bool is_ramp = end != nullptr, is_table = times && values;
-  if (is_ramp == is_table || (is_ramp && (times || values)) || (is_table && (ramp || from)))
+  if (is_ramp == is_table || (is_ramp && (times || values)) || (is_table && (ramp || from || smooth)))
     throw ConversionError(Mistake::type, value.where,
-                          "found a table, expected either { value, ramp, from }, of which ramp and from may "
-                          "be left out, or { times, values }");
+                          "found a table, expected either { value, ramp, from, smooth }, of which only value "
+                          "has to be there, or { times, values }");
   if (is_ramp) {
     const std::vector<double> last = components(*end, key, n);
     if (!ramp && from)
       throw ConversionError(Mistake::missing_key, from->where,
                             "found 'from' without 'ramp', expected the duration such as ramp = \"1 us\"");
+    if (smooth && smooth->kind != Kind::boolean)
+      throw ConversionError(Mistake::type, smooth->where,
+                            fmt::format("found {}, expected true or false", smooth->show()));
+    if (!ramp && smooth)
+      throw ConversionError(Mistake::missing_key, smooth->where,
+                            "found 'smooth' without 'ramp', expected the duration such as ramp = \"1 us\"");
     const double duration = ramp ? number(*ramp, key, dimension::time) : 0.0;
     if (ramp && !(duration > 0.0))
       throw ConversionError(Mistake::range, ramp->where,
@@ -138,7 +159,8 @@ std::vector<TimeTable> functions(const Value& value, const Key& key, std::size_t
                             "found a ramp of temperature without its start, expected from = \"293.15 K\"");
     const std::vector<double> first = from ? components(*from, key, n) : std::vector<double>(n, 0.0);
     for (std::size_t k = 0; k < n; ++k)
-      result.push_back(ramp ? TimeTable({0.0, duration}, {first[k], last[k]}) : TimeTable(last[k]));
+      result.push_back(ramp ? ramp_table(duration, first[k], last[k], smooth && smooth->boolean)
+                            : TimeTable(last[k]));
     return result;
   }
   const std::vector<double> time = quantities(*times, key, dimension::time);

@@ -73,36 +73,43 @@ bool is_temporary(const fs::path& file) {
 
 } // namespace
 
-void write_atomically(const fs::path& path, std::string_view content) {
-  AtomicFile file(path);
-  {
-    const Descriptor fd(::open(file.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
-    if (fd < 0) fail("write", path, errno);
+void write_atomically(const fs::path& path, std::string_view content) { AtomicFile(path, content).commit(); }
+
+AtomicFile::AtomicFile(fs::path target, std::string_view content)
+    : target_(std::move(target)), temporary_(beside(target_)) {
+  try {
+    const Descriptor fd(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
+    if (fd < 0) fail("write", target_, errno);
     for (std::size_t done = 0; done < content.size();) {
       const ssize_t n = ::write(fd, content.data() + done, content.size() - done);
       if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) fail("write", path, n < 0 ? errno : ENOSPC);
+      if (n <= 0) fail("write", target_, n < 0 ? errno : ENOSPC);
       done += static_cast<std::size_t>(n);
     }
+    if (::fsync(fd) != 0) fail("write", target_, errno);
+  } catch (...) {
+    discard();
+    throw;
   }
-  file.commit();
 }
 
-AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), temporary_(beside(target_)) {}
-
 AtomicFile::~AtomicFile() {
+  if (!committed_) discard();
+}
+
+void AtomicFile::discard() {
   std::error_code ignored;
-  if (!committed_) fs::remove(temporary_, ignored);
+  fs::remove(temporary_, ignored);
 }
 
 void AtomicFile::commit() {
-  {
-    const Descriptor fd(::open(temporary_.c_str(), O_RDONLY));
-    if (fd < 0) fail("write", target_, errno);
-    if (::fsync(fd) != 0) fail("write", target_, errno);
-  }
   replace(temporary_, target_);
   committed_ = true;
+}
+
+void flush_file(const fs::path& path) {
+  const Descriptor fd(::open(path.c_str(), O_RDONLY));
+  if (fd < 0 || ::fsync(fd) != 0) fail("write", path, errno);
 }
 
 std::string read_file(const fs::path& path) {
@@ -150,25 +157,50 @@ std::vector<fs::path> files_of_a_run(const fs::path& folder) {
 
 } // namespace
 
-bool holds_run(const fs::path& folder) { return !files_of_a_run(folder).empty(); }
+namespace {
+
+// A file of a run in the folder, "" when there is none. What a killed run left half-written is no run.
+fs::path any_file_of_a_run(const fs::path& folder) {
+  for (const fs::path& file : files_of_a_run(folder))
+    if (!is_temporary(file)) return file;
+  return {};
+}
+
+} // namespace
+
+bool holds_run(const fs::path& folder) { return !any_file_of_a_run(folder).empty(); }
+
+void clear_results(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::path& file : files_of_a_run(folder)) {
+    if (file.filename() == files::resolved_case) continue;
+    fs::remove(file, error);
+    if (error) fail("remove", file, error.message());
+  }
+  for (const char* sub : {files::fields_folder, files::pictures_folder, files::lines_folder})
+    fs::remove(folder / sub, error); // only when empty
+}
+
+void clear_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::path& file : files_of_a_run(folder))
+    if (is_temporary(file)) fs::remove(file, ignored);
+  for (const char* end : {files::status, files::report}) fs::remove(folder / end, ignored);
+}
 
 void prepare_output_folder(const fs::path& folder, bool force) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
     fail("create the output folder", folder, error ? error.message() : "a file of this name is in the way");
-  const std::vector<fs::path> old = files_of_a_run(folder);
+  const fs::path old = any_file_of_a_run(folder);
   if (!old.empty() && !force)
     throw InputError(
         fmt::format("the output folder {} already holds a run ({}): choose another with --output, "
                     "or replace it with --force",
-                    folder.string(), fs::relative(old.front(), folder).string()));
-  for (const fs::path& file : old) {
-    fs::remove(file, error);
-    if (error) fail("remove", file, error.message());
-  }
-  for (const char* sub : {files::fields_folder, files::pictures_folder, files::lines_folder})
-    fs::remove(folder / sub, error); // only when empty
+                    folder.string(), fs::relative(old, folder).string()));
+  clear_results(folder);
+  fs::remove(folder / files::resolved_case, error);
   const fs::path probe = beside(folder / "probe");
   {
     const Descriptor fd(::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));

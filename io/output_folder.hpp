@@ -23,29 +23,37 @@ inline constexpr const char* report = "report.html";
 /// reason.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// For writers that need a file name of their own (HDF5): they write to temporary(), commit() renames it over
-/// the target. Without commit() the destructor removes the temporary file.
+/// The two halves of write_atomically, for whoever has something to do between them: the constructor writes
+/// beside the target and flushes, commit() renames. Without commit() nothing is left. Both throw IoError.
 class AtomicFile {
 public:
-  explicit AtomicFile(std::filesystem::path target);
+  AtomicFile(std::filesystem::path target, std::string_view content);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  const std::filesystem::path& temporary() const { return temporary_; }
-  /// Flushes and renames. Throws IoError.
   void commit();
 
 private:
+  void discard();
   std::filesystem::path target_, temporary_;
   bool committed_ = false;
 };
+
+/// Waits until what was appended to a file is on the disk. Throws IoError.
+void flush_file(const std::filesystem::path& path);
 
 /// The whole file. Throws IoError.
 std::string read_file(const std::filesystem::path& path);
 
 /// Whether `folder` holds files of a run.
 bool holds_run(const std::filesystem::path& folder);
+
+/// Removes the files that a run makes, and no others, but for the resolved case. Throws IoError.
+void clear_results(const std::filesystem::path& folder);
+
+/// Removes what must not stay when a run goes on: half-written files of a killed run, status and report.
+void clear_leftovers(const std::filesystem::path& folder);
 
 /// Makes `folder` ready for a new run: creates it with its parents and checks that files can be written.
 /// Throws InputError when it holds a run and `force` is false; with `force` the files that a run makes are

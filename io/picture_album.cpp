@@ -29,8 +29,8 @@ PictureAlbum::PictureAlbum(fs::path output_folder)
   }
 }
 
-void PictureAlbum::add(const std::string& key, const std::string& field, double time, const std::string& png,
-                       const std::string& caption) {
+std::string PictureAlbum::add(const std::string& key, const std::string& field, double time,
+                              const std::string& png, const std::string& caption) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw IoError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
@@ -45,6 +45,7 @@ void PictureAlbum::add(const std::string& key, const std::string& field, double 
   write_atomically(folder_ / name(), png);
   entries_.push_back({name(), field, time, caption});
   write_index();
+  return entries_.back().file;
 }
 
 void PictureAlbum::truncate(double time) {

@@ -20,9 +20,9 @@ public:
   explicit PictureAlbum(std::filesystem::path output_folder);
 
   /// Writes the PNG under a name made of `key` ("plastic_strain") and a running number, then the index.
-  /// Throws IoError.
-  void add(const std::string& key, const std::string& field, double time, const std::string& png,
-           const std::string& caption = "");
+  /// Returns its name. Throws IoError.
+  std::string add(const std::string& key, const std::string& field, double time, const std::string& png,
+                  const std::string& caption = "");
 
   /// Drops the pictures later than `time` (s), for a restart.
   void truncate(double time);

@@ -111,8 +111,13 @@ ReportData collect_report(const fs::path& folder) {
     report.subtitle += " · axisymmetric: x is the radius, totals of the whole body";
 
   const PictureAlbum album(folder);
-  for (const AlbumEntry& entry : album.entries())
-    report.pictures.push_back({read_file(album.path(entry)), entry.field, entry.time, entry.caption});
+  for (const AlbumEntry& entry : album.entries()) {
+    ReportPicture picture{read_file(album.path(entry)), entry.field, entry.time, entry.caption};
+    if (status.post_mortem && entry.file == status.post_mortem->picture)
+      report.place = std::move(picture);
+    else
+      report.pictures.push_back(std::move(picture));
+  }
 
   if (!status.metrics.empty()) {
     ReportTable metrics{"Results", {}};

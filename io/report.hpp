@@ -30,6 +30,7 @@ struct ReportData {
   std::vector<std::pair<std::string, std::string>> figures; ///< the few numbers to see first
   std::vector<std::string> warnings;
   std::optional<PostMortem> post_mortem;
+  std::optional<ReportPicture> place;  ///< where it went wrong
   std::vector<ReportPicture> pictures; ///< shown by field, in order of time
   std::vector<Chart> charts;
   std::vector<ReportTable> tables;

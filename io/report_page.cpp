@@ -39,6 +39,11 @@ std::string render_warnings(const ReportData& data) {
   return html.empty() ? "" : "<ul class=\"warnings\">\n" + html + "</ul>\n";
 }
 
+std::string figure(const ReportPicture& picture, const std::string& what) {
+  return fmt::format("<figure><img alt=\"{} at {}\" src=\"data:image/png;base64,{}\"/></figure>\n",
+                     html_escape(what), html_escape(si_format(picture.time, "s")), base64(picture.png));
+}
+
 std::string render_post_mortem(const ReportData& data) {
   if (!data.post_mortem) return "";
   const PostMortem& post = *data.post_mortem;
@@ -48,8 +53,14 @@ std::string render_post_mortem(const ReportData& data) {
   if (std::isfinite(post.x) && std::isfinite(post.y))
     rows.emplace_back("Position",
                       fmt::format("x = {}, y = {}", si_format(post.x, "m", 6), si_format(post.y, "m", 6)));
-  return fmt::format("<div class=\"post-mortem\">\n<p>{}</p>\n{}</div>\n", html_escape(post.text),
-                     table(rows));
+  if (!post.last_good.empty()) rows.emplace_back("Last good state", post.last_good);
+  std::string html =
+      fmt::format("<div class=\"post-mortem\">\n<p>{}</p>\n{}", html_escape(post.text), table(rows));
+  if (!post.causes.empty()) html += "<h3>Likely causes</h3>\n<ul>\n";
+  for (const std::string& cause : post.causes) html += fmt::format("<li>{}</li>\n", html_escape(cause));
+  if (!post.causes.empty()) html += "</ul>\n";
+  if (data.place) html += figure(*data.place, data.place->caption);
+  return html + "</div>\n";
 }
 
 // What pictures of one kind have in common: "temperature, the band".
@@ -70,10 +81,7 @@ std::string render_pictures(const ReportData& data) {
     std::stable_sort(chosen.begin(), chosen.end(),
                      [](auto* one, auto* other) { return one->time < other->time; });
     html += fmt::format("<h3>{}</h3>\n<div class=\"pictures\">\n", html_escape(kind));
-    for (const ReportPicture* picture : chosen)
-      html +=
-          fmt::format("<figure><img alt=\"{} at {}\" src=\"data:image/png;base64,{}\"/></figure>\n",
-                      html_escape(kind), html_escape(si_format(picture->time, "s")), base64(picture->png));
+    for (const ReportPicture* picture : chosen) html += figure(*picture, kind);
     html += "</div>\n";
   }
   return html;

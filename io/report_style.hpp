@@ -64,6 +64,7 @@ tr:first-child > * { border-top: 0; }
 .warnings { margin: 0; padding: 12px 16px 12px 34px; border-radius: 12px; background: var(--warn-tint); color: var(--warn); }
 .post-mortem { padding: 16px 20px; border-color: var(--bad); max-width: 860px; }
 .post-mortem p { margin: 0 0 10px; font-weight: 600; color: var(--bad); }
+.post-mortem img { width: 100%; }
 pre { margin: 0; padding: 18px 20px; max-height: 560px; overflow: auto; font: 12.5px/1.55 ui-monospace, "SF Mono",
   Menlo, Consolas, "DejaVu Sans Mono", monospace; tab-size: 2; }
 dialog { width: 96vw; max-width: 1500px; padding: 0; border: 0; border-radius: 12px; overflow: hidden; background: #ffffff; }

@@ -23,7 +23,7 @@ wrong dimension. Anything can be overridden on the command line: `--set time.end
 | quantity | a text with number and unit, `"11 m/s"`; numbers without dimension stand alone, `0.3` |
 | vector | two numbers and one unit, `"20 10 mm"`, or `["20 mm", "10 mm"]` |
 | values | several numbers and one unit, `"2 4 us"`, or `["2 us", "4 us"]` |
-| function | a quantity (constant in time), `{ value = "11 m/s", ramp = "1 us" }` (linear from 0, or from `from`, then constant), or `{ times = "0 1 5 us", values = "0 11 0 m/s" }` (linear between, constant outside) |
+| function | a quantity (constant in time), `{ value = "11 m/s", ramp = "1 us" }` (linear from 0, or from `from`, then constant; with `smooth = true` without kinks, for loads that must not set the body swinging), or `{ times = "0 1 5 us", values = "0 11 0 m/s" }` (linear between, constant outside) |
 | vector function | a vector, the same tables with vectors, or `{ x = function, y = function }`, of which one may be left out |
 | name | at most 100 letters, digits, `_` and `-` |
 

@@ -83,6 +83,32 @@ void add_domain(Keys& k) {
   k.add("domain.cracks.*.rotate.centre", vector, "Centre of the turn.").unit(d::length).fallback("\"0 0 m\"");
 }
 
+void add_parts(Keys& k) {
+  k.add("domain.interfaces", named_tables, "Interfaces between parts of different material (explicit only).");
+  k.add("domain.interfaces.*", table,
+        "A bonded interface: its two faces move as one. It divides the domain into parts for `regions`.");
+  k.add("domain.interfaces.*.points", vectors, "Polyline whose two ends lie on the boundary.")
+      .unit(d::length)
+      .required()
+      .example("[\"5 0 mm\", \"5 10 mm\"]");
+  k.add("domain.interfaces.*.conductance", quantity,
+        "Heat crosses in proportion to the jump of temperature; without it both faces have one temperature.")
+      .unit(d::heat_transfer)
+      .in(not_negative)
+      .example("\"1e5 W/(m2 K)\"");
+  k.add("domain.regions", named_tables, "Parts with a material or an initial state of their own.");
+  k.add(
+      "domain.regions.*", table,
+      "The part of the domain that holds a point; interfaces and cracks from boundary to boundary bound it.");
+  k.add("domain.regions.*.at", vector, "A point inside.").unit(d::length).required().example("\"8 5 mm\"");
+  k.add("domain.regions.*.material", text, "Name of one of `materials`.").computed("`domain.material`");
+  k.add("domain.regions.*.temperature", quantity, "At time 0.")
+      .unit(d::temperature)
+      .in({.low = 0.0})
+      .computed("`initial.temperature`");
+  k.add("domain.regions.*.velocity", vector, "At time 0.").unit(d::velocity).computed("`initial.velocity`");
+}
+
 void add_cloud(Keys& k) {
   k.add("cloud", table, "The nodes.").required();
   k.add("cloud.pattern", choice,

@@ -40,7 +40,9 @@ Json time_tables(const Json& value) {
   };
   const Json list = one_of({text_type(), array_of(text_type())});
   return one_of(
-      {value, closed({{"value", value}, {"ramp", text_type()}, {"from", value}}, {"value"}),
+      {value,
+       closed({{"value", value}, {"ramp", text_type()}, {"from", value}, {"smooth", {{"type", "boolean"}}}},
+              {"value"}),
        closed({{"times", list}, {"values", one_of({text_type(), array_of(value)})}}, {"times", "values"})});
 }
 

@@ -2,6 +2,8 @@
 #include "io/schema_keys.hpp"
 #include "io/case.hpp"
 
+#include <fmt/format.h>
+
 namespace cnem::io {
 namespace {
 
@@ -19,13 +21,16 @@ void add_general(Keys& k) {
       .one_of({"explicit", "static"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
-        "Per unit thickness: no strain out of the plane, or no stress (static only). `axisymmetric` "
-        "(explicit only): "
+        "Per unit thickness: no strain out of the plane, or no stress (static only). `axisymmetric`: "
         "a body of revolution about x = 0, x the radius and y the axial coordinate; nodes on the axis stay "
         "on it, "
         "and masses, forces and energies are those of the whole body.")
       .one_of({"plane strain", "plane stress", "axisymmetric"})
       .fallback("\"plane strain\"");
+  k.add(
+       "analysis.mechanical", boolean,
+       "Solve for motion. Without, nothing moves and heat alone is conducted, in steps as long as it allows.")
+      .fallback("true");
   k.add("analysis.thermal", boolean,
         "Solve for temperatures: heat of plastic work and friction, conduction. Without, the temperature "
         "stays at `initial.temperature`.")
@@ -43,12 +48,20 @@ void add_general(Keys& k) {
       .in({.low = 0.0, .high = 1.0, .low_open = true})
       .fallback("0.9");
   k.add("time.step.max", quantity, "Largest step allowed.").unit(d::time).in(positive);
+  k.add("time.step.min", quantity, "The run has diverged when the stable step falls below this.")
+      .unit(d::time)
+      .in(positive)
+      .example("\"0.01 ns\"")
+      .computed("a thousandth of the first stable step");
   k.add("time.step.fixed", quantity, "This step, without an estimate of the stable one.")
       .unit(d::time)
       .in(positive);
   k.add("time.step.check_every", integer, "Steps between estimates of the stable step.")
       .in({.low = 1, .high = 1e6})
       .fallback("10");
+  k.add("time.max_steps", integer,
+        "The run ends after this many steps, when it has not reached `time.end` before.")
+      .in({.low = 1, .high = 1e15});
 }
 
 void add_materials(Keys& k) {
@@ -70,8 +83,10 @@ void add_materials(Keys& k) {
   k.add(at + "plastic", table, "Isotropic plasticity; the flow stress is a Kirchhoff stress.");
   k.add(at + "plastic.law", choice,
         "`johnson-cook`: (A + B ε̄pⁿ)(1 + C ln(ε̄̇p/rate0))(1 − T*ᵐ), T* = (T − T0)/(Tmelt − T0) clipped to [0, "
-        "1]; `linear`: yield + hardening ε̄p; `perfect`: yield.")
-      .one_of({"johnson-cook", "linear", "perfect"})
+        "1]; `linear`: yield + hardening ε̄p; `perfect`: yield; `voce`: yield + hardening ε̄p + (saturation − "
+        "yield)"
+        "(1 − exp(−exponent ε̄p)).")
+      .one_of({"johnson-cook", "linear", "perfect", "voce"})
       .required();
   k.add(at + "plastic.A", quantity, "Yield stress.")
       .unit(d::pressure)
@@ -116,14 +131,25 @@ void add_materials(Keys& k) {
       .unit(d::pressure)
       .in(positive)
       .required()
-      .when("law", {"linear", "perfect"})
+      .when("law", {"linear", "perfect", "voce"})
       .example("\"400 MPa\"");
   k.add(at + "plastic.hardening", quantity, "Slope of the flow stress over plastic strain.")
       .unit(d::pressure)
       .in(not_negative)
       .required()
-      .when("law", {"linear"})
+      .when("law", {"linear", "voce"})
       .example("\"100 MPa\"");
+  k.add(at + "plastic.saturation", quantity, "What `yield` saturates to, without the linear part.")
+      .unit(d::pressure)
+      .in(positive)
+      .required()
+      .when("law", {"voce"})
+      .example("\"715 MPa\"");
+  k.add(at + "plastic.exponent", quantity, "How fast it saturates, per plastic strain.")
+      .in(positive)
+      .required()
+      .when("law", {"voce"})
+      .example("16.93");
   k.add(at + "heat", table, "Thermal properties.");
   k.add(at + "heat.specific_heat", quantity, "").unit(d::specific_heat).in(positive).required();
   k.add(at + "heat.conductivity", quantity, "0: adiabatic.")
@@ -182,6 +208,34 @@ void add_conditions(Keys& k) {
   k.add("initial.spin", table, "Adds a rotation to the velocity.");
   k.add("initial.spin.rate", quantity, "Counter-clockwise.").unit(d::angular_velocity).required();
   k.add("initial.spin.centre", vector, "").unit(d::length).fallback("\"0 0 m\"");
+  k.add("initial.velocity_gradient", table, "Adds ∂v/∂X (X − centre) to the velocity.");
+  for (const char* component : {"xx", "xy", "yx", "yy"})
+    k.add(fmt::format("initial.velocity_gradient.{}", component), quantity,
+          fmt::format("∂v_{}/∂{}.", component[0], component[1]))
+        .unit(d::rate)
+        .fallback("\"0 1/s\"");
+  k.add("initial.velocity_gradient.centre", vector, "").unit(d::length).fallback("\"0 0 m\"");
+  k.add("initial.imperfections", named_tables, "Places with a lower yield stress, to start bands and necks.");
+  k.add("initial.imperfections.*", table,
+        "Lowers the yield stress by `reduction` exp(−(d/width)²) of itself, d the distance to `points`.");
+  k.add("initial.imperfections.*.points", vectors, "A point, or the corners of a polyline.")
+      .unit(d::length)
+      .required()
+      .example("[\"0 5 mm\", \"10 5 mm\"]");
+  k.add("initial.imperfections.*.width", quantity, "")
+      .unit(d::length)
+      .in(positive)
+      .required()
+      .example("\"20 um\"");
+  k.add("initial.imperfections.*.reduction", quantity, "")
+      .in({.low = 0.0, .high = 1.0, .high_open = true})
+      .required()
+      .example("0.02");
+  k.add("periodic", named_tables, "Pairs of boundary pieces of which one continues at the other.");
+  k.add("periodic.*", table, "Nodes of both pieces move alike and have the same temperature.");
+  k.add("periodic.*.pieces", texts, "Two boundary pieces, one a shifted copy of the other.")
+      .required()
+      .example("[\"left\", \"right\"]");
   k.add("loads", table, "Loads on the whole body.").always();
   k.add("loads.body_force", vector_function, "Force per unit mass.")
       .unit(d::acceleration)
@@ -313,6 +367,26 @@ void add_output(Keys& k) {
       .in(not_negative)
       .example("\"2 4 5 12 us\"")
       .computed("`time.end`");
+  k.add("output.checkpoint", table,
+        "When `checkpoint.h5` is written, from which `cnem restart` goes on: at step 0 and whenever one of "
+        "these is "
+        "due.")
+      .always();
+  k.add("output.checkpoint.every_steps", integer, "Steps from one to the next; 0: not by steps.")
+      .in({.low = 0, .high = 1e15})
+      .fallback("0");
+  k.add("output.checkpoint.every_time", quantity, "Simulated time from one to the next; 0: not by it.")
+      .unit(d::time)
+      .in(not_negative)
+      .fallback("\"0 s\"");
+  k.add("output.checkpoint.every_wall", quantity, "Wall-clock time from one to the next; 0: not by it.")
+      .unit(d::time)
+      .in(not_negative)
+      .fallback("\"10 min\"");
+  k.add("output.checkpoint.keep", integer,
+        "Checkpoints kept: `checkpoint.h5`, then `checkpoint.1.h5` and so on.")
+      .in({.low = 1, .high = 1000})
+      .fallback("2");
   k.add("output.picture_fields", choices, "Fields drawn.")
       .one_of(fields)
       .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");
@@ -351,6 +425,7 @@ const std::vector<Key>& schema() {
     Keys k;
     add_general(k);
     add_domain(k);
+    add_parts(k);
     add_cloud(k);
     add_materials(k);
     add_conditions(k);

@@ -44,6 +44,7 @@ public:
 /// The closed curve of a domain, a hole or a tool: members of the table `at`.
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
 void add_domain(Keys& k);
+void add_parts(Keys& k);
 void add_cloud(Keys& k);
 
 } // namespace cnem::io

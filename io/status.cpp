@@ -71,9 +71,11 @@ std::string status_json(const RunStatus& status) {
   json["warnings"] = status.warnings;
   if (status.post_mortem) {
     const PostMortem& post = *status.post_mortem;
-    json["post_mortem"] = {{"step", post.step},   {"time", number(post.time)}, {"node", post.node},
-                           {"x", number(post.x)}, {"y", number(post.y)},       {"field", post.field},
-                           {"text", post.text}};
+    json["post_mortem"] = {{"step", post.step},           {"time", number(post.time)},
+                           {"node", post.node},           {"x", number(post.x)},
+                           {"y", number(post.y)},         {"field", post.field},
+                           {"text", post.text},           {"causes", post.causes},
+                           {"last_good", post.last_good}, {"picture", post.picture}};
   }
   // Names may come from a user's file in any encoding: never fail on them.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -112,7 +114,10 @@ RunStatus read_status(const std::filesystem::path& folder) {
                                       as_number(post.at("x")),
                                       as_number(post.at("y")),
                                       post.at("field").get<std::string>(),
-                                      post.at("text").get<std::string>()};
+                                      post.at("text").get<std::string>(),
+                                      post.value("causes", std::vector<std::string>{}),
+                                      post.value("last_good", ""),
+                                      post.value("picture", "")};
     }
     return status;
   } catch (const Json::exception& error) {

@@ -19,6 +19,9 @@ struct PostMortem {
   double y = std::numeric_limits<double>::quiet_NaN(); ///< m
   std::string field;
   std::string text;
+  std::vector<std::string> causes; ///< likely ones, in plain words
+  std::string last_good;           ///< the last good state on disk
+  std::string picture;             ///< file in the folder of pictures: the surroundings; may be empty
 };
 
 /// Numbers that are not finite are written as null and read back as not-a-number.

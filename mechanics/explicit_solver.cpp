@@ -14,19 +14,9 @@ namespace cnem {
 
 namespace {
 
-/// b_e = F C_p⁻¹ Fᵀ in place of C_p⁻¹, and F = 1.
-template<int dim> void push_forward(PointState<dim>& point) {
-  constexpr int xx = 0, yy = 1, zz = 2, xy = 3;
-  static_assert(dim == 2, "the 3D push-forward comes with 3D cells");
-  for (std::size_t p = 0; p < point.size(); ++p) {
-    const double f11 = point.deformation[0][p], f12 = point.deformation[1][p], f21 = point.deformation[2][p],
-                 f22 = point.deformation[3][p], f33 = point.deformation[4][p];
-    const double c11 = point.elastic[xx][p], c22 = point.elastic[yy][p], c12 = point.elastic[xy][p];
-    point.elastic[xx][p] = f11 * f11 * c11 + 2.0 * f11 * f12 * c12 + f12 * f12 * c22;
-    point.elastic[yy][p] = f21 * f21 * c11 + 2.0 * f21 * f22 * c12 + f22 * f22 * c22;
-    point.elastic[xy][p] = f11 * f21 * c11 + (f11 * f22 + f12 * f21) * c12 + f12 * f22 * c22;
-    point.elastic[zz][p] *= f33 * f33;
-  }
+/// A node of the row of a stress point: all of them are of one body, and so of one material.
+template<int dim> std::size_t first_node(const DiscreteOperators<dim>& op, std::size_t point) {
+  return op.nodal ? point : static_cast<std::size_t>(op.node[static_cast<std::size_t>(op.row_begin[point])]);
 }
 
 template<int dim> void set_identity(Fields<tensor_size<dim>>& f, std::size_t size) {
@@ -35,15 +25,6 @@ template<int dim> void set_identity(Fields<tensor_size<dim>>& f, std::size_t siz
     for (const std::size_t k : {0U, 3U, 4U}) f[k].assign(size, 1.0);
   else
     for (const std::size_t k : {0U, 4U, 8U}) f[k].assign(size, 1.0);
-}
-
-/// Σ_p V_p s_p w_p: an energy per stress-free volume over the body.
-template<int dim> double integrate(const PointState<dim>& point, const Field& volume, const Field& density) {
-  return sum_blocks(point.size(), [&](std::size_t begin, std::size_t end) {
-    double sum = 0.0;
-    for (std::size_t p = begin; p < end; ++p) sum += volume[p] * point.stress_free[p] * density[p];
-    return sum;
-  });
 }
 
 } // namespace
@@ -66,13 +47,14 @@ ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Fiel
   heat_flow_.assign(n, 0.0);
   resize_all(node.force, n);
   prepare();
+  if (!model_.ties.empty())
+    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
   running_.initial = ledger().total();
 }
 
 template<int dim> void ExplicitSolver<dim>::prepare() {
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
-  const plasticity::Material& material = model_.material;
   const bool start = references_ == 0;
 
   Cloud<dim> cloud = model_.cloud;
@@ -83,8 +65,8 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
 
   double elastic_before = 0.0, plastic_before = 0.0;
   if (!start) {
-    elastic_before = integrate(point, approximation_.mechanics.volume, point.stored_energy);
-    plastic_before = integrate(point, approximation_.mechanics.volume, point.plastic_work);
+    elastic_before = energy_over_body(point.stored_energy);
+    plastic_before = energy_over_body(point.plastic_work);
     running_.penalty_release += running_.stabilisation;
     push_forward(point);
   }
@@ -93,53 +75,22 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   const auto points = static_cast<std::size_t>(op.points);
   node.reference = node.position;
-  if (start) {
-    const Field volume = op.node_volume();
-    node.mass.resize(volume.size());
-    node.heat_capacity.resize(volume.size());
-    for (std::size_t i = 0; i < volume.size(); ++i) {
-      node.mass[i] = material.density * volume[i];
-      node.heat_capacity[i] = node.mass[i] * material.specific_heat;
-    }
-    resize_all(point.elastic, points, 0.0);
-    for (std::size_t k = 0; k < 3; ++k) point.elastic[k].assign(points, 1.0);
-    resize_all(point.piola, points);
-    resize_all(total_stress_, points);
-    for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress,
-                         &point.pressure, &point.stored_energy, &point.plastic_work, &point.dissipation,
-                         &point.temperature, &viscous_pressure_, &jacobian_})
-      field->assign(points, 0.0);
-    point.stress_free.assign(points, 1.0);
-    point.material.assign(points, 0);
-    shear_modulus_.assign(points, material.elasticity.mu());
-    wave_modulus_.assign(points, material.elasticity.lambda() + 2.0 * material.elasticity.mu());
-    density_.assign(points, material.density);
-    flow_stress_.assign(points, std::numeric_limits<double>::infinity());
-    interpolate<dim>(op, node.temperature, point.temperature, 0, points);
-    if (material.hardening)
-      for (std::size_t p = 0; p < points; ++p)
-        flow_stress_[p] =
-            material.hardening->flow_stress(0.0, material.hardening->rate0, point.temperature[p]);
-  }
+  if (start) start_points();
   set_identity<dim>(point.deformation, points);
   jacobian_.assign(points, 1.0);
   const auto stress_points = plasticity::stress_points(point);
-  const std::ptrdiff_t bad =
-      plasticity::update_stress(material, stress_points, 0, static_cast<std::ptrdiff_t>(points), 0.0);
+  const std::ptrdiff_t bad = plasticity::update_stress(model_.materials, point.material, stress_points, 0,
+                                                       static_cast<std::ptrdiff_t>(points), 0.0);
   if (bad >= 0) diverged(static_cast<std::size_t>(bad), "elastic strain");
-  for (std::size_t p = 0; p < points; ++p) density_[p] = material.density * point.stress_free[p];
+  for (std::size_t p = 0; p < points; ++p) density_[p] = material_of(p).density * point.stress_free[p];
 
   edge_defect_.reset(shear_modulus_);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
-  if (model_.thermal) {
-    conduction_.set_operators(
-        approximation_.conduction,
-        Field(static_cast<std::size_t>(approximation_.conduction.points), material.conductivity));
-    conduction_step_ = 0.0;
-  }
+  if (model_.thermal) set_conduction();
+  conduction_step_ = 0.0;
   if (!start) {
-    running_.rereference += elastic_before - integrate(point, op.volume, point.stored_energy);
-    plastic_offset_ += plastic_before - integrate(point, op.volume, point.plastic_work);
+    running_.rereference += elastic_before - energy_over_body(point.stored_energy);
+    plastic_offset_ += plastic_before - energy_over_body(point.plastic_work);
   }
   for (std::size_t k = 0; k < total_stress_.size(); ++k) total_stress_[k] = point.piola[k];
   running_.stabilisation = 0.0;
@@ -147,15 +98,64 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   ++references_;
 }
 
+template<int dim> void ExplicitSolver<dim>::set_conduction() {
+  const DiscreteOperators<dim>& op = approximation_.conduction;
+  Field conductivity(static_cast<std::size_t>(op.points));
+  for (std::size_t p = 0; p < conductivity.size(); ++p)
+    conductivity[p] = material_of_node(first_node(op, p)).conductivity;
+  conduction_.set_operators(op, std::move(conductivity));
+}
+
+/// Masses, and stress points at rest.
+template<int dim> void ExplicitSolver<dim>::start_points() {
+  NodeState<dim>& node = state_.node;
+  PointState<dim>& point = state_.point;
+  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  const auto points = static_cast<std::size_t>(op.points);
+  const Field volume = op.node_volume();
+  node.mass.resize(volume.size());
+  node.heat_capacity.resize(volume.size());
+  for (std::size_t i = 0; i < volume.size(); ++i) {
+    const plasticity::Material& material = material_of_node(i);
+    node.mass[i] = material.density * volume[i];
+    node.heat_capacity[i] = node.mass[i] * material.specific_heat;
+  }
+  resize_all(point.elastic, points, 0.0);
+  for (std::size_t k = 0; k < 3; ++k) point.elastic[k].assign(points, 1.0);
+  resize_all(point.piola, points);
+  resize_all(total_stress_, points);
+  for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress, &point.pressure,
+                       &point.stored_energy, &point.plastic_work, &point.dissipation, &point.temperature,
+                       &viscous_pressure_, &jacobian_, &shear_modulus_, &wave_modulus_, &density_})
+    field->assign(points, 0.0);
+  point.stress_free.assign(points, 1.0);
+  point.strength.assign(points, 1.0);
+  point.material.assign(points, 0);
+  flow_stress_.assign(points, std::numeric_limits<double>::infinity());
+  interpolate<dim>(op, node.temperature, point.temperature, 0, points);
+  if (!model_.strength.empty()) interpolate<dim>(op, model_.strength, point.strength, 0, points);
+  for (std::size_t p = 0; p < points; ++p) {
+    if (!model_.node_material.empty()) point.material[p] = model_.node_material[first_node(op, p)];
+    const plasticity::Material& material = material_of(p);
+    shear_modulus_[p] = material.elasticity.mu();
+    wave_modulus_[p] = material.elasticity.lambda() + 2.0 * material.elasticity.mu();
+    if (material.hardening)
+      flow_stress_[p] = point.strength[p] *
+                        material.hardening->flow_stress(0.0, material.hardening->rate0, point.temperature[p]);
+  }
+}
+
 template<int dim> void ExplicitSolver<dim>::advance(double dt) {
   const double dt_mean = 0.5 * (state_.step_before + dt);
-  accelerate_and_move(dt, dt_mean); // (i)   (54), (55), corrected by supports and contact
-  strain_and_stress(dt);            // (ii)  Box 2
+  if (model_.mechanical) {
+    accelerate_and_move(dt, dt_mean); // (i)   (54), (55), corrected by supports and contact
+    strain_and_stress(dt);            // (ii)  Box 2
+  }
   state_.time += dt;
   state_.step_before = dt;
   ++state_.step;
-  assemble_forces();               // (iii) (52), (53)
-  if (model_.thermal) conduct(dt); // (58), staggered
+  if (model_.mechanical) assemble_forces(); // (iii) (52), (53)
+  if (model_.thermal) conduct(dt);          // (58), staggered
 }
 
 template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, double dt_mean) {
@@ -167,6 +167,8 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
       for (std::size_t i = begin; i < end; ++i)
         node.velocity[k][i] = velocity_before_[k][i] + dt_mean * node.force[k][i] / node.mass[i];
   });
+  if (!model_.ties.empty())
+    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
   model_.supports.apply(state_.time, dt, dt_mean, node.mass, velocity_before_, node.velocity);
   running_.supports = model_.supports.work();
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
@@ -175,6 +177,8 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
   });
 
   correct_contact(dt, dt_mean);
+  if (!model_.ties.empty())
+    tie_loss_ += model_.ties.share_motion(node.mass, dt, node.velocity, node.position);
 
   if (!model_.loads.empty()) {
     const Fields<dim>& f = model_.loads.force();
@@ -200,10 +204,12 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
       flow_stress.push_back(
           average_at_node<dim>(approximation_.mechanics, flow_stress_, static_cast<std::size_t>(i)));
   }
-  const plasticity::Material& material = model_.material;
-  const std::vector<double> effusivity(
-      model_.thermal ? boundary.size() : 0,
-      std::sqrt(material.conductivity * material.density * material.specific_heat));
+  std::vector<double> effusivity;
+  if (model_.thermal)
+    for (const std::int32_t i : boundary) {
+      const plasticity::Material& material = material_of_node(static_cast<std::size_t>(i));
+      effusivity.push_back(std::sqrt(material.conductivity * material.density * material.specific_heat));
+    }
   contact.correct({.time = state_.time,
                    .dt = dt,
                    .dt_mean = dt_mean,
@@ -212,7 +218,8 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
                    .mass = node.mass,
                    .flow_stress = flow_stress,
                    .effusivity = effusivity});
-  running_.tools = running_.friction = running_.impact = running_.recovery = 0.0;
+  running_.tools = running_.friction = running_.recovery = 0.0;
+  running_.impact = tie_loss_;
   for (const contact::ToolResult<dim>& tool : contact.results()) {
     running_.tools += tool.total.tool;
     running_.recovery += tool.total.recovery;
@@ -242,8 +249,8 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
     deformation_gradient<dim>(op, state_.node.position, point.deformation, begin, end);
     interpolate<dim>(op, state_.node.temperature, point.temperature, begin, end);
     bad[begin / block_size] =
-        plasticity::update_stress(model_.material, stress_points, static_cast<std::ptrdiff_t>(begin),
-                                  static_cast<std::ptrdiff_t>(end), dt);
+        plasticity::update_stress(model_.materials, point.material, stress_points,
+                                  static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end), dt);
     for (std::size_t p = begin; p < end; ++p)
       if (point.plastic_rate[p] > 0.0) flow_stress_[p] = point.equivalent_stress[p];
     for (std::size_t k = 0; k < total_stress_.size(); ++k)
@@ -293,124 +300,23 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces() {
   });
 }
 
-template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
-  NodeState<dim>& node = state_.node;
-  const PointState<dim>& point = state_.point;
-  const plasticity::Material& material = model_.material;
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
-  const std::size_t n = node.size();
-  // Plastic heat: local, per unit mass (nodal), or shared out with the shape functions.
-  running_.heat_generated += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
-    double sum = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      double heat = contact_heat_[i];
-      if (op.nodal) {
-        heat += material.taylor_quinney * point.dissipation[i] * node.mass[i] / material.density;
-      } else {
-        for (auto e = static_cast<std::size_t>(op.col_begin[i]);
-             e < static_cast<std::size_t>(op.col_begin[i + 1]); ++e) {
-          const auto p = static_cast<std::size_t>(op.point[e]);
-          heat +=
-              material.taylor_quinney * point.dissipation[p] * point.stress_free[p] * op.weighted_value[e];
-        }
-      }
-      node.temperature[i] += heat / node.heat_capacity[i];
-      sum += heat;
-    }
-    return sum;
-  });
-  if (conduction_step_ == 0.0) {
-    const double decay = conduction_.fastest_decay(node.position, node.heat_capacity) +
-                         model_.heat_boundaries.fastest_decay(state_.time, node.position, node.heat_capacity);
-    conduction_step_ = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
-  }
-  const int substeps = std::max(1, static_cast<int>(std::ceil(dt / (0.9 * conduction_step_))));
-  const double h = dt / substeps;
-  for (int s = 0; s < substeps; ++s) {
-    std::fill(heat_flow_.begin(), heat_flow_.end(), 0.0);
-    model_.heat_boundaries.add_flow(state_.time, node.position, node.temperature, tool_conductance_,
-                                    heat_flow_);
-    double received = 0.0;
-    for (const double q : heat_flow_) received += h * q;
-    conduction_.add_flow(node.position, node.temperature, heat_flow_);
-    for (std::size_t i = 0; i < n; ++i) node.temperature[i] += h * heat_flow_[i] / node.heat_capacity[i];
-    received += model_.heat_boundaries.hold(state_.time, node.heat_capacity, node.temperature);
-    running_.heat_exchanged += received;
-  }
-}
-
 template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable_step() {
   const PointState<dim>& point = state_.point;
   conduction_step_ = 0.0; // measured anew with the configuration
+  if (!model_.mechanical) {
+    measure_conduction_step();
+    return {model_.safety * conduction_step_, 0, "conduction"};
+  }
   const StableStep step = stable_mechanical_step(
       bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
       edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);
   if (!(step.dt > 0.0)) diverged(step.point, "stable step");
-  return {model_.safety * step.dt, step.point};
-}
-
-template<int dim> double ExplicitSolver<dim>::strain_since_reference() const {
-  const auto& f = state_.point.deformation;
-  return max_blocks(state_.point.size(),
-                    [&](std::size_t begin, std::size_t end) {
-                      BlockMaximum best{0.0, begin};
-                      for (std::size_t p = begin; p < end; ++p) {
-                        double sum = 0.0;
-                        for (std::size_t i = 0; i < dim; ++i)
-                          for (std::size_t k = 0; k < dim; ++k) {
-                            const double d = f[i * dim + k][p] - (i == k ? 1.0 : 0.0);
-                            sum += d * d;
-                          }
-                        if constexpr (dim == 2) sum += (f[4][p] - 1.0) * (f[4][p] - 1.0);
-                        if (sum > best.value) best = {sum, p};
-                      }
-                      best.value = std::sqrt(best.value);
-                      return best;
-                    })
-      .value;
-}
-
-template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
-  const NodeState<dim>& node = state_.node;
-  const PointState<dim>& point = state_.point;
-  EnergyLedger ledger = running_;
-  const double half = 0.5 * state_.step_before;
-  const Fields<dim>& load = model_.loads.force();
-  ledger.kinetic = sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < dim; ++k)
-      for (std::size_t i = begin; i < end; ++i) {
-        const double v = node.velocity[k][i];
-        sum += 0.5 * node.mass[i] * v * v + half * v * node.force[k][i];
-      }
-    return sum;
-  });
-  if (!model_.loads.empty())
-    for (std::size_t k = 0; k < dim; ++k)
-      for (std::size_t i = 0; i < node.size(); ++i) ledger.loads += half * node.velocity[k][i] * load[k][i];
-  ledger.elastic = integrate(point, approximation_.mechanics.volume, point.stored_energy);
-  ledger.plastic = plastic_offset_ + integrate(point, approximation_.mechanics.volume, point.plastic_work);
-  for (std::size_t i = 0; i < node.size(); ++i)
-    ledger.heat_content += node.heat_capacity[i] * (node.temperature[i] - initial_temperature_[i]);
-  return ledger;
-}
-
-template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() const {
-  std::array<double, 2> range{1.0, 1.0};
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
-  if (!op.nodal) return range;
-  for (std::size_t i = 0; i < state_.node.size(); ++i) {
-    const double r =
-        model_.material.density * op.volume[i] * state_.point.stress_free[i] / state_.node.mass[i];
-    range = {std::min(range[0], r), std::max(range[1], r)};
-  }
-  return range;
+  return {model_.safety * step.dt, step.point, "elastic waves"};
 }
 
 template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
   const DiscreteOperators<dim>& op = approximation_.mechanics;
-  const std::size_t node =
-      op.nodal ? point : static_cast<std::size_t>(op.node[static_cast<std::size_t>(op.row_begin[point])]);
+  const std::size_t node = first_node(op, point);
   throw DivergenceError(
       fmt::format("the {} of {} {} means nothing any more at step {}, t = {:.6g} s: node {} stood at "
                   "({:.6g}, {:.6g}) m",

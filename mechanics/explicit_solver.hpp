@@ -2,6 +2,7 @@
 // The coupled explicit solver: central differences with a variable step (paper 004, 5.1.4) and staggered
 // heat.
 #include "contact/contact.hpp"
+#include "core/archive.hpp"
 #include "core/discretisation.hpp"
 #include "core/state.hpp"
 #include "mechanics/bulk_viscosity.hpp"
@@ -10,6 +11,7 @@
 #include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
+#include "mechanics/ties.hpp"
 #include "plasticity/material.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
@@ -24,7 +26,11 @@ namespace cnem {
 template<int dim> struct Model {
   std::unique_ptr<Discretisation<dim>> method;
   Cloud<dim> cloud; ///< boundary; its positions follow the reference
-  plasticity::Material material;
+  std::vector<plasticity::Material> materials;
+  std::vector<std::int32_t> node_material; ///< [node] index into materials; empty: the first everywhere
+  Field strength;                          ///< [node] – factor on the flow stress; empty: 1 everywhere
+  Ties<dim> ties;                          ///< nodes that move as one
+  Ties<dim> heat_ties;                     ///< nodes that have one temperature
   Supports<dim> supports;
   Loads<dim> loads;
   ThermalBoundaries<dim> heat_boundaries;
@@ -32,7 +38,8 @@ template<int dim> struct Model {
   double stabilisation = 0.05; ///< α of the edge defect
   BulkViscosity viscosity;
   bool thermal = true;
-  double safety = 0.9; ///< factor on the stable step
+  bool mechanical = true; ///< false: nothing moves, heat alone
+  double safety = 0.9;    ///< factor on the stable step
 };
 
 /// Advances a State. One object per run.
@@ -52,8 +59,9 @@ public:
 
   /// Stable step for the present configuration with the safety factor, and what limits it.
   struct Step {
-    double dt;
-    std::size_t point;
+    double dt;         ///< s
+    std::size_t point; ///< where
+    std::string limit; ///< by what
   };
   Step stable_step();
 
@@ -61,6 +69,10 @@ public:
   double strain_since_reference() const;
 
   EnergyLedger ledger() const;
+
+  /// Carries everything that evolves out or in, so that a solver of the same model goes on with the same
+  /// bits. Throws IoError when what is carried in does not fit the model.
+  void archive(Archive& archive);
 
   const State<dim>& state() const { return state_; }
   const Model<dim>& model() const { return model_; }
@@ -72,11 +84,23 @@ public:
   std::array<double, 2> mass_balance() const;
 
 private:
+  void start_points();
+  const plasticity::Material& material_of(std::size_t point) const {
+    return model_.materials[static_cast<std::size_t>(state_.point.material[point])];
+  }
+  const plasticity::Material& material_of_node(std::size_t node) const {
+    return model_
+        .materials[model_.node_material.empty() ? 0 : static_cast<std::size_t>(model_.node_material[node])];
+  }
   void accelerate_and_move(double dt, double dt_mean);
   void correct_contact(double dt, double dt_mean);
   void strain_and_stress(double dt);
   void assemble_forces();
+  void set_conduction();
   void conduct(double dt);
+  void measure_conduction_step();
+  /// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).
+  double energy_over_body(const Field& density) const;
   [[noreturn]] void diverged(std::size_t point, const std::string& field) const;
 
   Model<dim> model_;
@@ -97,7 +121,8 @@ private:
   Field heat_flow_;                       ///< [node] W/m^(3−dim)
   Field contact_heat_;                    ///< [node] J/m^(3−dim) friction heat of this step
   std::vector<ToolConductance> tool_conductance_;
-  EnergyLedger running_;         ///< cumulative terms
+  EnergyLedger running_;  ///< cumulative terms
+  double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
   double plastic_offset_ = 0.0;  ///< keeps plastic work continuous over references
   double viscosity_ratio_ = 0.0; ///< largest share of critical damping by the bulk viscosity in the last step
   double conduction_step_ = 0.0; ///< s, stable for heat at the last reference

@@ -29,6 +29,10 @@ template<int dim>
 void subtract_internal_force(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& piola,
                              Fields<dim>& force, std::size_t begin, std::size_t end);
 
+/// b_e = F C_p⁻¹ Fᵀ in place of C_p⁻¹: the elastic state on a reference that is the present configuration.
+/// In the plane; the 3D one comes with 3D cells.
+template<int dim> void push_forward(PointState<dim>& point);
+
 /// det F of one point.
 template<int dim> double jacobian(const Fields<tensor_size<dim>>& deformation, std::size_t p);
 

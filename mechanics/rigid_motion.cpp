@@ -80,6 +80,8 @@ std::string missing_support(const DiscreteOperators<2>& operators, const std::ve
                                p.direction.dot(left_normal(position[i] - part.centre)) / part.radius);
     part.held += felt * felt.transpose();
   }
+  if (operators.of_revolution()) // only the axial translation is rigid
+    for (auto& [first, part] : parts) part.held += Eigen::Vector3d(1.0, 0.0, 1.0).asDiagonal();
   for (const auto& [first, part] : parts) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(part.held);
     if (modes.eigenvalues()[0] <= 1e-9) return describe(part, modes.eigenvectors().col(0), parts.size() > 1);

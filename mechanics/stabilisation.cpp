@@ -61,6 +61,11 @@ EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const DiscreteOpera
   return {0.25 * stored, 0.25 * released}; // ½ of ½ Σ k|r|²: every link is seen from both its ends
 }
 
+template<int dim> void EdgeDefect<dim>::archive(Archive& archive) {
+  archive.field("solver/point/penalty_modulus", "Pa", modulus_);
+  archive.field("solver/point/penalty_modulus_before", "Pa", modulus_before_);
+}
+
 template class EdgeDefect<2>;
 template class EdgeDefect<3>;
 

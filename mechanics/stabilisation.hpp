@@ -2,6 +2,7 @@
 // Edge-defect stabilisation of nodal integration: a penalty on what the smoothed gradients of two neighbours
 // do not explain of their relative motion. Objective, zero on linear fields, and without λ, so that it does
 // not lock (docs/theory.md, "Weak modes").
+#include "core/archive.hpp"
 #include "core/discretisation.hpp"
 #include "core/state.hpp"
 
@@ -37,6 +38,9 @@ public:
                const Fields<dim>& reference, const Fields<dim>& position,
                const Fields<tensor_size<dim>>& deformation, Fields<tensor_size<dim>>& piola,
                Fields<dim>& force, std::size_t begin, std::size_t end) const;
+
+  /// Carries the moduli out or in.
+  void archive(Archive& archive);
 
 private:
   double alpha_;

@@ -85,28 +85,30 @@ Fields<5> gradients(const StaticProblem& problem, const Fields<2>& u) {
   resize_all(g, static_cast<std::size_t>(op.points));
   for (std::size_t p = 0; p < g[0].size(); ++p)
     for (auto e = static_cast<std::size_t>(op.row_begin[p]);
-         e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e)
+         e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
+      const auto a = static_cast<std::size_t>(op.node[e]);
       for (std::size_t i = 0; i < 2; ++i)
-        for (std::size_t k = 0; k < 2; ++k)
-          g[i * 2 + k][p] += u[i][static_cast<std::size_t>(op.node[e])] * op.gradient[k][e];
+        for (std::size_t k = 0; k < 2; ++k) g[i * 2 + k][p] += u[i][a] * op.gradient[k][e];
+      if (op.of_revolution()) g[4][p] += u[0][a] * op.hoop[e];
+    }
   return g;
 }
 
-/// σ = λ* tr ε 1 + 2μ ε; fills the out-of-plane component of ∇u.
+/// σ = λ* tr ε 1 + 2μ ε; fills the out-of-plane component of ∇u where no hoop strain is there.
 Fields<4> stresses(const StaticProblem& problem, Fields<5>& g) {
   const double lambda = problem.elasticity.lambda(), mu = problem.elasticity.mu(),
                in_plane = lame_lambda(problem);
   Fields<4> s;
   resize_all(s, g[0].size());
   for (std::size_t p = 0; p < g[0].size(); ++p) {
-    const double trace = g[0][p] + g[3][p];
+    const double trace = g[0][p] + g[3][p] + g[4][p];
     s[0][p] = in_plane * trace + 2.0 * mu * g[0][p];
     s[1][p] = in_plane * trace + 2.0 * mu * g[3][p];
     s[3][p] = mu * (g[1][p] + g[2][p]);
     if (problem.out_of_plane == OutOfPlane::stress_free)
       g[4][p] = -lambda / (lambda + 2.0 * mu) * trace;
     else
-      s[2][p] = lambda * trace;
+      s[2][p] = lambda * trace + 2.0 * mu * g[4][p];
   }
   return s;
 }
@@ -123,6 +125,7 @@ Fields<2> internal_force(const StaticProblem& problem, const Fields<4>& stress) 
       const double bx = op.weighted_gradient[0][e], by = op.weighted_gradient[1][e];
       f[0][a] += stress[0][p] * bx + stress[3][p] * by;
       f[1][a] += stress[3][p] * bx + stress[1][p] * by;
+      if (op.of_revolution()) f[0][a] += stress[2][p] * op.weighted_hoop[e];
     }
   return f;
 }
@@ -168,27 +171,30 @@ SparseMatrix elastic_stiffness(const StaticProblem& problem, const FreeUnknowns&
                                std::size_t end) {
   const DiscreteOperators<2>& op = problem.operators;
   const double lambda = lame_lambda(problem), mu = problem.elasticity.mu();
-  Triplets strain, stress; // rows per point: xx, yy, and the engineering shear
+  Triplets strain, stress; // rows per point: xx, yy, the engineering shear, and the hoop where there is one
+  const int rows = op.of_revolution() ? 4 : 3;
   for (std::size_t p = begin; p < end; ++p)
     for (auto e = static_cast<std::size_t>(op.row_begin[p]);
          e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
       const auto a = static_cast<std::size_t>(op.node[e]);
       const double bx = op.gradient[0][e], by = op.gradient[1][e], V = op.volume[p];
-      const auto row = static_cast<int>(3 * (p - begin));
-      const double b[2][3] = {{bx, 0.0, by}, {0.0, by, bx}};
+      const double hoop = op.of_revolution() ? op.hoop[e] : 0.0;
+      const auto row = rows * static_cast<int>(p - begin);
+      const double b[2][4] = {{bx, 0.0, by, hoop}, {0.0, by, bx, 0.0}};
       for (std::size_t k = 0; k < 2; ++k)
         unknowns.each(a, k, [&](int q, double c) {
           const double* s = b[k];
-          for (int r = 0; r < 3; ++r)
+          for (int r = 0; r < rows; ++r)
             if (s[r] != 0.0) strain.emplace_back(row + r, q, c * s[r]);
-          const double volumetric = lambda * (s[0] + s[1]);
+          const double volumetric = lambda * (s[0] + s[1] + s[3]);
           stress.emplace_back(row, q, V * c * (volumetric + 2.0 * mu * s[0]));
           stress.emplace_back(row + 1, q, V * c * (volumetric + 2.0 * mu * s[1]));
           if (s[2] != 0.0) stress.emplace_back(row + 2, q, V * c * mu * s[2]);
+          if (rows == 4) stress.emplace_back(row + 3, q, V * c * (volumetric + 2.0 * mu * s[3]));
         });
     }
-  const std::size_t rows = 3 * (end - begin);
-  return matrix(rows, unknowns.size(), strain).transpose() * matrix(rows, unknowns.size(), stress);
+  const std::size_t all = static_cast<std::size_t>(rows) * (end - begin);
+  return matrix(all, unknowns.size(), strain).transpose() * matrix(all, unknowns.size(), stress);
 }
 
 /// Tᵀ K T with the edge defect. Points go in portions, so that memory follows K and not their number.

@@ -11,11 +11,12 @@
 
 namespace cnem {
 
-/// What does not vary out of the plane: no strain, or no stress. Axisymmetric operators carry a hoop strain
-/// of their own and take `strain`.
+/// What is zero out of the plane: strain, or stress. Operators of revolution carry a hoop strain of their own
+/// and take strain_free.
 enum class OutOfPlane { strain_free, stress_free };
 
-/// K u = f with K = Σ_p V_p Bᵀ D B + the edge-defect stabilisation.
+/// K u = f with K = Σ_p V_p Bᵀ D B + the edge-defect stabilisation. Of revolution, forces and energies are
+/// those of the whole body: N and J in place of N/m and J/m.
 ///
 /// The columns of `operators` are scalar functions ψ_a, u(x) = Σ_a ψ_a(x) u_a: the shape functions of the
 /// nodes, which may be followed by enrichment functions that vanish at the nodes (fracture/enrichment.hpp).

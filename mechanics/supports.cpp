@@ -73,6 +73,12 @@ void Supports<dim>::apply(double time, double dt, double dt_mean, const Field& m
   }
 }
 
+template<int dim> void Supports<dim>::archive(Archive& archive) {
+  for (std::size_t s = 0; s < reaction_.size(); ++s)
+    archive.vector<dim>(fmt::format("solver/supports/{}/reaction", s), "N/m", reaction_[s]);
+  archive.number("solver/energy/support_work", "J/m", work_);
+}
+
 template<int dim> double Supports<dim>::displacement(std::int32_t s, double time) const {
   const Support<dim>& support = support_[static_cast<std::size_t>(s)];
   switch (support.kind) {

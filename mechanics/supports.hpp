@@ -1,6 +1,7 @@
 #pragma once
 // Prescribed motion of boundary nodes: symmetry planes, velocities, displacements.
 #include "contact/contact.hpp"
+#include "core/archive.hpp"
 #include "core/state.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
@@ -55,6 +56,9 @@ public:
   const std::vector<Vec<dim>>& reactions() const { return reaction_; }
   /// Work done by all supports since the start, J/m^(3−dim).
   double work() const { return work_; }
+
+  /// Carries reactions and work out or in.
+  void archive(Archive& archive);
 
 private:
   std::vector<Support<dim>> support_;

@@ -68,7 +68,7 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   // (vi) plastic consistency, (vii) plastic corrector
   T increment = T(0.0), reduction = T(1.0), work = T(0.0);
   if (law.plastic) {
-    const PlasticCorrector<T> corrector(law, plastic_strain, temperature);
+    const PlasticCorrector<T> corrector(law, plastic_strain, temperature, load<T>(points.strength + i));
     const Mask<T> yielding = valid & (q > corrector.initial_flow_stress);
     if (any(yielding)) {
       Mask<T> failed;

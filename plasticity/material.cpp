@@ -17,6 +17,11 @@ double JohnsonCook::homologous_temperature(double temperature) const {
 
 namespace {
 
+double hardened(const JohnsonCook& jc, double plastic_strain) {
+  return jc.A + jc.B * std::pow(plastic_strain, jc.n) +
+         jc.saturation * (1.0 - std::exp(-jc.saturation_exponent * plastic_strain));
+}
+
 double softening(const JohnsonCook& jc, double temperature) {
   return 1.0 - std::pow(jc.homologous_temperature(temperature), jc.m);
 }
@@ -28,17 +33,18 @@ double rate_factor(const JohnsonCook& jc, double rate) {
 } // namespace
 
 double JohnsonCook::flow_stress(double plastic_strain, double rate, double temperature) const {
-  return (A + B * std::pow(plastic_strain, n)) * rate_factor(*this, rate) * softening(*this, temperature);
+  return hardened(*this, plastic_strain) * rate_factor(*this, rate) * softening(*this, temperature);
 }
 
 double JohnsonCook::hardening_modulus(double plastic_strain, double rate, double temperature) const {
-  if (B == 0.0) return 0.0;
-  return n * B * std::pow(plastic_strain, n - 1.0) * rate_factor(*this, rate) * softening(*this, temperature);
+  double slope = saturation * saturation_exponent * std::exp(-saturation_exponent * plastic_strain);
+  if (B > 0.0) slope += n * B * std::pow(plastic_strain, n - 1.0);
+  return slope * rate_factor(*this, rate) * softening(*this, temperature);
 }
 
 double JohnsonCook::rate_modulus(double plastic_strain, double rate, double temperature) const {
   if (rate <= rate0) return 0.0;
-  return (A + B * std::pow(plastic_strain, n)) * C / rate * softening(*this, temperature);
+  return hardened(*this, plastic_strain) * C / rate * softening(*this, temperature);
 }
 
 } // namespace cnem::plasticity

@@ -21,9 +21,11 @@ struct Elasticity {
 };
 
 /// Flow stress of Johnson and Cook, paper 004 (64), in Kirchhoff measure:
-///   σ_y = (A + B ε̄pⁿ) (1 + C ln⁺(ε̄̇p/ε̄̇0)) (1 − T*ᵐ),   T* = clip((T − T0)/(T_m − T0), 0, 1),
-/// where ln⁺ is zero below the reference rate. n = 1, C = 0 is linear hardening, B = 0 perfect plasticity,
-/// an infinite melting temperature switches thermal softening off.
+///   σ_y = (A + B ε̄pⁿ + Q (1 − e^{−δ ε̄p})) (1 + C ln⁺(ε̄̇p/ε̄̇0)) (1 − T*ᵐ),
+/// T* = clip((T − T0)/(T_m − T0), 0, 1), where ln⁺ is zero below the reference rate. n = 1, C = 0 is linear
+/// hardening, B = 0 perfect plasticity, an infinite melting temperature switches thermal softening off. Q,
+/// the saturating hardening of Voce, is not in the paper: the finite-strain benchmarks of the literature need
+/// it.
 struct JohnsonCook {
   double A = 0.0;                                         ///< Pa   ≥ 0
   double B = 0.0;                                         ///< Pa   ≥ 0
@@ -33,6 +35,8 @@ struct JohnsonCook {
   double m = 1.0;                                         ///< –    > 0
   double T0 = 0.0;                                        ///< K
   double Tmelt = std::numeric_limits<double>::infinity(); ///< K    > T0
+  double saturation = 0.0;                                ///< Pa   Q ≥ 0
+  double saturation_exponent = 0.0;                       ///< –    δ ≥ 0
 
   /// σ_y in Pa at equivalent plastic strain, its rate (1/s) and temperature (K).
   double flow_stress(double plastic_strain, double rate, double temperature) const;

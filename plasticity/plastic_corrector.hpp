@@ -15,16 +15,21 @@ using namespace ::cnem::CNEM_ISA;
 /// that it leaves (first yield, ε̄p ≪ x, the kink at the reference rate) are finished within a bracket.
 template<class T> class PlasticCorrector {
 public:
-  CNEM_INLINE PlasticCorrector(const ReturnMapParameters& parameters, T plastic_strain, T temperature)
+  /// strength: factor on the flow stress, –.
+  CNEM_INLINE PlasticCorrector(const ReturnMapParameters& parameters, T plastic_strain, T temperature,
+                               T strength)
       : law(parameters), strain(plastic_strain) {
     const T homologous = min(max((temperature - T(law.T0)) * T(law.by_melting_range), T(0.0)), T(1.0));
     T logarithm[2];
     logarithms({homologous, strain}, logarithm);
     power = law.B > 0.0 ? power_of(strain, logarithm[1], law.n) : T(0.0);
-    softening = T(1.0);
+    softening = strength;
     if (any(homologous > T(0.0)))
-      softening = T(1.0) - (law.m == 1.0 ? homologous : power_of(homologous, logarithm[0], law.m));
-    initial_flow_stress = (T(law.A) + T(law.B) * power) * softening;
+      softening =
+          strength * (T(1.0) - (law.m == 1.0 ? homologous : power_of(homologous, logarithm[0], law.m)));
+    T hardening = T(law.B) * power;
+    if (law.saturation > 0.0) hardening = hardening + T(law.saturation) * (T(1.0) - decay(strain));
+    initial_flow_stress = (T(law.A) + hardening) * softening;
   }
 
   /// σ_y at zero rate: the yield condition of step (vi).
@@ -42,7 +47,7 @@ public:
     for (int k = 0; k < 4; ++k) {
       const Mask<T> in_range = open & (x * by_strain <= T(law.series_range));
       if (!any(in_range)) break;
-      const T eta = halley(q, x, series(x * by_strain));
+      const T eta = halley(q, x, series(x, x * by_strain));
       x = select(in_range, advance(x, eta, cap), x);
       open = open & !(in_range & (abs(eta) <= T(tolerance)));
     }
@@ -52,7 +57,7 @@ public:
   }
 
 private:
-  /// Hardening ε̄pⁿ at ε̄p + x with its first and second derivative times x and x².
+  /// Hardening B ε̄pⁿ + Q (1 − exp(−δ ε̄p)) at ε̄p + x, Pa, with its first and second derivative times x and x².
   struct Hardening {
     T value, first, second;
   };
@@ -62,36 +67,47 @@ private:
 
   const ReturnMapParameters& law;
   T strain;
-  T softening;
-  T power; ///< ε̄pⁿ at t_n
+  T softening; ///< 1 − T*ᵐ, times the strength
+  T power;     ///< ε̄pⁿ at t_n
 
   /// x^p, 0 at x = 0.
   CNEM_INLINE static T power_of(T x, T logarithm, double p) {
     return select(x > T(0.0), exp(max(T(p) * logarithm, T(-708.0))), T(0.0));
   }
 
-  CNEM_INLINE Hardening series(T y) const {
-    if (law.B == 0.0) return {T(0.0), T(0.0), T(0.0)};
+  CNEM_INLINE T decay(T plastic_strain) const {
+    return exp(max(T(-law.saturation_exponent) * plastic_strain, T(-708.0)));
+  }
+
+  CNEM_INLINE Hardening with_saturation(const Hardening& h, T x) const {
+    if (law.saturation == 0.0) return h;
+    const T left = T(law.saturation) * decay(strain + x), step = T(law.saturation_exponent) * x;
+    return {h.value + T(law.saturation) - left, h.first + left * step, h.second - left * step * step};
+  }
+
+  /// At x = y ε̄p within the range of the binomial series.
+  CNEM_INLINE Hardening series(T x, T y) const {
+    if (law.B == 0.0) return with_saturation({T(0.0), T(0.0), T(0.0)}, x);
     T value = T(law.series[series_order]), slope = T(0.0);
     for (int k = series_order - 1; k >= 0; --k) {
       slope = slope * y + value;
       value = value * y + T(law.series[k]);
     }
-    const T first = power * y * slope;
-    return {power * value, first, T(law.n - 1.0) * first * y};
+    const T scale = T(law.B) * power, first = scale * y * slope;
+    return with_saturation({scale * value, first, T(law.n - 1.0) * first * y}, x);
   }
 
   CNEM_INLINE Hardening full(T x) const {
-    if (law.B == 0.0) return {T(0.0), T(0.0), T(0.0)};
+    if (law.B == 0.0) return with_saturation({T(0.0), T(0.0), T(0.0)}, x);
     const T total = strain + x, y = x / total;
-    const T value = power_of(total, log(total), law.n);
+    const T value = T(law.B) * power_of(total, log(total), law.n);
     const T first = T(law.n) * value * y;
-    return {value, first, T(law.n - 1.0) * first * y};
+    return with_saturation({value, first, T(law.n - 1.0) * first * y}, x);
   }
 
   CNEM_INLINE T residual_parts(T q, T x, const Hardening& h, T& first, T& second) const {
-    const T stress = (T(law.A) + T(law.B) * h.value) * softening;
-    const T slope = T(law.B) * h.first * softening, curvature = T(law.B) * h.second * softening;
+    const T stress = (T(law.A) + h.value) * softening;
+    const T slope = h.first * softening, curvature = h.second * softening;
     T rate_factor = T(1.0), c = T(0.0);
     if (law.C > 0.0) {
       const T logarithm = log(x * T(law.by_reference_increment));

@@ -29,6 +29,8 @@ ReturnMapParameters return_map_parameters(const Material& material, double dt) {
   p.C = law.C;
   p.m = law.m;
   p.T0 = law.T0;
+  p.saturation = law.saturation;
+  p.saturation_exponent = law.saturation_exponent;
   p.by_melting_range = 1.0 / (law.Tmelt - law.T0);
   p.reference_increment = dt * law.rate0;
   p.by_reference_increment = 1.0 / p.reference_increment;
@@ -55,6 +57,7 @@ template<int dim> StressPoints<dim> stress_points(PointState<dim>& state) {
   }
   for (std::size_t c = 0; c < state.elastic.size(); ++c) p.elastic[c] = state.elastic[c].data();
   p.temperature = state.temperature.data();
+  p.strength = state.strength.data();
   p.plastic_strain = state.plastic_strain.data();
   p.plastic_rate = state.plastic_rate.data();
   p.equivalent_stress = state.equivalent_stress.data();
@@ -81,11 +84,32 @@ std::ptrdiff_t update_stress(const Material& material, const StressPoints<dim>& 
   return baseline::return_map(parameters, points, begin, end);
 }
 
+template<int dim>
+std::ptrdiff_t update_stress(const std::vector<Material>& materials,
+                             const std::vector<std::int32_t>& material, const StressPoints<dim>& points,
+                             std::ptrdiff_t begin, std::ptrdiff_t end, double dt) {
+  std::ptrdiff_t first_bad = -1;
+  for (std::ptrdiff_t p = begin; p < end;) {
+    const std::int32_t index = material[static_cast<std::size_t>(p)];
+    std::ptrdiff_t stop = p + 1;
+    while (stop < end && material[static_cast<std::size_t>(stop)] == index) ++stop;
+    const std::ptrdiff_t bad = update_stress(materials[static_cast<std::size_t>(index)], points, p, stop, dt);
+    if (first_bad < 0) first_bad = bad;
+    p = stop;
+  }
+  return first_bad;
+}
+
 template StressPoints<2> stress_points(PointState<2>&);
 template StressPoints<3> stress_points(PointState<3>&);
 template std::ptrdiff_t update_stress(const Material&, const StressPoints<2>&, std::ptrdiff_t, std::ptrdiff_t,
                                       double);
 template std::ptrdiff_t update_stress(const Material&, const StressPoints<3>&, std::ptrdiff_t, std::ptrdiff_t,
                                       double);
+
+template std::ptrdiff_t update_stress(const std::vector<Material>&, const std::vector<std::int32_t>&,
+                                      const StressPoints<2>&, std::ptrdiff_t, std::ptrdiff_t, double);
+template std::ptrdiff_t update_stress(const std::vector<Material>&, const std::vector<std::int32_t>&,
+                                      const StressPoints<3>&, std::ptrdiff_t, std::ptrdiff_t, double);
 
 } // namespace cnem::plasticity

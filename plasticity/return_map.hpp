@@ -4,6 +4,9 @@
 #include "plasticity/material.hpp"
 #include "plasticity/stress_points.hpp"
 
+#include <cstdint>
+#include <vector>
+
 namespace cnem::plasticity {
 
 /// Pointers into the fields of `state`; valid until one of them is resized.
@@ -21,5 +24,11 @@ template<int dim> StressPoints<dim> stress_points(PointState<dim>& state);
 template<int dim>
 std::ptrdiff_t update_stress(const Material& material, const StressPoints<dim>& points, std::ptrdiff_t begin,
                              std::ptrdiff_t end, double dt);
+
+/// The same for points of several materials: material[p] is the index into `materials` of point p.
+template<int dim>
+std::ptrdiff_t update_stress(const std::vector<Material>& materials,
+                             const std::vector<std::int32_t>& material, const StressPoints<dim>& points,
+                             std::ptrdiff_t begin, std::ptrdiff_t end, double dt);
 
 } // namespace cnem::plasticity

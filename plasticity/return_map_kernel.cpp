@@ -29,6 +29,7 @@ template<class M> int first_lane(M mask, int lanes) {
 template<int dim, class Visit> void for_each_input(StressPoints<dim>& points, Visit visit) {
   for (const double*& field : points.deformation) visit(field);
   visit(points.temperature);
+  visit(points.strength);
 }
 
 template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, Visit visit) {
@@ -44,7 +45,7 @@ template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, V
 template<int dim>
 Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
                             std::ptrdiff_t begin, int count) {
-  constexpr int fields = StressPoints<dim>::general * 2 + StressPoints<dim>::symmetric + 9;
+  constexpr int fields = StressPoints<dim>::general * 2 + StressPoints<dim>::symmetric + 10;
   double buffer[fields][width<dim>];
   StressPoints<dim> local = points, target = points;
   int used = 0;

@@ -18,6 +18,8 @@ struct ReturnMapParameters {
   double dt, by_dt;                     ///< s, 1/s
   bool plastic;                         ///< has a flow stress and time to flow
   double A, B, n, C, m, T0;             ///< as in JohnsonCook
+  double saturation;                    ///< Pa   Q
+  double saturation_exponent;           ///< –    δ
   double by_melting_range;              ///< 1/K  1/(T_m − T0); 0: no thermal softening
   double by_reference_increment, by_C;  ///< –    1/(ε̄̇p0 dt), 1/C
   double reference_increment;           ///< –    ε̄̇p0 dt

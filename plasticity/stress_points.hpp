@@ -15,6 +15,7 @@ template<int dim> struct StressPoints {
   // in
   const double* deformation[general]; ///< –     F_{n+1} from the current reference
   const double* temperature;          ///< K
+  const double* strength;             ///< –     factor on the flow stress
   // in and out
   double* elastic[symmetric]; ///< –     C_p⁻¹, so that b_e = F C_p⁻¹ Fᵀ; changes in plastic steps only
   double* plastic_strain;     ///< –     ε̄p

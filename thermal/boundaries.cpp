@@ -34,6 +34,17 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
       }
     }
   }
+  for (const ContactConductance<dim>& interface : interfaces_)
+    for (std::size_t f = 0; f < interface.facets.size(); ++f) {
+      const auto area = areas(space_, interface.facets[f], position);
+      for (std::size_t end = 0; end < dim; ++end) {
+        const auto i = static_cast<std::size_t>(interface.facets[f].node[end]);
+        const auto j = static_cast<std::size_t>(interface.opposite[f][end]);
+        const double crossing = interface.conductance * area[end] * (temperature[j] - temperature[i]);
+        flow[i] += crossing;
+        flow[j] -= crossing;
+      }
+    }
   for (const ToolConductance& tool : tools) {
     const auto i = static_cast<std::size_t>(tool.node);
     flow[i] += tool.conductance * tool.area * (tool.tool_temperature - temperature[i]);
@@ -64,6 +75,14 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
       for (std::size_t end = 0; end < dim; ++end)
         worst = std::max(worst, 2.0 * convection.coefficient(time) * area[end] /
                                     heat_capacity[static_cast<std::size_t>(facet.node[end])]);
+    }
+  for (const ContactConductance<dim>& interface : interfaces_)
+    for (std::size_t f = 0; f < interface.facets.size(); ++f) {
+      const auto area = areas(space_, interface.facets[f], position);
+      for (std::size_t end = 0; end < dim; ++end)
+        for (const std::int32_t node : {interface.facets[f].node[end], interface.opposite[f][end]})
+          worst = std::max(worst, 4.0 * interface.conductance * area[end] /
+                                      heat_capacity[static_cast<std::size_t>(node)]);
     }
   return worst;
 }

@@ -33,6 +33,14 @@ template<int dim> struct Convection {
   std::vector<Facet<dim>> facets;
 };
 
+/// Exchange between the two faces of an interface: conductance in W/(m² K).
+template<int dim> struct ContactConductance {
+  std::string name;
+  double conductance = 0.0;
+  std::vector<Facet<dim>> facets;                      ///< of one face
+  std::vector<std::array<std::int32_t, dim>> opposite; ///< [facet] the nodes of the other face at its ends
+};
+
 /// Exchange of one boundary node with a tool it touches, over the given area (m^(dim−1)).
 struct ToolConductance {
   std::int32_t node;
@@ -46,9 +54,10 @@ template<int dim> class ThermalBoundaries {
 public:
   ThermalBoundaries() = default;
   ThermalBoundaries(std::vector<FixedTemperature> fixed, std::vector<HeatFlux<dim>> fluxes,
-                    std::vector<Convection<dim>> convections, Space space = Space::plane)
+                    std::vector<Convection<dim>> convections, Space space = Space::plane,
+                    std::vector<ContactConductance<dim>> interfaces = {})
       : fixed_(std::move(fixed)), fluxes_(std::move(fluxes)), convections_(std::move(convections)),
-        space_(space) {}
+        interfaces_(std::move(interfaces)), space_(space) {}
 
   /// Adds what flows into the nodes at `time` to `flow`, W/m^(3−dim).
   void add_flow(double time, const Fields<dim>& position, const Field& temperature,
@@ -64,6 +73,7 @@ private:
   std::vector<FixedTemperature> fixed_;
   std::vector<HeatFlux<dim>> fluxes_;
   std::vector<Convection<dim>> convections_;
+  std::vector<ContactConductance<dim>> interfaces_;
   Space space_ = Space::plane;
 };
 

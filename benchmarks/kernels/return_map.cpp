@@ -32,6 +32,7 @@ template<int dim> PointState<dim> points(std::size_t n) {
                    &s.plastic_work, &s.dissipation, &s.stress_free})
     f->assign(n, 0.0);
   s.temperature.assign(n, 350.0);
+  s.strength.assign(n, 1.0);
   for (std::size_t c : {0, 1, 2}) s.elastic[c].assign(n, 1.0);
   return s;
 }

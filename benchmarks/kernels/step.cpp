@@ -28,13 +28,13 @@ ExplicitSolver<2> sheared_block(int nodes) {
   Model<2> model;
   model.cloud = voronoi::generate_cloud(domain, spacing, {}).cloud;
   model.method = std::make_unique<scni::Cnem>();
-  model.material = {.name = "304L",
-                    .density = 7850.0,
-                    .elasticity = {210e9, 0.33},
-                    .hardening =
-                        plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
-                    .specific_heat = 500.0,
-                    .conductivity = 5.86};
+  model.materials = {
+      {.name = "304L",
+       .density = 7850.0,
+       .elasticity = {210e9, 0.33},
+       .hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
+       .specific_heat = 500.0,
+       .conductivity = 5.86}};
   const auto n = static_cast<std::size_t>(model.cloud.nodes());
   const double rate = 1e5;
   std::vector<Support<2>> supports;

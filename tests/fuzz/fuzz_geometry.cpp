@@ -5,6 +5,7 @@
 #include "tests/fuzz/shapes.hpp"
 #include "voronoi/cells.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -42,8 +43,18 @@ double last_bit(const Cloud<2>& cloud) {
   return 0x1p-52 * size;
 }
 
-void check_cells(const Cloud<2>& cloud) {
-  const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
+/// Least height of a triangle over the size of the domain.
+double thinness(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
+  double least = 1.0;
+  for (const auto& [i, j, k] : mesh.node) {
+    const Vec2 a = cloud.position[u(j)] - cloud.position[u(i)],
+               b = cloud.position[u(k)] - cloud.position[u(i)];
+    least = std::min(least, std::abs(cross(a, b)) / std::max({a.norm(), b.norm(), (b - a).norm()}));
+  }
+  return least / extent(cloud);
+}
+
+void check_cells(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
   const voronoi::Circumcircles circles = voronoi::circumcircles(cloud, mesh);
   const voronoi::Cells cells = voronoi::constrained_cells(cloud, mesh, circles);
   const CellGeometry<2> polygons = voronoi::cell_geometry(cloud, mesh, circles, cells);
@@ -90,10 +101,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::Shape shape = fuzz::shape_of(data, size);
   try {
     const voronoi::GeneratedCloud made = voronoi::generate_cloud(shape.domain, shape.spacing, shape.options);
-    check_cells(made.cloud);
+    const voronoi::Triangulation mesh = voronoi::triangulate(made.cloud);
+    check_cells(made.cloud, mesh);
     const bool smooth = shape.options.seed % 2 == 0;
     const auto functions = smooth ? scni::Functions::sibson : scni::Functions::laplace;
     const Approximation<2> built = scni::Cnem({.functions = functions}).rebuild(made.cloud);
+    // The case reader lets no curves come closer than 1e-9 of their size, below which rounding decides.
+    if (thinness(made.cloud, mesh) < 1e-9) return 0;
     check_operators(made.cloud, built.mechanics);
     check_operators(made.cloud, built.conduction); // the same as finite-element triangles
   } catch (const GeometryError&) {}                // refused with words

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sstream>
 #include <unistd.h>
 
 namespace cnem::app {
@@ -122,6 +123,53 @@ TEST_F(CommandLine, divergence_exits_with_3_and_names_node_step_and_field) {
   EXPECT_GE(status.post_mortem->node, 0);
   EXPECT_FALSE(status.post_mortem->field.empty());
   EXPECT_TRUE(std::filesystem::exists(folder / "results" / "fields.pvd")) << "the last good state stays";
+  EXPECT_TRUE(std::filesystem::exists(folder / "results" / "checkpoint.h5"));
+  EXPECT_NE(status.post_mortem->last_good.find("checkpoint.h5"), std::string::npos);
+}
+
+TEST_F(CommandLine, the_post_mortem_names_likely_causes_and_shows_the_place) {
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "time.step.fixed=0.4 us", "--set",
+                  "method.stabilisation=0"}),
+            3);
+  const io::PostMortem post = io::read_status(results()).post_mortem.value();
+  std::string causes;
+  for (const std::string& cause : post.causes) causes += cause + "\n";
+  for (const char* word : {"time.step.fixed", "method.stabilisation"})
+    EXPECT_NE(causes.find(word), std::string::npos) << causes;
+  EXPECT_TRUE(std::filesystem::exists(folder / "results" / "pictures" / post.picture)) << post.picture;
+  std::stringstream report;
+  report << std::ifstream(folder / "results" / "report.html").rdbuf();
+  for (const char* text : {"Likely causes", "Last good state", "where it went wrong"})
+    EXPECT_NE(report.str().find(text), std::string::npos) << text;
+}
+
+TEST_F(CommandLine, a_step_that_collapses_is_a_divergence_with_a_place) {
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "time.step.min=1 us"}), 3);
+  const io::PostMortem post = io::read_status(results()).post_mortem.value();
+  EXPECT_EQ(post.field, "stable step");
+  EXPECT_NE(post.text.find("time.step.min"), std::string::npos) << post.text;
+  EXPECT_GE(post.node, 0);
+}
+
+TEST_F(CommandLine, an_energy_residual_beyond_the_key_is_a_divergence) {
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "method.energy_tolerance=1e-12"}), 3);
+  const io::PostMortem post = io::read_status(results()).post_mortem.value();
+  EXPECT_EQ(post.field, "energy residual");
+  EXPECT_NE(post.causes.front().find("method.energy_tolerance"), std::string::npos) << post.causes.front();
+}
+
+TEST_F(CommandLine, a_run_may_end_after_so_many_steps) {
+  ASSERT_EQ(call({"run", file(), "--output", results(), "--set", "time.max_steps=7", "--set",
+                  "output.history_every=0 s"}),
+            0)
+      << message;
+  const io::RunStatus status = io::read_status(results());
+  EXPECT_EQ(status.steps, 7);
+  EXPECT_EQ(status.reason, "reached time.max_steps");
+  const io::HistoryTable history = io::read_history(folder / "results" / "history.csv");
+  EXPECT_EQ(history.rows(), 8U) << "0: a row at every step";
+  EXPECT_EQ(history.column[0].back(), status.time);
+  EXPECT_TRUE(std::filesystem::exists(folder / "results" / "fields" / "cells_00001.vtu")) << "the last state";
 }
 
 TEST_F(CommandLine, check_says_what_a_run_would_be) {

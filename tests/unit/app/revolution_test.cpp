@@ -71,9 +71,11 @@ TEST_F(Axisymmetric, radial_motion_prescribed_on_the_axis_is_warned_of) {
   EXPECT_NE(setup.warnings[0].find("boundary.pull moves nodes on the axis"), std::string::npos);
 }
 
-TEST_F(Axisymmetric, statics_refuses_it) {
-  const std::string message = refusal({"analysis.type=\"static\"", "initial.velocity=\"0 0 m/s\""});
-  EXPECT_NE(message.find("analysis.kinematics"), std::string::npos) << message;
+TEST_F(Axisymmetric, statics_refuses_cracks) {
+  const std::string message = refusal({"analysis.type=\"static\"", "initial={}", "time={}",
+                                       "domain.cracks.main.points=[\"0.5 2 mm\", \"1.5 2 mm\"]"});
+  EXPECT_NE(message.find("domain.cracks': found in an axisymmetric static analysis"), std::string::npos)
+      << message;
 }
 
 TEST_F(Axisymmetric, nodes_on_the_axis_are_held_and_at_least_two_gauss_points_taken) {

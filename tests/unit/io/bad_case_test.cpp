@@ -128,7 +128,7 @@ TEST(BadCase, TimeFunctions) {
     return refusal("[boundary.b]\npieces = \"top\"\nvelocity = " + velocity + "\n");
   };
   expect_parts(with("{ ramp = \"1 us\" }"),
-               {"case.toml:16:12", "either { value, ramp, from }", "{ times, values }"});
+               {"case.toml:16:12", "either { value, ramp, from, smooth }", "{ times, values }"});
   expect_parts(with("{ value = \"0 1 m/s\", times = \"0 1 s\", values = [] }"), {"either { value"});
   expect_parts(with("{ x = \"1 m\" }"), {"found '1 m', which is a length, expected a velocity"});
   expect_parts(with("{ x = \"1 m/s\", value = \"0 1 m/s\" }"), {"unknown part 'value', expected x, y"});
@@ -180,6 +180,9 @@ TEST(BadCase, KeysThatGoWithAChoice) {
                {"key 'tools.a.friction.coefficient': missing"});
   expect_parts(refusal("", {"time.step.fixed=1 ns", "time.step.max=1 ns"}),
                {"fixed step and a largest step"});
+  expect_parts(refusal("", {"time.step.fixed=1 ns", "time.step.min=1 ns"}), {"fixed step and a least step"});
+  for (const char* key : {"output.checkpoint.keep=3", "time.max_steps=5"})
+    expect_parts(refusal("", {"analysis.type=static", key}), {"found in a static analysis"});
 }
 
 TEST(BadCase, References) {

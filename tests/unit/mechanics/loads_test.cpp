@@ -108,7 +108,7 @@ TEST(BulkViscosity, calms_a_shock_books_its_heat_and_shortens_the_step) {
     Model<2> model = model_of(cloud, Method::cnem, steel());
     model.supports = Supports<2>(std::move(wall), all.size());
     model.viscosity = viscosity;
-    const plasticity::Material material = model.material;
+    const plasticity::Material material = model.materials.front();
     ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {-5.0, 0}; });
     solver.advance(solver.stable_step().dt);
     step = solver.stable_step().dt;

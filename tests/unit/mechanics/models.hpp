@@ -76,7 +76,7 @@ inline Model<2> model_of(Cloud<2> cloud, Method method, plasticity::Material mat
   model.supports = Supports<2>({}, static_cast<std::size_t>(cloud.nodes()));
   model.loads = Loads<2>({}, {}, {}, cloud.position);
   model.cloud = std::move(cloud);
-  model.material = std::move(material);
+  model.materials = {std::move(material)};
   model.thermal = false;
   return model;
 }

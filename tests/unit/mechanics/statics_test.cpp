@@ -126,6 +126,62 @@ TEST(Statics, oblique_symmetry_plane_gives_the_turned_solution) {
   }
 }
 
+/// u_r = a r and u_z = b z: constant strains of a body of revolution, loaded on its mantle and its ends.
+TEST(Statics, patch_body_of_revolution_under_constant_stress_is_exact) {
+  std::vector<std::unique_ptr<Discretisation<2>>> list;
+  list.push_back(std::make_unique<scni::Cnem>(scni::Options{.space = Space::revolution}));
+  list.push_back(std::make_unique<alternatives::FeTriangles>(Space::revolution));
+  for (const auto& method : list)
+    for (const double bore : {0.0, 0.5}) {
+      SCOPED_TRACE(method->name());
+      Cloud<2> cloud = jittered_square(0.1, 0.25, 3);
+      for (Vec2& x : cloud.position) x.x() += bore;
+      const auto bottom = nodes_where(cloud, [](const Vec2& x) { return x.y() == 0.0; });
+      const auto axis = nodes_where(cloud, [](const Vec2& x) { return x.x() == 0.0; });
+      std::vector<Support<2>> supports{{"bottom", Kind::symmetry, Vec2(0, -1), {}, bottom}};
+      if (!axis.empty()) supports.push_back({"axis", Kind::symmetry, Vec2(-1, 0), {}, axis});
+      Body body(std::move(cloud), *method, std::move(supports));
+      const double radial = 3.0, axial = 1.0; // stresses
+      for (const Facet<2>& facet : body.cloud.facets) {
+        const Vec2 a = body.cloud.position[static_cast<std::size_t>(facet.node[0])],
+                   b = body.cloud.position[static_cast<std::size_t>(facet.node[1])];
+        const auto area = end_areas(Space::revolution, a, b);
+        const Vec2 normal = right_normal(b - a).normalized();
+        for (std::size_t end = 0; end < 2; ++end) {
+          body.force[0][static_cast<std::size_t>(facet.node[end])] += area[end] * radial * normal.x();
+          body.force[1][static_cast<std::size_t>(facet.node[end])] += area[end] * axial * normal.y();
+        }
+      }
+      const StaticSolution s = solve_statics(body.problem(OutOfPlane::strain_free));
+      const double E = 2.0, nu = 0.3, e_r = (radial - nu * (radial + axial)) / E,
+                   e_z = (axial - 2.0 * nu * radial) / E;
+      for (std::size_t i = 0; i < body.cloud.position.size(); ++i) {
+        EXPECT_NEAR(s.displacement[0][i], e_r * body.cloud.position[i].x(), 1e-11);
+        EXPECT_NEAR(s.displacement[1][i], e_z * body.cloud.position[i].y(), 1e-11);
+      }
+      for (std::size_t p = 0; p < s.stress[0].size(); ++p) {
+        EXPECT_NEAR(s.stress[0][p], radial, 1e-10);
+        EXPECT_NEAR(s.stress[1][p], axial, 1e-10);
+        EXPECT_NEAR(s.stress[2][p], radial, 1e-10);
+        EXPECT_NEAR(s.gradient[4][p], e_r, 1e-11);
+      }
+      EXPECT_NEAR(s.strain_energy, s.external_work, 1e-12 * s.external_work);
+      EXPECT_LT(s.residual, 1e-12);
+    }
+}
+
+TEST(MissingSupport, of_a_body_of_revolution_is_the_axial_one_alone) {
+  scni::Cnem method(scni::Options{.space = Space::revolution});
+  Cloud<2> cloud = jittered_square(0.2, 0.25, 3);
+  for (Vec2& x : cloud.position) x.x() += 1.0;
+  const Body loose(cloud, method, {});
+  EXPECT_NE(missing_support(loose.approximation.mechanics, loose.cloud.position, loose.supports)
+                .find("translation along (0, 1)"),
+            std::string::npos);
+  const Body held(cloud, method, {{"node", Kind::displacement, Vec2(0, 1), TimeTable(0.0), {0}}});
+  EXPECT_EQ(missing_support(held.approximation.mechanics, held.cloud.position, held.supports), "");
+}
+
 TEST(MissingSupport, is_named) {
   const Cloud<2> cloud = jittered_square(0.25, 0.2, 1);
   const auto op = scni::Cnem().rebuild(cloud).mechanics;

@@ -17,7 +17,7 @@ double pulse_error(Method method, double h, double& residual) {
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
   Model<2> model = model_of(cloud, method, steel());
   model.supports = Supports<2>({{"lateral", Support<2>::Kind::symmetry, Vec2(0, 1), {}, all}}, all.size());
-  const plasticity::Material material = model.material;
+  const plasticity::Material material = model.materials.front();
   ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
     return {v0 * pulse((x.x() - centre) / half_width), 0.0};
   });

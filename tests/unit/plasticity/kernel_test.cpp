@@ -174,16 +174,72 @@ template<int dim> void meaningless_points() {
 TEST_P(Kernel, plane_reports_meaningless_points) { meaningless_points<2>(); }
 TEST_P(Kernel, space_reports_meaningless_points) { meaningless_points<3>(); }
 
+/// The strength scales the flow stress as smaller constants would.
+TEST_P(Kernel, strength_scales_the_flow_stress) {
+  JohnsonCook law = *steel().hardening;
+  law.saturation = 2e8;
+  law.saturation_exponent = 20.0;
+  Material weak = steel();
+  weak.hardening = law;
+  const double strength = 0.7;
+  PointState<2> s = points_at_rest<2>(5, 400.0), expected = s;
+  s.strength.assign(5, strength);
+  Material scaled = weak;
+  for (double* stress : {&scaled.hardening->A, &scaled.hardening->B, &scaled.hardening->saturation})
+    *stress *= strength;
+  for (int step = 1; step <= 50; ++step) {
+    for (PointState<2>* points : {&s, &expected})
+      for (std::size_t i = 0; i < 5; ++i) {
+        Mat3 f = Mat3::Identity();
+        f(0, 1) = 1e-3 * step * static_cast<double>(i + 1);
+        set_deformation<2>(*points, i, f);
+      }
+    ASSERT_EQ(update(weak, s, 1e-7), -1);
+    ASSERT_EQ(update(scaled, expected, 1e-7), -1);
+  }
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_GT(s.plastic_strain[i], 0.0);
+    EXPECT_NEAR(s.plastic_strain[i], expected.plastic_strain[i], 1e-13);
+    EXPECT_NEAR(s.equivalent_stress[i], expected.equivalent_stress[i], 1e-11 * expected.equivalent_stress[i]);
+  }
+}
+
+/// Points of two materials in one range get what each would alone.
+TEST_P(Kernel, ranges_of_several_materials) {
+  Material soft = steel();
+  soft.hardening = JohnsonCook{1e8};
+  const std::vector<Material> materials{steel(), soft};
+  const std::size_t n = 41;
+  PointState<2> mixed = points_at_rest<2>(n, 300.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    mixed.material[i] = (i % 7 < 4) ? 0 : 1;
+    Mat3 f = Mat3::Identity();
+    f(0, 1) = 0.01 + 1e-3 * static_cast<double>(i);
+    set_deformation<2>(mixed, i, f);
+  }
+  std::array<PointState<2>, 2> alone{mixed, mixed};
+  ASSERT_EQ(update_stress(materials, mixed.material, stress_points(mixed), 3, 40, 1e-7), -1);
+  for (std::size_t m : {0, 1}) ASSERT_EQ(update(materials[m], alone[m], 1e-7), -1);
+  for (std::size_t i = 3; i < 40; ++i)
+    EXPECT_EQ(mixed.piola[1][i], alone[static_cast<std::size_t>(mixed.material[i])].piola[1][i]) << i;
+  EXPECT_EQ(mixed.plastic_strain[0], 0.0) << "outside the range";
+  mixed.deformation[0][20] = -1.0;
+  EXPECT_EQ(update_stress(materials, mixed.material, stress_points(mixed), 0, 41, 1e-7), 20);
+}
+
 /// Strain, rate, temperature and step far beyond any use: finite, on the yield surface, no complaint.
 TEST_P(Kernel, extremes) {
-  std::vector<JohnsonCook> laws{*steel().hardening,
-                                JohnsonCook{3e8},           // perfect
-                                JohnsonCook{3e8, 1e9},      // linear
-                                JohnsonCook{0.0, 5e8, 0.3}, // no initial stress
-                                JohnsonCook{1e8, 5e8, 0.01, 0.5, 1e-3, 0.1, 300.0, 900.0}, //
-                                JohnsonCook{1e8, 5e8, 2.5, 0.02, 1e4, 3.0, 300.0, 900.0},  //
-                                JohnsonCook{1e8, 5e8, 12.0, 0.0, 1.0, 1.0, 300.0, 900.0},  //
-                                JohnsonCook{1e3, 0.0, 1.0, 1.0, 1.0, 1.0, 300.0, 900.0}};
+  std::vector<JohnsonCook> laws{
+      *steel().hardening,
+      JohnsonCook{3e8},                                          // perfect
+      JohnsonCook{3e8, 1e9},                                     // linear
+      JohnsonCook{0.0, 5e8, 0.3},                                // no initial stress
+      JohnsonCook{1e8, 5e8, 0.01, 0.5, 1e-3, 0.1, 300.0, 900.0}, //
+      JohnsonCook{1e8, 5e8, 2.5, 0.02, 1e4, 3.0, 300.0, 900.0},  //
+      JohnsonCook{1e8, 5e8, 12.0, 0.0, 1.0, 1.0, 300.0, 900.0},  //
+      JohnsonCook{1e3, 0.0, 1.0, 1.0, 1.0, 1.0, 300.0, 900.0},
+      JohnsonCook{.A = 4.5e8, .saturation = 2.65e8, .saturation_exponent = 16.93},
+      JohnsonCook{.A = 1e8, .B = 1e8, .C = 0.1, .saturation = 1e9, .saturation_exponent = 1e3}};
   const std::vector<double> shears{0.0, 1e-300, 1e-16, 1e-8, 1e-3, 3e-3, 0.05, 1.0, 20.0};
   const std::vector<double> strains{0.0, 1e-300, 1e-12, 1e-4, 0.1, 10.0, 1e3};
   const std::vector<double> rates{0.0, 1e-12, 1.0, 1e4, 1e8};

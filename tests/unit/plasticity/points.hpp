@@ -18,6 +18,7 @@ template<int dim> PointState<dim> points_at_rest(std::size_t n, double temperatu
                    &s.plastic_work, &s.dissipation})
     f->assign(n, 0.0);
   s.stress_free.assign(n, 1.0);
+  s.strength.assign(n, 1.0);
   s.temperature.assign(n, temperature);
   s.material.assign(n, 0);
   for (int c : {0, 1, 2}) s.elastic[static_cast<std::size_t>(c)].assign(n, 1.0);

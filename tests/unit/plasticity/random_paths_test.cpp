@@ -22,13 +22,19 @@ public:
   Material material() {
     Material m = steel();
     m.elasticity = {log_uniform(50e9, 300e9), uniform(0.1, 0.45)};
-    const int kind = static_cast<int>(uniform(0.0, 8.0));
+    const int kind = static_cast<int>(uniform(0.0, 9.0));
     if (kind == 0)
       m.hardening = JohnsonCook{log_uniform(1e8, 1e9)}; // perfect
     else if (kind == 1)
       m.hardening = JohnsonCook{log_uniform(1e8, 1e9), log_uniform(1e7, 1e9)}; // linear
     else if (kind == 2)
       m.hardening.reset();
+    else if (kind == 8) // saturating
+      m.hardening = JohnsonCook{.A = log_uniform(1e8, 1e9),
+                                .B = uniform(0.0, 1.0) < 0.5 ? 0.0 : log_uniform(1e7, 1e9),
+                                .C = uniform(0.0, 1.0) < 0.5 ? 0.0 : log_uniform(1e-3, 0.1),
+                                .saturation = log_uniform(1e8, 1e9),
+                                .saturation_exponent = log_uniform(1.0, 100.0)};
     else
       m.hardening = JohnsonCook{log_uniform(1e8, 1e9),
                                 log_uniform(1e8, 1e9),

@@ -1,0 +1,215 @@
+#include "app/bodies.hpp"
+
+#include "voronoi/triangulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace cnem::app {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// The part of the domain each node is in: parts are connected through triangles.
+std::vector<std::int32_t> parts(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
+  std::vector<std::int32_t> root(u(cloud.nodes()));
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](std::int32_t i) {
+    while (root[u(i)] != i) i = root[u(i)] = root[u(root[u(i)])];
+    return i;
+  };
+  for (const auto& [a, b, c] : mesh.node) {
+    root[u(find(b))] = find(a);
+    root[u(find(c))] = find(a);
+  }
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) root[u(i)] = find(i);
+  return root;
+}
+
+/// A node of the triangle that holds the point, or of the nearest one.
+std::int32_t node_at(const Cloud<2>& cloud, const voronoi::Triangulation& mesh, const Vec2& x) {
+  std::int32_t best = 0;
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const auto& triangle : mesh.node) {
+    double inside = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 &a = cloud.position[u(triangle[k])], &b = cloud.position[u(triangle[(k + 1) % 3])];
+      inside = std::min(inside, cross(b - a, x - a) / (b - a).norm());
+    }
+    if (inside > depth) depth = inside, best = triangle[0];
+  }
+  return best;
+}
+
+double distance_to(const std::vector<Vec2>& polyline, const Vec2& x) {
+  double best = (x - polyline.front()).norm();
+  for (std::size_t k = 1; k < polyline.size(); ++k) {
+    const Vec2 along = polyline[k] - polyline[k - 1];
+    const double s = std::clamp((x - polyline[k - 1]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    best = std::min(best, (x - polyline[k - 1] - s * along).norm());
+  }
+  return best;
+}
+
+/// The nodes on the two faces of an interface, face + first.
+std::vector<std::array<std::int32_t, 2>> face_pairs(const Cloud<2>& cloud, const std::string& name) {
+  const std::vector<std::int32_t> left = nodes_of(facets_of(cloud, {name + "+"}));
+  const std::vector<std::int32_t> right = nodes_of(facets_of(cloud, {name + "-"}));
+  const auto on = [](const std::vector<std::int32_t>& face, std::int32_t node) {
+    return std::binary_search(face.begin(), face.end(), node);
+  };
+  std::vector<std::array<std::int32_t, 2>> pairs;
+  for (const auto& [a, b] : cloud.twins) {
+    if (on(left, a) && on(right, b)) pairs.push_back({a, b});
+    if (on(left, b) && on(right, a)) pairs.push_back({b, a});
+  }
+  return pairs;
+}
+
+std::vector<std::array<std::int32_t, 2>> matching_nodes(const io::Case& input, const io::Periodicity& spec,
+                                                        const Cloud<2>& cloud) {
+  const std::vector<std::int32_t> first = nodes_of(facets_of(cloud, {spec.pieces[0]}));
+  std::vector<std::int32_t> second = nodes_of(facets_of(cloud, {spec.pieces[1]}));
+  const auto fail = [&](const std::string& what) {
+    return input.error(fmt::format("periodic.{}.pieces", spec.name),
+                       fmt::format("{}, expected '{}' to be a shifted copy of '{}' with the same nodes", what,
+                                   spec.pieces[1], spec.pieces[0]));
+  };
+  if (first.size() != second.size())
+    throw fail(fmt::format("found {} nodes on '{}' and {} on '{}'", first.size(), spec.pieces[0],
+                           second.size(), spec.pieces[1]));
+  const auto mean = [&](const std::vector<std::int32_t>& nodes) {
+    Vec2 sum = Vec2::Zero();
+    for (const std::int32_t i : nodes) sum += cloud.position[u(i)];
+    return Vec2(sum / static_cast<double>(nodes.size()));
+  };
+  const Vec2 shift = mean(second) - mean(first);
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const Facet<2>& facet : facets_of(cloud, {spec.pieces[0]}))
+    spacing = std::min(spacing, (cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])]).norm());
+  std::vector<std::array<std::int32_t, 2>> pairs;
+  for (const std::int32_t i : first) {
+    const Vec2 wanted = cloud.position[u(i)] + shift;
+    const auto nearest = std::min_element(second.begin(), second.end(), [&](std::int32_t a, std::int32_t b) {
+      return (cloud.position[u(a)] - wanted).norm() < (cloud.position[u(b)] - wanted).norm();
+    });
+    const double gap = (cloud.position[u(*nearest)] - wanted).norm();
+    if (gap > 1e-3 * spacing || *nearest == i)
+      throw fail(fmt::format("found no partner of the node at ({:g}, {:g}) m", cloud.position[u(i)].x(),
+                             cloud.position[u(i)].y()));
+    pairs.push_back({i, *nearest});
+    second.erase(nearest);
+  }
+  return pairs;
+}
+
+} // namespace
+
+std::vector<Facet<2>> facets_of(const Cloud<2>& cloud, const std::vector<std::string>& pieces) {
+  std::vector<bool> wanted(cloud.piece_names.size(), false);
+  for (std::size_t p = 0; p < cloud.piece_names.size(); ++p)
+    for (const std::string& piece : pieces)
+      if (const std::string& name = cloud.piece_names[p];
+          name == piece || name == piece + "+" || name == piece + "-")
+        wanted[p] = true;
+  std::vector<Facet<2>> facets;
+  std::copy_if(cloud.facets.begin(), cloud.facets.end(), std::back_inserter(facets),
+               [&](const Facet<2>& facet) { return wanted[static_cast<std::size_t>(facet.piece)]; });
+  return facets;
+}
+
+std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>& facets) {
+  std::vector<std::int32_t> nodes;
+  for (const Facet<2>& facet : facets) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::vector<std::int32_t> region_of_nodes(const io::Case& input, const Cloud<2>& cloud) {
+  const std::vector<io::Region>& regions = input.domain.regions;
+  if (regions.empty()) return {};
+  const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
+  const std::vector<std::int32_t> part = parts(cloud, mesh);
+  std::map<std::int32_t, std::int32_t> region_of_part;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const auto [entry, fresh] =
+        region_of_part.emplace(part[u(node_at(cloud, mesh, regions[r].at))], static_cast<std::int32_t>(r));
+    if (!fresh)
+      throw input.error("domain.regions." + regions[r].name,
+                        fmt::format("lies in the same part of the domain as domain.regions.{}, expected an "
+                                    "interface between them",
+                                    regions[u(entry->second)].name));
+  }
+  std::vector<std::int32_t> region(part.size(), -1);
+  for (std::size_t i = 0; i < part.size(); ++i)
+    if (const auto found = region_of_part.find(part[i]); found != region_of_part.end())
+      region[i] = found->second;
+  return region;
+}
+
+Pairs tied_pairs(const io::Case& input, const Cloud<2>& cloud) {
+  Pairs pairs;
+  for (const io::Interface& interface : input.domain.interfaces) {
+    const auto faces = face_pairs(cloud, interface.name);
+    pairs.motion.insert(pairs.motion.end(), faces.begin(), faces.end());
+    if (!interface.conductance) pairs.heat.insert(pairs.heat.end(), faces.begin(), faces.end());
+  }
+  for (const io::Periodicity& periodic : input.periodic) {
+    const auto sides = matching_nodes(input, periodic, cloud);
+    pairs.motion.insert(pairs.motion.end(), sides.begin(), sides.end());
+    pairs.heat.insert(pairs.heat.end(), sides.begin(), sides.end());
+  }
+  return pairs;
+}
+
+std::vector<ContactConductance<2>> conductances(const io::Case& input, const Cloud<2>& cloud) {
+  std::vector<ContactConductance<2>> list;
+  for (const io::Interface& interface : input.domain.interfaces) {
+    if (!interface.conductance) continue;
+    std::map<std::int32_t, std::int32_t> opposite;
+    for (const auto& [a, b] : face_pairs(cloud, interface.name)) opposite[a] = b;
+    ContactConductance<2> exchange{
+        interface.name, *interface.conductance, facets_of(cloud, {interface.name + "+"}), {}};
+    for (const Facet<2>& facet : exchange.facets)
+      exchange.opposite.push_back({opposite.at(facet.node[0]), opposite.at(facet.node[1])});
+    list.push_back(std::move(exchange));
+  }
+  return list;
+}
+
+Field strength(const io::Case& input, const Cloud<2>& cloud) {
+  if (input.initial.imperfections.empty()) return {};
+  Field factor(u(cloud.nodes()), 1.0);
+  for (const io::Imperfection& imperfection : input.initial.imperfections)
+    for (std::size_t i = 0; i < factor.size(); ++i) {
+      const double d = distance_to(imperfection.points, cloud.position[i]) / imperfection.width;
+      factor[i] *= 1.0 - imperfection.reduction * std::exp(-d * d);
+    }
+  return factor;
+}
+
+void set_initial_state(const io::Case& input, const Cloud<2>& cloud, const std::vector<std::int32_t>& region,
+                       Fields<2>& velocity, Field& temperature) {
+  const io::InitialState& initial = input.initial;
+  resize_all(velocity, u(cloud.nodes()));
+  temperature.assign(u(cloud.nodes()), initial.temperature);
+  for (std::size_t i = 0; i < temperature.size(); ++i) {
+    Vec2 v = initial.velocity;
+    if (!region.empty() && region[i] >= 0) {
+      v = input.domain.regions[u(region[i])].velocity;
+      temperature[i] = input.domain.regions[u(region[i])].temperature;
+    }
+    if (initial.spin) v += initial.spin->rate * left_normal(cloud.position[i] - initial.spin->centre);
+    if (initial.gradient) v += initial.gradient->rate * (cloud.position[i] - initial.gradient->centre);
+    velocity[0][i] = v.x();
+    velocity[1][i] = v.y();
+  }
+}
+
+} // namespace cnem::app

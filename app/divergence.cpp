@@ -1,0 +1,199 @@
+#include "app/divergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::app {
+
+namespace {
+
+/// Distance to the nearest node around in the reference, m.
+double spacing_at(const ExplicitSolver<2>& solver, std::size_t node) {
+  const DiscreteOperators<2>& op = solver.approximation().mechanics;
+  const Fields<2>& X = solver.state().node.reference;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (auto c = static_cast<std::size_t>(op.col_begin[node]);
+       c < static_cast<std::size_t>(op.col_begin[node + 1]); ++c) {
+    const auto p = static_cast<std::size_t>(op.point[c]);
+    for (auto e = static_cast<std::size_t>(op.row_begin[p]);
+         e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
+      const auto j = static_cast<std::size_t>(op.node[e]);
+      const double d = std::hypot(X[0][j] - X[0][node], X[1][j] - X[1][node]);
+      if (j != node && d > 0.0) nearest = std::min(nearest, d);
+    }
+  }
+  return nearest;
+}
+
+double strain_of(const PointState<2>& point, std::size_t p) {
+  const auto& f = point.deformation;
+  return std::sqrt((f[0][p] - 1.0) * (f[0][p] - 1.0) + f[1][p] * f[1][p] + f[2][p] * f[2][p] +
+                   (f[3][p] - 1.0) * (f[3][p] - 1.0) + (f[4][p] - 1.0) * (f[4][p] - 1.0));
+}
+
+/// What a user has chosen that makes runs diverge.
+void blame_settings(const io::Case& input, const std::string& field, std::vector<std::string>& causes) {
+  if (input.time.fixed)
+    causes.push_back(
+        fmt::format("The step is fixed at {:.3g} s (time.step.fixed), whatever is stable: without "
+                    "this key the stable step is taken.",
+                    *input.time.fixed));
+  if (input.time.safety > 0.95)
+    causes.push_back(fmt::format("time.step.safety = {:.3g} leaves no room between two looks at the stable "
+                                 "step: take 0.9 or less.",
+                                 input.time.safety));
+  if (input.method.name == io::Method::Name::cnem && input.method.stabilisation == 0.0)
+    causes.push_back(
+        "method.stabilisation = 0 leaves the zigzag modes of nodal integration free: take 0.05.");
+  if (field == "energy residual" && input.method.energy_tolerance < 0.005)
+    causes.push_back(fmt::format("method.energy_tolerance = {:.3g} is less than what a good run may leave.",
+                                 input.method.energy_tolerance));
+}
+
+/// What the place tells.
+void blame_place(const io::Case& input, const ExplicitSolver<2>& solver, std::size_t node,
+                 std::vector<std::string>& causes) {
+  const State<2>& state = solver.state();
+  const DiscreteOperators<2>& op = solver.approximation().mechanics;
+  const auto point = static_cast<std::size_t>(op.point[static_cast<std::size_t>(op.col_begin[node])]);
+  const Place place = place_of(solver, node);
+  const double spacing = spacing_at(solver, node);
+  const auto& contact = solver.model().contact;
+  for (const auto& tool : contact.tools()) {
+    const Vec2 seen = place.centre - tool.motion.displacement(state.time);
+    if (std::abs(tool.shape->closest(seen).distance) < 3.0 * spacing)
+      causes.push_back(
+          fmt::format("It lies at tool '{}': a sharp corner, or a tool that moves more than a cell "
+                      "in a few steps, turns cells inside out. Round the corner (fillet), refine "
+                      "there, or move the tool more slowly.",
+                      tool.name));
+  }
+  const auto& facets = solver.model().cloud.facets;
+  if (std::any_of(facets.begin(), facets.end(), [&](const Facet<2>& facet) {
+        return facet.node[0] == static_cast<int>(node) || facet.node[1] == static_cast<int>(node);
+      }))
+    causes.push_back("It lies on the boundary, which folds over itself where it stretches or buckles most: "
+                     "refine there (cloud.refine), or end the run earlier.");
+  const double strain = solver.state().point.size() > point ? strain_of(state.point, point) : 0.0;
+  if (strain > 1.0 && input.method.lagrangian == io::Method::Lagrangian::total)
+    causes.push_back(fmt::format("Its cell has strained by {:.2g} since the start and method.lagrangian is "
+                                 "\"total\": \"periodic\" renews the reference in time.",
+                                 strain));
+  else if (strain > 1.0)
+    causes.push_back(fmt::format("Its cell has strained by {:.2g} since the last reference: a smaller "
+                                 "method.rereference.strain renews it sooner.",
+                                 strain));
+  if (const double plastic = state.point.plastic_strain[point]; plastic > 3.0)
+    causes.push_back(
+        fmt::format("The material there has flowed by a plastic strain of {:.2g}, more than this "
+                    "cloud can follow: refine there.",
+                    plastic));
+  const auto& materials = solver.model().materials;
+  const auto& hardening = materials[static_cast<std::size_t>(state.point.material[point])].hardening;
+  if (hardening && hardening->homologous_temperature(state.point.temperature[point]) > 0.95)
+    causes.push_back(fmt::format("The material there is at {:.4g} K, where it melts ({:.4g} K) and has no "
+                                 "strength left.",
+                                 state.point.temperature[point], hardening->Tmelt));
+}
+
+} // namespace
+
+std::size_t node_of(const ExplicitSolver<2>& solver, std::size_t point) {
+  const DiscreteOperators<2>& op = solver.approximation().mechanics;
+  return op.nodal ? point : static_cast<std::size_t>(op.node[static_cast<std::size_t>(op.row_begin[point])]);
+}
+
+DivergenceError step_collapse(const ExplicitSolver<2>& solver, std::size_t point, double dt,
+                              const std::string& least) {
+  const State<2>& state = solver.state();
+  const std::size_t node = node_of(solver, point);
+  return {
+      fmt::format("the stable step has fallen to {:.3g} s, below {}, at step {}, t = {:.6g} s, because of "
+                  "node {} at ({:.6g}, {:.6g}) m",
+                  dt, least, state.step, state.time, node, state.node.position[0][node],
+                  state.node.position[1][node]),
+      static_cast<int>(node), "stable step"};
+}
+
+void check_finite(const State<2>& state) {
+  const NodeState<2>& node = state.node;
+  for (const auto& [name, values] : {std::pair("temperature", &node.temperature),
+                                     {"velocity", &node.velocity[0]},
+                                     {"velocity", &node.velocity[1]},
+                                     {"position", &node.position[0]},
+                                     {"position", &node.position[1]}})
+    for (std::size_t i = 0; i < values->size(); ++i)
+      if (!std::isfinite((*values)[i]))
+        throw DivergenceError(
+            fmt::format("the {} of node {} is not a number at step {}, t = {:.6g} s; it started "
+                        "from ({:.6g}, {:.6g}) m at the last reference",
+                        name, i, state.step, state.time, node.reference[0][i], node.reference[1][i]),
+            static_cast<int>(i), name);
+}
+
+void check_energy(double residual, double scale, double tolerance, const State<2>& state) {
+  const double share = std::abs(residual) / scale;
+  if (!(scale > 0.0) || share <= tolerance) return;
+  const Fields<2>& v = state.node.velocity;
+  std::size_t fastest = 0;
+  for (std::size_t i = 0; i < state.node.size(); ++i)
+    if (!(std::hypot(v[0][i], v[1][i]) <= std::hypot(v[0][fastest], v[1][fastest]))) fastest = i;
+  throw DivergenceError(
+      fmt::format(
+          "the energy residual is {:.3g} of the work done, more than method.energy_tolerance = {:.3g} "
+          "allows, at step {}, t = {:.6g} s; the fastest node is {} at ({:.6g}, {:.6g}) m with {:.3g} m/s",
+          share, tolerance, state.step, state.time, fastest, state.node.position[0][fastest],
+          state.node.position[1][fastest], std::hypot(v[0][fastest], v[1][fastest])),
+      static_cast<int>(fastest), "energy residual");
+}
+
+DivergenceError lost_reference(const ExplicitSolver<2>& solver, const GeometryError& error) {
+  const State<2>& state = solver.state();
+  std::size_t worst = 0;
+  for (std::size_t p = 1; p < state.point.size(); ++p)
+    if (strain_of(state.point, p) > strain_of(state.point, worst)) worst = p;
+  const std::size_t node = node_of(solver, worst);
+  return {fmt::format(
+              "the cloud could not be rebuilt at step {}, t = {:.6g} s: {}; the most strained cell is that "
+              "of node {} at ({:.6g}, {:.6g}) m",
+              state.step, state.time, error.what(), node, state.node.position[0][node],
+              state.node.position[1][node]),
+          static_cast<int>(node), "geometry"};
+}
+
+Place place_of(const ExplicitSolver<2>& solver, std::size_t node) {
+  const NodeState<2>& nodes = solver.state().node;
+  constexpr double cells_around = 8.0, lost = 30.0;
+  const double spacing = spacing_at(solver, node);
+  const Vec2 reference(nodes.reference[0][node], nodes.reference[1][node]);
+  const Vec2 now(nodes.position[0][node], nodes.position[1][node]);
+  // A node that has flown away shows nothing: then the place is where it came from.
+  return {now.allFinite() && (now - reference).norm() < lost * spacing ? now : reference,
+          cells_around * spacing};
+}
+
+io::PostMortem post_mortem(const DivergenceError& error, const io::Case& input,
+                           const ExplicitSolver<2>& solver) {
+  const State<2>& state = solver.state();
+  io::PostMortem dead;
+  dead.step = state.step;
+  dead.time = state.time;
+  dead.node = error.node;
+  dead.field = error.field;
+  dead.text = error.what();
+  blame_settings(input, error.field, dead.causes);
+  if (error.node >= 0) {
+    const auto node = static_cast<std::size_t>(error.node);
+    dead.x = state.node.position[0][node];
+    dead.y = state.node.position[1][node];
+    blame_place(input, solver, node, dead.causes);
+  }
+  if (dead.causes.empty())
+    dead.causes.push_back(
+        "None of the usual causes shows. Try half the spacing there and time.step.safety = 0.5; "
+        "if it fails at the same place, look at the loads and the material there.");
+  return dead;
+}
+
+} // namespace cnem::app

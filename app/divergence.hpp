@@ -1,0 +1,40 @@
+#pragma once
+// How a run tells that it means nothing any more, and what it says about it afterwards.
+#include "core/error.hpp"
+#include "io/case.hpp"
+#include "io/status.hpp"
+#include "mechanics/explicit_solver.hpp"
+
+#include <string>
+
+namespace cnem::app {
+
+/// The node of a stress point, the first one for methods whose points are not nodes.
+std::size_t node_of(const ExplicitSolver<2>& solver, std::size_t point);
+
+/// The stable step `dt` (s) at a stress point is below `least`, which is given in words.
+DivergenceError step_collapse(const ExplicitSolver<2>& solver, std::size_t point, double dt,
+                              const std::string& least);
+
+/// Throws DivergenceError when a position, velocity or temperature is not a number.
+void check_finite(const State<2>& state);
+
+/// Throws DivergenceError when the energy residual is more than the case allows; it has no place of its own:
+/// the fastest node shows where the run has come apart.
+void check_energy(double residual, double scale, double tolerance, const State<2>& state);
+
+/// The reference could not be renewed: the place is the most strained cell.
+DivergenceError lost_reference(const ExplicitSolver<2>& solver, const GeometryError& error);
+
+/// Where and when, and the likely causes in plain words.
+io::PostMortem post_mortem(const DivergenceError& error, const io::Case& input,
+                           const ExplicitSolver<2>& solver);
+
+/// The neighbourhood of a node to draw.
+struct Place {
+  Vec2 centre{0, 0};   ///< m
+  double radius = 0.0; ///< m
+};
+Place place_of(const ExplicitSolver<2>& solver, std::size_t node);
+
+} // namespace cnem::app

@@ -1,0 +1,146 @@
+#include "app/time_control.hpp"
+
+#include "app/divergence.hpp"
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace cnem::app {
+
+Schedule Schedule::every(double interval, double end) {
+  Schedule schedule;
+  const auto count = static_cast<long>(std::floor(end / interval * (1.0 + 1e-12)));
+  for (long k = 0; k <= count; ++k) schedule.time_.push_back(static_cast<double>(k) * interval);
+  if (schedule.time_.back() < end * (1.0 - 1e-9)) schedule.time_.push_back(end);
+  return schedule;
+}
+
+Schedule Schedule::at(const std::vector<double>& times, double end) {
+  Schedule schedule;
+  for (const double t : times)
+    if (t <= end * (1.0 + 1e-12)) schedule.time_.push_back(std::min(t, end));
+  return schedule;
+}
+
+Schedule Schedule::every_step() {
+  Schedule schedule;
+  schedule.every_step_ = true;
+  return schedule;
+}
+
+double Schedule::next() const {
+  return at_ < time_.size() ? time_[at_] : std::numeric_limits<double>::infinity();
+}
+
+bool Schedule::due(double time, double tolerance) {
+  bool any = every_step_ && time > last_;
+  while (at_ < time_.size() && time >= time_[at_] - tolerance) {
+    ++at_;
+    any = true;
+  }
+  if (any) last_ = time;
+  return any;
+}
+
+void Schedule::archive(Archive& archive, const std::string& name) {
+  archive.integer(name + "/next", at_);
+  archive.number(name + "/last", "s", last_);
+}
+
+void StepControl::refresh(ExplicitSolver<2>& solver) {
+  if (time_->fixed) {
+    limit_ = *time_->fixed;
+    limited_by_ = "fixed step";
+    return;
+  }
+  const auto stable = solver.stable_step();
+  limit_ = stable.dt;
+  point_ = stable.point;
+  limited_by_ = stable.limit;
+  if (first_ == 0.0) first_ = stable.dt;
+  constexpr double collapsed = 1e-3;
+  if (const double least = time_->min_step.value_or(collapsed * first_); stable.dt < least)
+    throw step_collapse(solver, stable.point, stable.dt,
+                        fmt::format("{} = {:.3g} s",
+                                    time_->min_step ? "time.step.min" : "a thousandth of the first one",
+                                    least));
+  if (time_->max_step && *time_->max_step < limit_) {
+    limit_ = *time_->max_step;
+    limited_by_ = "time.step.max";
+  }
+}
+
+double StepControl::choose(double now, double event) {
+  ++count_[limited_by_];
+  const double remaining = event - now;
+  const double pieces = std::ceil(remaining / limit_ * (1.0 - 1e-9));
+  return remaining / std::max(1.0, pieces);
+}
+
+std::vector<std::pair<std::string, double>> StepControl::shares() const {
+  double total = 0.0;
+  for (const auto& [name, count] : count_) total += static_cast<double>(count);
+  std::vector<std::pair<std::string, double>> list;
+  for (const auto& [name, count] : count_) list.emplace_back(name, static_cast<double>(count) / total);
+  return list;
+}
+
+void StepControl::archive(Archive& archive) {
+  archive.number("run/step/limit", "s", limit_);
+  archive.number("run/step/first", "s", first_);
+  archive.text("run/step/limited_by", limited_by_);
+  archive.integer("run/step/point", point_);
+  std::vector<std::string> names;
+  for (const auto& [name, count] : count_) names.push_back(name);
+  archive.texts("run/step/limits", names);
+  for (const std::string& name : names) archive.integer(fmt::format("run/step/count/{}", name), count_[name]);
+}
+
+bool ReferenceRenewal::due(const ExplicitSolver<2>& solver) const {
+  const std::int64_t steps = solver.state().step - last_;
+  switch (method_->lagrangian) {
+  case io::Method::Lagrangian::total:
+    return false;
+  case io::Method::Lagrangian::updated:
+    return steps >= 1;
+  case io::Method::Lagrangian::periodic:
+    break;
+  }
+  if (method_->rereference_every > 0 && steps >= method_->rereference_every) return true;
+  constexpr std::int64_t look_every = 5;
+  return method_->rereference_strain > 0.0 && steps > 0 && steps % look_every == 0 &&
+         solver.strain_since_reference() > method_->rereference_strain;
+}
+
+void ReferenceRenewal::renew(ExplicitSolver<2>& solver) {
+  last_ = solver.state().step;
+  try {
+    solver.prepare();
+  } catch (const GeometryError& error) {
+    constexpr double too_far = 4.0;
+    if (solver.strain_since_reference() > too_far) throw;
+    constexpr std::int64_t wait = 100;
+    last_ += wait;
+    if (postponed_++ == 0)
+      first_ =
+          fmt::format("step {}, t = {:.4g} s ({})", solver.state().step, solver.state().time, error.what());
+  }
+}
+
+std::string ReferenceRenewal::warning() const {
+  if (postponed_ == 0) return "";
+  return fmt::format(
+      "the reference could not be renewed {} times, first at {}: the run went on with an older one",
+      postponed_, first_);
+}
+
+void ReferenceRenewal::archive(Archive& archive) {
+  archive.integer("run/reference/last", last_);
+  archive.integer("run/reference/postponed", postponed_);
+  archive.text("run/reference/first_postponed", first_);
+}
+
+} // namespace cnem::app

@@ -1,0 +1,86 @@
+#pragma once
+// When something is due, how long the next step is, and when the reference is renewed.
+#include "io/case.hpp"
+#include "mechanics/explicit_solver.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cnem::app {
+
+/// Times at which something is due: every `interval`, or a list; the run lands on them exactly.
+class Schedule {
+public:
+  /// From 0 to `end`, both included.
+  static Schedule every(double interval, double end);
+  static Schedule at(const std::vector<double>& times, double end);
+  /// Due at every step; lands on nothing.
+  static Schedule every_step();
+
+  /// The next time to land on; infinite when there is none.
+  double next() const;
+  /// Whether something is due at `time`; each entry is due once.
+  bool due(double time, double tolerance);
+  /// When something was due last, s; negative before.
+  double last() const { return last_; }
+  void archive(Archive& archive, const std::string& name);
+
+private:
+  std::vector<double> time_;
+  std::size_t at_ = 0;
+  bool every_step_ = false;
+  double last_ = -1.0; ///< s, last time at which it was due
+};
+
+/// Chooses each step: the stable one, looked at every so often, shortened to land on the next event.
+class StepControl {
+public:
+  explicit StepControl(const io::TimeControl& time) : time_(&time) {}
+
+  /// Looks at the stable step anew: after a re-reference, and every `check_every` steps. Throws
+  /// DivergenceError when it has collapsed.
+  void refresh(ExplicitSolver<2>& solver);
+  /// The step from `now` towards the next event.
+  double choose(double now, double event);
+
+  double limit() const { return limit_; }
+  const std::string& limited_by() const { return limited_by_; }
+  std::size_t point() const { return point_; } ///< stress point that limits the step
+  /// What limited the step, as fractions of all steps.
+  std::vector<std::pair<std::string, double>> shares() const;
+  void archive(Archive& archive);
+
+private:
+  const io::TimeControl* time_;
+  double limit_ = 0.0; ///< s
+  double first_ = 0.0; ///< s, the stable step at the start
+  std::string limited_by_;
+  std::size_t point_ = 0;
+  std::map<std::string, std::int64_t> count_;
+};
+
+/// Renews the reference when it is due. Where two nodes have passed each other the present configuration
+/// cannot be one: the run then goes on with the old reference, which still holds it, and tries again later,
+/// unless it is stretched too far to mean anything.
+class ReferenceRenewal {
+public:
+  explicit ReferenceRenewal(const io::Method& method) : method_(&method) {}
+
+  bool due(const ExplicitSolver<2>& solver) const;
+  /// Throws GeometryError.
+  void renew(ExplicitSolver<2>& solver);
+  /// What to tell about it; empty when every renewal succeeded.
+  std::string warning() const;
+  void archive(Archive& archive);
+
+private:
+  const io::Method* method_;
+  std::int64_t last_ = 0; ///< step of the last renewal, or when to try again
+  int postponed_ = 0;
+  std::string first_;
+};
+
+} // namespace cnem::app

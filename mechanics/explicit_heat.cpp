@@ -1,0 +1,66 @@
+// The thermal half of a step of the explicit solver.
+#include "core/parallel.hpp"
+#include "mechanics/explicit_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cnem {
+
+template<int dim> void ExplicitSolver<dim>::measure_conduction_step() {
+  const NodeState<dim>& node = state_.node;
+  const double decay = conduction_.fastest_decay(node.position, node.heat_capacity) +
+                       model_.heat_boundaries.fastest_decay(state_.time, node.position, node.heat_capacity);
+  conduction_step_ = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
+}
+
+/// Plastic and friction heat, then explicit conduction (58), in as many sub-steps as are stable.
+template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
+  NodeState<dim>& node = state_.node;
+  const PointState<dim>& point = state_.point;
+  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  const std::size_t n = node.size();
+  // Plastic heat: local, per unit mass (nodal), or shared out with the shape functions.
+  running_.heat_generated += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      double heat = contact_heat_[i];
+      if (op.nodal) {
+        const plasticity::Material& material = material_of(i);
+        heat += material.taylor_quinney * point.dissipation[i] * node.mass[i] / material.density;
+      } else {
+        for (auto e = static_cast<std::size_t>(op.col_begin[i]);
+             e < static_cast<std::size_t>(op.col_begin[i + 1]); ++e) {
+          const auto p = static_cast<std::size_t>(op.point[e]);
+          heat += material_of(p).taylor_quinney * point.dissipation[p] * point.stress_free[p] *
+                  op.weighted_value[e];
+        }
+      }
+      node.temperature[i] += heat / node.heat_capacity[i];
+      sum += heat;
+    }
+    return sum;
+  });
+  if (!model_.heat_ties.empty()) model_.heat_ties.share(node.heat_capacity, node.temperature);
+  if (conduction_step_ == 0.0) measure_conduction_step();
+  const int substeps = std::max(1, static_cast<int>(std::ceil(dt / (0.9 * conduction_step_))));
+  const double h = dt / substeps;
+  for (int s = 0; s < substeps; ++s) {
+    std::fill(heat_flow_.begin(), heat_flow_.end(), 0.0);
+    model_.heat_boundaries.add_flow(state_.time, node.position, node.temperature, tool_conductance_,
+                                    heat_flow_);
+    double received = 0.0;
+    for (const double q : heat_flow_) received += h * q;
+    conduction_.add_flow(node.position, node.temperature, heat_flow_);
+    for (std::size_t i = 0; i < n; ++i) node.temperature[i] += h * heat_flow_[i] / node.heat_capacity[i];
+    if (!model_.heat_ties.empty()) model_.heat_ties.share(node.heat_capacity, node.temperature);
+    received += model_.heat_boundaries.hold(state_.time, node.heat_capacity, node.temperature);
+    running_.heat_exchanged += received;
+  }
+}
+
+template void ExplicitSolver<2>::conduct(double);
+template void ExplicitSolver<2>::measure_conduction_step();
+
+} // namespace cnem

@@ -1,0 +1,44 @@
+#pragma once
+// Nodes that move as one: the two faces of a bonded interface, the two sides of a periodic strip.
+#include "core/state.hpp"
+#include "core/vec.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace cnem {
+
+/// Groups of tied nodes. Their velocities, and temperatures where asked for, are one; momentum and heat are
+/// kept, because each group takes its weighted mean. Their positions keep the distance they started with: the
+/// two sides of a bonded interface coincide to the last bit.
+///
+/// Tying never shortens the stable step: the largest eigenvalue of tied matrices lies below that of the free
+/// ones.
+template<int dim> class Ties {
+public:
+  Ties() = default;
+  /// Pairs that share a node are merged. position: of all nodes of the cloud at the start, m.
+  Ties(const std::vector<std::array<std::int32_t, 2>>& pairs, const std::vector<Vec<dim>>& position);
+
+  bool empty() const { return node_.empty(); }
+  /// The list with all nodes tied to its members, each once, given ones first.
+  std::vector<std::int32_t> with_partners(std::vector<std::int32_t> nodes) const;
+
+  /// Every group's values become Σ w v / Σ w.
+  void share(const Field& weight, Field& value) const;
+  /// The same for velocities, m/s, at positions, m, that have moved by dt, s, times them: those follow the
+  /// change. Returns the kinetic energy this takes, ≥ 0, J/m^(3−dim).
+  double share_motion(const Field& mass, double dt, Fields<dim>& velocity, Fields<dim>& position) const;
+
+private:
+  std::vector<std::int32_t> begin_; ///< [group + 1]
+  std::vector<std::int32_t> node_;  ///< members, in increasing order
+  std::vector<Vec<dim>> offset_;    ///< [member] m, from the first member of the group
+  std::vector<std::int32_t> group_; ///< [node] −1: free
+};
+
+extern template class Ties<2>;
+extern template class Ties<3>;
+
+} // namespace cnem

@@ -1,0 +1,204 @@
+#include "tests/restart/runs.hpp"
+
+#include "io/output_folder.hpp"
+#include "io/status.hpp"
+
+#include <fmt/format.h>
+#include <set>
+#include <stdexcept>
+
+namespace cnem::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string steel = R"toml(
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0.0973, rate0 = "1 /s", m = 2.044, T0 = "296 K", Tmelt = "1698 K" }
+heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
+)toml";
+
+// A punch with friction and warm contact on a block; references are renewed.
+const std::string punched = R"toml(
+[time]
+end = "12 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "0.25 mm"
+[boundary.base]
+pieces = ["bottom"]
+symmetry = true
+[tools.punch]
+rectangle = { from = "-1 2 mm", to = "1.1 4 mm" }
+velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
+friction = { law = "tresca-limited", coefficient = 0.2 }
+heat = { conductance = "1e5 W/(m2 K)", effusivity = "1e4 W s^0.5/(m2 K)" }
+[method]
+rereference = { every = 40, strain = 0.05 }
+[output]
+history_every = "0.1 us"
+fields_every = "4 us"
+pictures = "6 12 us"
+picture_fields = ["plastic_strain"]
+probes.corner = { at = "1 1.5 mm", fields = ["temperature", "plastic_strain"] }
+lines.middle = { from = "0.1 1 mm", to = "3.9 1 mm", samples = 20, fields = ["stress_yy"] }
+[output.checkpoint]
+every_steps = 25
+every_wall = "0 s"
+keep = 3
+)toml" + steel;
+
+// Every load and support, functions of Laplace on a jittered cloud, a row of history at every step.
+const std::string loaded = R"toml(
+[time]
+end = "8 us"
+step = { max = "12 ns" }
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "3 1.5 mm" }
+[cloud]
+spacing = "0.2 mm"
+pattern = "jittered"
+seed = 7
+[boundary.left]
+pieces = ["left"]
+velocity = { x = "0 m/s" }
+temperature = "350 K"
+[boundary.bottom]
+pieces = ["bottom"]
+displacement = { y = { value = "0.02 mm", ramp = "8 us" } }
+[boundary.right]
+pieces = ["right"]
+traction = { x = { value = "600 MPa", ramp = "4 us" } }
+convection = { coefficient = "1e4 W/(m2 K)", ambient = "300 K" }
+[boundary.top]
+pieces = ["top"]
+pressure = "20 MPa"
+heat_flux = "1e8 W/m2"
+[loads]
+body_force = "0 -1e6 m/s2"
+[initial]
+velocity = "5 0 m/s"
+[method]
+functions = "laplace"
+lagrangian = "periodic"
+rereference = { every = 30 }
+[output]
+history_every = "0 s"
+fields_every = "0 s"
+pictures = "8 us"
+picture_fields = ["temperature"]
+[output.checkpoint]
+every_steps = 0
+every_time = "0.3 us"
+every_wall = "0 s"
+)toml" + steel;
+
+// A round bar on a wall, renewed at every step.
+const std::string round_bar = R"toml(
+[analysis]
+kinematics = "axisymmetric"
+[time]
+end = "6 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "1.5 4 mm" }
+[cloud]
+spacing = "0.25 mm"
+[boundary.wall]
+pieces = ["bottom"]
+symmetry = true
+[initial]
+velocity = "0 -150 m/s"
+[method]
+lagrangian = "updated"
+[output]
+fields_every = "2 us"
+pictures = "6 us"
+picture_fields = ["plastic_strain"]
+[output.checkpoint]
+every_steps = 20
+)toml" + steel;
+
+// Finite elements, total Lagrangian, Coulomb friction.
+const std::string triangles = R"toml(
+[time]
+end = "10 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "0.3 mm"
+[boundary.base]
+pieces = ["bottom"]
+velocity = "0 0 m/s"
+[tools.roll]
+circle = { centre = "2 3 mm", radius = "1 mm" }
+velocity = "10 -30 m/s"
+friction = { law = "coulomb", coefficient = 0.3 }
+[method]
+name = "fe-triangles"
+lagrangian = "total"
+[output]
+pictures = "10 us"
+picture_fields = ["pressure"]
+[output.checkpoint]
+every_steps = 15
+keep = 1
+)toml" + steel;
+
+std::set<std::string> files_of(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) names.insert(fs::relative(entry.path(), folder).string());
+  return names;
+}
+
+/// Files that hold when, how fast or where a run was made.
+bool is_result(const std::string& file) {
+  return !file.starts_with("checkpoint") && file != io::files::status && file != io::files::report &&
+         file != io::files::resolved_case;
+}
+
+std::string outcome(const fs::path& folder) {
+  const io::RunStatus status = io::read_status(folder);
+  std::string text =
+      fmt::format("exit {} steps {} nodes {} node_steps {} time {} residual {}", status.exit, status.steps,
+                  status.nodes, status.node_steps, status.time, status.energy_residual);
+  for (const auto& [name, value] : status.metrics) text += fmt::format(" {} {}", name, value);
+  for (const auto& [name, value] : status.step_limits) text += fmt::format(" {} {}", name, value);
+  return text;
+}
+
+} // namespace
+
+const std::vector<SmallCase>& small_cases() {
+  static const std::vector<SmallCase> cases{
+      {"punched", punched}, {"loaded", loaded}, {"round_bar", round_bar}, {"triangles", triangles}};
+  return cases;
+}
+
+const std::string& small_case(const std::string& name) {
+  for (const SmallCase& small : small_cases())
+    if (small.name == name) return small.text;
+  throw std::logic_error("no small case " + name);
+}
+
+std::string difference(const fs::path& a, const fs::path& b) {
+  std::string text;
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)})
+    for (const std::string& file : files_of(from))
+      if (is_result(file) && !fs::exists(to / file)) text += fmt::format("{} lacks {}\n", to.string(), file);
+  for (const std::string& file : files_of(a))
+    if (is_result(file) && fs::exists(b / file) && io::read_file(a / file) != io::read_file(b / file))
+      text += fmt::format("{} differs\n", file);
+  if (outcome(a) != outcome(b)) text += fmt::format("{}\n{}\n", outcome(a), outcome(b));
+  return text;
+}
+
+} // namespace cnem::app

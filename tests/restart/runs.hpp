@@ -1,0 +1,23 @@
+#pragma once
+// Small cases that hold every kind of state a run has, and the comparison of two runs bit for bit.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cnem::app {
+
+struct SmallCase {
+  const char* name;
+  std::string text;
+};
+
+/// Plasticity, heat, contact with friction, re-references, bulk viscosity, loads, supports, bodies of
+/// revolution, finite elements.
+const std::vector<SmallCase>& small_cases();
+const std::string& small_case(const std::string& name);
+
+/// Differences of two output folders in history, fields, lines, pictures and in what status.json says of the
+/// result; empty when there is none.
+std::string difference(const std::filesystem::path& a, const std::filesystem::path& b);
+
+} // namespace cnem::app

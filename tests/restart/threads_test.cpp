@@ -1,0 +1,77 @@
+// The same bits for any number of threads: every case in the repository, its first steps, or whole runs when
+// CNEM_WHOLE_RUNS is set.
+#include "core/isa.hpp"
+#include "io/case_reader.hpp"
+#include "tests/restart/process.hpp"
+#include "tests/restart/runs.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace cnem::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folders below cases/ that hold a case.
+const std::vector<fs::path>& all_cases() {
+  static const std::vector<fs::path> folders = [] {
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(fs::path(CNEM_SOURCE_DIR) / "cases"))
+      if (entry.path().filename() == "case.toml") found.push_back(entry.path().parent_path());
+    std::sort(found.begin(), found.end());
+    return found;
+  }();
+  return folders;
+}
+
+/// Runs a case with 1, 2, 3, 4 and 7 threads.
+void expect_same_bits(const fs::path& input, const std::string& isa,
+                      const std::vector<std::string>& set = {}) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("cnem_threads_{}", ::getpid());
+  fs::remove_all(folder);
+  const bool explicit_run =
+      io::read_case((input / "case.toml").string()).analysis.type == io::Analysis::Type::explicit_dynamics;
+  for (const int threads : {1, 2, 3, 4, 7}) {
+    const fs::path output = folder / fmt::format("{}", threads);
+    std::vector<std::string> words{
+        "run",       input.string(),          "--output", output.string(),
+        "--threads", std::to_string(threads), "--set",    "output.picture_fields=[\"pressure\"]"};
+    if (explicit_run && !std::getenv("CNEM_WHOLE_RUNS"))
+      words.insert(words.end(), {"--set", "time.max_steps=200"});
+    words.insert(words.end(), set.begin(), set.end());
+    const Ending ending = run_cnem(words, 0, {"CNEM_ISA=" + isa});
+    ASSERT_EQ(ending.code, 0) << ending.printed;
+    EXPECT_EQ(difference(folder / "1", output), "") << threads << " threads";
+    if (threads > 1) fs::remove_all(output);
+  }
+  fs::remove_all(folder);
+}
+
+class Threads : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(Threads, do_not_change_the_bits) {
+  expect_same_bits(all_cases()[GetParam()], std::string(isa_name(active_isa())));
+}
+INSTANTIATE_TEST_SUITE_P(Of, Threads, ::testing::Range(std::size_t{0}, all_cases().size()),
+                         [](const auto& index) { return all_cases()[index.param].filename().string(); });
+
+TEST(ThreadsWith, every_instruction_set_do_not_change_the_bits) {
+  for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512})
+    if (isa_supported(isa) && isa != active_isa())
+      expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/verification/taylor_304l",
+                       std::string(isa_name(isa)));
+}
+
+TEST(ThreadsWith, new_references_do_not_change_the_bits) {
+  expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/paper/shearing_sharp",
+                   std::string(isa_name(active_isa())),
+                   {"--set", "method.rereference.every=10", "--set", "time.max_steps=50"});
+}
+
+} // namespace
+} // namespace cnem::app
