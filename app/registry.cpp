@@ -220,10 +220,12 @@ void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& 
     supports.insert(supports.begin(), {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis)});
 }
 
-contact::Tool<2> make_tool(const io::Tool& spec) {
+contact::Tool<2> make_tool(const io::Case& input, const io::Tool& spec) {
   contact::Tool<2> tool;
   tool.name = spec.name;
-  tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
+  try {
+    tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
+  } catch (const InputError& error) { throw input.error("tools." + spec.name, error.what()); }
   tool.motion.velocity = spec.velocity;
   if (spec.friction.law != io::Friction::Law::none) tool.friction.coulomb = spec.friction.coefficient;
   if (spec.friction.law == io::Friction::Law::tresca_limited)
@@ -259,7 +261,12 @@ Setup build(const io::Case& input) {
   try {
     generated = voronoi::generate_cloud(domain_shape(input.domain), spacing_field(input.cloud),
                                         cloud_options(input.cloud));
-  } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
+  } catch (const voronoi::SpacingError& error) {
+    throw input.error("cloud.spacing", error.what());
+  } catch (const GeometryError& error) {
+    const bool list = input.cloud.pattern == io::CloudSpec::Pattern::list;
+    throw input.error(list ? "cloud.nodes" : "domain", error.what());
+  }
   if (input.method.name == io::Method::Name::fe_triangles &&
       input.method.lagrangian != io::Method::Lagrangian::total)
     throw input.error("method.lagrangian",
@@ -267,7 +274,7 @@ Setup build(const io::Case& input) {
                       "Lagrangian only; expected \"total\"");
 
   std::vector<contact::Tool<2>> tools;
-  for (const io::Tool& tool : input.tools) tools.push_back(make_tool(tool));
+  for (const io::Tool& tool : input.tools) tools.push_back(make_tool(input, tool));
   Setup setup;
   setup.warnings = std::move(generated.warnings);
   Model<2>& model = setup.model;

@@ -40,7 +40,9 @@ void CheckpointTimer::written(const State<2>& state) {
 ExplicitSolver<2> make_solver(const io::Case& input, std::vector<std::string>& warnings) {
   Setup setup = build(input);
   warnings = std::move(setup.warnings);
-  return ExplicitSolver<2>(std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature));
+  try {
+    return {std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature)};
+  } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
 }
 
 Simulation::Simulation(const io::Case& input, const RunOptions& options)

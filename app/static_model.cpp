@@ -42,7 +42,9 @@ bool plane_stress(const io::Case& input) {
 StaticModel::StaticModel(const io::Case& in) : input(in), setup(build(in)) {
   Model<2>& model = setup.model;
   const Cloud<2>& cloud = model.cloud;
-  approximation = model.method->rebuild(cloud);
+  try {
+    approximation = model.method->rebuild(cloud);
+  } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
   tips = tips_of(input, cloud);
   for (const fracture::CrackTip& tip : tips) enrichment_radius.push_back(app::enrichment_radius(input, tip));
   try {

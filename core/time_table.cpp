@@ -10,12 +10,14 @@ namespace cnem {
 TimeTable::TimeTable(std::vector<double> time, std::vector<double> value)
     : time_(std::move(time)), value_(std::move(value)) {
   if (time_.empty() || time_.size() != value_.size())
-    throw InputError(fmt::format("a time table needs as many times as values and at least one, got {} and {}",
+    throw InputError(fmt::format("a time table needs as many times as values and at least one, found {} "
+                                 "times and {} values, expected as many",
                                  time_.size(), value_.size()));
   for (std::size_t i = 1; i < time_.size(); ++i)
     if (time_[i] <= time_[i - 1])
       throw InputError(
-          fmt::format("the times of a table must increase, got {} s after {} s", time_[i], time_[i - 1]));
+          fmt::format("the times of a table must increase, found {} s after {} s, expected a later time",
+                      time_[i], time_[i - 1]));
 }
 
 double TimeTable::operator()(double t) const {

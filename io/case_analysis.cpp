@@ -13,9 +13,7 @@ void refuse(Setting& root, std::string_view path, const std::string& why, Diagno
   const Setting* setting = root.find(path);
   if (!setting) return;
   if (setting->given) return diagnostics.add(Mistake::conflict, setting->where, setting->path, why);
-  const auto dot = path.rfind('.');
-  Setting& table = dot == std::string_view::npos ? root : *root.find(path.substr(0, dot));
-  std::erase_if(table.members, [&](const Setting& member) { return &member == setting; });
+  root.erase(path);
 }
 
 bool moves(const VectorFunction& velocity) {
@@ -45,7 +43,9 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
   if (result.analysis.type != Analysis::Type::statics) {
     if (!result.analysis.mechanical && !result.analysis.thermal)
       refuse(root, "analysis.mechanical",
-             "found false where analysis.thermal is false: nothing is solved for", diagnostics);
+             "found false where analysis.thermal is false: nothing is solved for, expected one of them to be "
+             "true",
+             diagnostics);
     if (!result.analysis.mechanical)
       for (const char* path : {"tools", "initial.velocity", "initial.spin", "initial.velocity_gradient"})
         refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
@@ -53,6 +53,12 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
     if (result.analysis.kinematics == Analysis::Kinematics::plane_stress)
       refuse(root, "analysis.kinematics",
              "found \"plane stress\", expected it with analysis.type = \"static\" only", diagnostics);
+    if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
+      refuse(root, "initial.spin",
+             "found a rotation in the meridian plane, expected none in an axisymmetric analysis",
+             diagnostics);
+    refuse(root, "fracture",
+           "found in an explicit analysis, expected it with analysis.type = \"static\" only", diagnostics);
     return;
   }
   if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
@@ -61,10 +67,11 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
   const std::string dynamic =
       "found in a static analysis, expected it with analysis.type = \"explicit\" only";
   if (!result.analysis.mechanical)
-    refuse(root, "analysis.mechanical", "found false in a static analysis, which solves for displacements",
-           diagnostics);
+    refuse(root, "analysis.mechanical",
+           "found false in a static analysis, which solves for displacements, expected true", diagnostics);
   if (result.analysis.thermal)
-    refuse(root, "analysis.thermal", "found true in a static analysis, which solves for displacements alone",
+    refuse(root, "analysis.thermal",
+           "found true in a static analysis, which solves for displacements alone, expected false",
            diagnostics);
   for (const char* path : {"time.step", "time.max_steps", "tools", "initial.velocity", "initial.spin",
                            "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",

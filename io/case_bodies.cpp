@@ -1,6 +1,7 @@
 // Parts of the workpiece, its initial state and what repeats: regions, initial, periodic.
 #include "io/case_parts.hpp"
 #include "io/case_walls.hpp"
+#include "io/curve_checks.hpp"
 #include "io/nearest.hpp"
 
 #include <algorithm>

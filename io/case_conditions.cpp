@@ -81,7 +81,9 @@ std::vector<std::string> chosen_pieces(const Setting& pieces, const Domain& doma
   const auto add = [&](const std::string& name) {
     if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) chosen.push_back(name);
   };
-  for (const std::string& name : std::get<std::vector<std::string>>(pieces.value)) {
+  const auto& names = std::get<std::vector<std::string>>(pieces.value);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
     const bool is_crack = std::any_of(domain.cracks.begin(), domain.cracks.end(),
                                       [&](const Crack& crack) { return crack.name == name; });
     if (name == "all") {
@@ -92,9 +94,10 @@ std::vector<std::string> chosen_pieces(const Setting& pieces, const Domain& doma
       add(name + "+");
       add(name + "-");
     } else {
-      diagnostics.add(Mistake::reference, pieces.where, pieces.path,
-                      fmt::format("found \"{}\", expected a boundary piece: {} or all{}", name,
-                                  fmt::join(known, ", "), did_you_mean(name, known)));
+      diagnostics.add(Mistake::reference, pieces.where_of(i), pieces.path,
+                      fmt::format("found {}, expected a boundary piece: {} or all{}",
+                                  toml_quoted(shortened(name)), fmt::join(known, ", "),
+                                  did_you_mean(name, known)));
     }
   }
   return chosen;
@@ -110,9 +113,9 @@ public:
     for (const std::string& piece : pieces) {
       for (const auto& [other, owner] : claims_[piece]) {
         if (!fight(quantity, other)) continue;
-        diagnostics_.add(
-            Mistake::conflict, setting.where, setting.path,
-            fmt::format("sets {} on piece '{}', where {} sets {} already", quantity, piece, owner, other));
+        diagnostics_.add(Mistake::conflict, setting.where, setting.path,
+                         fmt::format("sets {} on piece '{}', where {} sets {} already, expected one of them",
+                                     quantity, piece, owner, other));
         return;
       }
       claims_[piece].emplace_back(quantity, setting.path);
@@ -165,8 +168,9 @@ void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics)
         std::find(names.begin(), names.end(), name) == names.end() ? nullptr : root.find("materials." + name);
     if (!table) {
       diagnostics.add(Mistake::reference, wanted.where, wanted.path,
-                      fmt::format("found \"{}\", expected one of the materials {}{}", name,
-                                  fmt::join(names, ", "), did_you_mean(name, names)));
+                      fmt::format("found {}, expected one of the materials {}{}",
+                                  toml_quoted(shortened(name)), fmt::join(names, ", "),
+                                  did_you_mean(name, names)));
     } else if (result.analysis.thermal && !table->find("heat")) {
       diagnostics.add(
           Mistake::missing_key, table->where, table->path + ".heat",
@@ -193,13 +197,16 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
       diagnostics.add(Mistake::missing_key, table.where, table.path + ".pieces",
                       "missing, expected " + find_key("boundary.*.pieces")->expectation() +
                           ", or points that name single nodes");
+    condition.symmetry = table.get<bool>("symmetry");
+    const auto goes_with_points = [&](const Setting& member) {
+      return member.name == "pieces" || member.name == "points" || member.name == "velocity" ||
+             member.name == "displacement" || (member.name == "symmetry" && !condition.symmetry);
+    };
     if (points)
       for (const Setting& member : table.members)
-        if (member.given && member.name != "pieces" && member.name != "points" && member.name != "velocity" &&
-            member.name != "displacement" && (member.name != "symmetry" || std::get<bool>(member.value)))
+        if (member.given && !goes_with_points(member))
           diagnostics.add(Mistake::conflict, member.where, member.path,
                           "found in a condition with points, expected velocity or displacement there");
-    condition.symmetry = table.get<bool>("symmetry");
     condition.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     condition.displacement = table.maybe<VectorFunction>("displacement").value_or(VectorFunction{});
     condition.traction = table.maybe<VectorFunction>("traction").value_or(VectorFunction{});

@@ -2,14 +2,11 @@
 #include "io/case_parts.hpp"
 #include "io/case_walls.hpp"
 #include "io/curve_checks.hpp"
-#include "io/nearest.hpp"
 #include "io/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace cnem::io {
 namespace {
@@ -22,7 +19,7 @@ std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Di
     const std::string key = error.key.empty() ? table.path : table.path + "." + error.key;
     // Elements of a list are "path[2]" in keys and two steps in the tree.
     std::string steps = error.key;
-    if (const auto bracket = steps.find('['); bracket != std::string::npos) steps.insert(bracket, ".");
+    if (const auto bracket = steps.find('['); bracket != std::string::npos) steps.insert(bracket, 1, '.');
     const Setting* culprit = table.find(steps);
     diagnostics.add(Mistake::geometry, culprit && culprit->given ? culprit->where : table.where, key,
                     error.what());
@@ -42,82 +39,68 @@ void check_holes(const Setting& holes, const Domain& domain, Diagnostics& diagno
       continue;
     }
     if (!inside(domain.outer, hole.pieces.front().from))
-      fail(i, fmt::format("the hole lies outside domain.outer at {}", show(hole.pieces.front().from)));
+      fail(i, fmt::format("the hole lies outside domain.outer at {}, expected it to lie inside",
+                          show(hole.pieces.front().from)));
     for (std::size_t j = 0; j < i; ++j) {
       const Curve& other = domain.holes[j].outline;
       if (const auto point = common_point(hole, other))
-        fail(i, fmt::format("the hole meets domain.holes.{} at {}", domain.holes[j].name, show(*point)));
+        fail(i, fmt::format("the hole meets domain.holes.{} at {}, expected holes apart",
+                            domain.holes[j].name, show(*point)));
       else if (inside(other, hole.pieces.front().from) || inside(hole, other.pieces.front().from))
-        fail(i, fmt::format("one of the holes {} and {} lies in the other", domain.holes[i].name,
-                            domain.holes[j].name));
+        fail(i, fmt::format("one of the holes {} and {} lies in the other, expected holes apart",
+                            domain.holes[i].name, domain.holes[j].name));
     }
   }
 }
 
-std::array<Vec2, 2> box(const Setting& setting, Diagnostics& diagnostics) {
-  const auto& corners = std::get<std::vector<Vec2>>(setting.value);
-  if (corners.size() != 2) {
-    diagnostics.add(Mistake::type, setting.where, setting.path,
-                    fmt::format("found {} points, expected two opposite corners such as {}", corners.size(),
-                                setting.key->example_text()));
-    return {Vec2(0, 0), Vec2(0, 0)};
-  }
-  const Vec2 low = corners[0].cwiseMin(corners[1]), high = corners[0].cwiseMax(corners[1]);
-  if (!((high - low).minCoeff() > 0.0))
-    diagnostics.add(Mistake::geometry, setting.where, setting.path,
-                    fmt::format("a box from {} to {} has no area", show(corners[0]), show(corners[1])));
-  return {low, high};
+/// A body of revolution lies on one side of its axis.
+void check_axis(const Setting& outer, const Domain& domain, Diagnostics& diagnostics) {
+  double least = 0.0;
+  for (const CurvePiece& piece : domain.outer.pieces)
+    for (int k = 0; k < 16; ++k) least = std::min(least, piece.point(k / 16.0).x());
+  if (least < -1e-9 * extent(domain.outer))
+    diagnostics.add(Mistake::geometry, outer.where, outer.path,
+                    fmt::format("found an outline that reaches to x = {:g} m, expected x >= 0: an "
+                                "axisymmetric body turns about x = 0",
+                                least));
 }
 
-/// Ends of the cracks named, or of all.
-std::vector<Vec2> crack_ends(const Setting& names, const Setting& cracks, Diagnostics& diagnostics) {
-  std::vector<Vec2> ends;
-  std::vector<std::string> known;
-  for (const Setting& crack : cracks.members) known.push_back(crack.name);
-  for (const std::string& name : std::get<std::vector<std::string>>(names.value)) {
-    bool found = name == "all";
-    for (const Setting& crack : cracks.members)
-      if (name == "all" || name == crack.name) {
-        const std::vector<Vec2> path = crack_path(crack);
-        if (!path.empty()) ends.insert(ends.end(), {path.front(), path.back()});
-        found = true;
+/// How deep a point lies in the domain, m; 0 outside.
+double depth_in(const Domain& domain, const Vec2& x) {
+  if (!inside(domain.outer, x)) return 0.0;
+  double depth = distance(domain.outer, x);
+  for (const Hole& hole : domain.holes) {
+    if (inside(hole.outline, x)) return 0.0;
+    depth = std::min(depth, distance(hole.outline, x));
+  }
+  return depth;
+}
+
+/// The workpiece has no place where a tool is. Overlaps of less than half a spacing are left to contact,
+/// which pushes the nodes out.
+void check_overlap(const Setting& table, const Tool& tool, const Case& input, Diagnostics& diagnostics) {
+  constexpr int samples = 16; // of each piece
+  double deepest = 0.0;
+  Vec2 where{0, 0};
+  const auto look = [&](const Curve& curve, const auto& depth_at) {
+    for (const CurvePiece& piece : curve.pieces)
+      for (int k = 0; k < samples; ++k) {
+        const Vec2 x = piece.point(double(k) / samples);
+        const double depth = depth_at(x);
+        if (depth > deepest) deepest = depth, where = x;
       }
-    if (!found)
-      diagnostics.add(Mistake::reference, names.where, names.path,
-                      fmt::format("found \"{}\", expected a crack: {} or all{}", name, fmt::join(known, ", "),
-                                  did_you_mean(name, known)));
-  }
-  return ends;
-}
-
-Refinement read_refinement(const Setting& root, const Setting& table, double cloud_spacing,
-                           Diagnostics& diagnostics) {
-  Refinement refinement;
-  refinement.name = table.name;
-  refinement.growth = table.get<double>("growth");
-  const Setting *region = table.find("box"), *points = table.find("points");
-  const Setting *spacing = table.find("spacing"), *factor = table.find("factor");
-  const Setting* tips = table.find("tips");
-  if (const int given = int(region != nullptr) + int(points != nullptr) + int(tips != nullptr); given != 1)
+  };
+  look(tool.outline, [&](const Vec2& x) { return depth_in(input.domain, x); });
+  for (const auto& [name, curve] : curves_of(input.domain))
+    look(*curve, [&](const Vec2& x) { return inside(tool.outline, x) ? distance(tool.outline, x) : 0.0; });
+  const double size = extent(input.domain.outer);
+  const double allowed = input.cloud.spacing > 0.0 ? 0.5 * input.cloud.spacing : 0.01 * size;
+  if (deepest > allowed)
     diagnostics.add(
-        given ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-        fmt::format("found {} of box, points and tips, expected one", given ? "several" : "none"));
-  if (!spacing == !factor)
-    diagnostics.add(spacing ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-                    fmt::format("found {} of spacing and factor, expected one", spacing ? "both" : "none"));
-  if (region) refinement.box = box(*region, diagnostics);
-  if (points) {
-    refinement.points = std::get<std::vector<Vec2>>(points->value);
-    if (refinement.points.empty())
-      diagnostics.add(Mistake::type, points->where, points->path, "found no points, expected at least one");
-  }
-  if (tips) {
-    const Setting* cracks = root.find("domain.cracks");
-    refinement.tips = crack_ends(*tips, cracks ? *cracks : Setting{}, diagnostics);
-  }
-  refinement.spacing = spacing ? std::get<double>(spacing->value)
-                               : table.maybe<double>("factor").value_or(1.0) * cloud_spacing;
-  return refinement;
+        Mistake::geometry, table.where, table.path,
+        fmt::format("the tool lies {:.3g} m deep in the workpiece at {}, expected it outside at the "
+                    "start",
+                    deepest, show(where)));
 }
 
 } // namespace
@@ -136,9 +119,11 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   }
   read_walls(table, domain, diagnostics);
   if (!complete) return;
+  if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
+    check_axis(*table.find("outer"), domain, diagnostics);
   if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);
   check_walls(table, domain, diagnostics);
-  for (const Setting& line : root.entries("output.lines"))
+  for (const Setting& line : root.entries("output.lines")) {
     for (const char* end : {"from", "to"}) {
       const Setting& at = *line.find(end);
       if (const std::string reason = outside_reason(domain, std::get<Vec2>(at.value)); !reason.empty())
@@ -146,6 +131,13 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
                         fmt::format("the point {} is {}, expected a material point",
                                     show(std::get<Vec2>(at.value)), reason));
     }
+    const Setting& to = *line.find("to");
+    if (line.get<Vec2>("from") == line.get<Vec2>("to"))
+      diagnostics.add(
+          Mistake::geometry, to.where, to.path,
+          fmt::format("the line has no length, it begins and ends at {}, expected two different points",
+                      show(line.get<Vec2>("to"))));
+  }
   for (const Setting& probe : root.entries("output.probes")) {
     const Setting& at = *probe.find("at");
     const auto& point = std::get<Vec2>(at.value);
@@ -160,6 +152,8 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     Tool tool;
     tool.name = table.name;
     tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
+    if (!result.domain.outer.pieces.empty() && !tool.outline.pieces.empty())
+      check_overlap(table, tool, result, diagnostics);
     const auto& velocity = table.get<VectorFunction>("velocity");
     for (std::size_t k = 0; k < 2; ++k) tool.velocity[k] = velocity[k].value_or(TimeTable(0.0));
     tool.friction.law = table.choice<Friction::Law>("friction.law");
@@ -183,46 +177,6 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
         tool_heat.effusivity = std::sqrt(*k * *density * *c);
     }
     result.tools.push_back(std::move(tool));
-  }
-}
-
-void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
-  Setting& table = *root.find("cloud");
-  CloudSpec& cloud = result.cloud;
-  cloud.pattern = table.choice<CloudSpec::Pattern>("pattern");
-  cloud.jitter = table.get<double>("jitter");
-  cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
-  cloud.spacing = table.maybe<double>("spacing").value_or(0.0);
-  const bool list = cloud.pattern == CloudSpec::Pattern::list;
-  if (!list && !table.find("spacing"))
-    diagnostics.add(Mistake::missing_key, table.where, "cloud.spacing",
-                    "missing, expected " + find_key("cloud.spacing")->expectation());
-  const Setting *nodes = table.find("nodes"), *file = table.find("nodes_file");
-  for (const Setting* given : {nodes, file})
-    if (given && !list)
-      diagnostics.add(Mistake::conflict, given->where, given->path,
-                      "goes with pattern = \"list\", found another pattern");
-  if (list && !nodes == !file)
-    diagnostics.add(nodes ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-                    fmt::format("found {} of nodes and nodes_file, expected one with pattern = \"list\"",
-                                nodes ? "both" : "none"));
-  else if (list && file) {
-    const std::filesystem::path folder = std::filesystem::path(result.path).parent_path();
-    try {
-      cloud.nodes = read_points((folder / std::get<std::string>(file->value)).string());
-    } catch (const InputError& error) {
-      diagnostics.add(Mistake::reference, file->where, file->path, error.what());
-    }
-    std::erase_if(table.members, [](const Setting& member) { return member.name == "nodes_file"; });
-    table.set_default("nodes", cloud.nodes);
-  } else if (list) {
-    cloud.nodes = std::get<std::vector<Vec2>>(nodes->value);
-  }
-  for (const Setting& refinement : table.entries("refine"))
-    cloud.refine.push_back(read_refinement(root, refinement, cloud.spacing, diagnostics));
-  for (const Setting& window : root.entries("output.windows")) {
-    const std::array<Vec2, 2> corners = box(*window.find("box"), diagnostics);
-    result.output.windows.push_back({window.name, corners[0], corners[1]});
   }
 }
 

@@ -20,8 +20,8 @@ void read_initial_and_loads(const Setting& root, Case& result, Diagnostics& diag
 /// Pieces that continue at others. Expects the domain.
 void read_periodic(const Setting& root, Case& result, Diagnostics& diagnostics);
 
-/// Spacing, refinements and node lists. A node file is read and its nodes are put into the settings, so that
-/// the resolved case stands alone.
+/// Spacing, refinements, node lists and windows. A node file is read and its nodes are put into the settings,
+/// so that the resolved case stands alone. Expects the domain, which may lack its outline.
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// Materials, and whether the domain's exists and has what is needed.
@@ -36,8 +36,8 @@ void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// What the kind of analysis does not allow; defaults of such keys are dropped. Expects everything else.
 void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics);
 
-/// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file and line for a file
-/// that is absent or malformed, IoError when it cannot be read.
+/// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file, line and column for
+/// a file that is absent or malformed, IoError when it cannot be read.
 std::vector<Vec2> read_points(const std::string& path);
 
 } // namespace cnem::io

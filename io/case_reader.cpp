@@ -72,8 +72,18 @@ void read_method(const Setting& root, Case& result) {
   method.energy_tolerance = table.get<double>("energy_tolerance");
 }
 
-void read_output(const Setting& root, Case& result) {
+void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("output");
+  constexpr double most_rows = 1e7;
+  for (const char* name : {"history_every", "fields_every"}) {
+    const Setting& every = *table.find(name);
+    const double interval = std::get<double>(every.value);
+    if (interval > 0.0 && interval < result.time.end / most_rows)
+      diagnostics.add(
+          Mistake::range, every.where, every.path,
+          fmt::format("found {:g} s, expected 0 s or at least {:g} s, a ten-millionth of time.end", interval,
+                      result.time.end / most_rows));
+  }
   Output& output = result.output;
   output.history_every = table.get<double>("history_every");
   output.fields_every = table.get<double>("fields_every");
@@ -122,9 +132,9 @@ template<class Changes> Case read(Value document, const std::string& path, const
   collect_locations(root, result.location);
   read_time(root, result, diagnostics);
   read_materials(root, result, diagnostics);
-  read_output(root, result);
-  read_cloud(root, result, diagnostics);
+  read_output(root, result, diagnostics);
   read_domain(root, result, diagnostics);
+  read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
   diagnostics.throw_if_any();
   read_regions(root, result, diagnostics);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace cnem::io {
 
@@ -34,8 +35,10 @@ std::vector<Wall> walls_of(const Setting& table, const Domain& domain) {
 std::array<std::string, 2> tip_names(const Setting& crack, const Setting& domain, Diagnostics& diagnostics) {
   if (const Setting* given = crack.find("tips")) {
     const auto& names = std::get<std::vector<std::string>>(given->value);
-    if (names.size() == 2 && names[0] != names[1]) return {names[0], names[1]};
-    diagnostics.add(Mistake::type, given->where, given->path, "expected two different names");
+    if (names.size() == 2) return {names[0], names[1]};
+    diagnostics.add(
+        Mistake::type, given->where, given->path,
+        fmt::format("found {} names, expected two such as {}", names.size(), given->key->example_text()));
     return {};
   }
   const std::vector<Vec2> path = crack_path(crack);
@@ -65,28 +68,25 @@ std::vector<CurvePiece> segments_of(const std::vector<Vec2>& points) {
   return segments;
 }
 
-/// All boundary curves of a domain.
-std::vector<std::pair<std::string, const Curve*>> curves_of(const Domain& domain) {
-  std::vector<std::pair<std::string, const Curve*>> curves{{"domain.outer", &domain.outer}};
-  for (const Hole& hole : domain.holes) curves.emplace_back("domain.holes." + hole.name, &hole.outline);
-  return curves;
-}
-
-/// First thing wrong with a wall; empty when nothing is.
-std::string problem_of(const Domain& domain, const std::vector<Wall>& walls, std::size_t index) {
+/// First thing wrong with a wall; empty when nothing is. `culprit`: the point to blame.
+std::string problem_of(const Domain& domain, const std::vector<Wall>& walls, std::size_t index,
+                       std::size_t& culprit) {
   const Wall& wall = walls[index];
   const double tolerance = 1e-9 * extent(domain.outer);
   if (wall.points.size() < 2)
     return fmt::format("found {} points, expected at least two", wall.points.size());
   const std::vector<CurvePiece> segments = segments_of(wall.points);
-  for (const CurvePiece& segment : segments)
-    if (segment.length() <= tolerance)
-      return fmt::format("two consecutive points coincide at {}", show(segment.from));
+  for (culprit = 1; culprit < wall.points.size(); ++culprit)
+    if (segments[culprit - 1].length() <= tolerance)
+      return fmt::format("two consecutive points coincide at {}, expected different ones",
+                         show(wall.points[culprit]));
+  for (culprit = 0; culprit < wall.points.size(); ++culprit)
+    if (const std::string reason = outside_reason(domain, wall.points[culprit]); !reason.empty())
+      return fmt::format("the point {} is {}, expected points of the domain", show(wall.points[culprit]),
+                         reason);
   if (const auto point = self_crossing(segments, tolerance))
-    return fmt::format("the {} crosses or touches itself at {}", wall.what, show(*point));
-  for (const Vec2& point : wall.points)
-    if (const std::string reason = outside_reason(domain, point); !reason.empty())
-      return fmt::format("the point {} is {}", show(point), reason);
+    return fmt::format("the {} crosses or touches itself at {}, expected a simple polyline", wall.what,
+                       show(*point));
   const auto curves = curves_of(domain);
   for (const auto& [name, curve] : curves)
     for (const CurvePiece& piece : curve->pieces)
@@ -99,7 +99,8 @@ std::string problem_of(const Domain& domain, const std::vector<Wall>& walls, std
     for (const CurvePiece& a : segments)
       for (const CurvePiece& b : segments_of(walls[other].points))
         if (const auto points = meeting_points(a, b, tolerance); !points.empty())
-          return fmt::format("the {} meets {} at {}", wall.what, walls[other].key, show(points.front()));
+          return fmt::format("the {} meets {} at {}, expected them apart", wall.what, walls[other].key,
+                             show(points.front()));
   if (wall.divides)
     for (const Vec2& end : {wall.points.front(), wall.points.back()})
       if (std::none_of(curves.begin(), curves.end(),
@@ -108,11 +109,37 @@ std::string problem_of(const Domain& domain, const std::vector<Wall>& walls, std
   return "";
 }
 
+/// Names of cracks and of their tips tell results and boundary pieces apart.
+void check_crack_names(const Setting& table, const Domain& domain, Diagnostics& diagnostics) {
+  std::map<std::string, std::string> owner_of_tip;
+  for (std::size_t i = 0; i < domain.cracks.size(); ++i) {
+    const Crack& crack = domain.cracks[i];
+    const Setting& setting = table.entries("cracks")[i];
+    for (const auto& [name, curve] : curves_of(domain))
+      if (std::any_of(curve->pieces.begin(), curve->pieces.end(),
+                      [&](const CurvePiece& piece) { return piece.name == crack.name; }))
+        diagnostics.add(Mistake::conflict, setting.where, setting.path,
+                        fmt::format("{} has a boundary piece of this name, expected another one", name));
+    const Setting* tips = setting.find("tips");
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::string& tip = crack.tips[end];
+      const auto [found, is_new] = owner_of_tip.emplace(tip, crack.name);
+      if (!is_new && !tip.empty())
+        diagnostics.add(Mistake::conflict, tips ? tips->where_of(end) : setting.where, setting.path + ".tips",
+                        fmt::format("the tip {} is one of crack '{}' already, expected different names",
+                                    toml_quoted(tip), found->second));
+    }
+  }
+}
+
 } // namespace
 
-std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
+std::vector<std::pair<std::string, const Curve*>> curves_of(const Domain& domain) {
+  std::vector<std::pair<std::string, const Curve*>> curves{{"domain.outer", &domain.outer}};
+  for (const Hole& hole : domain.holes) curves.emplace_back("domain.holes." + hole.name, &hole.outline);
+  return curves;
+}
 
-/// Why the point is not in the domain or on its boundary; empty when it is.
 std::string outside_reason(const Domain& domain, const Vec2& x) {
   const double tolerance = 1e-9 * extent(domain.outer);
   if (!inside(domain.outer, x) && distance(domain.outer, x) > tolerance) return "outside domain.outer";
@@ -122,7 +149,6 @@ std::string outside_reason(const Domain& domain, const Vec2& x) {
   return "";
 }
 
-/// Points of a crack, turned as it says.
 std::vector<Vec2> crack_path(const Setting& table) {
   const Setting* points = table.find("points");
   std::vector<Vec2> path = points ? std::get<std::vector<Vec2>>(points->value) : std::vector<Vec2>{};
@@ -140,6 +166,7 @@ std::vector<Vec2> crack_path(const Setting& table) {
 void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics) {
   for (const Setting& crack : table.entries("cracks"))
     domain.cracks.push_back({crack.name, crack_path(crack), tip_names(crack, table, diagnostics)});
+  check_crack_names(table, domain, diagnostics);
   for (const Setting& interface : table.entries("interfaces")) {
     for (const Crack& crack : domain.cracks)
       if (crack.name == interface.name)
@@ -152,9 +179,12 @@ void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics) 
 
 void check_walls(const Setting& table, const Domain& domain, Diagnostics& diagnostics) {
   const std::vector<Wall> walls = walls_of(table, domain);
-  for (std::size_t i = 0; i < walls.size(); ++i)
-    if (const std::string problem = problem_of(domain, walls, i); !problem.empty())
-      diagnostics.add(Mistake::geometry, walls[i].setting->where, walls[i].setting->path, problem);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    std::size_t culprit = 0;
+    if (const std::string problem = problem_of(domain, walls, i, culprit); !problem.empty())
+      diagnostics.add(Mistake::geometry, walls[i].setting->where_of(culprit), walls[i].setting->path,
+                      problem);
+  }
 }
 
 } // namespace cnem::io

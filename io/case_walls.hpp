@@ -4,12 +4,13 @@
 #include "io/settings.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem::io {
 
-/// A position as messages show it.
-std::string show(const Vec2& x);
+/// All boundary curves of a domain with the keys they come from.
+std::vector<std::pair<std::string, const Curve*>> curves_of(const Domain& domain);
 
 /// Why the point is not in the domain or on its boundary; empty when it is.
 std::string outside_reason(const Domain& domain, const Vec2& x);

@@ -27,10 +27,18 @@ void check_range(double number, const Value& value, const Key& key) {
                                     key.range.text(describe(key.dimension).si_unit)));
 }
 
+/// Whether a text can be repeated in a message of one line.
+bool is_line(std::string_view text) {
+  return text.size() < 1000 && std::none_of(text.begin(), text.end(), [](char c) {
+           return static_cast<unsigned char>(c) < ' ' && c != '\t';
+         });
+}
+
 /// Numbers of a text or a bare number, in SI and in range.
 std::vector<double> numbers(const Value& value, const Key& key, const Dimension& dimension) {
   std::vector<double> result;
   if (value.kind == Kind::text) {
+    if (!is_line(value.text)) wrong_type(value, key);
     try {
       result = parse_quantities(value.text, dimension);
     } catch (const UnitError& error) { throw ConversionError(Mistake::unit, value.where, error.what()); }
@@ -95,7 +103,7 @@ void check_members(const Value& table, const std::vector<std::string>& allowed) 
   for (const Member& found : table.members)
     if (std::find(allowed.begin(), allowed.end(), found.key) == allowed.end())
       throw ConversionError(Mistake::unknown_key, found.where,
-                            fmt::format("unknown part '{}', expected {}{}", found.key,
+                            fmt::format("unknown part '{}', expected {}{}", shortened(found.key),
                                         fmt::join(allowed, ", "), did_you_mean(found.key, allowed)));
 }
 
@@ -204,7 +212,16 @@ std::vector<std::string> words(const Value& value, const Key& key,
   if (value.kind == Kind::text) return {word(value, key)};
   if (value.kind != Kind::array) wrong_type(value, key);
   std::vector<std::string> list;
-  for (const Value& element : value.elements) list.push_back(word(element, key));
+  for (const Value& element : value.elements) {
+    list.push_back(word(element, key));
+    if (std::find(list.begin(), list.end() - 1, list.back()) != list.end() - 1)
+      throw ConversionError(Mistake::conflict, element.where,
+                            fmt::format("found {} twice, expected each once", element.show()));
+  }
+  // A default stands for a list that is left out, so an empty one is a wish there: no pictures, say.
+  if (list.empty() && key.presence != Presence::fallback)
+    throw ConversionError(Mistake::type, value.where,
+                          fmt::format("found an empty array, expected {}", key.expectation()));
   return list;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numbers>
 
@@ -61,6 +62,8 @@ double joint_tolerance(const CurvePiece& a, const CurvePiece& b, double size) {
 constexpr double touching = 1e-9; ///< relative distance at which curves count as meeting
 
 } // namespace
+
+std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
 
 double extent(const Curve& curve) {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;

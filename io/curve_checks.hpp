@@ -4,9 +4,13 @@
 #include "core/curve.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace cnem::io {
+
+/// A point as messages write it: "(0.01, 0.005) m".
+std::string show(const Vec2& x);
 
 /// Diagonal of the bounding box of points on the curve, m: what tolerances are relative to.
 double extent(const Curve& curve);

@@ -1,13 +1,13 @@
 #include "io/document.hpp"
 
 #include "core/error.hpp"
+#include "io/toml_text.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <sstream>
 #include <toml++/toml.h>
 
 namespace cnem::io {
@@ -17,9 +17,16 @@ Location location_of(const toml::source_region& region, const std::string& sourc
   return {source, region.begin.line, region.begin.column};
 }
 
-Value convert(const toml::node& node, const std::string& source) {
+/// Far more than a case nests, and far less than a stack of calls can hold.
+constexpr int deepest = 64;
+
+Value convert(const toml::node& node, const std::string& source, int depth = 0) {
   Value value;
   value.where = location_of(node.source(), source);
+  if (depth > deepest)
+    throw InputError(
+        fmt::format("{}: found tables or arrays in one another more than {} deep, expected fewer",
+                    value.where.text(), deepest));
   if (const auto* boolean = node.as_boolean()) {
     value.kind = Value::Kind::boolean;
     value.boolean = boolean->get();
@@ -34,12 +41,12 @@ Value convert(const toml::node& node, const std::string& source) {
     value.text = text->get();
   } else if (const auto* array = node.as_array()) {
     value.kind = Value::Kind::array;
-    for (const toml::node& element : *array) value.elements.push_back(convert(element, source));
+    for (const toml::node& element : *array) value.elements.push_back(convert(element, source, depth + 1));
   } else if (const auto* table = node.as_table()) {
     value.kind = Value::Kind::table;
     for (const auto& [key, member] : *table)
       value.members.push_back(
-          {std::string(key.str()), location_of(key.source(), source), convert(member, source)});
+          {std::string(key.str()), location_of(key.source(), source), convert(member, source, depth + 1)});
     // toml++ sorts by name; a case keeps the order of its author.
     std::stable_sort(value.members.begin(), value.members.end(), [](const Member& a, const Member& b) {
       return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);
@@ -68,9 +75,12 @@ Value override_value(std::string_view text, const Location& where) {
   Value value;
   bool is_toml = false;
   try {
-    const toml::table table = toml::parse("value = " + std::string(text));
-    is_toml = table.size() == 1;
-    if (is_toml) value = convert(*table.get("value"), "");
+    const std::string assignment = fmt::format("value = {}", text);
+    if (!find_fault(assignment)) {
+      const toml::table table = toml::parse(assignment);
+      is_toml = table.size() == 1;
+      if (is_toml) value = convert(*table.get("value"), "");
+    }
   } catch (const toml::parse_error&) { is_toml = false; }
   if (!is_toml) {
     value.kind = Value::Kind::text;
@@ -114,17 +124,22 @@ std::vector<Step> split_key(std::string_view key) {
 
 /// The value a step leads to from `value`, made when a table lacks it. The last step is what is overridden.
 Value& descend(Value& value, const Step& step, const std::string& so_far, const Location& where, bool last) {
+  const auto fail = [&](const std::string& message) {
+    throw InputError(fmt::format("{}: key '{}': {}", where.text(), so_far, message));
+  };
   if (step.key.empty()) {
+    if (value.kind == Value::Kind::table && value.members.empty() && value.where.text() == where.text())
+      fail(fmt::format("not in the case, expected an array with an element [{}]", step.index));
     if (value.kind != Value::Kind::array)
-      throw InputError(fmt::format("{}: '{}' is {}, not an array", where.text(), so_far, value.show()));
+      fail(fmt::format("found {}, expected an array with an element [{}]", value.show(), step.index));
     if (step.index >= value.elements.size())
-      throw InputError(fmt::format("{}: '{}' has {} elements, so [{}] is beyond its last one", where.text(),
-                                   so_far, value.elements.size(), step.index));
+      fail(fmt::format("found an array of {} without an element [{}], expected one that exists; they count "
+                       "from 0",
+                       value.elements.size(), step.index));
     return value.elements[step.index];
   }
   if (value.kind != Value::Kind::table)
-    throw InputError(
-        fmt::format("{}: '{}' is {}, so it has no key '{}'", where.text(), so_far, value.show(), step.key));
+    fail(fmt::format("found {}, expected a table with a key '{}'", value.show(), step.key));
   if (Member* member = value.find(step.key)) {
     if (last) member->where = where;
     return member->value;
@@ -161,7 +176,7 @@ std::string Value::show() const {
   case Kind::real:
     return fmt::format("{}", real);
   case Kind::text:
-    return fmt::format("\"{}\"", text.size() > 60 ? text.substr(0, 57) + "..." : text);
+    return toml_quoted(shortened(text));
   case Kind::array:
     return fmt::format("an array of {}", elements.size());
   case Kind::table:
@@ -172,12 +187,50 @@ std::string Value::show() const {
   return "a date or time of day";
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  if (text.size() <= longest) return std::string(text);
+  std::size_t end = longest - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
+    --end; // whole characters of UTF-8
+  return std::string(text.substr(0, end)) + "...";
+}
+
+namespace {
+
+/// The byte at a place of the text; the end of a line beyond its end.
+char character_at(std::string_view text, const Location& where) {
+  for (std::uint32_t line = 1; line < where.line; ++line)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  text = text.substr(0, text.find('\n'));
+  return where.column > 0 && where.column <= text.size() ? text[where.column - 1] : '\n';
+}
+
+/// What the parser says, and in words where its users mostly mean one thing by it.
+std::string explained(std::string_view description, char found) {
+  const auto says = [&](std::string_view part) { return description.find(part) != std::string_view::npos; };
+  std::string hint;
+  if ((says("parsing string") || says("parsing literal string")) && (found == '\n' || found == '\r'))
+    hint = "the text has no closing quote on its line";
+  else if (says("expected a comment or whitespace"))
+    hint = "one key and its value a line; values with a unit are texts, such as \"20 us\"";
+  else if (says("expected '=', saw ':'"))
+    hint = "a key and its value are joined by '='";
+  return hint.empty() ? std::string(description) : fmt::format("{} ({})", description, hint);
+}
+
+} // namespace
+
 Value parse_document(std::string_view text, const std::string& source) {
+  if (const auto fault = find_fault(text))
+    throw InputError(
+        fmt::format("{}: not TOML: {}", Location{source, fault->line, fault->column}.text(), fault->message));
   try {
     return convert(toml::parse(text, source), source);
   } catch (const toml::parse_error& error) {
-    throw InputError(
-        fmt::format("{}: not TOML: {}", location_of(error.source(), source).text(), error.description()));
+    const Location where = location_of(error.source(), source);
+    throw InputError(fmt::format("{}: not TOML: {}", where.text(),
+                                 explained(error.description(), character_at(text, where))));
   }
 }
 
@@ -188,12 +241,19 @@ Value read_document(const std::string& path) {
   if (std::filesystem::is_directory(path, status))
     throw InputError(fmt::format("{}: is a folder, expected a case file such as {}", path,
                                  (std::filesystem::path(path) / "case.toml").string()));
+  constexpr std::size_t largest = std::size_t{1}
+                                  << 28; // a list of all nodes that a cloud may have fits twice
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (stream.bad() || !stream.is_open() || text.bad())
+  std::string text;
+  for (std::vector<char> part(1 << 16); stream.is_open() && !stream.bad() && !stream.eof();) {
+    stream.read(part.data(), static_cast<std::streamsize>(part.size()));
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest)
+      throw InputError(fmt::format("{}: found more than {} bytes, expected a case file", path, largest));
+  }
+  if (stream.bad() || !stream.is_open())
     throw IoError(fmt::format("{}: cannot be read, expected a readable case file", path));
-  return parse_document(text.str(), path);
+  return parse_document(text, path);
 }
 
 namespace {

@@ -42,7 +42,11 @@ struct Member {
   Value value;
 };
 
-/// Parses TOML text. Throws InputError "source:line:column: …" for syntax errors and duplicate keys.
+/// The text, or its beginning and "..." when it is too long for a message.
+std::string shortened(std::string_view text);
+
+/// Parses TOML text. Throws InputError "source:line:column: …" for syntax errors, duplicate keys
+/// and values nested without end.
 Value parse_document(std::string_view text, const std::string& source);
 
 /// Reads a file. Throws InputError when it is absent, a folder or not TOML; IoError when it cannot be read.

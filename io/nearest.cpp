@@ -28,6 +28,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates) {
   std::optional<std::string> best;
+  constexpr std::size_t longest = 100; // nobody meant a name with that
+  if (word.size() > longest) return best;
   int least = 0;
   for (const std::string& candidate : candidates) {
     // "johnson" for "johnson-cook": a long common beginning is one edit.

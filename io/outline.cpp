@@ -9,8 +9,6 @@
 namespace cnem::io {
 namespace {
 
-std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
-
 /// A corner of the curve: the radius that rounds it, and the key that asked for it.
 struct Corner {
   double fillet = 0.0;
@@ -30,7 +28,8 @@ CurvePiece arc_from_path(const Setting& item, CurvePiece piece, double size, con
   const auto radius = item.maybe<double>("radius");
   piece.clockwise = item.get<bool>("clockwise");
   if (centre && radius)
-    throw OutlineError(key + ".radius", "an arc has either a centre or a radius, found both");
+    throw OutlineError(key + ".radius",
+                       "an arc has either a centre or a radius, found both, expected one of them");
   if (!centre && !radius) {
     if (piece.clockwise)
       throw OutlineError(key + ".clockwise", "only an arc has a sense, expected centre or radius beside it");
@@ -81,12 +80,13 @@ Draft draft_of_path(const Setting& table, const std::string& curve_name) {
     if (const auto name = item.maybe<std::string>("name")) piece.name = *name;
     piece = arc_from_path(item, piece, size, key);
     if (!piece.is_arc() && (piece.to - piece.from).norm() <= same_point)
-      throw OutlineError(key + ".to",
-                         fmt::format("the piece has no length, it begins and ends at {}", show(at)));
+      throw OutlineError(
+          key + ".to",
+          fmt::format("the piece has no length, it begins and ends at {}, expected another point", show(at)));
     draft.corners.push_back({item.maybe<double>("fillet").value_or(0.0),
                              item.maybe<std::string>("fillet_name").value_or(piece.name), key + ".fillet"});
     if (item.find("fillet_name") && !item.find("fillet"))
-      throw OutlineError(key + ".fillet_name", "there is no fillet to name");
+      throw OutlineError(key + ".fillet_name", "there is no fillet to name, expected one beside it");
     at = piece.to;
     draft.pieces.push_back(piece);
     draft.keys.push_back(key + ".to");
@@ -97,7 +97,8 @@ Draft draft_of_path(const Setting& table, const std::string& curve_name) {
     draft.corners.push_back({});
     draft.keys.push_back("close");
   } else if (close) {
-    throw OutlineError("close", "the path ends where it starts, so no piece is left that could be named");
+    throw OutlineError(
+        "close", "the path ends where it starts, so no piece is left that could be named, expected no name");
   }
   return draft;
 }
@@ -106,8 +107,9 @@ Draft draft_of_rectangle(const Setting& table, const OutlineNames& names) {
   const Vec2 a = table.get<Vec2>("rectangle.from"), b = table.get<Vec2>("rectangle.to");
   const Vec2 low = a.cwiseMin(b), high = a.cwiseMax(b);
   if (!((high - low).minCoeff() > 1e-9 * (high - low).norm()))
-    throw OutlineError("rectangle.to",
-                       fmt::format("a rectangle from {} to {} has no area", show(a), show(b)));
+    throw OutlineError(
+        "rectangle.to",
+        fmt::format("a rectangle from {} to {} has no area, expected opposite corners", show(a), show(b)));
   const double fillet = table.maybe<double>("rectangle.fillet").value_or(0.0);
   const Vec2 corner[] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
   const char* side[] = {"bottom", "right", "top", "left"};
@@ -140,12 +142,15 @@ Curve rounded(const Draft& draft) {
     if (corner.fillet == 0.0) continue;
     const CurvePiece &before = draft.pieces[i], &after = draft.pieces[(i + 1) % n];
     if (before.is_arc() || after.is_arc())
-      throw OutlineError(corner.key,
-                         "a fillet joins two straight pieces, found an arc; write the arc instead");
+      throw OutlineError(
+          corner.key,
+          "a fillet joins two straight pieces, found an arc, expected that arc to be written as a piece");
     const Vec2 d = before.tangent(1.0), e = after.tangent(0.0);
     const double turn = std::abs(std::atan2(cross(d, e), d.dot(e)));
     if (turn < 1e-6 || turn > std::numbers::pi - 1e-6)
-      throw OutlineError(corner.key, fmt::format("there is no corner to round at {}", show(before.to)));
+      throw OutlineError(
+          corner.key,
+          fmt::format("there is no corner to round at {}, expected pieces at an angle", show(before.to)));
     cut[i] = corner.fillet * std::tan(0.5 * turn);
   }
   const auto check_fit = [&](std::size_t piece, std::size_t corner) {
@@ -156,7 +161,7 @@ Curve rounded(const Draft& draft) {
       throw OutlineError(
           draft.corners[corner].key,
           fmt::format("a radius of {:g} m does not fit at {}: fillets take {:g} m of a piece of "
-                      "{:g} m",
+                      "{:g} m, expected a smaller radius",
                       draft.corners[corner].fillet, show(draft.pieces[corner].to), taken, length));
   };
   Curve curve;
@@ -220,7 +225,8 @@ Curve make_outline(const Setting& table, const OutlineNames& names) {
   const bool has_rectangle = table.find("rectangle"), has_circle = table.find("circle");
   if (int(has_path) + int(has_rectangle) + int(has_circle) != 1)
     throw OutlineError("", "expected either start and path, or rectangle, or circle");
-  if (!has_path && table.find("close")) throw OutlineError("close", "only a path has a closing piece");
+  if (!has_path && table.find("close"))
+    throw OutlineError("close", "only a path has a closing piece, expected start and path beside it");
 
   Curve curve =
       has_circle ? circle(table, names.curve)
@@ -228,7 +234,9 @@ Curve make_outline(const Setting& table, const OutlineNames& names) {
   curve = split_long_arcs(curve);
   const std::string form = has_path ? "path" : has_circle ? "circle" : "rectangle";
   if (const auto point = self_crossing(curve))
-    throw OutlineError(form, fmt::format("the outline crosses or touches itself at {}", show(*point)));
+    throw OutlineError(
+        form,
+        fmt::format("the outline crosses or touches itself at {}, expected a simple curve", show(*point)));
   for (const CurvePiece& piece : curve.pieces)
     if (piece.name.empty() || piece.name == "all")
       throw OutlineError(form,
@@ -237,7 +245,7 @@ Curve make_outline(const Setting& table, const OutlineNames& names) {
                                      piece.name));
   const double size = extent(curve);
   if (!(std::abs(curve.area()) > 1e-9 * size * size))
-    throw OutlineError(form, "the outline encloses no area");
+    throw OutlineError(form, "the outline encloses no area, expected at least three corners or an arc");
   if (table.find("rotate"))
     rotate(curve, table.get<double>("rotate.angle"), table.get<Vec2>("rotate.centre"));
   return curve.area() < 0.0 ? curve.reversed() : curve;

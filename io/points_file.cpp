@@ -17,33 +17,53 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// The two fields of a line.
-std::array<std::string_view, 2> fields(std::string_view line, const std::string& where) {
+/// A part of a line and where it begins.
+struct FileField {
+  std::string_view text;
+  Location where;
+};
+
+/// The two fields of a line, of which `where` is the first column.
+std::array<FileField, 2> fields(std::string_view line, const Location& where) {
   const auto comma = line.find(',');
   if (comma == std::string_view::npos || line.find(',', comma + 1) != std::string_view::npos)
-    throw InputError(fmt::format("{}: found '{}', expected two columns separated by a comma", where, line));
-  return {trimmed(line.substr(0, comma)), trimmed(line.substr(comma + 1))};
+    throw InputError(fmt::format("{}: found '{}', expected two columns separated by a comma", where.text(),
+                                 shortened(trimmed(line))));
+  const auto field = [&](std::size_t begin, std::size_t end) {
+    const std::string_view text = trimmed(line.substr(begin, end - begin));
+    Location at = where;
+    at.column += static_cast<std::uint32_t>(text.empty() ? begin : std::size_t(text.data() - line.data()));
+    return FileField{text, at};
+  };
+  return {field(0, comma), field(comma + 1, line.size())};
 }
 
 /// Unit of a header field such as "x[mm]" or "x [mm]".
-Unit unit_of(std::string_view field, char name, const std::string& where) {
+Unit unit_of(const FileField& field, char name) {
+  const std::string_view text = field.text;
   try {
-    const auto open = field.find('[');
-    if (open != std::string_view::npos && field.back() == ']' &&
-        trimmed(field.substr(0, open)) == std::string_view(&name, 1)) {
-      const Unit unit = parse_unit(field.substr(open + 1, field.size() - open - 2));
+    const auto open = text.find('[');
+    if (open != std::string_view::npos && text.back() == ']' &&
+        trimmed(text.substr(0, open)) == std::string_view(&name, 1)) {
+      const Unit unit = parse_unit(text.substr(open + 1, text.size() - open - 2));
       if (unit.dimension == dimension::length) return unit;
     }
-  } catch (const UnitError& error) { throw InputError(fmt::format("{}: {}", where, error.what())); }
+  } catch (const UnitError& error) {
+    throw InputError(fmt::format("{}: {}, expected a unit of length such as {}[mm]", field.where.text(),
+                                 error.what(), name));
+  }
   throw InputError(fmt::format("{}: found the column '{}', expected {} with a unit of length such as {}[mm]",
-                               where, field, name, name));
+                               field.where.text(), shortened(text), name, name));
 }
 
-double number(std::string_view field, const std::string& where) {
+double number(const FileField& field, const Unit& unit) {
+  const char *begin = field.text.data(), *end = begin + field.text.size();
   double value = 0.0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value))
-    throw InputError(fmt::format("{}: found '{}', expected a finite number", where, field));
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  value = unit.to_si(value);
+  if (error != std::errc{} || rest != end || !std::isfinite(value))
+    throw InputError(
+        fmt::format("{}: found '{}', expected a finite number", field.where.text(), shortened(field.text)));
   return value;
 }
 
@@ -59,15 +79,14 @@ std::vector<Vec2> read_points(const std::string& path) {
   std::array<Unit, 2> unit;
   bool header = true;
   std::string line;
-  for (int n = 1; std::getline(stream, line); ++n) {
-    const std::string where = fmt::format("{}:{}", path, n);
+  for (std::uint32_t n = 1; std::getline(stream, line); ++n) {
     const std::string_view text = trimmed(line);
     if (text.empty() || text.front() == '#') continue;
-    const auto [x, y] = fields(text, where);
+    const auto [x, y] = fields(line, {path, n, 1});
     if (header)
-      unit = {unit_of(x, 'x', where), unit_of(y, 'y', where)};
+      unit = {unit_of(x, 'x'), unit_of(y, 'y')};
     else
-      points.emplace_back(unit[0].to_si(number(x, where)), unit[1].to_si(number(y, where)));
+      points.emplace_back(number(x, unit[0]), number(y, unit[1]));
     header = false;
   }
   if (points.empty())

@@ -54,7 +54,7 @@ std::string Key::expectation() const {
   case Type::boolean:
     return "true or false";
   case Type::text:
-    return "a text" + such_as;
+    return fallback == "\"\"" ? "a text" : "a text" + such_as;
   case Type::choice:
     return fmt::format("one of \"{}\"", fmt::join(choices, "\", \""));
   case Type::texts:

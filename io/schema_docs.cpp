@@ -25,7 +25,7 @@ wrong dimension. Anything can be overridden on the command line: `--set time.end
 | values | several numbers and one unit, `"2 4 us"`, or `["2 us", "4 us"]` |
 | function | a quantity (constant in time), `{ value = "11 m/s", ramp = "1 us" }` (linear from 0, or from `from`, then constant; with `smooth = true` without kinks, for loads that must not set the body swinging), or `{ times = "0 1 5 us", values = "0 11 0 m/s" }` (linear between, constant outside) |
 | vector function | a vector, the same tables with vectors, or `{ x = function, y = function }`, of which one may be left out |
-| name | letters, digits, `_` and `-` |
+| name | at most 100 letters, digits, `_` and `-` |
 
 Units are products, quotients and powers of m, g, t, s, min, h, K, N, Pa, bar, J, W, Hz, rad, deg, rev, rpm, %
 with the prefixes n, u (µ), m, c, d, k, M, G: `kg/m3`, `W/(m K)`, `mm/us`, `1/s`, `s^0.5`. After a slash a product

@@ -56,7 +56,7 @@ Json value_schema(const Key& key) {
     return object_schema(key.path);
   case Type::named_tables:
     return {{"type", "object"},
-            {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]+$"}}},
+            {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,100}$"}}},
             {"additionalProperties", object_schema(key.path + ".*")}};
   case Type::table_list:
     return array_of(object_schema(key.path + "[]"));

@@ -14,11 +14,17 @@ std::string join(const std::string& table, const std::string& name) {
   return table.empty() ? name : table + "." + name;
 }
 
+/// Names become names of files.
+constexpr std::size_t longest_name = 100;
+
 bool valid_name(std::string_view name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+  return !name.empty() && name.size() <= longest_name && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
 }
+
+/// A key as messages write it.
+std::string shown(const std::string& key) { return valid_name(key) ? key : toml_quoted(shortened(key)); }
 
 std::size_t common_prefix(std::string_view a, std::string_view b) {
   std::size_t n = 0;
@@ -55,7 +61,8 @@ public:
         if (key->presence == Presence::required) report_missing(*key, setting.where, path);
         continue;
       }
-      Setting member{key, key->name(), path, found ? found->where : setting.where, found != nullptr, {}, {}};
+      Setting member{key, key->name(), path, found ? found->where : setting.where, found != nullptr,
+                     {},  {},          {}};
       if (fill(member, found ? &found->value : nullptr)) setting.members.push_back(std::move(member));
     }
   }
@@ -70,7 +77,7 @@ private:
     for (const Key* key : members_of(pattern)) known.push_back(key->name());
     for (const Member& member : written.members)
       if (std::find(known.begin(), known.end(), member.key) == known.end())
-        diagnostics_.add(Mistake::unknown_key, member.where, join(path, member.key),
+        diagnostics_.add(Mistake::unknown_key, member.where, join(path, shown(member.key)),
                          fmt::format("unknown key, expected one of {}{}", fmt::join(known, ", "),
                                      suggestion(member.key, pattern, path)));
   }
@@ -84,8 +91,8 @@ private:
     if (std::find(values.begin(), values.end(), value) != values.end()) return true;
     if (found)
       diagnostics_.add(Mistake::conflict, found->where, path,
-                       fmt::format("goes with {} = \"{}\", but {} is \"{}\"", key.when.sibling,
-                                   fmt::join(values, "\" or \""), key.when.sibling, value));
+                       fmt::format("goes with {0} = \"{1}\", expected none with {0} = \"{2}\"",
+                                   key.when.sibling, fmt::join(values, "\" or \""), value));
     return false;
   }
 
@@ -108,6 +115,8 @@ private:
         break;
       default:
         setting.value = written ? convert_value(*written, key) : fallback(key);
+        if (written)
+          for (const Value& element : written->elements) setting.element_where.push_back(element.where);
       }
     } catch (const ConversionError& error) {
       diagnostics_.add(error.kind, error.where, setting.path, error.what());
@@ -124,9 +133,11 @@ private:
   void named(Setting& setting, const Value& written) {
     const std::string pattern = setting.key->path + ".*";
     for (const Member& member : written.members) {
-      const std::string path = join(setting.path, member.key);
+      const std::string path = join(setting.path, shown(member.key));
       if (!valid_name(member.key))
-        diagnostics_.add(Mistake::type, member.where, path, "a name is made of letters, digits, '_' and '-'");
+        diagnostics_.add(Mistake::type, member.where, path,
+                         fmt::format("found the name {}, expected at most {} letters, digits, '_' and '-'",
+                                     toml_quoted(shortened(member.key)), longest_name));
       else
         entry(setting, member.key, path, member.where, member.value, pattern);
     }
@@ -150,7 +161,7 @@ private:
                        fmt::format("found {}, expected a table", value.show()));
       return;
     }
-    Setting member{find_key(pattern), name, path, where, true, {}, {}};
+    Setting member{find_key(pattern), name, path, where, true, {}, {}, {}};
     table(member, &value, pattern);
     parent.members.push_back(std::move(member));
   }
@@ -199,8 +210,15 @@ void Setting::set_default(std::string_view relative, SettingValue computed) {
   // Keys point into the schema, so their order is its order.
   const auto place = std::find_if(table.members.begin(), table.members.end(),
                                   [&](const Setting& other) { return other.key > spec; });
-  table.members.insert(place,
-                       {spec, member, join(table.path, member), table.where, false, std::move(computed), {}});
+  table.members.insert(
+      place, {spec, member, join(table.path, member), table.where, false, std::move(computed), {}, {}});
+}
+
+void Setting::erase(std::string_view relative) {
+  const auto dot = relative.rfind('.');
+  Setting* table = dot == std::string_view::npos ? this : find(relative.substr(0, dot));
+  const std::string_view member = dot == std::string_view::npos ? relative : relative.substr(dot + 1);
+  if (table) std::erase_if(table->members, [&](const Setting& setting) { return setting.name == member; });
 }
 
 Setting apply_schema(const Value& document, Diagnostics& diagnostics) {

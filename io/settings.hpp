@@ -28,6 +28,12 @@ struct Setting {
   bool given = false;
   SettingValue value;
   std::vector<Setting> members;
+  std::vector<Location> element_where; ///< of the elements, where the value is written as an array
+
+  /// Where element i of the value is written; where the key is when it has no place of its own.
+  const Location& where_of(std::size_t i) const {
+    return i < element_where.size() ? element_where[i] : where;
+  }
 
   /// Setting at a path relative to this one; nullptr when it has no value.
   const Setting* find(std::string_view relative) const;
@@ -51,6 +57,9 @@ struct Setting {
 
   /// Gives a key that was not written its computed default, beside the other members of its table.
   void set_default(std::string_view relative, SettingValue value);
+
+  /// Takes out the setting at a relative path, if there is one.
+  void erase(std::string_view relative);
 
 private:
   static int choice_index(const Setting& setting);

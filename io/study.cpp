@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace cnem::io {
 namespace fs = std::filesystem;
@@ -25,7 +26,8 @@ public:
     for (const Member& member : table_.members)
       if (std::find(known.begin(), known.end(), member.key) == known.end())
         diagnostics_.add(Mistake::unknown_key, member.where, path_ + member.key,
-                         "unknown" + did_you_mean(member.key, known));
+                         fmt::format("unknown key, expected one of {}{}", fmt::join(known, ", "),
+                                     did_you_mean(member.key, known)));
   }
 
   const Value* find(const std::string& key, Kind kind, const std::string& expected) {
@@ -147,7 +149,8 @@ std::vector<StudyRun> read_grid(const Value& grid, const std::vector<Override>& 
   if (axes.empty())
     diagnostics.add(Mistake::missing_key, grid.where, "grid", "empty, expected keys of the case");
   if (count > most_runs)
-    diagnostics.add(Mistake::range, grid.where, "grid", fmt::format("more than {} runs", most_runs));
+    diagnostics.add(Mistake::range, grid.where, "grid",
+                    fmt::format("found more than {0} runs, expected at most {0}", most_runs));
   diagnostics.throw_if_any();
   const std::vector<std::string> names = short_names(study.keys);
   for (std::size_t k = 0; k < axes.size(); ++k) axes[k].name = names[k];

@@ -216,10 +216,12 @@ private:
       const BaseUnit& unit = found->second;
       return {prefix.power + unit.power, unit.factor, 0.0, unit.dimension};
     }
-    static const std::vector<std::string> common{"m",  "mm",  "um",  "s",   "ms",  "us",  "ns", "K",  "degC",
+    static const std::vector<std::string> common{"mm", "m",   "um",  "s",   "ms",  "us",  "ns", "K",  "degC",
                                                  "Pa", "kPa", "MPa", "GPa", "N",   "kN",  "J",  "kJ", "W",
                                                  "kW", "kg",  "g",   "deg", "rad", "rpm", "min"};
-    throw UnitError(fmt::format("unknown unit '{}' in '{}'{}", symbol, whole_, did_you_mean(symbol, common)));
+    throw UnitError(fmt::format("unknown unit '{}'{}{}", symbol,
+                                symbol == whole_ ? "" : fmt::format(" in '{}'", whole_),
+                                did_you_mean(symbol, common)));
   }
 
   std::string_view whole_;
@@ -228,15 +230,23 @@ private:
   int depth_ = 0;
 };
 
+/// The unit, with what was expected in what is wrong with it.
+Unit unit_of(std::string_view text, const std::string& expectation) {
+  try {
+    return parse_unit(text);
+  } catch (const UnitError& error) { throw UnitError(fmt::format("{}, {}", error.what(), expectation)); }
+}
+
 /// The number that begins the text and how many characters it takes; 0 when there is none.
 std::pair<double, std::size_t> leading_number(std::string_view text) {
   const std::size_t plus = text.starts_with('+') ? 1 : 0;
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data() + plus, text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range)
-    throw UnitError(fmt::format("'{}' is beyond what a number can hold", text));
+    throw UnitError(
+        fmt::format("found '{}', which is beyond what a number can hold, expected a smaller one", text));
   if (error != std::errc{}) return {0.0, 0};
-  if (!std::isfinite(value)) throw UnitError(fmt::format("'{}' is not a finite number", text));
+  if (!std::isfinite(value)) throw UnitError(fmt::format("found '{}', expected a finite number", text));
   return {value, static_cast<std::size_t>(end - text.data())};
 }
 
@@ -278,6 +288,7 @@ std::vector<double> parse_quantities(std::string_view text, const Dimension& exp
   const auto skip_spaces = [&] {
     while (!rest.empty() && (rest.front() == ' ' || rest.front() == '\t')) rest.remove_prefix(1);
   };
+  const std::string expectation = fmt::format("expected {} such as \"{}\"", wanted.name, wanted.example);
   for (skip_spaces(); !rest.empty(); skip_spaces()) {
     const auto [value, length] = leading_number(rest);
     const bool whole_word = length == rest.size() || rest[length] == ' ' || rest[length] == '\t';
@@ -287,21 +298,21 @@ std::vector<double> parse_quantities(std::string_view text, const Dimension& exp
     rest.remove_prefix(length);
     if (!whole_word) break;
   }
-  if (values.empty())
-    throw UnitError(fmt::format("found '{}', expected {} such as \"{}\"", text, wanted.name, wanted.example));
+  if (values.empty()) throw UnitError(fmt::format("found '{}', {}", text, expectation));
   Unit unit;
   skip_spaces();
   if (!rest.empty())
-    unit = parse_unit(rest);
+    unit = unit_of(rest, expectation);
   else if (!expected.dimensionless())
-    throw UnitError(fmt::format("found '{}' without a unit, expected {} such as \"{}\"", text, wanted.name,
-                                wanted.example));
+    throw UnitError(fmt::format("found '{}' without a unit, {}", text, expectation));
   if (unit.dimension != expected)
-    throw UnitError(fmt::format("found '{}', which is {}, expected {} such as \"{}\"", text,
-                                describe(unit.dimension).name, wanted.name, wanted.example));
+    throw UnitError(
+        fmt::format("found '{}', which is {}, {}", text, describe(unit.dimension).name, expectation));
   for (double& value : values) {
     value = unit.to_si(value);
-    if (!std::isfinite(value)) throw UnitError(fmt::format("'{}' is beyond what a number can hold", text));
+    if (!std::isfinite(value))
+      throw UnitError(
+          fmt::format("found '{}', which is beyond what a number can hold, {}", text, expectation));
   }
   return values;
 }

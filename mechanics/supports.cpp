@@ -26,10 +26,10 @@ Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
         rest -= along * other.direction;
       }
       if (oblique_to_moving)
-        throw InputError(
-            fmt::format("support '{}' is oblique to support '{}' at a node they share: prescribed motion "
-                        "needs directions that are equal or at right angles",
-                        support_[s].name, support_[static_cast<std::size_t>(mine.front().support)].name));
+        throw InputError(fmt::format(
+            "support '{}' is oblique to support '{}' at a node they share, expected directions of "
+            "prescribed motion that are equal or at right angles",
+            support_[s].name, support_[static_cast<std::size_t>(mine.front().support)].name));
       if (rest.norm() < 1e-9) continue;
       mine.push_back({node, static_cast<std::int32_t>(s), rest.normalized()});
     }

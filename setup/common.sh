@@ -2,12 +2,13 @@
 
 say() { printf '%s\n' "$*" >&2; }
 
-# Installs the packages of setup/packages.txt that this machine lacks; needs root, or sudo, only then.
+# Installs the packages of setup/packages.txt, or of the list named, that this machine lacks; needs root, or sudo, only
+# then.
 install_packages() {
-  local missing=() package
+  local missing=() package list=${1:-$root/setup/packages.txt}
   while read -r package; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
-  done < <(grep -v '^#' "$root/setup/packages.txt")
+  done < <(grep -v '^#' "$list")
   [ ${#missing[@]} -eq 0 ] && return 0
   say "installing Debian packages: ${missing[*]}"
   local as_root=()

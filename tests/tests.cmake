@@ -34,6 +34,7 @@ cnem_tests(degenerate cnem_voronoi cnem_cnem cnem_alternatives)
 cnem_tests(contract cnem_cnem cnem_alternatives)
 cnem_tests(convergence cnem_app)
 cnem_tests(verification cnem_app)
+cnem_tests(bad_input cnem_app)
 
 add_test(NAME include_rule COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
                                    -P ${PROJECT_SOURCE_DIR}/tests/include_rule.cmake)

@@ -1,6 +1,5 @@
 #include "voronoi/generate.hpp"
 
-#include "core/error.hpp"
 #include "voronoi/edge_tree.hpp"
 #include "voronoi/generate_boundary.hpp"
 #include "voronoi/generate_interior.hpp"
@@ -29,9 +28,9 @@ void check_options(const SpacingField& spacing, const CloudOptions& options) {
   }
   spacing.check();
   if (options.pattern == Pattern::jittered && !(options.jitter >= 0.0 && options.jitter <= 0.4))
-    throw GeometryError(fmt::format("the jitter is {}; expected a number in [0, 0.4]", options.jitter));
+    throw SpacingError(fmt::format("the jitter is {}; expected a number in [0, 0.4]", options.jitter));
   if (options.pattern == Pattern::regular && !spacing.uniform())
-    throw GeometryError(
+    throw SpacingError(
         "the regular pattern has one spacing everywhere; expected no refinements, or the pattern "
         "hexagonal or jittered");
 }
@@ -41,7 +40,7 @@ void check_count(const DomainShape& domain, const SpacingField& spacing, const C
   if (nodes <= options.nodes_limit) return;
   double finest = spacing.spacing;
   for (const Refinement& r : spacing.refinements) finest = std::min(finest, r.spacing);
-  throw GeometryError(
+  throw SpacingError(
       fmt::format("a spacing of {:.3g} m (finest {:.3g} m) makes about {:.2g} nodes or more in "
                   "this domain; expected at most {:.2g}",
                   spacing.spacing, finest, nodes, options.nodes_limit));
@@ -84,10 +83,10 @@ Cloud<2> listed(const DomainShape& domain, const CloudOptions& options) {
   const EdgeTree tree(cloud);
   for (std::size_t k = 0; k < options.nodes.size(); ++k)
     if (!on_boundary[k] && !tree.inside(options.nodes[k]))
-      throw GeometryError(
-          fmt::format("node {} of the list at {} lies outside the domain (the polygon through the "
-                      "nodes on the boundary)",
-                      k, at(options.nodes[k])));
+      throw GeometryError(fmt::format(
+          "node {} of the list at {} lies outside the domain; expected nodes in or on the polygon "
+          "through the nodes on the boundary",
+          k, at(options.nodes[k])));
   return cloud;
 }
 

@@ -4,12 +4,18 @@
 // threads.
 #include "core/cloud.hpp"
 #include "core/curve.hpp"
+#include "core/error.hpp"
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace cnem::voronoi {
+
+/// The wanted spacing is at fault, not the shape: out of range, or too many nodes.
+struct SpacingError : GeometryError {
+  using GeometryError::GeometryError;
+};
 
 /// An open polyline whose two faces may part. Each end lies inside the domain (a tip) or on the outline or a
 /// hole (a mouth). Its faces become the boundary pieces NAME+ (material on the left of the path, seen along
@@ -49,7 +55,7 @@ struct SpacingField {
   double at(const Vec2& x) const;
   /// True when no refinement is finer than `spacing`.
   bool uniform() const;
-  /// Throws GeometryError for spacings or growths out of range and regions without points.
+  /// Throws SpacingError for spacings or growths out of range and regions without points.
   void check() const;
 };
 
@@ -86,9 +92,9 @@ struct GeneratedCloud {
 /// the domain's size from the outline or a crack are on it. Otherwise nodes come in space-filling order.
 ///
 /// Throws GeometryError, with positions: curves that do not close or cross, cracks that leave the domain or
-/// touch themselves, each other or the boundary other than by an end, more than `nodes_limit` nodes (with the
-/// estimate), and for lists a corner without node, nodes outside (with index) and duplicates.
-/// About 1 µs per node with a uniform spacing, 5 µs graded.
+/// touch themselves, each other or the boundary other than by an end, more than `nodes_limit` nodes (a
+/// SpacingError with the estimate), and for lists a corner without node, nodes outside (with index) and
+/// duplicates. About 1 µs per node with a uniform spacing, 5 µs graded.
 GeneratedCloud generate_cloud(const DomainShape& domain, const SpacingField& spacing,
                               const CloudOptions& options);
 

@@ -295,7 +295,13 @@ Cloud<2> assemble_boundary(const BoundaryChains& chains) {
       for (const std::int32_t twin : nodes) cloud.twins.push_back({twin, node});
     }
     nodes.push_back(node);
-    edges[std::size_t(edge.next)].start_node = node;
+    HalfEdge& next = edges[std::size_t(edge.next)];
+    if (next.start_node >= 0)
+      throw GeometryError(
+          fmt::format("the boundary '{}' runs over another part of itself at {}; expected curves "
+                      "that meet nothing",
+                      chains.piece_names[std::size_t(next.piece)], at(chains.vertex[std::size_t(edge.to)])));
+    next.start_node = node;
   }
   std::vector<bool> done(edges.size(), false);
   for (std::size_t begin = 0; begin < edges.size(); ++begin)

@@ -34,9 +34,9 @@ Approach segment_to_segment(const Segment& s, const Segment& t) {
   const double from_s = cross(u, t.a - s.a) * cross(u, t.b - s.a);
   const double from_t = cross(v, s.a - t.a) * cross(v, s.b - t.a);
   if (from_s < 0.0 && from_t < 0.0) return {0.0, s.a + u * (cross(t.a - s.a, v) / cross(u, v))};
-  return std::ranges::min({point_to_segment(s.a, t), point_to_segment(s.b, t), point_to_segment(t.a, s),
-                           point_to_segment(t.b, s)},
-                          {}, &Approach::distance);
+  return std::min({point_to_segment(s.a, t), point_to_segment(s.b, t), point_to_segment(t.a, s),
+                   point_to_segment(t.b, s)},
+                  [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
 }
 
 std::vector<Segment> segments(const Crack& crack) {

@@ -46,22 +46,22 @@ bool SpacingField::uniform() const {
 
 void SpacingField::check() const {
   if (!positive(spacing))
-    throw GeometryError(fmt::format("the spacing is {} m; expected a positive length", spacing));
+    throw SpacingError(fmt::format("the spacing is {} m; expected a positive length", spacing));
   for (std::size_t k = 0; k < refinements.size(); ++k) {
     const Refinement& r = refinements[k];
     if (!positive(r.spacing))
-      throw GeometryError(
+      throw SpacingError(
           fmt::format("refinement {}: the spacing is {} m; expected a positive length", k + 1, r.spacing));
     if (!(r.growth > 0.0 && r.growth <= 1.0))
-      throw GeometryError(
+      throw SpacingError(
           fmt::format("refinement {}: the growth is {}; expected a number in (0, 1]", k + 1, r.growth));
     const bool box = r.region == Refinement::Region::box;
     if (box ? r.points.size() != 2 : r.points.empty())
-      throw GeometryError(fmt::format("refinement {}: {} points given; expected {}", k + 1, r.points.size(),
-                                      box ? "two opposite corners" : "at least one"));
+      throw SpacingError(fmt::format("refinement {}: {} points given; expected {}", k + 1, r.points.size(),
+                                     box ? "two opposite corners" : "at least one"));
     for (const Vec2& x : r.points)
       if (!x.allFinite())
-        throw GeometryError(
+        throw SpacingError(
             fmt::format("refinement {}: the point ({}, {}) is not finite", k + 1, x.x(), x.y()));
   }
 }

@@ -10,8 +10,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The curve of a tool written in a case: tools may be anywhere, so any outline will do.
-Curve curve(const std::string& outline) { return read_small("[tools.t]\n" + outline).tools.at(0).outline; }
+/// The curve of a tool written in a case whose workpiece is far away from it.
+Curve curve(const std::string& outline) {
+  return read_small("[tools.t]\n" + outline,
+                    {"domain.outer.rectangle={from=\"-99 -99 m\", to=\"-98 -98 m\"}"})
+      .tools.at(0)
+      .outline;
+}
 std::string problem(const std::string& outline) { return refusal("[tools.t]\n" + outline); }
 
 void expect_joined(const Curve& c) {
@@ -190,7 +195,7 @@ TEST(Outline, HolesAndCracksMustFit) {
   EXPECT_EQ(crack("\"2 2 mm\", \"4 2 mm\""), "accepted");
   EXPECT_EQ(crack("\"0 2 mm\", \"4 2 mm\""), "accepted"); // open at the left side
   EXPECT_EQ(crack("\"0 2 mm\", \"10 2 mm\""), "accepted");
-  expect_parts(crack("\"2 2 mm\""), {"case.toml:15:1: key 'domain.cracks.c.points': found 1 points"});
+  expect_parts(crack("\"2 2 mm\""), {"case.toml:15:11: key 'domain.cracks.c.points': found 1 points"});
   expect_parts(crack("\"2 2 mm\", \"2 2 mm\""), {"two consecutive points coincide"});
   expect_parts(crack("\"2 2 mm\", \"12 2 mm\""), {"the point (0.012, 0.002) m is outside domain.outer"});
   expect_parts(crack("\"2 2 mm\", \"4 0 mm\", \"6 2 mm\""), {"the crack meets domain.outer at (0.004, 0) m"});
