@@ -70,8 +70,8 @@ template<int dim> void compare_with_scalar() {
     ASSERT_EQ(update(m, vector, dt), -1);
     const auto parameters = return_map_parameters(m, dt);
     for (std::size_t i = 0; i < scalar.size(); ++i)
-      ASSERT_FALSE((generic::return_map_step<dim, double>(parameters, stress_points(scalar),
-                                                          static_cast<std::ptrdiff_t>(i))));
+      ASSERT_FALSE((generic::return_map_step<dim, false, double>(parameters, stress_points(scalar),
+                                                                 static_cast<std::ptrdiff_t>(i))));
     for (std::size_t i = 0; i < scalar.size(); ++i) {
       const Mat3 p = general<dim>(scalar.piola, i);
       ASSERT_LT((p - general<dim>(vector.piola, i)).norm(), 1e-12 * std::max(p.norm(), stress)) << i;
