@@ -5,12 +5,12 @@
 // What is gathered lies side by side, one record per node or point, so that a neighbour costs one cache line:
 // positions [node][k]; stresses by columns [point][k][i] = P_ik; edge records [node]: F by columns [k][i],
 // then the penalty's modulus of this step and of the step before.
+#include "core/sparse_rows.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
 namespace cnem {
-
-template<int dim> struct SparseRows;
 
 /// Neighbour links of the stabilisation, each in the lists of both its ends.
 struct LinkRows {
@@ -39,6 +39,20 @@ template<int dim> struct ViscousPoints {
   double* out_of_plane;       ///< out, in the plane: its zz component
 };
 
+/// What the bound on the highest frequency reads; hoop entries are null but of revolution.
+template<int dim> struct SpectralView {
+  static constexpr int stride = dim * dim + 2;
+  SparseRows<dim> rows, columns; ///< b_pJ; V_p b_pJ
+  const double* hoop;            ///< of `rows`
+  const double* weighted_hoop;   ///< of `columns`
+  double* inverse;               ///< [point][stride] F⁻ᵀ by columns, det F, 1/F_θθ
+  double* transfer;              ///< [node] s_J
+};
+struct SpectralMaximum {
+  double value;
+  std::ptrdiff_t point;
+};
+
 struct ViscousSums {
   double dissipated, damping;
 };
@@ -55,6 +69,15 @@ struct ViscousSums {
   EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* reference, \
                          const double* position, const double* record, double* stress, double* const* force, \
                          std::ptrdiff_t begin, std::ptrdiff_t end);                                          \
+  template<int dim>                                                                                          \
+  void invert(const double* const* deformation, const SpectralView<dim>& view, std::ptrdiff_t begin,         \
+              std::ptrdiff_t end);                                                                           \
+  template<int dim>                                                                                          \
+  void spectral_transfer(const SpectralView<dim>& view, const double* weight, std::ptrdiff_t begin,          \
+                         std::ptrdiff_t end);                                                                \
+  template<int dim>                                                                                          \
+  SpectralMaximum spectral_rows(const SpectralView<dim>& view, const double* modulus, std::ptrdiff_t begin,  \
+                                std::ptrdiff_t end);                                                         \
   template<int dim>                                                                                          \
   ViscousSums viscous_stress(const ViscousPoints<dim>& points, double quadratic, double linear, double dt,   \
                              std::ptrdiff_t begin, std::ptrdiff_t end);                                      \
