@@ -310,7 +310,9 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces() {
 
 template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable_step() {
   const PointState<dim>& point = state_.point;
-  conduction_step_ = 0.0; // measured anew with the configuration
+  constexpr double far =
+      100.0; // so much longer than a step that no deformation makes it matter before a renewal
+  if (conduction_step_ < far * state_.step_before) conduction_step_ = 0.0; // measured anew
   if (!model_.mechanical) {
     measure_conduction_step();
     return {model_.safety * conduction_step_, 0, "conduction"};
