@@ -144,6 +144,15 @@ template<class T> CNEM_INLINE T root_of_volume(T volume, bool plane) {
   return plane ? sqrt(volume) : exp(log(volume) * T(1.0 / 3.0));
 }
 
+/// Stores n numbers of each point as one record a point.
+template<int n, class T> CNEM_INLINE void side_by_side(const T (&value)[n], double* record) {
+  constexpr int width = Number<T>::width;
+  double rows[n][width];
+  for (int c = 0; c < n; ++c) store(rows[c], value[c]);
+  for (int lane = 0; lane < width; ++lane)
+    for (int c = 0; c < n; ++c) record[n * lane + c] = rows[c][lane];
+}
+
 /// The points p … p + width − 1.
 template<int dim, class T>
 CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic, double linear, double by_dt,
@@ -192,12 +201,28 @@ CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic
   store(points.pressure + p, q);
   store(points.jacobian + p, J);
   if constexpr (dim == 2) store(points.out_of_plane + p, stress[4]);
-  constexpr int width = Number<T>::width;
-  double rows[dim * dim][width];
+  T columns[dim * dim];
   for (int i = 0; i < dim; ++i)
-    for (int k = 0; k < dim; ++k) store(rows[k * dim + i], stress[i * dim + k]);
-  for (int lane = 0; lane < width; ++lane)
-    for (int c = 0; c < dim * dim; ++c) points.columns[dim * dim * (p + lane) + c] = rows[c][lane];
+    for (int k = 0; k < dim; ++k) columns[k * dim + i] = stress[i * dim + k];
+  side_by_side<dim * dim>(columns, points.columns + dim * dim * p);
+
+  const T flow = select(load<T>(points.plastic_rate + p) > T(0.0), load<T>(points.equivalent_stress + p),
+                        load<T>(points.flow_stress + p));
+  store(points.flow_stress + p, flow);
+  const EdgePoints& edge = points.edge;
+  if (!edge.record) return;
+  // μ̃ = μ e/(e + ε̄p) with the elastic limit e = σ_y/3μ
+  const T mu = load<T>(edge.shear_modulus + p), strain = load<T>(edge.plastic_strain + p);
+  const T last = load<T>(edge.modulus + p);
+  const T secant = select(strain > T(0.0), mu * flow / (flow + T(3.0) * mu * strain), last);
+  store(edge.modulus_before + p, last);
+  store(edge.modulus + p, secant);
+  T record[dim * dim + 2];
+  for (int i = 0; i < dim; ++i)
+    for (int k = 0; k < dim; ++k) record[k * dim + i] = f[i * dim + k];
+  record[dim * dim] = secant;
+  record[dim * dim + 1] = last;
+  side_by_side<dim * dim + 2>(record, edge.record + (dim * dim + 2) * p);
 }
 
 } // namespace

@@ -24,19 +24,32 @@ struct EdgeEnergy {
   double stored, released;
 };
 
+/// What is renewed for the edge defect with each stress, [point]; no record: the method has no links.
+struct EdgePoints {
+  const double* shear_modulus; ///< μ, Pa
+  const double* plastic_strain;
+  double* modulus;        ///< secant modulus μ̃, Pa; in: of the step before
+  double* modulus_before; ///< out: that one
+  double* record;         ///< out: edge records
+};
+
 /// What the bulk viscosity reads and writes, [point].
 template<int dim> struct ViscousPoints {
   static constexpr int general = dim == 2 ? 5 : 9;
   const double* deformation[general];
   const double* piola[general];
-  const double* density;      ///< kg/m³ at F = 1
-  const double* wave_modulus; ///< λ + 2μ, Pa
-  const double* volume;       ///< V_p
-  const double* radius;       ///< r̄_p of revolution, else null
-  double* jacobian;           ///< in: of the step before
-  double* pressure;           ///< q, in: of the step before
-  double* columns;            ///< out: P − q J F⁻ᵀ by columns
-  double* out_of_plane;       ///< out, in the plane: its zz component
+  const double* density;           ///< kg/m³ at F = 1
+  const double* wave_modulus;      ///< λ + 2μ, Pa
+  const double* volume;            ///< V_p
+  const double* radius;            ///< r̄_p of revolution, else null
+  double* jacobian;                ///< in: of the step before
+  double* pressure;                ///< q, in: of the step before
+  double* columns;                 ///< out: P − q J F⁻ᵀ by columns
+  double* out_of_plane;            ///< out, in the plane: its zz component
+  const double* plastic_rate;      ///< 1/s
+  const double* equivalent_stress; ///< Pa
+  double* flow_stress;             ///< Pa, where and when the point last flowed
+  EdgePoints edge;
 };
 
 /// What the bound on the highest frequency reads; hoop entries are null but of revolution.
