@@ -43,6 +43,34 @@ void conduction_flow(const SparseRows<dim>& columns, const double* flux, double*
   }
 }
 
+void conduction_triangles(const std::int32_t* node, const double* position, const double* temperature,
+                          const double* conductivity, double* heat, std::ptrdiff_t begin,
+                          std::ptrdiff_t end) {
+  for (std::ptrdiff_t t = begin; t < end; ++t) {
+    const std::ptrdiff_t a = node[3 * t], b = node[3 * t + 1], c = node[3 * t + 2];
+    const auto A = Small<2>::load(position + 2 * a), B = Small<2>::load(position + 2 * b),
+               C = Small<2>::load(position + 2 * c);
+    const Small<2> opposite_a = C - B, opposite_b = A - C, opposite_c = B - A;
+    const double twice_area = opposite_c[0] * opposite_a[1] - opposite_c[1] * opposite_a[0];
+    // ∇φ_a is opposite_a turned by 90° over twice the area: its products need no turning
+    const Small<2> sum =
+        opposite_a * temperature[a] + opposite_b * temperature[b] + opposite_c * temperature[c];
+    const Small<2> flux = sum * (-0.5 * conductivity[t] / twice_area);
+    heat[3 * t] = opposite_a.dot(flux);
+    heat[3 * t + 1] = opposite_b.dot(flux);
+    heat[3 * t + 2] = opposite_c.dot(flux);
+  }
+}
+
+void conduction_corners(const std::int32_t* first, const std::int32_t* corner, const double* heat,
+                        double* flow, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for (std::ptrdiff_t j = begin; j < end; ++j) {
+    double sum = 0.0;
+    for (std::int32_t e = first[j]; e < first[j + 1]; ++e) sum += heat[corner[e]];
+    flow[j] += sum;
+  }
+}
+
 #define CNEM_INSTANTIATE(dim)                                                                                \
   template void conduction_flux<dim>(const SparseRows<dim>&, const double*, const double*, const double*,    \
                                      const double*, double*, std::ptrdiff_t, std::ptrdiff_t);                \
