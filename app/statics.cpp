@@ -173,7 +173,7 @@ void check_static(const io::Case& input, const RunOptions& options) {
   }
   const std::string motion =
       missing_support(model.enriched.operators, model.setup.model.cloud.position, model.setup.model.supports);
-  fmt::print("supports    {}\n", motion.empty() ? "hold all rigid motions" : motion);
+  if (motion.empty()) fmt::print("supports    hold all rigid motions\n");
   StaticSolution nothing;
   resize_all(nothing.displacement, static_cast<std::size_t>(model.enriched.operators.nodes));
   resize_all(nothing.gradient, static_cast<std::size_t>(model.enriched.operators.points));
@@ -184,6 +184,7 @@ void check_static(const io::Case& input, const RunOptions& options) {
   FieldRecorder(folder).record(
       {state, model.approximation, model.position, model.setup.model.cloud, model.setup.model.contact});
   fmt::print("fields      {}\n", (folder / io::files::fields).string());
+  if (!motion.empty()) throw input.error("boundary", motion);
 }
 
 } // namespace cnem::app
