@@ -69,7 +69,7 @@ void write_grid(const fs::path& path, vtkUnstructuredGrid& grid) {
   writer->SetInputData(&grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
+  writer->SetCompressorTypeToLZ4(); // much faster than zlib, for files a fifth larger
   writer->SetHeaderTypeToUInt64();
   writer->WriteToOutputStringOn(); // the file itself is written where a full disk is noticed
   if (writer->Write() == 0) throw IoError(fmt::format("cannot write {}: VTK failed", path.string()));
