@@ -54,10 +54,12 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   const T q =
       sqrt(T(1.5) * (deviator[0] * deviator[0] + deviator[1] * deviator[1] + deviator[2] * deviator[2]));
 
+  const T history = abs(plastic_work) + abs(last_stress);
+  const T pressure = abs(tension);
   const Mask<T> valid = (deformation.determinant > T(0.0)) & (l[0] > T(0.0)) & (l[1] > T(0.0)) &
                         (l[2] > T(0.0)) & (temperature >= T(0.0)) & (plastic_strain >= T(0.0)) &
-                        (last_rate >= T(0.0)) & (abs(plastic_work) + abs(last_stress) < T(1e300)) &
-                        (abs(tension) < T(1e300)) & (q < T(largest_strain * law.two_mu));
+                        (last_rate >= T(0.0)) & (history < T(1e300)) & (pressure < T(1e300)) &
+                        (q < T(largest_strain * law.two_mu));
   Mask<T> bad = !valid;
 
   T inverse[4];

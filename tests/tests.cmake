@@ -1,3 +1,5 @@
+add_custom_target(unit_tests)
+
 # One executable per folder of tests; CTest names are <folder path>.<suite>.<test>, so that
 # `ctest -R contract` or `ctest -R unit.voronoi` select them.
 function(cnem_tests folder)
@@ -12,6 +14,9 @@ function(cnem_tests folder)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${target} PRIVATE CNEM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   cnem_warnings(${target})
+  if(folder MATCHES "^unit/")
+    add_dependencies(unit_tests ${target})
+  endif()
   gtest_discover_tests(${target} TEST_PREFIX ${prefix} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ENVIRONMENT "GOMP_SPINCOUNT=1000")
 endfunction()
 

@@ -219,7 +219,7 @@ TEST_P(Kernel, ranges_of_several_materials) {
   }
   std::array<PointState<2>, 2> alone{mixed, mixed};
   ASSERT_EQ(update_stress(materials, mixed.material, stress_points(mixed), 3, 40, 1e-7), -1);
-  for (std::size_t m : {0, 1}) ASSERT_EQ(update(materials[m], alone[m], 1e-7), -1);
+  for (std::size_t m = 0; m < 2; ++m) ASSERT_EQ(update(materials[m], alone[m], 1e-7), -1);
   for (std::size_t i = 3; i < 40; ++i)
     EXPECT_EQ(mixed.piola[1][i], alone[static_cast<std::size_t>(mixed.material[i])].piola[1][i]) << i;
   EXPECT_EQ(mixed.plastic_strain[0], 0.0) << "outside the range";
