@@ -22,6 +22,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 
 std::vector<std::string> names_of(const std::vector<std::pair<std::string, double>>& named) {
   std::vector<std::string> names;
+  names.reserve(named.size());
   for (const auto& [name, value] : named) names.push_back(name);
   return names;
 }
@@ -140,6 +141,7 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   const auto named = row(solver);
   if (writer_.empty()) writer_.emplace_back(folder_ / io::files::history, names_of(named));
   std::vector<double> values;
+  values.reserve(named.size());
   for (const auto& [name, value] : named) values.push_back(value);
   writer_.front().write(values);
   ++rows_;
