@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace cnem::app {
 
@@ -44,6 +45,11 @@ Field divided(Field a, const Field& b) {
   return a;
 }
 
+/// Zeros where no material has a damage law.
+Field of_damage(const Snapshot& shot, const Field& values) {
+  return values.empty() ? Field(shot.state.point.size(), 0.0) : values;
+}
+
 struct Entry {
   FieldInfo info;
   Field (*values)(const Snapshot&);
@@ -70,6 +76,12 @@ const std::vector<Entry>& entries() {
       {{"stress_xy", "stress xy", "Pa", "MPa", 1e6, io::ColourMap::diverging, false},
        [](const Snapshot& s) { return cauchy(s, 0, 1); }},
       {{"volume_ratio", "volume ratio J", "", "", 1.0, io::ColourMap::strain, false}, volume_ratio},
+      {{"damage", "damage D", "", "", 1.0, io::ColourMap::strain, false, true},
+       [](const Snapshot& s) { return of_damage(s, s.state.point.damage); }},
+      {{"softening", "softening", "", "", 1.0, io::ColourMap::strain, false, true},
+       [](const Snapshot& s) { return of_damage(s, s.state.point.softening); }},
+      {{"initiation_strain", "plastic strain at initiation", "", "", 1.0, io::ColourMap::strain, false, true},
+       [](const Snapshot& s) { return of_damage(s, s.state.point.initiation_strain); }},
       {{"velocity_x", "velocity x", "m/s", "m/s", 1.0, io::ColourMap::diverging, true},
        [](const Snapshot& s) { return s.state.node.velocity[0]; }},
       {{"velocity_y", "velocity y", "m/s", "m/s", 1.0, io::ColourMap::diverging, true},
@@ -126,6 +138,17 @@ double boundary_area(const Snapshot& shot) {
     twice += x[0][a] * x[1][b] - x[1][a] * x[0][b];
   }
   return 0.5 * twice;
+}
+
+double broken_area(const Snapshot& shot) {
+  const DiscreteOperators<2>& op = shot.approximation.mechanics;
+  const PointState<2>& point = shot.state.point;
+  double area = 0.0;
+  for (std::size_t p = 0; p < point.softening.size(); ++p)
+    if (point.softening[p] >= 1.0)
+      area += op.volume[p] * point.stress_free[p] /
+              (op.of_revolution() ? 2.0 * std::numbers::pi * op.radius[p] : 1.0);
+  return area;
 }
 
 } // namespace cnem::app

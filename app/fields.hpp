@@ -16,7 +16,8 @@ struct FieldInfo {
   std::string shown_unit;    ///< unit in pictures
   double shown_factor = 1.0; ///< SI value of one shown unit
   io::ColourMap map = io::ColourMap::strain;
-  bool at_nodes = false; ///< lives at nodes (else at stress points)
+  bool at_nodes = false;  ///< lives at nodes (else at stress points)
+  bool of_damage = false; ///< zero unless a material has a damage law: then left out of files
 };
 
 /// All fields, in the order files list them.
@@ -33,5 +34,8 @@ Field values_at_nodes(const Snapshot& shot, const std::string& name);
 
 /// Area enclosed by the boundary as it stands, m².
 double boundary_area(const Snapshot& shot);
+
+/// Stress-free area of the cells that are broken (ω = 1), m², in the meridian plane of revolution.
+double broken_area(const Snapshot& shot);
 
 } // namespace cnem::app

@@ -94,6 +94,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"elastic", e.elastic},
                                                              {"plastic", e.plastic},
                                                              {"stabilisation", e.stabilisation},
+                                                             {"damage", e.damage},
                                                              {"viscosity", e.viscosity},
                                                              {"friction", e.friction},
                                                              {"contact_impact", e.impact},
@@ -114,6 +115,10 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
         info.at_nodes ? values_at_nodes(snapshot(solver), name) : values_at_points(snapshot(solver), name);
     row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
                      *std::max_element(values.begin(), values.end()));
+  }
+  if (!state.point.damage.empty()) {
+    row.emplace_back("max.damage", *std::max_element(state.point.damage.begin(), state.point.damage.end()));
+    row.emplace_back("broken_area[m^2]", broken_area(snapshot(solver)));
   }
   for (const ProbeWeights& probe : probes_)
     for (const std::string& name : probe.fields) {
@@ -157,6 +162,8 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   for (const auto& [name, value] : named) {
     if (name == "max.plastic_strain") keep_metric("max_plastic_strain", value, true);
     if (name == "max.temperature[K]") keep_metric("max_temperature", value, true);
+    if (name == "max.damage") keep_metric("max_damage", value, true);
+    if (name == "broken_area[m^2]") keep_metric("broken_area", value, true);
     if (name == "area[m^2]") keep_metric("area_drift", value / initial_area_ - 1.0, false);
     if (name == "mass" + units_.mass) keep_metric("mass_drift", value / initial_mass_ - 1.0, false);
   }
@@ -241,6 +248,7 @@ void FieldRecorder::record(const Snapshot& shot) {
   std::vector<Field> storage;
   storage.reserve(2 * field_catalogue().size());
   for (const FieldInfo& info : field_catalogue()) {
+    if (info.of_damage && shot.state.point.damage.empty()) continue;
     const std::string name = info.unit.empty() ? info.label : fmt::format("{} [{}]", info.label, info.unit);
     frame.cell_scalars.push_back({name, storage.emplace_back(values_at_points(shot, info.name))});
     frame.node_scalars.push_back({name, storage.emplace_back(values_at_nodes(shot, info.name))});

@@ -92,6 +92,18 @@ plasticity::Material make_material(const io::Material& spec) {
                                                  .T0 = jc->T0,
                                                  .Tmelt = jc->Tmelt};
   }
+  if (spec.damage)
+    material.damage = plasticity::JohnsonCookDamage{.D1 = spec.damage->D1,
+                                                    .D2 = spec.damage->D2,
+                                                    .D3 = spec.damage->D3,
+                                                    .D4 = spec.damage->D4,
+                                                    .D5 = spec.damage->D5,
+                                                    .rate0 = spec.damage->rate0,
+                                                    .T0 = spec.damage->T0,
+                                                    .Tmelt = spec.damage->Tmelt,
+                                                    .cut_off = spec.damage->cut_off,
+                                                    .fracture_energy = spec.damage->fracture_energy,
+                                                    .band = spec.damage->band};
   if (spec.heat) {
     material.specific_heat = spec.heat->specific_heat;
     material.conductivity = spec.heat->conductivity;

@@ -43,6 +43,10 @@ template<int dim> struct PointState {
   Field temperature;                  ///< K     N·T, temperature the material sees
   Field strength;                     ///< –     factor on the flow stress: 1, but for initial imperfections
   std::vector<std::int32_t> material; ///< index of the material
+  // Empty unless a material has a damage law:
+  Field damage;            ///< –     D, share of the fracture strain used up; 1: softening has begun
+  Field softening;         ///< –     ω, share of flow stress and tension lost; 1: broken
+  Field initiation_strain; ///< –     ε̄p at which D reached 1, 0 before
 
   std::size_t size() const { return plastic_strain.size(); }
 };

@@ -132,6 +132,18 @@ struct Voce {
   double hardening = 0.0;  ///< Pa
 };
 
+/// Fracture strain [D1 + D2 exp(D3 σ_m/σ_eq)] [1 + D4 ln(ε̄̇p/rate0)] [1 + D5 T*], then softening that takes
+/// fracture_energy per area. An infinite Tmelt: no influence of temperature.
+struct JohnsonCookDamage {
+  double D1 = 0.0, D2 = 0.0, D3 = 0.0, D4 = 0.0, D5 = 0.0;   ///< –
+  double rate0 = 1.0;                                        ///< 1/s
+  double T0 = 0.0;                                           ///< K
+  double Tmelt = std::numeric_limits<double>::infinity();    ///< K
+  double fracture_energy = 0.0;                              ///< J/m²
+  double band = 2.5;                                         ///< – cell sizes across the broken band
+  double cut_off = -std::numeric_limits<double>::infinity(); ///< – no damage at σ_m/σ_eq ≤ this
+};
+
 struct HeatProperties {
   double specific_heat = 0.0;            ///< J/(kg K)
   double conductivity = 0.0;             ///< W/(m K)
@@ -146,8 +158,9 @@ struct Material {
   double young = 0.0;   ///< Pa
   double poisson = 0.0; ///< –
   std::variant<std::monostate, PerfectPlasticity, LinearHardening, JohnsonCook, Voce>
-      plastic;                        ///< monostate: elastic
-  std::optional<HeatProperties> heat; ///< always there when analysis.thermal
+      plastic;                             ///< monostate: elastic
+  std::optional<JohnsonCookDamage> damage; ///< absent: never breaks
+  std::optional<HeatProperties> heat;      ///< always there when analysis.thermal
 };
 
 struct Convection {

@@ -11,6 +11,35 @@
 namespace cnem::io {
 namespace {
 
+JohnsonCookDamage read_damage(const Setting& table, const Setting& material, Diagnostics& diagnostics) {
+  const auto number = [&](std::string_view key) { return table.get<double>(key); };
+  JohnsonCookDamage law{.D1 = number("D1"),
+                        .D2 = number("D2"),
+                        .D3 = number("D3"),
+                        .D4 = number("D4"),
+                        .D5 = number("D5"),
+                        .rate0 = number("rate0"),
+                        .T0 = number("T0"),
+                        .fracture_energy = number("fracture_energy"),
+                        .band = number("band")};
+  if (const auto cut_off = table.maybe<double>("cut_off")) law.cut_off = *cut_off;
+  const Setting* melt = table.find("Tmelt");
+  if (melt) law.Tmelt = std::get<double>(melt->value);
+  if (!(law.Tmelt > law.T0))
+    diagnostics.add(Mistake::range, melt->where, melt->path,
+                    fmt::format("found {:g} K, expected more than T0 = {:g} K", law.Tmelt, law.T0));
+  if (const Setting& share = *table.find("D5"); law.D5 != 0.0 && !melt)
+    diagnostics.add(Mistake::missing_key, share.where, share.path,
+                    fmt::format("found {:g} without a melting temperature, expected damage.Tmelt or "
+                                "plastic.Tmelt beside it",
+                                law.D5));
+  if (!material.find("plastic"))
+    diagnostics.add(Mistake::missing_key, table.where, table.path,
+                    "found in an elastic material, expected a plastic law beside it: damage grows with "
+                    "plastic strain");
+  return law;
+}
+
 Material read_material(const Setting& table, Diagnostics& diagnostics) {
   Material material;
   material.name = table.name;
@@ -47,6 +76,8 @@ Material read_material(const Setting& table, Diagnostics& diagnostics) {
       material.plastic = jc;
     }
   }
+  if (const Setting* damage = table.find("damage"))
+    material.damage = read_damage(*damage, table, diagnostics);
   if (const Setting* heat = table.find("heat"))
     material.heat = HeatProperties{heat->get<double>("specific_heat"), heat->get<double>("conductivity"),
                                    heat->get<double>("taylor_quinney"), heat->get<double>("expansion"),

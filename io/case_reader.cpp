@@ -29,6 +29,18 @@ void compute_defaults(Setting& root) {
   root.set_default("output.history_every", end / 400.0);
   root.set_default("output.fields_every", end / 24.0);
   root.set_default("output.pictures", std::vector<double>{end});
+  for (const Setting& entry : root.entries("materials")) {
+    if (!entry.find("damage")) continue;
+    const auto from_plastic = [&](const char* key) {
+      return entry.maybe<double>(fmt::format("plastic.{}", key));
+    };
+    const std::string damage = entry.path + ".damage.";
+    const std::optional<double> melting = from_plastic("Tmelt");
+    const double rate = from_plastic("rate0").value_or(1.0), cold = from_plastic("T0").value_or(293.15);
+    root.set_default(damage + "rate0", rate);
+    root.set_default(damage + "T0", cold);
+    if (melting) root.set_default(damage + "Tmelt", *melting);
+  }
   for (const Setting& entry : root.entries("materials"))
     if (entry.find("heat")) root.set_default(entry.path + ".heat.reference_temperature", temperature);
   for (const Setting& entry : root.entries("domain.regions")) {

@@ -1,5 +1,6 @@
 #include "io/report.hpp"
 
+#include "io/document.hpp"
 #include "io/output_folder.hpp"
 #include "io/picture_album.hpp"
 #include "io/si_format.hpp"
@@ -79,6 +80,22 @@ ReportTable run_table(const RunStatus& status) {
   return table;
 }
 
+/// Where the constants of damage laws come from, read from the resolved case.
+std::optional<ReportTable> damage_table(const std::string& case_text) {
+  const Value root = parse_document(case_text, "case.resolved.toml");
+  const Member* materials = root.find("materials");
+  if (!materials) return {};
+  ReportTable table{"Constants of damage", {}};
+  for (const Member& material : materials->value.members)
+    if (const Member* damage = material.value.find("damage")) {
+      const Member* source = damage->value.find("source");
+      table.rows.emplace_back(material.key,
+                              source ? source->value.text : "generic: the case names no source for them");
+    }
+  if (table.rows.empty()) return {};
+  return table;
+}
+
 ReportTable wall_table(const RunStatus& status) {
   ReportTable table{"Wall time", {}};
   const double total = wall(status, "total");
@@ -133,7 +150,10 @@ ReportData collect_report(const fs::path& folder) {
       limits.rows.emplace_back(words(what), fmt::format("{:.1f} % of the steps", 100.0 * share));
     report.tables.push_back(std::move(limits));
   }
-  if (fs::exists(folder / files::resolved_case)) report.case_text = read_file(folder / files::resolved_case);
+  if (fs::exists(folder / files::resolved_case)) {
+    report.case_text = read_file(folder / files::resolved_case);
+    if (auto table = damage_table(report.case_text)) report.tables.push_back(std::move(*table));
+  }
   return report;
 }
 

@@ -64,6 +64,52 @@ void add_general(Keys& k) {
       .in({.low = 1, .high = 1e15});
 }
 
+void add_damage(Keys& k, const std::string& at) {
+  k.add(at, table, "Ductile damage and separation; without it the material never breaks.");
+  k.add(at + ".law", choice,
+        "`johnson-cook`: damage grows by dε̄p/ε_f, ε_f = [D1 + D2 exp(D3 σ*)] [1 + D4 ln(ε̄̇p/rate0)] [1 + D5 "
+        "T*], σ* = mean stress over von Mises stress, positive in tension. At 1 the flow stress, and the "
+        "mean stress in tension, begin to fall until `fracture_energy` is spent.")
+      .one_of({"johnson-cook"})
+      .required();
+  k.add(at + ".source", text, "Where these constants come from; the report calls them generic without it.")
+      .example("\"Johnson and Cook 1985\"");
+  k.add(at + ".D1", quantity, "").required().example("0.05");
+  k.add(at + ".D2", quantity, "").required().example("3.44");
+  k.add(at + ".D3", quantity,
+        "Negative where tension makes the material less ductile: some tables give it for exp(−D3 σ*).")
+      .required()
+      .example("-2.12");
+  k.add(at + ".D4", quantity, "Influence of the rate; none below `rate0`.").fallback("0.0");
+  k.add(at + ".D5", quantity, "Influence of the temperature.").fallback("0.0");
+  k.add(at + ".rate0", quantity, "Reference strain rate.")
+      .unit(d::rate)
+      .in(positive)
+      .computed("`plastic.rate0`, else 1 /s");
+  k.add(at + ".T0", quantity, "Temperature at which T* is 0.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .example("\"293.15 K\"")
+      .computed("`plastic.T0`, else 293.15 K");
+  k.add(at + ".Tmelt", quantity, "Melting temperature, at which T* is 1; without it T* is 0.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .example("\"1793 K\"")
+      .computed("`plastic.Tmelt`");
+  k.add(at + ".fracture_energy", quantity,
+        "Plastic work per area that a band takes from the beginning of softening until it is broken.")
+      .unit(d::surface_energy)
+      .in(positive)
+      .required();
+  k.add(at + ".band", quantity,
+        "Thickness of the band in which cells break, in cell sizes √area: with it the fracture energy is "
+        "spread over the cells. docs/theory.md says where the default comes from.")
+      .in(positive)
+      .fallback("2.5");
+  k.add(at + ".cut_off", quantity, "No damage grows at this σ* or below; without it damage grows at any σ*.")
+      .example("-0.3333");
+}
+
 void add_materials(Keys& k) {
   const std::string at = "materials.*.";
   k.add("materials", named_tables, "Materials.").required();
@@ -150,6 +196,7 @@ void add_materials(Keys& k) {
       .required()
       .when("law", {"voce"})
       .example("16.93");
+  add_damage(k, at + "damage");
   k.add(at + "heat", table, "Thermal properties.");
   k.add(at + "heat.specific_heat", quantity, "").unit(d::specific_heat).in(positive).required();
   k.add(at + "heat.conductivity", quantity, "0: adiabatic.")

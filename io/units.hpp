@@ -31,6 +31,7 @@ inline constexpr Dimension acceleration = Dimension::of(1, 0, -2);
 inline constexpr Dimension angular_velocity = Dimension::of(0, 0, -1, 0, 1);
 inline constexpr Dimension rate = Dimension::of(0, 0, -1);
 inline constexpr Dimension density = Dimension::of(-3, 1, 0);
+inline constexpr Dimension surface_energy = Dimension::of(0, 1, -2);
 inline constexpr Dimension pressure = Dimension::of(-1, 1, -2);
 inline constexpr Dimension heat_flux = Dimension::of(0, 1, -3);
 inline constexpr Dimension heat_transfer = Dimension::of(0, 1, -3, -1);

@@ -11,6 +11,7 @@ struct EnergyLedger {
   double stabilisation = 0.0; ///< held by the edge-defect penalty
   // dissipated
   double plastic = 0.0;         ///< ∫ σ_eq dε̄p
+  double damage = 0.0;          ///< elastic energy of tension let go by breaking points
   double viscosity = 0.0;       ///< bulk viscosity
   double friction = 0.0;        ///< sliding on tools
   double impact = 0.0;          ///< lost where nodes meet tools
@@ -31,8 +32,8 @@ struct EnergyLedger {
 
   double external() const { return tools + recovery + supports + loads; }
   double total() const {
-    return kinetic + elastic + stabilisation + plastic + viscosity + friction + impact + penalty_release +
-           rereference;
+    return kinetic + elastic + stabilisation + plastic + damage + viscosity + friction + impact +
+           penalty_release + rereference;
   }
   /// What the scheme made or lost: zero up to the order of central differences.
   double residual() const { return total() - initial - external(); }

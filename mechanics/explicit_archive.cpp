@@ -32,10 +32,15 @@ template<int dim> void archive_state(Archive& archive, State<dim>& state) {
   archive.field("solver/point/dissipation", "J/m^3", point.dissipation);
   archive.field("solver/point/stress_free", "1", point.stress_free);
   archive.field("solver/point/temperature", "K", point.temperature);
+  if (point.damage.empty()) return;
+  archive.field("solver/point/damage", "1", point.damage);
+  archive.field("solver/point/softening", "1", point.softening);
+  archive.field("solver/point/initiation_strain", "1", point.initiation_strain);
 }
 
 void archive_ledger(Archive& archive, EnergyLedger& ledger) {
   archive.number("solver/energy/stabilisation", "J/m", ledger.stabilisation);
+  archive.number("solver/energy/damage", "J/m", ledger.damage);
   archive.number("solver/energy/viscosity", "J/m", ledger.viscosity);
   archive.number("solver/energy/friction", "J/m", ledger.friction);
   archive.number("solver/energy/impact", "J/m", ledger.impact);
@@ -69,6 +74,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive.number("solver/conduction_step", "s", conduction_step_);
   archive.integer("solver/references", references_);
   edge_defect_.archive(archive);
+  damage_.archive(archive, state_.point.size());
   model_.supports.archive(archive);
   model_.contact.archive(archive);
   if (!archive.loading()) return;

@@ -31,7 +31,7 @@ template<int dim> void set_identity(Fields<tensor_size<dim>>& f, std::size_t siz
 
 template<int dim>
 ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature)
-    : model_(std::move(model)), edge_defect_(model_.stabilisation) {
+    : model_(std::move(model)), edge_defect_(model_.stabilisation), damage_(model_.materials) {
   NodeState<dim>& node = state_.node;
   const auto n = static_cast<std::size_t>(model_.cloud.nodes());
   resize_all(node.position, n);
@@ -79,10 +79,12 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   place_reference();
   set_identity<dim>(point.deformation, points);
   jacobian_.assign(points, 1.0);
-  const auto stress_points = plasticity::stress_points(point);
-  const std::ptrdiff_t bad = plasticity::update_stress(model_.materials, point.material, stress_points, 0,
-                                                       static_cast<std::ptrdiff_t>(points), 0.0);
+  damage_.weaken(point);
+  const std::ptrdiff_t bad = plasticity::update_stress(model_.materials, point.material, points_to_stress(),
+                                                       0, static_cast<std::ptrdiff_t>(points), 0.0);
   if (bad >= 0) diverged(static_cast<std::size_t>(bad), "elastic strain");
+  damage_.measure(op, model_.materials, point);
+  if (damage_.active()) damage_.update(op, model_.materials, point, 0, points, 0.0);
   for (std::size_t p = 0; p < points; ++p) density_[p] = material_of(p).density * point.stress_free[p];
 
   edge_defect_.reset(shear_modulus_);
@@ -139,6 +141,7 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   point.stress_free.assign(points, 1.0);
   point.strength.assign(points, 1.0);
   point.material.assign(points, 0);
+  damage_.start(point);
   flow_stress_.assign(points, std::numeric_limits<double>::infinity());
   interpolate<dim>(op, node.temperature, point.temperature, 0, points);
   if (!model_.strength.empty()) interpolate<dim>(op, model_.strength, point.strength, 0, points);
@@ -151,6 +154,12 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
       flow_stress_[p] = point.strength[p] *
                         material.hardening->flow_stress(0.0, material.hardening->rate0, point.temperature[p]);
   }
+}
+
+template<int dim> plasticity::StressPoints<dim> ExplicitSolver<dim>::points_to_stress() {
+  auto points = plasticity::stress_points(state_.point);
+  if (damage_.active()) points.strength = damage_.flow_factor().data();
+  return points;
 }
 
 template<int dim> void ExplicitSolver<dim>::advance(double dt) {
@@ -252,25 +261,29 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
 template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   PointState<dim>& point = state_.point;
-  const auto stress_points = plasticity::stress_points(point);
+  const auto stress_points = points_to_stress();
   const std::size_t n = point.size();
   const EdgePoints edge = edge_defect_.active(approximation_.links)
                               ? edge_defect_.points(shear_modulus_, point.plastic_strain)
                               : EdgePoints{};
   std::vector<std::ptrdiff_t> bad(blocks(n), -1);
-  std::vector<double> damping(blocks(n), 0.0);
+  std::vector<double> damping(blocks(n), 0.0), released(blocks(n), 0.0);
   running_.viscosity += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
     deformation_gradient<dim>(op, position_, point.deformation, begin, end);
     interpolate<dim>(op, state_.node.temperature, point.temperature, begin, end);
+    if (damage_.active()) damage_.weaken(point, begin, end);
     bad[begin / block_size] =
         plasticity::update_stress(model_.materials, point.material, stress_points,
                                   static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end), dt);
+    if (damage_.active())
+      released[begin / block_size] = damage_.update(op, model_.materials, point, begin, end, dt);
     const ViscousSums viscous =
         add_bulk_viscosity<dim>(model_.viscosity, op, point, density_, wave_modulus_, dt, jacobian_,
                                 viscous_pressure_, flow_stress_, edge, stress_, begin, end);
     damping[begin / block_size] = viscous.damping;
     return viscous.dissipated;
   });
+  for (const double energy : released) running_.damage += energy;
   viscosity_ratio_ = *std::max_element(damping.begin(), damping.end());
   for (const std::ptrdiff_t p : bad)
     if (p >= 0) diverged(static_cast<std::size_t>(p), "deformation gradient");

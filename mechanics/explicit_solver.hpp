@@ -8,11 +8,13 @@
 #include "mechanics/bulk_viscosity.hpp"
 #include "mechanics/energy_ledger.hpp"
 #include "mechanics/loads.hpp"
+#include "mechanics/point_damage.hpp"
 #include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
 #include "mechanics/ties.hpp"
 #include "plasticity/material.hpp"
+#include "plasticity/stress_points.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
 
@@ -85,6 +87,8 @@ public:
 
 private:
   void start_points();
+  /// What the return map works on: damaged points flow at a lower stress.
+  plasticity::StressPoints<dim> points_to_stress();
   void place_reference();
   const plasticity::Material& material_of(std::size_t point) const {
     return model_.materials[static_cast<std::size_t>(state_.point.material[point])];
@@ -108,6 +112,7 @@ private:
   State<dim> state_;
   Approximation<dim> approximation_;
   EdgeDefect<dim> edge_defect_;
+  PointDamage<dim> damage_;
   Conduction<dim> conduction_;
   SpectralBound<dim> bound_;
 

@@ -48,16 +48,37 @@ struct JohnsonCook {
   double homologous_temperature(double temperature) const;
 };
 
+/// Fracture strain of Johnson and Cook (1985), σ* = σ_m/σ_eq positive in tension:
+///   ε_f = [D1 + D2 exp(D3 σ*)] [1 + D4 ln⁺(ε̄̇p/ε̄̇0)] [1 + D5 T*],
+/// and what breaking costs (plasticity/damage.hpp). T* and ln⁺ as in JohnsonCook.
+struct JohnsonCookDamage {
+  double D1 = 0.0;                                           ///< –
+  double D2 = 0.0;                                           ///< –
+  double D3 = 0.0;                                           ///< –    < 0: less ductile in tension
+  double D4 = 0.0;                                           ///< –
+  double D5 = 0.0;                                           ///< –
+  double rate0 = 1.0;                                        ///< 1/s  > 0
+  double T0 = 0.0;                                           ///< K
+  double Tmelt = std::numeric_limits<double>::infinity();    ///< K    > T0
+  double cut_off = -std::numeric_limits<double>::infinity(); ///< –    no damage at σ* ≤ this
+  double fracture_energy = 0.0;                              ///< J/m² > 0, from initiation to separation
+  double band = 2.5; ///< –    > 0, thickness of the band a broken cell stands for, in cell sizes
+
+  /// ε_f at a triaxiality, rate (1/s) and temperature (K).
+  double fracture_strain(double triaxiality, double rate, double temperature) const;
+};
+
 struct Material {
   std::string name;
-  double density = 0.0;                 ///< kg/m³
-  Elasticity elasticity;                ///<
-  std::optional<JohnsonCook> hardening; ///< none: elastic
-  double specific_heat = 0.0;           ///< J/(kg K)
-  double conductivity = 0.0;            ///< W/(m K)
-  double taylor_quinney = 0.9;          ///< –      part χ of the plastic work that becomes heat
-  double expansion = 0.0;               ///< 1/K    linear, logarithmic
-  double expansion_reference = 293.15;  ///< K      free of thermal strain at this temperature
+  double density = 0.0;                    ///< kg/m³
+  Elasticity elasticity;                   ///<
+  std::optional<JohnsonCook> hardening;    ///< none: elastic
+  std::optional<JohnsonCookDamage> damage; ///< none: never breaks
+  double specific_heat = 0.0;              ///< J/(kg K)
+  double conductivity = 0.0;               ///< W/(m K)
+  double taylor_quinney = 0.9;             ///< –      part χ of the plastic work that becomes heat
+  double expansion = 0.0;                  ///< 1/K    linear, logarithmic
+  double expansion_reference = 293.15;     ///< K      free of thermal strain at this temperature
 };
 
 } // namespace cnem::plasticity

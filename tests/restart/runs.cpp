@@ -152,6 +152,38 @@ every_steps = 15
 keep = 1
 )toml" + steel;
 
+// A bar that breaks in the middle, with and without renewals on the way.
+const std::string breaking = R"toml(
+[time]
+end = "14 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "-1 0 mm", to = "1 0.6 mm" }
+[cloud]
+spacing = "0.15 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "500 MPa" }
+damage = { law = "johnson-cook", D1 = 0.01, D2 = 0.02, D3 = -1.5, D4 = 0.002, fracture_energy = "5 kJ/m2" }
+heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
+[initial]
+imperfections.weak = { points = ["0 -1 mm", "0 1 mm"], width = "0.2 mm", reduction = 0.1 }
+[boundary.left]
+pieces = ["left"]
+velocity = { x = "-10 m/s" }
+[boundary.right]
+pieces = ["right"]
+velocity = { x = "10 m/s" }
+[output]
+history_every = "0.2 us"
+fields_every = "7 us"
+pictures = "14 us"
+picture_fields = ["damage", "softening"]
+[output.checkpoint]
+every_steps = 50
+)toml";
+
 std::set<std::string> files_of(const fs::path& folder) {
   std::set<std::string> names;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
@@ -179,7 +211,7 @@ std::string outcome(const fs::path& folder) {
 
 const std::vector<SmallCase>& small_cases() {
   static const std::vector<SmallCase> cases{
-      {"punched", punched}, {"loaded", loaded}, {"round_bar", round_bar}, {"triangles", triangles}};
+      {"punched", punched}, {"loaded", loaded}, {"round_bar", round_bar}, {"triangles", triangles}, {"breaking", breaking}};
   return cases;
 }
 

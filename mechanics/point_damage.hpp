@@ -1,0 +1,49 @@
+#pragma once
+// Damage of the stress points of a solver: what the pass of plasticity/damage.hpp needs beside the state.
+#include "core/archive.hpp"
+#include "core/operators.hpp"
+#include "core/state.hpp"
+#include "plasticity/damage.hpp"
+
+#include <vector>
+
+namespace cnem {
+
+/// D, ω and the strain at initiation are fields of the points; here is what belongs to their cells.
+template<int dim> class PointDamage {
+public:
+  PointDamage() = default;
+  explicit PointDamage(const std::vector<plasticity::Material>& materials);
+
+  /// Whether any material has a damage law.
+  bool active() const { return active_; }
+
+  /// Undamaged points.
+  void start(PointState<dim>& point) const;
+
+  /// Measures the cells of a new reference. The length ℓ of a point is `band` √A of its material, A the
+  /// stress-free area of its cell in the plane (the cube root of its volume in 3D).
+  void measure(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
+               const PointState<dim>& point);
+
+  /// Factor on the flow stress, strength (1 − ω), for the return map: of all points, and of [begin, end).
+  void weaken(const PointState<dim>& point);
+  void weaken(const PointState<dim>& point, std::size_t begin, std::size_t end);
+  const Field& flow_factor() const { return flow_factor_; }
+
+  /// update_damage of the points [begin, end). Returns the energy let go, J/m^(3−dim).
+  double update(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
+                PointState<dim>& point, std::size_t begin, std::size_t end, double dt) const;
+
+  /// Carries the lengths out or in.
+  void archive(Archive& archive, std::size_t points);
+
+private:
+  bool active_ = false;
+  Field length_;      ///< [point] ℓ, m
+  Field flow_factor_; ///< [point] –
+};
+
+extern template class PointDamage<2>;
+
+} // namespace cnem

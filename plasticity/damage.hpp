@@ -1,0 +1,38 @@
+#pragma once
+// Ductile damage of Johnson and Cook (Eng. Fract. Mech. 21, 1985) with softening regularised by the fracture
+// energy (Hillerborg, Modéer, Petersson 1976), as a pass of its own after the return map.
+#include "core/state.hpp"
+#include "plasticity/damage_points.hpp"
+#include "plasticity/material.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace cnem::plasticity {
+
+/// What the pass over a range has changed beside the fields.
+struct DamageSums {
+  double released = 0.0; ///< J/m^(3−dim), elastic energy of tension let go as points break, ≥ 0
+};
+
+/// Pointers into the fields of `state` and to lengths [point], m, and volumes [point]; valid until one of
+/// them is resized.
+template<int dim>
+DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, const Field& volume);
+
+/// Takes the points [begin, end) from the stress that update_stress has just made (with the flow stress
+/// lowered by 1 − ω of the last step) to the damaged one:
+///
+///   dD = dε̄p/ε_f up to D = 1, where ω begins;  d(1 − ω)² = −σ_eq dε̄p ℓ/G_f,
+///
+/// so that a band of thickness ℓ takes G_f per area whatever it hardens and however long ℓ is, and 1 − ω
+/// falls linearly with ℓ ε̄p at constant flow stress. The mean stress is multiplied by 1 − ω in tension and
+/// kept in compression, in P, pressure and stored energy; what that lets go of the stored energy is returned.
+/// dt = 0: nothing evolves. Points of materials without damage are left alone. material[p] as for
+/// update_stress.
+template<int dim>
+DamageSums update_damage(const std::vector<Material>& materials, const std::vector<std::int32_t>& material,
+                         const DamagePoints<dim>& points, std::ptrdiff_t begin, std::ptrdiff_t end,
+                         double dt);
+
+} // namespace cnem::plasticity

@@ -1,0 +1,209 @@
+// Johnson-Cook damage: the table of fracture strains, single-point paths, what breaking costs.
+#include "plasticity/damage.hpp"
+#include "tests/unit/plasticity/points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+namespace cnem::plasticity::test {
+namespace {
+
+/// D1 to D5 of the sets of the table, whose sign is that of Johnson and Cook.
+const std::map<std::string, std::array<double, 5>> constants{
+    {"4340_JC85", {0.05, 3.44, -2.12, 0.002, 0.61}},
+    {"OFHC_JC85", {0.54, 4.89, -3.03, 0.014, 1.12}},
+    {"Armco_JC85", {-2.20, 5.43, -0.47, 0.016, 0.63}},
+    {"A2024_Mabrouki", {0.13, 0.13, -1.5, 0.011, 0.0}},
+    {"Weldox460E_Borvik", {0.0705, 1.732, -0.54, -0.0123, 0.0}},
+    {"Ti64_JC(D3=-0.5 JC form)", {-0.09, 0.25, -0.5, 0.014, 3.87}},
+    {"Ti64_AbaqusInput d3=-0.5 => exp(+0.5 eta)", {-0.09, 0.25, 0.5, 0.014, 3.87}}};
+
+JohnsonCookDamage law_of(const std::array<double, 5>& d) {
+  return {.D1 = d[0],
+          .D2 = d[1],
+          .D3 = d[2],
+          .D4 = d[3],
+          .D5 = d[4],
+          .T0 = 300.0,
+          .Tmelt = 1300.0,
+          .fracture_energy = 1e5};
+}
+
+Material perfect_steel(const JohnsonCookDamage& law) {
+  Material m = steel();
+  m.hardening = JohnsonCook{.A = 500e6};
+  m.damage = law;
+  return m;
+}
+
+PointState<2> sound_points(std::size_t n, double temperature) {
+  PointState<2> s = points_at_rest<2>(n, temperature);
+  for (Field* f : {&s.damage, &s.softening, &s.initiation_strain}) f->assign(n, 0.0);
+  return s;
+}
+
+/// A point that is taken along a path as the solver takes it.
+struct Point {
+  Material material;
+  double length = 1e-4, temperature = 300.0;
+  PointState<2> state = sound_points(1, temperature);
+  double released = 0.0;
+
+  void step(const Mat3& f, double dt) {
+    set_deformation<2>(state, 0, f);
+    Field factor{state.strength[0] * (1.0 - state.softening[0])};
+    auto points = stress_points<2>(state);
+    points.strength = factor.data();
+    ASSERT_EQ(update_stress<2>({material}, state.material, points, 0, 1, dt), -1);
+    released +=
+        update_damage<2>({material}, state.material, damage_points<2>(state, {length}, {1.0}), 0, 1, dt)
+            .released;
+  }
+  double triaxiality() const { return -state.pressure[0] / state.equivalent_stress[0]; }
+};
+
+TEST(damage, fracture_strains_of_the_table) {
+  std::ifstream in(CNEM_SOURCE_DIR "/tests/data/jc_damage_fracture_strain.csv");
+  int rows = 0;
+  const auto exact = [](double printed) { // η stands there with four decimals
+    for (const double value : {1.0 / 3.0, -1.0 / 3.0, 1.0 / std::numbers::sqrt3})
+      if (std::abs(printed - value) < 1e-4) return value;
+    return printed;
+  };
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#' || line.starts_with("set,")) continue;
+    std::array<std::string, 5> cell;
+    std::istringstream cells(line);
+    for (std::string& text : cell) std::getline(cells, text, ',');
+    const JohnsonCookDamage law = law_of(constants.at(cell[0]));
+    const double eta = exact(std::stod(cell[1])), rate = std::stod(cell[2]);
+    const double temperature = 300.0 + 1000.0 * std::stod(cell[3]), expected = std::stod(cell[4]);
+    EXPECT_NEAR(law.fracture_strain(eta, rate, temperature), expected, 1e-4 * expected + 5e-6) << line;
+
+    // The pass itself: one increment of plastic strain adds its share.
+    PointState<2> s = sound_points(3, temperature);
+    const double increment = 1e-3;
+    s.plastic_rate.assign(3, rate);
+    s.equivalent_stress.assign(3, 500e6);
+    s.pressure.assign(3, -eta * 500e6);
+    const Field length(3, 1e-4), volume(3, 1.0);
+    update_damage<2>({perfect_steel(law)}, s.material, damage_points<2>(s, length, volume), 0, 3,
+                     increment / rate);
+    for (const double d : s.damage) EXPECT_NEAR(increment / d, expected, 1e-4 * expected + 5e-6) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 294);
+}
+
+/// Plastic strain at which softening begins on a path of constant triaxiality, by tension or simple shear.
+double initiation_strain(double triaxiality, bool shear) {
+  Point point{perfect_steel(law_of(constants.at("4340_JC85")))};
+  point.material.damage->D4 = point.material.damage->D5 = 0.0;
+  const double volume = std::exp(triaxiality * 500e6 / point.material.elasticity.kappa() / 3.0); // of an edge
+  for (double e = 0.0; point.state.initiation_strain[0] == 0.0 && e < 20.0; e += 1e-3) {
+    Mat3 f = Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal();
+    if (shear) f << 1, 2.0 * std::sinh(std::numbers::sqrt3 / 2.0 * e), 0, 0, 1, 0, 0, 0, 1;
+    point.step(volume * f, 1e-3);
+    if (e > 0.1) { EXPECT_NEAR(point.triaxiality(), triaxiality, 2e-3); }
+  }
+  return point.state.initiation_strain[0];
+}
+
+TEST(damage, begins_at_the_fracture_strain_of_its_path) {
+  const JohnsonCookDamage law = law_of(constants.at("4340_JC85"));
+  for (const double triaxiality : {0.0, 1.0 / 3.0, 1.0, 1.5}) { // shear, smooth bar, notched bars
+    const double expected = law.D1 + law.D2 * std::exp(law.D3 * triaxiality);
+    EXPECT_NEAR(initiation_strain(triaxiality, false), expected, 2e-3 * expected + 2e-3) << triaxiality;
+  }
+  EXPECT_NEAR(initiation_strain(0.0, true), law.D1 + law.D2, 0.02) << "simple shear";
+}
+
+TEST(damage, does_not_grow_below_the_cut_off) {
+  for (const double cut_off : {-std::numeric_limits<double>::infinity(), -1.0 / 3.0}) {
+    Point point{perfect_steel(law_of(constants.at("4340_JC85")))};
+    point.material.damage->cut_off = cut_off;
+    const double edge = std::exp(-0.5 * 500e6 / point.material.elasticity.kappa() / 3.0);
+    for (double e = 0.0; e < 0.5; e += 1e-3)
+      point.step(edge * Mat3(Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal()),
+                 1e-3);
+    EXPECT_EQ(point.state.damage[0] > 0.0, cut_off < -1.0);
+  }
+}
+
+/// Plastic work per area of band from initiation on, in units of the fracture energy.
+double cost_of_breaking(Point& point, double step) {
+  double e = 0.0, before = 0.0;
+  while (point.state.softening[0] < 1.0 && e < 10.0) {
+    e += step;
+    point.step(Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal(), step / 1e3);
+    if (point.state.damage[0] < 1.0) before = point.state.plastic_work[0];
+  }
+  EXPECT_EQ(point.state.softening[0], 1.0);
+  return (point.state.plastic_work[0] - before) * point.length / point.material.damage->fracture_energy;
+}
+
+TEST(damage, breaking_takes_the_fracture_energy_whatever_size_and_hardening) {
+  for (const double length : {1e-4, 4e-4, 1e-3})
+    for (const double hardening : {0.0, 400e6}) {
+      Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
+      point.length = length;
+      point.material.hardening->B = hardening;
+      EXPECT_NEAR(cost_of_breaking(point, 2e-4 * 1e-4 / length), 1.0, 2e-3) << length << ' ' << hardening;
+    }
+}
+
+TEST(damage, strength_falls_linearly_with_the_opening) {
+  Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
+  const double opening = 2.0 * point.material.damage->fracture_energy / 500e6; // u_f = 2 G_f/σ_y
+  for (double e = 0.0; point.state.softening[0] < 0.95; e += 1e-3) {
+    point.step(Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal(), 1e-3);
+    if (point.state.damage[0] < 1.0) continue;
+    const double opened = (point.state.plastic_strain[0] - point.state.initiation_strain[0]) * point.length;
+    EXPECT_NEAR(point.state.softening[0], opened / opening, 2e-3);
+    EXPECT_NEAR(point.state.equivalent_stress[0], 500e6 * (1.0 - opened / opening), 3e6);
+  }
+}
+
+TEST(damage, a_broken_point_carries_pressure_but_neither_tension_nor_shear) {
+  Point point{perfect_steel(law_of({0.0, 0, 0, 0, 0}))}; // breaks with the first flow
+  cost_of_breaking(point, 1e-3);
+  const double kappa = point.material.elasticity.kappa();
+  const Mat3 f = general<2>(point.state.deformation, 0);
+  for (const double volume : {1.02, 0.98}) {
+    point.step(std::cbrt(volume) * f, 1e-3);
+    const Mat3 tau = kirchhoff<2>(point.state, 0);
+    const double expected = volume < 1.0 ? kappa * std::log(volume) : 0.0;
+    EXPECT_LT((tau - expected * Mat3::Identity()).norm(), 1e-7 * kappa) << volume;
+    EXPECT_NEAR(point.state.pressure[0], -expected, 1e-7 * kappa);
+    EXPECT_NEAR(point.state.stored_energy[0], 0.5 * expected * expected / kappa, 1e-9 * kappa);
+  }
+}
+
+TEST(damage, work_of_a_path_with_tension_is_accounted_for) {
+  // Stress power = stored + plastic + let go, with a mean stress that rises while the point softens.
+  Point point{perfect_steel(law_of({0.02, 0, 0, 0, 0}))};
+  double work = 0.0;
+  Mat3 last_f = Mat3::Identity(), last_p = Mat3::Zero();
+  const int steps = 20000;
+  for (int k = 1; k <= steps; ++k) {
+    const double e = 2.0 * k / steps, edge = std::exp(0.002 * std::sin(2.0 * e) + 0.001 * e);
+    const Mat3 f = edge * Mat3(Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal());
+    point.step(f, 1e-6);
+    const Mat3 p = general<2>(point.state.piola, 0);
+    work += 0.5 * ((p + last_p).transpose() * (f - last_f)).trace();
+    last_f = f, last_p = p;
+  }
+  EXPECT_GT(point.state.softening[0], 0.3);
+  EXPECT_GT(point.released, 1e3);
+  EXPECT_NEAR(point.state.stored_energy[0] + point.state.plastic_work[0] + point.released, work, 2e-4 * work);
+}
+
+} // namespace
+} // namespace cnem::plasticity::test

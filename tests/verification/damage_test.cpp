@@ -1,0 +1,126 @@
+// Material that breaks: what it takes does not depend on the spacing.
+#include "app/simulation.hpp"
+#include "io/case_reader.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace cnem::app {
+namespace {
+
+// A strip, endless along x, whose upper and lower sides slide past each other; the middle is a little weaker.
+const std::string strip = R"toml(
+[analysis]
+thermal = false
+[time]
+end = "40 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 -0.5 mm", to = "0.2 0.5 mm" }
+[cloud]
+spacing = "0.05 mm"
+pattern = "regular"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "500 MPa" }
+damage = { law = "johnson-cook", D1 = 0.005, D2 = 0.0, D3 = 0.0, fracture_energy = "40 kJ/m2" }
+[initial]
+velocity_gradient = { xy = "10000 1/s" }
+imperfections.weak = { points = ["-1 0 mm", "1 0 mm"], width = "0.1 mm", reduction = 0.05 }
+[periodic.sides]
+pieces = ["left", "right"]
+[boundary.lower]
+pieces = ["bottom"]
+velocity = { x = "-5 m/s", y = "0 m/s" }
+[boundary.upper]
+pieces = ["top"]
+velocity = { x = "5 m/s", y = "0 m/s" }
+)toml";
+
+// A bar pulled at both ends, with a weaker middle.
+const std::string bar = R"toml(
+[analysis]
+thermal = false
+[time]
+end = "40 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "-0.6 0 mm", to = "0.6 0.4 mm" }
+[cloud]
+spacing = "0.1 mm"
+pattern = "regular"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "500 MPa" }
+damage = { law = "johnson-cook", D1 = 0.005, D2 = 0.0, D3 = 0.0, fracture_energy = "40 kJ/m2" }
+[initial]
+velocity_gradient = { xx = "8333 1/s" }
+imperfections.weak = { points = ["0 -1 mm", "0 1 mm"], width = "0.15 mm", reduction = 0.1 }
+[boundary.left]
+pieces = ["left"]
+velocity = { x = "-5 m/s" }
+[boundary.right]
+pieces = ["right"]
+velocity = { x = "5 m/s" }
+)toml";
+
+/// Work of the supports, J/m, at eight equal times, the last one the end of the run.
+struct Breaking {
+  std::vector<double> work;
+  double plastic = 0.0;
+};
+
+Breaking break_it(const std::string& text, const std::string& spacing, std::vector<std::string> more = {}) {
+  more.push_back(fmt::format("cloud.spacing=\"{}\"", spacing));
+  const io::Case input = io::read_case_text(text, "case.toml", more);
+  std::vector<std::string> warnings;
+  ExplicitSolver<2> solver = make_solver(input, warnings);
+  StepControl control(input.time);
+  ReferenceRenewal renewal(input.method);
+  Breaking result;
+  for (int k = 1; k <= 8; ++k) {
+    const double until = input.time.end * k / 8.0;
+    while (solver.state().time < until * (1.0 - 1e-9)) {
+      const bool renewed = renewal.due(solver);
+      if (renewed) renewal.renew(solver);
+      if (renewed || solver.state().step % 10 == 0) control.refresh(solver);
+      solver.advance(control.choose(solver.state().time, until));
+    }
+    result.work.push_back(solver.ledger().supports);
+  }
+  result.plastic = solver.ledger().plastic;
+  EXPECT_LT(std::abs(solver.ledger().residual()),
+            0.003 * (solver.ledger().external() + solver.ledger().initial));
+  const Field& softening = solver.state().point.softening;
+  EXPECT_EQ(*std::max_element(softening.begin(), softening.end()), 1.0);
+  return result;
+}
+
+TEST(Separation, of_a_sheared_strip_takes_the_fracture_energy_at_any_spacing) {
+  const double expected = 40e3 * 0.2e-3; // G_f times the width, J/m
+  const Breaking coarse = break_it(strip, "0.05 mm"), fine = break_it(strip, "0.025 mm");
+  EXPECT_NEAR(fine.plastic, expected, 0.05 * expected);
+  EXPECT_NEAR(coarse.plastic, fine.plastic, 0.06 * fine.plastic);
+  for (std::size_t k = 0; k < fine.work.size(); ++k) // the force-displacement curve, integrated
+    EXPECT_NEAR(coarse.work[k], fine.work[k], 0.09 * fine.work.back()) << k;
+  const Breaking triangles =
+      break_it(strip, "0.05 mm",
+               {"method.name=fe-triangles", "method.lagrangian=total", "materials.steel.damage.band=1.8"});
+  EXPECT_NEAR(triangles.plastic, expected, 0.06 * expected);
+}
+
+TEST(Separation, of_a_bar_in_tension_does_not_depend_on_the_spacing) {
+  const Breaking h = break_it(bar, "0.1 mm"), half = break_it(bar, "0.05 mm"),
+                 quarter = break_it(bar, "0.025 mm");
+  EXPECT_NEAR(h.plastic, half.plastic, 0.08 * half.plastic);
+  EXPECT_NEAR(quarter.plastic, half.plastic, 0.05 * half.plastic);
+  for (std::size_t k = 0; k < half.work.size(); ++k) {
+    EXPECT_NEAR(h.work[k], half.work[k], 0.1 * half.work.back()) << k;
+    EXPECT_NEAR(quarter.work[k], half.work[k], 0.05 * half.work.back()) << k;
+  }
+}
+
+} // namespace
+} // namespace cnem::app
