@@ -79,6 +79,8 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     row.emplace_back(name + ".force_y" + units_.force, result.force.y());
     row.emplace_back(name + ".stroke[m]", contact.tools()[t].motion.displacement(state.time).norm());
   }
+  if (contact.bodies_touch())
+    row.emplace_back("body_contact.pressing" + units_.force, contact.body_result().pressing);
   const auto& supports = solver.model().supports;
   for (std::size_t s = 0; s < supports.list().size(); ++s) {
     if (s > 0 && supports.list()[s].name == supports.list()[s - 1].name) continue;

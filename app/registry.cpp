@@ -232,6 +232,13 @@ void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& 
     supports.insert(supports.begin(), {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis)});
 }
 
+contact::Friction make_friction(const io::Friction& spec) {
+  contact::Friction friction;
+  if (spec.law != io::Friction::Law::none) friction.coulomb = spec.coefficient;
+  if (spec.law == io::Friction::Law::tresca_limited) friction.shear_factor = spec.shear_factor;
+  return friction;
+}
+
 contact::Tool<2> make_tool(const io::Case& input, const io::Tool& spec) {
   contact::Tool<2> tool;
   tool.name = spec.name;
@@ -239,9 +246,7 @@ contact::Tool<2> make_tool(const io::Case& input, const io::Tool& spec) {
     tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
   } catch (const InputError& error) { throw input.error("tools." + spec.name, error.what()); }
   tool.motion.velocity = spec.velocity;
-  if (spec.friction.law != io::Friction::Law::none) tool.friction.coulomb = spec.friction.coefficient;
-  if (spec.friction.law == io::Friction::Law::tresca_limited)
-    tool.friction.shear_factor = spec.friction.shear_factor;
+  tool.friction = make_friction(spec.friction);
   if (spec.heat) {
     tool.thermal.conductance = spec.heat->conductance;
     tool.thermal.temperature = spec.heat->temperature;
@@ -291,7 +296,8 @@ Setup build(const io::Case& input) {
   setup.warnings = std::move(generated.warnings);
   Model<2>& model = setup.model;
   const Space space = space_of(input);
-  model.contact = contact::RigidContact<2>(std::move(tools), space);
+  model.contact = contact::RigidContact<2>(std::move(tools), space,
+                                           {input.contact.deformable, make_friction(input.contact.friction)});
   model.cloud = std::move(generated.cloud);
   model.method = make_method(input.method, space);
   const std::vector<std::int32_t> region = region_of_nodes(input, model.cloud);

@@ -1,5 +1,6 @@
 #include "contact/contact.hpp"
 
+#include "contact/contact_parts.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -14,40 +15,11 @@ namespace {
 constexpr int passes = 8;   ///< of detection; each sees what the last corrected
 constexpr int sweeps = 100; ///< of Gauss-Seidel in a pass
 
-template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
-  Vec<dim> x;
-  for (int k = 0; k < dim; ++k) x[k] = field[static_cast<std::size_t>(k)][static_cast<std::size_t>(node)];
-  return x;
-}
-
-/// Velocity of the point where a contact acts, from one vector per boundary node.
-template<int dim, class PerNode> Vec<dim> at_contact(const Contact<dim>& contact, PerNode&& value) {
-  Vec<dim> sum = Vec<dim>::Zero();
-  for (std::size_t a = 0; a < dim; ++a)
-    if (contact.weight[a] != 0.0) sum += contact.weight[a] * value(static_cast<std::size_t>(contact.node[a]));
-  return sum;
-}
-
 } // namespace
 
-ContactWork& operator+=(ContactWork& a, const ContactWork& b) {
-  a.workpiece += b.workpiece;
-  a.tool += b.tool;
-  a.recovery += b.recovery;
-  a.friction += b.friction;
-  a.impact += b.impact;
-  return a;
-}
-
-template<int dim> struct RigidContact<dim>::Pose {
-  Vec<dim> start, end;       ///< m, displacement at t_n and t_{n+1}
-  Vec<dim> before, velocity; ///< m/s, at t_{n−½} and t_{n+½}
-  double recovery = 0.0;     ///< m/s, half the speed of the fastest tool
-};
-
 template<int dim>
-RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space)
-    : tools_(std::move(tools)), space_(space) {
+RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space, BodyContactLaw bodies)
+    : tools_(std::move(tools)), space_(space), law_(bodies) {
   for (const Tool<dim>& tool : tools_) {
     if (!tool.shape) throw InputError(fmt::format("tool '{}' has no shape", tool.name));
     if (!(tool.friction.coulomb >= 0.0) || !(tool.friction.shear_factor >= 0.0))
@@ -63,8 +35,10 @@ RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space)
 
 template<int dim>
 void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
-                                     const std::vector<NodeConstraint<dim>>& constraints) {
+                                     const std::vector<NodeConstraint<dim>>& constraints,
+                                     std::span<const std::int32_t> group) {
   surface_ = Surface<dim>(facets, nodes);
+  if (law_.active) bodies_.set_boundary(surface_, group);
   const std::size_t n = surface_.node.size();
   free_.assign(n, Mat<dim>::Identity());
   for (const NodeConstraint<dim>& constraint : constraints) {
@@ -86,9 +60,11 @@ template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) 
 }
 
 template<int dim> bool RigidContact<dim>::flow_stress_needed() const {
-  return std::any_of(tools_.begin(), tools_.end(), [](const Tool<dim>& tool) {
-    return tool.friction.coulomb > 0.0 && std::isfinite(tool.friction.shear_factor);
-  });
+  const auto limited = [](const Friction& friction) {
+    return friction.coulomb > 0.0 && std::isfinite(friction.shear_factor);
+  };
+  return (law_.active && limited(law_.friction)) ||
+         std::any_of(tools_.begin(), tools_.end(), [&](const Tool<dim>& t) { return limited(t.friction); });
 }
 
 template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) {
@@ -99,10 +75,15 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
                     surface_.node.size(), step.flow_stress.size()));
   gather(step);
   const std::vector<Pose> poses_now = poses(step);
+  if (law_.active) {
+    bodies_.look(surface_, start_, end_);
+    size_ = std::max(size_, bodies_.size());
+  }
   for (int pass = 0; pass < passes; ++pass) {
     from_earlier_passes_ = contacts_.size();
-    const bool faces = find_on_faces(poses_now, step), ridges = find_on_ridges(poses_now, step);
-    if (!faces && !ridges) break;
+    const bool faces = find_on_faces(poses_now, step), ridges = find_on_ridges(poses_now, step),
+               bodies = find_on_bodies(poses_now, step);
+    if (!faces && !ridges && !bodies) break;
     solve_impulses(contacts_, reactions_, step.dt, 1e-16 * size_, sweeps);
     for (std::size_t b = 0; b < end_.size(); ++b)
       end_[b] = reactions_[b].position + step.dt * reactions_[b].change;
@@ -166,7 +147,7 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
   const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
-           (c.facet >= 0 || c.node[0] == contact.node[0]);
+           c.node[0] == contact.node[0];
   });
   if (known == earlier)
     contacts_.push_back(contact);
@@ -224,11 +205,12 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const Con
       contact.tool = static_cast<std::int32_t>(t);
       contact.feature = hit.ridge;
       contact.facet = hit.facet;
-      contact.node = surface_.facets[static_cast<std::size_t>(hit.facet)];
-      contact.weight = hit.weight;
+      const auto& ends = surface_.facets[static_cast<std::size_t>(hit.facet)];
+      std::copy(ends.begin(), ends.end(), contact.node.begin());
+      std::copy(hit.weight.begin(), hit.weight.end(), contact.weight.begin());
       contact.normal = hit.normal;
       double area = 0.0; // of nodes that do not rub on a face themselves
-      for (std::size_t a = 0; a < dim; ++a) {
+      for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
         const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<dim>& c) {
           return c.tool == contact.tool && c.facet < 0 && c.node[0] == contact.node[a];
         });
@@ -243,17 +225,49 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const Con
 }
 
 template<int dim>
+bool RigidContact<dim>::find_on_bodies(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+  if (!law_.active) return false;
+  bool any = false;
+  Pose rest;
+  for (const Pose& pose : poses) rest.recovery = pose.recovery;
+  std::vector<FacetHit<dim>> hits;
+  bodies_.find(surface_, start_, end_, hits);
+  for (const FacetHit<dim>& hit : hits) {
+    const auto& ends = surface_.facets[static_cast<std::size_t>(hit.facet)];
+    Contact<dim> contact;
+    contact.tool = -1;
+    contact.facet = hit.facet;
+    contact.node[0] = hit.node;
+    contact.weight[0] = 1.0;
+    for (std::size_t a = 0; a < dim; ++a) {
+      contact.node[a + 1] = ends[a];
+      contact.weight[a + 1] = -hit.weight[a];
+    }
+    contact.normal = hit.normal;
+    set_friction(contact, rest, area_[static_cast<std::size_t>(hit.node)], step);
+    any |= add(contact, hit.start, hit.clearance, rest, step.dt);
+  }
+  return any;
+}
+
+template<int dim> const Friction& RigidContact<dim>::friction_of(const Contact<dim>& contact) const {
+  return contact.tool < 0 ? law_.friction : tools_[static_cast<std::size_t>(contact.tool)].friction;
+}
+
+template<int dim>
 void RigidContact<dim>::set_friction(Contact<dim>& contact, const Pose& pose, double area,
                                      const ContactStep<dim>& step) const {
-  const Friction& friction = tools_[static_cast<std::size_t>(contact.tool)].friction;
+  const Friction& friction = friction_of(contact);
   contact.surface = pose.velocity;
   contact.coulomb = friction.coulomb;
   contact.limit = std::numeric_limits<double>::infinity();
   if (friction.coulomb == 0.0 || std::isinf(friction.shear_factor)) return;
-  double flow_stress = 0.0;
-  for (std::size_t a = 0; a < dim; ++a)
-    if (contact.weight[a] != 0.0)
-      flow_stress += contact.weight[a] * step.flow_stress[static_cast<std::size_t>(contact.node[a])];
+  double flow_stress = 0.0, opposite = 0.0; // of two bodies the weaker one counts
+  for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+    if (const double w = contact.weight[a]; w != 0.0)
+      (w > 0.0 ? flow_stress : opposite) +=
+          std::abs(w) * step.flow_stress[static_cast<std::size_t>(contact.node[a])];
+  if (contact.tool < 0) flow_stress = std::min(flow_stress, opposite);
   contact.limit = friction.shear_factor * flow_stress / std::numbers::sqrt3 * area * step.dt_mean;
 }
 
@@ -266,129 +280,6 @@ template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) 
       step.velocity[static_cast<std::size_t>(k)][node] += change[k];
       step.position[static_cast<std::size_t>(k)][node] += step.dt * change[k];
     }
-  }
-}
-
-/// Work of each contact with the mean of the velocities before and after (design: with the predicted velocity
-/// it would be wrong by its own size), split so that each part has one sign.
-template<int dim> void RigidContact<dim>::book(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
-  for (std::size_t t = 0; t < tools_.size(); ++t) {
-    results_[t].displacement = poses[t].end;
-    results_[t].force.setZero();
-    results_[t].step = {};
-  }
-  for (const Contact<dim>& contact : contacts_) {
-    const auto t = static_cast<std::size_t>(contact.tool);
-    const Vec<dim> impulse = contact.impulse();
-    if (impulse.squaredNorm() == 0.0) continue;
-    const Vec<dim> node = at_contact(contact, [&](std::size_t b) {
-      return Vec<dim>(0.5 * (before_[b] + reactions_[b].velocity + reactions_[b].change));
-    });
-    const Vec<dim> tool = 0.5 * (poses[t].before + poses[t].velocity);
-    const double normal = (tool - node).dot(contact.normal) * contact.pressing;
-    const double tangential = (tool - node).dot(contact.sliding);
-
-    ContactWork& work = results_[t].step;
-    work.workpiece += node.dot(impulse);
-    work.tool += tool.dot(impulse);
-    work.impact += std::max(0.0, normal);
-    work.friction += std::max(0.0, tangential);
-    work.recovery -= std::min(0.0, normal) + std::min(0.0, tangential);
-    results_[t].force += impulse / step.dt_mean;
-    results_[t].impulse += impulse;
-
-    const double e_tool = tools_[t].thermal.effusivity;
-    for (std::size_t a = 0; a < dim; ++a) {
-      if (contact.weight[a] == 0.0) continue;
-      const auto b = static_cast<std::size_t>(contact.node[a]);
-      nodal_impulse_[b] += contact.weight[a] * impulse;
-      const double heat = contact.weight[a] * std::max(0.0, tangential);
-      const double share =
-          step.effusivity.empty() || e_tool == 0.0 ? 1.0 : step.effusivity[b] / (step.effusivity[b] + e_tool);
-      heat_[b] += share * heat;
-      results_[t].heat_to_tool += (1.0 - share) * heat;
-    }
-  }
-  for (ToolResult<dim>& result : results_) result.total += result.step;
-}
-
-template<int dim>
-void RigidContact<dim>::list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
-  points_.clear();
-  for (const Contact<dim>& contact : contacts_)
-    for (std::size_t a = 0; a < dim; ++a) {
-      if (contact.weight[a] == 0.0 || contact.pressing == 0.0) continue;
-      const auto b = static_cast<std::size_t>(contact.node[a]);
-      ContactPoint<dim> point;
-      point.node = surface_.node[b];
-      point.boundary = contact.node[a];
-      point.tool = contact.tool;
-      point.area = area_[b];
-      point.force = contact.weight[a] / step.dt_mean * contact.impulse();
-      point.pressure = contact.weight[a] * contact.pressing / (step.dt_mean * area_[b]);
-      points_.push_back(point);
-    }
-  std::stable_sort(points_.begin(), points_.end(),
-                   [](const ContactPoint<dim>& a, const ContactPoint<dim>& b) {
-                     return std::pair(a.tool, a.node) < std::pair(b.tool, b.node);
-                   });
-  std::size_t kept = 0;
-  for (const ContactPoint<dim>& point : points_) {
-    if (kept > 0 && points_[kept - 1].tool == point.tool && points_[kept - 1].node == point.node) {
-      points_[kept - 1].force += point.force;
-      points_[kept - 1].pressure += point.pressure;
-    } else {
-      points_[kept++] = point;
-    }
-  }
-  points_.resize(kept);
-  for (ContactPoint<dim>& point : points_) {
-    const auto t = static_cast<std::size_t>(point.tool);
-    const Vec<dim> x = end_[static_cast<std::size_t>(point.boundary)] - poses[t].end;
-    point.gap = tools_[t].shape->closest(x).distance;
-  }
-}
-
-template<int dim>
-std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& position, double time) const {
-  std::vector<Overlap<dim>> found;
-  std::vector<Vec<dim>> all, local;
-  for (const std::int32_t node : surface_.node) all.push_back(at<dim>(position, node));
-  const double rounding = 1e-9 * size_;
-  for (std::size_t t = 0; t < tools_.size(); ++t) {
-    const Vec<dim> shift = tools_[t].motion.displacement(time);
-    local = all;
-    for (Vec<dim>& x : local) x -= shift;
-    std::vector<Entry<dim>> entries;
-    tools_[t].shape->entries(local, local, entries);
-    for (const Entry<dim>& entry : entries) {
-      const auto b = static_cast<std::size_t>(entry.index);
-      if (entry.at.distance < -rounding)
-        found.push_back({static_cast<std::int32_t>(t), surface_.node[b], -entry.at.distance, all[b], false});
-    }
-    for (const RidgeDepth<dim>& ridge : ridges_inside(surface_, *tools_[t].shape, all, shift))
-      if (ridge.depth > rounding)
-        found.push_back({static_cast<std::int32_t>(t), surface_.node[static_cast<std::size_t>(ridge.node)],
-                         ridge.depth, ridge.position, true});
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Overlap<dim>& a, const Overlap<dim>& b) { return a.depth > b.depth; });
-  return found;
-}
-
-template<int dim> void RigidContact<dim>::archive(Archive& archive) {
-  for (std::size_t t = 0; t < results_.size(); ++t) {
-    const std::string at = fmt::format("solver/tools/{}/", t);
-    ToolResult<dim>& result = results_[t];
-    archive.vector<dim>(at + "displacement", "m", result.displacement);
-    archive.vector<dim>(at + "force", "N/m", result.force);
-    archive.vector<dim>(at + "impulse", "N s/m", result.impulse);
-    archive.number(at + "heat_to_tool", "J/m", result.heat_to_tool);
-    archive.number(at + "work/workpiece", "J/m", result.total.workpiece);
-    archive.number(at + "work/tool", "J/m", result.total.tool);
-    archive.number(at + "work/recovery", "J/m", result.total.recovery);
-    archive.number(at + "work/friction", "J/m", result.total.friction);
-    archive.number(at + "work/impact", "J/m", result.total.impact);
   }
 }
 

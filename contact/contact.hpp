@@ -1,5 +1,6 @@
 #pragma once
-// Kinematic predictor-corrector contact of the workpiece with rigid tools.
+// Kinematic predictor-corrector contact of the workpiece with rigid tools and with itself.
+#include "contact/body_contact.hpp"
 #include "contact/impulse_solver.hpp"
 #include "contact/surface.hpp"
 #include "contact/tool.hpp"
@@ -55,6 +56,13 @@ template<int dim> struct ToolResult {
   double heat_to_tool = 0.0;           ///< J/m^(3−dim), friction heat the tool took, since the start
 };
 
+/// What parts of the workpiece do to each other.
+template<int dim> struct BodyResult {
+  double pressing = 0.0; ///< N/m^(3−dim), Σ |normal force| of the step
+  ContactWork step;      ///< in this step; no tool's work
+  ContactWork total;     ///< since the start
+};
+
 /// A boundary node that touches a tool (directly or through an edge that a corner presses on).
 template<int dim> struct ContactPoint {
   std::int32_t node = 0;
@@ -80,18 +88,24 @@ template<int dim> struct Overlap {
 /// threads; looks at boundary nodes alone.
 template<int dim> class RigidContact {
 public:
-  explicit RigidContact(std::vector<Tool<dim>> tools, Space space = Space::plane);
+  explicit RigidContact(std::vector<Tool<dim>> tools, Space space = Space::plane, BodyContactLaw bodies = {});
 
-  /// Takes the boundary of the cloud and the nodes that are not free. Costs O(nodes + facets).
+  /// Whether there is anything to touch.
+  bool active() const { return !tools_.empty() || law_.active; }
+  bool bodies_touch() const { return law_.active; } ///< whether parts of the workpiece see each other
+
+  /// Takes the boundary of the cloud and the nodes that are not free. group: as BodyContact takes it. Costs
+  /// O(nodes + facets).
   void set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
-                    const std::vector<NodeConstraint<dim>>& constraints);
+                    const std::vector<NodeConstraint<dim>>& constraints,
+                    std::span<const std::int32_t> group = {});
 
   /// Keeps v_{n−½} of the boundary nodes for the work of this step.
   void remember(const Fields<dim>& velocity);
 
-  /// Corrects x_{n+1} and v_{n+½} so that nothing that was outside a tool is inside, with friction, and
-  /// existing penetration shrinks at no more than half the tool's (or the node's slip) speed.
-  /// Throws InputError when a shear factor is set and no flow stress given.
+  /// Corrects x_{n+1} and v_{n+½} so that nothing that was outside a tool or another part of the workpiece is
+  /// inside, with friction, and existing penetration shrinks at no more than half the tool's (or the node's
+  /// slip) speed. Throws InputError when a shear factor is set and no flow stress given.
   void correct(const ContactStep<dim>& step);
 
   const std::vector<Tool<dim>>& tools() const { return tools_; }
@@ -100,6 +114,8 @@ public:
   const std::vector<std::int32_t>& boundary_nodes() const { return surface_.node; }
 
   const std::vector<ToolResult<dim>>& results() const { return results_; } ///< [tool]
+  const BodyResult<dim>& body_result() const { return body_result_; }
+  const BodyContact<dim>& bodies() const { return bodies_; }
   const std::vector<ContactPoint<dim>>& points() const { return points_; } ///< touching in the last step
   /// Workpiece's share of the friction heat of the last step, J/m^(3−dim), [boundary node].
   const std::vector<double>& friction_heat() const { return heat_; }
@@ -113,22 +129,32 @@ public:
   void archive(Archive& archive);
 
 private:
-  struct Pose; // of a tool during a step
+  /// Of a tool during a step; at rest for the workpiece itself.
+  struct Pose {
+    Vec<dim> start = Vec<dim>::Zero(), end = Vec<dim>::Zero();       ///< m, displacement at t_n and t_{n+1}
+    Vec<dim> before = Vec<dim>::Zero(), velocity = Vec<dim>::Zero(); ///< m/s, at t_{n−½} and t_{n+½}
+    double recovery = 0.0; ///< m/s, half the speed of the fastest tool
+  };
   std::vector<Pose> poses(const ContactStep<dim>& step) const;
   void gather(const ContactStep<dim>& step);
   bool find_on_faces(const std::vector<Pose>& poses, const ContactStep<dim>& step);
   bool find_on_ridges(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  bool find_on_bodies(const std::vector<Pose>& poses, const ContactStep<dim>& step);
   bool add(Contact<dim> contact, double start, double level, const Pose& pose, double dt);
   void set_friction(Contact<dim>& contact, const Pose& pose, double area, const ContactStep<dim>& step) const;
+  const Friction& friction_of(const Contact<dim>& contact) const;
+  void share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step);
   void scatter(const ContactStep<dim>& step);
   void book(const std::vector<Pose>& poses, const ContactStep<dim>& step);
   void list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step);
 
   std::vector<Tool<dim>> tools_;
   Space space_ = Space::plane;
+  BodyContactLaw law_;
+  BodyContact<dim> bodies_;
   Surface<dim> surface_;
   std::vector<Mat<dim>> free_; ///< [boundary node]
-  double size_ = 0.0;          ///< m, of the largest tool: the scale of rounding
+  double size_ = 0.0;          ///< m, of the largest tool, or of the workpiece: the scale of rounding
 
   // The step in hand, [boundary node].
   std::vector<Vec<dim>> before_; ///< m/s, v_{n−½}
@@ -140,6 +166,7 @@ private:
   std::size_t from_earlier_passes_ = 0; ///< how many of them
 
   std::vector<ToolResult<dim>> results_;
+  BodyResult<dim> body_result_;
   std::vector<ContactPoint<dim>> points_;
   std::vector<double> heat_;
   std::vector<Vec<dim>> nodal_impulse_;

@@ -16,7 +16,7 @@ public:
     const double mobility = along(contact_.normal);
     if (mobility <= 0.0) return 0.0;
     double gap = -contact_.level;
-    for (std::size_t a = 0; a < dim; ++a)
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (contact_.weight[a] != 0.0) {
         const Reaction<dim>& node = at(a);
         gap += contact_.weight[a] * contact_.normal.dot(node.position + dt_ * node.change);
@@ -33,7 +33,7 @@ public:
         contact_.pressing > 0.0 ? std::min(contact_.coulomb * contact_.pressing, contact_.limit) : 0.0;
     if (strength <= 0.0 && contact_.sliding.squaredNorm() == 0.0) return 0.0;
     Vec<dim> slip = -contact_.surface;
-    for (std::size_t a = 0; a < dim; ++a)
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (contact_.weight[a] != 0.0) slip += contact_.weight[a] * (at(a).velocity + at(a).change);
     slip -= slip.dot(contact_.normal) * contact_.normal;
     const double speed = slip.norm();
@@ -54,7 +54,7 @@ private:
   /// Velocity of the contact point along u per unit impulse along u; 0 where the nodes are held.
   double along(const Vec<dim>& u) {
     double sum = 0.0, free = 0.0;
-    for (std::size_t a = 0; a < dim; ++a) {
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
       const double w2 = contact_.weight[a] * contact_.weight[a];
       if (w2 == 0.0) continue;
       sum += w2 * u.dot(at(a).inverse * u);
@@ -64,7 +64,7 @@ private:
   }
 
   void apply(const Vec<dim>& impulse) {
-    for (std::size_t a = 0; a < dim; ++a)
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (contact_.weight[a] != 0.0) at(a).change += contact_.weight[a] * (at(a).inverse * impulse);
   }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Unilateral contacts with friction between weighted nodes and rigid planes, solved for impulses by projected
-// Gauss-Seidel.
+// Unilateral contacts with friction between nodes and rigid planes or facets of other nodes, solved for
+// impulses by projected Gauss-Seidel.
 #include "core/vec.hpp"
 
 #include <array>
@@ -17,18 +17,22 @@ template<int dim> struct Reaction {
   Vec<dim> change = Vec<dim>::Zero();   ///< m/s, correction found so far
 };
 
-/// n·Σ N_a x_a ≥ level at the end of the step, with friction against a plane moving at `surface`.
+/// n·Σ w_a x_a ≥ level at the end of the step, with friction against a plane moving at `surface`. Against a
+/// tool w are the values N_a of shape functions; a node against a facet of the workpiece has w = 1 and the
+/// facet's nodes −N_a, so that the impulses on both sides are equal and opposite.
 template<int dim> struct Contact {
-  std::int32_t tool = 0;
-  std::int32_t feature = 0;             ///< piece of the tool's surface, or ridge
-  std::int32_t facet = -1;              ///< facet under a ridge; −1 for a node on a face
-  std::array<std::int32_t, dim> node{}; ///< indices into the list of reactions
-  std::array<double, dim> weight{};     ///< N_a, Σ = 1; 0 for unused nodes
-  Vec<dim> normal = Vec<dim>::Zero();   ///< out of the tool
-  double level = 0.0;                   ///< m
-  Vec<dim> surface = Vec<dim>::Zero();  ///< m/s, velocity of the tool at t_{n+½}
-  double coulomb = 0.0;                 ///< –
-  double limit = 0.0;                   ///< N s, largest tangential impulse (Tresca)
+  static constexpr std::size_t slots = dim + 1;
+
+  std::int32_t tool = 0;                  ///< −1: the workpiece itself
+  std::int32_t feature = 0;               ///< piece of the tool's surface, or ridge
+  std::int32_t facet = -1;                ///< facet under a ridge or a node; −1 for a node on a tool's face
+  std::array<std::int32_t, slots> node{}; ///< indices into the list of reactions
+  std::array<double, slots> weight{};     ///< w_a; 0 for unused nodes
+  Vec<dim> normal = Vec<dim>::Zero();     ///< out of the tool
+  double level = 0.0;                     ///< m
+  Vec<dim> surface = Vec<dim>::Zero();    ///< m/s, velocity of the tool at t_{n+½}
+  double coulomb = 0.0;                   ///< –
+  double limit = 0.0;                     ///< N s, largest tangential impulse (Tresca)
 
   double pressing = 0.0;               ///< N s, normal impulse ≥ 0
   Vec<dim> sliding = Vec<dim>::Zero(); ///< N s, tangential impulse

@@ -244,6 +244,12 @@ struct Tool {
   std::optional<ToolHeat> heat;
 };
 
+/// Contact of the workpiece with itself.
+struct BodyContact {
+  bool deformable = false;
+  Friction friction;
+};
+
 struct Method {
   enum class Name { cnem, fe_triangles };
   enum class Functions { sibson, laplace };
@@ -331,6 +337,7 @@ struct Case {
   InitialState initial;
   Loads loads;
   std::vector<Tool> tools;
+  BodyContact contact;
   Method method;
   Fracture fracture;
   Output output;

@@ -147,6 +147,25 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   }
 }
 
+namespace {
+
+Friction read_friction(const Setting& table) {
+  return {table.choice<Friction::Law>("law"), table.maybe<double>("coefficient").value_or(0.0),
+          table.maybe<double>("shear_factor").value_or(1.0)};
+}
+
+} // namespace
+
+void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting& table = *root.find("contact");
+  result.contact = {table.get<bool>("deformable"), read_friction(*table.find("friction"))};
+  const Setting& law = *table.find("friction.law");
+  if (!result.contact.deformable && result.contact.friction.law != Friction::Law::none)
+    diagnostics.add(Mistake::conflict, law.where, law.path,
+                    "found friction between parts that pass through each other, expected it with "
+                    "contact.deformable = true only");
+}
+
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
   for (const Setting& table : root.entries("tools")) {
     Tool tool;
@@ -156,9 +175,7 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
       check_overlap(table, tool, result, diagnostics);
     const auto& velocity = table.get<VectorFunction>("velocity");
     for (std::size_t k = 0; k < 2; ++k) tool.velocity[k] = velocity[k].value_or(TimeTable(0.0));
-    tool.friction.law = table.choice<Friction::Law>("friction.law");
-    tool.friction.coefficient = table.maybe<double>("friction.coefficient").value_or(0.0);
-    tool.friction.shear_factor = table.maybe<double>("friction.shear_factor").value_or(1.0);
+    tool.friction = read_friction(*table.find("friction"));
     if (const Setting* heat = table.find("heat")) {
       if (!result.analysis.thermal)
         diagnostics.add(Mistake::conflict, heat->where, heat->path,

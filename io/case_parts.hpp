@@ -9,6 +9,7 @@ namespace cnem::io {
 
 /// Domain and tools: outlines, holes and cracks, and whether they fit into one another.
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
+void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics);
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// Parts of the workpiece with a state of their own. Expects the domain.

@@ -148,6 +148,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_domain(root, result, diagnostics);
   read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
+  read_contact(root, result, diagnostics);
   diagnostics.throw_if_any();
   read_regions(root, result, diagnostics);
   read_boundary(root, result, diagnostics);

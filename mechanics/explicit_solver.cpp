@@ -89,7 +89,8 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
 
   edge_defect_.reset(shear_modulus_);
   if (edge_defect_.active(approximation_.links)) edge_defect_.take(point.deformation, 0, points);
-  model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
+  model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints(),
+                              model_.ties.group());
   if (model_.thermal) set_conduction();
   conduction_step_ = 0.0;
   if (!start) {
@@ -215,7 +216,7 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
 
 template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt_mean) {
   contact::RigidContact<dim>& contact = model_.contact;
-  if (contact.tools().empty()) return;
+  if (!contact.active()) return;
   NodeState<dim>& node = state_.node;
   const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
   std::vector<double> flow_stress;
@@ -241,6 +242,10 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
                    .effusivity = effusivity});
   running_.tools = running_.friction = running_.recovery = 0.0;
   running_.impact = tie_loss_;
+  const contact::ContactWork& bodies = contact.body_result().total;
+  running_.recovery += bodies.recovery;
+  running_.friction += bodies.friction;
+  running_.impact += bodies.impact;
   for (const contact::ToolResult<dim>& tool : contact.results()) {
     running_.tools += tool.total.tool;
     running_.recovery += tool.total.recovery;

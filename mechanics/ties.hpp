@@ -22,6 +22,8 @@ public:
   Ties(const std::vector<std::array<std::int32_t, 2>>& pairs, const std::vector<Vec<dim>>& position);
 
   bool empty() const { return node_.empty(); }
+  /// [node] number of its group, −1: free; empty when there are no ties.
+  const std::vector<std::int32_t>& group() const { return group_; }
   /// The list with all nodes tied to its members, each once, given ones first.
   std::vector<std::int32_t> with_partners(std::vector<std::int32_t> nodes) const;
 

@@ -105,7 +105,7 @@ TEST_P(KilledRun, ends_with_the_same_bits) {
     expect_reference(output);
   }
 }
-INSTANTIATE_TEST_SUITE_P(, KilledRun, ::testing::Range(0, 5), [](const auto& parameter) {
+INSTANTIATE_TEST_SUITE_P(, KilledRun, ::testing::Range(0, 6), [](const auto& parameter) {
   return std::string(small_cases()[static_cast<std::size_t>(parameter.param)].name);
 });
 

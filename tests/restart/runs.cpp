@@ -184,6 +184,38 @@ picture_fields = ["damage", "softening"]
 every_steps = 50
 )toml";
 
+// Two parts with a crack between them, pressed together by a tool that slides: friction, heat, renewals.
+const std::string touching = R"toml(
+[time]
+end = "8 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "3 2 mm" }
+cracks.cut = { points = ["0 1 mm", "3 1 mm"] }
+regions.above = { at = "1 1.5 mm", velocity = "20 -40 m/s" }
+[cloud]
+spacing = "0.25 mm"
+[boundary.base]
+pieces = ["bottom"]
+velocity = "0 0 m/s"
+[contact]
+deformable = true
+friction = { law = "tresca-limited", coefficient = 0.2 }
+[tools.plate]
+rectangle = { from = "-1 2 mm", to = "4 3 mm" }
+velocity = "10 -40 m/s"
+friction = { law = "coulomb", coefficient = 0.1 }
+[method]
+rereference = { every = 60, strain = 0.1 }
+[output]
+history_every = "0.1 us"
+fields_every = "4 us"
+pictures = "8 us"
+picture_fields = ["plastic_strain"]
+[output.checkpoint]
+every_steps = 25
+)toml" + steel;
+
 std::set<std::string> files_of(const fs::path& folder) {
   std::set<std::string> names;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
@@ -210,8 +242,9 @@ std::string outcome(const fs::path& folder) {
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
-  static const std::vector<SmallCase> cases{
-      {"punched", punched}, {"loaded", loaded}, {"round_bar", round_bar}, {"triangles", triangles}, {"breaking", breaking}};
+  static const std::vector<SmallCase> cases{{"punched", punched},     {"loaded", loaded},
+                                            {"round_bar", round_bar}, {"triangles", triangles},
+                                            {"breaking", breaking},   {"touching", touching}};
   return cases;
 }
 

@@ -12,7 +12,7 @@ struct SmallCase {
 };
 
 /// Plasticity, heat, contact with friction, re-references, bulk viscosity, loads, supports, bodies of
-/// revolution, finite elements, damage.
+/// revolution, finite elements, damage, parts that touch.
 const std::vector<SmallCase>& small_cases();
 const std::string& small_case(const std::string& name);
 

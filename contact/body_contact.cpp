@@ -1,0 +1,218 @@
+#include "contact/body_contact.hpp"
+
+#include <algorithm>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cnem::contact {
+namespace {
+
+namespace bg = boost::geometry;
+using TreePoint = bg::model::point<double, 2, bg::cs::cartesian>;
+using TreeBox = bg::model::box<TreePoint>;
+using Tree = bg::index::rtree<std::pair<TreeBox, std::int32_t>, bg::index::quadratic<16>>;
+
+constexpr double skin_of_facets = 0.5; ///< skin over the mean length of facets
+constexpr double clearance = 1e-6;     ///< of a facet's length: what stays between bodies that touch
+constexpr double rounding = 1e-9;      ///< of a facet's length: a gap of nothing
+constexpr double overhang = 1e-6;      ///< of a facet's length, by which crossings beside its ends count
+
+TreeBox box_around(const Vec2& low, const Vec2& high, double margin) {
+  return {TreePoint(low.x() - margin, low.y() - margin), TreePoint(high.x() + margin, high.y() + margin)};
+}
+
+/// A facet at one time.
+struct FacetView {
+  Vec2 a, edge, normal;
+  double length;
+
+  FacetView(const Surface<2>& surface, std::int32_t facet, std::span<const Vec2> position)
+      : a(position[static_cast<std::size_t>(surface.facets[static_cast<std::size_t>(facet)][0])]),
+        edge(position[static_cast<std::size_t>(surface.facets[static_cast<std::size_t>(facet)][1])] - a),
+        length(edge.norm()) {
+    normal = right_normal(edge) / length;
+  }
+  double gap(const Vec2& x) const { return normal.dot(x - a); }
+  double place(const Vec2& x) const { return edge.dot(x - a) / (length * length); }
+  Vec2 nearest(const Vec2& x) const { return a + std::clamp(place(x), 0.0, 1.0) * edge; }
+};
+
+/// Cosine between normals below which two facets face each other. A node counts where one of its facets does:
+/// else a body that slides on another would be stopped by the nodes ahead of the dent it makes.
+constexpr double facing = -0.25;
+
+bool faces(const Surface<2>& surface, std::size_t node, const Vec2& normal, std::span<const Vec2> position) {
+  const auto against = [&](std::int32_t facet) {
+    return facet >= 0 && FacetView(surface, facet, position).normal.dot(normal) < facing;
+  };
+  return against(surface.entering[node]) || against(surface.leaving[node]);
+}
+
+/// How often the boundary runs round x: the number of bodies there.
+int winding_number(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x) {
+  int turns = 0;
+  for (const auto& facet : surface.facets) {
+    const Vec2 &a = position[static_cast<std::size_t>(facet[0])],
+               &b = position[static_cast<std::size_t>(facet[1])];
+    const double side = cross(b - a, x - a);
+    if (a.y() <= x.y() && b.y() > x.y() && side > 0.0) ++turns;
+    if (a.y() > x.y() && b.y() <= x.y() && side < 0.0) --turns;
+  }
+  return turns;
+}
+
+/// A hit with when it happened, to choose between facets that meet.
+struct Candidate {
+  FacetHit<2> hit;
+  double when; ///< share of the step at which the node crossed
+};
+
+/// Of two facets that meet at a convex corner of their body, a node came in through the one it passed last.
+void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
+                      std::vector<Candidate>& of_node) {
+  const auto beaten = [&](const Candidate& c) {
+    return std::any_of(of_node.begin(), of_node.end(), [&](const Candidate& other) {
+      const auto &f = surface.facets[static_cast<std::size_t>(c.hit.facet)],
+                 &g = surface.facets[static_cast<std::size_t>(other.hit.facet)];
+      const bool before = f[1] == g[0], after = f[0] == g[1];
+      if (c.hit.facet == other.hit.facet || (!before && !after)) return false;
+      const Vec2 e = FacetView(surface, c.hit.facet, position).edge,
+                 n = FacetView(surface, other.hit.facet, position).edge;
+      if ((before ? cross(e, n) : cross(n, e)) <= 0.0) return false;
+      return other.when > c.when || (other.when == c.when && other.hit.facet < c.hit.facet);
+    });
+  };
+  std::vector<Candidate> kept;
+  for (const Candidate& c : of_node)
+    if (!beaten(c)) kept.push_back(c);
+  of_node = std::move(kept);
+}
+
+} // namespace
+
+template<int dim>
+void BodyContact<dim>::set_boundary(const Surface<dim>& surface, std::span<const std::int32_t> group) {
+  group_.assign(surface.node.size(), -1);
+  if (!group.empty())
+    for (std::size_t b = 0; b < group_.size(); ++b)
+      group_[b] = group[static_cast<std::size_t>(surface.node[b])];
+  listed_.clear();
+}
+
+template<int dim> bool BodyContact<dim>::bonded(const Surface<dim>& surface, std::int32_t facet) const {
+  if (facet < 0) return true;
+  const auto& ends = surface.facets[static_cast<std::size_t>(facet)];
+  return std::all_of(ends.begin(), ends.end(),
+                     [&](std::int32_t b) { return group_[static_cast<std::size_t>(b)] >= 0; });
+}
+
+template<int dim>
+bool BodyContact<dim>::related(const Surface<dim>& surface, std::size_t node, std::size_t facet) const {
+  return std::any_of(surface.facets[facet].begin(), surface.facets[facet].end(), [&](std::int32_t b) {
+    const auto end = static_cast<std::size_t>(b);
+    return end == node || (group_[node] >= 0 && group_[end] == group_[node]);
+  });
+}
+
+template<> void BodyContact<2>::list(const Surface<2>& surface) {
+  pairs_.clear();
+  ++listings_;
+  Vec2 low = listed_.front(), high = low;
+  for (const Vec2& x : listed_) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  size_ = (high - low).norm();
+  std::vector<std::pair<TreeBox, std::int32_t>> boxes;
+  double total = 0.0;
+  for (std::int32_t f = 0; f < std::ssize(surface.facets); ++f) {
+    const auto& ends = surface.facets[static_cast<std::size_t>(f)];
+    const Vec2 &a = listed_[static_cast<std::size_t>(ends[0])],
+               &b = listed_[static_cast<std::size_t>(ends[1])];
+    total += (b - a).norm();
+    if (!bonded(surface, f)) boxes.emplace_back(box_around(a.cwiseMin(b), a.cwiseMax(b), 0.0), f);
+  }
+  skin_ = skin_of_facets * total / static_cast<double>(std::max<std::size_t>(surface.facets.size(), 1));
+  const Tree tree(boxes);
+  std::vector<std::pair<TreeBox, std::int32_t>> near;
+  for (std::size_t b = 0; b < listed_.size(); ++b) {
+    if (bonded(surface, surface.entering[b]) && bonded(surface, surface.leaving[b])) continue;
+    near.clear();
+    tree.query(bg::index::intersects(box_around(listed_[b], listed_[b], skin_)), std::back_inserter(near));
+    std::sort(near.begin(), near.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
+    for (const auto& [box, f] : near) {
+      if (related(surface, b, static_cast<std::size_t>(f))) continue;
+      const FacetView facet(surface, f, listed_);
+      const Vec2 foot = facet.nearest(listed_[b]);
+      if ((foot - listed_[b]).norm() > skin_) continue;
+      const bool behind = facet.gap(listed_[b]) < -rounding * facet.length;
+      if (behind && winding_number(surface, listed_, 0.5 * (foot + listed_[b])) < 2) continue;
+      pairs_.push_back({static_cast<std::int32_t>(b), f});
+    }
+  }
+}
+
+template<int dim>
+void BodyContact<dim>::look(const Surface<dim>& surface, std::span<const Vec<dim>> start,
+                            std::span<const Vec<dim>> end) {
+  if (start.empty()) return;
+  if (!listed_.empty()) {
+    double moved = 0.0;
+    for (std::size_t b = 0; b < end.size(); ++b) moved = std::max(moved, (end[b] - listed_[b]).squaredNorm());
+    if (2.0 * std::sqrt(moved) <= skin_) return;
+  }
+  listed_.assign(start.begin(), start.end());
+  list(surface);
+}
+
+template<>
+void BodyContact<2>::find(const Surface<2>& surface, std::span<const Vec2> start, std::span<const Vec2> end,
+                          std::vector<FacetHit<2>>& hits) const {
+  std::vector<Candidate> crossed;
+  for (std::size_t first = 0; first < pairs_.size();) {
+    const std::int32_t node = pairs_[first].node;
+    const auto b = static_cast<std::size_t>(node);
+    crossed.clear();
+    FacetHit<2> inside;
+    double depth = std::numeric_limits<double>::infinity();
+    for (; first < pairs_.size() && pairs_[first].node == node; ++first) {
+      const std::int32_t f = pairs_[first].facet;
+      const FacetView now(surface, f, end);
+      const double kept = clearance * now.length, gap = now.gap(end[b]) - kept;
+      if (gap >= 0.0) continue;
+      const FacetView before(surface, f, start);
+      if (!faces(surface, b, before.normal, start)) continue;
+      const double gap_before = before.gap(start[b]) - kept, place = now.place(end[b]);
+      const double s = std::clamp(place, 0.0, 1.0);
+      FacetHit<2> hit{node, f, {1.0 - s, s}, now.normal, std::min(gap_before, 0.0), kept};
+      if (gap_before >= -kept - rounding * before.length) {
+        const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;
+        const double there = (1.0 - when) * before.place(start[b]) + when * place;
+        if (there >= -overhang && there <= 1.0 + overhang) crossed.push_back({hit, when});
+      } else if (place >= 0.0 && place <= 1.0 && -gap < std::min(depth, skin_)) {
+        depth = -gap;
+        inside = hit;
+      }
+    }
+    keep_last_passed(surface, end, crossed);
+    for (const Candidate& c : crossed) hits.push_back(c.hit);
+    if (crossed.empty() && depth < std::numeric_limits<double>::infinity()) hits.push_back(inside);
+  }
+}
+
+template<int dim> void BodyContact<dim>::archive(Archive& archive, const Surface<dim>& surface) {
+  std::vector<double> flat;
+  for (const Vec<dim>& x : listed_) flat.insert(flat.end(), x.data(), x.data() + dim);
+  archive.list("solver/body_contact/listed", "m", flat);
+  if (!archive.loading()) return;
+  listed_.clear();
+  for (std::size_t i = 0; i + dim <= flat.size(); i += dim)
+    listed_.push_back(Eigen::Map<const Vec<dim>>(flat.data() + i));
+  if (listed_.size() != surface.node.size()) listed_.clear();
+  if (!listed_.empty()) list(surface);
+}
+
+template class BodyContact<2>;
+
+} // namespace cnem::contact

@@ -1,0 +1,75 @@
+#pragma once
+// Where the boundary of the workpiece touches itself or another body of the cloud: nodes against facets.
+#include "contact/surface.hpp"
+#include "contact/tool.hpp"
+#include "core/archive.hpp"
+
+#include <span>
+#include <vector>
+
+namespace cnem::contact {
+
+/// Contact between deformable boundaries; off unless a case asks for it.
+struct BodyContactLaw {
+  bool active = false;
+  Friction friction;
+};
+
+/// A node that has gone through a facet of the workpiece.
+template<int dim> struct FacetHit {
+  std::int32_t node = 0; ///< boundary node
+  std::int32_t facet = 0;
+  std::array<double, dim> weight{};   ///< of the facet's nodes
+  Vec<dim> normal = Vec<dim>::Zero(); ///< out of the facet's body
+  double start = 0.0;     ///< m, gap less clearance at the start of the step where that was < 0, else 0
+  double clearance = 0.0; ///< m, gap that is kept so that boundaries that touch never cross by rounding
+};
+
+/// Lists pairs of node and facet that are near each other (a bounding-volume tree over the facets) and looks
+/// at those alone until boundary nodes have moved by half a skin. Nodes are never paired with facets that end
+/// at them, nor, seen through the body, with facets of its far side: of pairs whose node lies behind the
+/// facet only those stay between whose ends two bodies overlap (winding number 2).
+template<int dim> class BodyContact {
+public:
+  /// Takes a boundary. group[node of the cloud], ≥ 0: nodes that are tied have the same number; facets
+  /// between tied nodes are no surface. Empty: none is tied.
+  void set_boundary(const Surface<dim>& surface, std::span<const std::int32_t> group);
+
+  /// Lists pairs anew where the list does not cover nodes at `end` any more; start, end [boundary node], m.
+  void look(const Surface<dim>& surface, std::span<const Vec<dim>> start, std::span<const Vec<dim>> end);
+
+  /// Appends the hits of a step that goes start → end, in the order of nodes and facets. A node counts when
+  /// it crossed a facet that faces it; one that was inside already counts for the facet it is least deep
+  /// under. After `look`.
+  void find(const Surface<dim>& surface, std::span<const Vec<dim>> start, std::span<const Vec<dim>> end,
+            std::vector<FacetHit<dim>>& hits) const;
+
+  double size() const { return size_; } ///< m, extent of the boundary as listed: the scale of rounding
+  int listings() const { return listings_; }
+
+  /// Carries out or in where nodes stood when pairs were listed, on the same boundary.
+  void archive(Archive& archive, const Surface<dim>& surface);
+
+private:
+  struct Pair {
+    std::int32_t node, facet;
+  };
+  void list(const Surface<dim>& surface);
+  bool related(const Surface<dim>& surface, std::size_t node, std::size_t facet) const;
+  bool bonded(const Surface<dim>& surface, std::int32_t facet) const;
+
+  std::vector<std::int32_t> group_; ///< [boundary node] −1: free
+  std::vector<Vec<dim>> listed_;    ///< [boundary node] m; empty: no list yet
+  std::vector<Pair> pairs_;         ///< by node, then facet
+  double skin_ = 0.0;               ///< m
+  double size_ = 0.0;
+  int listings_ = 0;
+};
+
+template<> void BodyContact<2>::list(const Surface<2>& surface);
+template<>
+void BodyContact<2>::find(const Surface<2>& surface, std::span<const Vec2> start, std::span<const Vec2> end,
+                          std::vector<FacetHit<2>>& hits) const;
+extern template class BodyContact<2>;
+
+} // namespace cnem::contact

@@ -1,0 +1,191 @@
+// What contact has done in a step: work, heat, touching nodes; and penetrations, and what a checkpoint keeps.
+#include "contact/contact.hpp"
+#include "contact/contact_parts.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace cnem::contact {
+
+ContactWork& operator+=(ContactWork& a, const ContactWork& b) {
+  a.workpiece += b.workpiece;
+  a.tool += b.tool;
+  a.recovery += b.recovery;
+  a.friction += b.friction;
+  a.impact += b.impact;
+  return a;
+}
+
+/// Work of each contact with the mean of the velocities before and after (design: with the predicted velocity
+/// it would be wrong by its own size), split so that each part has one sign.
+template<int dim> void RigidContact<dim>::book(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    results_[t].displacement = poses[t].end;
+    results_[t].force.setZero();
+    results_[t].step = {};
+  }
+  body_result_.pressing = 0.0;
+  body_result_.step = {};
+  const Pose rest;
+  for (const Contact<dim>& contact : contacts_) {
+    const auto t = static_cast<std::size_t>(contact.tool);
+    const bool on_tool = contact.tool >= 0;
+    const Pose& pose = on_tool ? poses[t] : rest;
+    const Vec<dim> impulse = contact.impulse();
+    if (impulse.squaredNorm() == 0.0) continue;
+    const Vec<dim> node = at_contact(contact, [&](std::size_t b) {
+      return Vec<dim>(0.5 * (before_[b] + reactions_[b].velocity + reactions_[b].change));
+    });
+    const Vec<dim> tool = 0.5 * (pose.before + pose.velocity);
+    const double normal = (tool - node).dot(contact.normal) * contact.pressing;
+    const double tangential = (tool - node).dot(contact.sliding);
+
+    ContactWork& work = on_tool ? results_[t].step : body_result_.step;
+    work.workpiece += node.dot(impulse);
+    work.tool += tool.dot(impulse);
+    work.impact += std::max(0.0, normal);
+    work.friction += std::max(0.0, tangential);
+    work.recovery -= std::min(0.0, normal) + std::min(0.0, tangential);
+    if (on_tool) {
+      results_[t].force += impulse / step.dt_mean;
+      results_[t].impulse += impulse;
+    } else {
+      body_result_.pressing += contact.pressing / step.dt_mean;
+    }
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (contact.weight[a] != 0.0)
+        nodal_impulse_[static_cast<std::size_t>(contact.node[a])] += contact.weight[a] * impulse;
+    share_heat(contact, std::max(0.0, tangential), step);
+  }
+  for (ToolResult<dim>& result : results_) result.total += result.step;
+  body_result_.total += body_result_.step;
+}
+
+/// Friction heat of one contact, J/m^(3−dim): each side takes its effusivity's share. A tool's part leaves.
+template<int dim>
+void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step) {
+  if (heat == 0.0) return;
+  const auto effusivity = [&](bool of_node) {
+    double mean = 0.0;
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (const double w = contact.weight[a]; of_node ? w > 0.0 : w < 0.0)
+        mean += std::abs(w) * step.effusivity[static_cast<std::size_t>(contact.node[a])];
+    return mean;
+  };
+  if (contact.tool < 0) {
+    const double one = step.effusivity.empty() ? 1.0 : effusivity(true),
+                 other = step.effusivity.empty() ? 1.0 : effusivity(false);
+    const double share = one + other > 0.0 ? one / (one + other) : 0.5;
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (const double w = contact.weight[a]; w != 0.0)
+        heat_[static_cast<std::size_t>(contact.node[a])] +=
+            std::abs(w) * (w > 0.0 ? share : 1.0 - share) * heat;
+    return;
+  }
+  const auto t = static_cast<std::size_t>(contact.tool);
+  const double e_tool = tools_[t].thermal.effusivity;
+  for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
+    if (contact.weight[a] == 0.0) continue;
+    const auto b = static_cast<std::size_t>(contact.node[a]);
+    const double share =
+        step.effusivity.empty() || e_tool == 0.0 ? 1.0 : step.effusivity[b] / (step.effusivity[b] + e_tool);
+    heat_[b] += share * contact.weight[a] * heat;
+    results_[t].heat_to_tool += (1.0 - share) * contact.weight[a] * heat;
+  }
+}
+
+template<int dim>
+void RigidContact<dim>::list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+  points_.clear();
+  for (const Contact<dim>& contact : contacts_)
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
+      if (contact.weight[a] == 0.0 || contact.pressing == 0.0 || contact.tool < 0) continue;
+      const auto b = static_cast<std::size_t>(contact.node[a]);
+      ContactPoint<dim> point;
+      point.node = surface_.node[b];
+      point.boundary = contact.node[a];
+      point.tool = contact.tool;
+      point.area = area_[b];
+      point.force = contact.weight[a] / step.dt_mean * contact.impulse();
+      point.pressure = contact.weight[a] * contact.pressing / (step.dt_mean * area_[b]);
+      points_.push_back(point);
+    }
+  std::stable_sort(points_.begin(), points_.end(),
+                   [](const ContactPoint<dim>& a, const ContactPoint<dim>& b) {
+                     return std::pair(a.tool, a.node) < std::pair(b.tool, b.node);
+                   });
+  std::size_t kept = 0;
+  for (const ContactPoint<dim>& point : points_) {
+    if (kept > 0 && points_[kept - 1].tool == point.tool && points_[kept - 1].node == point.node) {
+      points_[kept - 1].force += point.force;
+      points_[kept - 1].pressure += point.pressure;
+    } else {
+      points_[kept++] = point;
+    }
+  }
+  points_.resize(kept);
+  for (ContactPoint<dim>& point : points_) {
+    const auto t = static_cast<std::size_t>(point.tool);
+    const Vec<dim> x = end_[static_cast<std::size_t>(point.boundary)] - poses[t].end;
+    point.gap = tools_[t].shape->closest(x).distance;
+  }
+}
+
+template<int dim>
+std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& position, double time) const {
+  std::vector<Overlap<dim>> found;
+  std::vector<Vec<dim>> all, local;
+  for (const std::int32_t node : surface_.node) all.push_back(at<dim>(position, node));
+  const double rounding = 1e-9 * size_;
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    const Vec<dim> shift = tools_[t].motion.displacement(time);
+    local = all;
+    for (Vec<dim>& x : local) x -= shift;
+    std::vector<Entry<dim>> entries;
+    tools_[t].shape->entries(local, local, entries);
+    for (const Entry<dim>& entry : entries) {
+      const auto b = static_cast<std::size_t>(entry.index);
+      if (entry.at.distance < -rounding)
+        found.push_back({static_cast<std::int32_t>(t), surface_.node[b], -entry.at.distance, all[b], false});
+    }
+    for (const RidgeDepth<dim>& ridge : ridges_inside(surface_, *tools_[t].shape, all, shift))
+      if (ridge.depth > rounding)
+        found.push_back({static_cast<std::int32_t>(t), surface_.node[static_cast<std::size_t>(ridge.node)],
+                         ridge.depth, ridge.position, true});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Overlap<dim>& a, const Overlap<dim>& b) { return a.depth > b.depth; });
+  return found;
+}
+
+template<int dim> void RigidContact<dim>::archive(Archive& archive) {
+  for (std::size_t t = 0; t < results_.size(); ++t) {
+    const std::string at = fmt::format("solver/tools/{}/", t);
+    ToolResult<dim>& result = results_[t];
+    archive.vector<dim>(at + "displacement", "m", result.displacement);
+    archive.vector<dim>(at + "force", "N/m", result.force);
+    archive.vector<dim>(at + "impulse", "N s/m", result.impulse);
+    archive.number(at + "heat_to_tool", "J/m", result.heat_to_tool);
+    archive.number(at + "work/workpiece", "J/m", result.total.workpiece);
+    archive.number(at + "work/tool", "J/m", result.total.tool);
+    archive.number(at + "work/recovery", "J/m", result.total.recovery);
+    archive.number(at + "work/friction", "J/m", result.total.friction);
+    archive.number(at + "work/impact", "J/m", result.total.impact);
+  }
+  if (!law_.active) return;
+  bodies_.archive(archive, surface_);
+  archive.number("solver/body_contact/size", "m", size_);
+  archive.number("solver/body_contact/pressing", "N/m", body_result_.pressing);
+  archive.number("solver/body_contact/work/workpiece", "J/m", body_result_.total.workpiece);
+  archive.number("solver/body_contact/work/recovery", "J/m", body_result_.total.recovery);
+  archive.number("solver/body_contact/work/friction", "J/m", body_result_.total.friction);
+  archive.number("solver/body_contact/work/impact", "J/m", body_result_.total.impact);
+}
+
+template void RigidContact<2>::book(const std::vector<Pose>&, const ContactStep<2>&);
+template void RigidContact<2>::share_heat(const Contact<2>&, double, const ContactStep<2>&);
+template void RigidContact<2>::list_points(const std::vector<Pose>&, const ContactStep<2>&);
+template std::vector<Overlap<2>> RigidContact<2>::overlaps(const Fields<2>&, double) const;
+template void RigidContact<2>::archive(Archive&);
+
+} // namespace cnem::contact

@@ -1,0 +1,22 @@
+#pragma once
+// What the parts of contact share.
+#include "contact/impulse_solver.hpp"
+#include "core/aligned.hpp"
+
+namespace cnem::contact {
+
+template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
+  Vec<dim> x;
+  for (int k = 0; k < dim; ++k) x[k] = field[static_cast<std::size_t>(k)][static_cast<std::size_t>(node)];
+  return x;
+}
+
+/// Velocity of the point where a contact acts, from one vector per boundary node.
+template<int dim, class PerNode> Vec<dim> at_contact(const Contact<dim>& contact, PerNode&& value) {
+  Vec<dim> sum = Vec<dim>::Zero();
+  for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+    if (contact.weight[a] != 0.0) sum += contact.weight[a] * value(static_cast<std::size_t>(contact.node[a]));
+  return sum;
+}
+
+} // namespace cnem::contact

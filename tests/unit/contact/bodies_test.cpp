@@ -1,0 +1,95 @@
+// Contact of masses on springs with each other: pairs, momentum, penetration that is there already.
+#include "tests/unit/contact/masses.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::contact::testing {
+namespace {
+
+/// Adds the masses of another scene.
+void append(Masses& scene, const Masses& other) {
+  const int offset = static_cast<int>(scene.mass.size());
+  for (int i = 0; i < int(other.mass.size()); ++i)
+    scene.add(other.position(i), other.mass[std::size_t(i)], other.velocity(i));
+  for (Masses::Spring s : other.springs) {
+    s.a += offset, s.b += offset;
+    scene.springs.push_back(s);
+  }
+  for (Facet<2> f : other.facets) {
+    for (int& node : f.node) node += offset;
+    scene.facets.push_back(f);
+  }
+}
+
+void let_bodies_touch(Masses& scene, double friction, std::vector<Tool<2>> tools = {}) {
+  scene.contact = std::make_shared<RigidContact<2>>(std::move(tools), Space::plane,
+                                                    BodyContactLaw{true, {.coulomb = friction}});
+  scene.contact->set_boundary(scene.facets, scene.mass.size(), scene.constraints);
+}
+
+double angular_momentum(const Masses& scene) {
+  double sum = 0.0;
+  for (int i = 0; i < int(scene.mass.size()); ++i)
+    sum += scene.mass[std::size_t(i)] * cross(scene.position(i), scene.velocity(i));
+  return sum;
+}
+
+TEST(Bodies, oblique_impact_keeps_both_momenta_and_balances_energy) {
+  Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.05, 0.0, {0.5, 0.0});
+  append(scene, block(4, 6, 0.21, {1.1, 0.33}, 300.0, 0.05, 0.1, {-1.0, -0.2}));
+  let_bodies_touch(scene, 0.3);
+  const Vec2 momentum = scene.momentum();
+  const double angular = angular_momentum(scene), start = scene.kinetic();
+  ContactWork work;
+  bool touched = false;
+  for (int n = 0; n < 4000; ++n) {
+    scene.step(2e-4);
+    touched = touched || scene.contact->body_result().pressing > 0.0;
+  }
+  work = scene.contact->body_result().total;
+  EXPECT_TRUE(touched);
+  EXPECT_LT((scene.momentum() - momentum).norm(), 1e-12);
+  EXPECT_NEAR(angular_momentum(scene), angular, 1e-4 * angular) << "but for slip along facets within a step";
+  EXPECT_NEAR(work.workpiece, work.recovery - work.friction - work.impact, 1e-12);
+  EXPECT_NEAR(scene.kinetic() - start, work.workpiece + scene.applied_work, 1e-12);
+  EXPECT_GT(work.friction, 0.0);
+}
+
+TEST(Bodies, a_thin_body_does_not_touch_its_own_far_side) {
+  Masses scene = block(21, 2, 0.05, {0, 0}, 1.0, 0.0, 0.0, {1.0, 0.3});
+  for (std::size_t i = 0; i < scene.mass.size(); ++i) scene.x[1][i] *= 0.2; // far side within the skin
+  let_bodies_touch(scene, 0.0);
+  scene.springs.clear();
+  for (int n = 0; n < 100; ++n) scene.step(1e-3);
+  EXPECT_EQ(scene.contact->body_result().total.workpiece, 0.0);
+  EXPECT_EQ(scene.contact->body_result().total.recovery, 0.0);
+}
+
+TEST(Bodies, penetration_found_at_the_start_is_removed_slowly) {
+  const double depth = 0.02, closing = 0.1;
+  Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
+  append(scene, block(5, 5, 0.25, {0.02, 1.0 - depth}, 400.0, 0.5, 0.0, {0, -closing}));
+  let_bodies_touch(scene, 0.0);
+  scene.step(1e-3);
+  double fastest = 0.0;
+  for (int i = 0; i < int(scene.mass.size()); ++i) fastest = std::max(fastest, scene.velocity(i).norm());
+  EXPECT_LT(fastest, 2.0 * closing) << "not thrown out at depth over dt = 20 m/s";
+  for (int n = 0; n < 1500; ++n) scene.step(1e-3);
+  EXPECT_GT(scene.position(25).y() - scene.position(20).y(), -0.5 * depth) << "and yet it goes";
+  EXPECT_GE(scene.contact->body_result().total.recovery, 0.0);
+}
+
+TEST(Bodies, a_stack_between_two_tools_shares_one_force) {
+  Masses scene = block(5, 3, 0.25, {0, 0}, 400.0, 1.0);
+  append(scene, block(6, 3, 0.2, {0, 0.5}, 400.0, 1.0));
+  let_bodies_touch(scene, 0.0, {tool(box({-1, -1}, {2, 0})), tool(box({-1, 0.9}, {2, 2}), {0, -0.05})});
+  for (int n = 0; n < 1000; ++n) scene.step(1e-3);
+  const double below = scene.contact->results()[0].force.y(), above = -scene.contact->results()[1].force.y();
+  EXPECT_GT(above, 1.0);
+  EXPECT_NEAR(below, above, 0.05 * above);
+  EXPECT_NEAR(scene.contact->body_result().pressing, above, 0.05 * above);
+  EXPECT_LT(scene.contact->bodies().listings(), 20);
+}
+
+} // namespace
+} // namespace cnem::contact::testing

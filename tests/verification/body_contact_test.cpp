@@ -1,0 +1,198 @@
+// Contact of deformable bodies with each other and with themselves, with the whole solver.
+#include "contact/curve_shape.hpp"
+#include "tests/unit/mechanics/models.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::testing {
+namespace {
+
+/// Two rectangles; which nodes are of the second one follows from `is_second`.
+Cloud<2> two_blocks(const std::vector<Vec2>& first, const std::vector<Vec2>& second, double h_first,
+                    double h_second) {
+  Cloud<2> cloud, other;
+  add_loop(cloud, first, h_first);
+  fill(cloud, Lattice::square, h_first, 0.0, 0.5 * h_first, 1);
+  add_loop(other, second, h_second);
+  fill(other, Lattice::square, h_second, 0.0, 0.5 * h_second, 1);
+  const std::int32_t offset = cloud.nodes();
+  for (Facet<2> facet : other.facets) {
+    for (std::int32_t& node : facet.node) node += offset;
+    cloud.facets.push_back(facet);
+  }
+  cloud.position.insert(cloud.position.end(), other.position.begin(), other.position.end());
+  return cloud;
+}
+
+std::vector<Vec2> box(const Vec2& low, const Vec2& high) {
+  return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+}
+
+contact::RigidContact<2> bodies(double friction, std::vector<contact::Tool<2>> tools = {}) {
+  return contact::RigidContact<2>(std::move(tools), Space::plane,
+                                  {.active = true, .friction = {.coulomb = friction}});
+}
+
+/// Mass and momentum of the nodes that pass the test of their initial position.
+struct Share {
+  double mass = 0.0, heat = 0.0;
+  Vec2 momentum = Vec2::Zero();
+};
+template<class Test> Share share_of(const ExplicitSolver<2>& solver, Test&& test) {
+  Share sum;
+  const NodeState<2>& node = solver.state().node;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    if (!test(Vec2(solver.initial_position()[0][i], solver.initial_position()[1][i]))) continue;
+    sum.mass += node.mass[i];
+    sum.momentum += node.mass[i] * Vec2(node.velocity[0][i], node.velocity[1][i]);
+    sum.heat += node.heat_capacity[i] * (node.temperature[i] - 296.0);
+  }
+  return sum;
+}
+
+/// Do two facets without a common node cross?
+bool crosses_itself(const ExplicitSolver<2>& solver) {
+  const NodeState<2>& node = solver.state().node;
+  const auto at = [&](std::int32_t i) {
+    return Vec2(node.position[0][static_cast<std::size_t>(i)], node.position[1][static_cast<std::size_t>(i)]);
+  };
+  const auto& facets = solver.model().cloud.facets;
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    for (std::size_t g = f + 1; g < facets.size(); ++g) {
+      const auto &p = facets[f].node, &q = facets[g].node;
+      if (p[0] == q[0] || p[0] == q[1] || p[1] == q[0] || p[1] == q[1]) continue;
+      const Vec2 a = at(p[0]), b = at(p[1]), c = at(q[0]), d = at(q[1]);
+      if (cross(b - a, c - a) * cross(b - a, d - a) < 0.0 && cross(d - c, a - c) * cross(d - c, b - c) < 0.0)
+        return true;
+    }
+  return false;
+}
+
+class Blocks : public ::testing::TestWithParam<double> {};
+
+TEST_P(Blocks, that_collide_exchange_velocities_after_2_l_over_c) {
+  const double length = 1e-2, width = 1e-3, h = 1.25e-4, speed = 5.0, gap = 1e-6;
+  plasticity::Material material = steel();
+  material.elasticity.poisson = 0.0; // one-dimensional: c = √(E/ρ) exactly
+  Model<2> model = model_of(two_blocks(box({-length - gap, 0}, {-gap, width}),
+                                       box({gap, 0}, {length + gap, width}), h, GetParam() * h),
+                            Method::cnem, material);
+  model.contact = bodies(0.0);
+  ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
+    return {x.x() < 0.0 ? speed : -speed, 0};
+  });
+  const auto left = [](const Vec2& x) { return x.x() < 0.0; };
+  const double c = material.elasticity.bar_speed(material.density), duration = 2.0 * length / c;
+  const double expected = material.density * c * speed * width, mass = material.density * length * width;
+  const double dt = solver.stable_step().dt, meet = gap / speed;
+  double plateau = 0.0, last_contact = 0.0;
+  int samples = 0;
+  const Vec2 total = momenta(solver).linear;
+  while (solver.state().time < meet + 1.4 * duration) {
+    solver.advance(dt);
+    const double t = solver.state().time - meet, force = solver.model().contact.body_result().pressing;
+    if (t > 0.2 * duration && t < 0.8 * duration) {
+      plateau += force;
+      ++samples;
+    }
+    if (force > 0.5 * expected) last_contact = t;
+  }
+  EXPECT_NEAR(plateau / samples, expected, 0.01 * expected);
+  EXPECT_NEAR(last_contact, duration, 0.03 * duration);
+  EXPECT_LT((momenta(solver).linear - total).norm(), 1e-13 * mass * speed) << "momentum is exact";
+  EXPECT_NEAR(share_of(solver, left).momentum.x(), -mass * speed, 0.03 * mass * speed);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * solver.ledger().initial);
+  EXPECT_GT(solver.ledger().impact, 0.0);
+  EXPECT_LT(solver.ledger().impact, 0.03 * solver.ledger().initial);
+}
+INSTANTIATE_TEST_SUITE_P(spacing_ratio, Blocks, ::testing::Values(1.0, 0.8, 1.7));
+
+TEST(SlidingBlock, decelerates_by_mu_g_and_heats_both_sides_alike) {
+  const double h = 2.5e-4, speed = 20.0, g = 1e5, mu = 0.2, time = 2e-4, gap = 1e-9;
+  // The lower block hangs below the upper one, so that a point above y = 0 is of the upper one.
+  Cloud<2> cloud = two_blocks(box({0, -1e-3}, {1e-2, 0}), box({1e-3, gap}, {3e-3, gap + 1e-3}), h, 0.8 * h);
+  const auto upper = [=](const Vec2& x) { return x.y() > 0.5 * gap; };
+  std::vector<std::int32_t> base;
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+    if (cloud.position[static_cast<std::size_t>(i)].y() < -1e-3 + 1e-9) base.push_back(i);
+  plasticity::Material material = steel();
+  material.conductivity = 1e-6; // heat stays where it is made
+  Model<2> model = model_of(cloud, Method::cnem, material);
+  model.thermal = true;
+  model.supports = Supports<2>({{"base x", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(0.0), base},
+                                {"base y", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(0.0), base}},
+                               static_cast<std::size_t>(cloud.nodes()));
+  model.contact = bodies(mu);
+  model.loads = Loads<2>({}, {}, {TimeTable(0.0), TimeTable(-g)}, cloud.position);
+  model.viscosity = {1.2, 0.06};
+  ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
+    return {upper(x) ? speed : 0.0, 0.0};
+  });
+  const double mass = share_of(solver, upper).mass;
+  while (solver.state().time < time) solver.advance(solver.stable_step().dt);
+  const Share block = share_of(solver, upper),
+              ground = share_of(solver, [&](const Vec2&x) { return !upper(x); });
+  const double slowed = mu * g * solver.state().time, after = speed - slowed;
+  EXPECT_NEAR(block.momentum.x() / mass, after, 0.02 * slowed);
+  const double lost = 0.5 * mass * (speed * speed - after * after);
+  EXPECT_NEAR(solver.ledger().friction, lost, 0.03 * lost);
+  EXPECT_NEAR(block.heat, ground.heat, 1e-9 * lost) << "equal effusivities";
+  EXPECT_NEAR(block.heat + ground.heat, solver.ledger().friction, 1e-9 * lost);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * lost);
+  EXPECT_FALSE(crosses_itself(solver));
+}
+
+/// A C that a tool presses shut: the slot closes on itself, with references renewed on the way.
+ExplicitSolver<2> close_slot(int steps, int every) {
+  Cloud<2> cloud;
+  const double h = 1.5e-4;
+  add_loop(cloud,
+           {{0, 0},
+            {3e-3, 0},
+            {3e-3, 0.9e-3},
+            {1e-3, 0.9e-3},
+            {1e-3, 1.3e-3},
+            {3e-3, 1.3e-3},
+            {3e-3, 2e-3},
+            {0, 2e-3}},
+           h);
+  fill(cloud, Lattice::hexagonal, h, 0.1, 0.5 * h, 3);
+  std::vector<std::int32_t> base;
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+    if (cloud.position[static_cast<std::size_t>(i)].y() == 0.0) base.push_back(i);
+  Model<2> model = model_of(cloud, Method::cnem, steel_304L());
+  model.supports = Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, base}},
+                               static_cast<std::size_t>(cloud.nodes()));
+  Curve punch;
+  const std::vector<Vec2> corners = box({-1e-3, 2e-3}, {5e-3, 3e-3});
+  for (std::size_t i = 0; i < 4; ++i) {
+    CurvePiece piece;
+    piece.from = corners[i];
+    piece.to = corners[(i + 1) % 4];
+    punch.pieces.push_back(piece);
+  }
+  contact::Tool<2> tool;
+  tool.name = "punch";
+  tool.shape = std::make_shared<contact::CurveShape>(punch);
+  tool.motion.velocity = {TimeTable(0.0), TimeTable(-30.0)};
+  tool.friction.coulomb = 0.1;
+  model.contact = bodies(0.1, {tool});
+  ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
+  for (int n = 0; n < steps; ++n) {
+    if (n > 0 && n % every == 0) solver.prepare();
+    solver.advance(solver.stable_step().dt);
+  }
+  return solver;
+}
+
+TEST(Slot, closes_without_passing_through_itself) {
+  ExplicitSolver<2> solver = close_slot(2600, 100);
+  EXPECT_FALSE(crosses_itself(solver));
+  EXPECT_GT(solver.model().contact.body_result().pressing, 1e4);
+  EXPECT_GT(solver.model().contact.body_result().total.friction, 0.0);
+  EXPECT_LT(solver.model().contact.bodies().listings(), 200);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 0.003 * solver.ledger().external());
+}
+
+} // namespace
+} // namespace cnem::testing
