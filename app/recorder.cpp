@@ -99,6 +99,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"contact_impact", e.impact},
                                                              {"penalty_release", e.penalty_release},
                                                              {"rereference", e.rereference},
+                                                             {"resampling", e.resampling},
                                                              {"tool_work", e.tools},
                                                              {"contact_recovery", e.recovery},
                                                              {"support_work", e.supports},
@@ -165,7 +166,36 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   keep_metric("mass_balance.high", balance[1], false);
 }
 
+void HistoryRecorder::resample(const Resampling<2>& change, const ExplicitSolver<2>& solver) {
+  if (probes_.empty()) return;
+  const Cloud<2>& cloud = solver.model().cloud;
+  const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
+  const voronoi::Circumcircles circles = voronoi::circumcircles(cloud, mesh);
+  voronoi::NaturalNeighbours functions(cloud, mesh, circles);
+  for (ProbeWeights& probe : probes_) {
+    Vec2 at = Vec2::Zero();
+    for (std::size_t k = 0; k < probe.node.size(); ++k)
+      at += probe.weight[k] * change.old_position[static_cast<std::size_t>(probe.node[k])];
+    try {
+      functions.evaluate(voronoi::Functions::sibson, at);
+      probe.node.assign(functions.nodes().begin(), functions.nodes().end());
+      probe.weight.assign(functions.values().begin(), functions.values().end());
+    } catch (const GeometryError&) { // cut off with a corner of the boundary: the nearest node goes on
+      std::size_t nearest = 0;
+      for (std::size_t i = 1; i < cloud.position.size(); ++i)
+        if ((cloud.position[i] - at).squaredNorm() < (cloud.position[nearest] - at).squaredNorm())
+          nearest = i;
+      probe.node = {static_cast<std::int32_t>(nearest)};
+      probe.weight = {1.0};
+    }
+  }
+}
+
 void HistoryRecorder::archive(Archive& archive) {
+  for (ProbeWeights& probe : probes_) {
+    archive.integers(fmt::format("run/history/probe/{}/node", probe.name), probe.node);
+    archive.list(fmt::format("run/history/probe/{}/weight", probe.name), "1", probe.weight);
+  }
   archive.integer("run/history/rows", rows_);
   archive.number("run/history/initial_area", "m^2", initial_area_);
   archive.number("run/history/initial_mass", "kg/m", initial_mass_);

@@ -37,6 +37,8 @@ public:
                   const std::filesystem::path& folder);
 
   void record(const ExplicitSolver<2>& solver);
+  /// Probes stay where they are in the matter of a changed cloud.
+  void resample(const Resampling<2>& change, const ExplicitSolver<2>& solver);
 
   /// What a checkpoint keeps of it.
   void archive(Archive& archive);

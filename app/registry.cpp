@@ -158,6 +158,7 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
   std::vector<std::int32_t> nodes = nodes_of(facets);
   for (const std::int32_t node : nodes_at(input, spec, cloud))
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+  const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<2>>(facets));
   using Kind = Support<2>::Kind;
   if (spec.symmetry) {
     // One plane per straight piece: pieces of one condition may face different ways.
@@ -167,22 +168,23 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
       const Vec2 edge = cloud.position[static_cast<std::size_t>(straight.front().node[1])] -
                         cloud.position[static_cast<std::size_t>(straight.front().node[0])];
       all.supports.push_back(
-          {spec.name, Kind::symmetry, right_normal(edge).normalized(), {}, nodes_of(straight)});
+          {spec.name, Kind::symmetry, right_normal(edge).normalized(), {}, nodes_of(straight),
+                               pieces_of(std::span<const Facet<2>>(straight))});
     }
   }
   for (std::size_t k = 0; k < 2; ++k) {
     const Vec2 direction = k == 0 ? Vec2(1, 0) : Vec2(0, 1);
     if (spec.velocity[k])
-      all.supports.push_back({spec.name, Kind::velocity, direction, *spec.velocity[k], nodes});
+      all.supports.push_back({spec.name, Kind::velocity, direction, *spec.velocity[k], nodes, pieces});
     if (spec.displacement[k])
-      all.supports.push_back({spec.name, Kind::displacement, direction, *spec.displacement[k], nodes});
+      all.supports.push_back({spec.name, Kind::displacement, direction, *spec.displacement[k], nodes, pieces});
   }
   if (spec.traction[0] || spec.traction[1])
     all.tractions.push_back({spec.name,
                              {spec.traction[0].value_or(TimeTable()), spec.traction[1].value_or(TimeTable())},
                              facets});
   if (spec.pressure) all.pressures.push_back({spec.name, *spec.pressure, facets});
-  if (spec.temperature) all.temperatures.push_back({spec.name, *spec.temperature, nodes});
+  if (spec.temperature) all.temperatures.push_back({spec.name, *spec.temperature, nodes, pieces});
   if (spec.heat_flux) all.fluxes.push_back({spec.name, *spec.heat_flux, facets});
   if (spec.convection)
     all.convections.push_back(
@@ -217,7 +219,8 @@ void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& 
                                      support.name));
   }
   if (!axis.empty())
-    supports.insert(supports.begin(), {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis)});
+    supports.insert(supports.begin(),
+                    {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis), {}});
 }
 
 contact::Tool<2> make_tool(const io::Case& input, const io::Tool& spec) {

@@ -53,7 +53,7 @@ Simulation::Simulation(const io::Case& input, const RunOptions& options)
       fields_due_(every(input.output.fields_every, input.time.end,
                         Schedule::at({0.0, input.time.end}, input.time.end))),
       pictures_due_(Schedule::at(input.output.pictures, input.time.end)), control_(input.time),
-      renewal_(input.method), checkpoints_(input.output.checkpoint) {}
+      renewal_(input.method), adaptation_(input, solver_), checkpoints_(input.output.checkpoint) {}
 
 void Simulation::start() {
   fields_.emplace(options_.output);
@@ -83,6 +83,7 @@ void Simulation::archive(Archive& archive) {
   pictures_due_.archive(archive, "run/due/pictures");
   control_.archive(archive);
   renewal_.archive(archive);
+  adaptation_.archive(archive);
   history_.archive(archive);
   archive.integer("run/last_check", last_check_);
   archive.number("run/node_steps", "1", node_steps_);
@@ -176,12 +177,21 @@ void Simulation::record_last() {
 
 void Simulation::adapt_and_step() {
   const bool rereference = watch_.time("step", [&] { return renewal_.due(solver_); });
-  if (rereference) watch_.time("rebuild", [&] { renewal_.renew(solver_); });
+  if (rereference) watch_.time("rebuild", [&] { new_reference(); });
   watch_.time("step", [&] {
     const State<2>& state = solver_.state();
     if (rereference || state.step - last_check_ >= input_.time.check_every) look_at_step();
     solver_.advance(
         control_.choose(state.time, std::min({input_.time.end, fields_due_.next(), pictures_due_.next()})));
+  });
+}
+
+void Simulation::new_reference() {
+  renewal_.renew(solver_, [&] {
+    if (adaptation_.active())
+      history_.resample(adaptation_.renew(solver_), solver_);
+    else
+      solver_.prepare();
   });
 }
 
@@ -254,6 +264,7 @@ io::RunStatus Simulation::status() {
   status.energy_residual = history_.energy_residual();
   status.metrics = history_.metrics();
   status.metrics.emplace_back("references", solver_.references());
+  for (const auto& metric : adaptation_.metrics()) status.metrics.push_back(metric);
   status.step_limits = control_.shares();
   status.warnings = warnings_;
   if (const std::string warning = renewal_.warning(); !warning.empty()) status.warnings.push_back(warning);

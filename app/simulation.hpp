@@ -1,6 +1,7 @@
 #pragma once
 // An explicit run from its set-up to its report: the time loop in a fixed order, output, checkpoint, adapt,
 // step.
+#include "app/adaptation.hpp"
 #include "app/divergence.hpp"
 #include "app/recorder.hpp"
 #include "app/run.hpp"
@@ -56,6 +57,7 @@ private:
   void record_due();
   void record_last();
   void adapt_and_step();
+  void new_reference();
   void look_at_step();
   void write_checkpoint();
   void stop(Exit exit, std::string reason);
@@ -74,6 +76,7 @@ private:
   Schedule history_due_, fields_due_, pictures_due_;
   StepControl control_;
   ReferenceRenewal renewal_;
+  Adaptation adaptation_;
   CheckpointTimer checkpoints_;
   io::Progress progress_;
   std::int64_t last_check_ = -1; ///< step of the last look at the stable step; −1: none yet

@@ -115,10 +115,10 @@ bool ReferenceRenewal::due(const ExplicitSolver<2>& solver) const {
          solver.strain_since_reference() > method_->rereference_strain;
 }
 
-void ReferenceRenewal::renew(ExplicitSolver<2>& solver) {
+void ReferenceRenewal::renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare) {
   last_ = solver.state().step;
   try {
-    solver.prepare();
+    prepare();
   } catch (const GeometryError& error) {
     constexpr double too_far = 4.0;
     if (solver.strain_since_reference() > too_far) throw;

@@ -247,6 +247,21 @@ struct Method {
   double energy_tolerance = 0.05; ///< – |residual|/(work + initial energy) beyond which a run has diverged
 };
 
+/// How the cloud follows the deformation.
+struct Adaptation {
+  enum class Placement { between_nodes, voronoi_vertices };
+  enum class Indicator { none, plastic_strain, plastic_rate, temperature };
+  bool resample = false;
+  Placement placement = Placement::between_nodes;
+  double growth = 0.3;                ///< – of the wanted spacing per distance
+  std::optional<double> tool_spacing; ///< m, at corners and arcs of tools
+  Indicator indicator = Indicator::none;
+  double tolerance = 0.1;          ///< – of the norm of the field, shared out among the cells
+  double coarsen = 0.05;           ///< – of the limit; 0: never
+  double h_min = 0.0, h_max = 0.0; ///< m
+  std::int64_t max_nodes = 100000;
+};
+
 /// A field recorded at a material point.
 struct Probe {
   std::string name;
@@ -319,6 +334,7 @@ struct Case {
   Loads loads;
   std::vector<Tool> tools;
   Method method;
+  Adaptation adapt;
   Fracture fracture;
   Output output;
 

@@ -30,6 +30,9 @@ void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics)
 /// Boundary conditions: pieces exist, conditions do not fight over them. Expects the domain.
 void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// How the cloud is adapted, with defaults from its spacing. Expects everything but crack tips.
+void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics);
+
 /// Crack tips: enrichment and domain of the interaction integral.
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
 

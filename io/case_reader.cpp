@@ -142,6 +142,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_periodic(root, result, diagnostics);
   read_initial_and_loads(root, result, diagnostics);
   read_method(root, result);
+  read_adaptation(root, result, diagnostics);
   read_fracture(root, result, diagnostics);
   check_analysis(root, result, diagnostics);
   diagnostics.throw_if_any();

@@ -432,6 +432,7 @@ const std::vector<Key>& schema() {
     add_conditions(k);
     add_tools(k);
     add_method(k);
+    add_adaptation(k);
     add_fracture(k);
     add_output(k);
     return std::move(k.all);

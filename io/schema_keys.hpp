@@ -46,5 +46,6 @@ void add_outline(Keys& k, const std::string& at, const std::string& rectangle_na
 void add_domain(Keys& k);
 void add_parts(Keys& k);
 void add_cloud(Keys& k);
+void add_adaptation(Keys& k);
 
 } // namespace cnem::io

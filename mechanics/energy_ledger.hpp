@@ -17,6 +17,7 @@ struct EnergyLedger {
   double penalty_release = 0.0; ///< let go by the penalty as moduli fall and at re-references
   double rereference =
       0.0; ///< stored energy lost (gained when negative) as stress-free volumes are re-measured
+  double resampling = 0.0; ///< kinetic energy lost where matter of several nodes took one velocity
   // received
   double tools = 0.0;    ///< work of the tools' forces along the tools' motion
   double supports = 0.0; ///< work of prescribed boundary motion
@@ -32,7 +33,7 @@ struct EnergyLedger {
   double external() const { return tools + recovery + supports + loads; }
   double total() const {
     return kinetic + elastic + stabilisation + plastic + viscosity + friction + impact + penalty_release +
-           rereference;
+           rereference + resampling;
   }
   /// What the scheme made or lost: zero up to the order of central differences.
   double residual() const { return total() - initial - external(); }

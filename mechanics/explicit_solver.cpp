@@ -52,15 +52,24 @@ ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Fiel
   running_.initial = ledger().total();
 }
 
-template<int dim> void ExplicitSolver<dim>::prepare() {
+template<int dim> Cloud<dim> ExplicitSolver<dim>::present_cloud() const {
+  Cloud<dim> cloud = model_.cloud;
+  for (std::size_t i = 0; i < state_.node.position[0].size(); ++i)
+    for (std::size_t k = 0; k < dim; ++k)
+      cloud.position[i][static_cast<Eigen::Index>(k)] = state_.node.position[k][i];
+  return cloud;
+}
+
+template<int dim> void ExplicitSolver<dim>::prepare() { renew(present_cloud(), nullptr); }
+
+template<int dim> void ExplicitSolver<dim>::prepare(const Resampling<dim>& change) {
+  renew(change.cloud, &change);
+}
+
+template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resampling<dim>* change) {
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
   const bool start = references_ == 0;
-
-  Cloud<dim> cloud = model_.cloud;
-  for (std::size_t i = 0; i < node.size(); ++i)
-    for (std::size_t k = 0; k < dim; ++k)
-      cloud.position[i][static_cast<Eigen::Index>(k)] = node.position[k][i];
   Approximation<dim> rebuilt = model_.method->rebuild(cloud);
 
   double elastic_before = 0.0, plastic_before = 0.0;
@@ -69,6 +78,12 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
     plastic_before = energy_over_body(point.plastic_work);
     running_.penalty_release += running_.stabilisation;
     push_forward(point);
+  }
+  if (change) {
+    const double kinetic_before = nodal_kinetic_energy();
+    carry_over(*change);
+    running_.resampling += kinetic_before - nodal_kinetic_energy();
+    ++resamplings_;
   }
   model_.cloud = std::move(cloud);
   approximation_ = std::move(rebuilt);
@@ -142,14 +157,20 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   flow_stress_.assign(points, std::numeric_limits<double>::infinity());
   interpolate<dim>(op, node.temperature, point.temperature, 0, points);
   if (!model_.strength.empty()) interpolate<dim>(op, model_.strength, point.strength, 0, points);
-  for (std::size_t p = 0; p < points; ++p) {
-    if (!model_.node_material.empty()) point.material[p] = model_.node_material[first_node(op, p)];
-    const plasticity::Material& material = material_of(p);
-    shear_modulus_[p] = material.elasticity.mu();
-    wave_modulus_[p] = material.elasticity.lambda() + 2.0 * material.elasticity.mu();
-    if (material.hardening)
-      flow_stress_[p] = point.strength[p] *
-                        material.hardening->flow_stress(0.0, material.hardening->rate0, point.temperature[p]);
+  if (!model_.node_material.empty())
+    for (std::size_t p = 0; p < points; ++p) point.material[p] = model_.node_material[first_node(op, p)];
+  set_moduli();
+  for (std::size_t p = 0; p < points; ++p)
+    if (const auto& hardening = material_of(p).hardening)
+      flow_stress_[p] =
+          point.strength[p] * hardening->flow_stress(0.0, hardening->rate0, point.temperature[p]);
+}
+
+template<int dim> void ExplicitSolver<dim>::set_moduli() {
+  for (std::size_t p = 0; p < shear_modulus_.size(); ++p) {
+    const plasticity::Elasticity& elasticity = material_of(p).elasticity;
+    shear_modulus_[p] = elasticity.mu();
+    wave_modulus_[p] = elasticity.lambda() + 2.0 * elasticity.mu();
   }
 }
 

@@ -4,6 +4,7 @@
 #include "contact/contact.hpp"
 #include "core/archive.hpp"
 #include "core/discretisation.hpp"
+#include "core/resampling.hpp"
 #include "core/state.hpp"
 #include "mechanics/bulk_viscosity.hpp"
 #include "mechanics/energy_ledger.hpp"
@@ -57,6 +58,11 @@ public:
   /// structure.
   void prepare();
 
+  /// prepare() on a resampled cloud: nodes keep mass, momentum and heat in parcels, b_e is averaged as its
+  /// logarithm, and the kinetic energy that averaging loses is booked. Only for nodal methods. Throws
+  /// GeometryError, with everything left as it was.
+  void prepare(const Resampling<dim>& change);
+
   /// Stable step for the present configuration with the safety factor, and what limits it.
   struct Step {
     double dt;         ///< s
@@ -74,17 +80,28 @@ public:
   /// bits. Throws IoError when what is carried in does not fit the model.
   void archive(Archive& archive);
 
+  /// The cloud with its nodes where they are now.
+  Cloud<dim> present_cloud() const;
   const State<dim>& state() const { return state_; }
   const Model<dim>& model() const { return model_; }
   const Approximation<dim>& approximation() const { return approximation_; }
   const Field& flow_stress() const { return flow_stress_; }
   const Fields<dim>& initial_position() const { return initial_position_; }
   int references() const { return references_; }
+  int resamplings() const { return resamplings_; } ///< how many of them changed the nodes
   /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
   std::array<double, 2> mass_balance() const;
 
 private:
+  void renew(Cloud<dim> cloud, const Resampling<dim>* change);
+  void carry_over(const Resampling<dim>& change);
+  void mix_elastic(const Resampling<dim>& change, const Field& mass);
+  void resize_fields(std::size_t n);
+  void resize_state(std::size_t n);
+  void archive_cloud(Archive& archive);
+  double nodal_kinetic_energy() const;
   void start_points();
+  void set_moduli();
   void place_reference();
   const plasticity::Material& material_of(std::size_t point) const {
     return model_.materials[static_cast<std::size_t>(state_.point.material[point])];
@@ -129,6 +146,7 @@ private:
   double viscosity_ratio_ = 0.0; ///< largest share of critical damping by the bulk viscosity in the last step
   double conduction_step_ = 0.0; ///< s, stable for heat at the last reference
   int references_ = 0;
+  int resamplings_ = 0;
 };
 
 extern template class ExplicitSolver<2>;

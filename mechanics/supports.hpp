@@ -2,6 +2,7 @@
 // Prescribed motion of boundary nodes: symmetry planes, velocities, displacements.
 #include "contact/contact.hpp"
 #include "core/archive.hpp"
+#include "core/resampling.hpp"
 #include "core/state.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
@@ -20,6 +21,7 @@ template<int dim> struct Support {
   Vec<dim> direction; ///< unit vector of the prescribed component
   TimeTable value;    ///< m/s or m along `direction`; unused for symmetry
   std::vector<std::int32_t> nodes;
+  std::vector<std::int32_t> pieces; ///< boundary pieces whose nodes are all held, also new ones
 };
 
 /// All supports of a run, resolved into orthonormal prescribed directions for each node.
@@ -31,6 +33,9 @@ public:
   /// that is oblique to an earlier direction holds what is left free of it. Throws InputError when a *moving*
   /// support is oblique to another one of the same node.
   Supports(std::vector<Support<dim>> supports, std::size_t nodes);
+
+  /// Holds the nodes of a changed cloud.
+  void resample(const Resampling<dim>& change);
 
   /// Replaces the prescribed components of the velocity v_{n+1/2} by the mean velocity of the step [time,
   /// time + dt], so that positions follow the prescribed motion exactly. `before` is v_{n−1/2}, dt_mean =
@@ -57,10 +62,14 @@ public:
   /// Work done by all supports since the start, J/m^(3−dim).
   double work() const { return work_; }
 
+  /// Carries the lists of nodes of a resampled cloud out or in.
+  void archive_nodes(Archive& archive, std::size_t nodes);
   /// Carries reactions and work out or in.
   void archive(Archive& archive);
 
 private:
+  void resolve(std::size_t nodes);
+
   std::vector<Support<dim>> support_;
   std::vector<Prescribed> prescribed_;
   std::vector<contact::NodeConstraint<dim>> constraints_;
