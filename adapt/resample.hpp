@@ -14,14 +14,16 @@ struct Thresholds {
   double pair = 0.4;         ///< of two nodes nearer to each other one goes
   double short_edge = 0.4;   ///< a boundary node at a shorter edge goes, when
   double flat_area = 0.12;   ///< the triangle it spans with its neighbours is smaller (in h²)
-  double spike = 25.0;       ///< degrees: boundary nodes with a sharper angle go
-  double split_edge = 1.5;   ///< longer boundary edges are split
-  double long_edge = 1.6;    ///< longer Delaunay edges get a node
-  double clear_node = 0.55;  ///< least distance of a new node from others
-  double clear_edge = 0.5;   ///< and from the boundary, unless it is on it
-  double light = 0.8;        ///< ρ₀V/(mJ) below which a node gives mass away
-  double heavy = 1.25;       ///< and above which it takes some
-  int rounds = 4;            ///< of removal, and of insertion
+  double dense = 0.62;       ///< nodes whose neighbours are nearer than this on average go
+  double straight = 0.02; ///< on the boundary only where the triangle with its neighbours is smaller (in h²)
+  double spike = 25.0;    ///< degrees: boundary nodes with a sharper angle go
+  double split_edge = 1.5;  ///< longer boundary edges are split
+  double long_edge = 1.6;   ///< longer Delaunay edges get a node
+  double clear_node = 0.55; ///< least distance of a new node from others
+  double clear_edge = 0.5;  ///< and from the boundary, unless it is on it
+  double light = 0.8;       ///< ρ₀V/(mJ) below which a node gives mass away
+  double heavy = 1.25;      ///< and above which it takes some
+  int rounds = 4;           ///< of removal, and of insertion
 };
 
 /// Where new nodes are put (paper 004, Figure 18).

@@ -40,6 +40,7 @@ public:
     near_edges();
     close_pairs();
     boundary_nodes();
+    dense_nodes();
     std::sort(list_.begin(), list_.end(), [](const Candidate& a, const Candidate& b) {
       return a.badness != b.badness ? a.badness < b.badness : a.node < b.node;
     });
@@ -112,6 +113,29 @@ private:
         list_.push_back({b, shortest / (limit_.short_edge * h)});
       else if (back.dot(ahead) > sharpest * back.norm() * ahead.norm() && cross(ahead, back) > 0.0)
         list_.push_back({b, 0.5});
+    }
+  }
+
+  /// What coarsening leaves to remove: after all that crowds.
+  void dense_nodes() {
+    constexpr double after_others = 1.0;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work_.size()); ++i) {
+      if (work_.held(i)) continue;
+      const double h = work_.node().size[u(i)];
+      double sum = 0.0, count = 0.0;
+      if (work_.on_boundary(i)) {
+        const Vec2 back = at(work_.previous(i)) - at(i), ahead = at(work_.next(i)) - at(i);
+        if (work_.ends_piece(i) || 0.5 * std::abs(cross(back, ahead)) > limit_.straight * h * h) continue;
+        sum = back.norm() + ahead.norm();
+        count = 2.0;
+      } else {
+        for (const std::int32_t k : structure_.neighbours(i)) {
+          sum += (at(k) - at(i)).norm();
+          count += 1.0;
+        }
+      }
+      const double mean = sum / (count * limit_.dense * h);
+      if (mean < 1.0) list_.push_back({i, after_others + mean});
     }
   }
 

@@ -1,9 +1,11 @@
 #include "app/adaptation.hpp"
 
+#include "core/error.hpp"
 #include "mechanics/kinematics.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cnem::app {
 
@@ -40,21 +42,38 @@ Field spacing_of(const ExplicitSolver<2>& solver) {
   return size;
 }
 
+/// Corners of a tool, and points along its arcs no further apart than `spacing`.
+std::vector<Vec2> features(const Curve& outline, double spacing) {
+  std::vector<Vec2> points;
+  for (std::size_t k = 0; k < outline.pieces.size(); ++k) {
+    const CurvePiece &piece = outline.pieces[k], &next = outline.pieces[(k + 1) % outline.pieces.size()];
+    constexpr double smooth = 0.999;
+    if (piece.tangent(1.0).dot(next.tangent(0.0)) < smooth) points.push_back(piece.to);
+    if (!piece.is_arc()) continue;
+    const int count = std::max(1, static_cast<int>(std::ceil(piece.length() / spacing)));
+    for (int c = 0; c <= count; ++c) points.push_back(piece.point(static_cast<double>(c) / count));
+  }
+  return points;
+}
+
 } // namespace
 
 Adaptation::Adaptation(const io::Case& input, const ExplicitSolver<2>& solver) : input_(&input) {
   if (!active()) return;
+  if (input.adapt.tool_spacing)
+    for (const io::Tool& tool : input.tools)
+      tips_.push_back(features(tool.outline, *input.adapt.tool_spacing));
   size_ = spacing_of(solver);
   birth_.assign(size_.size(), 0.0);
   corner_ = corners(solver.model().cloud);
 }
 
-adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver) const {
+adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
   const State<2>& state = solver.state();
   const std::size_t n = state.node.size();
   adapt::NodeProperties properties;
   properties.mass = state.node.mass;
-  properties.size = size_;
+  properties.size = std::move(wanted);
   properties.held.assign(corner_.begin(), corner_.end());
   properties.log_jacobian.resize(n);
   properties.density.resize(n);
@@ -66,11 +85,67 @@ adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver) co
   return properties;
 }
 
+double Adaptation::tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < tips_.size(); ++t) {
+    const Vec2& shift = solver.model().contact.results()[t].displacement;
+    for (const Vec2& tip : tips_[t]) nearest = std::min(nearest, (tip + shift - x).norm());
+  }
+  return *input_->adapt.tool_spacing + input_->adapt.growth * nearest;
+}
+
+/// Estimates and marks. Where nodes have passed each other there is nothing to estimate on: resampling mends
+/// that first.
+Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud) {
+  const io::Adaptation& rules = input_->adapt;
+  const bool indicator = rules.indicator != io::Adaptation::Indicator::none;
+  if (!indicator && tips_.empty()) return size_;
+  adapt::Structure structure;
+  try {
+    structure = adapt::build_structure(cloud);
+  } catch (const GeometryError&) { return size_; }
+  if (indicator) {
+    const PointState<2>& point = solver.state().point;
+    const Field& field = rules.indicator == io::Adaptation::Indicator::plastic_strain ? point.plastic_strain
+                         : rules.indicator == io::Adaptation::Indicator::plastic_rate ? point.plastic_rate
+                                                                                      : point.temperature;
+    const adapt::Indicator estimate = adapt::indicator(cloud, structure, field);
+    const adapt::Marking marking = adapt::mark(cloud, structure, estimate,
+                                               {.tolerance = rules.tolerance,
+                                                .coarsen = rules.coarsen,
+                                                .h_min = rules.h_min,
+                                                .h_max = rules.h_max,
+                                                .max_nodes = rules.max_nodes},
+                                               size_);
+    refined_ += marking.refined;
+    coarsened_ += marking.coarsened;
+    error_ = estimate.error;
+    error_total_ = estimate.total;
+    error_norm_ = estimate.norm;
+  }
+  Field wanted = size_;
+  if (!tips_.empty())
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      wanted[i] = std::min(wanted[i], tool_limit(solver, cloud.position[i]));
+  adapt::limit_growth(cloud, structure, rules.growth, wanted);
+  return wanted;
+}
+
 Resampling<2> Adaptation::renew(ExplicitSolver<2>& solver) {
   adapt::PassReport report;
-  Resampling<2> change = adapt::resample(solver.present_cloud(), properties(solver), {},
-                                         static_cast<adapt::Placement>(input_->adapt.placement), report);
-  solver.prepare(change);
+  const Cloud<2> cloud = solver.present_cloud();
+  const Field size_before = size_;
+  Field wanted = wanted_spacing(solver, cloud);
+  Resampling<2> change;
+  try {
+    change = adapt::resample(cloud, properties(solver, std::move(wanted)), {},
+                             static_cast<adapt::Placement>(input_->adapt.placement), report);
+    solver.prepare(change);
+  } catch (const GeometryError&) {
+    size_ = size_before;
+    throw;
+  }
+  if (!error_.empty()) carry_label(change.labels, error_);
   carry_label(change.labels, size_);
   carry_label(change.labels, birth_);
   for (std::size_t p = 0; p < change.old_of.size(); ++p)
@@ -84,6 +159,17 @@ Resampling<2> Adaptation::renew(ExplicitSolver<2>& solver) {
   return change;
 }
 
+void Adaptation::fit_to_tools(ExplicitSolver<2>& solver,
+                              const std::function<void(const Resampling<2>&)>& follow) {
+  if (tips_.empty()) return;
+  constexpr int most = 20;
+  for (int pass = 0; pass < most; ++pass) {
+    const int inserted = total_.inserted + total_.inserted_boundary;
+    follow(renew(solver));
+    if (total_.inserted + total_.inserted_boundary == inserted) break;
+  }
+}
+
 std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
   if (!active()) return {};
   return {{"adapt.passes", static_cast<double>(passes_)},
@@ -95,7 +181,10 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
           {"adapt.inserted_boundary", total_.inserted_boundary},
           {"adapt.balanced", total_.balanced},
           {"adapt.undone", total_.undone},
-          {"adapt.area_change", total_.area_change}};
+          {"adapt.area_change", total_.area_change},
+          {"adapt.refined", static_cast<double>(refined_)},
+          {"adapt.coarsened", static_cast<double>(coarsened_)},
+          {"adapt.error", error_norm_ > 0.0 ? error_total_ / error_norm_ : 0.0}};
 }
 
 void Adaptation::archive(Archive& archive) {
@@ -104,6 +193,14 @@ void Adaptation::archive(Archive& archive) {
   if (archive.loading()) {
     size_.resize(corner_.size());
     birth_.resize(corner_.size());
+  }
+  if (input_->adapt.indicator != io::Adaptation::Indicator::none) {
+    archive.integer("run/adapt/refined", refined_);
+    archive.integer("run/adapt/coarsened", coarsened_);
+    archive.number("run/adapt/error_total", "m", error_total_);
+    archive.number("run/adapt/error_norm", "m", error_norm_);
+    error_.resize(corner_.size());
+    archive.field("run/adapt/error", "m", error_);
   }
   archive.field("run/adapt/size", "m", size_);
   archive.field("run/adapt/birth", "s", birth_);

@@ -56,6 +56,10 @@ Simulation::Simulation(const io::Case& input, const RunOptions& options)
       renewal_(input.method), adaptation_(input, solver_), checkpoints_(input.output.checkpoint) {}
 
 void Simulation::start() {
+  watch_.time("rebuild", [&] {
+    adaptation_.fit_to_tools(solver_,
+                             [&](const Resampling<2>& change) { history_.resample(change, solver_); });
+  });
   fields_.emplace(options_.output);
   pictures_.emplace(input_, options_.output);
 }

@@ -17,7 +17,8 @@ struct EnergyLedger {
   double penalty_release = 0.0; ///< let go by the penalty as moduli fall and at re-references
   double rereference =
       0.0; ///< stored energy lost (gained when negative) as stress-free volumes are re-measured
-  double resampling = 0.0; ///< kinetic energy lost where matter of several nodes took one velocity
+  double resampling = 0.0; ///< kinetic energy lost where matter of several nodes took one velocity and the
+                           ///< forces of a changed cloud replaced those before
   // received
   double tools = 0.0;    ///< work of the tools' forces along the tools' motion
   double supports = 0.0; ///< work of prescribed boundary motion

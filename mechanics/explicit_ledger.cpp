@@ -38,13 +38,11 @@ template<int dim> double ExplicitSolver<dim>::strain_since_reference() const {
       .value;
 }
 
-template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
+/// Of v_n = v_{n−½} + ½ Δt f_n/m, to first order in Δt.
+template<int dim> double ExplicitSolver<dim>::kinetic_energy() const {
   const NodeState<dim>& node = state_.node;
-  const PointState<dim>& point = state_.point;
-  EnergyLedger ledger = running_;
   const double half = 0.5 * state_.step_before;
-  const Fields<dim>& load = model_.loads.force();
-  ledger.kinetic = sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
+  return sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = begin; i < end; ++i) {
@@ -53,6 +51,15 @@ template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
       }
     return sum;
   });
+}
+
+template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
+  const NodeState<dim>& node = state_.node;
+  const PointState<dim>& point = state_.point;
+  EnergyLedger ledger = running_;
+  const double half = 0.5 * state_.step_before;
+  const Fields<dim>& load = model_.loads.force();
+  ledger.kinetic = kinetic_energy();
   if (!model_.loads.empty())
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = 0; i < node.size(); ++i) ledger.loads += half * node.velocity[k][i] * load[k][i];
@@ -76,6 +83,7 @@ template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() cons
 }
 
 template double ExplicitSolver<2>::energy_over_body(const Field&) const;
+template double ExplicitSolver<2>::kinetic_energy() const;
 template double ExplicitSolver<2>::strain_since_reference() const;
 template EnergyLedger ExplicitSolver<2>::ledger() const;
 template std::array<double, 2> ExplicitSolver<2>::mass_balance() const;

@@ -1,20 +1,8 @@
 // What goes over to the nodes of a resampled cloud, and what that does to energy.
-#include "core/parallel.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "plasticity/log_strain.hpp"
 
 namespace cnem {
-
-template<int dim> double ExplicitSolver<dim>::nodal_kinetic_energy() const {
-  const NodeState<dim>& node = state_.node;
-  return sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < dim; ++k)
-      for (std::size_t i = begin; i < end; ++i)
-        sum += 0.5 * node.mass[i] * node.velocity[k][i] * node.velocity[k][i];
-    return sum;
-  });
-}
 
 /// ln b_e averaged over the parcels of a node, so that the mean is objective and its volume change additive,
 /// drawn back to the yield surface of the averaged state without counting plastic work.
@@ -117,6 +105,5 @@ template void ExplicitSolver<2>::carry_over(const Resampling<2>&);
 template void ExplicitSolver<2>::mix_elastic(const Resampling<2>&, const Field&);
 template void ExplicitSolver<2>::resize_fields(std::size_t);
 template void ExplicitSolver<2>::resize_state(std::size_t);
-template double ExplicitSolver<2>::nodal_kinetic_energy() const;
 
 } // namespace cnem

@@ -79,12 +79,8 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
     running_.penalty_release += running_.stabilisation;
     push_forward(point);
   }
-  if (change) {
-    const double kinetic_before = nodal_kinetic_energy();
-    carry_over(*change);
-    running_.resampling += kinetic_before - nodal_kinetic_energy();
-    ++resamplings_;
-  }
+  const double kinetic_before = change ? kinetic_energy() : 0.0;
+  if (change) carry_over(*change);
   model_.cloud = std::move(cloud);
   approximation_ = std::move(rebuilt);
   const DiscreteOperators<dim>& op = approximation_.mechanics;
@@ -113,6 +109,9 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   running_.stabilisation = 0.0;
   assemble_forces();
   ++references_;
+  if (!change) return;
+  running_.resampling += kinetic_before - kinetic_energy();
+  ++resamplings_;
 }
 
 template<int dim> void ExplicitSolver<dim>::set_conduction() {

@@ -99,7 +99,7 @@ private:
   void resize_fields(std::size_t n);
   void resize_state(std::size_t n);
   void archive_cloud(Archive& archive);
-  double nodal_kinetic_energy() const;
+  double kinetic_energy() const;
   void start_points();
   void set_moduli();
   void place_reference();

@@ -35,6 +35,7 @@ add_dependencies(test_unit_app cnem)
 cnem_tests(restart cnem_io) # runs the program as a process
 target_compile_definitions(test_restart PRIVATE CNEM_PROGRAM="$<TARGET_FILE:cnem>")
 add_dependencies(test_restart cnem)
+cnem_tests(conservation cnem_adapt cnem_mechanics cnem_alternatives)
 cnem_tests(degenerate cnem_voronoi cnem_cnem cnem_alternatives)
 cnem_tests(contract cnem_cnem cnem_alternatives)
 cnem_tests(convergence cnem_app)
