@@ -43,7 +43,8 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
   const NodeRows& parcels = change.parcels;
-  const Field mass = node.mass, capacity = node.heat_capacity;
+  const Field mass = node.mass;
+  const Field capacity = model_.thermal ? node.heat_capacity : mass; // without heat there may be none
 
   carry_sum(parcels, node.mass);
   carry_sum(parcels, node.heat_capacity);
