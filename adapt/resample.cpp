@@ -19,9 +19,9 @@ double area_of(const Cloud<2>& cloud) {
 } // namespace
 
 PassReport& PassReport::operator+=(const PassReport& other) {
-  for (int PassReport::*count :
-       {&PassReport::outside, &PassReport::removed, &PassReport::removed_boundary, &PassReport::promoted,
-        &PassReport::inserted, &PassReport::inserted_boundary, &PassReport::balanced, &PassReport::undone})
+  for (int PassReport::*count : {&PassReport::folded, &PassReport::outside, &PassReport::removed,
+                                 &PassReport::removed_boundary, &PassReport::promoted, &PassReport::inserted,
+                                 &PassReport::inserted_boundary, &PassReport::balanced, &PassReport::undone})
     this->*count += other.*count;
   area_change += other.area_change;
   return *this;
@@ -71,6 +71,7 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
 Resampling<2> resample(const Cloud<2>& cloud, NodeProperties properties, const Thresholds& thresholds,
                        Placement placement, PassReport& report) {
   WorkingCloud work(cloud, std::move(properties));
+  mend_boundary(work, report);
   drop_outside(work, report);
   Structure structure = build_structure(work.cloud());
   for (int round = 0; round < thresholds.rounds; ++round)

@@ -31,6 +31,7 @@ enum class Placement { between_nodes, voronoi_vertices };
 
 /// What a pass did, for the audit and the output.
 struct PassReport {
+  int folded = 0;  ///< boundary nodes at which the boundary turned back on itself or crossed
   int outside = 0; ///< interior nodes found outside the boundary
   int removed = 0, removed_boundary = 0;
   int promoted = 0; ///< interior nodes that became part of the boundary
@@ -39,7 +40,9 @@ struct PassReport {
   int undone = 0;         ///< rounds given up because the cloud had no valid structure after them
   double area_change = 0; ///< m², of the domain
   bool changed() const {
-    return outside + removed + removed_boundary + promoted + inserted + inserted_boundary + balanced > 0;
+    return folded + outside + removed + removed_boundary + promoted + inserted + inserted_boundary +
+               balanced >
+           0;
   }
   PassReport& operator+=(const PassReport& other);
 };
@@ -52,6 +55,9 @@ Resampling<2> resample(const Cloud<2>& cloud, NodeProperties properties, const T
 
 // The parts of a pass, each a class of its own in what it looks at. They keep `structure` up to date.
 
+/// Before anything is triangulated: boundary nodes at which the boundary turns back on itself, and short
+/// loops of it, are bypassed; their mass goes to the nearer neighbour.
+void mend_boundary(WorkingCloud& work, PassReport& report);
 /// Interior nodes outside the boundary give their mass to the ends of the nearest edge.
 void drop_outside(WorkingCloud& work, PassReport& report);
 /// One round; false when there was nothing to do.

@@ -56,4 +56,10 @@ std::vector<Contribution> contributions(const Cloud<2>& cloud, const voronoi::Ce
   return list;
 }
 
+Foot foot_on(const Vec2& x, const Vec2& a, const Vec2& b) {
+  const Vec2 edge = b - a;
+  const double place = (x - a).dot(edge) / edge.squaredNorm();
+  return {(x - a - std::clamp(place, 0.0, 1.0) * edge).norm(), place};
+}
+
 } // namespace cnem::adapt

@@ -38,4 +38,10 @@ struct Contribution {
 std::vector<Contribution> contributions(const Cloud<2>& cloud, const voronoi::Cells& cells,
                                         const std::vector<char>& marked);
 
+/// Distance from x to the segment ab, and where its foot is on the line: 0 at a, 1 at b.
+struct Foot {
+  double distance, place;
+};
+Foot foot_on(const Vec2& x, const Vec2& a, const Vec2& b);
+
 } // namespace cnem::adapt

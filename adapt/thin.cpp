@@ -1,8 +1,6 @@
 // Removal: nodes that crowd at the boundary or each other.
 #include "adapt/resample.hpp"
 #include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "voronoi/edge_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +11,6 @@ namespace cnem::adapt {
 namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-/// Distance from x to the segment ab, and where its foot is: 0 at a, 1 at b.
-struct Foot {
-  double distance, place;
-};
-Foot foot_on(const Vec2& x, const Vec2& a, const Vec2& b) {
-  const Vec2 edge = b - a;
-  const double place = (x - a).dot(edge) / edge.squaredNorm();
-  return {(x - a - std::clamp(place, 0.0, 1.0) * edge).norm(), place};
-}
 
 struct Candidate {
   std::int32_t node;
@@ -175,44 +163,6 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
 }
 
 } // namespace
-
-void drop_outside(WorkingCloud& work, PassReport& report) {
-  const Cloud<2>& cloud = work.cloud();
-  const voronoi::EdgeTree tree(cloud);
-  std::vector<char> gone(work.size(), 0);
-  for_each_block(work.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (work.on_boundary(static_cast<std::int32_t>(i))) continue;
-      const Vec2& x = cloud.position[i];
-      const double touching = 1e-6 * work.node().size[i];
-      gone[i] = tree.distance(x, touching) < touching || !tree.inside(x);
-    }
-  });
-  std::vector<Parcel> parcels;
-  for (std::size_t i = 0; i < gone.size(); ++i) {
-    if (!gone[i]) continue;
-    double best = std::numeric_limits<double>::max();
-    Parcel to_start{static_cast<std::int32_t>(i), -1, 1.0}, to_end = to_start;
-    for (const Facet<2>& facet : cloud.facets) {
-      const auto [a, b] = facet.node;
-      const Foot foot = foot_on(cloud.position[i], cloud.position[u(a)], cloud.position[u(b)]);
-      if (foot.distance >= best) continue;
-      best = foot.distance;
-      const double place = std::clamp(foot.place, 0.0, 1.0);
-      to_start.to = a;
-      to_start.fraction = 1.0 - place;
-      to_end.to = b;
-      to_end.fraction = place;
-    }
-    for (const Parcel& parcel : {to_start, to_end})
-      if (parcel.fraction > 0.0) parcels.push_back(parcel);
-    ++report.outside;
-  }
-  if (parcels.empty()) return;
-  work.move(parcels);
-  work.drop(gone);
-  work.refresh_facets();
-}
 
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report) {
   Thinning thinning(work, structure, thresholds);

@@ -173,6 +173,7 @@ void Adaptation::fit_to_tools(ExplicitSolver<2>& solver,
 std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
   if (!active()) return {};
   return {{"adapt.passes", static_cast<double>(passes_)},
+          {"adapt.folded", total_.folded},
           {"adapt.outside", total_.outside},
           {"adapt.removed", total_.removed},
           {"adapt.removed_boundary", total_.removed_boundary},
@@ -205,7 +206,8 @@ void Adaptation::archive(Archive& archive) {
   archive.field("run/adapt/size", "m", size_);
   archive.field("run/adapt/birth", "s", birth_);
   archive.integer("run/adapt/passes", passes_);
-  for (auto& [name, count] : {std::pair{"outside", &total_.outside},
+  for (auto& [name, count] : {std::pair{"folded", &total_.folded},
+                              {"outside", &total_.outside},
                               {"removed", &total_.removed},
                               {"removed_boundary", &total_.removed_boundary},
                               {"promoted", &total_.promoted},

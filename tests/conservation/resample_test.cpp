@@ -269,6 +269,44 @@ TEST(Resample, an_inner_node_at_a_long_edge_becomes_part_of_it) {
   EXPECT_NEAR(testing::area(change.cloud), 0.6, 1e-14);
 }
 
+// On the side of a punch nodes slide along one line, and one may be carried past the next.
+TEST(Resample, a_boundary_that_turns_back_on_itself_is_mended) {
+  Blank b = blank(0.1);
+  std::int32_t first = -1;
+  for (const Facet<2>& facet : b.cloud.facets)
+    if (std::abs(b.cloud.position[u(facet.node[0])].x() - 0.4) < 1e-9 &&
+        b.cloud.position[u(facet.node[0])].y() == 0.0)
+      first = facet.node[0];
+  ASSERT_GE(first, 0);
+  b.cloud.position[u(first)].x() = 0.53; // beyond the one at 0.5
+  EXPECT_THROW(build_structure(b.cloud), GeometryError);
+  PassReport report;
+  const Resampling<2> change = resample(b.cloud, b.node, {}, Placement::between_nodes, report);
+  EXPECT_EQ(report.folded, 1);
+  Field mass = b.node.mass;
+  carry_sum(change.parcels, mass);
+  double sum = 0.0;
+  for (const double m : mass) sum += m;
+  EXPECT_NEAR(sum, 0.6, 1e-12);
+  EXPECT_NEAR(testing::area(change.cloud), 0.6, 1e-12);
+}
+
+TEST(Resample, a_small_loop_of_the_boundary_is_cut_off) {
+  Blank b = blank(0.1);
+  std::int32_t left = -1;
+  for (const Facet<2>& facet : b.cloud.facets) {
+    const Vec2& x = b.cloud.position[u(facet.node[0])];
+    if (std::abs(x.x() - 0.4) < 1e-9 && x.y() == 0.0) left = facet.node[0];
+  }
+  ASSERT_GE(left, 0);
+  b.cloud.position[u(left)] = {0.55, 0.01};
+  b.cloud.position[u(left + 1)] = {0.45, 0.02};
+  EXPECT_THROW(build_structure(b.cloud), GeometryError);
+  PassReport report;
+  const Resampling<2> change = resample(b.cloud, b.node, {}, Placement::between_nodes, report);
+  EXPECT_GE(report.folded, 1);
+}
+
 TEST(Resample, cracks_are_refused) {
   Blank b = blank(0.1);
   b.cloud.twins.push_back({0, 1});
