@@ -29,11 +29,13 @@ public:
     return !work_.held(i) && !work_.ends_piece(i) && work_.next(c) != a;
   }
 
-  /// The boundary comes back along itself: the angle at the node is below 3 degrees.
+  /// The boundary comes back along itself: the body has an angle below 3 degrees there. The tip of an open
+  /// crack, round which the body lies, is none.
   bool turns_back(std::int32_t i) const {
-    constexpr double cosine = 0.9986;
+    constexpr double cosine = 0.9986, open = -1e-6;
     const Vec2 back = at(work_.previous(i)) - at(i), ahead = at(work_.next(i)) - at(i);
-    return back.dot(ahead) > cosine * back.norm() * ahead.norm();
+    const double lengths = back.norm() * ahead.norm();
+    return back.dot(ahead) > cosine * lengths && cross(ahead, back) > open * lengths;
   }
 
   /// The facets before and behind the one that leaves the node cross.

@@ -9,14 +9,14 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+} // namespace
+
 double area_of(const Cloud<2>& cloud) {
   double twice = 0.0;
   for (const Facet<2>& facet : cloud.facets)
     twice += cross(cloud.position[u(facet.node[0])], cloud.position[u(facet.node[1])]);
   return 0.5 * twice;
 }
-
-} // namespace
 
 PassReport& PassReport::operator+=(const PassReport& other) {
   for (int PassReport::*count : {&PassReport::folded, &PassReport::outside, &PassReport::removed,

@@ -67,6 +67,9 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
 void balance(WorkingCloud& work, const Structure& structure, const Thresholds& thresholds,
              PassReport& report);
 
+/// Area enclosed by the boundary, m².
+double area_of(const Cloud<2>& cloud);
+
 /// r_i = ρ₀ V_i/(m_i J_i) of one node.
 double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node);
 

@@ -127,6 +127,50 @@ void WorkingCloud::bypass(std::int32_t node) {
   next_[index(node)] = previous_[index(node)] = piece_[index(node)] = -1;
 }
 
+std::vector<std::array<std::int32_t, 2>> WorkingCloud::open_edge(std::int32_t from, std::int32_t to,
+                                                                 std::int32_t piece, double gap) {
+  const Vec2 along = (cloud_.position[index(to)] - cloud_.position[index(from)]).normalized();
+  const Vec2 aside = 0.5 * gap * left_normal(along);
+  const auto link = [&](std::int32_t a, std::int32_t b, std::int32_t of_piece) {
+    next_[index(a)] = b;
+    previous_[index(b)] = a;
+    piece_[index(a)] = of_piece;
+  };
+  const auto double_of = [&](std::int32_t i) {
+    const std::int32_t made = append(cloud_.position[index(i)] - aside, {{i, 1.0}});
+    cloud_.position[index(i)] += aside;
+    return made;
+  };
+  const bool through = on_boundary(to);
+  const std::int32_t after = next(from), piece_after = piece_[index(from)];
+  // left of the edge: … → from → to → …; right of it: … → other end of `to` → other end of `from` → …
+  const std::int32_t from_right = double_of(from);
+  if (!through) {
+    link(from_right, after, piece_after);
+    link(from, to, piece);
+    link(to, from_right, piece);
+    return {{from, from_right}};
+  }
+  const std::int32_t before_to = previous(to), piece_before = piece_[index(before_to)];
+  const std::int32_t to_right = double_of(to);
+  link(from_right, after, piece_after);
+  link(before_to, to_right, piece_before);
+  link(to_right, from_right, piece);
+  link(from, to, piece);
+  renew_loops();
+  return {{from, from_right}, {to, to_right}};
+}
+
+void WorkingCloud::renew_loops() {
+  loop_.clear();
+  std::vector<char> seen(size(), 0);
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (next_[i] < 0 || seen[i]) continue;
+    loop_.push_back(static_cast<std::int32_t>(i));
+    for (auto k = static_cast<std::int32_t>(i); !seen[index(k)]; k = next_[index(k)]) seen[index(k)] = 1;
+  }
+}
+
 void WorkingCloud::move(const std::vector<Parcel>& parcels) {
   std::vector<std::pair<std::int32_t, double>> left; // donor and what has left it
   for (const Parcel& parcel : parcels) {

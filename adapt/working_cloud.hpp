@@ -38,6 +38,7 @@ public:
   bool on_boundary(std::int32_t i) const { return next_[index(i)] >= 0; }
   std::int32_t next(std::int32_t i) const { return next_[index(i)]; } ///< along the boundary; −1 inside
   std::int32_t previous(std::int32_t i) const { return previous_[index(i)]; }
+  std::int32_t piece(std::int32_t i) const { return piece_[index(i)]; } ///< of the facet that leaves it
   bool held(std::int32_t i) const { return node_.held[index(i)] != 0; }
   /// Facets have changed pieces here: the node is an end of named boundaries.
   bool ends_piece(std::int32_t i) const {
@@ -57,6 +58,11 @@ public:
   void promote(std::int32_t node, std::int32_t a, const Vec2& x);
   /// Takes the boundary past a node, which becomes an interior one (to be removed).
   void bypass(std::int32_t node);
+  /// Opens the domain along the edge from a boundary node to another node; the two faces stand `gap` (m)
+  /// apart at doubled nodes. An inner node becomes the tip. Returns the pairs {old node, its double without
+  /// matter}.
+  std::vector<std::array<std::int32_t, 2>> open_edge(std::int32_t from, std::int32_t to, std::int32_t piece,
+                                                     double gap);
   /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
   void move(const std::vector<Parcel>& parcels);
   /// Moves at once; `fraction` of what `from` has now.
@@ -71,6 +77,7 @@ public:
 
 private:
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  void renew_loops();
   Row& row(std::vector<Row>& rows, std::int32_t i);
   NodeRows in_order(std::vector<Row>& rows, const std::vector<std::int32_t>& order);
   std::int32_t append(const Vec2& x, const std::vector<std::pair<std::int32_t, double>>& parents);
