@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <fmt/format.h>
 
 namespace cnem::app {
@@ -109,19 +110,13 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     row.emplace_back(fmt::format("energy.{}{}", name, units_.energy), value);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
-    const Field values =
-        info.at_nodes ? values_at_nodes(snapshot(solver), name) : values_at_points(snapshot(solver), name);
     row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
-                     *std::max_element(values.begin(), values.end()));
+                     largest_value(snapshot(solver), name));
   }
   for (const ProbeWeights& probe : probes_)
-    for (const std::string& name : probe.fields) {
-      const Field values = values_at_nodes(snapshot(solver), name);
-      double sum = 0.0;
-      for (std::size_t k = 0; k < probe.node.size(); ++k)
-        sum += probe.weight[k] * values[static_cast<std::size_t>(probe.node[k])];
-      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit), sum);
-    }
+    for (const std::string& name : probe.fields)
+      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit),
+                       weighted_value(snapshot(solver), name, probe.node, probe.weight));
   row.emplace_back("mass" + units_.mass, total_mass(solver));
   row.emplace_back("area[m^2]", boundary_area(snapshot(solver)));
   return row;
@@ -230,7 +225,7 @@ void write_lines(const io::Case& input, const Snapshot& shot, const std::filesys
   }
 }
 
-void FieldRecorder::record(const Snapshot& shot) {
+void FieldRecorder::record(io::FileQueue& files, const Snapshot& shot) {
   const NodeState<2>& node = shot.state.node;
   io::FieldFrame frame;
   frame.time = shot.state.time;
@@ -240,11 +235,15 @@ void FieldRecorder::record(const Snapshot& shot) {
   storage.reserve(2 * field_catalogue().size());
   for (const FieldInfo& info : field_catalogue()) {
     const std::string name = info.unit.empty() ? info.label : fmt::format("{} [{}]", info.label, info.unit);
-    frame.cell_scalars.push_back({name, storage.emplace_back(values_at_points(shot, info.name))});
-    frame.node_scalars.push_back({name, storage.emplace_back(values_at_nodes(shot, info.name))});
+    const Field& at_points = storage.emplace_back(values_at_points(shot, info.name));
+    frame.cell_scalars.push_back({name, at_points});
+    if (shot.approximation.mechanics.nodal)
+      frame.node_scalars.push_back({name, at_points});
+    else
+      frame.node_scalars.push_back({name, storage.emplace_back(values_at_nodes(shot, info.name))});
   }
   frame.node_vectors.push_back({"velocity [m/s]", {node.velocity[0], node.velocity[1], {}}});
-  writer_.write(frame);
+  writer_.write(files, frame);
 }
 
 io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string& field,
@@ -268,7 +267,7 @@ io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string&
   return picture;
 }
 
-void PictureRecorder::record(const Snapshot& shot) {
+void PictureRecorder::record(io::FileQueue& files, const Snapshot& shot) {
   Fields<2> drawn = shot.state.node.position;
   if (shot.displacement_scale != 1.0)
     for (std::size_t k = 0; k < 2; ++k)
@@ -276,18 +275,42 @@ void PictureRecorder::record(const Snapshot& shot) {
         const double start = shot.initial_position[k][i];
         drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
       }
+  struct Sheet {
+    std::string key, caption;
+    io::Picture picture;
+    std::string png;
+  };
+  std::vector<Sheet> sheets;
+  std::vector<Field> values;
+  values.reserve(case_->output.picture_fields.size());
   for (const std::string& name : case_->output.picture_fields) {
-    const Field values = values_at_points(shot, name);
-    io::Picture picture = picture_of(shot, name, drawn, values);
-    album_.add(name, picture.label, picture.time, io::draw_png(picture));
+    io::Picture picture = picture_of(shot, name, drawn, values.emplace_back(values_at_points(shot, name)));
+    sheets.push_back({name, "", picture, ""});
     for (const io::Window& window : case_->output.windows) {
       picture.window = io::PictureWindow{window.lower, window.upper};
-      album_.add(name + "_" + window.name, picture.label, picture.time, io::draw_png(picture), window.name);
+      sheets.push_back({name + "_" + window.name, window.name, picture, ""});
     }
   }
+  std::exception_ptr failure; // exceptions must not leave a parallel region
+  const auto count = static_cast<std::ptrdiff_t>(sheets.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    Sheet& sheet = sheets[static_cast<std::size_t>(k)];
+    try {
+      sheet.png = io::draw_png(sheet.picture);
+    } catch (...) {
+#pragma omp critical
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  for (Sheet& sheet : sheets)
+    album_.add(files, sheet.key, sheet.picture.label, sheet.picture.time, std::move(sheet.png),
+               sheet.caption);
 }
 
-std::string PictureRecorder::record_place(const Snapshot& shot, const Vec2& centre, double radius) {
+std::string PictureRecorder::record_place(io::FileQueue& files, const Snapshot& shot, const Vec2& centre,
+                                          double radius) {
   const NodeState<2>& node = shot.state.node;
   Fields<2> drawn = node.position;
   for (std::size_t k = 0; k < 2; ++k)
@@ -299,7 +322,8 @@ std::string PictureRecorder::record_place(const Snapshot& shot, const Vec2& cent
   io::Picture picture = picture_of(shot, "plastic_strain", drawn, values);
   picture.window = io::PictureWindow{centre.array() - radius, centre.array() + radius};
   picture.edges = true;
-  return album_.add("post_mortem", picture.label, picture.time, io::draw_png(picture), "where it went wrong");
+  return album_.add(files, "post_mortem", picture.label, picture.time, io::draw_png(picture),
+                    "where it went wrong");
 }
 
 } // namespace cnem::app

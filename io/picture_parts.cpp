@@ -12,73 +12,10 @@
 namespace cnem::io {
 namespace {
 
-constexpr int oversampling = 3;
-
-cairo_status_t append(void* text, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 void select_font(cairo_t* cr, double size, bool bold) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, size);
-}
-
-// Calls use(cell) with the outline of each cell as the current path, for the cells inside the clip.
-template<class Use>
-void for_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
-               const std::vector<Vec2>& vertices, Use&& use) {
-  std::vector<Vec2> pixel(vertices.size());
-  for (std::size_t v = 0; v < vertices.size(); ++v) pixel[v] = layout.pixel(vertices[v]);
-  const Vec2 first(layout.plot_left, layout.plot_top),
-      last = first + Vec2(layout.plot_width, layout.plot_height);
-  for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
-    const auto begin = static_cast<std::size_t>(cells.begin[c]),
-               end = static_cast<std::size_t>(cells.begin[c + 1]);
-    if (begin == end) continue;
-    Vec2 low = pixel[static_cast<std::size_t>(cells.index[begin])], high = low;
-    bool finite = true;
-    for (std::size_t k = begin; k < end; ++k) {
-      const Vec2& p = pixel[static_cast<std::size_t>(cells.index[k])];
-      finite = finite && p.allFinite();
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    if (!finite || (high.array() < first.array() - 2).any() || (low.array() > last.array() + 2).any() ||
-        (high - low).maxCoeff() > 1e5)
-      continue;
-    cairo_new_path(cr);
-    for (std::size_t k = begin; k < end; ++k) {
-      const Vec2& p = pixel[static_cast<std::size_t>(cells.index[k])];
-      cairo_line_to(cr, p.x(), p.y());
-    }
-    cairo_close_path(cr);
-    use(c);
-  }
-}
-
-// Mean of oversampling² pixels. Painted without antialiasing and averaged, neighbouring cells meet without
-// the seams that antialiased polygons show.
-Surface average(const Surface& fine, int width, int height) {
-  Surface coarse = make_surface(CAIRO_FORMAT_ARGB32, width, height);
-  cairo_surface_flush(fine.get());
-  const unsigned char* from = cairo_image_surface_get_data(fine.get());
-  unsigned char* to = cairo_image_surface_get_data(coarse.get());
-  const auto from_stride = static_cast<std::size_t>(cairo_image_surface_get_stride(fine.get()));
-  const auto to_stride = static_cast<std::size_t>(cairo_image_surface_get_stride(coarse.get()));
-  constexpr std::size_t n = oversampling;
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
-    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x)
-      for (std::size_t channel = 0; channel < 4; ++channel) {
-        unsigned sum = 0;
-        for (std::size_t j = 0; j < n; ++j)
-          for (std::size_t i = 0; i < n; ++i)
-            sum += from[(y * n + j) * from_stride + (x * n + i) * 4 + channel];
-        to[y * to_stride + x * 4 + channel] = static_cast<unsigned char>((sum + n * n / 2) / (n * n));
-      }
-  cairo_surface_mark_dirty(coarse.get());
-  return coarse;
 }
 
 } // namespace
@@ -93,12 +30,11 @@ Surface make_surface(cairo_format_t format, int width, int height) {
 
 Context make_context(const Surface& surface) { return Context(cairo_create(surface.get())); }
 
-std::string png_of(const Surface& surface) {
-  std::string png;
-  const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &png);
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw IoError(fmt::format("cannot encode a picture: {}", cairo_status_to_string(status)));
-  return png;
+PixelArea pixels_of(const Surface& surface) {
+  cairo_surface_t* image = surface.get();
+  return {reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(image)),
+          cairo_image_surface_get_width(image), cairo_image_surface_get_height(image),
+          static_cast<std::size_t>(cairo_image_surface_get_stride(image)) / sizeof(std::uint32_t)};
 }
 
 double text_width(cairo_t* cr, const std::string& text, double size, bool bold) {
@@ -113,39 +49,6 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   cairo_move_to(cr, x, y);
   cairo_show_text(cr, text.c_str());
   cairo_new_path(cr); // showing text leaves a current point behind
-}
-
-void paint_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
-                 const std::vector<Vec2>& vertices, std::span<const double> value, ColourMap map,
-                 const ColourRange& range) {
-  const int width = static_cast<int>(layout.plot_width), height = static_cast<int>(layout.plot_height);
-  const Surface fine = make_surface(CAIRO_FORMAT_ARGB32, oversampling * width, oversampling * height);
-  const Context context = make_context(fine);
-  cairo_t* layer = context.get();
-  cairo_scale(layer, oversampling, oversampling);
-  cairo_translate(layer, -layout.plot_left, -layout.plot_top);
-  cairo_set_antialias(layer, CAIRO_ANTIALIAS_NONE);
-
-  for_cells(layer, layout, cells, vertices, [&](std::size_t c) {
-    const Colour colour = map_colour(map, (value[c] - range.low) / (range.high - range.low));
-    cairo_set_source_rgb(layer, colour.red, colour.green, colour.blue);
-    cairo_fill(layer);
-  });
-  const Surface coarse = average(fine, width, height);
-  // The rim: the silhouette in dark, shifted a little all round, beneath the cells.
-  cairo_set_source_rgb(cr, 0.12, 0.13, 0.16);
-  const double rim = layout.width / 1000.0;
-  for (const Vec2& shift : {Vec2(rim, 0), Vec2(-rim, 0), Vec2(0, rim), Vec2(0, -rim)})
-    cairo_mask_surface(cr, coarse.get(), layout.plot_left + shift.x(), layout.plot_top + shift.y());
-  cairo_set_source_surface(cr, coarse.get(), layout.plot_left, layout.plot_top);
-  cairo_paint(cr);
-}
-
-void paint_cell_edges(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
-                      const std::vector<Vec2>& vertices, double unit) {
-  cairo_set_source_rgba(cr, 0.0, 0.0, 0.0, 0.22);
-  cairo_set_line_width(cr, 0.7 * unit);
-  for_cells(cr, layout, cells, vertices, [&](std::size_t) { cairo_stroke(cr); });
 }
 
 void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,

@@ -2,22 +2,16 @@
 
 #include "core/error.hpp"
 #include "io/output_folder.hpp"
+#include "io/vtu_file.hpp"
 
 #include <fmt/format.h>
 
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-#include <vtkXMLUtilities.h>
-
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <deque>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <tuple>
 
@@ -25,97 +19,84 @@ namespace cnem::io {
 namespace fs = std::filesystem;
 namespace {
 
-void add_time(vtkUnstructuredGrid& grid, double time) {
-  vtkNew<vtkDoubleArray> value;
-  value->SetName("TimeValue"); // the name ParaView looks for
-  value->InsertNextValue(time);
-  grid.GetFieldData()->AddArray(value);
-}
+constexpr std::uint8_t vertex_cell = 1, polygon_cell = 7; // VTK_VERTEX, VTK_POLYGON
 
-void check_length(const std::string& name, std::size_t length, vtkIdType expected) {
-  if (length != static_cast<std::size_t>(expected))
+void check_length(const std::string& name, std::size_t length, std::size_t expected) {
+  if (length != expected)
     throw InputError(fmt::format("output field \"{}\" has {} values, expected {}", name, length, expected));
 }
 
-void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField>& scalars,
-                const std::vector<VectorField>& vectors) {
-  for (const ScalarField& field : scalars) {
-    check_length(field.name, field.values.size(), count);
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(field.name.c_str());
-    array->SetNumberOfTuples(count);
-    std::copy(field.values.begin(), field.values.end(), array->GetPointer(0));
-    to.AddArray(array);
+// The two grids of a frame. What is not in the frame itself is kept here until it is compressed.
+class Grids {
+public:
+  explicit Grids(const FieldFrame& frame) {
+    const CellGeometry<2>& cells = *frame.cells;
+    const std::size_t nodes = frame.position[0].size(),
+                      polygons = cells.begin.empty() ? 0 : cells.begin.size() - 1;
+    for (const Vec2& v : moved_vertices(cells, frame.position)) place(cell_points_, v);
+    for (std::size_t i = 0; i < nodes; ++i) place(node_points_, {frame.position[0][i], frame.position[1][i]});
+    for (std::size_t i = 0; i < nodes; ++i) node_index_.push_back(static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < nodes; ++i) node_end_.push_back(static_cast<std::int32_t>(i + 1));
+    connectivity_.assign(cells.index.begin(), cells.index.end());
+    if (polygons > 0) cell_end_.assign(cells.begin.begin() + 1, cells.begin.end());
+    cell_type_.assign(polygons, polygon_cell);
+    node_type_.assign(nodes, vertex_cell);
+
+    polygons_ = {frame.time, cell_points_.size() / 3, polygons, points(cell_points_), {}, {}, {}, {}, {}};
+    polygons_.connectivity = integers("connectivity", connectivity_);
+    polygons_.offsets = integers("offsets", cell_end_);
+    polygons_.types = types(cell_type_);
+    polygons_.cell_data = data(frame.cell_scalars, frame.cell_vectors, polygons);
+    vertices_ = {frame.time, nodes, nodes, points(node_points_), {}, {}, {}, {}, {}};
+    vertices_.connectivity = integers("connectivity", node_index_);
+    vertices_.offsets = integers("offsets", node_end_);
+    vertices_.types = types(node_type_);
+    vertices_.point_data = data(frame.node_scalars, frame.node_vectors, nodes);
+    arrays_.compress();
   }
-  for (const VectorField& field : vectors) {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(field.name.c_str());
-    array->SetNumberOfComponents(3);
-    array->SetNumberOfTuples(count);
-    array->Fill(0.0);
-    for (int k = 0; k < 3; ++k) {
-      const std::span<const double> component = field.component[static_cast<std::size_t>(k)];
-      if (component.empty()) continue;
-      check_length(field.name, component.size(), count);
-      for (vtkIdType i = 0; i < count; ++i)
-        array->SetTypedComponent(i, k, component[static_cast<std::size_t>(i)]);
+
+  std::string polygons() const { return vtu_text(polygons_, arrays_); }
+  std::string vertices() const { return vtu_text(vertices_, arrays_); }
+
+private:
+  static void place(std::vector<double>& points, const Vec2& x) {
+    points.insert(points.end(), {x.x(), x.y(), 0.0});
+  }
+  VtuEntry points(const std::vector<double>& x) {
+    return {"Points", "Float64", 3, arrays_.add(std::span(x))};
+  }
+  VtuEntry integers(const char* name, const std::vector<std::int32_t>& list) {
+    return {name, "Int32", 1, arrays_.add(std::span(list))};
+  }
+  VtuEntry types(const std::vector<std::uint8_t>& list) {
+    return {"types", "UInt8", 1, arrays_.add(std::span(list))};
+  }
+  std::vector<VtuEntry> data(const std::vector<ScalarField>& scalars, const std::vector<VectorField>& vectors,
+                             std::size_t count) {
+    std::vector<VtuEntry> entries;
+    for (const ScalarField& field : scalars) {
+      check_length(field.name, field.values.size(), count);
+      entries.push_back({field.name, "Float64", 1, arrays_.add(field.values)});
     }
-    to.AddArray(array);
+    for (const VectorField& field : vectors) {
+      std::vector<double>& values = vectors_.emplace_back(3 * count, 0.0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (field.component[k].empty()) continue;
+        check_length(field.name, field.component[k].size(), count);
+        for (std::size_t i = 0; i < count; ++i) values[3 * i + k] = field.component[k][i];
+      }
+      entries.push_back({field.name, "Float64", 3, arrays_.add(std::span<const double>(values))});
+    }
+    return entries;
   }
-}
 
-void write_grid(const fs::path& path, vtkUnstructuredGrid& grid) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputData(&grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  writer->SetHeaderTypeToUInt64();
-  writer->WriteToOutputStringOn(); // the file itself is written where a full disk is noticed
-  if (writer->Write() == 0) throw IoError(fmt::format("cannot write {}: VTK failed", path.string()));
-  write_atomically(path, writer->GetOutputString());
-}
-
-void write_cells(const fs::path& path, const FieldFrame& frame) {
-  const CellGeometry<2>& cells = *frame.cells;
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  const std::vector<Vec2> vertices = moved_vertices(cells, frame.position);
-  points->SetNumberOfPoints(static_cast<vtkIdType>(vertices.size()));
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    points->SetPoint(static_cast<vtkIdType>(v), vertices[v].x(), vertices[v].y(), 0.0);
-
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(points);
-  const auto count = cells.begin.empty() ? 0 : static_cast<vtkIdType>(cells.begin.size()) - 1;
-  grid->AllocateEstimate(count, 7);
-  std::vector<vtkIdType> polygon;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
-    polygon.assign(cells.index.begin() + cells.begin[c], cells.index.begin() + cells.begin[c + 1]);
-    grid->InsertNextCell(VTK_POLYGON, static_cast<vtkIdType>(polygon.size()), polygon.data());
-  }
-  add_fields(*grid->GetCellData(), count, frame.cell_scalars, frame.cell_vectors);
-  add_time(*grid, frame.time);
-  write_grid(path, *grid);
-}
-
-void write_nodes(const fs::path& path, const FieldFrame& frame) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  const auto count = static_cast<vtkIdType>(frame.position[0].size());
-  points->SetNumberOfPoints(count);
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(points);
-  grid->AllocateEstimate(count, 1);
-  for (vtkIdType i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    points->SetPoint(i, frame.position[0][at], frame.position[1][at], 0.0);
-    grid->InsertNextCell(VTK_VERTEX, 1, &i);
-  }
-  add_fields(*grid->GetPointData(), count, frame.node_scalars, frame.node_vectors);
-  add_time(*grid, frame.time);
-  write_grid(path, *grid);
-}
+  VtuArrays arrays_;
+  VtuGrid polygons_, vertices_;
+  std::vector<double> cell_points_, node_points_;
+  std::vector<std::int32_t> connectivity_, cell_end_, node_index_, node_end_;
+  std::vector<std::uint8_t> cell_type_, node_type_;
+  std::deque<std::vector<double>> vectors_;
+};
 
 } // namespace
 
@@ -137,46 +118,57 @@ FieldWriter::FieldWriter(fs::path folder) : folder_(std::move(folder)) {
   if (error)
     throw IoError(
         fmt::format("cannot create {}: {}", (folder_ / files::fields_folder).string(), error.message()));
-  write_collection();
+  write_atomically(folder_ / files::fields, collection());
 }
 
 FieldWriter FieldWriter::resume(fs::path folder, double time) {
   const fs::path path = folder / files::fields;
   const std::string text = read_file(path);
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str()));
-  vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
-  if (!collection) throw IoError(fmt::format("{} is not a collection of VTK files", path.string()));
   FieldWriter writer;
   writer.folder_ = std::move(folder);
-  const auto attribute = [&](int element, const char* name) -> std::string {
-    const char* value = collection->GetNestedElement(element)->GetAttribute(name);
-    if (!value) throw IoError(fmt::format("{}: a DataSet without \"{}\"", path.string(), name));
-    return value;
+  std::size_t at = 0;
+  const auto attribute = [&](std::string_view name) {
+    const std::string key = fmt::format(" {}=\"", name);
+    const std::size_t begin = text.find(key, at), end = text.find('"', begin + key.size());
+    if (begin == std::string::npos || end == std::string::npos || begin > text.find('\n', at))
+      throw IoError(fmt::format("{}: a DataSet without \"{}\"", path.string(), name));
+    return text.substr(begin + key.size(), end - begin - key.size());
   };
-  for (int k = 0; k + 1 < collection->GetNumberOfNestedElements(); k += 2) {
-    Entry entry{std::stod(attribute(k, "timestep")), attribute(k, "file"), attribute(k + 1, "file")};
+  const auto next = [&] { return at = text.find("<DataSet", at); };
+  if (text.find("</Collection>") == std::string::npos)
+    throw IoError(fmt::format("{} is not a collection of VTK files", path.string()));
+  while (next() != std::string::npos) {
+    Entry entry{0.0, attribute("file"), {}};
+    const std::string stamp = attribute("timestep");
+    const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), entry.time);
+    if (error != std::errc() || end != stamp.data() + stamp.size())
+      throw IoError(fmt::format("{}: \"{}\" is no time", path.string(), stamp));
+    ++at;
+    if (next() == std::string::npos) throw IoError(fmt::format("{}: cells without nodes", path.string()));
+    entry.nodes = attribute("file");
+    ++at;
     if (entry.time <= time)
       writer.entries_.push_back(std::move(entry));
     else
       for (const std::string& file : {entry.cells, entry.nodes}) fs::remove(writer.folder_ / file);
   }
-  writer.write_collection();
+  write_atomically(writer.folder_ / files::fields, writer.collection());
   return writer;
 }
 
-void FieldWriter::write(const FieldFrame& frame) {
+void FieldWriter::write(FileQueue& queue, const FieldFrame& frame) {
   const auto name = [&](const char* part) {
     return fmt::format("{}/{}_{:05}.vtu", files::fields_folder, part, entries_.size());
   };
   Entry entry{frame.time, name("cells"), name("nodes")};
-  write_cells(folder_ / entry.cells, frame);
-  write_nodes(folder_ / entry.nodes, frame);
+  const Grids grids(frame);
+  queue.put(folder_ / entry.cells, grids.polygons());
+  queue.put(folder_ / entry.nodes, grids.vertices());
   entries_.push_back(std::move(entry));
-  write_collection();
+  queue.put(folder_ / files::fields, collection());
 }
 
-void FieldWriter::write_collection() const {
+std::string FieldWriter::collection() const {
   std::string xml = "<?xml version=\"1.0\"?>\n"
                     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
                     "  <Collection>\n";
@@ -185,8 +177,7 @@ void FieldWriter::write_collection() const {
          {std::tuple(0, "cells", &entry.cells), std::tuple(1, "nodes", &entry.nodes)})
       xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
                          entry.time, part, name, *file);
-  xml += "  </Collection>\n</VTKFile>\n";
-  write_atomically(folder_ / files::fields, xml);
+  return xml + "  </Collection>\n</VTKFile>\n";
 }
 
 } // namespace cnem::io

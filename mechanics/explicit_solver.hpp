@@ -42,6 +42,11 @@ template<int dim> struct Model {
   double safety = 0.9;    ///< factor on the stable step
 };
 
+/// Wall time spent in the parts of advance(), s.
+struct StepTimes {
+  double motion = 0.0, contact = 0.0, stress = 0.0, forces = 0.0, heat = 0.0;
+};
+
 /// Advances a State. One object per run.
 template<int dim> class ExplicitSolver {
 public:
@@ -80,6 +85,7 @@ public:
   const Field& flow_stress() const { return flow_stress_; }
   const Fields<dim>& initial_position() const { return initial_position_; }
   int references() const { return references_; }
+  const StepTimes& times() const { return times_; }
   /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
   std::array<double, 2> mass_balance() const;
 
@@ -129,6 +135,7 @@ private:
   double viscosity_ratio_ = 0.0; ///< largest share of critical damping by the bulk viscosity in the last step
   double conduction_step_ = 0.0; ///< s, stable for heat at the last reference
   int references_ = 0;
+  StepTimes times_;
 };
 
 extern template class ExplicitSolver<2>;
