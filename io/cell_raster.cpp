@@ -1,8 +1,9 @@
 #include "io/cell_raster.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 namespace cnem::io {
 namespace {
@@ -56,7 +57,7 @@ std::uint16_t level_of(const CellPaint& paint, std::size_t cell) {
 /// The samples of some rows of the picture.
 struct Band {
   int top = 0, width = 0, height = 0; ///< samples
-  std::vector<std::uint16_t> sample;
+  std::vector<std::uint16_t> sample;  ///< and one more
 
   std::uint16_t* row(int y) {
     return sample.data() + static_cast<std::size_t>(y - top) * static_cast<std::size_t>(width);
@@ -66,33 +67,84 @@ struct Band {
 // In samples; the outline is closed.
 using Outline = std::vector<Vec2>;
 
-int first_centre(double x, int limit) { // least integer k with k + ½ ≥ x
-  return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(limit)));
+// Number of samples whose centre lies below x, from 0 to `limit`.
+int centres_below(double x, int limit) {
+  return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(limit)) + 0.5);
 }
 
-void fill(Band& band, const Outline& outline, std::uint16_t value, std::vector<double>& crossing) {
-  double low = outline.front().y(), high = low;
-  for (const Vec2& p : outline) {
-    low = std::min(low, p.y());
-    high = std::max(high, p.y());
+bool convex(const Outline& outline) {
+  bool left = false, right = false;
+  for (std::size_t k = 0, n = outline.size(); k < n; ++k) {
+    const Vec2 &a = outline[k], &b = outline[(k + 1) % n], &c = outline[(k + 2) % n];
+    const double turn = cross(b - a, c - b);
+    left = left || turn > 0.0;
+    right = right || turn < 0.0;
   }
-  const int end = std::min(first_centre(high, band.top + band.height), band.top + band.height);
-  for (int y = std::max(first_centre(low, band.top + band.height), band.top); y < end; ++y) {
-    const double centre = y + 0.5;
-    crossing.clear();
+  return !(left && right);
+}
+
+// Fills outlines; what it needs for one is kept for the next.
+class Filler {
+public:
+  void fill(Band& band, const Outline& outline, std::uint16_t value) {
+    double low = outline.front().y(), high = low;
+    for (const Vec2& p : outline) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
+    }
+    const int limit = band.top + band.height;
+    const int begin = std::max(centres_below(low, limit), band.top), end = centres_below(high, limit);
+    if (begin >= end) return;
+    if (convex(outline))
+      fill_convex(band, outline, value, begin, end);
+    else
+      fill_any(band, outline, value, begin, end);
+  }
+
+private:
+  void fill_convex(Band& band, const Outline& outline, std::uint16_t value, int begin, int end) {
+    const auto rows = static_cast<std::size_t>(end - begin);
+    first_.assign(rows, std::numeric_limits<double>::infinity());
+    last_.assign(rows, -std::numeric_limits<double>::infinity());
     Vec2 a = outline.back();
     for (const Vec2& b : outline) {
-      if ((a.y() <= centre) != (b.y() <= centre))
-        crossing.push_back(a.x() + (centre - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      const int from = std::max(centres_below(std::min(a.y(), b.y()), end), begin);
+      const int to = centres_below(std::max(a.y(), b.y()), end);
+      const double slope = from < to ? (b.x() - a.x()) / (b.y() - a.y()) : 0.0;
+      for (int y = from; y < to; ++y) {
+        const double x = a.x() + (y + 0.5 - a.y()) * slope;
+        const auto k = static_cast<std::size_t>(y - begin);
+        first_[k] = std::min(first_[k], x);
+        last_[k] = std::max(last_[k], x);
+      }
       a = b;
     }
-    std::sort(crossing.begin(), crossing.end());
-    std::uint16_t* row = band.row(y);
-    for (std::size_t k = 0; k + 1 < crossing.size(); k += 2)
-      std::fill(row + first_centre(crossing[k], band.width), row + first_centre(crossing[k + 1], band.width),
-                value);
+    for (std::size_t k = 0; k < rows; ++k)
+      span(band, begin + static_cast<int>(k), first_[k], last_[k], value);
   }
-}
+
+  void fill_any(Band& band, const Outline& outline, std::uint16_t value, int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const double centre = y + 0.5;
+      first_.clear(); // crossings
+      Vec2 a = outline.back();
+      for (const Vec2& b : outline) {
+        if ((a.y() <= centre) != (b.y() <= centre))
+          first_.push_back(a.x() + (centre - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        a = b;
+      }
+      std::sort(first_.begin(), first_.end());
+      for (std::size_t k = 0; k + 1 < first_.size(); k += 2) span(band, y, first_[k], first_[k + 1], value);
+    }
+  }
+
+  static void span(Band& band, int y, double from, double to, std::uint16_t value) {
+    const int begin = centres_below(from, band.width), end = centres_below(to, band.width);
+    if (begin < end) std::fill(band.row(y) + begin, band.row(y) + end, value);
+  }
+
+  std::vector<double> first_, last_;
+};
 
 // Flags the samples within half a width of the line, measured along the axis that it runs across.
 void flag_line(Band& band, const Vec2& a, const Vec2& b, double width) {
@@ -100,27 +152,24 @@ void flag_line(Band& band, const Vec2& a, const Vec2& b, double width) {
   const double length = d.norm();
   if (!(length > 0.0)) return;
   const int bottom = band.top + band.height;
-  const auto clamped = [](double x, int low, int high) {
-    return static_cast<int>(
-        std::clamp(std::ceil(x - 0.5), static_cast<double>(low), static_cast<double>(high)));
-  };
   if (std::abs(d.x()) >= std::abs(d.y())) {
-    const double half = 0.5 * width * length / std::abs(d.x());
-    const int end = clamped(std::max(a.x(), b.x()), 0, band.width);
-    for (int x = clamped(std::min(a.x(), b.x()), 0, band.width); x < end; ++x) {
-      const double y = a.y() + (x + 0.5 - a.x()) / d.x() * d.y();
-      for (int k = clamped(y - half, band.top, bottom); k < clamped(y + half, band.top, bottom); ++k)
+    const double half = 0.5 * width * length / std::abs(d.x()), slope = d.y() / d.x();
+    const int end = centres_below(std::max(a.x(), b.x()), band.width);
+    for (int x = centres_below(std::min(a.x(), b.x()), band.width); x < end; ++x) {
+      const double y = a.y() + (x + 0.5 - a.x()) * slope;
+      const int last = centres_below(y + half, bottom);
+      for (int k = std::max(centres_below(y - half, bottom), band.top); k < last; ++k)
         band.row(k)[x] |= edge_flag;
     }
     return;
   }
-  const double half = 0.5 * width * length / std::abs(d.y());
-  const int end = clamped(std::max(a.y(), b.y()), band.top, bottom);
-  for (int y = clamped(std::min(a.y(), b.y()), band.top, bottom); y < end; ++y) {
-    const double x = a.x() + (y + 0.5 - a.y()) / d.y() * d.x();
+  const double half = 0.5 * width * length / std::abs(d.y()), slope = d.x() / d.y();
+  const int end = centres_below(std::max(a.y(), b.y()), bottom);
+  for (int y = std::max(centres_below(std::min(a.y(), b.y()), bottom), band.top); y < end; ++y) {
+    const double x = a.x() + (y + 0.5 - a.y()) * slope;
     std::uint16_t* row = band.row(y);
-    for (int k = clamped(x - half, 0, band.width); k < clamped(x + half, 0, band.width); ++k)
-      row[k] |= edge_flag;
+    const int last = centres_below(x + half, band.width);
+    for (int k = centres_below(x - half, band.width); k < last; ++k) row[k] |= edge_flag;
   }
 }
 
@@ -162,25 +211,39 @@ Shapes place_shapes(const PixelArea& area, const CellGeometry<2>& cells, const s
   return shapes;
 }
 
-/// Mean colour of the cells in a pixel, and how many of its samples they cover.
+/// Mean colour of the cells in a pixel, and how many of its samples they cover, with a margin all round.
 struct Layer {
-  std::vector<std::uint32_t> colour; ///< [y · width + x]
+  int margin = 0;
+  std::size_t stride = 0; ///< pixels
+  std::vector<std::uint32_t> colour;
   std::vector<std::uint8_t> covered;
+
+  Layer(int width, int height, int margin_)
+      : margin(margin_), stride(static_cast<std::size_t>(width + 2 * margin_)),
+        colour(stride * static_cast<std::size_t>(height + 2 * margin_)), covered(colour.size()) {}
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y + margin) * stride + static_cast<std::size_t>(x + margin);
+  }
 };
+
+// Three samples side by side as one number. Reads a fourth.
+std::uint64_t triple(const std::uint16_t* sample) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, sample, sizeof bits);
+  return bits & 0xFFFFFFFFFFFF;
+}
 
 void average(Band& band, const SampleColours& colours, int width, int first_row, Layer& layer) {
   for (int y = 0; y < band.height / oversampling; ++y) {
-    std::array<const std::uint16_t*, oversampling> row{};
-    for (int j = 0; j < oversampling; ++j)
-      row[static_cast<std::size_t>(j)] = band.row(band.top + y * oversampling + j);
-    const std::size_t to = static_cast<std::size_t>(first_row + y) * static_cast<std::size_t>(width);
-    for (int x = 0; x < width; ++x) {
+    const std::uint16_t* row[oversampling];
+    for (int j = 0; j < oversampling; ++j) row[j] = band.row(band.top + y * oversampling + j);
+    std::size_t at = layer.at(0, first_row + y);
+    for (int x = 0; x < width; ++x, ++at) {
       const std::uint16_t first = row[0][x * oversampling];
-      bool same = true;
-      for (const std::uint16_t* r : row)
-        for (int i = 0; i < oversampling; ++i) same = same && r[x * oversampling + i] == first;
-      const std::size_t at = to + static_cast<std::size_t>(x);
-      if (same) {
+      const std::uint64_t same = first * std::uint64_t{0x100010001};
+      bool equal = true;
+      for (const std::uint16_t* r : row) equal = equal && triple(r + x * oversampling) == same;
+      if (equal) {
         if (first & painted) {
           layer.colour[at] = packed(colours[first & (level_mask | edge_flag)]);
           layer.covered[at] = samples;
@@ -217,31 +280,28 @@ void compose(const PixelArea& area, const Layer& layer, double rim) {
   const Rgb dark = rgb_of(rim_colour);
   const int near = static_cast<int>(rim);
   const double beyond = rim - near;
-  const auto width = static_cast<std::size_t>(area.width);
-  const auto covered = [&](int x, int y) {
-    return x < 0 || y < 0 || x >= area.width || y >= area.height
-               ? 0
-               : layer.covered[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
-  };
-  for (int y = 0; y < area.height; ++y)
+  const auto stride = static_cast<std::ptrdiff_t>(layer.stride);
+  for (int y = 0; y < area.height; ++y) {
+    std::uint32_t* row = area.first + static_cast<std::size_t>(y) * area.stride;
     for (int x = 0; x < area.width; ++x) {
-      const std::size_t at = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-      std::uint32_t& pixel =
-          area.first[static_cast<std::size_t>(y) * area.stride + static_cast<std::size_t>(x)];
-      if (layer.covered[at] == samples) {
-        pixel = layer.colour[at];
+      const std::size_t at = layer.at(x, y);
+      const std::uint8_t* covered = layer.covered.data() + at;
+      if (*covered == samples) {
+        row[x] = layer.colour[at];
         continue;
       }
+      bool any = *covered > 0;
+      for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, -std::ptrdiff_t{1}, stride, -stride})
+        any = any || covered[near * step] > 0 || covered[(near + 1) * step] > 0;
+      if (!any) continue;
       double light = 1.0; // that no shifted silhouette takes away
-      for (const auto& [i, j] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
-        light *= 1.0 - ((1.0 - beyond) * covered(x + near * i, y + near * j) +
-                        beyond * covered(x + (near + 1) * i, y + (near + 1) * j)) /
-                           samples;
-      if (light == 1.0 && layer.covered[at] == 0) continue;
-      const Rgb below = over(dark, 1.0 - light, unpacked(pixel));
-      pixel =
-          packed(over(unpacked(layer.colour[at]), layer.covered[at] / static_cast<double>(samples), below));
+      for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, -std::ptrdiff_t{1}, stride, -stride})
+        light *=
+            1.0 - ((1.0 - beyond) * covered[near * step] + beyond * covered[(near + 1) * step]) / samples;
+      const Rgb below = over(dark, 1.0 - light, unpacked(row[x]));
+      row[x] = packed(over(unpacked(layer.colour[at]), *covered / static_cast<double>(samples), below));
     }
+  }
 }
 
 } // namespace
@@ -252,18 +312,17 @@ void paint_cells(const PixelArea& area, const CellGeometry<2>& cells, const std:
   const double edge = oversampling * paint.edge;
   const Shapes shapes = place_shapes(area, cells, pixel, 1.0 + paint.edge);
   const SampleColours colours = sample_colours(paint);
-  const std::size_t pixels = static_cast<std::size_t>(area.width) * static_cast<std::size_t>(area.height);
-  Layer layer{std::vector<std::uint32_t>(pixels), std::vector<std::uint8_t>(pixels)};
+  Layer layer(area.width, area.height, static_cast<int>(paint.rim) + 1);
   Band band;
   band.width = oversampling * area.width;
-  std::vector<double> crossing;
+  Filler filler;
   for (std::size_t b = 0; b < shapes.of_band.size(); ++b) {
     const int first = static_cast<int>(b) * band_height;
     band.top = oversampling * first;
     band.height = oversampling * std::min(band_height, area.height - first);
-    band.sample.assign(static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.height), 0);
+    band.sample.assign(static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.height) + 1, 0);
     for (const std::size_t c : shapes.of_band[b])
-      fill(band, shapes.outline[c], static_cast<std::uint16_t>(painted | level_of(paint, c)), crossing);
+      filler.fill(band, shapes.outline[c], static_cast<std::uint16_t>(painted | level_of(paint, c)));
     if (edge > 0.0)
       for (const std::size_t c : shapes.of_band[b]) {
         Vec2 a = shapes.outline[c].back();

@@ -20,10 +20,11 @@ constexpr std::size_t bin_of(std::uint32_t pixel) {
 
 constexpr std::size_t channel(std::uint32_t pixel, std::size_t k) { return pixel >> (16 - 8 * k) & 0xFFU; }
 
-// Pixels of one bin: their number and the sum of each channel.
+// Pixels of one bin. Rare colours count for more than their number, or a colour bar would have too few.
 struct Bin {
   std::size_t at = 0;
-  double count = 0.0;
+  double weight = 0.0; ///< √ of the number
+
   std::array<double, 3> mean{};
 };
 
@@ -39,10 +40,10 @@ Box measure(const std::vector<Bin>& bin, std::size_t begin, std::size_t end) {
   double count = 0.0;
   std::array<double, 3> square{};
   for (std::size_t b = begin; b < end; ++b) {
-    count += bin[b].count;
+    count += bin[b].weight;
     for (std::size_t k = 0; k < 3; ++k) {
-      box.mean[k] += bin[b].count * bin[b].mean[k];
-      square[k] += bin[b].count * bin[b].mean[k] * bin[b].mean[k];
+      box.mean[k] += bin[b].weight * bin[b].mean[k];
+      square[k] += bin[b].weight * bin[b].mean[k] * bin[b].mean[k];
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {
@@ -84,9 +85,9 @@ std::vector<Bin> used_bins(const PixelView& pixels) {
   }
   std::vector<Bin> used(sums.size());
   for (std::size_t b = 0; b < sums.size(); ++b) {
-    used[b] = {order[b], static_cast<double>(sums[b].count), {}};
+    used[b] = {order[b], std::sqrt(sums[b].count), {}};
     for (std::size_t k = 0; k < 3; ++k)
-      used[b].mean[k] = static_cast<double>(sums[b].channel[k]) / used[b].count;
+      used[b].mean[k] = static_cast<double>(sums[b].channel[k]) / sums[b].count;
   }
   return used;
 }
@@ -131,8 +132,8 @@ void append_chunk(std::string& png, const std::string& type, const std::string& 
 }
 
 std::string deflated(const std::string& raw) {
-  // Level 4 takes a third of the time of the default for a tenth more bytes.
-  constexpr int level = 4;
+  // Less than half the time of the default level, for a seventh more bytes.
+  constexpr int level = 3;
   std::string packed(compressBound(static_cast<uLong>(raw.size())), '\0');
   auto length = static_cast<uLongf>(packed.size());
   if (compress2(reinterpret_cast<Bytef*>(packed.data()), &length, reinterpret_cast<const Bytef*>(raw.data()),
@@ -154,13 +155,21 @@ IndexedPixels reduce_colours(const PixelView& pixels) {
     for (std::size_t b = box.begin; b < box.end; ++b)
       colour_of[bin[b].at] = static_cast<std::uint8_t>(colour);
     std::uint32_t mean = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      mean = mean << 8 | static_cast<std::uint32_t>(std::lround(box.mean[k]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      double sum = 0.0, count = 0.0;
+      for (std::size_t b = box.begin; b < box.end; ++b) {
+        const double pixels_of_bin = bin[b].weight * bin[b].weight;
+        sum += pixels_of_bin * bin[b].mean[k];
+        count += pixels_of_bin;
+      }
+      mean = mean << 8 | static_cast<std::uint32_t>(std::lround(sum / count));
+    }
     reduced.palette.push_back(mean);
   }
-  reduced.index.reserve(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+  reduced.index.resize(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+  std::size_t at = 0;
   for (int y = 0; y < pixels.height; ++y)
-    for (const std::uint32_t pixel : pixels.row(y)) reduced.index.push_back(colour_of[bin_of(pixel)]);
+    for (const std::uint32_t pixel : pixels.row(y)) reduced.index[at++] = colour_of[bin_of(pixel)];
   return reduced;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,8 @@ class VtuArrays {
 public:
   /// Takes note of an array, which must live until compress(). Returns its number.
   template<class Number> std::size_t add(std::span<const Number> values) {
-    return add_bytes({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+    return add_bytes({reinterpret_cast<const char*>(values.data()), values.size_bytes()},
+                     std::is_floating_point_v<Number>);
   }
   /// Compresses what was noted, on all threads. Throws IoError.
   void compress();
@@ -25,9 +27,10 @@ public:
   const std::string& packed(std::size_t array) const { return packed_[array]; }
 
 private:
-  std::size_t add_bytes(std::string_view bytes);
+  std::size_t add_bytes(std::string_view bytes, bool real);
 
   std::vector<std::string_view> bytes_;
+  std::vector<bool> real_; ///< floating-point numbers
   std::vector<std::string> packed_;
   std::map<std::pair<const char*, std::size_t>, std::size_t> known_;
 };
