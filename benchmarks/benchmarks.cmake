@@ -6,3 +6,11 @@ foreach(source ${sources})
   target_link_libraries(benchmark_${name} PRIVATE cnem_app benchmark::benchmark)
   cnem_warnings(benchmark_${name})
 endforeach()
+
+# build/growth: cost per node from a thousand nodes to a million.
+add_executable(growth ${PROJECT_SOURCE_DIR}/benchmarks/growth/growth.cpp)
+target_link_libraries(growth PRIVATE cnem_app CLI11::CLI11)
+cnem_warnings(growth)
+if(CNEM_TESTS)
+  add_test(NAME benchmarks.growth COMMAND growth --to 2000 --output growth_test)
+endif()
