@@ -86,7 +86,7 @@ std::optional<Cost> measure_apart(int nodes, int threads) {
 /// All costs in one chart.
 io::Chart chart_of(const std::vector<Cost>& costs, int threads) {
   io::Chart chart;
-  chart.title = fmt::format("Cost per node, {} threads", threads);
+  chart.title = fmt::format("Cost per node, {} {}", threads, threads == 1 ? "thread" : "threads");
   chart.x_label = "nodes";
   chart.x_unit = "";
   chart.y_label = "ns per node and step, ns per node, bytes per node";
