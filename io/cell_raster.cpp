@@ -1,6 +1,7 @@
 #include "io/cell_raster.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -211,6 +212,26 @@ Shapes place_shapes(const PixelArea& area, const CellGeometry<2>& cells, const s
   return shapes;
 }
 
+// Edges (by their first vertex in cells.index) that another cell has the other way round: drawing one of the
+// two will do.
+std::vector<bool> repeated_edges(const CellGeometry<2>& cells, std::size_t vertices) {
+  constexpr std::size_t most = 4; // rarely does a vertex have more; their edges are drawn twice
+  std::vector<std::array<std::int32_t, most>> upward(vertices, {-1, -1, -1, -1});
+  std::vector<bool> repeated(cells.index.size());
+  for (const bool look : {false, true})
+    for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
+      const auto begin = static_cast<std::size_t>(cells.begin[c]),
+                 end = static_cast<std::size_t>(cells.begin[c + 1]);
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::int32_t from = cells.index[k], to = cells.index[k + 1 < end ? k + 1 : begin];
+        auto& known = upward[static_cast<std::size_t>(std::min(from, to))];
+        if (!look && from < to) *std::min_element(known.begin(), known.end()) = to;
+        if (look && from > to) repeated[k] = std::find(known.begin(), known.end(), from) != known.end();
+      }
+    }
+  return repeated;
+}
+
 /// Mean colour of the cells in a pixel, and how many of its samples they cover, with a margin all round.
 struct Layer {
   int margin = 0;
@@ -311,6 +332,7 @@ void paint_cells(const PixelArea& area, const CellGeometry<2>& cells, const std:
   if (cells.begin.empty()) return;
   const double edge = oversampling * paint.edge;
   const Shapes shapes = place_shapes(area, cells, pixel, 1.0 + paint.edge);
+  const std::vector<bool> twice = edge > 0.0 ? repeated_edges(cells, pixel.size()) : std::vector<bool>();
   const SampleColours colours = sample_colours(paint);
   Layer layer(area.width, area.height, static_cast<int>(paint.rim) + 1);
   Band band;
@@ -325,11 +347,10 @@ void paint_cells(const PixelArea& area, const CellGeometry<2>& cells, const std:
       filler.fill(band, shapes.outline[c], static_cast<std::uint16_t>(painted | level_of(paint, c)));
     if (edge > 0.0)
       for (const std::size_t c : shapes.of_band[b]) {
-        Vec2 a = shapes.outline[c].back();
-        for (const Vec2& p : shapes.outline[c]) {
-          flag_line(band, a, p, edge);
-          a = p;
-        }
+        const Outline& outline = shapes.outline[c];
+        for (std::size_t k = 0; k < outline.size(); ++k)
+          if (!twice[static_cast<std::size_t>(cells.begin[c]) + k])
+            flag_line(band, outline[k], outline[k + 1 < outline.size() ? k + 1 : 0], edge);
       }
     average(band, colours, area.width, first, layer);
   }
