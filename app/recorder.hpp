@@ -83,7 +83,7 @@ private:
   io::FieldWriter writer_;
 };
 
-/// Draws the case's pictures.
+/// Draws the case's pictures, in the background from a copy of what they show.
 class PictureRecorder {
 public:
   PictureRecorder(const io::Case& input, const std::filesystem::path& folder)
@@ -96,8 +96,10 @@ public:
   void truncate(double time) { album_.truncate(time); }
 
 private:
-  io::Picture picture_of(const Snapshot& shot, const std::string& field, const Fields<2>& drawn,
-                         const Field& values) const;
+  struct Kept;
+  io::Picture picture_of(const Snapshot& shot, const std::string& field, Kept& kept, Field values) const;
+  std::string draw(io::FileQueue& files, const std::shared_ptr<const Kept>& kept, const io::Picture& picture,
+                   const std::string& key, const std::string& caption);
   const io::Case* case_;
   io::PictureAlbum album_;
 };

@@ -180,7 +180,7 @@ void check_static(const io::Case& input, const RunOptions& options) {
   }
   const std::string motion =
       missing_support(model.enriched.operators, model.setup.model.cloud.position, model.setup.model.supports);
-  fmt::print("supports    {}\n", motion.empty() ? "hold all rigid motions" : motion);
+  if (motion.empty()) fmt::print("supports    hold all rigid motions\n");
   StaticSolution nothing;
   resize_all(nothing.displacement, static_cast<std::size_t>(model.enriched.operators.nodes));
   resize_all(nothing.gradient, static_cast<std::size_t>(model.enriched.operators.points));
@@ -193,6 +193,7 @@ void check_static(const io::Case& input, const RunOptions& options) {
                                        model.setup.model.contact});
   files.wait();
   fmt::print("fields      {}\n", (folder / io::files::fields).string());
+  if (!motion.empty()) throw input.error("boundary", motion);
 }
 
 } // namespace cnem::app

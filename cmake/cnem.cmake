@@ -34,7 +34,8 @@ endfunction()
 # Compiles one kernel file for the baseline, AVX2 and AVX-512, each in its own namespace CNEM_ISA;
 # core/isa.hpp chooses at run time, so that the binary runs on any x86-64. Kernel files include only headers whose
 # every function lives in namespace CNEM_ISA: an inline function of a common header, compiled here with AVX,
-# could be the copy the linker keeps for everyone. Hence no Eigen, no fmt and no std containers in them.
+# could be the copy the linker keeps for everyone. Hence no Eigen, no fmt and no std containers in them. Vectors are
+# passed to inlined functions alone, so that how an ABI passes them does not matter (-Wno-psabi).
 function(cnem_kernel target file)
   get_filename_component(name ${file} NAME_WE)
   set(flags_baseline "")
@@ -45,8 +46,13 @@ function(cnem_kernel target file)
     add_library(${object} OBJECT ${file})
     target_include_directories(${object} PRIVATE ${PROJECT_SOURCE_DIR})
     target_compile_definitions(${object} PRIVATE CNEM_ISA=${isa} CNEM_ISA_${isa}=1)
-    target_compile_options(${object} PRIVATE -O3 -fno-math-errno -fno-trapping-math ${flags_${isa}})
+    target_compile_options(${object} PRIVATE -O3 -fno-math-errno -fno-trapping-math -Wno-psabi ${flags_${isa}})
     cnem_warnings(${object})
+    if(CNEM_SANITIZE MATCHES address AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      # A kernel is one function with thousands of temporaries: guarding each on the stack makes compiling it
+      # several times slower. Accesses to the arrays it is given stay checked.
+      target_compile_options(${object} PRIVATE --param=asan-stack=0)
+    endif()
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
   endforeach()
 endfunction()

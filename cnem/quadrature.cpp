@@ -1,6 +1,10 @@
 #include "cnem/quadrature.hpp"
 
+#include "core/error.hpp"
+
 #include <algorithm>
+#include <exception>
+#include <vector>
 
 namespace cnem::scni {
 namespace {
@@ -43,48 +47,58 @@ FacetMeans facet_means(const Cloud<2>& cloud, const voronoi::Triangulation& tria
   FacetMeans means;
   means.blocks_.resize((facets + FacetMeans::block_size - 1) / FacetMeans::block_size);
 
+  const auto integrate = [&](std::size_t b, voronoi::NaturalNeighbours& neighbours) {
+    FacetMeans::Block& block = means.blocks_[b];
+    const std::size_t first = b * FacetMeans::block_size;
+    const std::size_t last = std::min(first + FacetMeans::block_size, facets);
+    block.begin.reserve(last - first + 1);
+    block.node.reserve(10 * (last - first));
+    block.value.reserve(10 * (last - first));
+    block.begin.push_back(0);
+    for (std::size_t f = first; f < last; ++f) {
+      const voronoi::InteriorFacet& facet = cells.interior[f];
+      const Vec2 along = facet.end - facet.start;
+      const Vec2 between = cloud.position[static_cast<std::size_t>(facet.cell[1])] -
+                           cloud.position[static_cast<std::size_t>(facet.cell[0])];
+      if (along.squaredNorm() > shortest * shortest * between.squaredNorm()) {
+        const std::size_t start = block.node.size();
+        for (const GaussPoint& point : rule) {
+          const Vec2 at = facet.start + point.at * along;
+          const double weight = space == Space::revolution ? point.weight * at.x() : point.weight;
+          neighbours.evaluate_on_facet(functions, at, facet.triangle);
+          const auto node = neighbours.nodes();
+          const auto value = neighbours.values();
+          const std::size_t known = block.node.size();
+          for (std::size_t k = 0; k < node.size(); ++k) {
+            std::size_t e = start;
+            while (e < known && block.node[e] != node[k]) ++e;
+            if (e < known) {
+              block.value[e] += weight * value[k];
+            } else {
+              block.node.push_back(node[k]);
+              block.value.push_back(weight * value[k]);
+            }
+          }
+        }
+      }
+      block.begin.push_back(static_cast<std::int32_t>(block.node.size()));
+    }
+  };
+
+  // An exception that left the parallel region would end the program.
+  std::vector<std::exception_ptr> failed(means.blocks_.size());
 #pragma omp parallel
   {
     voronoi::NaturalNeighbours neighbours(cloud, triangulation, circles);
 #pragma omp for schedule(dynamic)
     for (std::size_t b = 0; b < means.blocks_.size(); ++b) {
-      FacetMeans::Block& block = means.blocks_[b];
-      const std::size_t first = b * FacetMeans::block_size;
-      const std::size_t last = std::min(first + FacetMeans::block_size, facets);
-      block.begin.reserve(last - first + 1);
-      block.node.reserve(10 * (last - first));
-      block.value.reserve(10 * (last - first));
-      block.begin.push_back(0);
-      for (std::size_t f = first; f < last; ++f) {
-        const voronoi::InteriorFacet& facet = cells.interior[f];
-        const Vec2 along = facet.end - facet.start;
-        const Vec2 between = cloud.position[static_cast<std::size_t>(facet.cell[1])] -
-                             cloud.position[static_cast<std::size_t>(facet.cell[0])];
-        if (along.squaredNorm() > shortest * shortest * between.squaredNorm()) {
-          const std::size_t start = block.node.size();
-          for (const GaussPoint& point : rule) {
-            const Vec2 at = facet.start + point.at * along;
-            const double weight = space == Space::revolution ? point.weight * at.x() : point.weight;
-            neighbours.evaluate_on_facet(functions, at, facet.triangle);
-            const auto node = neighbours.nodes();
-            const auto value = neighbours.values();
-            const std::size_t known = block.node.size();
-            for (std::size_t k = 0; k < node.size(); ++k) {
-              std::size_t e = start;
-              while (e < known && block.node[e] != node[k]) ++e;
-              if (e < known) {
-                block.value[e] += weight * value[k];
-              } else {
-                block.node.push_back(node[k]);
-                block.value.push_back(weight * value[k]);
-              }
-            }
-          }
-        }
-        block.begin.push_back(static_cast<std::int32_t>(block.node.size()));
-      }
+      try {
+        integrate(b, neighbours);
+      } catch (const GeometryError&) { failed[b] = std::current_exception(); }
     }
   }
+  for (const std::exception_ptr& error : failed)
+    if (error) std::rethrow_exception(error);
   return means;
 }
 

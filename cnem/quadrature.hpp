@@ -32,7 +32,8 @@ private:
 
 /// Integrates with 1, 2 or 3 Gauss points per facet. Facets shorter than 1e-14 of the distance between their
 /// nodes (cocircular nodes) are skipped: they carry rounding only. Of revolution at least 2 points, without
-/// which r φ of linear fields would not be exact.
+/// which r φ of linear fields would not be exact. Throws GeometryError where the domain is so thin that
+/// rounding puts a point of a facet outside of it.
 FacetMeans facet_means(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
                        const voronoi::Circumcircles& circles, const voronoi::Cells& cells,
                        voronoi::Functions functions, int gauss_points, Space space = Space::plane);

@@ -28,7 +28,8 @@ public:
   /// Throws InputError when gauss_points is not 1, 2 or 3.
   explicit Cnem(Options options = {});
 
-  /// Throws GeometryError as voronoi::triangulate and voronoi::linear_triangles do. Cost O(N log N).
+  /// Throws GeometryError as voronoi::triangulate, voronoi::linear_triangles and facet_means do. Cost O(N log
+  /// N).
   Approximation<2> rebuild(const Cloud<2>& cloud) override;
   std::string name() const override;
 

@@ -1,8 +1,8 @@
 #include "io/picture.hpp"
 
 #include "core/error.hpp"
+#include "io/palette_png.hpp"
 #include "io/picture_parts.hpp"
-#include "io/png.hpp"
 #include "io/si_format.hpp"
 #include "io/vtk_writer.hpp"
 
@@ -124,29 +124,6 @@ double cell_size(const PictureLayout& layout, const CellGeometry<2>& cells,
   return std::sqrt(std::abs(area) / count) * layout.scale;
 }
 
-void paint_body(const Surface& surface, const PictureLayout& layout, const Picture& picture,
-                const std::vector<Vec2>& vertices, const ColourRange& range) {
-  const double unit = picture.width / design_width;
-  const Vec2 corner(layout.plot_left, layout.plot_top);
-  std::vector<Vec2> pixel(vertices.size());
-  for (std::size_t v = 0; v < vertices.size(); ++v) pixel[v] = layout.pixel(vertices[v]) - corner;
-  const bool edges = picture.edges.value_or(cell_size(layout, *picture.cells, vertices) > 7.0 * unit);
-  cairo_surface_flush(surface.get());
-  PixelArea area = pixels_of(surface);
-  area.first +=
-      static_cast<std::size_t>(layout.plot_top) * area.stride + static_cast<std::size_t>(layout.plot_left);
-  area.width = static_cast<int>(layout.plot_width);
-  area.height = static_cast<int>(layout.plot_height);
-  paint_cells(area, *picture.cells, pixel,
-              {.value = picture.value,
-               .map = picture.map,
-               .range = range,
-               .rim = layout.width / 1000.0,
-               .edge = edges ? 0.7 * unit : 0.0,
-               .strength = 0.4});
-  cairo_surface_mark_dirty(surface.get());
-}
-
 } // namespace
 
 PictureLayout layout_picture(const Picture& picture) {
@@ -179,7 +156,8 @@ std::string draw_png(const Picture& picture) {
     cairo_set_source_rgb(cr, 0.775, 0.798, 0.832);
     cairo_fill(cr);
   }
-  paint_body(surface, layout, picture, vertices, range);
+  const bool lines = picture.edges.value_or(cell_size(layout, *picture.cells, vertices) > 7.0 * unit);
+  paint_cells(cr, layout, picture, vertices, range, lines ? 0.7 * unit : 0.0);
   for (const PictureTool& tool : picture.tools) {
     trace(cr, layout, tool);
     cairo_set_source_rgb(cr, 0.30, 0.34, 0.40);
@@ -204,8 +182,12 @@ std::string draw_png(const Picture& picture) {
   draw_scale_bar(cr, layout, unit, size);
   draw_extremes(cr, layout, picture, size);
   cairo_surface_flush(surface.get());
-  const PixelArea area = pixels_of(surface);
-  return indexed_png({area.first, area.width, area.height, area.stride});
+  cairo_surface_t* image = surface.get();
+  return palette_png(
+      {reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(image)), layout.width,
+       layout.height,
+       static_cast<std::size_t>(cairo_image_surface_get_stride(image)) / sizeof(std::uint32_t)},
+      drawing_palette(picture.map, cell_line_shade));
 }
 
 } // namespace cnem::io

@@ -30,7 +30,7 @@ PictureAlbum::PictureAlbum(fs::path output_folder)
 }
 
 std::string PictureAlbum::add(FileQueue& queue, const std::string& key, const std::string& field, double time,
-                              std::string png, const std::string& caption) {
+                              FileQueue::Maker png, std::size_t bytes, const std::string& caption) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw IoError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
@@ -42,7 +42,7 @@ std::string PictureAlbum::add(FileQueue& queue, const std::string& key, const st
     return false;
   };
   while (taken()) ++number;
-  queue.put(folder_ / name(), std::move(png));
+  queue.put(folder_ / name(), std::move(png), bytes);
   entries_.push_back({name(), field, time, caption});
   queue.put(folder_ / index_name, index());
   return entries_.back().file;

@@ -21,10 +21,10 @@ public:
   /// Goes on with the pictures that are there.
   explicit PictureAlbum(std::filesystem::path output_folder);
 
-  /// Hands the PNG to `queue` under a name made of `key` ("plastic_strain") and a running number, then the
-  /// index. Returns its name. Throws IoError.
+  /// Hands the maker of a PNG, which holds about `bytes`, to `queue` under a name made of `key`
+  /// ("plastic_strain") and a running number, then the index. Returns its name. Throws IoError.
   std::string add(FileQueue& queue, const std::string& key, const std::string& field, double time,
-                  std::string png, const std::string& caption = "");
+                  FileQueue::Maker png, std::size_t bytes, const std::string& caption = "");
 
   /// Drops the pictures later than `time` (s), for a restart.
   void truncate(double time);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,8 +25,8 @@ struct VectorField {
   std::array<std::span<const double>, 3> component;
 };
 
-/// Everything written for one time. Spans must live until write() returns; fields of cells and nodes with the
-/// same span are compressed once.
+/// Everything written for one time. Whoever makes one keeps what its spans and pointers refer to alive and
+/// unchanged as long as the frame.
 struct FieldFrame {
   double time = 0.0; ///< s
   const CellGeometry<2>* cells = nullptr;
@@ -51,8 +52,9 @@ public:
   /// series and their files removed. Throws IoError when fields.pvd cannot be read.
   static FieldWriter resume(std::filesystem::path folder, double time);
 
-  /// Hands the files of the frame to `queue`. Throws InputError when a field has the wrong length, IoError.
-  void write(FileQueue& queue, const FieldFrame& frame);
+  /// Hands the files of the frame to `queue`, which makes them later. Throws InputError when a field has the
+  /// wrong length, IoError.
+  void write(FileQueue& queue, std::shared_ptr<const FieldFrame> frame);
 
   int frames() const { return static_cast<int>(entries_.size()); }
 

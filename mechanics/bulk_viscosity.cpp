@@ -17,8 +17,9 @@ ViscousSums viscous(const ViscousPoints<dim>& points, const BulkViscosity& visco
 template<int dim>
 ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
                                const PointState<dim>& point, const Field& density, const Field& wave_modulus,
-                               double dt, Field& jacobian, Field& pressure, ColumnStress<dim>& total,
-                               std::size_t begin, std::size_t end) {
+                               double dt, Field& jacobian, Field& pressure, Field& flow_stress,
+                               const EdgePoints& edge, ColumnStress<dim>& total, std::size_t begin,
+                               std::size_t end) {
   ViscousPoints<dim> points{};
   for (std::size_t c = 0; c < point.piola.size(); ++c) {
     points.deformation[c] = point.deformation[c].data();
@@ -32,14 +33,20 @@ ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOpe
   points.pressure = pressure.data();
   points.columns = total.columns.data();
   points.out_of_plane = total.out_of_plane.data();
+  points.plastic_rate = point.plastic_rate.data();
+  points.equivalent_stress = point.equivalent_stress.data();
+  points.flow_stress = flow_stress.data();
+  points.edge = edge;
   return viscous(points, viscosity, dt, static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
 }
 
-template ViscousSums add_bulk_viscosity<2>(const BulkViscosity&, const DiscreteOperators<2>&,
-                                           const PointState<2>&, const Field&, const Field&, double, Field&,
-                                           Field&, ColumnStress<2>&, std::size_t, std::size_t);
-template ViscousSums add_bulk_viscosity<3>(const BulkViscosity&, const DiscreteOperators<3>&,
-                                           const PointState<3>&, const Field&, const Field&, double, Field&,
-                                           Field&, ColumnStress<3>&, std::size_t, std::size_t);
+#define CNEM_INSTANTIATE(dim)                                                                                \
+  template ViscousSums add_bulk_viscosity<dim>(const BulkViscosity&, const DiscreteOperators<dim>&,          \
+                                               const PointState<dim>&, const Field&, const Field&, double,   \
+                                               Field&, Field&, Field&, const EdgePoints&,                    \
+                                               ColumnStress<dim>&, std::size_t, std::size_t);
+CNEM_INSTANTIATE(2)
+CNEM_INSTANTIATE(3)
+#undef CNEM_INSTANTIATE
 
 } // namespace cnem

@@ -22,7 +22,8 @@ struct BulkViscosity {
 template<int dim>
 ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
                                const PointState<dim>& point, const Field& density, const Field& wave_modulus,
-                               double dt, Field& jacobian, Field& pressure, ColumnStress<dim>& total,
-                               std::size_t begin, std::size_t end);
+                               double dt, Field& jacobian, Field& pressure, Field& flow_stress,
+                               const EdgePoints& edge, ColumnStress<dim>& total, std::size_t begin,
+                               std::size_t end);
 
 } // namespace cnem

@@ -269,7 +269,9 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   PointState<dim>& point = state_.point;
   const auto stress_points = plasticity::stress_points(point);
   const std::size_t n = point.size();
-  const bool penalised = edge_defect_.active(approximation_.links);
+  const EdgePoints edge = edge_defect_.active(approximation_.links)
+                              ? edge_defect_.points(shear_modulus_, point.plastic_strain)
+                              : EdgePoints{};
   std::vector<std::ptrdiff_t> bad(blocks(n), -1);
   std::vector<double> damping(blocks(n), 0.0);
   running_.viscosity += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
@@ -278,15 +280,9 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
     bad[begin / block_size] =
         plasticity::update_stress(model_.materials, point.material, stress_points,
                                   static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end), dt);
-    for (std::size_t p = begin; p < end; ++p)
-      if (point.plastic_rate[p] > 0.0) flow_stress_[p] = point.equivalent_stress[p];
-    if (penalised) {
-      edge_defect_.update_modulus(shear_modulus_, flow_stress_, point.plastic_strain, begin, end);
-      edge_defect_.take(point.deformation, begin, end);
-    }
     const ViscousSums viscous =
         add_bulk_viscosity<dim>(model_.viscosity, op, point, density_, wave_modulus_, dt, jacobian_,
-                                viscous_pressure_, stress_, begin, end);
+                                viscous_pressure_, flow_stress_, edge, stress_, begin, end);
     damping[begin / block_size] = viscous.damping;
     return viscous.dissipated;
   });
@@ -325,7 +321,9 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces() {
 
 template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable_step() {
   const PointState<dim>& point = state_.point;
-  conduction_step_ = 0.0; // measured anew with the configuration
+  constexpr double far =
+      100.0; // so much longer than a step that no deformation makes it matter before a renewal
+  if (conduction_step_ < far * state_.step_before) conduction_step_ = 0.0; // measured anew
   if (!model_.mechanical) {
     measure_conduction_step();
     return {model_.safety * conduction_step_, 0, "conduction"};

@@ -10,17 +10,6 @@ template<int dim> void EdgeDefect<dim>::reset(const Field& shear_modulus) {
 }
 
 template<int dim>
-void EdgeDefect<dim>::update_modulus(const Field& shear_modulus, const Field& flow_stress,
-                                     const Field& plastic_strain, std::size_t begin, std::size_t end) {
-  for (std::size_t i = begin; i < end; ++i) {
-    modulus_before_[i] = modulus_[i];
-    const double elastic_limit = flow_stress[i] / (3.0 * shear_modulus[i]);
-    if (plastic_strain[i] > 0.0)
-      modulus_[i] = shear_modulus[i] * elastic_limit / (elastic_limit + plastic_strain[i]);
-  }
-}
-
-template<int dim>
 void EdgeDefect<dim>::take(const Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end) {
   constexpr std::size_t stride = dim * dim + 2;
   if (record_.size() != stride * modulus_.size()) record_.resize(stride * modulus_.size());

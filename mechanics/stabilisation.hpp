@@ -25,11 +25,13 @@ public:
   /// shear_modulus in Pa.
   void reset(const Field& shear_modulus);
 
-  /// Secant moduli of the nodes [begin, end) for the step that follows. flow_stress and shear_modulus in Pa.
-  void update_modulus(const Field& shear_modulus, const Field& flow_stress, const Field& plastic_strain,
-                      std::size_t begin, std::size_t end);
+  /// What each step renews beside the stresses (mechanics/bulk_viscosity.hpp): secant moduli and records.
+  EdgePoints points(const Field& shear_modulus, const Field& plastic_strain) {
+    return {shear_modulus.data(), plastic_strain.data(), modulus_.data(), modulus_before_.data(),
+            record_.data()};
+  }
 
-  /// Takes what `apply` reads of the nodes [begin, end): F and moduli.
+  /// Takes what `apply` reads of the nodes [begin, end), F and moduli, of a state that no step has made.
   void take(const Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end);
 
   /// Adds k r to the force of the nodes [begin, end) and the penalty's share −½ Σ_j k r ⊗ X_ij / V_i to their

@@ -1,9 +1,10 @@
 #include "mechanics/stable_step.hpp"
 
+#include "core/isa.hpp"
 #include "core/parallel.hpp"
-#include "core/vec.hpp"
+#include "core/side_by_side.hpp"
+#include "mechanics/step_kernels.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,22 +13,21 @@ namespace cnem {
 
 namespace {
 
-/// F⁻¹ of point p, and det F including the out-of-plane component.
-template<int dim> Mat<dim> inverse(const Fields<tensor_size<dim>>& deformation, std::size_t p, double& det) {
-  Mat<dim> f;
-  for (int i = 0; i < dim; ++i)
-    for (int k = 0; k < dim; ++k) f(i, k) = deformation[static_cast<std::size_t>(i * dim + k)][p];
-  det = f.determinant();
-  const Mat<dim> inv = f.inverse();
-  if constexpr (dim == 2) det *= deformation[4][p];
-  return inv;
+template<int dim>
+void invert_all(const double* const* deformation, const SpectralView<dim>& view, std::ptrdiff_t begin,
+                std::ptrdiff_t end) {
+  CNEM_ON_ACTIVE_ISA(invert(deformation, view, begin, end));
 }
 
-/// Norm of what a node does to a point: |b|, of revolution with the hoop entry h.
-template<int dim> double block_norm(Vec<dim> b, double h) {
-  const double squares = b.squaredNorm() + h * h;
-  b[0] += h;
-  return std::sqrt(std::max(b.squaredNorm(), squares));
+template<int dim>
+void transfer(const SpectralView<dim>& view, const double* weight, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  CNEM_ON_ACTIVE_ISA(spectral_transfer(view, weight, begin, end));
+}
+
+template<int dim>
+SpectralMaximum largest(const SpectralView<dim>& view, const double* modulus, std::ptrdiff_t begin,
+                        std::ptrdiff_t end) {
+  CNEM_ON_ACTIVE_ISA(spectral_rows(view, modulus, begin, end));
 }
 
 } // namespace
@@ -38,42 +38,27 @@ typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteO
                                                                  const Field& modulus, const Field& weight) {
   const auto nodes = static_cast<std::size_t>(operators.nodes),
              points = static_cast<std::size_t>(operators.points);
-  const auto hoop = [&](const Field& entries, std::size_t e, std::size_t p) {
-    return operators.of_revolution() ? entries[e] / deformation[4][p] : 0.0;
-  };
+  inverse_.resize(SpectralView<dim>::stride * points);
   transfer_.resize(nodes);
+  const bool round = operators.of_revolution();
+  const SpectralView<dim> view{
+      .rows = sparse_rows<dim>(operators.row_begin, operators.node, operators.gradient),
+      .columns = sparse_rows<dim>(operators.col_begin, operators.point, operators.weighted_gradient),
+      .hoop = round ? operators.hoop.data() : nullptr,
+      .weighted_hoop = round ? operators.weighted_hoop.data() : nullptr,
+      .inverse = inverse_.data(),
+      .transfer = transfer_.data()};
+  for_each_block(points, [&](std::size_t begin, std::size_t end) {
+    invert_all(pointers(deformation).data(), view, static_cast<std::ptrdiff_t>(begin),
+               static_cast<std::ptrdiff_t>(end));
+  });
   for_each_block(nodes, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
-      double sum = 0.0;
-      for (auto e = static_cast<std::size_t>(operators.col_begin[j]);
-           e < static_cast<std::size_t>(operators.col_begin[j + 1]); ++e) {
-        double det;
-        const Mat<dim> inv = inverse<dim>(deformation, static_cast<std::size_t>(operators.point[e]), det);
-        Vec<dim> vb;
-        for (int k = 0; k < dim; ++k) vb[k] = operators.weighted_gradient[static_cast<std::size_t>(k)][e];
-        const double vh = hoop(operators.weighted_hoop, e, static_cast<std::size_t>(operators.point[e]));
-        sum += det * block_norm<dim>(inv.transpose() * vb, vh);
-      }
-      transfer_[j] = sum / weight[j];
-    }
+    transfer(view, weight.data(), static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
   });
   const BlockMaximum worst = max_blocks(points, [&](std::size_t begin, std::size_t end) {
-    BlockMaximum best{0.0, begin};
-    for (std::size_t p = begin; p < end; ++p) {
-      double det, sum = 0.0;
-      const Mat<dim> inv = inverse<dim>(deformation, p, det);
-      for (auto e = static_cast<std::size_t>(operators.row_begin[p]);
-           e < static_cast<std::size_t>(operators.row_begin[p + 1]); ++e) {
-        Vec<dim> b;
-        for (int k = 0; k < dim; ++k) b[k] = operators.gradient[static_cast<std::size_t>(k)][e];
-        sum += block_norm<dim>(inv.transpose() * b, hoop(operators.hoop, e, p)) *
-               transfer_[static_cast<std::size_t>(operators.node[e])];
-      }
-      const double value = modulus[p] * sum;
-      if (!(value <= best.value)) best = {value, p};
-      if (std::isnan(value)) break;
-    }
-    return best;
+    const SpectralMaximum most =
+        largest(view, modulus.data(), static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
+    return BlockMaximum{most.value, static_cast<std::size_t>(most.point)};
   });
   return {worst.value, worst.index};
 }

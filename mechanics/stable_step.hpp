@@ -30,6 +30,7 @@ public:
 
 private:
   Field transfer_; ///< [node] s_J
+  Field inverse_;  ///< [point] F⁻ᵀ and det F as mechanics/step_kernels.hpp lays them
 };
 
 /// Δt ≤ 2/ω for elastic waves. wave_modulus [point] λ + 2μ in Pa, mass [node] in kg. `stabilisation` is the

@@ -5,12 +5,12 @@
 // What is gathered lies side by side, one record per node or point, so that a neighbour costs one cache line:
 // positions [node][k]; stresses by columns [point][k][i] = P_ik; edge records [node]: F by columns [k][i],
 // then the penalty's modulus of this step and of the step before.
+#include "core/sparse_rows.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
 namespace cnem {
-
-template<int dim> struct SparseRows;
 
 /// Neighbour links of the stabilisation, each in the lists of both its ends.
 struct LinkRows {
@@ -24,19 +24,46 @@ struct EdgeEnergy {
   double stored, released;
 };
 
+/// What is renewed for the edge defect with each stress, [point]; no record: the method has no links.
+struct EdgePoints {
+  const double* shear_modulus; ///< μ, Pa
+  const double* plastic_strain;
+  double* modulus;        ///< secant modulus μ̃, Pa; in: of the step before
+  double* modulus_before; ///< out: that one
+  double* record;         ///< out: edge records
+};
+
 /// What the bulk viscosity reads and writes, [point].
 template<int dim> struct ViscousPoints {
   static constexpr int general = dim == 2 ? 5 : 9;
   const double* deformation[general];
   const double* piola[general];
-  const double* density;      ///< kg/m³ at F = 1
-  const double* wave_modulus; ///< λ + 2μ, Pa
-  const double* volume;       ///< V_p
-  const double* radius;       ///< r̄_p of revolution, else null
-  double* jacobian;           ///< in: of the step before
-  double* pressure;           ///< q, in: of the step before
-  double* columns;            ///< out: P − q J F⁻ᵀ by columns
-  double* out_of_plane;       ///< out, in the plane: its zz component
+  const double* density;           ///< kg/m³ at F = 1
+  const double* wave_modulus;      ///< λ + 2μ, Pa
+  const double* volume;            ///< V_p
+  const double* radius;            ///< r̄_p of revolution, else null
+  double* jacobian;                ///< in: of the step before
+  double* pressure;                ///< q, in: of the step before
+  double* columns;                 ///< out: P − q J F⁻ᵀ by columns
+  double* out_of_plane;            ///< out, in the plane: its zz component
+  const double* plastic_rate;      ///< 1/s
+  const double* equivalent_stress; ///< Pa
+  double* flow_stress;             ///< Pa, where and when the point last flowed
+  EdgePoints edge;
+};
+
+/// What the bound on the highest frequency reads; hoop entries are null but of revolution.
+template<int dim> struct SpectralView {
+  static constexpr int stride = dim * dim + 2;
+  SparseRows<dim> rows, columns; ///< b_pJ; V_p b_pJ
+  const double* hoop;            ///< of `rows`
+  const double* weighted_hoop;   ///< of `columns`
+  double* inverse;               ///< [point][stride] F⁻ᵀ by columns, det F, 1/F_θθ
+  double* transfer;              ///< [node] s_J
+};
+struct SpectralMaximum {
+  double value;
+  std::ptrdiff_t point;
 };
 
 struct ViscousSums {
@@ -55,6 +82,15 @@ struct ViscousSums {
   EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* reference, \
                          const double* position, const double* record, double* stress, double* const* force, \
                          std::ptrdiff_t begin, std::ptrdiff_t end);                                          \
+  template<int dim>                                                                                          \
+  void invert(const double* const* deformation, const SpectralView<dim>& view, std::ptrdiff_t begin,         \
+              std::ptrdiff_t end);                                                                           \
+  template<int dim>                                                                                          \
+  void spectral_transfer(const SpectralView<dim>& view, const double* weight, std::ptrdiff_t begin,          \
+                         std::ptrdiff_t end);                                                                \
+  template<int dim>                                                                                          \
+  SpectralMaximum spectral_rows(const SpectralView<dim>& view, const double* modulus, std::ptrdiff_t begin,  \
+                                std::ptrdiff_t end);                                                         \
   template<int dim>                                                                                          \
   ViscousSums viscous_stress(const ViscousPoints<dim>& points, double quadratic, double linear, double dt,   \
                              std::ptrdiff_t begin, std::ptrdiff_t end);                                      \

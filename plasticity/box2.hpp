@@ -15,7 +15,7 @@ inline constexpr double largest_strain = 100.0;
 
 /// One step of the points i … i + Number<T>::width − 1. Returns the lanes that mean nothing and were left
 /// alone.
-template<int dim, class T>
+template<int dim, bool saturating, class T>
 CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const StressPoints<dim>& points,
                                     std::ptrdiff_t i) {
   constexpr int general = StressPoints<dim>::general, symmetric = StressPoints<dim>::symmetric;
@@ -54,10 +54,12 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   const T q =
       sqrt(T(1.5) * (deviator[0] * deviator[0] + deviator[1] * deviator[1] + deviator[2] * deviator[2]));
 
+  const T history = abs(plastic_work) + abs(last_stress);
+  const T pressure = abs(tension);
   const Mask<T> valid = (deformation.determinant > T(0.0)) & (l[0] > T(0.0)) & (l[1] > T(0.0)) &
                         (l[2] > T(0.0)) & (temperature >= T(0.0)) & (plastic_strain >= T(0.0)) &
-                        (last_rate >= T(0.0)) & (abs(plastic_work) + abs(last_stress) < T(1e300)) &
-                        (abs(tension) < T(1e300)) & (q < T(largest_strain * law.two_mu));
+                        (last_rate >= T(0.0)) & (history < T(1e300)) & (pressure < T(1e300)) &
+                        (q < T(largest_strain * law.two_mu));
   Mask<T> bad = !valid;
 
   T inverse[4];
@@ -68,7 +70,8 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   // (vi) plastic consistency, (vii) plastic corrector
   T increment = T(0.0), reduction = T(1.0), work = T(0.0);
   if (law.plastic) {
-    const PlasticCorrector<T> corrector(law, plastic_strain, temperature, load<T>(points.strength + i));
+    const PlasticCorrector<T, saturating> corrector(law, plastic_strain, temperature,
+                                                    load<T>(points.strength + i));
     const Mask<T> yielding = valid & (q > corrector.initial_flow_stress);
     if (any(yielding)) {
       Mask<T> failed;

@@ -13,7 +13,10 @@ using namespace ::cnem::CNEM_ISA;
 /// relative increment η = Δx/x, started from the last step's rate, converges in two or three evaluations in
 /// steady flow: the curvature that the logarithm of the rate gives r is what slows Newton's method. Points
 /// that it leaves (first yield, ε̄p ≪ x, the kink at the reference rate) are finished within a bracket.
-template<class T> class PlasticCorrector {
+///
+/// `saturating`: with the saturating hardening, known at compile time, because a branch on it here would
+/// push the numbers out of the registers.
+template<class T, bool saturating> class PlasticCorrector {
 public:
   /// strength: factor on the flow stress, –.
   CNEM_INLINE PlasticCorrector(const ReturnMapParameters& parameters, T plastic_strain, T temperature,
@@ -28,7 +31,7 @@ public:
       softening =
           strength * (T(1.0) - (law.m == 1.0 ? homologous : power_of(homologous, logarithm[0], law.m)));
     T hardening = T(law.B) * power;
-    if (law.saturation > 0.0) hardening = hardening + T(law.saturation) * (T(1.0) - decay(strain));
+    if constexpr (saturating) hardening = hardening + T(law.saturation) * (T(1.0) - decay(strain));
     initial_flow_stress = (T(law.A) + hardening) * softening;
   }
 
@@ -79,30 +82,43 @@ private:
     return exp(max(T(-law.saturation_exponent) * plastic_strain, T(-708.0)));
   }
 
-  CNEM_INLINE Hardening with_saturation(const Hardening& h, T x) const {
-    if (law.saturation == 0.0) return h;
-    const T left = T(law.saturation) * decay(strain + x), step = T(law.saturation_exponent) * x;
-    return {h.value + T(law.saturation) - left, h.first + left * step, h.second - left * step * step};
+  CNEM_INLINE void add_saturation(T x, Hardening& h) const {
+    if constexpr (saturating) {
+      const T left = T(law.saturation) * decay(strain + x), step = T(law.saturation_exponent) * x;
+      h.value = h.value + T(law.saturation) - left;
+      h.first = h.first + left * step;
+      h.second = h.second - left * step * step;
+    }
   }
 
   /// At x = y ε̄p within the range of the binomial series.
   CNEM_INLINE Hardening series(T x, T y) const {
-    if (law.B == 0.0) return with_saturation({T(0.0), T(0.0), T(0.0)}, x);
-    T value = T(law.series[series_order]), slope = T(0.0);
-    for (int k = series_order - 1; k >= 0; --k) {
-      slope = slope * y + value;
-      value = value * y + T(law.series[k]);
+    Hardening h{T(0.0), T(0.0), T(0.0)};
+    if (law.B > 0.0) {
+      T value = T(law.series[series_order]), slope = T(0.0);
+      for (int k = series_order - 1; k >= 0; --k) {
+        slope = slope * y + value;
+        value = value * y + T(law.series[k]);
+      }
+      const T scale = T(law.B) * power;
+      h.value = scale * value;
+      h.first = scale * y * slope;
+      h.second = T(law.n - 1.0) * h.first * y;
     }
-    const T scale = T(law.B) * power, first = scale * y * slope;
-    return with_saturation({scale * value, first, T(law.n - 1.0) * first * y}, x);
+    add_saturation(x, h);
+    return h;
   }
 
   CNEM_INLINE Hardening full(T x) const {
-    if (law.B == 0.0) return with_saturation({T(0.0), T(0.0), T(0.0)}, x);
-    const T total = strain + x, y = x / total;
-    const T value = T(law.B) * power_of(total, log(total), law.n);
-    const T first = T(law.n) * value * y;
-    return with_saturation({value, first, T(law.n - 1.0) * first * y}, x);
+    Hardening h{T(0.0), T(0.0), T(0.0)};
+    if (law.B > 0.0) {
+      const T total = strain + x, y = x / total;
+      h.value = T(law.B) * power_of(total, log(total), law.n);
+      h.first = T(law.n) * h.value * y;
+      h.second = T(law.n - 1.0) * h.first * y;
+    }
+    add_saturation(x, h);
+    return h;
   }
 
   CNEM_INLINE T residual_parts(T q, T x, const Hardening& h, T& first, T& second) const {

@@ -14,10 +14,10 @@ template<int dim> using Points = Pack<dim == 2 ? registers : 1>;
 template<int dim> inline constexpr int width = Number<Points<dim>>::width;
 
 /// Not inlined: whole packs and tails must run the very same instructions, or their bits could differ.
-template<int dim>
+template<int dim, bool saturating>
 [[gnu::noinline]] Mask<Points<dim>> pack_step(const ReturnMapParameters& parameters,
                                               const StressPoints<dim>& points, std::ptrdiff_t i) {
-  return return_map_step<dim, Points<dim>>(parameters, points, i);
+  return return_map_step<dim, saturating, Points<dim>>(parameters, points, i);
 }
 
 template<class M> int first_lane(M mask, int lanes) {
@@ -42,7 +42,7 @@ template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, V
 }
 
 /// Fewer than `width` points, through buffers padded with the last of them.
-template<int dim>
+template<int dim, bool saturating>
 Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
                             std::ptrdiff_t begin, int count) {
   constexpr int fields = StressPoints<dim>::general * 2 + StressPoints<dim>::symmetric + 10;
@@ -57,7 +57,7 @@ Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const StressP
   const int first_output = used;
   for_each_output(local, copy);
 
-  const auto bad = pack_step(parameters, local, 0);
+  const auto bad = pack_step<dim, saturating>(parameters, local, 0);
 
   used = first_output;
   for_each_output(target, [&](double* field) {
@@ -67,19 +67,26 @@ Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const StressP
   return bad;
 }
 
+template<int dim, bool saturating>
+std::ptrdiff_t update(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
+                      std::ptrdiff_t begin, std::ptrdiff_t end) {
+  std::ptrdiff_t first_bad = -1;
+  for (std::ptrdiff_t i = begin; i < end; i += width<dim>) {
+    const int count = end - i < width<dim> ? static_cast<int>(end - i) : width<dim>;
+    const auto bad = count == width<dim> ? pack_step<dim, saturating>(parameters, points, i)
+                                         : tail_step<dim, saturating>(parameters, points, i, count);
+    if (any(bad) && first_bad < 0 && first_lane(bad, count) < count) first_bad = i + first_lane(bad, count);
+  }
+  return first_bad;
+}
+
 } // namespace
 
 template<int dim>
 std::ptrdiff_t return_map(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
                           std::ptrdiff_t begin, std::ptrdiff_t end) {
-  std::ptrdiff_t first_bad = -1;
-  for (std::ptrdiff_t i = begin; i < end; i += width<dim>) {
-    const int count = end - i < width<dim> ? static_cast<int>(end - i) : width<dim>;
-    const auto bad = count == width<dim> ? pack_step<dim>(parameters, points, i)
-                                         : tail_step<dim>(parameters, points, i, count);
-    if (any(bad) && first_bad < 0 && first_lane(bad, count) < count) first_bad = i + first_lane(bad, count);
-  }
-  return first_bad;
+  return parameters.saturation > 0.0 ? update<dim, true>(parameters, points, begin, end)
+                                     : update<dim, false>(parameters, points, begin, end);
 }
 
 template std::ptrdiff_t return_map<2>(const ReturnMapParameters&, const StressPoints<2>&, std::ptrdiff_t,

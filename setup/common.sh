@@ -46,10 +46,25 @@ configure() {
 }
 
 # Builds targets (all without arguments) with as many jobs as the memory allows (about 2 GB each).
-build() {
-  local cores memory jobs
+build() { build_in build "$@"; }
+
+# build_in FOLDER [targets...]: the same in another build folder.
+build_in() {
+  local folder=$1 cores memory jobs
+  shift
   cores=$(nproc)
   memory=$(awk '/MemAvailable/ { print int($2 / 2000000) }' /proc/meminfo)
   jobs=$((memory < cores ? (memory > 0 ? memory : 1) : cores))
-  cmake --build "$root/build" --parallel "$jobs" ${1:+--target "$@"} >&2
+  cmake --build "$root/$folder" --parallel "$jobs" ${1:+--target "$@"} >&2
+}
+
+# configure_in FOLDER options...: a build folder for a check, from a preset or from options.
+configure_in() {
+  local folder=$1
+  shift
+  mkdir -p "$root/$folder"
+  cmake -S "$root" -B "$root/$folder" "$@" >"$root/$folder/configure.log" 2>&1 || {
+    cat "$root/$folder/configure.log" >&2
+    return 1
+  }
 }

@@ -1,3 +1,5 @@
+add_custom_target(unit_tests)
+
 # One executable per folder of tests; CTest names are <folder path>.<suite>.<test>, so that
 # `ctest -R contract` or `ctest -R unit.voronoi` select them.
 function(cnem_tests folder)
@@ -12,6 +14,9 @@ function(cnem_tests folder)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${target} PRIVATE CNEM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   cnem_warnings(${target})
+  if(folder MATCHES "^unit/")
+    add_dependencies(unit_tests ${target})
+  endif()
   gtest_discover_tests(${target} TEST_PREFIX ${prefix} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ENVIRONMENT "GOMP_SPINCOUNT=1000")
 endfunction()
 
@@ -20,7 +25,7 @@ cnem_tests(unit/voronoi cnem_voronoi)
 cnem_tests(unit/plasticity cnem_plasticity)
 cnem_tests(unit/thermal cnem_thermal cnem_cnem cnem_alternatives)
 cnem_tests(unit/contact cnem_contact)
-cnem_tests(unit/io cnem_io VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
+cnem_tests(unit/io cnem_io VTK::CommonCore VTK::CommonDataModel VTK::IOXML PNG::PNG)
 cnem_tests(unit/cnem cnem_cnem)
 cnem_tests(unit/fracture cnem_fracture cnem_mechanics)
 cnem_tests(unit/mechanics cnem_mechanics cnem_cnem cnem_alternatives)

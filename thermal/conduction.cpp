@@ -8,6 +8,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <utility>
 
 namespace cnem {
 
@@ -41,7 +42,11 @@ template<int dim>
 void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Field conductivity) {
   operators_ = &operators;
   conductivity_ = std::move(conductivity);
-  flux_.assign(dim * static_cast<std::size_t>(operators.points), 0.0);
+  corner_.clear();
+  const bool triangles = linear_triangles();
+  flux_.assign((triangles ? 3 : dim) * static_cast<std::size_t>(operators.points), 0.0);
+  if (!triangles) return;
+  number_corners();
 }
 
 namespace {
@@ -63,8 +68,65 @@ void subtract_flow(const SparseRows<dim>& columns, const Field& flux, Field& flo
 
 } // namespace
 
+/// Plane triangles: three nodes a row, whose gradients are the linear ones.
+template<int dim> bool Conduction<dim>::linear_triangles() const {
+  const DiscreteOperators<dim>& op = *operators_;
+  if (dim != 2 || op.of_revolution()) return false;
+  for (int p = 0; p <= op.points; ++p)
+    if (op.row_begin[static_cast<std::size_t>(p)] != 3 * p) return false;
+  return true;
+}
+
+namespace {
+
+void triangle_heat(const std::vector<std::int32_t>& triangle, const Field& position, const Field& temperature,
+                   const Field& conductivity, Field& heat, std::size_t begin, std::size_t end) {
+  CNEM_ON_ACTIVE_ISA(conduction_triangles(
+      triangle.data(), position.data(), temperature.data(), conductivity.data(), heat.data(),
+      static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end)));
+}
+
+void add_corners(const DiscreteOperators<2>& op, const std::vector<std::int32_t>& corner, const Field& heat,
+                 Field& flow, std::size_t begin, std::size_t end) {
+  CNEM_ON_ACTIVE_ISA(conduction_corners(op.col_begin.data(), corner.data(), heat.data(), flow.data(),
+                                        static_cast<std::ptrdiff_t>(begin),
+                                        static_cast<std::ptrdiff_t>(end)));
+}
+
+} // namespace
+
+/// Triangles counter-clockwise, and where each entry of a column finds its corner.
+template<int dim> void Conduction<dim>::number_corners() {
+  const DiscreteOperators<dim>& op = *operators_;
+  triangle_ = op.node;
+  corner_.resize(op.node.size());
+  std::vector<std::int32_t> next(op.col_begin.begin(), op.col_begin.end() - 1);
+  for (std::size_t first = 0; first < op.node.size(); first += 3) { // by increasing triangle, as columns are
+    const Field &bx = op.gradient[0], &by = op.gradient[1];
+    const bool clockwise = bx[first] * by[first + 1] - by[first] * bx[first + 1] < 0.0;
+    if (clockwise) std::swap(triangle_[first + 1], triangle_[first + 2]);
+    for (std::size_t e = first; e < first + 3; ++e)
+      corner_[static_cast<std::size_t>(next[static_cast<std::size_t>(triangle_[e])]++)] =
+          static_cast<std::int32_t>(e);
+  }
+}
+
+template<int dim>
+void Conduction<dim>::add_triangle_flow(const Field& position, const Field& temperature, Field& flow) {
+  if constexpr (dim == 2) {
+    const DiscreteOperators<2>& op = *operators_;
+    for_each_block(static_cast<std::size_t>(op.points), [&](std::size_t begin, std::size_t end) {
+      triangle_heat(triangle_, position, temperature, conductivity_, flux_, begin, end);
+    });
+    for_each_block(static_cast<std::size_t>(op.nodes), [&](std::size_t begin, std::size_t end) {
+      add_corners(op, corner_, flux_, flow, begin, end);
+    });
+  }
+}
+
 template<int dim>
 void Conduction<dim>::add_flow(const Field& position, const Field& temperature, Field& flow) {
+  if (!corner_.empty()) return add_triangle_flow(position, temperature, flow);
   const DiscreteOperators<dim>& op = *operators_;
   const auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
   const auto columns = sparse_rows<dim>(op.col_begin, op.point, op.weighted_gradient);

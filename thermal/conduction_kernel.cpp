@@ -1,27 +1,9 @@
 #include "thermal/conduction_kernels.hpp"
 
-#include "core/small_vector.hpp"
+#include "core/cofactor.hpp"
 #include "core/sparse_rows.hpp"
 
 namespace cnem::CNEM_ISA {
-
-namespace {
-
-/// det F · F⁻ᵀ as columns, from F as columns; returns det F.
-CNEM_INLINE double cofactor(const Small<2> (&f)[2], Small<2> (&c)[2]) {
-  c[0] = Small<2>::of(f[1][1], -f[1][0]);
-  c[1] = Small<2>::of(-f[0][1], f[0][0]);
-  return f[0][0] * f[1][1] - f[1][0] * f[0][1];
-}
-CNEM_INLINE double cofactor(const Small<3> (&f)[3], Small<3> (&c)[3]) {
-  for (int k = 0; k < 3; ++k) {
-    const Small<3>&a = f[(k + 1) % 3], &b = f[(k + 2) % 3];
-    for (int i = 0; i < 3; ++i) c[k].v[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-  }
-  return f[0][0] * c[0][0] + f[0][1] * c[0][1] + f[0][2] * c[0][2];
-}
-
-} // namespace
 
 template<int dim>
 void conduction_flux(const SparseRows<dim>& rows, const double* hoop, const double* position,
@@ -58,6 +40,34 @@ void conduction_flow(const SparseRows<dim>& columns, const double* flux, double*
       for (int k = 0; k < dim; ++k) sum += q[k] * columns.weight[k][e];
     }
     flow[j] -= sum;
+  }
+}
+
+void conduction_triangles(const std::int32_t* node, const double* position, const double* temperature,
+                          const double* conductivity, double* heat, std::ptrdiff_t begin,
+                          std::ptrdiff_t end) {
+  for (std::ptrdiff_t t = begin; t < end; ++t) {
+    const std::ptrdiff_t a = node[3 * t], b = node[3 * t + 1], c = node[3 * t + 2];
+    const auto A = Small<2>::load(position + 2 * a), B = Small<2>::load(position + 2 * b),
+               C = Small<2>::load(position + 2 * c);
+    const Small<2> opposite_a = C - B, opposite_b = A - C, opposite_c = B - A;
+    const double twice_area = opposite_c[0] * opposite_a[1] - opposite_c[1] * opposite_a[0];
+    // ∇φ_a is opposite_a turned by 90° over twice the area: its products need no turning
+    const Small<2> sum =
+        opposite_a * temperature[a] + opposite_b * temperature[b] + opposite_c * temperature[c];
+    const Small<2> flux = sum * (-0.5 * conductivity[t] / twice_area);
+    heat[3 * t] = opposite_a.dot(flux);
+    heat[3 * t + 1] = opposite_b.dot(flux);
+    heat[3 * t + 2] = opposite_c.dot(flux);
+  }
+}
+
+void conduction_corners(const std::int32_t* first, const std::int32_t* corner, const double* heat,
+                        double* flow, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  for (std::ptrdiff_t j = begin; j < end; ++j) {
+    double sum = 0.0;
+    for (std::int32_t e = first[j]; e < first[j + 1]; ++e) sum += heat[corner[e]];
+    flow[j] += sum;
   }
 }
 

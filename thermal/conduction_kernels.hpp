@@ -15,6 +15,13 @@ template<int dim> struct SparseRows;
   void conduction_flux(const SparseRows<dim>& rows, const double* hoop, const double* position,              \
                        const double* temperature, const double* conductivity, double* flux,                  \
                        std::ptrdiff_t begin, std::ptrdiff_t end);                                            \
+  /* linear triangles: heat [triangle][3] into their nodes, from present positions alone */                  \
+  void conduction_triangles(const std::int32_t* node, const double* position, const double* temperature,     \
+                            const double* conductivity, double* heat, std::ptrdiff_t begin,                  \
+                            std::ptrdiff_t end);                                                             \
+  /* flow += heat of the node's corners */                                                                   \
+  void conduction_corners(const std::int32_t* first, const std::int32_t* corner, const double* heat,         \
+                          double* flow, std::ptrdiff_t begin, std::ptrdiff_t end);                           \
   /* flow −= Σ V b · flux */                                                                             \
   template<int dim>                                                                                          \
   void conduction_flow(const SparseRows<dim>& columns, const double* flux, double* flow,                     \

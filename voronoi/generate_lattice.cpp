@@ -49,8 +49,10 @@ void jitter_nodes(const EdgeTree& tree, const SpacingField& spacing, double jitt
   std::mt19937_64 bits(seed);
   for (Vec2& x : interior) {
     Vec2 move;
-    do move = Vec2(2.0 * uniform(bits) - 1.0, 2.0 * uniform(bits) - 1.0);
-    while (move.squaredNorm() > 1.0);
+    do { // y first: one seed gives one cloud, whatever order a compiler evaluates arguments in
+      move.y() = 2.0 * uniform(bits) - 1.0;
+      move.x() = 2.0 * uniform(bits) - 1.0;
+    } while (move.squaredNorm() > 1.0);
     const double h = spacing.at(x);
     const double room = tree.distance(x, 2.0 * h) - 0.45 * h;
     x += move * std::clamp(room, 0.0, jitter * h);

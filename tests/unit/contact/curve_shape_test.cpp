@@ -63,8 +63,8 @@ TEST(CurveShape, SignedDistanceMatchesBruteForceSampling) {
     const CurveShape shape(curve);
     const Samples samples(curve);
     int inside = 0;
-    for (int k = 0; k < 300; ++k) {
-      const Vec2 x(coordinate(random), coordinate(random));
+    for (int k = 0; k < 600; ++k) {
+      const Vec2 x{coordinate(random), coordinate(random)}; // braces: in this order with every compiler
       const SurfacePoint<2> found = shape.closest(x);
       inside += found.distance < 0.0;
       ASSERT_NEAR(std::abs(found.distance), samples.distance(x), 1e-3) << x.transpose();
@@ -84,7 +84,7 @@ TEST(CurveShape, NormalIsTheGradientOfTheDistance) {
   std::uniform_real_distribution<double> coordinate(-1.0, 5.0);
   int tested = 0;
   for (int k = 0; k < 500; ++k) {
-    const Vec2 x(coordinate(random), coordinate(random));
+    const Vec2 x{coordinate(random), coordinate(random)}; // braces: in this order with every compiler
     const SurfacePoint<2> here = shape.closest(x);
     const double h = 1e-6;
     Vec2 gradient;

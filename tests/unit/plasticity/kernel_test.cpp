@@ -70,8 +70,8 @@ template<int dim> void compare_with_scalar() {
     ASSERT_EQ(update(m, vector, dt), -1);
     const auto parameters = return_map_parameters(m, dt);
     for (std::size_t i = 0; i < scalar.size(); ++i)
-      ASSERT_FALSE((generic::return_map_step<dim, double>(parameters, stress_points(scalar),
-                                                          static_cast<std::ptrdiff_t>(i))));
+      ASSERT_FALSE((generic::return_map_step<dim, false, double>(parameters, stress_points(scalar),
+                                                                 static_cast<std::ptrdiff_t>(i))));
     for (std::size_t i = 0; i < scalar.size(); ++i) {
       const Mat3 p = general<dim>(scalar.piola, i);
       ASSERT_LT((p - general<dim>(vector.piola, i)).norm(), 1e-12 * std::max(p.norm(), stress)) << i;
@@ -219,7 +219,7 @@ TEST_P(Kernel, ranges_of_several_materials) {
   }
   std::array<PointState<2>, 2> alone{mixed, mixed};
   ASSERT_EQ(update_stress(materials, mixed.material, stress_points(mixed), 3, 40, 1e-7), -1);
-  for (std::size_t m : {0, 1}) ASSERT_EQ(update(materials[m], alone[m], 1e-7), -1);
+  for (std::size_t m = 0; m < 2; ++m) ASSERT_EQ(update(materials[m], alone[m], 1e-7), -1);
   for (std::size_t i = 3; i < 40; ++i)
     EXPECT_EQ(mixed.piola[1][i], alone[static_cast<std::size_t>(mixed.material[i])].piola[1][i]) << i;
   EXPECT_EQ(mixed.plastic_strain[0], 0.0) << "outside the range";

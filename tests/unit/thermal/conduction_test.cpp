@@ -204,6 +204,40 @@ TEST(Conduction, hot_spot_spreads_without_checkerboard) {
   EXPECT_LT(coldest_after_hot_spot(true), -10.0) << "the nodal operator does: that is why it is not used";
 }
 
+/// Plane triangles conduct from present positions alone: the same as J F⁻¹F⁻ᵀ on the reference.
+TEST(Conduction, triangles_give_what_the_pulled_back_operator_gives) {
+  const Cloud<2> cloud = jittered_square(0.1, 0.25, 7);
+  const auto bend = [](const Vec2& x) {
+    return Vec2(1.3 * x.x() + 0.4 * x.y() * x.y(), 0.7 * x.y() - 0.2 * x.x() * x.x() + 0.1 * x.x());
+  };
+  Body fast(cloud, bend);
+  // With a fourth entry of no weight in every row the general path is taken.
+  DiscreteOperators<2> padded = fast.approximation.conduction;
+  const auto rows = static_cast<std::size_t>(padded.points);
+  DiscreteOperators<2> wide = padded;
+  wide.node.clear();
+  for (Field* field : {&wide.gradient[0], &wide.gradient[1], &wide.value}) field->clear();
+  for (std::size_t p = 0; p < rows; ++p) {
+    for (std::size_t e = 3 * p; e < 3 * p + 4; ++e) {
+      const bool real = e < 3 * p + 3;
+      wide.node.push_back(padded.node[real ? e : 3 * p]);
+      for (std::size_t i = 0; i < 2; ++i) wide.gradient[i].push_back(real ? padded.gradient[i][e] : 0.0);
+      if (!padded.value.empty()) wide.value.push_back(real ? padded.value[e] : 0.0);
+    }
+    wide.row_begin[p + 1] = static_cast<std::int32_t>(4 * (p + 1));
+  }
+  wide.build_transpose();
+  Conduction<2> general;
+  general.set_operators(wide, Field(rows, k));
+  Random random(3);
+  for (double& temperature : fast.temperature) temperature = random.uniform(200, 900);
+  Field flow(fast.flow.size(), 0.0), expected = flow;
+  const Field position = side_by_side<2>(fast.position);
+  fast.conduction.add_flow(position, fast.temperature, flow);
+  general.add_flow(position, fast.temperature, expected);
+  for (std::size_t i = 0; i < flow.size(); ++i) EXPECT_NEAR(flow[i], expected[i], 1e-12 * k * 900);
+}
+
 TEST(Conduction, fastest_decay_bounds_the_exact_rate) {
   for (const bool deformed : {false, true}) {
     Body body(strip(1e-3, 1e-3, 1.25e-4, 0.25), [&](const Vec2& x) -> Vec2 {

@@ -308,7 +308,7 @@ TEST(RestoreDelaunay, AgreesWithANewTriangulation) {
       cloud.position[i] += 0.006 * Vec2(std::sin(7.0 * double(i)), std::cos(11.0 * double(i)));
   const auto sorted = [](const Triangulation& m) {
     auto triangles = m.node;
-    for (auto& n : triangles) std::ranges::rotate(n, std::ranges::min_element(n));
+    for (auto& n : triangles) std::rotate(n.begin(), std::min_element(n.begin(), n.end()), n.end());
     std::ranges::sort(triangles);
     return triangles;
   };

@@ -1,0 +1,80 @@
+#include "core/cofactor.hpp"
+#include "mechanics/step_kernels.hpp"
+
+namespace cnem::CNEM_ISA {
+
+namespace {
+
+/// Norm of what an entry does to its point: |F⁻ᵀ b|, of revolution with the hoop entry h
+/// (mechanics/stable_step.hpp).
+template<int dim>
+CNEM_INLINE double block_norm(const double* inverse, const SparseRows<dim>& rows, const double* hoop,
+                              std::int32_t e) {
+  auto b = Small<dim>::load(inverse) * rows.weight[0][e];
+  for (int k = 1; k < dim; ++k) b += Small<dim>::load(inverse + k * dim) * rows.weight[k][e];
+  if (!hoop) return sqrt(b.dot(b));
+  const double h = hoop[e] * inverse[dim * dim + 1], apart = b.dot(b) + h * h;
+  return sqrt(max(apart + 2.0 * h * b[0], apart));
+}
+
+} // namespace
+
+template<int dim>
+void invert(const double* const* deformation, const SpectralView<dim>& view, std::ptrdiff_t begin,
+            std::ptrdiff_t end) {
+  for (std::ptrdiff_t p = begin; p < end; ++p) {
+    Small<dim> F[dim], cof[dim];
+    for (int k = 0; k < dim; ++k) {
+      double column[dim];
+      for (int i = 0; i < dim; ++i) column[i] = deformation[i * dim + k][p];
+      F[k] = Small<dim>::load(column);
+    }
+    const double det = cofactor(F, cof), out_of_plane = dim == 2 ? deformation[dim * dim][p] : 1.0;
+    double* own = view.inverse + SpectralView<dim>::stride * p;
+    for (int k = 0; k < dim; ++k) (cof[k] * (1.0 / det)).store(own + k * dim);
+    own[dim * dim] = det * out_of_plane;
+    own[dim * dim + 1] = 1.0 / out_of_plane;
+  }
+}
+
+template<int dim>
+void spectral_transfer(const SpectralView<dim>& view, const double* weight, std::ptrdiff_t begin,
+                       std::ptrdiff_t end) {
+  for (std::ptrdiff_t j = begin; j < end; ++j) {
+    double sum = 0.0;
+    for (std::int32_t e = view.columns.begin[j]; e < view.columns.begin[j + 1]; ++e) {
+      const double* inverse =
+          view.inverse + SpectralView<dim>::stride * static_cast<std::ptrdiff_t>(view.columns.index[e]);
+      sum += inverse[dim * dim] * block_norm<dim>(inverse, view.columns, view.weighted_hoop, e);
+    }
+    view.transfer[j] = sum / weight[j];
+  }
+}
+
+template<int dim>
+SpectralMaximum spectral_rows(const SpectralView<dim>& view, const double* modulus, std::ptrdiff_t begin,
+                              std::ptrdiff_t end) {
+  SpectralMaximum best{0.0, begin};
+  for (std::ptrdiff_t p = begin; p < end; ++p) {
+    const double* inverse = view.inverse + SpectralView<dim>::stride * p;
+    double sum = 0.0;
+    for (std::int32_t e = view.rows.begin[p]; e < view.rows.begin[p + 1]; ++e)
+      sum += block_norm<dim>(inverse, view.rows, view.hoop, e) * view.transfer[view.rows.index[e]];
+    const double value = modulus[p] * sum;
+    if (!(value <= best.value)) best = {value, p};
+    if (value != value) break; // NaN: whoever asked must see it
+  }
+  return best;
+}
+
+#define CNEM_INSTANTIATE(dim)                                                                                \
+  template void invert<dim>(const double* const*, const SpectralView<dim>&, std::ptrdiff_t, std::ptrdiff_t); \
+  template void spectral_transfer<dim>(const SpectralView<dim>&, const double*, std::ptrdiff_t,              \
+                                       std::ptrdiff_t);                                                      \
+  template SpectralMaximum spectral_rows<dim>(const SpectralView<dim>&, const double*, std::ptrdiff_t,       \
+                                              std::ptrdiff_t);
+CNEM_INSTANTIATE(2)
+CNEM_INSTANTIATE(3)
+#undef CNEM_INSTANTIATE
+
+} // namespace cnem::CNEM_ISA
