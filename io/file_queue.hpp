@@ -37,7 +37,7 @@ public:
   /// Returns when every file is on the disk, and helps to make those that wait. Throws what stopped one.
   void wait();
 
-  static constexpr std::size_t most_waiting = std::size_t{256} << 20;
+  static constexpr std::size_t most_waiting = std::size_t{64} << 20;
 
 private:
   enum class Stage { waiting, under_way, made };
