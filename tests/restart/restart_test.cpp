@@ -271,6 +271,20 @@ TEST_F(Restart, a_file_that_may_not_grow_stops_the_run_with_4_and_a_valid_checkp
   expect_reference("limited");
 }
 
+TEST_F(Restart, a_folder_of_frames_that_goes_away_stops_the_run_with_4_and_a_valid_checkpoint) {
+  Process process(run_of("punched", "robbed", {"--threads", "1"}));
+  wait_for(process, folder / "robbed" / "checkpoint.h5");
+  ASSERT_TRUE(process.running());
+  fs::remove_all(folder / "robbed" / "fields");
+  const Ending ending = process.wait();
+  EXPECT_EQ(ending.code, 4) << ending.printed;
+  EXPECT_NE(ending.printed.find("fields/cells_0000"), std::string::npos) << ending.printed;
+  EXPECT_EQ(io::read_status(folder / "robbed").exit, 4);
+  EXPECT_NO_THROW(io::CheckpointReader(io::read_file(folder / "robbed" / "checkpoint.h5")));
+  fs::create_directories(folder / "robbed" / "fields");
+  EXPECT_EQ(restart("robbed").code, 0);
+}
+
 TEST_F(Restart, a_full_disk_stops_the_run_with_4_and_a_valid_checkpoint) {
   reference("loaded");
   fs::create_directories(folder / "disk");
