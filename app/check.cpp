@@ -46,7 +46,9 @@ void check(const io::Case& input, const RunOptions& options) {
   }
   const std::filesystem::path folder = options.output / "initial";
   io::prepare_output_folder(folder, true);
-  FieldRecorder(folder).record(snapshot(solver));
+  io::FileQueue files;
+  FieldRecorder(folder).record(files, snapshot(solver));
+  files.wait();
   fmt::print("fields      {}\n", (folder / io::files::fields).string());
 }
 

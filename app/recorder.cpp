@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <fmt/format.h>
+#include <memory>
+#include <utility>
 
 namespace cnem::app {
 
@@ -111,19 +114,13 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     row.emplace_back(fmt::format("energy.{}{}", name, units_.energy), value);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
-    const Field values =
-        info.at_nodes ? values_at_nodes(snapshot(solver), name) : values_at_points(snapshot(solver), name);
     row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
-                     *std::max_element(values.begin(), values.end()));
+                     largest_value(snapshot(solver), name));
   }
   for (const ProbeWeights& probe : probes_)
-    for (const std::string& name : probe.fields) {
-      const Field values = values_at_nodes(snapshot(solver), name);
-      double sum = 0.0;
-      for (std::size_t k = 0; k < probe.node.size(); ++k)
-        sum += probe.weight[k] * values[static_cast<std::size_t>(probe.node[k])];
-      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit), sum);
-    }
+    for (const std::string& name : probe.fields)
+      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit),
+                       weighted_value(snapshot(solver), name, probe.node, probe.weight));
   row.emplace_back("mass" + units_.mass, total_mass(solver));
   row.emplace_back("area[m^2]", boundary_area(snapshot(solver)));
   return row;
@@ -262,35 +259,59 @@ void write_lines(const io::Case& input, const Snapshot& shot, const std::filesys
   }
 }
 
-void FieldRecorder::record(const Snapshot& shot) {
-  const NodeState<2>& node = shot.state.node;
-  io::FieldFrame frame;
+void FieldRecorder::record(io::FileQueue& files, const Snapshot& shot) {
+  struct Kept {
+    io::FieldFrame frame;
+    CellGeometry<2> cells;
+    Fields<2> position, velocity;
+    std::vector<Field> values;
+  };
+  const auto kept = std::make_shared<Kept>();
+  kept->cells = shot.approximation.cells;
+  kept->position = shot.state.node.position;
+  kept->velocity = shot.state.node.velocity;
+  kept->values.reserve(2 * field_catalogue().size());
+  io::FieldFrame& frame = kept->frame;
   frame.time = shot.state.time;
-  frame.cells = &shot.approximation.cells;
-  frame.position = spans(node.position);
-  std::vector<Field> storage;
-  storage.reserve(2 * field_catalogue().size());
+  frame.cells = &kept->cells;
+  frame.position = spans(kept->position);
   for (const FieldInfo& info : field_catalogue()) {
     const std::string name = info.unit.empty() ? info.label : fmt::format("{} [{}]", info.label, info.unit);
-    frame.cell_scalars.push_back({name, storage.emplace_back(values_at_points(shot, info.name))});
-    frame.node_scalars.push_back({name, storage.emplace_back(values_at_nodes(shot, info.name))});
+    const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
+    frame.cell_scalars.push_back({name, at_points});
+    if (shot.approximation.mechanics.nodal)
+      frame.node_scalars.push_back({name, at_points});
+    else
+      frame.node_scalars.push_back({name, kept->values.emplace_back(values_at_nodes(shot, info.name))});
   }
-  frame.node_vectors.push_back({"velocity [m/s]", {node.velocity[0], node.velocity[1], {}}});
-  writer_.write(frame);
+  frame.node_vectors.push_back({"velocity [m/s]", {kept->velocity[0], kept->velocity[1], {}}});
+  writer_.write(files, {kept, &frame});
 }
 
-io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string& field,
-                                        const Fields<2>& drawn, const Field& values) const {
+/// What the pictures of one time are drawn from, while the run goes on.
+struct PictureRecorder::Kept {
+  CellGeometry<2> cells;
+  Fields<2> position;
+  std::deque<Field> values;
+
+  std::size_t bytes() const {
+    return sizeof(double) * (4 * cells.vertex.size() + 2 * cells.vertex_weight.size() +
+                             (2 + values.size()) * position[0].size());
+  }
+};
+
+io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string& field, Kept& kept,
+                                        Field values) const {
   const FieldInfo& info = field_info(field);
   io::Picture picture;
-  picture.cells = &shot.approximation.cells;
-  picture.position = spans(drawn);
-  picture.value = values;
+  picture.cells = &kept.cells;
+  picture.position = spans(kept.position);
+  picture.value = kept.values.emplace_back(std::move(values));
   picture.label = info.label;
   picture.unit = info.shown_unit;
   picture.unit_factor = info.shown_factor;
   picture.map = info.map;
-  if (info.map == io::ColourMap::diverging) picture.range = io::symmetric_range(values, 0.999);
+  if (info.map == io::ColourMap::diverging) picture.range = io::symmetric_range(picture.value, 0.999);
   picture.title = case_->title;
   picture.time = shot.state.time;
   const auto& contact = shot.contact;
@@ -300,38 +321,50 @@ io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string&
   return picture;
 }
 
-void PictureRecorder::record(const Snapshot& shot) {
-  Fields<2> drawn = shot.state.node.position;
+std::string PictureRecorder::draw(io::FileQueue& files, const std::shared_ptr<const Kept>& kept,
+                                  const io::Picture& picture, const std::string& key,
+                                  const std::string& caption) {
+  return album_.add(
+      files, key, picture.label, picture.time, [kept, picture] { return io::draw_png(picture); },
+      kept->bytes() / 2, caption); // shared with the others of its time
+}
+
+void PictureRecorder::record(io::FileQueue& files, const Snapshot& shot) {
+  const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, shot.state.node.position, {}});
+  Fields<2>& drawn = kept->position;
   if (shot.displacement_scale != 1.0)
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < drawn[k].size(); ++i) {
         const double start = shot.initial_position[k][i];
         drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
       }
-  for (const std::string& name : case_->output.picture_fields) {
-    const Field values = values_at_points(shot, name);
-    io::Picture picture = picture_of(shot, name, drawn, values);
-    album_.add(name, picture.label, picture.time, io::draw_png(picture));
+  std::vector<io::Picture> pictures;
+  for (const std::string& name : case_->output.picture_fields)
+    pictures.push_back(picture_of(shot, name, *kept, values_at_points(shot, name)));
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    const std::string& name = case_->output.picture_fields[k];
+    draw(files, kept, pictures[k], name, "");
     for (const io::Window& window : case_->output.windows) {
-      picture.window = io::PictureWindow{window.lower, window.upper};
-      album_.add(name + "_" + window.name, picture.label, picture.time, io::draw_png(picture), window.name);
+      pictures[k].window = io::PictureWindow{window.lower, window.upper};
+      draw(files, kept, pictures[k], name + "_" + window.name, window.name);
     }
   }
 }
 
-std::string PictureRecorder::record_place(const Snapshot& shot, const Vec2& centre, double radius) {
+std::string PictureRecorder::record_place(io::FileQueue& files, const Snapshot& shot, const Vec2& centre,
+                                          double radius) {
   const NodeState<2>& node = shot.state.node;
-  Fields<2> drawn = node.position;
+  const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, node.position, {}});
   for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t i = 0; i < drawn[k].size(); ++i)
-      if (!std::isfinite(drawn[k][i])) drawn[k][i] = node.reference[k][i];
+    for (std::size_t i = 0; i < node.size(); ++i)
+      if (!std::isfinite(kept->position[k][i])) kept->position[k][i] = node.reference[k][i];
   Field values = values_at_points(shot, "plastic_strain");
   for (double& value : values)
     if (!std::isfinite(value)) value = 0.0;
-  io::Picture picture = picture_of(shot, "plastic_strain", drawn, values);
+  io::Picture picture = picture_of(shot, "plastic_strain", *kept, std::move(values));
   picture.window = io::PictureWindow{centre.array() - radius, centre.array() + radius};
   picture.edges = true;
-  return album_.add("post_mortem", picture.label, picture.time, io::draw_png(picture), "where it went wrong");
+  return draw(files, kept, picture, "post_mortem", "where it went wrong");
 }
 
 } // namespace cnem::app

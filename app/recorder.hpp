@@ -71,35 +71,37 @@ private:
 /// natural-neighbour interpolation of nodal values.
 void write_lines(const io::Case& input, const Snapshot& shot, const std::filesystem::path& folder);
 
-/// Writes fields.pvd frames with every field of the catalogue.
+/// Writes fields.pvd frames with every field of the catalogue, through a queue that must outlive the frames.
 class FieldRecorder {
 public:
   explicit FieldRecorder(const std::filesystem::path& folder) : writer_(folder) {}
   /// Goes on with the series that is there: frames later than `time` (s) are dropped. Throws IoError.
   FieldRecorder(const std::filesystem::path& folder, double time)
       : writer_(io::FieldWriter::resume(folder, time)) {}
-  void record(const Snapshot& shot);
+  void record(io::FileQueue& files, const Snapshot& shot);
   int frames() const { return writer_.frames(); }
 
 private:
   io::FieldWriter writer_;
 };
 
-/// Draws the case's pictures.
+/// Draws the case's pictures, in the background from a copy of what they show.
 class PictureRecorder {
 public:
   PictureRecorder(const io::Case& input, const std::filesystem::path& folder)
       : case_(&input), album_(folder) {}
-  void record(const Snapshot& shot);
+  void record(io::FileQueue& files, const Snapshot& shot);
   /// Draws the plastic strain around a place that went wrong, within `radius` (m). Returns the file's name in
   /// the folder of pictures.
-  std::string record_place(const Snapshot& shot, const Vec2& centre, double radius);
+  std::string record_place(io::FileQueue& files, const Snapshot& shot, const Vec2& centre, double radius);
   /// Drops the pictures later than `time` (s).
   void truncate(double time) { album_.truncate(time); }
 
 private:
-  io::Picture picture_of(const Snapshot& shot, const std::string& field, const Fields<2>& drawn,
-                         const Field& values) const;
+  struct Kept;
+  io::Picture picture_of(const Snapshot& shot, const std::string& field, Kept& kept, Field values) const;
+  std::string draw(io::FileQueue& files, const std::shared_ptr<const Kept>& kept, const io::Picture& picture,
+                   const std::string& key, const std::string& caption);
   const io::Case* case_;
   io::PictureAlbum album_;
 };

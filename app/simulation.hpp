@@ -8,11 +8,13 @@
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
 #include "io/checkpoint.hpp"
+#include "io/file_queue.hpp"
 #include "io/progress.hpp"
 #include "io/status.hpp"
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem::app {
@@ -56,6 +58,7 @@ private:
   bool finished();
   void record_due();
   void record_last();
+  void record(bool history, bool fields, bool pictures);
   void adapt_and_step();
   void new_reference();
   void look_at_step();
@@ -64,6 +67,7 @@ private:
   void diverge(const DivergenceError& error);
   Exit fail(const std::string& message);
   io::RunStatus status();
+  std::vector<std::pair<std::string, double>> wall() const;
 
   const io::Case& input_;
   RunOptions options_;
@@ -71,6 +75,7 @@ private:
   std::vector<std::string> warnings_;
   ExplicitSolver<2> solver_;
   HistoryRecorder history_;
+  io::FileQueue files_; ///< frames and pictures on their way to the disk
   std::optional<FieldRecorder> fields_;
   std::optional<PictureRecorder> pictures_;
   Schedule history_due_, fields_due_, pictures_due_;

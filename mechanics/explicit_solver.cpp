@@ -1,5 +1,6 @@
 #include "mechanics/explicit_solver.hpp"
 
+#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "mechanics/kinematics.hpp"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 namespace cnem {
 
@@ -175,15 +177,24 @@ template<int dim> void ExplicitSolver<dim>::set_moduli() {
 
 template<int dim> void ExplicitSolver<dim>::advance(double dt) {
   const double dt_mean = 0.5 * (state_.step_before + dt);
+  double lap = wall_time();
+  const auto take = [&](double& part) {
+    const double now = wall_time();
+    part += now - std::exchange(lap, now);
+  };
   if (model_.mechanical) {
     accelerate_and_move(dt, dt_mean); // (i)   (54), (55), corrected by supports and contact
-    strain_and_stress(dt);            // (ii)  Box 2
+    take(times_.motion);
+    strain_and_stress(dt); // (ii)  Box 2
+    take(times_.stress);
   }
   state_.time += dt;
   state_.step_before = dt;
   ++state_.step;
   if (model_.mechanical) assemble_forces(); // (iii) (52), (53)
-  if (model_.thermal) conduct(dt);          // (58), staggered
+  take(times_.forces);
+  if (model_.thermal) conduct(dt); // (58), staggered
+  take(times_.heat);
 }
 
 template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, double dt_mean) {
@@ -204,7 +215,11 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
       for (std::size_t i = begin; i < end; ++i) node.position[k][i] += dt * node.velocity[k][i];
   });
 
+  const double start = wall_time();
   correct_contact(dt, dt_mean);
+  const double contact = wall_time() - start;
+  times_.contact += contact;
+  times_.motion -= contact; // whoever times the whole motion counts it too
   if (!model_.ties.empty())
     tie_loss_ += model_.ties.share_motion(node.mass, dt, node.velocity, node.position);
 

@@ -43,6 +43,11 @@ template<int dim> struct Model {
   double safety = 0.9;    ///< factor on the stable step
 };
 
+/// Wall time spent in the parts of advance(), s.
+struct StepTimes {
+  double motion = 0.0, contact = 0.0, stress = 0.0, forces = 0.0, heat = 0.0;
+};
+
 /// Advances a State. One object per run.
 template<int dim> class ExplicitSolver {
 public:
@@ -89,6 +94,7 @@ public:
   const Fields<dim>& initial_position() const { return initial_position_; }
   int references() const { return references_; }
   int resamplings() const { return resamplings_; } ///< how many of them changed the nodes
+  const StepTimes& times() const { return times_; }
   /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
   std::array<double, 2> mass_balance() const;
 
@@ -147,6 +153,7 @@ private:
   double conduction_step_ = 0.0; ///< s, stable for heat at the last reference
   int references_ = 0;
   int resamplings_ = 0;
+  StepTimes times_;
 };
 
 extern template class ExplicitSolver<2>;
