@@ -1,7 +1,6 @@
 #include "io/file_queue.hpp"
 
 #include <algorithm>
-#include <sys/resource.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -59,7 +58,7 @@ void FileQueue::wait() {
 }
 
 void FileQueue::work() {
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), lower_priority);
+  [[maybe_unused]] const int priority = ::nice(lower_priority); // of this thread alone
   Lock lock(mutex_);
   while (!failure_) {
     if (make_one(lock) || write_made(lock)) continue;
