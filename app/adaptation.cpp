@@ -63,9 +63,10 @@ Adaptation::Adaptation(const io::Case& input, const ExplicitSolver<2>& solver) :
   if (input.adapt.tool_spacing)
     for (const io::Tool& tool : input.tools)
       tips_.push_back(features(tool.outline, *input.adapt.tool_spacing));
-  size_ = spacing_of(solver);
+  wanted_ = size_ = spacing_of(solver);
   birth_.assign(size_.size(), 0.0);
   corner_ = corners(solver.model().cloud);
+  coarsest_ = input.cloud.spacing > 0.0 ? input.cloud.spacing : *std::max_element(size_.begin(), size_.end());
 }
 
 adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
@@ -138,7 +139,7 @@ Resampling<2> Adaptation::renew(ExplicitSolver<2>& solver) {
   Field wanted = wanted_spacing(solver, cloud);
   Resampling<2> change;
   try {
-    change = adapt::resample(cloud, properties(solver, std::move(wanted)), {},
+    change = adapt::resample(cloud, properties(solver, wanted), {},
                              static_cast<adapt::Placement>(input_->adapt.placement), report);
     solver.prepare(change);
   } catch (const GeometryError&) {
@@ -147,6 +148,8 @@ Resampling<2> Adaptation::renew(ExplicitSolver<2>& solver) {
   }
   if (!error_.empty()) carry_label(change.labels, error_);
   carry_label(change.labels, size_);
+  carry_label(change.labels, wanted);
+  wanted_ = std::move(wanted);
   carry_label(change.labels, birth_);
   for (std::size_t p = 0; p < change.old_of.size(); ++p)
     if (change.old_of[p] < 0) birth_[p] = solver.state().time;
@@ -168,6 +171,18 @@ void Adaptation::fit_to_tools(ExplicitSolver<2>& solver,
     follow(renew(solver));
     if (total_.inserted + total_.inserted_boundary == inserted) break;
   }
+}
+
+AdaptationFields Adaptation::fields(double time) const {
+  AdaptationFields fields;
+  fields.level.resize(size_.size());
+  fields.age.resize(size_.size());
+  for (std::size_t i = 0; i < size_.size(); ++i) {
+    fields.level[i] = std::log2(coarsest_ / wanted_[i]);
+    fields.age[i] = time - birth_[i];
+  }
+  fields.indicator = error_.empty() ? Field(size_.size(), 0.0) : error_;
+  return fields;
 }
 
 std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
@@ -193,6 +208,7 @@ void Adaptation::archive(Archive& archive) {
   archive.integers("run/adapt/corner", corner_);
   if (archive.loading()) {
     size_.resize(corner_.size());
+    wanted_.resize(corner_.size());
     birth_.resize(corner_.size());
   }
   if (input_->adapt.indicator != io::Adaptation::Indicator::none) {
@@ -204,6 +220,7 @@ void Adaptation::archive(Archive& archive) {
     archive.field("run/adapt/error", "m", error_);
   }
   archive.field("run/adapt/size", "m", size_);
+  archive.field("run/adapt/wanted", "m", wanted_);
   archive.field("run/adapt/birth", "s", birth_);
   archive.integer("run/adapt/passes", passes_);
   for (auto& [name, count] : {std::pair{"folded", &total_.folded},

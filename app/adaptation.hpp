@@ -2,6 +2,7 @@
 // Estimate, mark, resample, transfer: what happens to the cloud at a new reference.
 #include "adapt/marking.hpp"
 #include "adapt/resample.hpp"
+#include "app/snapshot.hpp"
 #include "io/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 
@@ -26,9 +27,8 @@ public:
   /// GeometryError with the solver left as it was.
   Resampling<2> renew(ExplicitSolver<2>& solver);
 
-  const Field& size() const { return size_; }   ///< [node] m, wanted spacing
-  const Field& birth() const { return birth_; } ///< [node] s, when it was inserted
-  const Field& error() const { return error_; } ///< [node] indicator at the last new reference; empty without
+  /// For pictures and files at a time, s.
+  AdaptationFields fields(double time) const;
   /// Sums over the run, for status.json.
   std::vector<std::pair<std::string, double>> metrics() const;
   void archive(Archive& archive);
@@ -39,7 +39,10 @@ private:
   adapt::NodeProperties properties(const ExplicitSolver<2>& solver, Field wanted) const;
 
   const io::Case* input_;
-  Field size_, birth_, error_;
+  Field size_, birth_;    ///< [node] m, wanted spacing before tools and growth; s, when it was inserted
+  Field wanted_;          ///< [node] m, wanted spacing of the last pass
+  Field error_;           ///< [node] indicator at the last new reference; empty before the first estimate
+  double coarsest_ = 0.0; ///< m, the spacing of level 0
   std::vector<std::vector<Vec2>> tips_;         ///< [tool] m, points of its corners and arcs at time 0
   double error_total_ = 0.0, error_norm_ = 0.0; ///< of the last estimate
   std::int64_t refined_ = 0, coarsened_ = 0;    ///< cells marked so far

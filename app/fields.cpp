@@ -68,6 +68,12 @@ const std::vector<Entry>& entries() {
        [](Shot s, Index i) { return displacement(s, 0, i); }},
       {{"displacement_y", "displacement y", "m", "mm", 1e-3, io::ColourMap::diverging, true},
        [](Shot s, Index i) { return displacement(s, 1, i); }},
+      {{"level", "level of refinement", "", "", 1.0, io::ColourMap::strain, true, true},
+       [](Shot s, Index i) { return s.adaptation->level[i]; }},
+      {{"indicator", "error indicator", "", "", 1.0, io::ColourMap::heat, true, true},
+       [](Shot s, Index i) { return s.adaptation->indicator[i]; }},
+      {{"age", "age of the node", "s", "µs", 1e-6, io::ColourMap::heat, true, true},
+       [](Shot s, Index i) { return s.adaptation->age[i]; }},
   };
   return list;
 }

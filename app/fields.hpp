@@ -19,6 +19,7 @@ struct FieldInfo {
   double shown_factor = 1.0; ///< SI value of one shown unit
   io::ColourMap map = io::ColourMap::strain;
   bool at_nodes = false; ///< lives at nodes (else at stress points)
+  bool adaptive = false; ///< only where the cloud is adapted
 };
 
 /// All fields, in the order files list them.

@@ -276,6 +276,7 @@ void FieldRecorder::record(io::FileQueue& files, const Snapshot& shot) {
   frame.cells = &kept->cells;
   frame.position = spans(kept->position);
   for (const FieldInfo& info : field_catalogue()) {
+    if (info.adaptive && !shot.adaptation) continue;
     const std::string name = info.unit.empty() ? info.label : fmt::format("{} [{}]", info.label, info.unit);
     const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
     frame.cell_scalars.push_back({name, at_points});

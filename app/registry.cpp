@@ -167,9 +167,12 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
       if (straight.empty()) continue;
       const Vec2 edge = cloud.position[static_cast<std::size_t>(straight.front().node[1])] -
                         cloud.position[static_cast<std::size_t>(straight.front().node[0])];
-      all.supports.push_back(
-          {spec.name, Kind::symmetry, right_normal(edge).normalized(), {}, nodes_of(straight),
-                               pieces_of(std::span<const Facet<2>>(straight))});
+      all.supports.push_back({spec.name,
+                              Kind::symmetry,
+                              right_normal(edge).normalized(),
+                              {},
+                              nodes_of(straight),
+                              pieces_of(std::span<const Facet<2>>(straight))});
     }
   }
   for (std::size_t k = 0; k < 2; ++k) {
@@ -177,7 +180,8 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
     if (spec.velocity[k])
       all.supports.push_back({spec.name, Kind::velocity, direction, *spec.velocity[k], nodes, pieces});
     if (spec.displacement[k])
-      all.supports.push_back({spec.name, Kind::displacement, direction, *spec.displacement[k], nodes, pieces});
+      all.supports.push_back(
+          {spec.name, Kind::displacement, direction, *spec.displacement[k], nodes, pieces});
   }
   if (spec.traction[0] || spec.traction[1])
     all.tractions.push_back({spec.name,

@@ -186,10 +186,16 @@ void Simulation::record_last() {
   record(history_due_.last() != now, fields_due_.last() != now, pictures_due_.last() != now);
 }
 
+Snapshot Simulation::shot() {
+  if (!adaptation_.active()) return snapshot(solver_);
+  adaptation_fields_ = adaptation_.fields(solver_.state().time);
+  return snapshot(solver_, &adaptation_fields_);
+}
+
 void Simulation::record(bool history, bool fields, bool pictures) {
   if (history) watch_.time("output.history", [&] { history_.record(solver_); });
-  if (fields) watch_.time("output.fields", [&] { fields_->record(files_, snapshot(solver_)); });
-  if (pictures) watch_.time("output.pictures", [&] { pictures_->record(files_, snapshot(solver_)); });
+  if (fields) watch_.time("output.fields", [&] { fields_->record(files_, shot()); });
+  if (pictures) watch_.time("output.pictures", [&] { pictures_->record(files_, shot()); });
 }
 
 void Simulation::adapt_and_step() {
@@ -249,7 +255,7 @@ void Simulation::diverge(const DivergenceError& error) {
   dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", io::files::checkpoint,
                                  last_checkpoint_.empty() ? "no step" : last_checkpoint_, fields_due_.last());
   const Place place = place_of(solver_, static_cast<std::size_t>(error.node));
-  dead_->picture = pictures_->record_place(files_, snapshot(solver_), place.centre, place.radius);
+  dead_->picture = pictures_->record_place(files_, shot(), place.centre, place.radius);
 }
 
 Exit Simulation::fail(const std::string& message) {

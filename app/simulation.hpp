@@ -58,6 +58,8 @@ private:
   bool finished();
   void record_due();
   void record_last();
+  /// Good until the next one.
+  Snapshot shot();
   void record(bool history, bool fields, bool pictures);
   void adapt_and_step();
   void new_reference();
@@ -82,6 +84,7 @@ private:
   StepControl control_;
   ReferenceRenewal renewal_;
   Adaptation adaptation_;
+  AdaptationFields adaptation_fields_;
   CheckpointTimer checkpoints_;
   io::Progress progress_;
   std::int64_t last_check_ = -1; ///< step of the last look at the stable step; −1: none yet

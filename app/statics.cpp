@@ -134,6 +134,7 @@ Exit run_static(const io::Case& input, const RunOptions& options) {
                       model.position,
                       model.setup.model.cloud,
                       model.setup.model.contact,
+                      nullptr,
                       drawing_scale(model, solution)};
   watch.time("output", [&] {
     io::FileQueue files;

@@ -312,12 +312,14 @@ struct Fracture {
 
 /// A field that probes and pictures know.
 struct FieldDescription {
-  std::string name;    ///< "plastic_strain"
-  std::string unit;    ///< SI; "1" for plain numbers
-  std::string meaning; ///< one line for people
+  std::string name;      ///< "plastic_strain"
+  std::string unit;      ///< SI; "1" for plain numbers
+  std::string meaning;   ///< one line for people
+  bool adaptive = false; ///< for pictures of adapted clouds only
 };
 const std::vector<FieldDescription>& field_descriptions();
-std::vector<std::string> field_names();
+/// All of them, or those that probes and lines know.
+std::vector<std::string> field_names(bool adaptive = true);
 
 struct Case {
   std::string path;  ///< file it was read from

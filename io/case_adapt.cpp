@@ -1,6 +1,7 @@
 // Adaptation, and what it cannot be combined with.
 #include "io/case_parts.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace cnem::io {
@@ -38,6 +39,15 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
           "adapt.tool_spacing",
           "found a spacing at tools where adapt.resample is false, expected true: without resampling no node "
           "is added");
+    for (const FieldDescription& field : field_descriptions())
+      if (field.adaptive &&
+          std::find(result.output.picture_fields.begin(), result.output.picture_fields.end(), field.name) !=
+              result.output.picture_fields.end())
+        conflict("output.picture_fields",
+                 fmt::format(
+                     "found \"{}\" where adapt.resample is false, expected fields of the material: the cloud "
+                     "is not adapted",
+                     field.name));
     return;
   }
   if (const Setting* least = table.find("indicator.h_min"); refines && least && !(adapt.h_min < adapt.h_max))

@@ -350,7 +350,7 @@ void add_fracture(Keys& k) {
 }
 
 void add_output(Keys& k) {
-  const std::vector<std::string> fields = field_names();
+  const std::vector<std::string> fields = field_names(false);
   k.add("output", table, "What is written.").always();
   k.add("output.history_every", quantity, "Time between rows of `history.csv`; 0: every step.")
       .unit(d::time)
@@ -389,7 +389,7 @@ void add_output(Keys& k) {
       .in({.low = 1, .high = 1000})
       .fallback("2");
   k.add("output.picture_fields", choices, "Fields drawn.")
-      .one_of(fields)
+      .one_of(field_names())
       .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");
   k.add(
       "output.lines", named_tables,
