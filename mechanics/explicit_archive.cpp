@@ -69,6 +69,10 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive.number("solver/conduction_step", "s", conduction_step_);
   archive.integer("solver/references", references_);
   edge_defect_.archive(archive);
+  if (local_.on()) {
+    local_.archive(archive);
+    archive.number("solver/local/finest_before", "s", finest_before_);
+  }
   model_.supports.archive(archive);
   model_.contact.archive(archive);
   if (!archive.loading()) return;
@@ -80,6 +84,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   approximation_ = model_.method->rebuild(model_.cloud);
   if (model_.thermal) set_conduction();
   place_reference();
+  if (local_.on()) take_levels(local_.level());
   model_.loads.evaluate(state_.time, node.position, node.mass);
 }
 
