@@ -72,6 +72,11 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   if (local_.on()) {
     local_.archive(archive);
     archive.number("solver/local/finest_before", "s", finest_before_);
+    archive.integer("solver/local/on_new_reference", on_new_reference_);
+    std::vector<double> next(next_levels_.begin(), next_levels_.end());
+    archive.list("solver/local/next_level", "1", next);
+    next_levels_.clear();
+    for (const double level : next) next_levels_.push_back(static_cast<std::int8_t>(level));
   }
   model_.supports.archive(archive);
   model_.contact.archive(archive);

@@ -15,7 +15,7 @@ template<int dim> int ExplicitSolver<dim>::sub_steps() const {
 }
 
 template<int dim> double ExplicitSolver<dim>::updates() const {
-  return local_.on() ? local_.updates() : static_cast<double>(state_.point.size());
+  return local_.on() ? local_.updates() : static_cast<double>(state_.node.size());
 }
 
 template<int dim> double ExplicitSolver<dim>::load_weight(std::size_t node) const {
@@ -49,6 +49,7 @@ template<int dim> void ExplicitSolver<dim>::rebuild_levels() {
   LocalSteps<dim>::grade(approximation_.mechanics, approximation_.links, next_levels_);
   if (next_levels_ == local_.level()) next_levels_.clear();
   on_new_reference_ = true;
+  local_.look_again();
   assemble_impulses(local_.highest());
 }
 

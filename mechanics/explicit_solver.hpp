@@ -56,7 +56,7 @@ public:
   void advance(double dt);
   /// Finest steps in the next call of `advance`; 1 without local time steps.
   int sub_steps() const;
-  /// Updates of stress points in the last call of `advance`.
+  /// Updates of nodes (and their stress points) in the last call of `advance`.
   double updates() const;
   const LocalSteps<dim>& local_steps() const { return local_; }
 

@@ -90,36 +90,38 @@ void LocalSteps<dim>::grade(const DiscreteOperators<dim>& op, const Stabilisatio
 template<int dim>
 typename LocalSteps<dim>::Choice LocalSteps<dim>::choose(const DiscreteOperators<dim>& op,
                                                          const StabilisationLinks<dim>& links,
-                                                         const Field& stable) const {
+                                                         const Field& stable) {
   const std::size_t nodes = u(op.nodes);
-  Choice fresh;
-  fresh.level.assign(stable.size(), 0);
-  const double least = finest_step(fresh.level, stable, fresh.limit);
-  const double all = cost(fresh.level, nodes, block, least);
-  for (std::size_t b = 0; b < stable.size(); ++b)
-    if (const double ratio = stable[b] / least; ratio >= 2.0)
-      fresh.level[b] = static_cast<std::int8_t>(
-          std::min(static_cast<double>(control_.levels - 1), std::floor(std::log2(ratio))));
-  grade(op, links, fresh.level);
-  fresh.finest = finest_step(fresh.level, stable, fresh.limit);
-  fresh.gain = all / cost(fresh.level, nodes, block, fresh.finest);
-  if (fresh.gain < control_.least_gain) {
-    fresh.level.assign(stable.size(), 0);
-    fresh.finest = finest_step(fresh.level, stable, fresh.limit);
-    fresh.gain = 1.0;
-  }
-  if (level_.size() != stable.size()) return fresh;
+  const auto complete = [&](Choice& choice) {
+    choice.finest = finest_step(choice.level, stable, choice.limit);
+    return cost(choice.level, nodes, block, choice.finest);
+  };
+  constexpr double worth_changing = 1.05;
   Choice kept;
   kept.level = level_;
-  kept.finest = finest_step(kept.level, stable, kept.limit);
-  kept.gain = all / cost(kept.level, nodes, block, kept.finest);
-  constexpr double worth_changing = 1.05;
-  const bool graded = [&] {
-    Levels same = level_;
-    grade(op, links, same);
-    return same == level_;
-  }();
-  return graded && fresh.gain <= worth_changing * kept.gain ? kept : fresh;
+  const bool fits = level_.size() == stable.size();
+  const double kept_cost = fits ? complete(kept) : 0.0;
+  if (fits && kept_cost <= worth_changing * chosen_cost_) return kept;
+
+  Choice finest, fresh;
+  finest.level.assign(stable.size(), 0);
+  const double all = complete(finest);
+  fresh.level = finest.level;
+  for (std::size_t b = 0; b < stable.size(); ++b)
+    fresh.level[b] = static_cast<std::int8_t>(
+        std::min(control_.levels - 1.0, std::floor(std::log2(stable[b] / finest.finest))));
+  grade(op, links, fresh.level);
+  chosen_cost_ = complete(fresh);
+  if (all < control_.least_gain * chosen_cost_) {
+    fresh = finest;
+    chosen_cost_ = all;
+  }
+  if (!fits || kept_cost > worth_changing * chosen_cost_) return fresh;
+  Levels graded = level_;
+  grade(op, links, graded);
+  if (graded != level_) return fresh;
+  chosen_cost_ = kept_cost;
+  return kept;
 }
 
 template<int dim>
@@ -184,6 +186,7 @@ template<int dim> void LocalSteps<dim>::list(std::size_t nodes, const std::vecto
 template<int dim> void LocalSteps<dim>::archive(Archive& archive) {
   std::vector<double> level(level_.begin(), level_.end());
   archive.list("solver/local/level", "1", level);
+  archive.number("solver/local/chosen_cost", "1/s", chosen_cost_);
   level_.clear();
   for (const double l : level) level_.push_back(static_cast<std::int8_t>(l));
 }

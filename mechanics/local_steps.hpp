@@ -45,13 +45,14 @@ public:
   struct Choice {
     Levels level;
     double finest = 0.0;
-    double gain = 1.0; ///< updates saved: those of all points at the finest step over those of these levels
     std::size_t limit = 0; ///< block that limits the finest step
   };
   /// Chooses for the stable steps [block], s. Levels in use are kept as long as they cost at most 5% more
-  /// updates than new ones.
+  /// updates than new ones, or than when they were chosen.
   Choice choose(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
-                const Field& stable) const;
+                const Field& stable);
+  /// The operators are new: the next choice compares levels in use with new ones.
+  void look_again() { chosen_cost_ = 0.0; }
 
   /// Lowers levels until neighbours are within one of each other.
   static void grade(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
@@ -108,6 +109,7 @@ private:
   Levels move_;
   int highest_ = 0;
   double updates_ = 0.0;
+  double chosen_cost_ = 0.0; ///< 1/s, updates over time when levels were compared last
   StabilisationLinks<dim> own_, coarse_;
   std::vector<bool> has_coarse_; ///< [block]
   std::vector<Due> due_;         ///< [activity]
