@@ -46,7 +46,7 @@ inline contact::Tool<2> box_tool(const std::string& name, Vec2 low, Vec2 high, V
 }
 
 /// A half blank between punch and die, refined where it will shear, with friction and heat: spacings differ
-/// by a factor of 8, 14% of the stress points take the finest of four steps.
+/// by a factor of 8.
 inline Model<2> graded_shearing(double speed, double coarse = 4e-4) {
   const double fine = coarse / 8.0, clearance = 1e-4, edge = 4e-3;
   Cloud<2> cloud = graded_rectangle(10e-3, 4e-3, coarse, fine, {{edge, 0}, {edge, 4e-3}});

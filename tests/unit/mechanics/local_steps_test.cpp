@@ -37,9 +37,9 @@ Field all_of(const ExplicitSolver<2>& solver) {
   return all;
 }
 
-/// A square whose middle is eight times as fine as its sides, in four levels.
+/// A square whose middle is twelve times as fine as its sides, in four levels.
 Model<2> graded_square() {
-  Model<2> model = model_of(graded_rectangle(1e-2, 1e-2, 4e-4, 5e-5, {{4.9e-3, 5e-3}, {5.1e-3, 5e-3}}),
+  Model<2> model = model_of(graded_rectangle(1e-2, 1e-2, 3e-4, 2.5e-5, {{4.9e-3, 5e-3}, {5.1e-3, 5e-3}}),
                             Method::cnem, steel());
   model.local = {.on = true, .least_gain = 0.0};
   return model;
@@ -130,6 +130,34 @@ TEST(LocalSteps, momenta_are_exact) {
   EXPECT_LT(worst, 1e-4 * energy);
 }
 
+/// A body that falls freely stays without stress, to rounding, whatever the levels: before they are chosen,
+/// as they change, on new references, and with steps of another length.
+TEST(LocalSteps, free_fall_makes_no_stress) {
+  Model<2> model = graded_square();
+  const Vec2 g(3e6, -1e7);
+  model.loads = Loads<2>({}, {}, {TimeTable(g.x()), TimeTable(g.y())}, model.cloud.position);
+  const double young = 210e9;
+  ExplicitSolver<2> solver = at_rest(std::move(model));
+  const double macro = solver.stable_step().dt, finest = macro / solver.sub_steps();
+  solver.prepare(); // forgets what was chosen
+  ASSERT_EQ(solver.sub_steps(), 1);
+  for (int n = 0; n < 5; ++n) solver.advance(finest);
+  ASSERT_NEAR(solver.stable_step().dt, macro, 1e-9 * macro);
+  for (int n = 0; n < 20; ++n) {
+    solver.advance(n % 3 == 0 ? 0.7 * macro : macro);
+    if (n == 10) solver.prepare();
+  }
+  ASSERT_EQ(solver.sub_steps(), 8);
+  const double t = solver.state().time;
+  for (std::size_t i = 0; i < solver.state().node.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+      ASSERT_NEAR(solver.state().node.position[k][i] - solver.initial_position()[k][i],
+                  0.5 * g[static_cast<Eigen::Index>(k)] * t * t, 1e-15);
+  for (const Field& component : solver.state().point.piola)
+    for (const double stress : component) ASSERT_LT(std::abs(stress), 1e-9 * young);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-9 * solver.ledger().loads);
+}
+
 /// Every node with a random velocity, all frequencies there are: 10⁵ finest steps.
 TEST(LocalSteps, energy_stays_bounded) {
   Random random(3);
@@ -138,7 +166,7 @@ TEST(LocalSteps, energy_stays_bounded) {
   });
   const double dt = solver.stable_step().dt;
   double worst[2] = {0.0, 0.0};
-  constexpr int count = 12500;
+  const int count = 100000 / solver.sub_steps();
   for (int n = 0; n < count; ++n) {
     solver.advance(dt);
     if (n % 5 != 0) continue;
@@ -215,9 +243,12 @@ TEST(LocalSteps, pulse_crosses_levels_as_with_the_global_step) {
   }
 }
 
-/// Body force, traction, pressure, moving and resting supports, ties: what acts on nodes from outside.
+TimeTable ramp(double value) { return {std::vector<double>{0.0, 1e-6}, std::vector<double>{0.0, value}}; }
+
+/// Body force, traction, pressure, moving and resting supports, ties: what acts on nodes from outside. What
+/// is left between the two falls with the square of the step.
 TEST(LocalSteps, loads_supports_and_ties_act_as_with_the_global_step) {
-  const auto loaded = [](bool local) {
+  const auto loaded = [](bool local, double safety) {
     Cloud<2> cloud = graded_rectangle(4e-3, 4e-3, 2e-4, 2.5e-5, {{2e-3, 3.8e-3}, {2e-3, 4e-3}});
     const auto n = static_cast<std::size_t>(cloud.nodes());
     std::vector<Facet<2>> right, top;
@@ -227,35 +258,45 @@ TEST(LocalSteps, loads_supports_and_ties_act_as_with_the_global_step) {
     }
     Model<2> model = model_of(cloud, Method::cnem, steel());
     model.supports =
-        Supports<2>({{"base", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(2.0), nodes_on(cloud, 0)},
+        Supports<2>({{"base", Support<2>::Kind::velocity, Vec2(0, 1), ramp(2.0), nodes_on(cloud, 0)},
                      {"side", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}},
                     n);
-    model.loads =
-        Loads<2>({{"pull", {TimeTable(4e7), TimeTable(0.0)}, right}}, {{"press", TimeTable(3e7), top}},
-                 {TimeTable(0.0), TimeTable(-5e6)}, cloud.position);
+    model.loads = Loads<2>({{"pull", {ramp(4e7), TimeTable(0.0)}, right}}, {{"press", ramp(3e7), top}},
+                           {TimeTable(0.0), ramp(-5e6)}, cloud.position);
     const auto sides = nodes_on(cloud, 1);
     model.ties = Ties<2>({{sides[2], sides[5]}}, cloud.position);
+    model.safety = safety;
     model.local = {.on = local, .least_gain = 0.0};
     ExplicitSolver<2> solver = at_rest(std::move(model));
     advance(solver, 2e-6);
     return solver;
   };
-  const ExplicitSolver<2> global = loaded(false), local = loaded(true);
-  EXPECT_EQ(local.sub_steps(), 8);
-  const EnergyLedger a = global.ledger(), b = local.ledger();
-  EXPECT_NEAR(b.loads, a.loads, 2e-3 * a.loads);
-  EXPECT_NEAR(b.supports, a.supports, 2e-3 * a.supports);
-  EXPECT_NEAR(b.elastic, a.elastic, 2e-3 * a.elastic);
-  EXPECT_LT(std::abs(b.residual()), 2e-3 * b.external());
-  double apart = 0.0, most = 0.0;
-  for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t i = 0; i < local.state().node.size(); ++i) {
-      const double u = global.state().node.position[k][i] - global.initial_position()[k][i];
-      const double w = local.state().node.position[k][i] - local.initial_position()[k][i];
-      apart = std::max(apart, std::abs(u - w));
-      most = std::max(most, std::abs(u));
-    }
-  EXPECT_LT(apart, 5e-3 * most);
+  const ExplicitSolver<2> global = loaded(false, 0.45);
+  const EnergyLedger a = global.ledger();
+  double energy[2], apart[2];
+  int k = 0;
+  for (const double safety : {0.9, 0.45}) {
+    const ExplicitSolver<2> local = loaded(true, safety);
+    EXPECT_GE(local.sub_steps(), 4);
+    const EnergyLedger b = local.ledger();
+    EXPECT_NEAR(b.loads, a.loads, 3e-3 * a.external());
+    EXPECT_NEAR(b.supports, a.supports, 6e-3 * a.supports);
+    EXPECT_LT(std::abs(b.residual()), 2e-3 * b.external());
+    energy[k] = std::abs(b.elastic / a.elastic - 1.0);
+    double difference = 0.0, displacement = 0.0;
+    for (std::size_t c = 0; c < 2; ++c)
+      for (std::size_t i = 0; i < local.state().node.size(); ++i) {
+        const double u = global.state().node.position[c][i] - global.initial_position()[c][i];
+        const double w = local.state().node.position[c][i] - local.initial_position()[c][i];
+        difference = std::max(difference, std::abs(u - w));
+        displacement = std::max(displacement, std::abs(u));
+      }
+    apart[k++] = difference / displacement;
+  }
+  EXPECT_LT(energy[0], 5e-3);
+  EXPECT_LT(energy[1], energy[0] / 3.5);
+  EXPECT_LT(apart[0], 0.02);
+  EXPECT_LT(apart[1], apart[0] / 3.0);
 }
 
 /// A round bar on a wall.
@@ -275,7 +316,7 @@ TEST(LocalSteps, bodies_of_revolution_follow_the_global_step) {
     return solver;
   };
   const ExplicitSolver<2> global = struck(false), local = struck(true);
-  EXPECT_EQ(local.sub_steps(), 8);
+  EXPECT_GE(local.sub_steps(), 4);
   const EnergyLedger a = global.ledger(), b = local.ledger();
   EXPECT_NEAR(b.plastic, a.plastic, 5e-3 * a.plastic);
   EXPECT_NEAR(b.kinetic, a.kinetic, 5e-3 * a.kinetic);
@@ -283,12 +324,12 @@ TEST(LocalSteps, bodies_of_revolution_follow_the_global_step) {
 }
 
 TEST(LocalSteps, graded_shearing_follows_the_global_step) {
-  const double coarse = 1.2e-4, end = 3e-6;
+  const double coarse = 0.72e-4, end = 2e-6;
   Model<2> model = graded_shearing(20.0, coarse);
   model.local.on = true;
   ExplicitSolver<2> local = at_rest(std::move(model)), global = at_rest(graded_shearing(20.0, coarse));
   double impulse[2] = {0.0, 0.0};
-  constexpr int windows = 6;
+  constexpr int windows = 4;
   for (int w = 1; w <= windows; ++w) {
     double force[2];
     int i = 0;
@@ -296,10 +337,12 @@ TEST(LocalSteps, graded_shearing_follows_the_global_step) {
       advance(*solver, end * w / windows);
       const double now = -solver->model().contact.results()[0].impulse.y();
       force[i] = (now - impulse[i]) / (end / windows);
-      impulse[i++] = now;
+      impulse[i] = now;
+      ++i;
     }
-    EXPECT_NEAR(force[1], force[0], 0.005 * force[0]) << "window " << w;
+    EXPECT_NEAR(force[1], force[0], 0.01 * force[0]) << "window " << w;
   }
+  EXPECT_NEAR(impulse[1], impulse[0], 2e-3 * impulse[0]);
   ASSERT_EQ(local.sub_steps(), 8);
   const auto& levels = local.local_steps().level();
   EXPECT_LT(static_cast<double>(std::count(levels.begin(), levels.end(), 0)),
