@@ -300,6 +300,8 @@ Setup build(const io::Case& input) {
   model.thermal = input.analysis.thermal;
   model.mechanical = input.analysis.mechanical;
   model.safety = input.time.safety;
+  model.local.on = input.time.local;
+  model.local.levels = input.time.levels;
 
   Conditions all;
   for (const io::BoundaryCondition& condition : input.boundary)

@@ -153,7 +153,7 @@ void Simulation::loop() {
       return stop(Exit::interrupted, fmt::format("by {} at {}; `cnem restart {}` goes on from there", signal,
                                                  last_checkpoint_, options_.output.string()));
     adapt_and_step();
-    node_steps_ += static_cast<double>(state.node.size());
+    node_steps_ += solver_.updates();
   }
 }
 
@@ -203,7 +203,7 @@ void Simulation::adapt_and_step() {
   if (rereference) watch_.time("rebuild", [&] { new_reference(); });
   watch_.time("step", [&] {
     const State<2>& state = solver_.state();
-    if (rereference || state.step - last_check_ >= input_.time.check_every)
+    if (rereference || (state.step - last_check_) * solver_.sub_steps() >= input_.time.check_every)
       watch_.time("step.stable", [&] { look_at_step(); });
     solver_.advance(
         control_.choose(state.time, std::min({input_.time.end, fields_due_.next(), pictures_due_.next()})));

@@ -60,10 +60,11 @@ void StepControl::refresh(ExplicitSolver<2>& solver) {
   limit_ = stable.dt;
   point_ = stable.point;
   limited_by_ = stable.limit;
-  if (first_ == 0.0) first_ = stable.dt;
+  const double finest = stable.dt / solver.sub_steps();
+  if (first_ == 0.0) first_ = finest;
   constexpr double collapsed = 1e-3;
-  if (const double least = time_->min_step.value_or(collapsed * first_); stable.dt < least)
-    throw step_collapse(solver, stable.point, stable.dt,
+  if (const double least = time_->min_step.value_or(collapsed * first_); finest < least)
+    throw step_collapse(solver, stable.point, finest,
                         fmt::format("{} = {:.3g} s",
                                     time_->min_step ? "time.step.min" : "a thousandth of the first one",
                                     least));

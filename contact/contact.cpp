@@ -110,6 +110,7 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
   scatter(step);
   book(poses_now, step);
   list_points(poses_now, step);
+  if (in_sub_steps_) add_sub_step(step.dt_mean);
 }
 
 template<int dim>
@@ -142,7 +143,8 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
     reaction.change.setZero();
     start_[b] = reaction.position - step.dt * reaction.velocity;
   }
-  area_ = surface_.areas(end_, space_);
+  rubbing_ = area_ = surface_.areas(end_, space_);
+  for (std::size_t b = 0; b < step.window.size(); ++b) rubbing_[b] *= step.window[b];
   contacts_.clear();
   std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec<dim>::Zero());
@@ -204,7 +206,7 @@ bool RigidContact<dim>::find_on_faces(const std::vector<Pose>& poses, const Cont
       contact.node[0] = static_cast<std::int32_t>(b);
       contact.weight[0] = 1.0;
       contact.normal = entry.at.normal;
-      set_friction(contact, poses[t], area_[b], step);
+      set_friction(contact, poses[t], rubbing_[b], step);
       const double level = entry.at.normal.dot(end_[b]) - entry.at.distance;
       any |= add(contact, entry.start, level, poses[t], step.dt);
     }
@@ -232,7 +234,7 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const Con
         const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<dim>& c) {
           return c.tool == contact.tool && c.facet < 0 && c.node[0] == contact.node[a];
         });
-        if (!on_face) area += contact.weight[a] * area_[static_cast<std::size_t>(contact.node[a])];
+        if (!on_face) area += contact.weight[a] * rubbing_[static_cast<std::size_t>(contact.node[a])];
       }
       set_friction(contact, poses[t], area, step);
       const Vec<dim> x = at_contact(contact, [&](std::size_t b) { return end_[b]; });
@@ -328,20 +330,7 @@ void RigidContact<dim>::list_points(const std::vector<Pose>& poses, const Contac
       point.pressure = contact.weight[a] * contact.pressing / (step.dt_mean * area_[b]);
       points_.push_back(point);
     }
-  std::stable_sort(points_.begin(), points_.end(),
-                   [](const ContactPoint<dim>& a, const ContactPoint<dim>& b) {
-                     return std::pair(a.tool, a.node) < std::pair(b.tool, b.node);
-                   });
-  std::size_t kept = 0;
-  for (const ContactPoint<dim>& point : points_) {
-    if (kept > 0 && points_[kept - 1].tool == point.tool && points_[kept - 1].node == point.node) {
-      points_[kept - 1].force += point.force;
-      points_[kept - 1].pressure += point.pressure;
-    } else {
-      points_[kept++] = point;
-    }
-  }
-  points_.resize(kept);
+  merge_points();
   for (ContactPoint<dim>& point : points_) {
     const auto t = static_cast<std::size_t>(point.tool);
     const Vec<dim> x = end_[static_cast<std::size_t>(point.boundary)] - poses[t].end;

@@ -31,6 +31,8 @@ template<int dim> struct ContactStep {
   std::span<const double> flow_stress = {}; ///< Pa, [boundary node]; needed where flow_stress_needed()
   std::span<const double> effusivity = {};  ///< W √s/(m² K), [boundary node], of the workpiece; empty: it
                                             ///< keeps all friction heat
+  std::span<const double> window = {}; ///< –, [boundary node], over how many Δt̄ the forces that arrive in
+                                       ///< this step have gathered; empty: one
 };
 
 /// Energies of contact, J per unit thickness in 2D, all but the first two ≥ 0. They balance exactly:
@@ -94,6 +96,11 @@ public:
   /// Throws InputError when a shear factor is set and no flow stress given.
   void correct(const ContactStep<dim>& step);
 
+  /// Between these two calls `correct` is called once in each of several steps, and then all results are
+  /// those of one step over `duration` (s, the sum of their Δt̄): sums, and mean forces.
+  void begin_sub_steps();
+  void end_sub_steps(double duration);
+
   const std::vector<Tool<dim>>& tools() const { return tools_; }
   bool flow_stress_needed() const;
   /// Nodes of the boundary in increasing order; the lists marked [boundary node] follow it.
@@ -123,6 +130,8 @@ private:
   void scatter(const ContactStep<dim>& step);
   void book(const std::vector<Pose>& poses, const ContactStep<dim>& step);
   void list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  void merge_points();
+  void add_sub_step(double dt_mean);
 
   std::vector<Tool<dim>> tools_;
   Space space_ = Space::plane;
@@ -136,6 +145,7 @@ private:
   std::vector<Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
   std::vector<Reaction<dim>> reactions_;
   std::vector<double> area_;
+  std::vector<double> rubbing_; ///< m^(dim−1), areas times windows
   std::vector<Contact<dim>> contacts_;
   std::size_t from_earlier_passes_ = 0; ///< how many of them
 
@@ -143,6 +153,16 @@ private:
   std::vector<ContactPoint<dim>> points_;
   std::vector<double> heat_;
   std::vector<Vec<dim>> nodal_impulse_;
+
+  /// What several steps that are reported as one have added up to.
+  struct SubSteps {
+    std::vector<ToolResult<dim>> start;    ///< [tool]
+    std::vector<ContactPoint<dim>> points; ///< with impulses for forces
+    std::vector<double> heat;
+    std::vector<Vec<dim>> nodal_impulse;
+  };
+  bool in_sub_steps_ = false;
+  SubSteps sub_steps_;
 };
 
 extern template class RigidContact<2>;

@@ -39,6 +39,8 @@ struct TimeControl {
   std::optional<double>
       min_step; ///< s  a smaller stable step means divergence; absent: 1e-3 of the first one
   std::optional<std::int64_t> max_steps; ///< – the run ends after so many
+  bool local = false;                    ///< steps differ from node to node
+  int levels = 5;                        ///< – with local steps: at most so many different ones
 };
 
 /// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are

@@ -50,6 +50,21 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
       for (const char* path : {"tools", "initial.velocity", "initial.spin", "initial.velocity_gradient"})
         refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
                diagnostics);
+    if (result.time.local) {
+      const std::string local = "time.step.local";
+      if (result.time.fixed)
+        refuse(root, local, "found local steps and a fixed one, expected one of them", diagnostics);
+      if (!result.analysis.mechanical)
+        refuse(
+            root, local,
+            "found local steps in an analysis without motion, expected them with analysis.mechanical = true",
+            diagnostics);
+      if (result.method.name == Method::Name::fe_triangles)
+        refuse(root, local,
+               "found local steps with finite-element triangles, whose stress points are not nodes, expected "
+               "method.name = \"cnem\"",
+               diagnostics);
+    }
     if (result.analysis.kinematics == Analysis::Kinematics::plane_stress)
       refuse(root, "analysis.kinematics",
              "found \"plane stress\", expected it with analysis.type = \"static\" only", diagnostics);

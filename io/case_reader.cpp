@@ -48,7 +48,9 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
                  step.maybe<double>("fixed"),
                  static_cast<int>(step.get<std::int64_t>("check_every")),
                  step.maybe<double>("min"),
-                 root.maybe<std::int64_t>("time.max_steps")};
+                 root.maybe<std::int64_t>("time.max_steps"),
+                 step.get<bool>("local"),
+                 static_cast<int>(step.get<std::int64_t>("levels"))};
   if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
     diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
                     "found a fixed step and a largest step, expected one of them");

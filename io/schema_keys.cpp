@@ -47,8 +47,11 @@ void add_general(Keys& k) {
   k.add("time.step.safety", quantity, "Factor on the stable step.")
       .in({.low = 0.0, .high = 1.0, .low_open = true})
       .fallback("0.9");
-  k.add("time.step.max", quantity, "Largest step allowed.").unit(d::time).in(positive);
-  k.add("time.step.min", quantity, "The run has diverged when the stable step falls below this.")
+  k.add("time.step.max", quantity, "Largest step allowed; with local steps of the coarsest nodes.")
+      .unit(d::time)
+      .in(positive);
+  k.add("time.step.min", quantity,
+        "The run has diverged when the stable step (with local steps the finest one) falls below this.")
       .unit(d::time)
       .in(positive)
       .example("\"0.01 ns\"")
@@ -56,9 +59,21 @@ void add_general(Keys& k) {
   k.add("time.step.fixed", quantity, "This step, without an estimate of the stable one.")
       .unit(d::time)
       .in(positive);
-  k.add("time.step.check_every", integer, "Steps between estimates of the stable step.")
+  k.add("time.step.check_every", integer,
+        "Steps (with local steps the finest ones) between estimates of the stable step.")
       .in({.low = 1, .high = 1e6})
       .fallback("10");
+  k.add("time.step.local", boolean,
+        "Local time steps: nodes step at power-of-two fractions of the largest step that their cells allow, "
+        "so "
+        "that a refined band does not slow the rest (docs/theory.md). A step of the run is then one of the "
+        "coarsest; output, checkpoints and new references come between those.")
+      .fallback("false");
+  k.add("time.step.levels", integer,
+        "With local steps: at most so many different ones, the largest being 2^(levels − 1) times the "
+        "smallest.")
+      .in({.low = 2, .high = 8})
+      .fallback("5");
   k.add("time.max_steps", integer,
         "The run ends after this many steps, when it has not reached `time.end` before.")
       .in({.low = 1, .high = 1e15});

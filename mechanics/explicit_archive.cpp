@@ -110,6 +110,15 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive.number("solver/conduction_step", "s", conduction_step_);
   archive.integer("solver/references", references_);
   edge_defect_.archive(archive);
+  if (local_.on()) {
+    local_.archive(archive);
+    archive.number("solver/local/finest_before", "s", finest_before_);
+    archive.integer("solver/local/on_new_reference", on_new_reference_);
+    std::vector<double> next(next_levels_.begin(), next_levels_.end());
+    archive.list("solver/local/next_level", "1", next);
+    next_levels_.clear();
+    for (const double level : next) next_levels_.push_back(static_cast<std::int8_t>(level));
+  }
   model_.supports.archive(archive);
   model_.contact.archive(archive);
   if (!archive.loading()) return;
@@ -122,6 +131,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
   if (model_.thermal) set_conduction();
   place_reference();
+  if (local_.on()) take_levels(local_.level());
   model_.loads.evaluate(state_.time, node.position, node.mass);
 }
 

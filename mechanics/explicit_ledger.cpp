@@ -41,7 +41,7 @@ template<int dim> double ExplicitSolver<dim>::strain_since_reference() const {
 /// Of v_n = v_{n−½} + ½ Δt f_n/m, to first order in Δt.
 template<int dim> double ExplicitSolver<dim>::kinetic_energy() const {
   const NodeState<dim>& node = state_.node;
-  const double half = 0.5 * state_.step_before;
+  const double half = 0.5 * (local_.on() ? finest_before_ : state_.step_before);
   return sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t k = 0; k < dim; ++k)
@@ -57,12 +57,13 @@ template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
   const NodeState<dim>& node = state_.node;
   const PointState<dim>& point = state_.point;
   EnergyLedger ledger = running_;
-  const double half = 0.5 * state_.step_before;
+  const double half = 0.5 * (local_.on() ? finest_before_ : state_.step_before);
   const Fields<dim>& load = model_.loads.force();
   ledger.kinetic = kinetic_energy();
   if (!model_.loads.empty())
     for (std::size_t k = 0; k < dim; ++k)
-      for (std::size_t i = 0; i < node.size(); ++i) ledger.loads += half * node.velocity[k][i] * load[k][i];
+      for (std::size_t i = 0; i < node.size(); ++i)
+        ledger.loads += half * load_weight(i) * node.velocity[k][i] * load[k][i];
   ledger.elastic = energy_over_body(point.stored_energy);
   ledger.plastic = plastic_offset_ + energy_over_body(point.plastic_work);
   for (std::size_t i = 0; i < node.size(); ++i)

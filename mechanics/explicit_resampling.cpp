@@ -67,6 +67,8 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
       node.position[k][i] = change.cloud.position[i][static_cast<Eigen::Index>(k)];
   }
   resize_fields(n);
+  if (local_.on()) local_.follow(change.labels);
+  start_load_weight_.clear();
   model_.supports.resample(change);
   model_.loads.resample(change.cloud, initial_position_);
   model_.heat_boundaries.resample(change);

@@ -33,7 +33,7 @@ template<int dim> void set_identity(Fields<tensor_size<dim>>& f, std::size_t siz
 
 template<int dim>
 ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature)
-    : model_(std::move(model)), edge_defect_(model_.stabilisation) {
+    : model_(std::move(model)), edge_defect_(model_.stabilisation), local_(model_.local) {
   NodeState<dim>& node = state_.node;
   const auto n = static_cast<std::size_t>(model_.cloud.nodes());
   resize_all(node.position, n);
@@ -109,7 +109,10 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   }
   take_columns<dim>(point.piola, stress_);
   running_.stabilisation = 0.0;
-  assemble_forces();
+  if (local_.on())
+    rebuild_levels();
+  else
+    assemble_forces();
   ++references_;
   if (!change) return;
   running_.resampling += kinetic_before - kinetic_energy();
@@ -176,6 +179,7 @@ template<int dim> void ExplicitSolver<dim>::set_moduli() {
 }
 
 template<int dim> void ExplicitSolver<dim>::advance(double dt) {
+  if (local_.on()) return advance_by_levels(dt);
   const double dt_mean = 0.5 * (state_.step_before + dt);
   double lap = wall_time();
   const auto take = [&](double& part) {
@@ -193,7 +197,10 @@ template<int dim> void ExplicitSolver<dim>::advance(double dt) {
   ++state_.step;
   if (model_.mechanical) assemble_forces(); // (iii) (52), (53)
   take(times_.forces);
-  if (model_.thermal) conduct(dt); // (58), staggered
+  if (model_.thermal) {
+    heat_plastically();
+    conduct(dt); // (58), staggered
+  }
   take(times_.heat);
 }
 
@@ -217,6 +224,7 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
 
   const double start = wall_time();
   correct_contact(dt, dt_mean);
+  take_contact_heat();
   const double contact = wall_time() - start;
   times_.contact += contact;
   times_.motion -= contact; // whoever times the whole motion counts it too
@@ -239,7 +247,8 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
   }
 }
 
-template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt_mean) {
+template<int dim>
+void ExplicitSolver<dim>::correct_contact(double dt, double dt_mean, std::span<const double> window) {
   contact::RigidContact<dim>& contact = model_.contact;
   if (contact.tools().empty()) return;
   NodeState<dim>& node = state_.node;
@@ -264,7 +273,8 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
                    .velocity = node.velocity,
                    .mass = node.mass,
                    .flow_stress = flow_stress,
-                   .effusivity = effusivity});
+                   .effusivity = effusivity,
+                   .window = window});
   running_.tools = running_.friction = running_.recovery = 0.0;
   running_.impact = tie_loss_;
   for (const contact::ToolResult<dim>& tool : contact.results()) {
@@ -273,7 +283,13 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
     running_.friction += tool.total.friction;
     running_.impact += tool.total.impact;
   }
-  if (!model_.thermal) return;
+}
+
+/// Friction heat and conductance of the contacts of the step.
+template<int dim> void ExplicitSolver<dim>::take_contact_heat() {
+  const contact::RigidContact<dim>& contact = model_.contact;
+  if (!model_.thermal || contact.tools().empty()) return;
+  const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
   for (std::size_t b = 0; b < boundary.size(); ++b)
     contact_heat_[static_cast<std::size_t>(boundary[b])] = contact.friction_heat()[b];
   tool_conductance_.clear();
@@ -348,6 +364,7 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
     measure_conduction_step();
     return {model_.safety * conduction_step_, 0, "conduction"};
   }
+  if (local_.on()) return stable_macro_step();
   const StableStep step = stable_mechanical_step(
       bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
       edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);

@@ -9,6 +9,7 @@
 #include "mechanics/bulk_viscosity.hpp"
 #include "mechanics/energy_ledger.hpp"
 #include "mechanics/loads.hpp"
+#include "mechanics/local_steps.hpp"
 #include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
@@ -18,6 +19,7 @@
 #include "thermal/conduction.hpp"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,7 @@ template<int dim> struct Model {
   bool thermal = true;
   bool mechanical = true; ///< false: nothing moves, heat alone
   double safety = 0.9;    ///< factor on the stable step
+  LocalStepControl local; ///< local time steps
 };
 
 /// Wall time spent in the parts of advance(), s.
@@ -54,8 +57,14 @@ public:
   /// Starts from the cloud's positions with the given velocities [component][node] and temperatures [node].
   ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature);
 
-  /// One step of the algorithm box of 5.1.4, from t_n to t_{n+1} = t_n + dt. Throws DivergenceError.
+  /// One step of the algorithm box of 5.1.4, from t_n to t_{n+1} = t_n + dt; with local time steps one macro
+  /// step of that length, in `sub_steps()` finest ones. Throws DivergenceError.
   void advance(double dt);
+  /// Finest steps in the next call of `advance`; 1 without local time steps.
+  int sub_steps() const;
+  /// Updates of nodes (and their stress points) in the last call of `advance`.
+  double updates() const;
+  const LocalSteps<dim>& local_steps() const { return local_; }
 
   /// Makes the present configuration the reference: cells and functions are rebuilt, b_e is pushed forward,
   /// nodes keep mass, velocity and temperature, and what this changes in energy is booked. Start-up comes
@@ -68,7 +77,8 @@ public:
   /// GeometryError, with everything left as it was.
   void prepare(const Resampling<dim>& change);
 
-  /// Stable step for the present configuration with the safety factor, and what limits it.
+  /// Stable step for the present configuration with the safety factor, and what limits it. With local time
+  /// steps it chooses the levels of the next macro steps, and this is the stable macro step.
   struct Step {
     double dt;         ///< s
     std::size_t point; ///< where
@@ -117,10 +127,24 @@ private:
         .materials[model_.node_material.empty() ? 0 : static_cast<std::size_t>(model_.node_material[node])];
   }
   void accelerate_and_move(double dt, double dt_mean);
-  void correct_contact(double dt, double dt_mean);
+  void correct_contact(double dt, double dt_mean, std::span<const double> window = {});
+  void take_contact_heat();
   void strain_and_stress(double dt);
   void assemble_forces();
+  // Local time steps (mechanics/explicit_local.cpp).
+  void advance_by_levels(double dt);
+  void rebuild_levels();
+  void take_levels(typename LocalSteps<dim>::Levels level);
+  void change_levels(double finest);
+  void move_due(int activity, double dt, double dt_mean);
+  void strain_and_stress_due(int activity, int before, double dt);
+  void assemble_impulses(int activity);
+  void restore_columns();
+  Step stable_macro_step();
+  double load_weight(std::size_t node) const;
+
   void set_conduction();
+  void heat_plastically();
   void conduct(double dt);
   void measure_conduction_step();
   /// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).
@@ -133,6 +157,13 @@ private:
   EdgeDefect<dim> edge_defect_;
   Conduction<dim> conduction_;
   SpectralBound<dim> bound_;
+  LocalSteps<dim> local_;
+  typename LocalSteps<dim>::Levels next_levels_; ///< to be taken with the next step; empty: as they are
+  double finest_before_ = 0.0;                   ///< s, the finest step that led to t_n; with local steps
+  bool on_new_reference_ = false;                ///< no step has been made on it
+  std::vector<std::vector<double>> window_;      ///< [activity][boundary node], as contact takes it
+  std::vector<double>
+      start_load_weight_; ///< [block] in the first sub-step after a change of levels, else empty
 
   Fields<dim> initial_position_;       ///< [node] m
   Field initial_temperature_;          ///< [node] K

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem {
@@ -59,6 +60,8 @@ public:
   const std::vector<Support<dim>>& list() const { return support_; }
   /// Reaction of support s on the body in the last step, N/m^(3−dim).
   const std::vector<Vec<dim>>& reactions() const { return reaction_; }
+  /// Reports these instead: means over several calls of `apply`.
+  void report(std::vector<Vec<dim>> reactions) { reaction_ = std::move(reactions); }
   /// Work done by all supports since the start, J/m^(3−dim).
   double work() const { return work_; }
 

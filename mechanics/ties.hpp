@@ -22,6 +22,8 @@ public:
   Ties(const std::vector<std::array<std::int32_t, 2>>& pairs, const std::vector<Vec<dim>>& position);
 
   bool empty() const { return node_.empty(); }
+  /// Tied nodes, group by group.
+  const std::vector<std::int32_t>& nodes() const { return node_; }
   /// The list with all nodes tied to its members, each once, given ones first.
   std::vector<std::int32_t> with_partners(std::vector<std::int32_t> nodes) const;
 
