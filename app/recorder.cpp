@@ -77,7 +77,12 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     const auto& result = contact.results()[t];
     row.emplace_back(name + ".force_x" + units_.force, result.force.x());
     row.emplace_back(name + ".force_y" + units_.force, result.force.y());
-    row.emplace_back(name + ".stroke[m]", contact.tools()[t].motion.displacement(state.time).norm());
+    row.emplace_back(name + ".stroke[m]", contact.displacement(t, state.time).norm());
+    const Vec2 at = contact.displacement(t, state.time), speed = contact.velocity(t, state.time);
+    row.emplace_back(name + ".displacement_x[m]", at.x());
+    row.emplace_back(name + ".displacement_y[m]", at.y());
+    row.emplace_back(name + ".velocity_x[m/s]", speed.x());
+    row.emplace_back(name + ".velocity_y[m/s]", speed.y());
   }
   const auto& supports = solver.model().supports;
   for (std::size_t s = 0; s < supports.list().size(); ++s) {
@@ -91,6 +96,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
   const EnergyLedger e = solver.ledger();
   for (const auto& [name, value] :
        std::initializer_list<std::pair<const char*, double>>{{"kinetic", e.kinetic},
+                                                             {"tool_kinetic", e.tool_kinetic},
                                                              {"elastic", e.elastic},
                                                              {"plastic", e.plastic},
                                                              {"stabilisation", e.stabilisation},
@@ -100,6 +106,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"penalty_release", e.penalty_release},
                                                              {"rereference", e.rereference},
                                                              {"tool_work", e.tools},
+                                                             {"drive_work", e.drives},
                                                              {"contact_recovery", e.recovery},
                                                              {"support_work", e.supports},
                                                              {"load_work", e.loads},
@@ -265,8 +272,8 @@ io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string&
   picture.time = shot.state.time;
   const auto& contact = shot.contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t)
-    picture.tools.push_back({&case_->tools[t].outline,
-                             contact.tools()[t].motion.displacement(shot.state.time), case_->tools[t].name});
+    picture.tools.push_back(
+        {&case_->tools[t].outline, contact.displacement(t, shot.state.time), case_->tools[t].name});
   return picture;
 }
 

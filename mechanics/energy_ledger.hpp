@@ -9,6 +9,7 @@ struct EnergyLedger {
   double kinetic = 0.0;       ///< ½ m v_{n−½}² carried to t_n by the known forces
   double elastic = 0.0;       ///< stored, (31)
   double stabilisation = 0.0; ///< held by the edge-defect penalty
+  double tool_kinetic = 0.0;  ///< of tools with a mass of their own
   // dissipated
   double plastic = 0.0;         ///< ∫ σ_eq dε̄p
   double viscosity = 0.0;       ///< bulk viscosity
@@ -18,7 +19,8 @@ struct EnergyLedger {
   double rereference =
       0.0; ///< stored energy lost (gained when negative) as stress-free volumes are re-measured
   // received
-  double tools = 0.0;    ///< work of the tools' forces along the tools' motion
+  double tools = 0.0;    ///< work of the tools' forces along the tools' prescribed motion
+  double drives = 0.0;   ///< work of the forces on tools with a mass of their own
   double supports = 0.0; ///< work of prescribed boundary motion
   double recovery = 0.0; ///< work of pushing nodes out of tools they were found in
   double loads = 0.0;    ///< work of tractions, pressures and body forces
@@ -29,10 +31,10 @@ struct EnergyLedger {
 
   double initial = 0.0; ///< energy at the start of the run
 
-  double external() const { return tools + recovery + supports + loads; }
+  double external() const { return tools + drives + recovery + supports + loads; }
   double total() const {
-    return kinetic + elastic + stabilisation + plastic + viscosity + friction + impact + penalty_release +
-           rereference;
+    return kinetic + tool_kinetic + elastic + stabilisation + plastic + viscosity + friction + impact +
+           penalty_release + rereference;
   }
   /// What the scheme made or lost: zero up to the order of central differences.
   double residual() const { return total() - initial - external(); }

@@ -56,6 +56,9 @@ template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
   if (!model_.loads.empty())
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = 0; i < node.size(); ++i) ledger.loads += half * node.velocity[k][i] * load[k][i];
+  const contact::DriveEnergy drives = model_.contact.drive_energy();
+  ledger.tool_kinetic = drives.kinetic;
+  ledger.drives = drives.work;
   ledger.elastic = energy_over_body(point.stored_energy);
   ledger.plastic = plastic_offset_ + energy_over_body(point.plastic_work);
   for (std::size_t i = 0; i < node.size(); ++i)

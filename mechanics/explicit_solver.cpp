@@ -232,8 +232,9 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
                    .effusivity = effusivity});
   running_.tools = running_.friction = running_.recovery = 0.0;
   running_.impact = tie_loss_;
-  for (const contact::ToolResult<dim>& tool : contact.results()) {
-    running_.tools += tool.total.tool;
+  for (std::size_t t = 0; t < contact.tools().size(); ++t) {
+    const contact::ToolResult<dim>& tool = contact.results()[t];
+    if (!contact.tools()[t].drive) running_.tools += tool.total.tool;
     running_.recovery += tool.total.recovery;
     running_.friction += tool.total.friction;
     running_.impact += tool.total.impact;
