@@ -105,6 +105,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"contact_impact", e.impact},
                                                              {"penalty_release", e.penalty_release},
                                                              {"rereference", e.rereference},
+                                                             {"pressure_exchange", e.pressure_exchange},
                                                              {"tool_work", e.tools},
                                                              {"drive_work", e.drives},
                                                              {"contact_recovery", e.recovery},
@@ -115,6 +116,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"heat_exchanged", e.heat_exchanged},
                                                              {"residual", e.residual()}})
     row.emplace_back(fmt::format("energy.{}{}", name, units_.energy), value);
+  row.emplace_back("kinetic_share", e.kinetic_share());
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
     const Field values =
@@ -158,6 +160,12 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   worst_residual_ = std::max(worst_residual_, std::abs(last_residual_));
   scale_ = std::max(scale_, std::abs(e.external()) + e.initial);
 
+  const double now = solver.state().time;
+  kinetic_ += e.inertial * (now - last_time_);
+  deformation_ += e.deformation() * (now - last_time_);
+  last_time_ = now;
+  keep_metric("kinetic_share", kinetic_share(), false);
+
   const auto& contact = solver.model().contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t)
     keep_metric("peak_force." + contact.tools()[t].name, contact.results()[t].force.norm(), true);
@@ -179,6 +187,9 @@ void HistoryRecorder::archive(Archive& archive) {
   archive.number("run/history/worst_residual", "J/m", worst_residual_);
   archive.number("run/history/last_residual", "J/m", last_residual_);
   archive.number("run/history/scale", "J/m", scale_);
+  archive.number("run/history/last_time", "s", last_time_);
+  archive.number("run/history/kinetic", "J s/m", kinetic_);
+  archive.number("run/history/deformation", "J s/m", deformation_);
   std::vector<std::string> names = names_of(metrics_);
   archive.texts("run/history/metrics", names);
   metrics_.resize(names.size());
@@ -202,6 +213,15 @@ void HistoryRecorder::resume(const ExplicitSolver<2>& solver) {
 
 double HistoryRecorder::energy_residual() const {
   return scale_ > 0.0 ? worst_residual_ / scale_ : worst_residual_;
+}
+
+std::string HistoryRecorder::kinetic_warning(const io::Case& input) const {
+  constexpr double small = 0.05;
+  if (!input.time.mass_scaling || kinetic_share() <= small) return "";
+  return fmt::format(
+      "with time.mass_scaling the kinetic energy is {:.2g} of the deformation energy on average, which "
+      "should be below {:g}: forces hold inertia; scale less, or move more slowly",
+      kinetic_share(), small);
 }
 
 void write_lines(const io::Case& input, const Snapshot& shot, const std::filesystem::path& folder) {

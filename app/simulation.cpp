@@ -106,6 +106,8 @@ Exit Simulation::run() {
     const io::RunStatus end = status();
     if (const std::string warning = renewal_.warning(); !warning.empty())
       progress_.message("warning: " + warning);
+    if (const std::string warning = history_.kinetic_warning(input_); !warning.empty())
+      progress_.message("warning: " + warning);
     io::write_status(options_.output, end);
     const std::filesystem::path report = io::write_report(options_.output);
     fmt::print("{}: {}\n",
@@ -257,6 +259,8 @@ io::RunStatus Simulation::status() {
   status.step_limits = control_.shares();
   status.warnings = warnings_;
   if (const std::string warning = renewal_.warning(); !warning.empty()) status.warnings.push_back(warning);
+  if (const std::string warning = history_.kinetic_warning(input_); !warning.empty())
+    status.warnings.push_back(warning);
   status.post_mortem = dead_;
   status.wall_s = watch_.spent();
   return status;

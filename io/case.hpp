@@ -30,6 +30,12 @@ struct Analysis {
   bool thermal = false;   ///< solve for temperatures: plastic and friction heating, conduction
 };
 
+/// Inertia beyond the mass: of all nodes, or of those that limit the step at the start.
+struct MassScaling {
+  std::optional<double> factor; ///< –
+  std::optional<double> step;   ///< s
+};
+
 struct TimeControl {
   double end = 0.0;               ///< s; of statics the time at which loads are taken
   double safety = 0.9;            ///< – factor on the stable step
@@ -39,6 +45,7 @@ struct TimeControl {
   std::optional<double>
       min_step; ///< s  a smaller stable step means divergence; absent: 1e-3 of the first one
   std::optional<std::int64_t> max_steps; ///< – the run ends after so many
+  std::optional<MassScaling> mass_scaling;
 };
 
 /// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are
@@ -222,11 +229,20 @@ struct ToolHeat {
   std::optional<double> effusivity; ///< W s½/(m² K), √(kρc); absent: all friction heat goes to the workpiece
 };
 
+/// What moves a tool that has a mass instead of a prescribed velocity.
+struct Drive {
+  double mass = 0.0;              ///< kg/m; kg of revolution
+  std::array<TimeTable, 2> force; ///< N/m; N of revolution
+  Vec2 initial_velocity{0, 0};    ///< m/s
+  std::optional<Vec2> direction;  ///< unit vector; absent: it moves in the whole plane
+};
+
 /// A rigid tool: solid inside its outline.
 struct Tool {
   std::string name;
   Curve outline;                     ///< counter-clockwise, at t = 0, m
-  std::array<TimeTable, 2> velocity; ///< m/s
+  std::array<TimeTable, 2> velocity; ///< m/s, when there is no drive
+  std::optional<Drive> drive;
   Friction friction;
   std::optional<ToolHeat> heat;
 };

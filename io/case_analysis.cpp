@@ -47,7 +47,8 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
              "true",
              diagnostics);
     if (!result.analysis.mechanical)
-      for (const char* path : {"tools", "initial.velocity", "initial.spin", "initial.velocity_gradient"})
+      for (const char* path :
+           {"tools", "time.mass_scaling", "initial.velocity", "initial.spin", "initial.velocity_gradient"})
         refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
                diagnostics);
     if (result.analysis.kinematics == Analysis::Kinematics::plane_stress)
@@ -73,9 +74,9 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
     refuse(root, "analysis.thermal",
            "found true in a static analysis, which solves for displacements alone, expected false",
            diagnostics);
-  for (const char* path : {"time.step", "time.max_steps", "tools", "initial.velocity", "initial.spin",
-                           "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",
-                           "domain.regions", "periodic", "output.checkpoint"})
+  for (const char* path : {"time.step", "time.max_steps", "time.mass_scaling", "tools", "initial.velocity",
+                           "initial.spin", "initial.velocity_gradient", "initial.imperfections",
+                           "domain.interfaces", "domain.regions", "periodic", "output.checkpoint"})
     refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))

@@ -36,8 +36,13 @@ void compute_defaults(Setting& root) {
     root.set_default(entry.path + ".temperature", temperature);
     root.set_default(entry.path + ".velocity", root.get<Vec2>("initial.velocity"));
   }
-  for (const Setting& entry : root.entries("tools"))
+  for (const Setting& entry : root.entries("tools")) {
     if (entry.find("heat")) root.set_default(entry.path + ".heat.temperature", temperature);
+    if (!entry.find("mass"))
+      root.set_default(entry.path + ".velocity", VectorFunction{TimeTable(0.0), TimeTable(0.0)});
+    else if (round)
+      root.set_default(entry.path + ".direction", Vec2(0.0, 1.0));
+  }
 }
 
 void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
@@ -48,7 +53,9 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
                  step.maybe<double>("fixed"),
                  static_cast<int>(step.get<std::int64_t>("check_every")),
                  step.maybe<double>("min"),
-                 root.maybe<std::int64_t>("time.max_steps")};
+                 root.maybe<std::int64_t>("time.max_steps"),
+                 {}};
+  read_mass_scaling(root, result, diagnostics);
   if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
     diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
                     "found a fixed step and a largest step, expected one of them");

@@ -18,6 +18,7 @@ struct EnergyLedger {
   double penalty_release = 0.0; ///< let go by the penalty as moduli fall and at re-references
   double rereference =
       0.0; ///< stored energy lost (gained when negative) as stress-free volumes are re-measured
+  double pressure_exchange = 0.0; ///< given up as flowing neighbours trade volume
   // received
   double tools = 0.0;    ///< work of the tools' forces along the tools' prescribed motion
   double drives = 0.0;   ///< work of the forces on tools with a mass of their own
@@ -29,13 +30,18 @@ struct EnergyLedger {
   double heat_generated = 0.0; ///< from plastic work and friction
   double heat_exchanged = 0.0; ///< received through the boundary
 
+  double inertial = 0.0; ///< Σ ½ m v_{n−½}² of the body: kinetic energy without what known forces add to it
   double initial = 0.0; ///< energy at the start of the run
 
   double external() const { return tools + drives + recovery + supports + loads; }
   double total() const {
     return kinetic + tool_kinetic + elastic + stabilisation + plastic + viscosity + friction + impact +
-           penalty_release + rereference;
+           penalty_release + rereference + pressure_exchange;
   }
+  /// Taken by the deformation of the body.
+  double deformation() const { return elastic + stabilisation + plastic + penalty_release; }
+  /// Kinetic energy over that of deformation: small in slow processes; 0 while nothing is deformed.
+  double kinetic_share() const { return deformation() > 0.0 ? inertial / deformation() : 0.0; }
   /// What the scheme made or lost: zero up to the order of central differences.
   double residual() const { return total() - initial - external(); }
   double heat_residual() const { return heat_content - heat_generated - heat_exchanged; }

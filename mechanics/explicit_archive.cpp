@@ -42,6 +42,7 @@ void archive_ledger(Archive& archive, EnergyLedger& ledger) {
   archive.number("solver/energy/penalty_release", "J/m", ledger.penalty_release);
   archive.number("solver/energy/rereference", "J/m", ledger.rereference);
   archive.number("solver/energy/tools", "J/m", ledger.tools);
+  archive.number("solver/energy/pressure_exchange", "J/m", ledger.pressure_exchange);
   archive.number("solver/energy/supports", "J/m", ledger.supports);
   archive.number("solver/energy/recovery", "J/m", ledger.recovery);
   archive.number("solver/energy/loads", "J/m", ledger.loads);
@@ -69,6 +70,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive.number("solver/conduction_step", "s", conduction_step_);
   archive.integer("solver/references", references_);
   edge_defect_.archive(archive);
+  if (model_.mass_scaling.active()) archive.field("solver/node/mass_scale", "1", mass_scale_);
   model_.supports.archive(archive);
   model_.contact.archive(archive);
   if (!archive.loading()) return;
@@ -80,6 +82,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   approximation_ = model_.method->rebuild(model_.cloud);
   if (model_.thermal) set_conduction();
   place_reference();
+  scale_masses();
   model_.loads.evaluate(state_.time, node.position, node.mass);
 }
 

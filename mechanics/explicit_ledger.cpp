@@ -44,13 +44,21 @@ template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
   EnergyLedger ledger = running_;
   const double half = 0.5 * state_.step_before;
   const Fields<dim>& load = model_.loads.force();
+  const Field& mass = inertia();
   ledger.kinetic = sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = begin; i < end; ++i) {
         const double v = node.velocity[k][i];
-        sum += 0.5 * node.mass[i] * v * v + half * v * node.force[k][i];
+        sum += 0.5 * mass[i] * v * v + half * v * node.force[k][i];
       }
+    return sum;
+  });
+  ledger.inertial = sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < dim; ++k)
+      for (std::size_t i = begin; i < end; ++i)
+        sum += 0.5 * mass[i] * node.velocity[k][i] * node.velocity[k][i];
     return sum;
   });
   if (!model_.loads.empty())

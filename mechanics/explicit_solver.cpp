@@ -48,7 +48,7 @@ ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Fiel
   resize_all(node.force, n);
   prepare();
   if (!model_.ties.empty())
-    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
+    for (Field& component : node.velocity) model_.ties.share(inertia(), component);
   running_.initial = ledger().total();
 }
 
@@ -77,6 +77,7 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   node.reference = node.position;
   if (start) start_points();
   place_reference();
+  scale_masses();
   set_identity<dim>(point.deformation, points);
   jacobian_.assign(points, 1.0);
   const auto stress_points = plasticity::stress_points(point);
@@ -113,6 +114,23 @@ template<int dim> void ExplicitSolver<dim>::place_reference() {
   reference_ = side_by_side<dim>(state_.node.reference);
   position_ = side_by_side<dim>(state_.node.position);
   take_columns<dim>(state_.point.piola, stress_);
+}
+
+/// Inertia on a new reference; factors that depend on cells are those of the start.
+template<int dim> void ExplicitSolver<dim>::scale_masses() {
+  const MassScaling& scaling = model_.mass_scaling;
+  if (!scaling.active()) return;
+  const Field& mass = state_.node.mass;
+  if (scaling.step <= 0.0) {
+    mass_scale_.assign(mass.size(), scaling.factor);
+  } else if (references_ == 0) {
+    const double omega = 2.0 * model_.safety / scaling.step;
+    const double alpha = edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0;
+    mass_scale_ =
+        scales_for_frequency(approximation_.mechanics, wave_modulus_, mass, omega * omega / (1.0 + alpha));
+  }
+  inertia_.resize(mass.size());
+  for (std::size_t i = 0; i < mass.size(); ++i) inertia_[i] = mass_scale_[i] * mass[i];
 }
 
 /// Masses, and stress points at rest.
@@ -168,16 +186,17 @@ template<int dim> void ExplicitSolver<dim>::advance(double dt) {
 
 template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, double dt_mean) {
   NodeState<dim>& node = state_.node;
+  const Field& inertia = this->inertia();
   model_.contact.remember(node.velocity);
   std::swap(velocity_before_, node.velocity);
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = begin; i < end; ++i)
-        node.velocity[k][i] = velocity_before_[k][i] + dt_mean * node.force[k][i] / node.mass[i];
+        node.velocity[k][i] = velocity_before_[k][i] + dt_mean * node.force[k][i] / inertia[i];
   });
   if (!model_.ties.empty())
-    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
-  model_.supports.apply(state_.time, dt, dt_mean, node.mass, velocity_before_, node.velocity);
+    for (Field& component : node.velocity) model_.ties.share(inertia, component);
+  model_.supports.apply(state_.time, dt, dt_mean, inertia, velocity_before_, node.velocity);
   running_.supports = model_.supports.work();
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < dim; ++k)
@@ -185,8 +204,7 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
   });
 
   correct_contact(dt, dt_mean);
-  if (!model_.ties.empty())
-    tie_loss_ += model_.ties.share_motion(node.mass, dt, node.velocity, node.position);
+  if (!model_.ties.empty()) tie_loss_ += model_.ties.share_motion(inertia, dt, node.velocity, node.position);
 
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     place_side_by_side<dim>(node.position, position_, begin, end);
@@ -227,7 +245,7 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
                    .dt_mean = dt_mean,
                    .position = node.position,
                    .velocity = node.velocity,
-                   .mass = node.mass,
+                   .mass = inertia(),
                    .flow_stress = flow_stress,
                    .effusivity = effusivity});
   running_.tools = running_.friction = running_.recovery = 0.0;
@@ -315,7 +333,7 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
     return {model_.safety * conduction_step_, 0, "conduction"};
   }
   const StableStep step = stable_mechanical_step(
-      bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
+      bound_, approximation_.mechanics, point.deformation, wave_modulus_, inertia(),
       edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);
   if (!(step.dt > 0.0)) diverged(step.point, "stable step");
   return {model_.safety * step.dt, step.point, "elastic waves"};

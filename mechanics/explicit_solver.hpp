@@ -8,6 +8,7 @@
 #include "mechanics/bulk_viscosity.hpp"
 #include "mechanics/energy_ledger.hpp"
 #include "mechanics/loads.hpp"
+#include "mechanics/mass_scaling.hpp"
 #include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
@@ -40,6 +41,7 @@ template<int dim> struct Model {
   bool thermal = true;
   bool mechanical = true; ///< false: nothing moves, heat alone
   double safety = 0.9;    ///< factor on the stable step
+  MassScaling mass_scaling;
 };
 
 /// Advances a State. One object per run.
@@ -78,6 +80,8 @@ public:
   const Model<dim>& model() const { return model_; }
   const Approximation<dim>& approximation() const { return approximation_; }
   const Field& flow_stress() const { return flow_stress_; }
+  /// What resists acceleration, kg/m^(3−dim), [node]: the mass, or more with mass scaling.
+  const Field& inertia() const { return inertia_.empty() ? state_.node.mass : inertia_; }
   const Fields<dim>& initial_position() const { return initial_position_; }
   int references() const { return references_; }
   /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
@@ -86,6 +90,7 @@ public:
 private:
   void start_points();
   void place_reference();
+  void scale_masses();
   const plasticity::Material& material_of(std::size_t point) const {
     return model_.materials[static_cast<std::size_t>(state_.point.material[point])];
   }
@@ -111,6 +116,7 @@ private:
   Conduction<dim> conduction_;
   SpectralBound<dim> bound_;
 
+  Field mass_scale_, inertia_;         ///< [node] –, kg/m^(3−dim); empty without mass scaling
   Fields<dim> initial_position_;       ///< [node] m
   Field initial_temperature_;          ///< [node] K
   Fields<dim> velocity_before_;        ///< [node] v_{n−1/2} while v_{n+1/2} is made
