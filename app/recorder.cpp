@@ -48,6 +48,16 @@ std::vector<ProbeWeights> probe_weights(const io::Case& input, const Cloud<2>& c
   return probes;
 }
 
+/// Root mean square and largest size.
+std::pair<double, double> drift_of(const Field& drift) {
+  double sum = 0.0, most = 0.0;
+  for (const double theta : drift) {
+    sum += theta * theta;
+    most = std::max(most, std::abs(theta));
+  }
+  return {drift.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift.size())), most};
+}
+
 double total_mass(const ExplicitSolver<2>& solver) {
   double mass = 0.0;
   for (const double m : solver.state().node.mass) mass += m;
@@ -117,6 +127,11 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"residual", e.residual()}})
     row.emplace_back(fmt::format("energy.{}{}", name, units_.energy), value);
   row.emplace_back("kinetic_share", e.kinetic_share());
+  row.emplace_back("pressure_noise",
+                   pressure_noise(solver.approximation().links, solver.model().cloud.facets, state.point));
+  const auto [mean_drift, largest_drift] = drift_of(solver.volume_drift());
+  row.emplace_back("volume_drift", mean_drift);
+  row.emplace_back("max.volume_drift", largest_drift);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
     const Field values =
@@ -171,6 +186,7 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
     keep_metric("peak_force." + contact.tools()[t].name, contact.results()[t].force.norm(), true);
   for (const auto& [name, value] : named) {
     if (name == "max.plastic_strain") keep_metric("max_plastic_strain", value, true);
+    if (name == "volume_drift" || name == "max.volume_drift") keep_metric(name, value, true);
     if (name == "max.temperature[K]") keep_metric("max_temperature", value, true);
     if (name == "area[m^2]") keep_metric("area_drift", value / initial_area_ - 1.0, false);
     if (name == "mass" + units_.mass) keep_metric("mass_drift", value / initial_mass_ - 1.0, false);

@@ -296,6 +296,7 @@ Setup build(const io::Case& input) {
   model.ties = Ties<2>(pairs.motion, model.cloud.position);
   model.heat_ties = Ties<2>(pairs.heat, model.cloud.position);
   model.stabilisation = input.method.stabilisation;
+  model.pressure_exchange = input.method.pressure_exchange;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
   model.thermal = input.analysis.thermal;
   model.mechanical = input.analysis.mechanical;

@@ -253,8 +253,9 @@ struct Method {
   enum class Lagrangian { total, periodic, updated };
   Name name = Name::cnem;
   Functions functions = Functions::sibson;
-  int gauss_points = 2;        ///< per cell edge, 1 to 3
-  double stabilisation = 0.05; ///< – α of the edge defect; 0: off
+  int gauss_points = 2;           ///< per cell edge, 1 to 3
+  double stabilisation = 0.05;    ///< – α of the edge defect; 0: off
+  double pressure_exchange = 0.0; ///< – α of the exchange of volume between flowing nodes; 0: off
   Lagrangian lagrangian = Lagrangian::periodic;
   int rereference_every = 0;        ///< steps (periodic); 0: never by count
   double rereference_strain = 0.25; ///< – max‖f − 1‖ since the last reference (periodic); 0: never by strain

@@ -64,13 +64,18 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
                     "found a fixed step and a least step, expected one of them");
 }
 
-void read_method(const Setting& root, Case& result) {
+void read_method(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("method");
   Method& method = result.method;
   method.name = table.choice<Method::Name>("name");
   method.functions = table.choice<Method::Functions>("functions");
   method.gauss_points = static_cast<int>(table.get<std::int64_t>("gauss_points"));
   method.stabilisation = table.get<double>("stabilisation");
+  method.pressure_exchange = table.get<double>("pressure_exchange");
+  if (const Setting& exchange = *table.find("pressure_exchange");
+      method.pressure_exchange > 0.0 && method.name != Method::Name::cnem)
+    diagnostics.add(Mistake::conflict, exchange.where, exchange.path,
+                    "found a pressure exchange between nodes, expected it with method.name = \"cnem\" only");
   method.lagrangian = table.choice<Method::Lagrangian>("lagrangian");
   method.rereference_every = static_cast<int>(table.get<std::int64_t>("rereference.every"));
   method.rereference_strain = table.get<double>("rereference.strain");
@@ -148,7 +153,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_boundary(root, result, diagnostics);
   read_periodic(root, result, diagnostics);
   read_initial_and_loads(root, result, diagnostics);
-  read_method(root, result);
+  read_method(root, result, diagnostics);
   read_fracture(root, result, diagnostics);
   check_analysis(root, result, diagnostics);
   diagnostics.throw_if_any();

@@ -304,6 +304,12 @@ void add_method(Keys& k) {
       .in(not_negative)
       .example("0.1")
       .computed("0.05; in axisymmetric analyses 0.2");
+  k.add("method.pressure_exchange", quantity,
+        "Factor of the exchange of volume between flowing neighbours, which smooths their pressure; 0: off "
+        "(cnem). 0.3 "
+        "where pressures matter: docs/pressure_exchange.md.")
+      .in(not_negative)
+      .fallback("0.0");
   k.add("method.lagrangian", choice,
         "Reference configuration: `total`: the initial one; `periodic`: renewed as `rereference` says; "
         "`updated`: renewed every step.")

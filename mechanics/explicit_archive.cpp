@@ -70,6 +70,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive.number("solver/conduction_step", "s", conduction_step_);
   archive.integer("solver/references", references_);
   edge_defect_.archive(archive);
+  exchange_.archive(archive);
   if (model_.mass_scaling.active()) archive.field("solver/node/mass_scale", "1", mass_scale_);
   model_.supports.archive(archive);
   model_.contact.archive(archive);
@@ -83,6 +84,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   if (model_.thermal) set_conduction();
   place_reference();
   scale_masses();
+  reset_exchange();
   model_.loads.evaluate(state_.time, node.position, node.mass);
 }
 

@@ -31,7 +31,7 @@ template<int dim> void set_identity(Fields<tensor_size<dim>>& f, std::size_t siz
 
 template<int dim>
 ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature)
-    : model_(std::move(model)), edge_defect_(model_.stabilisation) {
+    : model_(std::move(model)), edge_defect_(model_.stabilisation), exchange_(model_.pressure_exchange) {
   NodeState<dim>& node = state_.node;
   const auto n = static_cast<std::size_t>(model_.cloud.nodes());
   resize_all(node.position, n);
@@ -89,6 +89,7 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   edge_defect_.reset(shear_modulus_);
   if (edge_defect_.active(approximation_.links)) edge_defect_.take(point.deformation, 0, points);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
+  reset_exchange();
   if (model_.thermal) set_conduction();
   conduction_step_ = 0.0;
   if (!start) {
@@ -107,6 +108,13 @@ template<int dim> void ExplicitSolver<dim>::set_conduction() {
   for (std::size_t p = 0; p < conductivity.size(); ++p)
     conductivity[p] = material_of_node(first_node(op, p)).conductivity;
   conduction_.set_operators(op, std::move(conductivity));
+}
+
+template<int dim> void ExplicitSolver<dim>::reset_exchange() {
+  if (!exchange_.active(approximation_.links)) return;
+  Field bulk_modulus(state_.point.size());
+  for (std::size_t p = 0; p < bulk_modulus.size(); ++p) bulk_modulus[p] = material_of(p).elasticity.kappa();
+  exchange_.reset(model_.cloud.facets, std::move(bulk_modulus));
 }
 
 /// What gathering passes read, on a new reference.
@@ -276,6 +284,8 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   const EdgePoints edge = edge_defect_.active(approximation_.links)
                               ? edge_defect_.points(shear_modulus_, point.plastic_strain)
                               : EdgePoints{};
+  const bool exchange = exchange_.active(approximation_.links);
+  if (exchange) exchange_.remember(point.pressure);
   std::vector<std::ptrdiff_t> bad(blocks(n), -1);
   std::vector<double> damping(blocks(n), 0.0);
   running_.viscosity += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
@@ -293,6 +303,10 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   viscosity_ratio_ = *std::max_element(damping.begin(), damping.end());
   for (const std::ptrdiff_t p : bad)
     if (p >= 0) diverged(static_cast<std::size_t>(p), "deformation gradient");
+  if (!exchange) return;
+  const auto energy = exchange_.apply(op, approximation_.links, reference_, dt, point, stress_);
+  running_.pressure_exchange += energy.dissipated;
+  plastic_offset_ += energy.plastic;
 }
 
 template<int dim> void ExplicitSolver<dim>::assemble_forces() {

@@ -9,6 +9,7 @@
 #include "mechanics/energy_ledger.hpp"
 #include "mechanics/loads.hpp"
 #include "mechanics/mass_scaling.hpp"
+#include "mechanics/pressure_exchange.hpp"
 #include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
@@ -36,7 +37,8 @@ template<int dim> struct Model {
   Loads<dim> loads;
   ThermalBoundaries<dim> heat_boundaries;
   contact::RigidContact<dim> contact{std::vector<contact::Tool<dim>>{}};
-  double stabilisation = 0.05; ///< α of the edge defect
+  double stabilisation = 0.05;    ///< α of the edge defect
+  double pressure_exchange = 0.0; ///< α of the exchange of volume between flowing neighbours
   BulkViscosity viscosity;
   bool thermal = true;
   bool mechanical = true; ///< false: nothing moves, heat alone
@@ -84,6 +86,8 @@ public:
   const Field& inertia() const { return inertia_.empty() ? state_.node.mass : inertia_; }
   const Fields<dim>& initial_position() const { return initial_position_; }
   int references() const { return references_; }
+  /// log of b_e's J over the geometric one by the pressure exchange, [node]; empty without.
+  const Field& volume_drift() const { return exchange_.drift(); }
   /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
   std::array<double, 2> mass_balance() const;
 
@@ -103,6 +107,7 @@ private:
   void strain_and_stress(double dt);
   void assemble_forces();
   void set_conduction();
+  void reset_exchange();
   void conduct(double dt);
   void measure_conduction_step();
   /// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).
@@ -113,6 +118,7 @@ private:
   State<dim> state_;
   Approximation<dim> approximation_;
   EdgeDefect<dim> edge_defect_;
+  PressureExchange<dim> exchange_;
   Conduction<dim> conduction_;
   SpectralBound<dim> bound_;
 
