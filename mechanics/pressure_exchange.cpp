@@ -27,7 +27,8 @@ void inverse_transposed(const Fields<5>& f, std::size_t p, double (&result)[5]) 
 
 /// Adds δθ to the logarithmic elastic volume of point p, with all that follows from it.
 void swell(PointState<2>& point, ColumnStress<2>& stress, std::size_t p, double kappa, double dtheta) {
-  const double scale = std::exp(2.0 / 3.0 * dtheta), shrink = std::exp(-dtheta), tension = -point.pressure[p];
+  const double root = std::exp(-dtheta / 3.0), scale = 1.0 / (root * root), shrink = root * root * root;
+  const double tension = -point.pressure[p];
   double change[5];
   inverse_transposed(point.deformation, p, change);
   for (std::size_t c = 0; c < 5; ++c) {
@@ -63,18 +64,19 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
   const std::size_t n = point.size();
   const std::int32_t *row = operators.row_begin.data(), *node = operators.node.data();
   const std::int32_t *first = links.begin.data(), *neighbour = links.neighbour.data();
-  const double* pressure = point.pressure.data();
+  const double *pressure = point.pressure.data(), *weight = links.weight.data();
+  const auto gradient = pointers(operators.gradient);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       double* own = record_.data() + stride * i;
       own[increment] = 0.0;
       if (boundary_[i] || !(point.plastic_rate[i] > 0.0)) continue;
-      for (std::size_t k = 0; k <= dim; ++k) own[k] = 0.0;
+      double g[dim] = {};
       for (std::int32_t e = row[i]; e < row[i + 1]; ++e) {
         const double jump = pressure[node[e]] - pressure[i];
-        for (std::size_t k = 0; k < dim; ++k)
-          own[1 + k] += operators.gradient[k][static_cast<std::size_t>(e)] * jump;
+        for (std::size_t k = 0; k < dim; ++k) g[k] += gradient[k][e] * jump;
       }
+      for (std::size_t k = 0; k < dim; ++k) own[1 + k] = g[k];
       own[0] = pressure[i];
       own[increment] = point.plastic_rate[i] * dt;
       own[strength] = point.equivalent_stress[i];
@@ -100,7 +102,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
           distance2 += X * X;
         }
         const double jump = other[0] - own[0] - 0.5 * linear;
-        const double plastic = alpha_ * links.weight[static_cast<std::size_t>(e)] * distance2 * 3.0 *
+        const double plastic = alpha_ * weight[e] * distance2 * 3.0 *
                                std::min(own[increment], other[increment]) / (own[strength] + other[strength]);
         flow += std::min(plastic, 0.5 * std::min(own[room], other[room]) / kappa) * jump;
       }

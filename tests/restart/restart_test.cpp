@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <random>
@@ -160,7 +161,8 @@ TEST_F(Restart, a_bad_checkpoint_is_refused_with_the_reason_and_the_one_before_i
   const std::string newest = io::read_file(folder / "stopped" / "checkpoint.h5");
   std::string flipped = newest, format = newest;
   flipped[newest.size() / 2] = static_cast<char>(flipped[newest.size() / 2] ^ 4);
-  format.replace(format.find("format 1"), 8, "format 7");
+  const std::string own = fmt::format("format {}", io::checkpoint_format);
+  format.replace(format.find(own), own.size(), "format 7");
   for (const auto& [name, content, reason] :
        {std::tuple("truncated", newest.substr(0, newest.size() / 2), "cut short"),
         std::tuple("empty", std::string(), "empty"), std::tuple("flipped", flipped, "checksum"),
