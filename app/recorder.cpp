@@ -51,6 +51,16 @@ std::vector<ProbeWeights> probe_weights(const io::Case& input, const Cloud<2>& c
   return probes;
 }
 
+/// Root mean square and largest size.
+std::pair<double, double> drift_of(const Field& drift) {
+  double sum = 0.0, most = 0.0;
+  for (const double theta : drift) {
+    sum += theta * theta;
+    most = std::max(most, std::abs(theta));
+  }
+  return {drift.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift.size())), most};
+}
+
 double total_mass(const ExplicitSolver<2>& solver) {
   double mass = 0.0;
   for (const double m : solver.state().node.mass) mass += m;
@@ -80,7 +90,12 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     const auto& result = contact.results()[t];
     row.emplace_back(name + ".force_x" + units_.force, result.force.x());
     row.emplace_back(name + ".force_y" + units_.force, result.force.y());
-    row.emplace_back(name + ".stroke[m]", contact.tools()[t].motion.displacement(state.time).norm());
+    row.emplace_back(name + ".stroke[m]", contact.displacement(t, state.time).norm());
+    const Vec2 at = contact.displacement(t, state.time), speed = contact.velocity(t, state.time);
+    row.emplace_back(name + ".displacement_x[m]", at.x());
+    row.emplace_back(name + ".displacement_y[m]", at.y());
+    row.emplace_back(name + ".velocity_x[m/s]", speed.x());
+    row.emplace_back(name + ".velocity_y[m/s]", speed.y());
   }
   const auto& supports = solver.model().supports;
   for (std::size_t s = 0; s < supports.list().size(); ++s) {
@@ -94,6 +109,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
   const EnergyLedger e = solver.ledger();
   for (const auto& [name, value] :
        std::initializer_list<std::pair<const char*, double>>{{"kinetic", e.kinetic},
+                                                             {"tool_kinetic", e.tool_kinetic},
                                                              {"elastic", e.elastic},
                                                              {"plastic", e.plastic},
                                                              {"stabilisation", e.stabilisation},
@@ -103,7 +119,9 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"penalty_release", e.penalty_release},
                                                              {"rereference", e.rereference},
                                                              {"resampling", e.resampling},
+                                                             {"pressure_exchange", e.pressure_exchange},
                                                              {"tool_work", e.tools},
+                                                             {"drive_work", e.drives},
                                                              {"contact_recovery", e.recovery},
                                                              {"support_work", e.supports},
                                                              {"load_work", e.loads},
@@ -112,6 +130,12 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"heat_exchanged", e.heat_exchanged},
                                                              {"residual", e.residual()}})
     row.emplace_back(fmt::format("energy.{}{}", name, units_.energy), value);
+  row.emplace_back("kinetic_share", e.kinetic_share());
+  row.emplace_back("pressure_noise",
+                   pressure_noise(solver.approximation().links, solver.model().cloud.facets, state.point));
+  const auto [mean_drift, largest_drift] = drift_of(solver.volume_drift());
+  row.emplace_back("volume_drift", mean_drift);
+  row.emplace_back("max.volume_drift", largest_drift);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
     row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
@@ -149,11 +173,18 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   worst_residual_ = std::max(worst_residual_, std::abs(last_residual_));
   scale_ = std::max(scale_, std::abs(e.external()) + e.initial);
 
+  const double now = solver.state().time;
+  kinetic_ += e.inertial * (now - last_time_);
+  deformation_ += e.deformation() * (now - last_time_);
+  last_time_ = now;
+  keep_metric("kinetic_share", kinetic_share(), false);
+
   const auto& contact = solver.model().contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t)
     keep_metric("peak_force." + contact.tools()[t].name, contact.results()[t].force.norm(), true);
   for (const auto& [name, value] : named) {
     if (name == "max.plastic_strain") keep_metric("max_plastic_strain", value, true);
+    if (name == "volume_drift" || name == "max.volume_drift") keep_metric(name, value, true);
     if (name == "max.temperature[K]") keep_metric("max_temperature", value, true);
     if (name == "area[m^2]") keep_metric("area_drift", value / initial_area_ - 1.0, false);
     if (name == "mass" + units_.mass) keep_metric("mass_drift", value / initial_mass_ - 1.0, false);
@@ -199,6 +230,9 @@ void HistoryRecorder::archive(Archive& archive) {
   archive.number("run/history/worst_residual", "J/m", worst_residual_);
   archive.number("run/history/last_residual", "J/m", last_residual_);
   archive.number("run/history/scale", "J/m", scale_);
+  archive.number("run/history/last_time", "s", last_time_);
+  archive.number("run/history/kinetic", "J s/m", kinetic_);
+  archive.number("run/history/deformation", "J s/m", deformation_);
   std::vector<std::string> names = names_of(metrics_);
   archive.texts("run/history/metrics", names);
   metrics_.resize(names.size());
@@ -222,6 +256,15 @@ void HistoryRecorder::resume(const ExplicitSolver<2>& solver) {
 
 double HistoryRecorder::energy_residual() const {
   return scale_ > 0.0 ? worst_residual_ / scale_ : worst_residual_;
+}
+
+std::string HistoryRecorder::kinetic_warning(const io::Case& input) const {
+  constexpr double small = 0.05;
+  if (!input.time.mass_scaling || kinetic_share() <= small) return "";
+  return fmt::format(
+      "with time.mass_scaling the kinetic energy is {:.2g} of the deformation energy on average, which "
+      "should be below {:g}: forces hold inertia; scale less, or move more slowly",
+      kinetic_share(), small);
 }
 
 void write_lines(const io::Case& input, const Snapshot& shot, const std::filesystem::path& folder) {
@@ -317,8 +360,8 @@ io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string&
   picture.time = shot.state.time;
   const auto& contact = shot.contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t)
-    picture.tools.push_back({&case_->tools[t].outline,
-                             contact.tools()[t].motion.displacement(shot.state.time), case_->tools[t].name});
+    picture.tools.push_back(
+        {&case_->tools[t].outline, contact.displacement(t, shot.state.time), case_->tools[t].name});
   return picture;
 }
 

@@ -49,7 +49,11 @@ public:
   /// Largest |residual| seen over the largest (external work + initial energy) seen.
   double energy_residual() const;
   double last_residual() const { return last_residual_; } ///< J/m, J of revolution
-  double energy_scale() const { return scale_; }          ///< J/m
+  /// Kinetic energy over that of deformation, both averaged over the run so far; 0 while nothing deforms.
+  double kinetic_share() const { return deformation_ > 0.0 ? kinetic_ / deformation_ : 0.0; }
+  /// Why the inertia of a scaled run is not small; empty when it is, or nothing is scaled.
+  std::string kinetic_warning(const io::Case& input) const;
+  double energy_scale() const { return scale_; } ///< J/m
   /// Named results for status.json.
   std::vector<std::pair<std::string, double>> metrics() const { return metrics_; }
 
@@ -64,6 +68,8 @@ private:
   double initial_area_ = 0.0, initial_mass_ = 0.0;
   std::int64_t rows_ = 0;
   double worst_residual_ = 0.0, last_residual_ = 0.0, scale_ = 0.0;
+  double last_time_ = 0.0;                   ///< s, of the last row
+  double kinetic_ = 0.0, deformation_ = 0.0; ///< J s/m, their time integrals
   std::vector<std::pair<std::string, double>> metrics_;
 };
 

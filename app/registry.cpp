@@ -234,6 +234,13 @@ contact::Tool<2> make_tool(const io::Case& input, const io::Tool& spec) {
     tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
   } catch (const InputError& error) { throw input.error("tools." + spec.name, error.what()); }
   tool.motion.velocity = spec.velocity;
+  if (spec.drive) {
+    contact::ToolDrive<2>& drive = tool.drive.emplace();
+    drive.mass = spec.drive->mass;
+    drive.force = spec.drive->force;
+    drive.initial_velocity = spec.drive->initial_velocity;
+    if (spec.drive->direction) drive.free = *spec.drive->direction * spec.drive->direction->transpose();
+  }
   if (spec.friction.law != io::Friction::Law::none) tool.friction.coulomb = spec.friction.coefficient;
   if (spec.friction.law == io::Friction::Law::tresca_limited)
     tool.friction.shear_factor = spec.friction.shear_factor;
@@ -296,12 +303,15 @@ Setup build(const io::Case& input) {
   model.ties = Ties<2>(pairs.motion, model.cloud.position);
   model.heat_ties = Ties<2>(pairs.heat, model.cloud.position);
   model.stabilisation = input.method.stabilisation;
+  model.pressure_exchange = input.method.pressure_exchange;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
   model.thermal = input.analysis.thermal;
   model.mechanical = input.analysis.mechanical;
   model.safety = input.time.safety;
   model.local.on = input.time.local;
   model.local.levels = input.time.levels;
+  if (const auto& scaling = input.time.mass_scaling)
+    model.mass_scaling = {scaling->factor.value_or(1.0), scaling->step.value_or(0.0)};
 
   Conditions all;
   for (const io::BoundaryCondition& condition : input.boundary)

@@ -113,6 +113,8 @@ Exit Simulation::run() {
     progress_.finish();
     if (const std::string warning = renewal_.warning(); !warning.empty())
       progress_.message("warning: " + warning);
+    if (const std::string warning = history_.kinetic_warning(input_); !warning.empty())
+      progress_.message("warning: " + warning);
     io::RunStatus end = status();
     const std::filesystem::path report = watch_.time("output", [&] {
       return watch_.time("output.report", [&] { return io::write_report(options_.output, end); });
@@ -303,6 +305,8 @@ io::RunStatus Simulation::status() {
   status.step_limits = control_.shares();
   status.warnings = warnings_;
   if (const std::string warning = renewal_.warning(); !warning.empty()) status.warnings.push_back(warning);
+  if (const std::string warning = history_.kinetic_warning(input_); !warning.empty())
+    status.warnings.push_back(warning);
   status.post_mortem = dead_;
   status.wall_s = wall();
   return status;

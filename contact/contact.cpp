@@ -39,15 +39,9 @@ ContactWork& operator+=(ContactWork& a, const ContactWork& b) {
   return a;
 }
 
-template<int dim> struct RigidContact<dim>::Pose {
-  Vec<dim> start, end;       ///< m, displacement at t_n and t_{n+1}
-  Vec<dim> before, velocity; ///< m/s, at t_{n−½} and t_{n+½}
-  double recovery = 0.0;     ///< m/s, half the speed of the fastest tool
-};
-
 template<int dim>
 RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space)
-    : tools_(std::move(tools)), space_(space) {
+    : tools_(std::move(tools)), motions_(tools_), space_(space) {
   for (const Tool<dim>& tool : tools_) {
     if (!tool.shape) throw InputError(fmt::format("tool '{}' has no shape", tool.name));
     if (!(tool.friction.coulomb >= 0.0) || !(tool.friction.shear_factor >= 0.0))
@@ -55,6 +49,9 @@ RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space)
           fmt::format("tool '{}': friction coefficient and shear factor must not be negative, got "
                       "{} and {}",
                       tool.name, tool.friction.coulomb, tool.friction.shear_factor));
+    if (tool.drive && !(tool.drive->mass > 0.0))
+      throw InputError(
+          fmt::format("tool '{}': its mass must be positive, got {}", tool.name, tool.drive->mass));
     const Box<dim> box = tool.shape->bounds();
     size_ = std::max(size_, (box.high - box.low).norm());
   }
@@ -98,39 +95,25 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
                     "got {}",
                     surface_.node.size(), step.flow_stress.size()));
   gather(step);
-  const std::vector<Pose> poses_now = poses(step);
+  std::vector<Pose<dim>> poses = motions_.predict(tools_, step.time, step.dt, step.dt_mean);
+  tool_reactions_ = motions_.reactions(tools_, poses);
   for (int pass = 0; pass < passes; ++pass) {
     from_earlier_passes_ = contacts_.size();
-    const bool faces = find_on_faces(poses_now, step), ridges = find_on_ridges(poses_now, step);
+    const bool faces = find_on_faces(poses, step), ridges = find_on_ridges(poses, step);
     if (!faces && !ridges) break;
-    solve_impulses(contacts_, reactions_, step.dt, 1e-16 * size_, sweeps);
+    solve_impulses(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps);
     for (std::size_t b = 0; b < end_.size(); ++b)
       end_[b] = reactions_[b].position + step.dt * reactions_[b].change;
+    for (std::size_t t = 0; t < poses.size(); ++t) {
+      poses[t].end = tool_reactions_[t].position + step.dt * tool_reactions_[t].change;
+      poses[t].velocity = tool_reactions_[t].velocity + tool_reactions_[t].change;
+    }
   }
   scatter(step);
-  book(poses_now, step);
-  list_points(poses_now, step);
+  motions_.accept(tools_, poses);
+  book(poses, step);
+  list_points(poses, step);
   if (in_sub_steps_) add_sub_step(step.dt_mean);
-}
-
-template<int dim>
-std::vector<typename RigidContact<dim>::Pose> RigidContact<dim>::poses(const ContactStep<dim>& step) const {
-  std::vector<Pose> all;
-  const double dt_before = 2.0 * step.dt_mean - step.dt;
-  double fastest = 0.0;
-  for (const Tool<dim>& tool : tools_) {
-    Pose pose;
-    pose.start = tool.motion.displacement(step.time);
-    pose.end = tool.motion.displacement(step.time + step.dt);
-    pose.velocity = (pose.end - pose.start) / step.dt;
-    pose.before = dt_before > 1e-9 * step.dt
-                      ? Vec<dim>((pose.start - tool.motion.displacement(step.time - dt_before)) / dt_before)
-                      : tool.motion.velocity_at(step.time);
-    fastest = std::max(fastest, pose.velocity.norm());
-    all.push_back(pose);
-  }
-  for (Pose& pose : all) pose.recovery = 0.5 * fastest;
-  return all;
 }
 
 template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
@@ -154,7 +137,8 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
 /// turned, raises its plane by what is still missing. `start` is its gap at the start of the step, `level`
 /// the place of the surface along its normal. True when there is anything to solve.
 template<int dim>
-bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, const Pose& pose, double dt) {
+bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
+                            double dt) {
   const auto mean = [&](const std::vector<Vec<dim>>& list) {
     return at_contact(contact, [&](std::size_t b) { return list[b]; });
   };
@@ -165,6 +149,7 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   }
   const double gap = contact.normal.dot(mean(end_)) - contact.level;
   if (gap >= 0.0) return false;
+  contact.level -= dt * contact.normal.dot(tool_reactions_[static_cast<std::size_t>(contact.tool)].change);
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
   const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
@@ -180,7 +165,7 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
 }
 
 template<int dim>
-bool RigidContact<dim>::find_on_faces(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+bool RigidContact<dim>::find_on_faces(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   bool any = false;
   std::vector<std::int32_t> inside;
   std::vector<Vec<dim>> from, to;
@@ -206,7 +191,7 @@ bool RigidContact<dim>::find_on_faces(const std::vector<Pose>& poses, const Cont
       contact.node[0] = static_cast<std::int32_t>(b);
       contact.weight[0] = 1.0;
       contact.normal = entry.at.normal;
-      set_friction(contact, poses[t], rubbing_[b], step);
+      set_friction(contact, rubbing_[b], step);
       const double level = entry.at.normal.dot(end_[b]) - entry.at.distance;
       any |= add(contact, entry.start, level, poses[t], step.dt);
     }
@@ -215,7 +200,7 @@ bool RigidContact<dim>::find_on_faces(const std::vector<Pose>& poses, const Cont
 }
 
 template<int dim>
-bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+bool RigidContact<dim>::find_on_ridges(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   bool any = false;
   std::vector<RidgeHit<dim>> hits;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
@@ -236,7 +221,7 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const Con
         });
         if (!on_face) area += contact.weight[a] * rubbing_[static_cast<std::size_t>(contact.node[a])];
       }
-      set_friction(contact, poses[t], area, step);
+      set_friction(contact, area, step);
       const Vec<dim> x = at_contact(contact, [&](std::size_t b) { return end_[b]; });
       any |= add(contact, hit.start, hit.normal.dot(x) - hit.gap, poses[t], step.dt);
     }
@@ -245,10 +230,9 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const Con
 }
 
 template<int dim>
-void RigidContact<dim>::set_friction(Contact<dim>& contact, const Pose& pose, double area,
-                                     const ContactStep<dim>& step) const {
+void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const {
   const Friction& friction = tools_[static_cast<std::size_t>(contact.tool)].friction;
-  contact.surface = pose.velocity;
+  contact.surface = tool_reactions_[static_cast<std::size_t>(contact.tool)].velocity;
   contact.coulomb = friction.coulomb;
   contact.limit = std::numeric_limits<double>::infinity();
   if (friction.coulomb == 0.0 || std::isinf(friction.shear_factor)) return;
@@ -273,7 +257,8 @@ template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) 
 
 /// Work of each contact with the mean of the velocities before and after (design: with the predicted velocity
 /// it would be wrong by its own size), split so that each part has one sign.
-template<int dim> void RigidContact<dim>::book(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+template<int dim>
+void RigidContact<dim>::book(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     results_[t].displacement = poses[t].end;
     results_[t].force.setZero();
@@ -315,7 +300,7 @@ template<int dim> void RigidContact<dim>::book(const std::vector<Pose>& poses, c
 }
 
 template<int dim>
-void RigidContact<dim>::list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+void RigidContact<dim>::list_points(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   points_.clear();
   for (const Contact<dim>& contact : contacts_)
     for (std::size_t a = 0; a < dim; ++a) {
@@ -345,7 +330,7 @@ std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& positio
   for (const std::int32_t node : surface_.node) all.push_back(at<dim>(position, node));
   const double rounding = 1e-9 * size_;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
-    const Vec<dim> shift = tools_[t].motion.displacement(time);
+    const Vec<dim> shift = displacement(t, time);
     local = all;
     for (Vec<dim>& x : local) x -= shift;
     std::vector<Entry<dim>> entries;
@@ -378,6 +363,7 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
     archive.number(at + "work/recovery", "J/m", result.total.recovery);
     archive.number(at + "work/friction", "J/m", result.total.friction);
     archive.number(at + "work/impact", "J/m", result.total.impact);
+    if (tools_[t].drive) motions_.archive(archive, t);
   }
 }
 

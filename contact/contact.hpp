@@ -1,8 +1,7 @@
 #pragma once
 // Kinematic predictor-corrector contact of the workpiece with rigid tools.
-#include "contact/impulse_solver.hpp"
 #include "contact/surface.hpp"
-#include "contact/tool.hpp"
+#include "contact/tool_motions.hpp"
 #include "core/aligned.hpp"
 #include "core/archive.hpp"
 #include "core/cloud.hpp"
@@ -39,10 +38,10 @@ template<int dim> struct ContactStep {
 /// workpiece = tool + recovery − friction − impact.
 struct ContactWork {
   double workpiece = 0.0; ///< Σ ½(v_{n−½} + v_{n+½})·R Δt̄, received by the nodes
-  double tool = 0.0;      ///< R·V_tool Δt̄, done by the tool's motion
-  double recovery = 0.0;  ///< put in by pushing existing penetration out, and by turning round a curved tool
-  double friction = 0.0;  ///< turned into heat by slip, both shares
-  double impact = 0.0;    ///< lost where nodes meet the tool at once
+  double tool = 0.0; ///< R·V_tool Δt̄, done by the tool's motion: work of a drive, or taken from a free mass
+  double recovery = 0.0; ///< put in by pushing existing penetration out, and by turning round a curved tool
+  double friction = 0.0; ///< turned into heat by slip, both shares
+  double impact = 0.0;   ///< lost where nodes meet the tool at once
 };
 
 ContactWork& operator+=(ContactWork& a, const ContactWork& b);
@@ -77,6 +76,9 @@ template<int dim> struct Overlap {
   bool ridge = false;
 };
 
+/// Tools with a mass of their own take part: every impulse on the workpiece acts on its tool in the same
+/// step, so that their common momentum is exact and no mass is too light.
+///
 /// Order of calls: set_boundary whenever nodes or boundary change (prepare()); in each step `remember` before
 /// the velocities are updated, then the prediction, then `correct`. Serial, so that results do not depend on
 /// threads; looks at boundary nodes alone.
@@ -102,6 +104,16 @@ public:
   void end_sub_steps(double duration);
 
   const std::vector<Tool<dim>>& tools() const { return tools_; }
+  /// Displacement since t = 0, m, of a tool at `time`, which is that of the last step for free tools.
+  Vec<dim> displacement(std::size_t tool, double time) const {
+    return motions_.displacement(tools_[tool], tool, time);
+  }
+  /// m/s, prescribed at `time`; of free tools at t_{n−½}.
+  Vec<dim> velocity(std::size_t tool, double time) const {
+    return motions_.velocity(tools_[tool], tool, time);
+  }
+  /// Of all free tools at t_{n−½}.
+  DriveEnergy drive_energy() const { return motions_.energy(tools_); }
   bool flow_stress_needed() const;
   /// Nodes of the boundary in increasing order; the lists marked [boundary node] follow it.
   const std::vector<std::int32_t>& boundary_nodes() const { return surface_.node; }
@@ -120,20 +132,19 @@ public:
   void archive(Archive& archive);
 
 private:
-  struct Pose; // of a tool during a step
-  std::vector<Pose> poses(const ContactStep<dim>& step) const;
   void gather(const ContactStep<dim>& step);
-  bool find_on_faces(const std::vector<Pose>& poses, const ContactStep<dim>& step);
-  bool find_on_ridges(const std::vector<Pose>& poses, const ContactStep<dim>& step);
-  bool add(Contact<dim> contact, double start, double level, const Pose& pose, double dt);
-  void set_friction(Contact<dim>& contact, const Pose& pose, double area, const ContactStep<dim>& step) const;
+  bool find_on_faces(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  bool find_on_ridges(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose, double dt);
+  void set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const;
   void scatter(const ContactStep<dim>& step);
-  void book(const std::vector<Pose>& poses, const ContactStep<dim>& step);
-  void list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  void book(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  void list_points(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
   void merge_points();
   void add_sub_step(double dt_mean);
 
   std::vector<Tool<dim>> tools_;
+  ToolMotions<dim> motions_;
   Space space_ = Space::plane;
   Surface<dim> surface_;
   std::vector<Mat<dim>> free_; ///< [boundary node]
@@ -144,6 +155,7 @@ private:
   std::vector<Vec<dim>> start_;  ///< m, x_n
   std::vector<Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
   std::vector<Reaction<dim>> reactions_;
+  std::vector<Reaction<dim>> tool_reactions_; ///< [tool]
   std::vector<double> area_;
   std::vector<double> rubbing_; ///< m^(dim−1), areas times windows
   std::vector<Contact<dim>> contacts_;

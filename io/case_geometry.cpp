@@ -154,8 +154,9 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
     if (!result.domain.outer.pieces.empty() && !tool.outline.pieces.empty())
       check_overlap(table, tool, result, diagnostics);
-    const auto& velocity = table.get<VectorFunction>("velocity");
+    const auto velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     for (std::size_t k = 0; k < 2; ++k) tool.velocity[k] = velocity[k].value_or(TimeTable(0.0));
+    read_drive(table, result, tool, diagnostics);
     tool.friction.law = table.choice<Friction::Law>("friction.law");
     tool.friction.coefficient = table.maybe<double>("friction.coefficient").value_or(0.0);
     tool.friction.shear_factor = table.maybe<double>("friction.shear_factor").value_or(1.0);

@@ -11,6 +11,11 @@ namespace cnem::io {
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// The mass of a tool and what moves it. Expects the kinematics.
+void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics);
+
+void read_mass_scaling(const Setting& root, Case& result, Diagnostics& diagnostics);
+
 /// Parts of the workpiece with a state of their own. Expects the domain.
 void read_regions(const Setting& root, Case& result, Diagnostics& diagnostics);
 

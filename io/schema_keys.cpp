@@ -77,6 +77,7 @@ void add_general(Keys& k) {
   k.add("time.max_steps", integer,
         "The run ends after this many steps, when it has not reached `time.end` before.")
       .in({.low = 1, .high = 1e15});
+  add_mass_scaling(k);
 }
 
 void add_materials(Keys& k) {
@@ -263,10 +264,11 @@ void add_tools(Keys& k) {
   k.add("tools.*", table,
         "A rigid tool, solid inside its outline: either `start` and `path`, or `rectangle`, or `circle`.");
   add_outline(k, "tools.*", "the name of the tool");
-  k.add(at + "velocity", vector_function, "Translation.")
+  k.add(at + "velocity", vector_function, "Prescribed translation; constant, ramped or over time.")
       .unit(d::velocity)
-      .fallback("\"0 0 m/s\"")
-      .example("\"0 -11 m/s\"");
+      .example("\"0 -11 m/s\"")
+      .computed("`\"0 0 m/s\"` without `mass`");
+  add_drive(k, at);
   k.add(at + "friction", table, "Friction on the workpiece.").always();
   k.add(at + "friction.law", choice,
         "`coulomb`: μ times the pressure; `tresca-limited`: the same, at most m_f σ_y/√3.")
@@ -317,6 +319,12 @@ void add_method(Keys& k) {
       .in(not_negative)
       .example("0.1")
       .computed("0.05; in axisymmetric analyses 0.2");
+  k.add("method.pressure_exchange", quantity,
+        "Factor of the exchange of volume between flowing neighbours, which smooths their pressure; 0: off "
+        "(cnem). 0.3 "
+        "where pressures matter: docs/pressure_exchange.md.")
+      .in(not_negative)
+      .fallback("0.0");
   k.add("method.lagrangian", choice,
         "Reference configuration: `total`: the initial one; `periodic`: renewed as `rereference` says; "
         "`updated`: renewed every step.")

@@ -45,6 +45,7 @@ void archive_ledger(Archive& archive, EnergyLedger& ledger) {
   archive.number("solver/energy/rereference", "J/m", ledger.rereference);
   archive.number("solver/energy/resampling", "J/m", ledger.resampling);
   archive.number("solver/energy/tools", "J/m", ledger.tools);
+  archive.number("solver/energy/pressure_exchange", "J/m", ledger.pressure_exchange);
   archive.number("solver/energy/supports", "J/m", ledger.supports);
   archive.number("solver/energy/recovery", "J/m", ledger.recovery);
   archive.number("solver/energy/loads", "J/m", ledger.loads);
@@ -119,6 +120,8 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
     next_levels_.clear();
     for (const double level : next) next_levels_.push_back(static_cast<std::int8_t>(level));
   }
+  exchange_.archive(archive);
+  if (model_.mass_scaling.active()) archive.field("solver/node/mass_scale", "1", mass_scale_);
   model_.supports.archive(archive);
   model_.contact.archive(archive);
   if (!archive.loading()) return;
@@ -132,6 +135,8 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   if (model_.thermal) set_conduction();
   place_reference();
   if (local_.on()) take_levels(local_.level());
+  scale_masses();
+  reset_exchange();
   model_.loads.evaluate(state_.time, node.position, node.mass);
 }
 

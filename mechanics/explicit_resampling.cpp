@@ -46,9 +46,12 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
   const Field mass = node.mass;
   const Field capacity = model_.thermal ? node.heat_capacity : mass; // without heat there may be none
 
+  const Field momentum_mass = inertia();
+  if (!mass_scale_.empty()) carry_mean(parcels, mass, mass_scale_);
+  exchange_.carry_over(parcels, mass);
   carry_sum(parcels, node.mass);
   carry_sum(parcels, node.heat_capacity);
-  for (Field& component : node.velocity) carry_mean(parcels, mass, component);
+  for (Field& component : node.velocity) carry_mean(parcels, momentum_mass, component);
   for (Field* value : {&point.plastic_strain, &point.plastic_rate, &point.plastic_work, &point.dissipation,
                        &point.strength, &point.stress_free, &flow_stress_, &viscous_pressure_})
     carry_mean(parcels, mass, *value);
@@ -100,6 +103,8 @@ template<int dim> void ExplicitSolver<dim>::resize_state(std::size_t n) {
         &point.plastic_rate, &point.plastic_work, &point.dissipation, &point.strength, &point.stress_free,
         &point.temperature, &flow_stress_, &viscous_pressure_})
     value->resize(n);
+  exchange_.resize(n);
+  if (!mass_scale_.empty()) mass_scale_.resize(n);
   resize_fields(n);
   edge_defect_.reset(shear_modulus_);
 }

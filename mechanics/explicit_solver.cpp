@@ -33,7 +33,8 @@ template<int dim> void set_identity(Fields<tensor_size<dim>>& f, std::size_t siz
 
 template<int dim>
 ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature)
-    : model_(std::move(model)), edge_defect_(model_.stabilisation), local_(model_.local) {
+    : model_(std::move(model)), edge_defect_(model_.stabilisation), exchange_(model_.pressure_exchange),
+      local_(model_.local) {
   NodeState<dim>& node = state_.node;
   const auto n = static_cast<std::size_t>(model_.cloud.nodes());
   resize_all(node.position, n);
@@ -50,7 +51,7 @@ ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Fiel
   resize_all(node.force, n);
   prepare();
   if (!model_.ties.empty())
-    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
+    for (Field& component : node.velocity) model_.ties.share(inertia(), component);
   running_.initial = ledger().total();
 }
 
@@ -90,6 +91,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   node.reference = node.position;
   if (start) start_points();
   place_reference();
+  scale_masses();
   set_identity<dim>(point.deformation, points);
   jacobian_.assign(points, 1.0);
   const auto stress_points = plasticity::stress_points(point);
@@ -101,6 +103,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   edge_defect_.reset(shear_modulus_);
   if (edge_defect_.active(approximation_.links)) edge_defect_.take(point.deformation, 0, points);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints());
+  reset_exchange();
   if (model_.thermal) set_conduction();
   conduction_step_ = 0.0;
   if (!start) {
@@ -127,11 +130,35 @@ template<int dim> void ExplicitSolver<dim>::set_conduction() {
   conduction_.set_operators(op, std::move(conductivity));
 }
 
+template<int dim> void ExplicitSolver<dim>::reset_exchange() {
+  if (!exchange_.active(approximation_.links)) return;
+  Field bulk_modulus(state_.point.size());
+  for (std::size_t p = 0; p < bulk_modulus.size(); ++p) bulk_modulus[p] = material_of(p).elasticity.kappa();
+  exchange_.reset(model_.cloud.facets, std::move(bulk_modulus));
+}
+
 /// What gathering passes read, on a new reference.
 template<int dim> void ExplicitSolver<dim>::place_reference() {
   reference_ = side_by_side<dim>(state_.node.reference);
   position_ = side_by_side<dim>(state_.node.position);
   take_columns<dim>(state_.point.piola, stress_);
+}
+
+/// Inertia on a new reference; factors that depend on cells are those of the start.
+template<int dim> void ExplicitSolver<dim>::scale_masses() {
+  const MassScaling& scaling = model_.mass_scaling;
+  if (!scaling.active()) return;
+  const Field& mass = state_.node.mass;
+  if (scaling.step <= 0.0) {
+    mass_scale_.assign(mass.size(), scaling.factor);
+  } else if (references_ == 0) {
+    const double omega = 2.0 * model_.safety / scaling.step;
+    const double alpha = edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0;
+    mass_scale_ =
+        scales_for_frequency(approximation_.mechanics, wave_modulus_, mass, omega * omega / (1.0 + alpha));
+  }
+  inertia_.resize(mass.size());
+  for (std::size_t i = 0; i < mass.size(); ++i) inertia_[i] = mass_scale_[i] * mass[i];
 }
 
 /// Masses, and stress points at rest.
@@ -206,16 +233,17 @@ template<int dim> void ExplicitSolver<dim>::advance(double dt) {
 
 template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, double dt_mean) {
   NodeState<dim>& node = state_.node;
+  const Field& inertia = this->inertia();
   model_.contact.remember(node.velocity);
   std::swap(velocity_before_, node.velocity);
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = begin; i < end; ++i)
-        node.velocity[k][i] = velocity_before_[k][i] + dt_mean * node.force[k][i] / node.mass[i];
+        node.velocity[k][i] = velocity_before_[k][i] + dt_mean * node.force[k][i] / inertia[i];
   });
   if (!model_.ties.empty())
-    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
-  model_.supports.apply(state_.time, dt, dt_mean, node.mass, velocity_before_, node.velocity);
+    for (Field& component : node.velocity) model_.ties.share(inertia, component);
+  model_.supports.apply(state_.time, dt, dt_mean, inertia, velocity_before_, node.velocity);
   running_.supports = model_.supports.work();
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < dim; ++k)
@@ -228,8 +256,7 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
   const double contact = wall_time() - start;
   times_.contact += contact;
   times_.motion -= contact; // whoever times the whole motion counts it too
-  if (!model_.ties.empty())
-    tie_loss_ += model_.ties.share_motion(node.mass, dt, node.velocity, node.position);
+  if (!model_.ties.empty()) tie_loss_ += model_.ties.share_motion(inertia, dt, node.velocity, node.position);
 
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     place_side_by_side<dim>(node.position, position_, begin, end);
@@ -271,14 +298,15 @@ void ExplicitSolver<dim>::correct_contact(double dt, double dt_mean, std::span<c
                    .dt_mean = dt_mean,
                    .position = node.position,
                    .velocity = node.velocity,
-                   .mass = node.mass,
+                   .mass = inertia(),
                    .flow_stress = flow_stress,
                    .effusivity = effusivity,
                    .window = window});
   running_.tools = running_.friction = running_.recovery = 0.0;
   running_.impact = tie_loss_;
-  for (const contact::ToolResult<dim>& tool : contact.results()) {
-    running_.tools += tool.total.tool;
+  for (std::size_t t = 0; t < contact.tools().size(); ++t) {
+    const contact::ToolResult<dim>& tool = contact.results()[t];
+    if (!contact.tools()[t].drive) running_.tools += tool.total.tool;
     running_.recovery += tool.total.recovery;
     running_.friction += tool.total.friction;
     running_.impact += tool.total.impact;
@@ -308,6 +336,8 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   const EdgePoints edge = edge_defect_.active(approximation_.links)
                               ? edge_defect_.points(shear_modulus_, point.plastic_strain)
                               : EdgePoints{};
+  const bool exchange = exchange_.active(approximation_.links);
+  if (exchange) exchange_.remember(point.pressure);
   std::vector<std::ptrdiff_t> bad(blocks(n), -1);
   std::vector<double> damping(blocks(n), 0.0);
   running_.viscosity += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
@@ -325,6 +355,10 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   viscosity_ratio_ = *std::max_element(damping.begin(), damping.end());
   for (const std::ptrdiff_t p : bad)
     if (p >= 0) diverged(static_cast<std::size_t>(p), "deformation gradient");
+  if (!exchange) return;
+  const auto energy = exchange_.apply(op, approximation_.links, reference_, dt, point, stress_);
+  running_.pressure_exchange += energy.dissipated;
+  plastic_offset_ += energy.plastic;
 }
 
 template<int dim> void ExplicitSolver<dim>::assemble_forces() {
@@ -366,7 +400,7 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   }
   if (local_.on()) return stable_macro_step();
   const StableStep step = stable_mechanical_step(
-      bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
+      bound_, approximation_.mechanics, point.deformation, wave_modulus_, inertia(),
       edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);
   if (!(step.dt > 0.0)) diverged(step.point, "stable step");
   return {model_.safety * step.dt, step.point, "elastic waves"};

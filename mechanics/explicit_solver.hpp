@@ -10,6 +10,8 @@
 #include "mechanics/energy_ledger.hpp"
 #include "mechanics/loads.hpp"
 #include "mechanics/local_steps.hpp"
+#include "mechanics/mass_scaling.hpp"
+#include "mechanics/pressure_exchange.hpp"
 #include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
@@ -38,12 +40,14 @@ template<int dim> struct Model {
   Loads<dim> loads;
   ThermalBoundaries<dim> heat_boundaries;
   contact::RigidContact<dim> contact{std::vector<contact::Tool<dim>>{}};
-  double stabilisation = 0.05; ///< α of the edge defect
+  double stabilisation = 0.05;    ///< α of the edge defect
+  double pressure_exchange = 0.0; ///< α of the exchange of volume between flowing neighbours
   BulkViscosity viscosity;
   bool thermal = true;
   bool mechanical = true; ///< false: nothing moves, heat alone
   double safety = 0.9;    ///< factor on the stable step
   LocalStepControl local; ///< local time steps
+  MassScaling mass_scaling;
 };
 
 /// Wall time spent in the parts of advance(), s.
@@ -101,10 +105,14 @@ public:
   const Model<dim>& model() const { return model_; }
   const Approximation<dim>& approximation() const { return approximation_; }
   const Field& flow_stress() const { return flow_stress_; }
+  /// What resists acceleration, kg/m^(3−dim), [node]: the mass, or more with mass scaling.
+  const Field& inertia() const { return inertia_.empty() ? state_.node.mass : inertia_; }
   const Fields<dim>& initial_position() const { return initial_position_; }
   int references() const { return references_; }
   int resamplings() const { return resamplings_; } ///< how many of them changed the nodes
   const StepTimes& times() const { return times_; }
+  /// log of b_e's J over the geometric one by the pressure exchange, [node]; empty without.
+  const Field& volume_drift() const { return exchange_.drift(); }
   /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
   std::array<double, 2> mass_balance() const;
 
@@ -119,6 +127,7 @@ private:
   void start_points();
   void set_moduli();
   void place_reference();
+  void scale_masses();
   const plasticity::Material& material_of(std::size_t point) const {
     return model_.materials[static_cast<std::size_t>(state_.point.material[point])];
   }
@@ -145,6 +154,7 @@ private:
 
   void set_conduction();
   void heat_plastically();
+  void reset_exchange();
   void conduct(double dt);
   void measure_conduction_step();
   /// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).
@@ -155,6 +165,7 @@ private:
   State<dim> state_;
   Approximation<dim> approximation_;
   EdgeDefect<dim> edge_defect_;
+  PressureExchange<dim> exchange_;
   Conduction<dim> conduction_;
   SpectralBound<dim> bound_;
   LocalSteps<dim> local_;
@@ -165,6 +176,7 @@ private:
   std::vector<double>
       start_load_weight_; ///< [block] in the first sub-step after a change of levels, else empty
 
+  Field mass_scale_, inertia_;         ///< [node] –, kg/m^(3−dim); empty without mass scaling
   Fields<dim> initial_position_;       ///< [node] m
   Field initial_temperature_;          ///< [node] K
   Fields<dim> velocity_before_;        ///< [node] v_{n−1/2} while v_{n+1/2} is made
