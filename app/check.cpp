@@ -31,6 +31,7 @@ void check(const io::Case& input, const RunOptions& options) {
   fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
   if (!input.time.fixed)
     fmt::print(" at ({:.4g}, {:.4g}) m", state.node.position[0][node], state.node.position[1][node]);
+  if (solver.sub_steps() > 1) fmt::print(", in {} finest steps", solver.sub_steps());
   fmt::print("\nsteps       about {:.0f} to t = {:.4g} s\n", std::ceil(input.time.end / control.limit()),
              input.time.end);
   fmt::print("memory      {:.0f} MB\n", static_cast<double>(io::peak_rss_bytes()) / 1e6);
@@ -46,7 +47,9 @@ void check(const io::Case& input, const RunOptions& options) {
   }
   const std::filesystem::path folder = options.output / "initial";
   io::prepare_output_folder(folder, true);
-  FieldRecorder(folder).record(snapshot(solver));
+  io::FileQueue files;
+  FieldRecorder(folder).record(files, snapshot(solver));
+  files.wait();
   fmt::print("fields      {}\n", (folder / io::files::fields).string());
 }
 

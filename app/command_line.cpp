@@ -53,6 +53,8 @@ int act(CLI::App& program, int argc, char** argv) {
   CaseOptions run_options, check_options;
   CLI::App* run_command = program.add_subcommand("run", "run a case");
   run_options.declare(*run_command);
+  bool profile = false;
+  run_command->add_flag("--profile", profile, "print where the time went, phase by phase");
   CLI::App* check_command = program.add_subcommand(
       "check", "build a case without running it: nodes, first step, overlap, initial fields");
   check_options.declare(*check_command);
@@ -87,7 +89,9 @@ int act(CLI::App& program, int argc, char** argv) {
   } catch (const CLI::ParseError& error) { return program.exit(error) == 0 ? Exit::done : Exit::bad_input; }
   if (*run_command) {
     const io::Case input = run_options.read();
-    return run(input, run_options.options(input));
+    RunOptions options = run_options.options(input);
+    options.profile = profile;
+    return run(input, options);
   }
   if (*restart_command) {
     restart_options.version = version();

@@ -60,8 +60,9 @@ void blame_place(const io::Case& input, const ExplicitSolver<2>& solver, std::si
   const Place place = place_of(solver, node);
   const double spacing = spacing_at(solver, node);
   const auto& contact = solver.model().contact;
-  for (const auto& tool : contact.tools()) {
-    const Vec2 seen = place.centre - tool.motion.displacement(state.time);
+  for (std::size_t t = 0; t < contact.tools().size(); ++t) {
+    const auto& tool = contact.tools()[t];
+    const Vec2 seen = place.centre - contact.displacement(t, state.time);
     if (std::abs(tool.shape->closest(seen).distance) < 3.0 * spacing)
       causes.push_back(
           fmt::format("It lies at tool '{}': a sharp corner, or a tool that moves more than a cell "

@@ -3,6 +3,8 @@
 #include "app/snapshot.hpp"
 #include "io/colour_map.hpp"
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ struct FieldInfo {
   double shown_factor = 1.0; ///< SI value of one shown unit
   io::ColourMap map = io::ColourMap::strain;
   bool at_nodes = false;  ///< lives at nodes (else at stress points)
+  bool adaptive = false;  ///< only where the cloud is adapted
   bool of_damage = false; ///< zero unless a material has a damage law: then left out of files
 };
 
@@ -31,6 +34,14 @@ Field values_at_points(const Snapshot& shot, const std::string& name);
 
 /// Values at nodes [node]; fields of stress points are averaged by shared volume (identity for C-NEM).
 Field values_at_nodes(const Snapshot& shot, const std::string& name);
+
+/// Largest value of a field where it lives, without laying out the field.
+double largest_value(const Snapshot& shot, const std::string& name);
+
+/// Σ weight · value of a field over some nodes, as of values_at_nodes(), without laying out the field where
+/// it lives at these nodes.
+double weighted_value(const Snapshot& shot, const std::string& name, std::span<const std::int32_t> node,
+                      std::span<const double> weight);
 
 /// Area enclosed by the boundary as it stands, m².
 double boundary_area(const Snapshot& shot);

@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <fmt/format.h>
+#include <memory>
+#include <utility>
 
 namespace cnem::app {
 
@@ -48,6 +51,16 @@ std::vector<ProbeWeights> probe_weights(const io::Case& input, const Cloud<2>& c
   return probes;
 }
 
+/// Root mean square and largest size.
+std::pair<double, double> drift_of(const Field& drift) {
+  double sum = 0.0, most = 0.0;
+  for (const double theta : drift) {
+    sum += theta * theta;
+    most = std::max(most, std::abs(theta));
+  }
+  return {drift.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift.size())), most};
+}
+
 double total_mass(const ExplicitSolver<2>& solver) {
   double mass = 0.0;
   for (const double m : solver.state().node.mass) mass += m;
@@ -77,7 +90,12 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     const auto& result = contact.results()[t];
     row.emplace_back(name + ".force_x" + units_.force, result.force.x());
     row.emplace_back(name + ".force_y" + units_.force, result.force.y());
-    row.emplace_back(name + ".stroke[m]", contact.tools()[t].motion.displacement(state.time).norm());
+    row.emplace_back(name + ".stroke[m]", contact.displacement(t, state.time).norm());
+    const Vec2 at = contact.displacement(t, state.time), speed = contact.velocity(t, state.time);
+    row.emplace_back(name + ".displacement_x[m]", at.x());
+    row.emplace_back(name + ".displacement_y[m]", at.y());
+    row.emplace_back(name + ".velocity_x[m/s]", speed.x());
+    row.emplace_back(name + ".velocity_y[m/s]", speed.y());
   }
   if (contact.bodies_touch())
     row.emplace_back("body_contact.pressing" + units_.force, contact.body_result().pressing);
@@ -93,6 +111,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
   const EnergyLedger e = solver.ledger();
   for (const auto& [name, value] :
        std::initializer_list<std::pair<const char*, double>>{{"kinetic", e.kinetic},
+                                                             {"tool_kinetic", e.tool_kinetic},
                                                              {"elastic", e.elastic},
                                                              {"plastic", e.plastic},
                                                              {"stabilisation", e.stabilisation},
@@ -102,7 +121,10 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"contact_impact", e.impact},
                                                              {"penalty_release", e.penalty_release},
                                                              {"rereference", e.rereference},
+                                                             {"resampling", e.resampling},
+                                                             {"pressure_exchange", e.pressure_exchange},
                                                              {"tool_work", e.tools},
+                                                             {"drive_work", e.drives},
                                                              {"contact_recovery", e.recovery},
                                                              {"support_work", e.supports},
                                                              {"load_work", e.loads},
@@ -111,25 +133,25 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                              {"heat_exchanged", e.heat_exchanged},
                                                              {"residual", e.residual()}})
     row.emplace_back(fmt::format("energy.{}{}", name, units_.energy), value);
+  row.emplace_back("kinetic_share", e.kinetic_share());
+  row.emplace_back("pressure_noise",
+                   pressure_noise(solver.approximation().links, solver.model().cloud.facets, state.point));
+  const auto [mean_drift, largest_drift] = drift_of(solver.volume_drift());
+  row.emplace_back("volume_drift", mean_drift);
+  row.emplace_back("max.volume_drift", largest_drift);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
-    const Field values =
-        info.at_nodes ? values_at_nodes(snapshot(solver), name) : values_at_points(snapshot(solver), name);
     row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
-                     *std::max_element(values.begin(), values.end()));
+                     largest_value(snapshot(solver), name));
   }
   if (!state.point.damage.empty()) {
     row.emplace_back("max.damage", *std::max_element(state.point.damage.begin(), state.point.damage.end()));
     row.emplace_back("broken_area[m^2]", broken_area(snapshot(solver)));
   }
   for (const ProbeWeights& probe : probes_)
-    for (const std::string& name : probe.fields) {
-      const Field values = values_at_nodes(snapshot(solver), name);
-      double sum = 0.0;
-      for (std::size_t k = 0; k < probe.node.size(); ++k)
-        sum += probe.weight[k] * values[static_cast<std::size_t>(probe.node[k])];
-      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit), sum);
-    }
+    for (const std::string& name : probe.fields)
+      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit),
+                       weighted_value(snapshot(solver), name, probe.node, probe.weight));
   row.emplace_back("mass" + units_.mass, total_mass(solver));
   row.emplace_back("area[m^2]", boundary_area(snapshot(solver)));
   return row;
@@ -158,11 +180,18 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   worst_residual_ = std::max(worst_residual_, std::abs(last_residual_));
   scale_ = std::max(scale_, std::abs(e.external()) + e.initial);
 
+  const double now = solver.state().time;
+  kinetic_ += e.inertial * (now - last_time_);
+  deformation_ += e.deformation() * (now - last_time_);
+  last_time_ = now;
+  keep_metric("kinetic_share", kinetic_share(), false);
+
   const auto& contact = solver.model().contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t)
     keep_metric("peak_force." + contact.tools()[t].name, contact.results()[t].force.norm(), true);
   for (const auto& [name, value] : named) {
     if (name == "max.plastic_strain") keep_metric("max_plastic_strain", value, true);
+    if (name == "volume_drift" || name == "max.volume_drift") keep_metric(name, value, true);
     if (name == "max.temperature[K]") keep_metric("max_temperature", value, true);
     if (name == "max.damage") keep_metric("max_damage", value, true);
     if (name == "broken_area[m^2]") keep_metric("broken_area", value, true);
@@ -174,13 +203,45 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   keep_metric("mass_balance.high", balance[1], false);
 }
 
+void HistoryRecorder::resample(const Resampling<2>& change, const ExplicitSolver<2>& solver) {
+  if (probes_.empty()) return;
+  const Cloud<2>& cloud = solver.model().cloud;
+  const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
+  const voronoi::Circumcircles circles = voronoi::circumcircles(cloud, mesh);
+  voronoi::NaturalNeighbours functions(cloud, mesh, circles);
+  for (ProbeWeights& probe : probes_) {
+    Vec2 at = Vec2::Zero();
+    for (std::size_t k = 0; k < probe.node.size(); ++k)
+      at += probe.weight[k] * change.old_position[static_cast<std::size_t>(probe.node[k])];
+    try {
+      functions.evaluate(voronoi::Functions::sibson, at);
+      probe.node.assign(functions.nodes().begin(), functions.nodes().end());
+      probe.weight.assign(functions.values().begin(), functions.values().end());
+    } catch (const GeometryError&) { // cut off with a corner of the boundary: the nearest node goes on
+      std::size_t nearest = 0;
+      for (std::size_t i = 1; i < cloud.position.size(); ++i)
+        if ((cloud.position[i] - at).squaredNorm() < (cloud.position[nearest] - at).squaredNorm())
+          nearest = i;
+      probe.node = {static_cast<std::int32_t>(nearest)};
+      probe.weight = {1.0};
+    }
+  }
+}
+
 void HistoryRecorder::archive(Archive& archive) {
+  for (ProbeWeights& probe : probes_) {
+    archive.integers(fmt::format("run/history/probe/{}/node", probe.name), probe.node);
+    archive.list(fmt::format("run/history/probe/{}/weight", probe.name), "1", probe.weight);
+  }
   archive.integer("run/history/rows", rows_);
   archive.number("run/history/initial_area", "m^2", initial_area_);
   archive.number("run/history/initial_mass", "kg/m", initial_mass_);
   archive.number("run/history/worst_residual", "J/m", worst_residual_);
   archive.number("run/history/last_residual", "J/m", last_residual_);
   archive.number("run/history/scale", "J/m", scale_);
+  archive.number("run/history/last_time", "s", last_time_);
+  archive.number("run/history/kinetic", "J s/m", kinetic_);
+  archive.number("run/history/deformation", "J s/m", deformation_);
   std::vector<std::string> names = names_of(metrics_);
   archive.texts("run/history/metrics", names);
   metrics_.resize(names.size());
@@ -204,6 +265,15 @@ void HistoryRecorder::resume(const ExplicitSolver<2>& solver) {
 
 double HistoryRecorder::energy_residual() const {
   return scale_ > 0.0 ? worst_residual_ / scale_ : worst_residual_;
+}
+
+std::string HistoryRecorder::kinetic_warning(const io::Case& input) const {
+  constexpr double small = 0.05;
+  if (!input.time.mass_scaling || kinetic_share() <= small) return "";
+  return fmt::format(
+      "with time.mass_scaling the kinetic energy is {:.2g} of the deformation energy on average, which "
+      "should be below {:g}: forces hold inertia; scale less, or move more slowly",
+      kinetic_share(), small);
 }
 
 void write_lines(const io::Case& input, const Snapshot& shot, const std::filesystem::path& folder) {
@@ -241,77 +311,114 @@ void write_lines(const io::Case& input, const Snapshot& shot, const std::filesys
   }
 }
 
-void FieldRecorder::record(const Snapshot& shot) {
-  const NodeState<2>& node = shot.state.node;
-  io::FieldFrame frame;
+void FieldRecorder::record(io::FileQueue& files, const Snapshot& shot) {
+  struct Kept {
+    io::FieldFrame frame;
+    CellGeometry<2> cells;
+    Fields<2> position, velocity;
+    std::vector<Field> values;
+  };
+  const auto kept = std::make_shared<Kept>();
+  kept->cells = shot.approximation.cells;
+  kept->position = shot.state.node.position;
+  kept->velocity = shot.state.node.velocity;
+  kept->values.reserve(2 * field_catalogue().size());
+  io::FieldFrame& frame = kept->frame;
   frame.time = shot.state.time;
-  frame.cells = &shot.approximation.cells;
-  frame.position = spans(node.position);
-  std::vector<Field> storage;
-  storage.reserve(2 * field_catalogue().size());
+  frame.cells = &kept->cells;
+  frame.position = spans(kept->position);
   for (const FieldInfo& info : field_catalogue()) {
     if (info.of_damage && shot.state.point.damage.empty()) continue;
+    if (info.adaptive && !shot.adaptation) continue;
     const std::string name = info.unit.empty() ? info.label : fmt::format("{} [{}]", info.label, info.unit);
-    frame.cell_scalars.push_back({name, storage.emplace_back(values_at_points(shot, info.name))});
-    frame.node_scalars.push_back({name, storage.emplace_back(values_at_nodes(shot, info.name))});
+    const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
+    frame.cell_scalars.push_back({name, at_points});
+    if (shot.approximation.mechanics.nodal)
+      frame.node_scalars.push_back({name, at_points});
+    else
+      frame.node_scalars.push_back({name, kept->values.emplace_back(values_at_nodes(shot, info.name))});
   }
-  frame.node_vectors.push_back({"velocity [m/s]", {node.velocity[0], node.velocity[1], {}}});
-  writer_.write(frame);
+  frame.node_vectors.push_back({"velocity [m/s]", {kept->velocity[0], kept->velocity[1], {}}});
+  writer_.write(files, {kept, &frame});
 }
 
-io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string& field,
-                                        const Fields<2>& drawn, const Field& values) const {
+/// What the pictures of one time are drawn from, while the run goes on.
+struct PictureRecorder::Kept {
+  CellGeometry<2> cells;
+  Fields<2> position;
+  std::deque<Field> values;
+
+  std::size_t bytes() const {
+    return sizeof(double) * (4 * cells.vertex.size() + 2 * cells.vertex_weight.size() +
+                             (2 + values.size()) * position[0].size());
+  }
+};
+
+io::Picture PictureRecorder::picture_of(const Snapshot& shot, const std::string& field, Kept& kept,
+                                        Field values) const {
   const FieldInfo& info = field_info(field);
   io::Picture picture;
-  picture.cells = &shot.approximation.cells;
-  picture.position = spans(drawn);
-  picture.value = values;
+  picture.cells = &kept.cells;
+  picture.position = spans(kept.position);
+  picture.value = kept.values.emplace_back(std::move(values));
   picture.label = info.label;
   picture.unit = info.shown_unit;
   picture.unit_factor = info.shown_factor;
   picture.map = info.map;
-  if (info.map == io::ColourMap::diverging) picture.range = io::symmetric_range(values, 0.999);
+  if (info.map == io::ColourMap::diverging) picture.range = io::symmetric_range(picture.value, 0.999);
   picture.title = case_->title;
   picture.time = shot.state.time;
   const auto& contact = shot.contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t)
-    picture.tools.push_back({&case_->tools[t].outline,
-                             contact.tools()[t].motion.displacement(shot.state.time), case_->tools[t].name});
+    picture.tools.push_back(
+        {&case_->tools[t].outline, contact.displacement(t, shot.state.time), case_->tools[t].name});
   return picture;
 }
 
-void PictureRecorder::record(const Snapshot& shot) {
-  Fields<2> drawn = shot.state.node.position;
+std::string PictureRecorder::draw(io::FileQueue& files, const std::shared_ptr<const Kept>& kept,
+                                  const io::Picture& picture, const std::string& key,
+                                  const std::string& caption) {
+  return album_.add(
+      files, key, picture.label, picture.time, [kept, picture] { return io::draw_png(picture); },
+      kept->bytes() / 2, caption); // shared with the others of its time
+}
+
+void PictureRecorder::record(io::FileQueue& files, const Snapshot& shot) {
+  const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, shot.state.node.position, {}});
+  Fields<2>& drawn = kept->position;
   if (shot.displacement_scale != 1.0)
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < drawn[k].size(); ++i) {
         const double start = shot.initial_position[k][i];
         drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
       }
-  for (const std::string& name : case_->output.picture_fields) {
-    const Field values = values_at_points(shot, name);
-    io::Picture picture = picture_of(shot, name, drawn, values);
-    album_.add(name, picture.label, picture.time, io::draw_png(picture));
+  std::vector<io::Picture> pictures;
+  for (const std::string& name : case_->output.picture_fields)
+    pictures.push_back(picture_of(shot, name, *kept, values_at_points(shot, name)));
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    const std::string& name = case_->output.picture_fields[k];
+    draw(files, kept, pictures[k], name, "");
     for (const io::Window& window : case_->output.windows) {
-      picture.window = io::PictureWindow{window.lower, window.upper};
-      album_.add(name + "_" + window.name, picture.label, picture.time, io::draw_png(picture), window.name);
+      pictures[k].window = io::PictureWindow{window.lower, window.upper};
+      draw(files, kept, pictures[k], name + "_" + window.name, window.name);
     }
   }
 }
 
-std::string PictureRecorder::record_place(const Snapshot& shot, const Vec2& centre, double radius) {
+std::string PictureRecorder::record_place(io::FileQueue& files, const Snapshot& shot, const Vec2& centre,
+                                          double radius) {
   const NodeState<2>& node = shot.state.node;
-  Fields<2> drawn = node.position;
+  const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, node.position, {}});
   for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t i = 0; i < drawn[k].size(); ++i)
-      if (!std::isfinite(drawn[k][i])) drawn[k][i] = node.reference[k][i];
+    for (std::size_t i = 0; i < node.size(); ++i)
+      if (!std::isfinite(kept->position[k][i])) kept->position[k][i] = node.reference[k][i];
   Field values = values_at_points(shot, "plastic_strain");
   for (double& value : values)
     if (!std::isfinite(value)) value = 0.0;
-  io::Picture picture = picture_of(shot, "plastic_strain", drawn, values);
+  io::Picture picture = picture_of(shot, "plastic_strain", *kept, std::move(values));
   picture.window = io::PictureWindow{centre.array() - radius, centre.array() + radius};
   picture.edges = true;
-  return album_.add("post_mortem", picture.label, picture.time, io::draw_png(picture), "where it went wrong");
+  return draw(files, kept, picture, "post_mortem", "where it went wrong");
 }
 
 } // namespace cnem::app

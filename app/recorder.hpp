@@ -37,6 +37,8 @@ public:
                   const std::filesystem::path& folder);
 
   void record(const ExplicitSolver<2>& solver);
+  /// Probes stay where they are in the matter of a changed cloud.
+  void resample(const Resampling<2>& change, const ExplicitSolver<2>& solver);
 
   /// What a checkpoint keeps of it.
   void archive(Archive& archive);
@@ -47,7 +49,11 @@ public:
   /// Largest |residual| seen over the largest (external work + initial energy) seen.
   double energy_residual() const;
   double last_residual() const { return last_residual_; } ///< J/m, J of revolution
-  double energy_scale() const { return scale_; }          ///< J/m
+  /// Kinetic energy over that of deformation, both averaged over the run so far; 0 while nothing deforms.
+  double kinetic_share() const { return deformation_ > 0.0 ? kinetic_ / deformation_ : 0.0; }
+  /// Why the inertia of a scaled run is not small; empty when it is, or nothing is scaled.
+  std::string kinetic_warning(const io::Case& input) const;
+  double energy_scale() const { return scale_; } ///< J/m
   /// Named results for status.json.
   std::vector<std::pair<std::string, double>> metrics() const { return metrics_; }
 
@@ -62,6 +68,8 @@ private:
   double initial_area_ = 0.0, initial_mass_ = 0.0;
   std::int64_t rows_ = 0;
   double worst_residual_ = 0.0, last_residual_ = 0.0, scale_ = 0.0;
+  double last_time_ = 0.0;                   ///< s, of the last row
+  double kinetic_ = 0.0, deformation_ = 0.0; ///< J s/m, their time integrals
   std::vector<std::pair<std::string, double>> metrics_;
 };
 
@@ -69,35 +77,37 @@ private:
 /// natural-neighbour interpolation of nodal values.
 void write_lines(const io::Case& input, const Snapshot& shot, const std::filesystem::path& folder);
 
-/// Writes fields.pvd frames with every field of the catalogue.
+/// Writes fields.pvd frames with every field of the catalogue, through a queue that must outlive the frames.
 class FieldRecorder {
 public:
   explicit FieldRecorder(const std::filesystem::path& folder) : writer_(folder) {}
   /// Goes on with the series that is there: frames later than `time` (s) are dropped. Throws IoError.
   FieldRecorder(const std::filesystem::path& folder, double time)
       : writer_(io::FieldWriter::resume(folder, time)) {}
-  void record(const Snapshot& shot);
+  void record(io::FileQueue& files, const Snapshot& shot);
   int frames() const { return writer_.frames(); }
 
 private:
   io::FieldWriter writer_;
 };
 
-/// Draws the case's pictures.
+/// Draws the case's pictures, in the background from a copy of what they show.
 class PictureRecorder {
 public:
   PictureRecorder(const io::Case& input, const std::filesystem::path& folder)
       : case_(&input), album_(folder) {}
-  void record(const Snapshot& shot);
+  void record(io::FileQueue& files, const Snapshot& shot);
   /// Draws the plastic strain around a place that went wrong, within `radius` (m). Returns the file's name in
   /// the folder of pictures.
-  std::string record_place(const Snapshot& shot, const Vec2& centre, double radius);
+  std::string record_place(io::FileQueue& files, const Snapshot& shot, const Vec2& centre, double radius);
   /// Drops the pictures later than `time` (s).
   void truncate(double time) { album_.truncate(time); }
 
 private:
-  io::Picture picture_of(const Snapshot& shot, const std::string& field, const Fields<2>& drawn,
-                         const Field& values) const;
+  struct Kept;
+  io::Picture picture_of(const Snapshot& shot, const std::string& field, Kept& kept, Field values) const;
+  std::string draw(io::FileQueue& files, const std::shared_ptr<const Kept>& kept, const io::Picture& picture,
+                   const std::string& key, const std::string& caption);
   const io::Case* case_;
   io::PictureAlbum album_;
 };

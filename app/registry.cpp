@@ -170,6 +170,7 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
   std::vector<std::int32_t> nodes = nodes_of(facets);
   for (const std::int32_t node : nodes_at(input, spec, cloud))
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+  const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<2>>(facets));
   using Kind = Support<2>::Kind;
   if (spec.symmetry) {
     // One plane per straight piece: pieces of one condition may face different ways.
@@ -178,23 +179,28 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
       if (straight.empty()) continue;
       const Vec2 edge = cloud.position[static_cast<std::size_t>(straight.front().node[1])] -
                         cloud.position[static_cast<std::size_t>(straight.front().node[0])];
-      all.supports.push_back(
-          {spec.name, Kind::symmetry, right_normal(edge).normalized(), {}, nodes_of(straight)});
+      all.supports.push_back({spec.name,
+                              Kind::symmetry,
+                              right_normal(edge).normalized(),
+                              {},
+                              nodes_of(straight),
+                              pieces_of(std::span<const Facet<2>>(straight))});
     }
   }
   for (std::size_t k = 0; k < 2; ++k) {
     const Vec2 direction = k == 0 ? Vec2(1, 0) : Vec2(0, 1);
     if (spec.velocity[k])
-      all.supports.push_back({spec.name, Kind::velocity, direction, *spec.velocity[k], nodes});
+      all.supports.push_back({spec.name, Kind::velocity, direction, *spec.velocity[k], nodes, pieces});
     if (spec.displacement[k])
-      all.supports.push_back({spec.name, Kind::displacement, direction, *spec.displacement[k], nodes});
+      all.supports.push_back(
+          {spec.name, Kind::displacement, direction, *spec.displacement[k], nodes, pieces});
   }
   if (spec.traction[0] || spec.traction[1])
     all.tractions.push_back({spec.name,
                              {spec.traction[0].value_or(TimeTable()), spec.traction[1].value_or(TimeTable())},
                              facets});
   if (spec.pressure) all.pressures.push_back({spec.name, *spec.pressure, facets});
-  if (spec.temperature) all.temperatures.push_back({spec.name, *spec.temperature, nodes});
+  if (spec.temperature) all.temperatures.push_back({spec.name, *spec.temperature, nodes, pieces});
   if (spec.heat_flux) all.fluxes.push_back({spec.name, *spec.heat_flux, facets});
   if (spec.convection)
     all.convections.push_back(
@@ -229,7 +235,8 @@ void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& 
                                      support.name));
   }
   if (!axis.empty())
-    supports.insert(supports.begin(), {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis)});
+    supports.insert(supports.begin(),
+                    {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis), {}});
 }
 
 contact::Friction make_friction(const io::Friction& spec) {
@@ -247,6 +254,13 @@ contact::Tool<2> make_tool(const io::Case& input, const io::Tool& spec) {
   } catch (const InputError& error) { throw input.error("tools." + spec.name, error.what()); }
   tool.motion.velocity = spec.velocity;
   tool.friction = make_friction(spec.friction);
+  if (spec.drive) {
+    contact::ToolDrive<2>& drive = tool.drive.emplace();
+    drive.mass = spec.drive->mass;
+    drive.force = spec.drive->force;
+    drive.initial_velocity = spec.drive->initial_velocity;
+    if (spec.drive->direction) drive.free = *spec.drive->direction * spec.drive->direction->transpose();
+  }
   if (spec.heat) {
     tool.thermal.conductance = spec.heat->conductance;
     tool.thermal.temperature = spec.heat->temperature;
@@ -307,10 +321,15 @@ Setup build(const io::Case& input) {
   model.ties = Ties<2>(pairs.motion, model.cloud.position);
   model.heat_ties = Ties<2>(pairs.heat, model.cloud.position);
   model.stabilisation = input.method.stabilisation;
+  model.pressure_exchange = input.method.pressure_exchange;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
   model.thermal = input.analysis.thermal;
   model.mechanical = input.analysis.mechanical;
   model.safety = input.time.safety;
+  model.local.on = input.time.local;
+  model.local.levels = input.time.levels;
+  if (const auto& scaling = input.time.mass_scaling)
+    model.mass_scaling = {scaling->factor.value_or(1.0), scaling->step.value_or(0.0)};
 
   Conditions all;
   for (const io::BoundaryCondition& condition : input.boundary)

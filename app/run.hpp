@@ -15,6 +15,7 @@ struct RunOptions {
   bool force = false;           ///< replace a run that is there
   int threads = 0;              ///< 0: what OpenMP takes by itself
   std::string version;
+  bool profile = false; ///< print where the time went
 };
 
 /// Runs the case into the folder and writes its report. Returns done, diverged (with the post-mortem in

@@ -1,5 +1,6 @@
 #include "app/simulation.hpp"
 
+#include "app/profile.hpp"
 #include "app/registry.hpp"
 #include "app/run_signals.hpp"
 #include "core/isa.hpp"
@@ -53,9 +54,13 @@ Simulation::Simulation(const io::Case& input, const RunOptions& options)
       fields_due_(every(input.output.fields_every, input.time.end,
                         Schedule::at({0.0, input.time.end}, input.time.end))),
       pictures_due_(Schedule::at(input.output.pictures, input.time.end)), control_(input.time),
-      renewal_(input.method), checkpoints_(input.output.checkpoint) {}
+      renewal_(input.method), adaptation_(input, solver_), checkpoints_(input.output.checkpoint) {}
 
 void Simulation::start() {
+  watch_.time("rebuild", [&] {
+    adaptation_.fit_to_tools(solver_,
+                             [&](const Resampling<2>& change) { history_.resample(change, solver_); });
+  });
   fields_.emplace(options_.output);
   pictures_.emplace(input_, options_.output);
 }
@@ -83,10 +88,11 @@ void Simulation::archive(Archive& archive) {
   pictures_due_.archive(archive, "run/due/pictures");
   control_.archive(archive);
   renewal_.archive(archive);
+  adaptation_.archive(archive);
   history_.archive(archive);
   archive.integer("run/last_check", last_check_);
   archive.number("run/node_steps", "1", node_steps_);
-  for (auto [phase, seconds] : watch_.spent()) {
+  for (auto [phase, seconds] : wall()) {
     archive.number(fmt::format("run/wall/{}", phase), "s", seconds);
     if (archive.loading()) watch_.add(phase, seconds);
   }
@@ -100,14 +106,21 @@ Exit Simulation::run() {
     } catch (const DivergenceError& error) { diverge(error); } catch (const GeometryError& error) {
       diverge(lost_reference(solver_, error));
     }
-    if (exit_ != Exit::interrupted)
-      watch_.time("output", [&] { write_lines(input_, snapshot(solver_), options_.output); });
+    watch_.time("output", [&] {
+      if (exit_ != Exit::interrupted) write_lines(input_, snapshot(solver_), options_.output);
+      watch_.time("output.disk", [&] { files_.wait(); });
+    });
     progress_.finish();
-    const io::RunStatus end = status();
     if (const std::string warning = renewal_.warning(); !warning.empty())
       progress_.message("warning: " + warning);
+    if (const std::string warning = history_.kinetic_warning(input_); !warning.empty())
+      progress_.message("warning: " + warning);
+    io::RunStatus end = status();
+    const std::filesystem::path report = watch_.time("output", [&] {
+      return watch_.time("output.report", [&] { return io::write_report(options_.output, end); });
+    });
+    end.wall_s = wall();
     io::write_status(options_.output, end);
-    const std::filesystem::path report = io::write_report(options_.output);
     fmt::print("{}: {}\n",
                exit_ == Exit::done          ? "done"
                : exit_ == Exit::interrupted ? "stopped"
@@ -115,6 +128,7 @@ Exit Simulation::run() {
                reason_);
     fmt::print("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; energy residual {:.2g} of the work\n",
                end.nodes, end.steps, end.time, end.wall_s.front().second, end.energy_residual);
+    if (options_.profile) fmt::print("{}", profile_table(end));
     fmt::print("report: {}\n", report.string());
     return exit_;
   } catch (const IoError& error) {
@@ -132,13 +146,16 @@ void Simulation::loop() {
     const char* signal = RunSignals::stop();
     if (RunSignals::take_checkpoint() || signal || checkpoints_.due(state)) {
       check_finite(state);
-      watch_.time("output", [&] { write_checkpoint(); });
+      watch_.time("output", [&] {
+        watch_.time("output.disk", [&] { files_.wait(); }); // a checkpoint counts on the frames before it
+        watch_.time("output.checkpoint", [&] { write_checkpoint(); });
+      });
     }
     if (signal)
       return stop(Exit::interrupted, fmt::format("by {} at {}; `cnem restart {}` goes on from there", signal,
                                                  last_checkpoint_, options_.output.string()));
     adapt_and_step();
-    node_steps_ += static_cast<double>(state.node.size());
+    node_steps_ += solver_.updates();
   }
 }
 
@@ -157,9 +174,8 @@ bool Simulation::finished() {
 void Simulation::record_due() {
   const State<2>& state = solver_.state();
   const double tolerance = 1e-9 * input_.time.end;
-  if (history_due_.due(state.time, tolerance)) history_.record(solver_);
-  if (fields_due_.due(state.time, tolerance)) fields_->record(snapshot(solver_));
-  if (pictures_due_.due(state.time, tolerance)) pictures_->record(snapshot(solver_));
+  record(history_due_.due(state.time, tolerance), fields_due_.due(state.time, tolerance),
+         pictures_due_.due(state.time, tolerance));
   progress_.update({.time = state.time,
                     .end = input_.time.end,
                     .step = state.step,
@@ -169,19 +185,39 @@ void Simulation::record_due() {
 
 void Simulation::record_last() {
   const double now = solver_.state().time;
-  if (history_due_.last() != now) history_.record(solver_);
-  if (fields_due_.last() != now) fields_->record(snapshot(solver_));
-  if (pictures_due_.last() != now) pictures_->record(snapshot(solver_));
+  record(history_due_.last() != now, fields_due_.last() != now, pictures_due_.last() != now);
+}
+
+Snapshot Simulation::shot() {
+  if (!adaptation_.active()) return snapshot(solver_);
+  adaptation_fields_ = adaptation_.fields(solver_.state().time);
+  return snapshot(solver_, &adaptation_fields_);
+}
+
+void Simulation::record(bool history, bool fields, bool pictures) {
+  if (history) watch_.time("output.history", [&] { history_.record(solver_); });
+  if (fields) watch_.time("output.fields", [&] { fields_->record(files_, shot()); });
+  if (pictures) watch_.time("output.pictures", [&] { pictures_->record(files_, shot()); });
 }
 
 void Simulation::adapt_and_step() {
   const bool rereference = watch_.time("step", [&] { return renewal_.due(solver_); });
-  if (rereference) watch_.time("rebuild", [&] { renewal_.renew(solver_); });
+  if (rereference) watch_.time("rebuild", [&] { new_reference(); });
   watch_.time("step", [&] {
     const State<2>& state = solver_.state();
-    if (rereference || state.step - last_check_ >= input_.time.check_every) look_at_step();
+    if (rereference || (state.step - last_check_) * solver_.sub_steps() >= input_.time.check_every)
+      watch_.time("step.stable", [&] { look_at_step(); });
     solver_.advance(
         control_.choose(state.time, std::min({input_.time.end, fields_due_.next(), pictures_due_.next()})));
+  });
+}
+
+void Simulation::new_reference() {
+  renewal_.renew(solver_, [&] {
+    if (adaptation_.active())
+      history_.resample(adaptation_.renew(solver_), solver_);
+    else
+      solver_.prepare();
   });
 }
 
@@ -221,7 +257,7 @@ void Simulation::diverge(const DivergenceError& error) {
   dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", io::files::checkpoint,
                                  last_checkpoint_.empty() ? "no step" : last_checkpoint_, fields_due_.last());
   const Place place = place_of(solver_, static_cast<std::size_t>(error.node));
-  dead_->picture = pictures_->record_place(snapshot(solver_), place.centre, place.radius);
+  dead_->picture = pictures_->record_place(files_, shot(), place.centre, place.radius);
 }
 
 Exit Simulation::fail(const std::string& message) {
@@ -236,6 +272,17 @@ Exit Simulation::fail(const std::string& message) {
     io::write_status(options_.output, status());
   } catch (const IoError&) {} // there may be no room for this either
   return Exit::io_failed;
+}
+
+std::vector<std::pair<std::string, double>> Simulation::wall() const {
+  Stopwatch watch = watch_;
+  const StepTimes& step = solver_.times();
+  watch.add("step.motion", step.motion);
+  watch.add("step.contact", step.contact);
+  watch.add("step.stress", step.stress);
+  watch.add("step.forces", step.forces);
+  watch.add("step.heat", step.heat);
+  return watch.spent();
 }
 
 io::RunStatus Simulation::status() {
@@ -254,11 +301,14 @@ io::RunStatus Simulation::status() {
   status.energy_residual = history_.energy_residual();
   status.metrics = history_.metrics();
   status.metrics.emplace_back("references", solver_.references());
+  for (const auto& metric : adaptation_.metrics()) status.metrics.push_back(metric);
   status.step_limits = control_.shares();
   status.warnings = warnings_;
   if (const std::string warning = renewal_.warning(); !warning.empty()) status.warnings.push_back(warning);
+  if (const std::string warning = history_.kinetic_warning(input_); !warning.empty())
+    status.warnings.push_back(warning);
   status.post_mortem = dead_;
-  status.wall_s = watch_.spent();
+  status.wall_s = wall();
   return status;
 }
 

@@ -1,17 +1,20 @@
 #pragma once
 // An explicit run from its set-up to its report: the time loop in a fixed order, output, checkpoint, adapt,
 // step.
+#include "app/adaptation.hpp"
 #include "app/divergence.hpp"
 #include "app/recorder.hpp"
 #include "app/run.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
 #include "io/checkpoint.hpp"
+#include "io/file_queue.hpp"
 #include "io/progress.hpp"
 #include "io/status.hpp"
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem::app {
@@ -55,13 +58,18 @@ private:
   bool finished();
   void record_due();
   void record_last();
+  /// Good until the next one.
+  Snapshot shot();
+  void record(bool history, bool fields, bool pictures);
   void adapt_and_step();
+  void new_reference();
   void look_at_step();
   void write_checkpoint();
   void stop(Exit exit, std::string reason);
   void diverge(const DivergenceError& error);
   Exit fail(const std::string& message);
   io::RunStatus status();
+  std::vector<std::pair<std::string, double>> wall() const;
 
   const io::Case& input_;
   RunOptions options_;
@@ -69,11 +77,14 @@ private:
   std::vector<std::string> warnings_;
   ExplicitSolver<2> solver_;
   HistoryRecorder history_;
+  io::FileQueue files_; ///< frames and pictures on their way to the disk
   std::optional<FieldRecorder> fields_;
   std::optional<PictureRecorder> pictures_;
   Schedule history_due_, fields_due_, pictures_due_;
   StepControl control_;
   ReferenceRenewal renewal_;
+  Adaptation adaptation_;
+  AdaptationFields adaptation_fields_;
   CheckpointTimer checkpoints_;
   io::Progress progress_;
   std::int64_t last_check_ = -1; ///< step of the last look at the stable step; −1: none yet

@@ -6,6 +6,13 @@
 
 namespace cnem::app {
 
+/// What adaptation says of the nodes; each list is [node].
+struct AdaptationFields {
+  Field level;     ///< – log2 of the spacing of the case over the wanted one
+  Field indicator; ///< of the last new reference
+  Field age;       ///< s, since the node was inserted
+};
+
 /// A state with the approximation it lives on. References must outlive it.
 struct Snapshot {
   const State<2>& state;
@@ -13,12 +20,13 @@ struct Snapshot {
   const Fields<2>& initial_position; ///< [k][node] m
   const Cloud<2>& cloud;
   const contact::RigidContact<2>& contact;
-  double displacement_scale = 1.0; ///< pictures draw initial position + scale · displacement
+  const AdaptationFields* adaptation = nullptr; ///< null: the cloud is not adapted
+  double displacement_scale = 1.0;              ///< pictures draw initial position + scale · displacement
 };
 
-inline Snapshot snapshot(const ExplicitSolver<2>& solver) {
-  return {solver.state(), solver.approximation(), solver.initial_position(), solver.model().cloud,
-          solver.model().contact};
+inline Snapshot snapshot(const ExplicitSolver<2>& solver, const AdaptationFields* adaptation = nullptr) {
+  return {solver.state(),       solver.approximation(), solver.initial_position(),
+          solver.model().cloud, solver.model().contact, adaptation};
 }
 
 } // namespace cnem::app

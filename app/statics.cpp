@@ -1,6 +1,7 @@
 #include "app/statics.hpp"
 
 #include "app/fields.hpp"
+#include "app/profile.hpp"
 #include "app/recorder.hpp"
 #include "app/static_model.hpp"
 #include "app/stopwatch.hpp"
@@ -133,17 +134,23 @@ Exit run_static(const io::Case& input, const RunOptions& options) {
                       model.position,
                       model.setup.model.cloud,
                       model.setup.model.contact,
+                      nullptr,
                       drawing_scale(model, solution)};
   watch.time("output", [&] {
-    write_history(model, solution, shot, options.output);
+    io::FileQueue files;
+    watch.time("output.history", [&] { write_history(model, solution, shot, options.output); });
     write_lines(input, shot, options.output);
-    FieldRecorder(options.output).record(shot);
-    PictureRecorder(input, options.output).record(shot);
+    watch.time("output.fields", [&] { FieldRecorder(options.output).record(files, shot); });
+    watch.time("output.pictures", [&] { PictureRecorder(input, options.output).record(files, shot); });
+    watch.time("output.disk", [&] { files.wait(); });
   });
   io::RunStatus status = make_status(model, solution, tips, options);
   status.wall_s = watch.spent();
+  const std::filesystem::path report = watch.time("output", [&] {
+    return watch.time("output.report", [&] { return io::write_report(options.output, status); });
+  });
+  status.wall_s = watch.spent();
   io::write_status(options.output, status);
-  const std::filesystem::path report = io::write_report(options.output);
   for (std::size_t w = model.setup.warnings.size(); w < status.warnings.size(); ++w)
     fmt::print(stderr, "warning: {}\n", status.warnings[w]);
   for (const TipResult& tip : tips)
@@ -151,6 +158,7 @@ Exit run_static(const io::Case& input, const RunOptions& options) {
                tip.intensity.K_II, 100.0 * tip.spread);
   fmt::print("done: {} nodes in {:.2f} s; equilibrium to {:.1g}\n", status.nodes,
              status.wall_s.front().second, solution.residual);
+  if (options.profile) fmt::print("{}", profile_table(status));
   fmt::print("report: {}\n", report.string());
   return Exit::done;
 }
@@ -181,8 +189,10 @@ void check_static(const io::Case& input, const RunOptions& options) {
   const State<2> state = as_state(model, nothing);
   const std::filesystem::path folder = options.output / "initial";
   io::prepare_output_folder(folder, true);
-  FieldRecorder(folder).record(
-      {state, model.approximation, model.position, model.setup.model.cloud, model.setup.model.contact});
+  io::FileQueue files;
+  FieldRecorder(folder).record(files, {state, model.approximation, model.position, model.setup.model.cloud,
+                                       model.setup.model.contact});
+  files.wait();
   fmt::print("fields      {}\n", (folder / io::files::fields).string());
   if (!motion.empty()) throw input.error("boundary", motion);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Wall time by phase.
-#include <chrono>
+#include "core/clock.hpp"
+
 #include <map>
 #include <string>
 #include <utility>
@@ -8,13 +9,17 @@
 
 namespace cnem::app {
 
-inline double wall_time() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+/// Phases of a run in the order they are listed: what is behind a dot is a part of what stands before it.
+inline constexpr const char* phases[] = {
+    "setup",          "step",          "step.motion",     "step.contact",      "step.stress",
+    "step.forces",    "step.heat",     "step.stable",     "rebuild",           "output",
+    "output.history", "output.fields", "output.pictures", "output.checkpoint", "output.disk",
+    "output.report"};
 
-/// Phases are setup, step, rebuild and output; the total runs from construction.
+/// Seconds spent in each of the phases; the total runs from construction.
 class Stopwatch {
 public:
+  /// Counts the wall time of work() to a phase; calls may nest.
   template<class Work> auto time(const char* phase, Work&& work) {
     struct Guard {
       double& sum;
@@ -23,7 +28,7 @@ public:
     } guard{spent_[phase]};
     return work();
   }
-  /// Counts what was spent before a restart.
+  /// Counts what was spent elsewhere, before a restart for instance.
   void add(const std::string& phase, double seconds) {
     if (phase == "total")
       start_ -= seconds;
@@ -32,7 +37,7 @@ public:
   }
   std::vector<std::pair<std::string, double>> spent() const {
     std::vector<std::pair<std::string, double>> list{{"total", wall_time() - start_}};
-    for (const char* phase : {"setup", "step", "rebuild", "output"}) {
+    for (const char* phase : phases) {
       const auto found = spent_.find(phase);
       list.emplace_back(phase, found == spent_.end() ? 0.0 : found->second);
     }

@@ -4,6 +4,7 @@
 #include "app/process_pool.hpp"
 #include "core/error.hpp"
 #include "io/case_reader.hpp"
+#include "io/checkpoint_folder.hpp"
 #include "io/nearest.hpp"
 #include "io/output_folder.hpp"
 #include "io/si_format.hpp"
@@ -92,17 +93,30 @@ std::optional<io::RunStatus> good_status(const fs::path& folder) {
   return {};
 }
 
-/// Marks the runs that an earlier sweep has done with the same inputs.
-void find_done(const io::Study& study, std::vector<SweepRun>& runs, const fs::path& folder) {
+/// Whether a run that an earlier sweep has not done did not come to its own end either.
+bool was_interrupted(const Json& old) {
+  if (old.at("state") != "failed") return true;
+  const int exit = old.at("exit");
+  return exit != Exit::bad_input && exit != Exit::diverged;
+}
+
+/// Marks the runs that an earlier sweep has done, or begun, with the same inputs.
+void find_earlier(const io::Study& study, std::vector<SweepRun>& runs, const fs::path& folder) {
   const fs::path path = folder / manifest_file;
   if (!fs::exists(path)) return;
   try {
     const Json json = Json::parse(io::read_file(path));
     for (const Json& old : json.at("runs"))
-      for (std::size_t k = 0; k < runs.size(); ++k)
-        if (old.at("name") == study.runs[k].name && old.at("inputs") == runs[k].inputs &&
-            old.at("state") == "done")
-          if ((runs[k].status = good_status(folder / study.runs[k].name))) runs[k].state = State::done;
+      for (std::size_t k = 0; k < runs.size(); ++k) {
+        if (old.at("name") != study.runs[k].name || old.at("inputs") != runs[k].inputs) continue;
+        const fs::path own = folder / study.runs[k].name;
+        if (old.at("state") == "done") {
+          if ((runs[k].status = good_status(own))) runs[k].state = State::done;
+        } else {
+          runs[k].interrupted = was_interrupted(old) && fs::exists(own / io::files::resolved_case) &&
+                                !io::list_checkpoints(own).empty();
+        }
+      }
   } catch (const Json::exception& error) {
     throw IoError(fmt::format("{} is not the manifest of a sweep ({}): run all again with --force",
                               path.string(), error.what()));
@@ -131,15 +145,17 @@ void conclude(SweepRun& run, const JobEnd& end, const fs::path& folder, const fs
 
 fs::path log_of(const fs::path& folder) { return folder.string() + ".log"; }
 
-std::vector<std::string> command(const io::Study& study, const io::StudyRun& run, const fs::path& folder,
-                                 const SweepOptions& options) {
-  std::vector<std::string> words{options.program.string(), "run", study.case_file.string()};
-  for (const io::Override& change : run.changes()) {
-    words.emplace_back("--set");
-    words.push_back(change.key + "=" + io::toml_text(change.value));
+std::vector<std::string> command(const io::Study& study, std::size_t k, bool interrupted,
+                                 const fs::path& folder, const SweepOptions& options) {
+  std::vector<std::string> words{options.program.string()};
+  if (interrupted) {
+    words.insert(words.end(), {"restart", folder.string()});
+  } else {
+    words.insert(words.end(), {"run", study.case_file.string(), "--output", folder.string(), "--force"});
+    for (const io::Override& change : study.runs[k].changes())
+      words.insert(words.end(), {"--set", change.key + "=" + io::toml_text(change.value)});
   }
-  words.insert(words.end(),
-               {"--output", folder.string(), "--force", "--threads", std::to_string(study.threads)});
+  words.insert(words.end(), {"--threads", std::to_string(study.threads)});
   return words;
 }
 
@@ -176,24 +192,28 @@ Exit sweep(const io::Study& study, const SweepOptions& options) {
   std::vector<SweepRun> runs = read_cases(study);
   prepare_folder(options.output);
   const FolderLock lock(options.output, "sweep");
-  if (!options.force) find_done(study, runs, options.output);
+  if (!options.force) find_earlier(study, runs, options.output);
   const auto write_manifest = [&] {
     io::write_atomically(options.output / manifest_file, manifest(study, runs, options.version));
   };
-  write_manifest();
-
   std::vector<Job> jobs;
   std::vector<std::size_t> run_of;
+  std::size_t restarts = 0;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (runs[k].state == State::done) continue;
     const fs::path folder = options.output / study.runs[k].name;
-    jobs.push_back({command(study, study.runs[k], folder, options), log_of(folder)});
+    restarts += runs[k].interrupted;
+    // What the folder holds must not be taken for a run with the inputs that the manifest will name.
+    if (!runs[k].interrupted) fs::remove(folder / io::files::resolved_case);
+    jobs.push_back({command(study, k, runs[k].interrupted, folder, options), log_of(folder)});
     run_of.push_back(k);
   }
+  write_manifest();
   const std::size_t processes =
       std::min(processes_for(study, options), std::max<std::size_t>(1, jobs.size()));
-  fmt::print("{} runs: {} done before, {} to do in {} processes\n", runs.size(), runs.size() - jobs.size(),
-             jobs.size(), processes);
+  fmt::print("{} runs: {} done before, {} to do in {} processes{}\n", runs.size(), runs.size() - jobs.size(),
+             jobs.size(), processes,
+             restarts > 0 ? fmt::format(", {} from the last checkpoint", restarts) : "");
   std::fflush(stdout);
 
   using Clock = std::chrono::steady_clock;

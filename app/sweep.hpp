@@ -24,14 +24,17 @@ struct SweepRun {
   enum class State { pending, done, failed };
   State state = State::pending;
   std::string inputs; ///< hash of the resolved case
-  int exit = 0;       ///< exit code of the process; −1 when a signal killed it
+  bool interrupted =
+      false;    ///< its folder has a checkpoint of an earlier sweep with these inputs to go on from
+  int exit = 0; ///< exit code of the process; −1 when a signal killed it
   std::string reason;
   std::optional<io::RunStatus> status; ///< of runs that are done
 };
 
-/// Runs what the folder does not hold yet and writes manifest.json, table.csv and report.html. All cases are
-/// read before any starts. Returns done; diverged when a run failed, for whatever reason; interrupted after
-/// SIGINT or SIGTERM. Throws InputError and IoError.
+/// Runs what the folder does not hold yet and writes manifest.json, table.csv and report.html. Runs that were
+/// interrupted (stopped, killed, or denied to write) with the same inputs go on from their last checkpoint;
+/// others start anew. All cases are read before any starts. Returns done; diverged when a run failed, for
+/// whatever reason; interrupted after SIGINT or SIGTERM. Throws InputError and IoError.
 Exit sweep(const io::Study& study, const SweepOptions& options);
 
 /// Names of the numbers that the table shows: those of the study, or nodes, steps, energy_residual and all

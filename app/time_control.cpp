@@ -60,10 +60,11 @@ void StepControl::refresh(ExplicitSolver<2>& solver) {
   limit_ = stable.dt;
   point_ = stable.point;
   limited_by_ = stable.limit;
-  if (first_ == 0.0) first_ = stable.dt;
+  const double finest = stable.dt / solver.sub_steps();
+  if (first_ == 0.0) first_ = finest;
   constexpr double collapsed = 1e-3;
-  if (const double least = time_->min_step.value_or(collapsed * first_); stable.dt < least)
-    throw step_collapse(solver, stable.point, stable.dt,
+  if (const double least = time_->min_step.value_or(collapsed * first_); finest < least)
+    throw step_collapse(solver, stable.point, finest,
                         fmt::format("{} = {:.3g} s",
                                     time_->min_step ? "time.step.min" : "a thousandth of the first one",
                                     least));
@@ -115,10 +116,10 @@ bool ReferenceRenewal::due(const ExplicitSolver<2>& solver) const {
          solver.strain_since_reference() > method_->rereference_strain;
 }
 
-void ReferenceRenewal::renew(ExplicitSolver<2>& solver) {
+void ReferenceRenewal::renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare) {
   last_ = solver.state().step;
   try {
-    solver.prepare();
+    prepare();
   } catch (const GeometryError& error) {
     constexpr double too_far = 4.0;
     if (solver.strain_since_reference() > too_far) throw;

@@ -4,6 +4,7 @@
 #include "mechanics/explicit_solver.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -70,8 +71,8 @@ public:
   explicit ReferenceRenewal(const io::Method& method) : method_(&method) {}
 
   bool due(const ExplicitSolver<2>& solver) const;
-  /// Throws GeometryError.
-  void renew(ExplicitSolver<2>& solver);
+  /// Throws GeometryError. `prepare` renews the reference and leaves the solver as it is when it throws one.
+  void renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare);
   /// What to tell about it; empty when every renewal succeeded.
   std::string warning() const;
   void archive(Archive& archive);

@@ -19,7 +19,7 @@ constexpr int sweeps = 100; ///< of Gauss-Seidel in a pass
 
 template<int dim>
 RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space, BodyContactLaw bodies)
-    : tools_(std::move(tools)), space_(space), law_(bodies) {
+    : tools_(std::move(tools)), motions_(tools_), space_(space), law_(bodies) {
   for (const Tool<dim>& tool : tools_) {
     if (!tool.shape) throw InputError(fmt::format("tool '{}' has no shape", tool.name));
     if (!(tool.friction.coulomb >= 0.0) || !(tool.friction.shear_factor >= 0.0))
@@ -27,6 +27,9 @@ RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space, BodyC
           fmt::format("tool '{}': friction coefficient and shear factor must not be negative, got "
                       "{} and {}",
                       tool.name, tool.friction.coulomb, tool.friction.shear_factor));
+    if (tool.drive && !(tool.drive->mass > 0.0))
+      throw InputError(
+          fmt::format("tool '{}': its mass must be positive, got {}", tool.name, tool.drive->mass));
     const Box<dim> box = tool.shape->bounds();
     size_ = std::max(size_, (box.high - box.low).norm());
   }
@@ -74,43 +77,30 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
                     "got {}",
                     surface_.node.size(), step.flow_stress.size()));
   gather(step);
-  const std::vector<Pose> poses_now = poses(step);
+  std::vector<Pose<dim>> poses = motions_.predict(tools_, step.time, step.dt, step.dt_mean);
+  tool_reactions_ = motions_.reactions(tools_, poses);
   if (law_.active) {
     bodies_.look(surface_, start_, end_);
     size_ = std::max(size_, bodies_.size());
   }
   for (int pass = 0; pass < passes; ++pass) {
     from_earlier_passes_ = contacts_.size();
-    const bool faces = find_on_faces(poses_now, step), ridges = find_on_ridges(poses_now, step),
-               bodies = find_on_bodies(poses_now, step);
+    const bool faces = find_on_faces(poses, step), ridges = find_on_ridges(poses, step),
+               bodies = find_on_bodies(poses, step);
     if (!faces && !ridges && !bodies) break;
-    solve_impulses(contacts_, reactions_, step.dt, 1e-16 * size_, sweeps);
+    solve_impulses(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps);
     for (std::size_t b = 0; b < end_.size(); ++b)
       end_[b] = reactions_[b].position + step.dt * reactions_[b].change;
+    for (std::size_t t = 0; t < poses.size(); ++t) {
+      poses[t].end = tool_reactions_[t].position + step.dt * tool_reactions_[t].change;
+      poses[t].velocity = tool_reactions_[t].velocity + tool_reactions_[t].change;
+    }
   }
   scatter(step);
-  book(poses_now, step);
-  list_points(poses_now, step);
-}
-
-template<int dim>
-std::vector<typename RigidContact<dim>::Pose> RigidContact<dim>::poses(const ContactStep<dim>& step) const {
-  std::vector<Pose> all;
-  const double dt_before = 2.0 * step.dt_mean - step.dt;
-  double fastest = 0.0;
-  for (const Tool<dim>& tool : tools_) {
-    Pose pose;
-    pose.start = tool.motion.displacement(step.time);
-    pose.end = tool.motion.displacement(step.time + step.dt);
-    pose.velocity = (pose.end - pose.start) / step.dt;
-    pose.before = dt_before > 1e-9 * step.dt
-                      ? Vec<dim>((pose.start - tool.motion.displacement(step.time - dt_before)) / dt_before)
-                      : tool.motion.velocity_at(step.time);
-    fastest = std::max(fastest, pose.velocity.norm());
-    all.push_back(pose);
-  }
-  for (Pose& pose : all) pose.recovery = 0.5 * fastest;
-  return all;
+  motions_.accept(tools_, poses);
+  book(poses, step);
+  list_points(poses, step);
+  if (in_sub_steps_) add_sub_step(step.dt_mean);
 }
 
 template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
@@ -123,7 +113,8 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
     reaction.change.setZero();
     start_[b] = reaction.position - step.dt * reaction.velocity;
   }
-  area_ = surface_.areas(end_, space_);
+  rubbing_ = area_ = surface_.areas(end_, space_);
+  for (std::size_t b = 0; b < step.window.size(); ++b) rubbing_[b] *= step.window[b];
   contacts_.clear();
   std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec<dim>::Zero());
@@ -133,7 +124,8 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
 /// turned, raises its plane by what is still missing. `start` is its gap at the start of the step, `level`
 /// the place of the surface along its normal. True when there is anything to solve.
 template<int dim>
-bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, const Pose& pose, double dt) {
+bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
+                            double dt) {
   const auto mean = [&](const std::vector<Vec<dim>>& list) {
     return at_contact(contact, [&](std::size_t b) { return list[b]; });
   };
@@ -144,6 +136,8 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   }
   const double gap = contact.normal.dot(mean(end_)) - contact.level;
   if (gap >= 0.0) return false;
+  if (contact.tool >= 0)
+    contact.level -= dt * contact.normal.dot(tool_reactions_[static_cast<std::size_t>(contact.tool)].change);
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
   const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
@@ -159,7 +153,7 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
 }
 
 template<int dim>
-bool RigidContact<dim>::find_on_faces(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+bool RigidContact<dim>::find_on_faces(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   bool any = false;
   std::vector<std::int32_t> inside;
   std::vector<Vec<dim>> from, to;
@@ -185,7 +179,7 @@ bool RigidContact<dim>::find_on_faces(const std::vector<Pose>& poses, const Cont
       contact.node[0] = static_cast<std::int32_t>(b);
       contact.weight[0] = 1.0;
       contact.normal = entry.at.normal;
-      set_friction(contact, poses[t], area_[b], step);
+      set_friction(contact, rubbing_[b], step);
       const double level = entry.at.normal.dot(end_[b]) - entry.at.distance;
       any |= add(contact, entry.start, level, poses[t], step.dt);
     }
@@ -194,7 +188,7 @@ bool RigidContact<dim>::find_on_faces(const std::vector<Pose>& poses, const Cont
 }
 
 template<int dim>
-bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+bool RigidContact<dim>::find_on_ridges(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   bool any = false;
   std::vector<RidgeHit<dim>> hits;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
@@ -214,9 +208,9 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const Con
         const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<dim>& c) {
           return c.tool == contact.tool && c.facet < 0 && c.node[0] == contact.node[a];
         });
-        if (!on_face) area += contact.weight[a] * area_[static_cast<std::size_t>(contact.node[a])];
+        if (!on_face) area += contact.weight[a] * rubbing_[static_cast<std::size_t>(contact.node[a])];
       }
-      set_friction(contact, poses[t], area, step);
+      set_friction(contact, area, step);
       const Vec<dim> x = at_contact(contact, [&](std::size_t b) { return end_[b]; });
       any |= add(contact, hit.start, hit.normal.dot(x) - hit.gap, poses[t], step.dt);
     }
@@ -225,11 +219,11 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose>& poses, const Con
 }
 
 template<int dim>
-bool RigidContact<dim>::find_on_bodies(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+bool RigidContact<dim>::find_on_bodies(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   if (!law_.active) return false;
   bool any = false;
-  Pose rest;
-  for (const Pose& pose : poses) rest.recovery = pose.recovery;
+  Pose<dim> rest;
+  for (const Pose<dim>& pose : poses) rest.recovery = pose.recovery; // all have the same
   std::vector<FacetHit<dim>> hits;
   bodies_.find(surface_, start_, end_, hits);
   for (const FacetHit<dim>& hit : hits) {
@@ -244,7 +238,7 @@ bool RigidContact<dim>::find_on_bodies(const std::vector<Pose>& poses, const Con
       contact.weight[a + 1] = -hit.weight[a];
     }
     contact.normal = hit.normal;
-    set_friction(contact, rest, area_[static_cast<std::size_t>(hit.node)], step);
+    set_friction(contact, rubbing_[static_cast<std::size_t>(hit.node)], step);
     any |= add(contact, hit.start, hit.clearance, rest, step.dt);
   }
   return any;
@@ -255,10 +249,9 @@ template<int dim> const Friction& RigidContact<dim>::friction_of(const Contact<d
 }
 
 template<int dim>
-void RigidContact<dim>::set_friction(Contact<dim>& contact, const Pose& pose, double area,
-                                     const ContactStep<dim>& step) const {
+void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const {
   const Friction& friction = friction_of(contact);
-  contact.surface = pose.velocity;
+  if (contact.tool >= 0) contact.surface = tool_reactions_[static_cast<std::size_t>(contact.tool)].velocity;
   contact.coulomb = friction.coulomb;
   contact.limit = std::numeric_limits<double>::infinity();
   if (friction.coulomb == 0.0 || std::isinf(friction.shear_factor)) return;

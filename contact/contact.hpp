@@ -1,9 +1,8 @@
 #pragma once
 // Kinematic predictor-corrector contact of the workpiece with rigid tools and with itself.
 #include "contact/body_contact.hpp"
-#include "contact/impulse_solver.hpp"
 #include "contact/surface.hpp"
-#include "contact/tool.hpp"
+#include "contact/tool_motions.hpp"
 #include "core/aligned.hpp"
 #include "core/archive.hpp"
 #include "core/cloud.hpp"
@@ -32,16 +31,18 @@ template<int dim> struct ContactStep {
   std::span<const double> flow_stress = {}; ///< Pa, [boundary node]; needed where flow_stress_needed()
   std::span<const double> effusivity = {};  ///< W √s/(m² K), [boundary node], of the workpiece; empty: it
                                             ///< keeps all friction heat
+  std::span<const double> window = {}; ///< –, [boundary node], over how many Δt̄ the forces that arrive in
+                                       ///< this step have gathered; empty: one
 };
 
 /// Energies of contact, J per unit thickness in 2D, all but the first two ≥ 0. They balance exactly:
 /// workpiece = tool + recovery − friction − impact.
 struct ContactWork {
   double workpiece = 0.0; ///< Σ ½(v_{n−½} + v_{n+½})·R Δt̄, received by the nodes
-  double tool = 0.0;      ///< R·V_tool Δt̄, done by the tool's motion
-  double recovery = 0.0;  ///< put in by pushing existing penetration out, and by turning round a curved tool
-  double friction = 0.0;  ///< turned into heat by slip, both shares
-  double impact = 0.0;    ///< lost where nodes meet the tool at once
+  double tool = 0.0; ///< R·V_tool Δt̄, done by the tool's motion: work of a drive, or taken from a free mass
+  double recovery = 0.0; ///< put in by pushing existing penetration out, and by turning round a curved tool
+  double friction = 0.0; ///< turned into heat by slip, both shares
+  double impact = 0.0;   ///< lost where nodes meet the tool at once
 };
 
 ContactWork& operator+=(ContactWork& a, const ContactWork& b);
@@ -83,6 +84,9 @@ template<int dim> struct Overlap {
   bool ridge = false;
 };
 
+/// Tools with a mass of their own take part: every impulse on the workpiece acts on its tool in the same
+/// step, so that their common momentum is exact and no mass is too light.
+///
 /// Order of calls: set_boundary whenever nodes or boundary change (prepare()); in each step `remember` before
 /// the velocities are updated, then the prediction, then `correct`. Serial, so that results do not depend on
 /// threads; looks at boundary nodes alone.
@@ -108,7 +112,22 @@ public:
   /// slip) speed. Throws InputError when a shear factor is set and no flow stress given.
   void correct(const ContactStep<dim>& step);
 
+  /// Between these two calls `correct` is called once in each of several steps, and then all results are
+  /// those of one step over `duration` (s, the sum of their Δt̄): sums, and mean forces.
+  void begin_sub_steps();
+  void end_sub_steps(double duration);
+
   const std::vector<Tool<dim>>& tools() const { return tools_; }
+  /// Displacement since t = 0, m, of a tool at `time`, which is that of the last step for free tools.
+  Vec<dim> displacement(std::size_t tool, double time) const {
+    return motions_.displacement(tools_[tool], tool, time);
+  }
+  /// m/s, prescribed at `time`; of free tools at t_{n−½}.
+  Vec<dim> velocity(std::size_t tool, double time) const {
+    return motions_.velocity(tools_[tool], tool, time);
+  }
+  /// Of all free tools at t_{n−½}.
+  DriveEnergy drive_energy() const { return motions_.energy(tools_); }
   bool flow_stress_needed() const;
   /// Nodes of the boundary in increasing order; the lists marked [boundary node] follow it.
   const std::vector<std::int32_t>& boundary_nodes() const { return surface_.node; }
@@ -129,26 +148,22 @@ public:
   void archive(Archive& archive);
 
 private:
-  /// Of a tool during a step; at rest for the workpiece itself.
-  struct Pose {
-    Vec<dim> start = Vec<dim>::Zero(), end = Vec<dim>::Zero();       ///< m, displacement at t_n and t_{n+1}
-    Vec<dim> before = Vec<dim>::Zero(), velocity = Vec<dim>::Zero(); ///< m/s, at t_{n−½} and t_{n+½}
-    double recovery = 0.0; ///< m/s, half the speed of the fastest tool
-  };
-  std::vector<Pose> poses(const ContactStep<dim>& step) const;
   void gather(const ContactStep<dim>& step);
-  bool find_on_faces(const std::vector<Pose>& poses, const ContactStep<dim>& step);
-  bool find_on_ridges(const std::vector<Pose>& poses, const ContactStep<dim>& step);
-  bool find_on_bodies(const std::vector<Pose>& poses, const ContactStep<dim>& step);
-  bool add(Contact<dim> contact, double start, double level, const Pose& pose, double dt);
-  void set_friction(Contact<dim>& contact, const Pose& pose, double area, const ContactStep<dim>& step) const;
+  bool find_on_faces(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  bool find_on_ridges(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  bool find_on_bodies(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose, double dt);
+  void set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const;
   const Friction& friction_of(const Contact<dim>& contact) const;
   void share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step);
   void scatter(const ContactStep<dim>& step);
-  void book(const std::vector<Pose>& poses, const ContactStep<dim>& step);
-  void list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step);
+  void book(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  void list_points(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  void merge_points();
+  void add_sub_step(double dt_mean);
 
   std::vector<Tool<dim>> tools_;
+  ToolMotions<dim> motions_;
   Space space_ = Space::plane;
   BodyContactLaw law_;
   BodyContact<dim> bodies_;
@@ -161,7 +176,9 @@ private:
   std::vector<Vec<dim>> start_;  ///< m, x_n
   std::vector<Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
   std::vector<Reaction<dim>> reactions_;
+  std::vector<Reaction<dim>> tool_reactions_; ///< [tool]
   std::vector<double> area_;
+  std::vector<double> rubbing_; ///< m^(dim−1), areas times windows
   std::vector<Contact<dim>> contacts_;
   std::size_t from_earlier_passes_ = 0; ///< how many of them
 
@@ -170,6 +187,18 @@ private:
   std::vector<ContactPoint<dim>> points_;
   std::vector<double> heat_;
   std::vector<Vec<dim>> nodal_impulse_;
+
+  /// What several steps that are reported as one have added up to.
+  struct SubSteps {
+    std::vector<ToolResult<dim>> start;    ///< [tool]
+    ContactWork bodies;                    ///< at their start
+    double pressing = 0.0;                 ///< N s/m^(3−dim), between bodies
+    std::vector<ContactPoint<dim>> points; ///< with impulses for forces
+    std::vector<double> heat;
+    std::vector<Vec<dim>> nodal_impulse;
+  };
+  bool in_sub_steps_ = false;
+  SubSteps sub_steps_;
 };
 
 extern template class RigidContact<2>;

@@ -18,7 +18,8 @@ ContactWork& operator+=(ContactWork& a, const ContactWork& b) {
 
 /// Work of each contact with the mean of the velocities before and after (design: with the predicted velocity
 /// it would be wrong by its own size), split so that each part has one sign.
-template<int dim> void RigidContact<dim>::book(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+template<int dim>
+void RigidContact<dim>::book(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     results_[t].displacement = poses[t].end;
     results_[t].force.setZero();
@@ -26,11 +27,11 @@ template<int dim> void RigidContact<dim>::book(const std::vector<Pose>& poses, c
   }
   body_result_.pressing = 0.0;
   body_result_.step = {};
-  const Pose rest;
+  const Pose<dim> rest;
   for (const Contact<dim>& contact : contacts_) {
     const auto t = static_cast<std::size_t>(contact.tool);
     const bool on_tool = contact.tool >= 0;
-    const Pose& pose = on_tool ? poses[t] : rest;
+    const Pose<dim>& pose = on_tool ? poses[t] : rest;
     const Vec<dim> impulse = contact.impulse();
     if (impulse.squaredNorm() == 0.0) continue;
     const Vec<dim> node = at_contact(contact, [&](std::size_t b) {
@@ -95,7 +96,7 @@ void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, con
 }
 
 template<int dim>
-void RigidContact<dim>::list_points(const std::vector<Pose>& poses, const ContactStep<dim>& step) {
+void RigidContact<dim>::list_points(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
   points_.clear();
   for (const Contact<dim>& contact : contacts_)
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
@@ -110,20 +111,7 @@ void RigidContact<dim>::list_points(const std::vector<Pose>& poses, const Contac
       point.pressure = contact.weight[a] * contact.pressing / (step.dt_mean * area_[b]);
       points_.push_back(point);
     }
-  std::stable_sort(points_.begin(), points_.end(),
-                   [](const ContactPoint<dim>& a, const ContactPoint<dim>& b) {
-                     return std::pair(a.tool, a.node) < std::pair(b.tool, b.node);
-                   });
-  std::size_t kept = 0;
-  for (const ContactPoint<dim>& point : points_) {
-    if (kept > 0 && points_[kept - 1].tool == point.tool && points_[kept - 1].node == point.node) {
-      points_[kept - 1].force += point.force;
-      points_[kept - 1].pressure += point.pressure;
-    } else {
-      points_[kept++] = point;
-    }
-  }
-  points_.resize(kept);
+  merge_points();
   for (ContactPoint<dim>& point : points_) {
     const auto t = static_cast<std::size_t>(point.tool);
     const Vec<dim> x = end_[static_cast<std::size_t>(point.boundary)] - poses[t].end;
@@ -138,7 +126,7 @@ std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& positio
   for (const std::int32_t node : surface_.node) all.push_back(at<dim>(position, node));
   const double rounding = 1e-9 * size_;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
-    const Vec<dim> shift = tools_[t].motion.displacement(time);
+    const Vec<dim> shift = displacement(t, time);
     local = all;
     for (Vec<dim>& x : local) x -= shift;
     std::vector<Entry<dim>> entries;
@@ -171,6 +159,7 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
     archive.number(at + "work/recovery", "J/m", result.total.recovery);
     archive.number(at + "work/friction", "J/m", result.total.friction);
     archive.number(at + "work/impact", "J/m", result.total.impact);
+    if (tools_[t].drive) motions_.archive(archive, t);
   }
   if (!law_.active) return;
   bodies_.archive(archive, surface_);
@@ -182,9 +171,9 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
   archive.number("solver/body_contact/work/impact", "J/m", body_result_.total.impact);
 }
 
-template void RigidContact<2>::book(const std::vector<Pose>&, const ContactStep<2>&);
+template void RigidContact<2>::book(const std::vector<Pose<2>>&, const ContactStep<2>&);
 template void RigidContact<2>::share_heat(const Contact<2>&, double, const ContactStep<2>&);
-template void RigidContact<2>::list_points(const std::vector<Pose>&, const ContactStep<2>&);
+template void RigidContact<2>::list_points(const std::vector<Pose<2>>&, const ContactStep<2>&);
 template std::vector<Overlap<2>> RigidContact<2>::overlaps(const Fields<2>&, double) const;
 template void RigidContact<2>::archive(Archive&);
 

@@ -1,5 +1,6 @@
 #include "contact/impulse_solver.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -8,31 +9,31 @@ namespace {
 
 template<int dim> class Sweeper {
 public:
-  Sweeper(Contact<dim>& contact, std::vector<Reaction<dim>>& nodes, double dt)
-      : contact_(contact), nodes_(nodes), dt_(dt) {}
+  Sweeper(Contact<dim>& contact, std::vector<Reaction<dim>>& nodes, Reaction<dim>& tool, double dt)
+      : contact_(contact), nodes_(nodes), tool_(tool), dt_(dt) {}
+
+  double gap() {
+    double sum = -contact_.level - dt_ * contact_.normal.dot(tool_.change);
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (contact_.weight[a] != 0.0) {
+        const Reaction<dim>& node = at(a);
+        sum += contact_.weight[a] * contact_.normal.dot(node.position + dt_ * node.change);
+      }
+    return sum;
+  }
 
   /// Both return how far they moved the contact point, m.
   double press() {
     const double mobility = along(contact_.normal);
     if (mobility <= 0.0) return 0.0;
-    double gap = -contact_.level;
-    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (contact_.weight[a] != 0.0) {
-        const Reaction<dim>& node = at(a);
-        gap += contact_.weight[a] * contact_.normal.dot(node.position + dt_ * node.change);
-      }
-    const double before = contact_.pressing;
-    contact_.pressing = std::max(0.0, before - gap / (dt_ * mobility));
-    const double change = contact_.pressing - before;
-    apply(change * contact_.normal);
-    return std::abs(change) * dt_ * mobility;
+    return press_by(-gap() / (dt_ * mobility)) * dt_ * mobility;
   }
 
   double rub() {
     const double strength =
         contact_.pressing > 0.0 ? std::min(contact_.coulomb * contact_.pressing, contact_.limit) : 0.0;
     if (strength <= 0.0 && contact_.sliding.squaredNorm() == 0.0) return 0.0;
-    Vec<dim> slip = -contact_.surface;
+    Vec<dim> slip = -(contact_.surface + tool_.change);
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (contact_.weight[a] != 0.0) slip += contact_.weight[a] * (at(a).velocity + at(a).change);
     slip -= slip.dot(contact_.normal) * contact_.normal;
@@ -48,11 +49,16 @@ public:
     return change.norm() * dt_ * mobility;
   }
 
-private:
-  Reaction<dim>& at(std::size_t a) { return nodes_[static_cast<std::size_t>(contact_.node[a])]; }
+  /// Adds to the normal impulse, which stays ≥ 0; returns the size of what was added.
+  double press_by(double impulse) {
+    const double before = contact_.pressing;
+    contact_.pressing = std::max(0.0, before + impulse);
+    apply((contact_.pressing - before) * contact_.normal);
+    return std::abs(contact_.pressing - before);
+  }
 
-  /// Velocity of the contact point along u per unit impulse along u; 0 where the nodes are held.
-  double along(const Vec<dim>& u) {
+  /// Velocity of the contact point of the nodes along u per unit impulse along u; 0 where they are held.
+  double node_mobility(const Vec<dim>& u) {
     double sum = 0.0, free = 0.0;
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
       const double w2 = contact_.weight[a] * contact_.weight[a];
@@ -63,32 +69,88 @@ private:
     return sum > 1e-12 * free ? sum : 0.0;
   }
 
+private:
+  Reaction<dim>& at(std::size_t a) { return nodes_[static_cast<std::size_t>(contact_.node[a])]; }
+
+  /// The same of nodes against tool.
+  double along(const Vec<dim>& u) {
+    const double tool = u.dot(tool_.inverse * u);
+    return node_mobility(u) + (tool > 1e-12 * tool_.inverse.trace() ? tool : 0.0);
+  }
+
   void apply(const Vec<dim>& impulse) {
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (contact_.weight[a] != 0.0) at(a).change += contact_.weight[a] * (at(a).inverse * impulse);
+    tool_.change -= tool_.inverse * impulse;
   }
 
   Contact<dim>& contact_;
   std::vector<Reaction<dim>>& nodes_;
+  Reaction<dim>& tool_;
   double dt_;
 };
+
+/// Moves a free tool together with all nodes that press on its faces so that their gaps close: exact when the
+/// same nodes go on pressing without friction. Returns how far it moved anything, m.
+template<int dim>
+double shift_tool(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes, Reaction<dim>& tool,
+                  std::int32_t index, double dt) {
+  struct Pressing {
+    Sweeper<dim> sweeper;
+    Vec<dim> normal;
+    double gap, mobility;
+  };
+  std::vector<Pressing> list;
+  std::vector<char> taken(nodes.size(), 0); // a node between two faces of the tool counts once
+  Mat<dim> stiffness = Mat<dim>::Zero();
+  Vec<dim> drive = Vec<dim>::Zero();
+  for (Contact<dim>& contact : contacts) {
+    if (contact.tool != index || contact.pressing <= 0.0 || contact.facet >= 0) continue;
+    if (char& known = taken[static_cast<std::size_t>(contact.node[0])]; known)
+      continue;
+    else
+      known = 1;
+    Sweeper<dim> sweeper(contact, nodes, tool, dt);
+    const double mobility = sweeper.node_mobility(contact.normal);
+    if (mobility <= 0.0) return 0.0; // a held node stops the tool by itself
+    const double gap = sweeper.gap();
+    stiffness += contact.normal * contact.normal.transpose() / mobility;
+    drive += gap / (dt * mobility) * contact.normal;
+    list.push_back({sweeper, contact.normal, gap, mobility});
+  }
+  if (list.size() < 2) return 0.0;
+  const Mat<dim> system = Mat<dim>::Identity() + tool.inverse * stiffness;
+  const Vec<dim> change = system.inverse() * (tool.inverse * drive);
+  double moved = 0.0;
+  for (Pressing& pressing : list) {
+    const double impulse = (pressing.normal.dot(change) - pressing.gap / dt) / pressing.mobility;
+    moved = std::max(moved, pressing.sweeper.press_by(impulse) * dt * pressing.mobility);
+  }
+  return moved;
+}
 
 } // namespace
 
 template<int dim>
-void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes, double dt,
-                    double tolerance, int sweeps) {
+void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes,
+                    std::vector<Reaction<dim>>& tools, double dt, double tolerance, int sweeps) {
+  Reaction<dim> none; // the tool of contacts between nodes alone: it takes no impulse
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double moved = 0.0;
     for (Contact<dim>& contact : contacts) {
-      Sweeper<dim> sweeper(contact, nodes, dt);
+      Reaction<dim>& tool = contact.tool < 0 ? none : tools[static_cast<std::size_t>(contact.tool)];
+      Sweeper<dim> sweeper(contact, nodes, tool, dt);
       moved = std::max(moved, sweeper.press());
       moved = std::max(moved, sweeper.rub());
     }
+    for (std::size_t t = 0; t < tools.size(); ++t)
+      if (!tools[t].inverse.isZero(0.0))
+        moved = std::max(moved, shift_tool(contacts, nodes, tools[t], static_cast<std::int32_t>(t), dt));
     if (moved <= tolerance) return;
   }
 }
 
-template void solve_impulses<2>(std::vector<Contact<2>>&, std::vector<Reaction<2>>&, double, double, int);
+template void solve_impulses<2>(std::vector<Contact<2>>&, std::vector<Reaction<2>>&,
+                                std::vector<Reaction<2>>&, double, double, int);
 
 } // namespace cnem::contact

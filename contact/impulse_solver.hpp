@@ -1,6 +1,6 @@
 #pragma once
-// Unilateral contacts with friction between nodes and rigid planes or facets of other nodes, solved for
-// impulses by projected Gauss-Seidel.
+// Unilateral contacts with friction between weighted nodes and planes of rigid tools or facets of other
+// nodes, solved for impulses by projected Gauss-Seidel.
 #include "core/vec.hpp"
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace cnem::contact {
 
-/// What a node answers to an impulse: Δv = inverse J with inverse = P/m.
+/// What a node or a tool answers to an impulse: Δv = inverse J with inverse = P/m; 0 for prescribed motion.
 template<int dim> struct Reaction {
   Mat<dim> inverse = Mat<dim>::Zero();  ///< 1/kg (times m^(3−dim))
   Vec<dim> position = Vec<dim>::Zero(); ///< m, x* of the prediction
@@ -17,9 +17,10 @@ template<int dim> struct Reaction {
   Vec<dim> change = Vec<dim>::Zero();   ///< m/s, correction found so far
 };
 
-/// n·Σ w_a x_a ≥ level at the end of the step, with friction against a plane moving at `surface`. Against a
-/// tool w are the values N_a of shape functions; a node against a facet of the workpiece has w = 1 and the
-/// facet's nodes −N_a, so that the impulses on both sides are equal and opposite.
+/// n·(Σ w_a x_a − Δt Δv_tool) ≥ level at the end of the step, with friction against a plane that moves at
+/// `surface` + Δv_tool. Against a tool w are the values N_a of shape functions; a node against a facet of the
+/// workpiece has w = 1 and the facet's nodes −N_a, so that the impulses on both sides are equal and opposite;
+/// then there is no tool, and Δv_tool and `surface` are zero.
 template<int dim> struct Contact {
   static constexpr std::size_t slots = dim + 1;
 
@@ -29,8 +30,8 @@ template<int dim> struct Contact {
   std::array<std::int32_t, slots> node{}; ///< indices into the list of reactions
   std::array<double, slots> weight{};     ///< w_a; 0 for unused nodes
   Vec<dim> normal = Vec<dim>::Zero();     ///< out of the tool
-  double level = 0.0;                     ///< m
-  Vec<dim> surface = Vec<dim>::Zero();    ///< m/s, velocity of the tool at t_{n+½}
+  double level = 0.0;                     ///< m, where the tool is predicted
+  Vec<dim> surface = Vec<dim>::Zero();    ///< m/s, predicted velocity of the tool at t_{n+½}
   double coulomb = 0.0;                   ///< –
   double limit = 0.0;                     ///< N s, largest tangential impulse (Tresca)
 
@@ -39,13 +40,15 @@ template<int dim> struct Contact {
   Vec<dim> impulse() const { return pressing * normal + sliding; }
 };
 
-/// Solves in place: contacts get their impulses, reactions their change of velocity. Sweeps in the order
-/// given until no node moves by more than `tolerance` (m), at most `sweeps` times.
+/// Solves in place: contacts get their impulses, nodes and tools their change of velocity. Sweeps in the
+/// order given until nothing moves by more than `tolerance` (m), at most `sweeps` times. Where many nodes
+/// press on one free tool, each sweep also moves the tool together with all of them, as Gauss-Seidel alone
+/// would need as many sweeps as the contacting nodes are heavier than the tool.
 template<int dim>
-void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes, double dt,
-                    double tolerance, int sweeps);
+void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes,
+                    std::vector<Reaction<dim>>& tools, double dt, double tolerance, int sweeps);
 
-extern template void solve_impulses<2>(std::vector<Contact<2>>&, std::vector<Reaction<2>>&, double, double,
-                                       int);
+extern template void solve_impulses<2>(std::vector<Contact<2>>&, std::vector<Reaction<2>>&,
+                                       std::vector<Reaction<2>>&, double, double, int);
 
 } // namespace cnem::contact

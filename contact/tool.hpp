@@ -1,11 +1,12 @@
 #pragma once
-// Rigid tools: shape, prescribed motion, friction and what they do to heat.
+// Rigid tools: shape, motion or mass, friction and what they do to heat.
 #include "contact/tool_shape.hpp"
 #include "core/time_table.hpp"
 
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace cnem::contact {
@@ -27,6 +28,14 @@ template<int dim> struct ToolMotion {
   }
 };
 
+/// A tool that moves as a rigid body, without rotation, under a force and the reaction of the workpiece.
+template<int dim> struct ToolDrive {
+  double mass = 0.0;                            ///< kg/m^(3−dim) (kg of revolution), > 0
+  std::array<TimeTable, dim> force;             ///< N/m^(3−dim) (N of revolution); an empty table is zero
+  Vec<dim> initial_velocity = Vec<dim>::Zero(); ///< m/s
+  Mat<dim> free = Mat<dim>::Identity(); ///< projector on the directions it may move in; guides take the rest
+};
+
 /// F_t = min(stick, μ F_n, m_f σ_y/√3 A): Coulomb friction with the Tresca limit. Frictionless by default;
 /// μ = ∞ with a finite shear factor is pure shear friction.
 struct Friction {
@@ -44,7 +53,8 @@ struct ToolThermal {
 template<int dim> struct Tool {
   std::string name;
   std::shared_ptr<const ToolShape<dim>> shape;
-  ToolMotion<dim> motion;
+  ToolMotion<dim> motion; ///< prescribed, when there is no drive
+  std::optional<ToolDrive<dim>> drive;
   Friction friction;
   ToolThermal thermal;
 };

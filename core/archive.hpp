@@ -39,6 +39,13 @@ public:
     if (loading()) values.resize(extent(name));
     carry(name, unit, values);
   }
+  /// Takes the length it finds.
+  void integers(const std::string& name, std::vector<std::int32_t>& values) {
+    std::vector<std::int64_t> wide(values.begin(), values.end());
+    if (loading()) wide.resize(extent(name));
+    carry(name, std::span<std::int64_t>(wide));
+    values.assign(wide.begin(), wide.end());
+  }
   template<class Integer> void integer(const std::string& name, Integer& value) {
     auto wide = static_cast<std::int64_t>(value);
     carry(name, {&wide, 1});

@@ -38,13 +38,21 @@ const std::vector<FieldDescription>& field_descriptions() {
       {"displacement_y", "m", "Displacement along y"},
       {"velocity_x", "m/s", "Velocity along x"},
       {"velocity_y", "m/s", "Velocity along y"},
-      {"volume_ratio", "1", "Present over stress-free volume"}};
+      {"volume_ratio", "1", "Present over stress-free volume"},
+      {"level", "1",
+       "Level of refinement: log2 of `cloud.spacing` over the wanted spacing (pictures, with "
+       "`adapt.resample`)",
+       true},
+      {"indicator", "1",
+       "Error indicator of the cell at the last new reference (pictures, with `adapt.resample`)", true},
+      {"age", "s", "Time since the node was inserted (pictures, with `adapt.resample`)", true}};
   return fields;
 }
 
-std::vector<std::string> field_names() {
+std::vector<std::string> field_names(bool adaptive) {
   std::vector<std::string> names;
-  for (const FieldDescription& field : field_descriptions()) names.push_back(field.name);
+  for (const FieldDescription& field : field_descriptions())
+    if (adaptive || !field.adaptive) names.push_back(field.name);
   return names;
 }
 

@@ -30,6 +30,12 @@ struct Analysis {
   bool thermal = false;   ///< solve for temperatures: plastic and friction heating, conduction
 };
 
+/// Inertia beyond the mass: of all nodes, or of those that limit the step at the start.
+struct MassScaling {
+  std::optional<double> factor; ///< –
+  std::optional<double> step;   ///< s
+};
+
 struct TimeControl {
   double end = 0.0;               ///< s; of statics the time at which loads are taken
   double safety = 0.9;            ///< – factor on the stable step
@@ -39,6 +45,9 @@ struct TimeControl {
   std::optional<double>
       min_step; ///< s  a smaller stable step means divergence; absent: 1e-3 of the first one
   std::optional<std::int64_t> max_steps; ///< – the run ends after so many
+  bool local = false;                    ///< steps differ from node to node
+  int levels = 5;                        ///< – with local steps: at most so many different ones
+  std::optional<MassScaling> mass_scaling;
 };
 
 /// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are
@@ -235,11 +244,20 @@ struct ToolHeat {
   std::optional<double> effusivity; ///< W s½/(m² K), √(kρc); absent: all friction heat goes to the workpiece
 };
 
+/// What moves a tool that has a mass instead of a prescribed velocity.
+struct Drive {
+  double mass = 0.0;              ///< kg/m; kg of revolution
+  std::array<TimeTable, 2> force; ///< N/m; N of revolution
+  Vec2 initial_velocity{0, 0};    ///< m/s
+  std::optional<Vec2> direction;  ///< unit vector; absent: it moves in the whole plane
+};
+
 /// A rigid tool: solid inside its outline.
 struct Tool {
   std::string name;
   Curve outline;                     ///< counter-clockwise, at t = 0, m
-  std::array<TimeTable, 2> velocity; ///< m/s
+  std::array<TimeTable, 2> velocity; ///< m/s, when there is no drive
+  std::optional<Drive> drive;
   Friction friction;
   std::optional<ToolHeat> heat;
 };
@@ -256,14 +274,30 @@ struct Method {
   enum class Lagrangian { total, periodic, updated };
   Name name = Name::cnem;
   Functions functions = Functions::sibson;
-  int gauss_points = 2;        ///< per cell edge, 1 to 3
-  double stabilisation = 0.05; ///< – α of the edge defect; 0: off
+  int gauss_points = 2;           ///< per cell edge, 1 to 3
+  double stabilisation = 0.05;    ///< – α of the edge defect; 0: off
+  double pressure_exchange = 0.0; ///< – α of the exchange of volume between flowing nodes; 0: off
   Lagrangian lagrangian = Lagrangian::periodic;
   int rereference_every = 0;        ///< steps (periodic); 0: never by count
   double rereference_strain = 0.25; ///< – max‖f − 1‖ since the last reference (periodic); 0: never by strain
   double viscosity_linear = 0.06;   ///< – c₂ of the bulk viscosity
   double viscosity_quadratic = 1.2; ///< – c₁ of the bulk viscosity
   double energy_tolerance = 0.05; ///< – |residual|/(work + initial energy) beyond which a run has diverged
+};
+
+/// How the cloud follows the deformation.
+struct Adaptation {
+  enum class Placement { between_nodes, voronoi_vertices };
+  enum class Indicator { none, plastic_strain, plastic_rate, temperature };
+  bool resample = false;
+  Placement placement = Placement::between_nodes;
+  double growth = 0.3;                ///< – of the wanted spacing per distance
+  std::optional<double> tool_spacing; ///< m, at corners and arcs of tools
+  Indicator indicator = Indicator::none;
+  double tolerance = 0.1;          ///< – of the norm of the field, shared out among the cells
+  double coarsen = 0.05;           ///< – of the limit; 0: never
+  double h_min = 0.0, h_max = 0.0; ///< m
+  std::int64_t max_nodes = 100000;
 };
 
 /// A field recorded at a material point.
@@ -316,12 +350,14 @@ struct Fracture {
 
 /// A field that probes and pictures know.
 struct FieldDescription {
-  std::string name;    ///< "plastic_strain"
-  std::string unit;    ///< SI; "1" for plain numbers
-  std::string meaning; ///< one line for people
+  std::string name;      ///< "plastic_strain"
+  std::string unit;      ///< SI; "1" for plain numbers
+  std::string meaning;   ///< one line for people
+  bool adaptive = false; ///< for pictures of adapted clouds only
 };
 const std::vector<FieldDescription>& field_descriptions();
-std::vector<std::string> field_names();
+/// All of them, or those that probes and lines know.
+std::vector<std::string> field_names(bool adaptive = true);
 
 struct Case {
   std::string path;  ///< file it was read from
@@ -339,6 +375,7 @@ struct Case {
   std::vector<Tool> tools;
   BodyContact contact;
   Method method;
+  Adaptation adapt;
   Fracture fracture;
   Output output;
 

@@ -47,10 +47,54 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
              "true",
              diagnostics);
     if (!result.analysis.mechanical)
-      for (const char* path :
-           {"tools", "contact", "initial.velocity", "initial.spin", "initial.velocity_gradient"})
+      for (const char* path : {"tools", "contact", "time.mass_scaling", "initial.velocity", "initial.spin",
+                               "initial.velocity_gradient"})
         refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
                diagnostics);
+    if (result.time.local) {
+      const std::string local = "time.step.local";
+      if (result.time.mass_scaling)
+        refuse(root, local, "found local steps with time.mass_scaling, expected one of them", diagnostics);
+      if (result.method.pressure_exchange > 0.0)
+        refuse(root, local, "found local steps with method.pressure_exchange, expected one of them",
+               diagnostics);
+      for (const Material& material : result.materials)
+        if (material.damage)
+          refuse(root, local,
+                 fmt::format(
+                     "found local steps with material '{}', which has a damage law, expected one of them",
+                     material.name),
+                 diagnostics);
+      if (result.contact.deformable)
+        refuse(root, local, "found local steps with contact.deformable, expected one of them", diagnostics);
+      for (const Tool& tool : result.tools)
+        if (tool.drive)
+          refuse(root, local,
+                 fmt::format(
+                     "found local steps with tool '{}', which has a mass, expected tools of given velocity",
+                     tool.name),
+                 diagnostics);
+      if (result.time.fixed)
+        refuse(root, local, "found local steps and a fixed one, expected one of them", diagnostics);
+      if (!result.analysis.mechanical)
+        refuse(
+            root, local,
+            "found local steps in an analysis without motion, expected them with analysis.mechanical = true",
+            diagnostics);
+      if (result.method.name == Method::Name::fe_triangles)
+        refuse(root, local,
+               "found local steps with finite-element triangles, whose stress points are not nodes, expected "
+               "method.name = \"cnem\"",
+               diagnostics);
+    }
+    if (result.method.pressure_exchange > 0.0)
+      for (const Material& material : result.materials)
+        if (material.damage)
+          refuse(root, "method.pressure_exchange",
+                 fmt::format(
+                     "found an exchange with material '{}', which has a damage law, expected one of them",
+                     material.name),
+                 diagnostics);
     if (result.analysis.kinematics == Analysis::Kinematics::plane_stress)
       refuse(root, "analysis.kinematics",
              "found \"plane stress\", expected it with analysis.type = \"static\" only", diagnostics);
@@ -74,9 +118,10 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
     refuse(root, "analysis.thermal",
            "found true in a static analysis, which solves for displacements alone, expected false",
            diagnostics);
-  for (const char* path : {"time.step", "time.max_steps", "tools", "contact", "initial.velocity",
-                           "initial.spin", "initial.velocity_gradient", "initial.imperfections",
-                           "domain.interfaces", "domain.regions", "periodic", "output.checkpoint"})
+  for (const char* path :
+       {"time.step", "time.max_steps", "time.mass_scaling", "tools", "contact", "initial.velocity",
+        "initial.spin", "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",
+        "domain.regions", "periodic", "output.checkpoint"})
     refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))

@@ -173,8 +173,9 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
     if (!result.domain.outer.pieces.empty() && !tool.outline.pieces.empty())
       check_overlap(table, tool, result, diagnostics);
-    const auto& velocity = table.get<VectorFunction>("velocity");
+    const auto velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     for (std::size_t k = 0; k < 2; ++k) tool.velocity[k] = velocity[k].value_or(TimeTable(0.0));
+    read_drive(table, result, tool, diagnostics);
     tool.friction = read_friction(*table.find("friction"));
     if (const Setting* heat = table.find("heat")) {
       if (!result.analysis.thermal)

@@ -12,6 +12,11 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics);
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// The mass of a tool and what moves it. Expects the kinematics.
+void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics);
+
+void read_mass_scaling(const Setting& root, Case& result, Diagnostics& diagnostics);
+
 /// Parts of the workpiece with a state of their own. Expects the domain.
 void read_regions(const Setting& root, Case& result, Diagnostics& diagnostics);
 
@@ -30,6 +35,9 @@ void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics)
 
 /// Boundary conditions: pieces exist, conditions do not fight over them. Expects the domain.
 void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// How the cloud is adapted, with defaults from its spacing. Expects everything but crack tips.
+void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// Crack tips: enrichment and domain of the interaction integral.
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);

@@ -48,8 +48,13 @@ void compute_defaults(Setting& root) {
     root.set_default(entry.path + ".temperature", temperature);
     root.set_default(entry.path + ".velocity", root.get<Vec2>("initial.velocity"));
   }
-  for (const Setting& entry : root.entries("tools"))
+  for (const Setting& entry : root.entries("tools")) {
     if (entry.find("heat")) root.set_default(entry.path + ".heat.temperature", temperature);
+    if (!entry.find("mass"))
+      root.set_default(entry.path + ".velocity", VectorFunction{TimeTable(0.0), TimeTable(0.0)});
+    else if (round)
+      root.set_default(entry.path + ".direction", Vec2(0.0, 1.0));
+  }
 }
 
 void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
@@ -60,7 +65,11 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
                  step.maybe<double>("fixed"),
                  static_cast<int>(step.get<std::int64_t>("check_every")),
                  step.maybe<double>("min"),
-                 root.maybe<std::int64_t>("time.max_steps")};
+                 root.maybe<std::int64_t>("time.max_steps"),
+                 step.get<bool>("local"),
+                 static_cast<int>(step.get<std::int64_t>("levels")),
+                 {}};
+  read_mass_scaling(root, result, diagnostics);
   if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
     diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
                     "found a fixed step and a largest step, expected one of them");
@@ -69,13 +78,18 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
                     "found a fixed step and a least step, expected one of them");
 }
 
-void read_method(const Setting& root, Case& result) {
+void read_method(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("method");
   Method& method = result.method;
   method.name = table.choice<Method::Name>("name");
   method.functions = table.choice<Method::Functions>("functions");
   method.gauss_points = static_cast<int>(table.get<std::int64_t>("gauss_points"));
   method.stabilisation = table.get<double>("stabilisation");
+  method.pressure_exchange = table.get<double>("pressure_exchange");
+  if (const Setting& exchange = *table.find("pressure_exchange");
+      method.pressure_exchange > 0.0 && method.name != Method::Name::cnem)
+    diagnostics.add(Mistake::conflict, exchange.where, exchange.path,
+                    "found a pressure exchange between nodes, expected it with method.name = \"cnem\" only");
   method.lagrangian = table.choice<Method::Lagrangian>("lagrangian");
   method.rereference_every = static_cast<int>(table.get<std::int64_t>("rereference.every"));
   method.rereference_strain = table.get<double>("rereference.strain");
@@ -154,7 +168,8 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_boundary(root, result, diagnostics);
   read_periodic(root, result, diagnostics);
   read_initial_and_loads(root, result, diagnostics);
-  read_method(root, result);
+  read_method(root, result, diagnostics);
+  read_adaptation(root, result, diagnostics);
   read_fracture(root, result, diagnostics);
   check_analysis(root, result, diagnostics);
   diagnostics.throw_if_any();

@@ -20,13 +20,16 @@ struct Chart {
   std::string x_label = "time", x_unit = "s"; ///< base units: a prefix is chosen from the data
   std::string y_label, y_unit;
   std::vector<ChartSeries> series;
-  bool log_y = false;
+  bool log_x = false, log_y = false;
   std::string note; ///< below the chart: how a filter works, what a sign means
 };
 
 /// The chart as one <svg> element with text as text. Long series are thinned to what the eye can see
 /// (extremes kept).
 std::string svg_chart(const Chart& chart);
+
+/// The chart as an SVG file of its own, with its colours on white.
+std::string svg_file(const Chart& chart);
 
 /// Low-pass of the series y(t) at uneven, increasing times by a Gaussian of standard deviation `sigma` (unit
 /// of t), evaluated at `at`. Samples weigh as much as the interval they stand for and the weights are

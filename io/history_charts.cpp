@@ -103,6 +103,8 @@ private:
       tools.push_back(tool);
       const int stroke = history_.find(tool + ".stroke");
       use(stroke);
+      for (const char* motion : {".displacement_x", ".displacement_y", ".velocity_x", ".velocity_y"})
+        if (const int at = history_.find(tool + motion); at >= 0 && largest(column(at)) == 0.0) use(at);
       if (stroke >= 0 && largest(column(stroke)) > longest) {
         longest = largest(column(stroke));
         moving = tool;

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <unistd.h>
@@ -48,9 +49,8 @@ private:
 
 // The entry of the folder must reach the disk too, or a crash may leave neither name. Some file systems
 // cannot do it; they are no worse off than without.
-void flush_folder(const fs::path& file) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY));
+void flush_folder(const fs::path& folder) {
+  const Descriptor fd(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY));
   if (fd >= 0) ::fsync(fd);
 }
 
@@ -58,8 +58,38 @@ void replace(const fs::path& temporary, const fs::path& target) {
   std::error_code error;
   fs::rename(temporary, target, error);
   if (error) fail("write", target, error.message());
-  flush_folder(target);
+  flush_folder(target.parent_path());
 }
+
+enum class Flush { begin, wait };
+
+// Failures are told of `target`, the name that the user knows.
+void write_whole(const fs::path& path, const fs::path& target, std::string_view content, Flush flush) {
+  const Descriptor fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
+  if (fd < 0) fail("write", target, errno);
+  for (std::size_t done = 0; done < content.size();) {
+    const ssize_t n = ::write(fd, content.data() + done, content.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail("write", target, n < 0 ? errno : ENOSPC);
+    done += static_cast<std::size_t>(n);
+  }
+  if (flush == Flush::begin)
+    ::sync_file_range(fd, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint: who needs it on the disk flushes it
+  else if (::fsync(fd) != 0)
+    fail("write", target, errno);
+}
+
+// A name that is free again when this goes, unless the file has been renamed.
+struct Temporary {
+  fs::path path;
+  explicit Temporary(fs::path name) : path(std::move(name)) {}
+  Temporary(Temporary&& other) noexcept : path(std::move(other.path)) { other.path.clear(); }
+  Temporary& operator=(Temporary&&) = delete;
+  ~Temporary() {
+    std::error_code ignored;
+    if (!path.empty()) fs::remove(path, ignored);
+  }
+};
 
 bool is_numbered(const fs::path& file, const char* folder, const char* extension) {
   return file.parent_path().filename() == folder && file.extension() == extension;
@@ -75,18 +105,29 @@ bool is_temporary(const fs::path& file) {
 
 void write_atomically(const fs::path& path, std::string_view content) { AtomicFile(path, content).commit(); }
 
+void write_atomically(std::span<const FileContent> files) {
+  std::vector<Temporary> temporary;
+  for (const FileContent& file : files) temporary.emplace_back(beside(file.path));
+  for (std::size_t k = 0; k < files.size(); ++k)
+    write_whole(temporary[k].path, files[k].path, files[k].content, Flush::begin);
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const Descriptor fd(::open(temporary[k].path.c_str(), O_RDONLY));
+    if (fd < 0 || ::fsync(fd) != 0) fail("write", files[k].path, errno);
+  }
+  std::set<fs::path> folders;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    std::error_code error;
+    fs::rename(temporary[k].path, files[k].path, error);
+    if (error) fail("write", files[k].path, error.message());
+    folders.insert(files[k].path.parent_path());
+  }
+  for (const fs::path& folder : folders) flush_folder(folder);
+}
+
 AtomicFile::AtomicFile(fs::path target, std::string_view content)
     : target_(std::move(target)), temporary_(beside(target_)) {
   try {
-    const Descriptor fd(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
-    if (fd < 0) fail("write", target_, errno);
-    for (std::size_t done = 0; done < content.size();) {
-      const ssize_t n = ::write(fd, content.data() + done, content.size() - done);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) fail("write", target_, n < 0 ? errno : ENOSPC);
-      done += static_cast<std::size_t>(n);
-    }
-    if (::fsync(fd) != 0) fail("write", target_, errno);
+    write_whole(temporary_, target_, content, Flush::wait);
   } catch (...) {
     discard();
     throw;

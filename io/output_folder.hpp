@@ -1,6 +1,7 @@
 #pragma once
 // The folder a run writes to, and how its files are written: never half.
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,15 @@ inline constexpr const char* report = "report.html";
 /// looks after a crash, see the old file or the new one. Throws IoError with the path and the system's
 /// reason.
 void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+struct FileContent {
+  std::filesystem::path path;
+  std::string content;
+};
+
+/// The same for several files, which wait for the disk together and appear in their order. Throws IoError;
+/// the files before the one that failed may have appeared then.
+void write_atomically(std::span<const FileContent> files);
 
 /// The two halves of write_atomically, for whoever has something to do between them: the constructor writes
 /// beside the target and flushes, commit() renames. Without commit() nothing is left. Both throw IoError.

@@ -1,6 +1,7 @@
 #include "io/picture.hpp"
 
 #include "core/error.hpp"
+#include "io/palette_png.hpp"
 #include "io/picture_parts.hpp"
 #include "io/si_format.hpp"
 #include "io/vtk_writer.hpp"
@@ -155,9 +156,8 @@ std::string draw_png(const Picture& picture) {
     cairo_set_source_rgb(cr, 0.775, 0.798, 0.832);
     cairo_fill(cr);
   }
-  paint_cells(cr, layout, *picture.cells, vertices, picture.value, picture.map, range);
-  if (picture.edges.value_or(cell_size(layout, *picture.cells, vertices) > 7.0 * unit))
-    paint_cell_edges(cr, layout, *picture.cells, vertices, unit);
+  const bool lines = picture.edges.value_or(cell_size(layout, *picture.cells, vertices) > 7.0 * unit);
+  paint_cells(cr, layout, picture, vertices, range, lines ? 0.7 * unit : 0.0);
   for (const PictureTool& tool : picture.tools) {
     trace(cr, layout, tool);
     cairo_set_source_rgb(cr, 0.30, 0.34, 0.40);
@@ -181,7 +181,13 @@ std::string draw_png(const Picture& picture) {
   draw_colour_bar(cr, layout, picture, range, unit, size);
   draw_scale_bar(cr, layout, unit, size);
   draw_extremes(cr, layout, picture, size);
-  return png_of(surface);
+  cairo_surface_flush(surface.get());
+  cairo_surface_t* image = surface.get();
+  return palette_png(
+      {reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(image)), layout.width,
+       layout.height,
+       static_cast<std::size_t>(cairo_image_surface_get_stride(image)) / sizeof(std::uint32_t)},
+      drawing_palette(picture.map, cell_line_shade));
 }
 
 } // namespace cnem::io

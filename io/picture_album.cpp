@@ -29,8 +29,8 @@ PictureAlbum::PictureAlbum(fs::path output_folder)
   }
 }
 
-std::string PictureAlbum::add(const std::string& key, const std::string& field, double time,
-                              const std::string& png, const std::string& caption) {
+std::string PictureAlbum::add(FileQueue& queue, const std::string& key, const std::string& field, double time,
+                              FileQueue::Maker png, std::size_t bytes, const std::string& caption) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw IoError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
@@ -42,9 +42,9 @@ std::string PictureAlbum::add(const std::string& key, const std::string& field, 
     return false;
   };
   while (taken()) ++number;
-  write_atomically(folder_ / name(), png);
+  queue.put(folder_ / name(), std::move(png), bytes);
   entries_.push_back({name(), field, time, caption});
-  write_index();
+  queue.put(folder_ / index_name, index());
   return entries_.back().file;
 }
 
@@ -53,15 +53,15 @@ void PictureAlbum::truncate(double time) {
   const auto later = [&](const AlbumEntry& entry) { return entry.time > time; };
   for (const AlbumEntry& entry : entries_)
     if (later(entry)) fs::remove(path(entry), ignored);
-  if (std::erase_if(entries_, later) > 0) write_index();
+  if (std::erase_if(entries_, later) > 0) write_atomically(folder_ / index_name, index());
 }
 
-void PictureAlbum::write_index() const {
+std::string PictureAlbum::index() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const AlbumEntry& entry : entries_)
     json.push_back(
         {{"file", entry.file}, {"field", entry.field}, {"time", entry.time}, {"caption", entry.caption}});
-  write_atomically(folder_ / index_name, json.dump(2) + "\n");
+  return json.dump(2) + "\n";
 }
 
 } // namespace cnem::io

@@ -1,5 +1,7 @@
 #pragma once
 // Pictures of a run in its folder: PNG files and an index that says what each shows.
+#include "io/file_queue.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,10 +21,10 @@ public:
   /// Goes on with the pictures that are there.
   explicit PictureAlbum(std::filesystem::path output_folder);
 
-  /// Writes the PNG under a name made of `key` ("plastic_strain") and a running number, then the index.
-  /// Returns its name. Throws IoError.
-  std::string add(const std::string& key, const std::string& field, double time, const std::string& png,
-                  const std::string& caption = "");
+  /// Hands the maker of a PNG, which holds about `bytes`, to `queue` under a name made of `key`
+  /// ("plastic_strain") and a running number, then the index. Returns its name. Throws IoError.
+  std::string add(FileQueue& queue, const std::string& key, const std::string& field, double time,
+                  FileQueue::Maker png, std::size_t bytes, const std::string& caption = "");
 
   /// Drops the pictures later than `time` (s), for a restart.
   void truncate(double time);
@@ -31,7 +33,7 @@ public:
   std::filesystem::path path(const AlbumEntry& entry) const { return folder_ / entry.file; }
 
 private:
-  void write_index() const;
+  std::string index() const;
   std::filesystem::path folder_;
   std::vector<AlbumEntry> entries_;
 };

@@ -1,6 +1,7 @@
 #include "io/picture_parts.hpp"
 
 #include "core/error.hpp"
+#include "io/palette_png.hpp"
 #include "io/si_format.hpp"
 
 #include <fmt/format.h>
@@ -12,27 +13,28 @@
 namespace cnem::io {
 namespace {
 
-constexpr int oversampling = 3;
-
-cairo_status_t append(void* text, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 void select_font(cairo_t* cr, double size, bool bold) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, size);
 }
 
-// Calls use(cell) with the outline of each cell as the current path, for the cells inside the clip.
-template<class Use>
-void for_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
-               const std::vector<Vec2>& vertices, Use&& use) {
-  std::vector<Vec2> pixel(vertices.size());
-  for (std::size_t v = 0; v < vertices.size(); ++v) pixel[v] = layout.pixel(vertices[v]);
-  const Vec2 first(layout.plot_left, layout.plot_top),
-      last = first + Vec2(layout.plot_width, layout.plot_height);
+// What can be seen of the plot, with a margin for the width of lines.
+struct View {
+  Vec2 low, high;
+
+  explicit View(const PictureLayout& layout)
+      : low(layout.plot_left - 4, layout.plot_top - 4),
+        high(layout.plot_left + layout.plot_width + 4, layout.plot_top + layout.plot_height + 4) {}
+  bool holds(const Vec2& least, const Vec2& most) const {
+    return (least.array() <= high.array()).all() && (most.array() >= low.array()).all() &&
+           (most - least).maxCoeff() < 1e5; // cairo works in 24.8 fixed point
+  }
+};
+
+void fill_cells(cairo_t* cr, const View& view, const std::vector<Vec2>& pixel, const Picture& picture,
+                const ColourRange& range) {
+  const CellGeometry<2>& cells = *picture.cells;
   for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
     const auto begin = static_cast<std::size_t>(cells.begin[c]),
                end = static_cast<std::size_t>(cells.begin[c + 1]);
@@ -45,40 +47,64 @@ void for_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& 
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    if (!finite || (high.array() < first.array() - 2).any() || (low.array() > last.array() + 2).any() ||
-        (high - low).maxCoeff() > 1e5)
-      continue;
+    if (!finite || !view.holds(low, high)) continue;
     cairo_new_path(cr);
     for (std::size_t k = begin; k < end; ++k) {
       const Vec2& p = pixel[static_cast<std::size_t>(cells.index[k])];
       cairo_line_to(cr, p.x(), p.y());
     }
     cairo_close_path(cr);
-    use(c);
+    const double s = (picture.value[c] - range.low) / (range.high - range.low), last = drawing_levels - 1;
+    const Colour colour = map_colour(picture.map, std::round(s * last) / last);
+    cairo_set_source_rgb(cr, colour.red, colour.green, colour.blue);
+    cairo_fill(cr);
   }
 }
 
-// Mean of oversampling² pixels. Painted without antialiasing and averaged, neighbouring cells meet without
-// the seams that antialiased polygons show.
-Surface average(const Surface& fine, int width, int height) {
-  Surface coarse = make_surface(CAIRO_FORMAT_ARGB32, width, height);
-  cairo_surface_flush(fine.get());
-  const unsigned char* from = cairo_image_surface_get_data(fine.get());
-  unsigned char* to = cairo_image_surface_get_data(coarse.get());
-  const auto from_stride = static_cast<std::size_t>(cairo_image_surface_get_stride(fine.get()));
-  const auto to_stride = static_cast<std::size_t>(cairo_image_surface_get_stride(coarse.get()));
-  constexpr std::size_t n = oversampling;
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
-    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x)
-      for (std::size_t channel = 0; channel < 4; ++channel) {
-        unsigned sum = 0;
-        for (std::size_t j = 0; j < n; ++j)
-          for (std::size_t i = 0; i < n; ++i)
-            sum += from[(y * n + j) * from_stride + (x * n + i) * 4 + channel];
-        to[y * to_stride + x * 4 + channel] = static_cast<unsigned char>((sum + n * n / 2) / (n * n));
-      }
-  cairo_surface_mark_dirty(coarse.get());
-  return coarse;
+// Edges of cells as pairs of vertices: those between two cells, and those at the rim of the body.
+struct CellEdges {
+  std::vector<std::array<std::int32_t, 2>> inner, rim;
+};
+
+CellEdges edges_of(const CellGeometry<2>& cells) {
+  std::vector<std::int32_t> begin(cells.vertex.size() + 1, 0);
+  const auto for_edges = [&](auto&& use) {
+    for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c)
+      for (auto b = cells.begin[c], e = cells.begin[c + 1], k = b; k < e; ++k)
+        use(cells.index[static_cast<std::size_t>(k)],
+            cells.index[static_cast<std::size_t>(k + 1 < e ? k + 1 : b)]);
+  };
+  for_edges([&](std::int32_t from, std::int32_t) { ++begin[static_cast<std::size_t>(from) + 1]; });
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v) begin[v + 1] += begin[v];
+  std::vector<std::int32_t> end(begin.begin(), begin.end() - 1), next(cells.index.size());
+  for_edges([&](std::int32_t from, std::int32_t to) {
+    next[static_cast<std::size_t>(end[static_cast<std::size_t>(from)]++)] = to;
+  });
+  CellEdges edges;
+  for_edges([&](std::int32_t from, std::int32_t to) {
+    const auto back = next.begin() + begin[static_cast<std::size_t>(to)],
+               last = next.begin() + end[static_cast<std::size_t>(to)];
+    if (std::find(back, last, from) == last)
+      edges.rim.push_back({from, to});
+    else if (from < to)
+      edges.inner.push_back({from, to});
+  });
+  return edges;
+}
+
+void stroke_edges(cairo_t* cr, const View& view, const std::vector<Vec2>& pixel,
+                  const std::vector<std::array<std::int32_t, 2>>& edges) {
+  constexpr int most = 300; // cairo takes more than twice the time for all edges in one path
+  int count = 0;
+  cairo_new_path(cr);
+  for (const auto& [from, to] : edges) {
+    const Vec2 &a = pixel[static_cast<std::size_t>(from)], &b = pixel[static_cast<std::size_t>(to)];
+    if (!a.allFinite() || !b.allFinite() || !view.holds(a.cwiseMin(b), a.cwiseMax(b))) continue;
+    cairo_move_to(cr, a.x(), a.y());
+    cairo_line_to(cr, b.x(), b.y());
+    if (++count % most == 0) cairo_stroke(cr);
+  }
+  cairo_stroke(cr);
 }
 
 } // namespace
@@ -92,14 +118,6 @@ Surface make_surface(cairo_format_t format, int width, int height) {
 }
 
 Context make_context(const Surface& surface) { return Context(cairo_create(surface.get())); }
-
-std::string png_of(const Surface& surface) {
-  std::string png;
-  const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &png);
-  if (status != CAIRO_STATUS_SUCCESS)
-    throw IoError(fmt::format("cannot encode a picture: {}", cairo_status_to_string(status)));
-  return png;
-}
 
 double text_width(cairo_t* cr, const std::string& text, double size, bool bold) {
   select_font(cr, size, bold);
@@ -115,37 +133,27 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   cairo_new_path(cr); // showing text leaves a current point behind
 }
 
-void paint_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
-                 const std::vector<Vec2>& vertices, std::span<const double> value, ColourMap map,
-                 const ColourRange& range) {
-  const int width = static_cast<int>(layout.plot_width), height = static_cast<int>(layout.plot_height);
-  const Surface fine = make_surface(CAIRO_FORMAT_ARGB32, oversampling * width, oversampling * height);
-  const Context context = make_context(fine);
-  cairo_t* layer = context.get();
-  cairo_scale(layer, oversampling, oversampling);
-  cairo_translate(layer, -layout.plot_left, -layout.plot_top);
-  cairo_set_antialias(layer, CAIRO_ANTIALIAS_NONE);
-
-  for_cells(layer, layout, cells, vertices, [&](std::size_t c) {
-    const Colour colour = map_colour(map, (value[c] - range.low) / (range.high - range.low));
-    cairo_set_source_rgb(layer, colour.red, colour.green, colour.blue);
-    cairo_fill(layer);
-  });
-  const Surface coarse = average(fine, width, height);
-  // The rim: the silhouette in dark, shifted a little all round, beneath the cells.
+void paint_cells(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                 const std::vector<Vec2>& vertices, const ColourRange& range, double line) {
+  std::vector<Vec2> pixel(vertices.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v) pixel[v] = layout.pixel(vertices[v]);
+  const View view(layout);
+  const CellEdges edges = edges_of(*picture.cells);
+  // Without antialiasing neighbouring cells meet without seams, and are filled in a fraction of the time.
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
+  fill_cells(cr, view, pixel, picture, range);
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_FAST);
+  if (line > 0.0) {
+    cairo_set_source_rgba(cr, 0.0, 0.0, 0.0, cell_line_shade);
+    cairo_set_line_width(cr, line);
+    stroke_edges(cr, view, pixel, edges.inner);
+  }
   cairo_set_source_rgb(cr, 0.12, 0.13, 0.16);
-  const double rim = layout.width / 1000.0;
-  for (const Vec2& shift : {Vec2(rim, 0), Vec2(-rim, 0), Vec2(0, rim), Vec2(0, -rim)})
-    cairo_mask_surface(cr, coarse.get(), layout.plot_left + shift.x(), layout.plot_top + shift.y());
-  cairo_set_source_surface(cr, coarse.get(), layout.plot_left, layout.plot_top);
-  cairo_paint(cr);
-}
-
-void paint_cell_edges(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
-                      const std::vector<Vec2>& vertices, double unit) {
-  cairo_set_source_rgba(cr, 0.0, 0.0, 0.0, 0.22);
-  cairo_set_line_width(cr, 0.7 * unit);
-  for_cells(cr, layout, cells, vertices, [&](std::size_t) { cairo_stroke(cr); });
+  cairo_set_line_width(cr, layout.width / 700.0);
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  stroke_edges(cr, view, pixel, edges.rim);
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
 }
 
 void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,

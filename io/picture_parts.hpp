@@ -19,17 +19,17 @@ using Context = std::unique_ptr<cairo_t, CairoDelete>;
 /// Throw IoError when there is no memory for them.
 Surface make_surface(cairo_format_t format, int width, int height);
 Context make_context(const Surface& surface);
-std::string png_of(const Surface& surface);
 
 double text_width(cairo_t* cr, const std::string& text, double size, bool bold = false);
 void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, bool bold = false);
 
-/// Cells filled with the colours of their values, seamless, with a thin dark rim around the body.
-void paint_cells(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
-                 const std::vector<Vec2>& vertices, std::span<const double> value, ColourMap map,
-                 const ColourRange& range);
-void paint_cell_edges(cairo_t* cr, const PictureLayout& layout, const CellGeometry<2>& cells,
-                      const std::vector<Vec2>& vertices, double unit);
+/// How much darker lines between cells are than the cells.
+inline constexpr double cell_line_shade = 0.4;
+
+/// Cells filled with the colours of their values, seamless, lines of `line` px between them unless it is 0,
+/// and a thin dark rim around the body.
+void paint_cells(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                 const std::vector<Vec2>& vertices, const ColourRange& range, double line);
 
 // `unit` is the size of a design pixel, `size` that of the font, both in px.
 void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,

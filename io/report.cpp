@@ -100,17 +100,19 @@ ReportTable wall_table(const RunStatus& status) {
   ReportTable table{"Wall time", {}};
   const double total = wall(status, "total");
   for (const auto& [phase, seconds] : status.wall_s)
-    table.rows.emplace_back(
-        words(phase), phase == "total" || !(total > 0.0)
-                          ? duration_format(seconds)
-                          : fmt::format("{}  ({:.1f} %)", duration_format(seconds), 100.0 * seconds / total));
+    if (seconds > 0.0)
+      table.rows.emplace_back(words(phase), phase == "total" || !(total > 0.0)
+                                                ? duration_format(seconds)
+                                                : fmt::format("{}  ({:.1f} %)", duration_format(seconds),
+                                                              100.0 * seconds / total));
   return table;
 }
 
 } // namespace
 
-ReportData collect_report(const fs::path& folder) {
-  const RunStatus status = read_status(folder);
+ReportData collect_report(const fs::path& folder) { return collect_report(folder, read_status(folder)); }
+
+ReportData collect_report(const fs::path& folder, const RunStatus& status) {
   ReportData report;
   report.title = status.case_name.empty() ? fs::absolute(folder).lexically_normal().filename().string()
                                           : status.case_name;
@@ -157,9 +159,11 @@ ReportData collect_report(const fs::path& folder) {
   return report;
 }
 
-fs::path write_report(const fs::path& folder) {
+fs::path write_report(const fs::path& folder) { return write_report(folder, read_status(folder)); }
+
+fs::path write_report(const fs::path& folder, const RunStatus& status) {
   const fs::path path = folder / files::report;
-  write_atomically(path, render_report(collect_report(folder)));
+  write_atomically(path, render_report(collect_report(folder, status)));
   return path;
 }
 

@@ -43,8 +43,12 @@ std::string render_report(const ReportData& data);
 /// What the files of an output folder (status.json, history.csv, case.resolved.toml, pictures/) say; history,
 /// case and pictures may be absent. Throws IoError when the status cannot be read.
 ReportData collect_report(const std::filesystem::path& folder);
+/// The same with a status that is not in the folder yet.
+ReportData collect_report(const std::filesystem::path& folder, const RunStatus& status);
 
 /// Writes `folder`/report.html from the other files of the folder. Returns its path. Throws IoError.
 std::filesystem::path write_report(const std::filesystem::path& folder);
+/// The same with a status that is not in the folder yet.
+std::filesystem::path write_report(const std::filesystem::path& folder, const RunStatus& status);
 
 } // namespace cnem::io

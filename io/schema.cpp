@@ -89,6 +89,21 @@ const Key* find_key(std::string_view pattern) {
   return found == index.end() ? nullptr : found->second;
 }
 
+const Key& in_revolution(const Key& key) {
+  static const std::map<std::string, Key, std::less<>> index = [] {
+    std::map<std::string, Key, std::less<>> map;
+    for (const Key& plane : schema()) {
+      if (!plane.revolution) continue;
+      Key& round = map.emplace(plane.path, plane).first->second;
+      round.dimension = *plane.revolution;
+      round.example.clear();
+    }
+    return map;
+  }();
+  const auto found = index.find(key.path);
+  return found == index.end() ? key : found->second;
+}
+
 std::string readable(std::string pattern) {
   for (auto star = pattern.find('*'); star != std::string::npos; star = pattern.find('*'))
     pattern.replace(star, 1, "NAME");

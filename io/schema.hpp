@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,7 @@ struct Key {
   Presence presence = Presence::optional;
   std::string fallback = {}; ///< TOML text of the default; for computed ones `computed` says how
   Dimension dimension = {};
+  std::optional<Dimension> revolution = {}; ///< dimension in axisymmetric analyses, where that is another one
   Range range = anything;
   std::vector<std::string> choices = {};
   Condition when = {};
@@ -79,6 +81,9 @@ const std::vector<Key>& schema();
 
 /// The key with this pattern; nullptr when there is none.
 const Key* find_key(std::string_view pattern);
+
+/// The key as it is in axisymmetric analyses.
+const Key& in_revolution(const Key& key);
 
 /// A pattern for people: "tools.NAME.velocity".
 std::string readable(std::string pattern);

@@ -83,7 +83,8 @@ bool belongs_to_outline(const Key& key) {
 }
 
 std::string kind(const Key& key) {
-  const std::string unit = describe(key.dimension).si_unit;
+  std::string unit = describe(key.dimension).si_unit;
+  if (key.revolution) unit += fmt::format(" (axisymmetric: {})", describe(*key.revolution).si_unit);
   switch (key.type) {
   case Type::table:
     return "table";

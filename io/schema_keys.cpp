@@ -44,8 +44,11 @@ void add_general(Keys& k) {
   k.add("time.step.safety", quantity, "Factor on the stable step.")
       .in({.low = 0.0, .high = 1.0, .low_open = true})
       .fallback("0.9");
-  k.add("time.step.max", quantity, "Largest step allowed.").unit(d::time).in(positive);
-  k.add("time.step.min", quantity, "The run has diverged when the stable step falls below this.")
+  k.add("time.step.max", quantity, "Largest step allowed; with local steps of the coarsest nodes.")
+      .unit(d::time)
+      .in(positive);
+  k.add("time.step.min", quantity,
+        "The run has diverged when the stable step (with local steps the finest one) falls below this.")
       .unit(d::time)
       .in(positive)
       .example("\"0.01 ns\"")
@@ -53,12 +56,25 @@ void add_general(Keys& k) {
   k.add("time.step.fixed", quantity, "This step, without an estimate of the stable one.")
       .unit(d::time)
       .in(positive);
-  k.add("time.step.check_every", integer, "Steps between estimates of the stable step.")
+  k.add("time.step.check_every", integer,
+        "Steps (with local steps the finest ones) between estimates of the stable step.")
       .in({.low = 1, .high = 1e6})
       .fallback("10");
+  k.add("time.step.local", boolean,
+        "Local time steps: nodes step at power-of-two fractions of the largest step that their cells allow, "
+        "so "
+        "that a refined band does not slow the rest (docs/theory.md). A step of the run is then one of the "
+        "coarsest; output, checkpoints and new references come between those.")
+      .fallback("false");
+  k.add("time.step.levels", integer,
+        "With local steps: at most so many different ones, the largest being 2^(levels − 1) times the "
+        "smallest.")
+      .in({.low = 2, .high = 8})
+      .fallback("5");
   k.add("time.max_steps", integer,
         "The run ends after this many steps, when it has not reached `time.end` before.")
       .in({.low = 1, .high = 1e15});
+  add_mass_scaling(k);
 }
 
 void add_conditions(Keys& k) {
@@ -154,10 +170,11 @@ void add_tools(Keys& k) {
   k.add("tools.*", table,
         "A rigid tool, solid inside its outline: either `start` and `path`, or `rectangle`, or `circle`.");
   add_outline(k, "tools.*", "the name of the tool");
-  k.add(at + "velocity", vector_function, "Translation.")
+  k.add(at + "velocity", vector_function, "Prescribed translation; constant, ramped or over time.")
       .unit(d::velocity)
-      .fallback("\"0 0 m/s\"")
-      .example("\"0 -11 m/s\"");
+      .example("\"0 -11 m/s\"")
+      .computed("`\"0 0 m/s\"` without `mass`");
+  add_drive(k, at);
   add_friction(k, at + "friction", "Friction on the workpiece.");
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
   k.add(at + "heat.conductance", quantity, "Of the closed contact.")
@@ -195,6 +212,12 @@ void add_method(Keys& k) {
       .in(not_negative)
       .example("0.1")
       .computed("0.05; in axisymmetric analyses 0.2");
+  k.add("method.pressure_exchange", quantity,
+        "Factor of the exchange of volume between flowing neighbours, which smooths their pressure; 0: off "
+        "(cnem). 0.3 "
+        "where pressures matter: docs/pressure_exchange.md.")
+      .in(not_negative)
+      .fallback("0.0");
   k.add("method.lagrangian", choice,
         "Reference configuration: `total`: the initial one; `periodic`: renewed as `rereference` says; "
         "`updated`: renewed every step.")
@@ -252,7 +275,7 @@ void add_fracture(Keys& k) {
 }
 
 void add_output(Keys& k) {
-  const std::vector<std::string> fields = field_names();
+  const std::vector<std::string> fields = field_names(false);
   k.add("output", table, "What is written.").always();
   k.add("output.history_every", quantity, "Time between rows of `history.csv`; 0: every step.")
       .unit(d::time)
@@ -291,7 +314,7 @@ void add_output(Keys& k) {
       .in({.low = 1, .high = 1000})
       .fallback("2");
   k.add("output.picture_fields", choices, "Fields drawn.")
-      .one_of(fields)
+      .one_of(field_names())
       .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");
   k.add(
       "output.lines", named_tables,
@@ -335,6 +358,7 @@ const std::vector<Key>& schema() {
     add_tools(k);
     add_contact(k);
     add_method(k);
+    add_adaptation(k);
     add_fracture(k);
     add_output(k);
     return std::move(k.all);

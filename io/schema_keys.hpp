@@ -13,6 +13,8 @@ public:
   explicit KeyDraft(Key& key) : key_(key) {}
 
   KeyDraft& unit(const Dimension& dimension) { return key_.dimension = dimension, *this; }
+  /// Dimension in axisymmetric analyses, which count whole bodies.
+  KeyDraft& of_revolution(const Dimension& dimension) { return key_.revolution = dimension, *this; }
   KeyDraft& in(const Range& range) { return key_.range = range, *this; }
   KeyDraft& one_of(std::vector<std::string> choices) { return key_.choices = std::move(choices), *this; }
   KeyDraft& required() { return key_.presence = Presence::required, *this; }
@@ -50,5 +52,10 @@ void add_domain(Keys& k);
 void add_parts(Keys& k);
 void add_cloud(Keys& k);
 void add_materials(Keys& k);
+void add_adaptation(Keys& k);
+
+/// Members of the table of a tool, "tools.*.", that let it move as a body.
+void add_drive(Keys& k, const std::string& tool);
+void add_mass_scaling(Keys& k);
 
 } // namespace cnem::io

@@ -48,12 +48,13 @@ std::string suggestion(const std::string& name, const std::string& pattern, cons
 
 class Resolver {
 public:
-  explicit Resolver(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  Resolver(Diagnostics& diagnostics, bool revolution) : diagnostics_(diagnostics), revolution_(revolution) {}
 
   /// Fills the members of a table from what was written (nullptr: nothing).
   void table(Setting& setting, const Value* written, const std::string& pattern) {
     if (written) report_unknown(*written, pattern, setting.path);
-    for (const Key* key : members_of(pattern)) {
+    for (const Key* plane : members_of(pattern)) {
+      const Key* key = revolution_ ? &in_revolution(*plane) : plane;
       const Member* found = written ? written->find(key->name()) : nullptr;
       const std::string path = join(setting.path, key->name());
       if (!key->when.sibling.empty() && !applies(*key, setting, found, path)) continue;
@@ -167,7 +168,15 @@ private:
   }
 
   Diagnostics& diagnostics_;
+  bool revolution_;
 };
+
+bool is_of_revolution(const Value& document) {
+  const Member* analysis = document.find("analysis");
+  const Member* kinematics = analysis ? analysis->value.find("kinematics") : nullptr;
+  return kinematics && kinematics->value.kind == Value::Kind::text &&
+         kinematics->value.text == "axisymmetric";
+}
 
 } // namespace
 
@@ -207,9 +216,9 @@ void Setting::set_default(std::string_view relative, SettingValue computed) {
   const std::string member(dot == std::string_view::npos ? relative : relative.substr(dot + 1));
   const std::string pattern = table.key ? join(table.key->path, member) : member;
   const Key* spec = find_key(pattern);
-  // Keys point into the schema, so their order is its order.
+  // The schema is one array, so its order is that of addresses in it.
   const auto place = std::find_if(table.members.begin(), table.members.end(),
-                                  [&](const Setting& other) { return other.key > spec; });
+                                  [&](const Setting& other) { return find_key(other.key->path) > spec; });
   table.members.insert(
       place, {spec, member, join(table.path, member), table.where, false, std::move(computed), {}, {}});
 }
@@ -224,7 +233,7 @@ void Setting::erase(std::string_view relative) {
 Setting apply_schema(const Value& document, Diagnostics& diagnostics) {
   Setting root;
   root.where = document.where;
-  Resolver(diagnostics).table(root, &document, "");
+  Resolver(diagnostics, is_of_revolution(document)).table(root, &document, "");
   return root;
 }
 

@@ -101,7 +101,8 @@ struct Frame {
 };
 
 bool drawable(const Chart& chart, const ChartSeries& series, std::size_t k) {
-  return std::isfinite(series.x[k]) && std::isfinite(series.y[k]) && (!chart.log_y || series.y[k] > 0.0);
+  return std::isfinite(series.x[k]) && std::isfinite(series.y[k]) && (!chart.log_x || series.x[k] > 0.0) &&
+         (!chart.log_y || series.y[k] > 0.0);
 }
 
 // The path of a series: of all samples that fall on one column of pixels, first, least, greatest and last.
@@ -178,7 +179,7 @@ std::string svg_chart(const Chart& chart) {
       }
   int legend_rows = 0;
   const std::vector<LegendPlace> legend = place_legend(chart, legend_rows);
-  Frame frame{make_axis(x, chart.x_unit, false, false), make_axis(y, chart.y_unit, chart.log_y, true),
+  Frame frame{make_axis(x, chart.x_unit, chart.log_x, false), make_axis(y, chart.y_unit, chart.log_y, true),
               30.0 + (row + 2) * legend_rows};
   const double base = frame.top + plot_height, end = width - right;
 
@@ -221,6 +222,20 @@ std::string svg_chart(const Chart& chart) {
             fmt::format("<path class=\"line s{}{}{}\" d=\"{}\"/>\n", series.colour % 8, faint ? " faint" : "",
                         series.dashed ? " dashed" : "", path_of(chart, series, frame));
   return svg + "</svg>\n";
+}
+
+std::string svg_file(const Chart& chart) {
+  constexpr const char* head = R"(<svg xmlns="http://www.w3.org/2000/svg" font-family="sans-serif")";
+  constexpr const char* style =
+      "\n<style>svg { background: #fff; fill: #5c6675 } path { fill: none } .grid { stroke: #e8ebef } .zero, "
+      ".axis { stroke: #5c6675 } .label, .key { fill: #171b22 } .line { stroke-width: 1.9 } .s0 { stroke: "
+      "#1f5fbf } .s1 { stroke: #d1495b } .s2 { stroke: #2a9d6f } .s3 { stroke: #b7791f } .s4 { stroke: "
+      "#7b4fb5 "
+      "} .s5 { stroke: #0f8b8d } .s6 { stroke: #8a5a44 } .s7 { stroke: #5c6675 } .faint { stroke-width: 1; "
+      "stroke-opacity: 0.3 } .dashed { stroke-dasharray: 6 4 }</style>";
+  std::string svg = svg_chart(chart);
+  svg.insert(svg.find('>') + 1, style);
+  return head + svg.substr(4); // behind "<svg"
 }
 
 } // namespace cnem::io

@@ -38,6 +38,10 @@ inline constexpr Dimension heat_transfer = Dimension::of(0, 1, -3, -1);
 inline constexpr Dimension conductivity = Dimension::of(1, 1, -3, -1);
 inline constexpr Dimension specific_heat = Dimension::of(2, 0, -2, -1);
 inline constexpr Dimension expansion = Dimension::of(0, 0, 0, -1);
+inline constexpr Dimension mass = Dimension::of(0, 1, 0);
+inline constexpr Dimension mass_per_length = Dimension::of(-1, 1, 0);
+inline constexpr Dimension force = Dimension::of(1, 1, -2);
+inline constexpr Dimension force_per_length = Dimension::of(0, 1, -2);
 inline constexpr Dimension effusivity{{0, 2, -5, -2, 0}};
 } // namespace dimension
 

@@ -16,7 +16,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 #include <vtkXMLUtilities.h>
 
-#include <algorithm>
+#include <mutex>
 #include <string>
 #include <system_error>
 #include <tuple>
@@ -32,19 +32,37 @@ void add_time(vtkUnstructuredGrid& grid, double time) {
   grid.GetFieldData()->AddArray(value);
 }
 
-void check_length(const std::string& name, std::size_t length, vtkIdType expected) {
-  if (length != static_cast<std::size_t>(expected))
-    throw InputError(fmt::format("output field \"{}\" has {} values, expected {}", name, length, expected));
+void check_lengths(const std::vector<ScalarField>& scalars, const std::vector<VectorField>& vectors,
+                   std::size_t expected) {
+  const auto check = [&](const std::string& name, std::size_t length) {
+    if (length != expected)
+      throw InputError(fmt::format("output field \"{}\" has {} values, expected {}", name, length, expected));
+  };
+  for (const ScalarField& field : scalars) check(field.name, field.values.size());
+  for (const VectorField& field : vectors)
+    for (const std::span<const double>& component : field.component)
+      if (!component.empty()) check(field.name, component.size());
+}
+
+std::size_t cell_count(const FieldFrame& frame) {
+  return frame.cells->begin.empty() ? 0 : frame.cells->begin.size() - 1;
+}
+
+std::size_t bytes_of(const FieldFrame& frame) {
+  const std::size_t nodes = frame.position[0].size(), cells = cell_count(frame);
+  const CellGeometry<2>& geometry = *frame.cells;
+  return sizeof(double) * (nodes * (2 + frame.node_scalars.size() + 3 * frame.node_vectors.size()) +
+                           cells * (frame.cell_scalars.size() + 3 * frame.cell_vectors.size()) +
+                           2 * geometry.vertex.size() + 2 * geometry.vertex_weight.size());
 }
 
 void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField>& scalars,
                 const std::vector<VectorField>& vectors) {
   for (const ScalarField& field : scalars) {
-    check_length(field.name, field.values.size(), count);
     vtkNew<vtkDoubleArray> array;
     array->SetName(field.name.c_str());
-    array->SetNumberOfTuples(count);
-    std::copy(field.values.begin(), field.values.end(), array->GetPointer(0));
+    array->SetArray(const_cast<double*>(field.values.data()), count,
+                    1); // 1: VTK reads it, and does not own it
     to.AddArray(array);
   }
   for (const VectorField& field : vectors) {
@@ -56,7 +74,6 @@ void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField
     for (int k = 0; k < 3; ++k) {
       const std::span<const double> component = field.component[static_cast<std::size_t>(k)];
       if (component.empty()) continue;
-      check_length(field.name, component.size(), count);
       for (vtkIdType i = 0; i < count; ++i)
         array->SetTypedComponent(i, k, component[static_cast<std::size_t>(i)]);
     }
@@ -64,7 +81,8 @@ void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField
   }
 }
 
-void write_grid(const fs::path& path, vtkUnstructuredGrid& grid) {
+// The grid as the text of a .vtu file.
+std::string text_of(vtkUnstructuredGrid& grid) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(&grid);
   writer->SetDataModeToAppended();
@@ -72,11 +90,11 @@ void write_grid(const fs::path& path, vtkUnstructuredGrid& grid) {
   writer->SetCompressorTypeToLZ4(); // much faster than zlib, for files a fifth larger
   writer->SetHeaderTypeToUInt64();
   writer->WriteToOutputStringOn(); // the file itself is written where a full disk is noticed
-  if (writer->Write() == 0) throw IoError(fmt::format("cannot write {}: VTK failed", path.string()));
-  write_atomically(path, writer->GetOutputString());
+  if (writer->Write() == 0) throw IoError("VTK cannot write a grid of fields");
+  return writer->GetOutputString();
 }
 
-void write_cells(const fs::path& path, const FieldFrame& frame) {
+std::string cells_text(const FieldFrame& frame) {
   const CellGeometry<2>& cells = *frame.cells;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -87,7 +105,7 @@ void write_cells(const fs::path& path, const FieldFrame& frame) {
 
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points);
-  const auto count = cells.begin.empty() ? 0 : static_cast<vtkIdType>(cells.begin.size()) - 1;
+  const auto count = static_cast<vtkIdType>(cell_count(frame));
   grid->AllocateEstimate(count, 7);
   std::vector<vtkIdType> polygon;
   for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
@@ -96,10 +114,10 @@ void write_cells(const fs::path& path, const FieldFrame& frame) {
   }
   add_fields(*grid->GetCellData(), count, frame.cell_scalars, frame.cell_vectors);
   add_time(*grid, frame.time);
-  write_grid(path, *grid);
+  return text_of(*grid);
 }
 
-void write_nodes(const fs::path& path, const FieldFrame& frame) {
+std::string nodes_text(const FieldFrame& frame) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   const auto count = static_cast<vtkIdType>(frame.position[0].size());
@@ -114,7 +132,16 @@ void write_nodes(const fs::path& path, const FieldFrame& frame) {
   }
   add_fields(*grid->GetPointData(), count, frame.node_scalars, frame.node_vectors);
   add_time(*grid, frame.time);
-  write_grid(path, *grid);
+  return text_of(*grid);
+}
+
+// Makers run side by side; what VTK sets up once per process does not.
+void set_up_vtk() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    vtkNew<vtkUnstructuredGrid> grid;
+    text_of(*grid);
+  });
 }
 
 } // namespace
@@ -137,7 +164,7 @@ FieldWriter::FieldWriter(fs::path folder) : folder_(std::move(folder)) {
   if (error)
     throw IoError(
         fmt::format("cannot create {}: {}", (folder_ / files::fields_folder).string(), error.message()));
-  write_collection();
+  write_atomically(folder_ / files::fields, collection());
 }
 
 FieldWriter FieldWriter::resume(fs::path folder, double time) {
@@ -161,22 +188,28 @@ FieldWriter FieldWriter::resume(fs::path folder, double time) {
     else
       for (const std::string& file : {entry.cells, entry.nodes}) fs::remove(writer.folder_ / file);
   }
-  writer.write_collection();
+  write_atomically(writer.folder_ / files::fields, writer.collection());
   return writer;
 }
 
-void FieldWriter::write(const FieldFrame& frame) {
+void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame> frame) {
+  check_lengths(frame->cell_scalars, frame->cell_vectors, cell_count(*frame));
+  check_lengths(frame->node_scalars, frame->node_vectors, frame->position[0].size());
+  set_up_vtk();
   const auto name = [&](const char* part) {
     return fmt::format("{}/{}_{:05}.vtu", files::fields_folder, part, entries_.size());
   };
-  Entry entry{frame.time, name("cells"), name("nodes")};
-  write_cells(folder_ / entry.cells, frame);
-  write_nodes(folder_ / entry.nodes, frame);
+  Entry entry{frame->time, name("cells"), name("nodes")};
+  const std::size_t bytes = bytes_of(*frame) / 2; // kept by both
+  queue.put(
+      folder_ / entry.cells, [frame] { return cells_text(*frame); }, bytes);
+  queue.put(
+      folder_ / entry.nodes, [frame] { return nodes_text(*frame); }, bytes);
   entries_.push_back(std::move(entry));
-  write_collection();
+  queue.put(folder_ / files::fields, collection());
 }
 
-void FieldWriter::write_collection() const {
+std::string FieldWriter::collection() const {
   std::string xml = "<?xml version=\"1.0\"?>\n"
                     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
                     "  <Collection>\n";
@@ -185,8 +218,7 @@ void FieldWriter::write_collection() const {
          {std::tuple(0, "cells", &entry.cells), std::tuple(1, "nodes", &entry.nodes)})
       xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
                          entry.time, part, name, *file);
-  xml += "  </Collection>\n</VTKFile>\n";
-  write_atomically(folder_ / files::fields, xml);
+  return xml + "  </Collection>\n</VTKFile>\n";
 }
 
 } // namespace cnem::io

@@ -2,9 +2,11 @@
 // Fields for ParaView and VTK: fields.pvd, a time series whose every time has two parts: the cells of the
 // stress points as polygons with cell data, and the nodes as points with point data.
 #include "core/discretisation.hpp"
+#include "io/file_queue.hpp"
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,7 +25,8 @@ struct VectorField {
   std::array<std::span<const double>, 3> component;
 };
 
-/// Everything written for one time. Spans must live until write() returns.
+/// Everything written for one time. Whoever makes one keeps what its spans and pointers refer to alive and
+/// unchanged as long as the frame.
 struct FieldFrame {
   double time = 0.0; ///< s
   const CellGeometry<2>* cells = nullptr;
@@ -49,8 +52,9 @@ public:
   /// series and their files removed. Throws IoError when fields.pvd cannot be read.
   static FieldWriter resume(std::filesystem::path folder, double time);
 
-  /// Throws InputError when a field has the wrong length, IoError when writing fails.
-  void write(const FieldFrame& frame);
+  /// Hands the files of the frame to `queue`, which makes them later. Throws InputError when a field has the
+  /// wrong length, IoError.
+  void write(FileQueue& queue, std::shared_ptr<const FieldFrame> frame);
 
   int frames() const { return static_cast<int>(entries_.size()); }
 
@@ -60,7 +64,7 @@ private:
     std::string cells, nodes; ///< paths relative to the folder
   };
   FieldWriter() = default;
-  void write_collection() const;
+  std::string collection() const;
 
   std::filesystem::path folder_;
   std::vector<Entry> entries_;

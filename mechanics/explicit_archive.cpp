@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 #include "mechanics/explicit_solver.hpp"
 
+#include <algorithm>
+
 namespace cnem {
 
 namespace {
@@ -46,7 +48,9 @@ void archive_ledger(Archive& archive, EnergyLedger& ledger) {
   archive.number("solver/energy/impact", "J/m", ledger.impact);
   archive.number("solver/energy/penalty_release", "J/m", ledger.penalty_release);
   archive.number("solver/energy/rereference", "J/m", ledger.rereference);
+  archive.number("solver/energy/resampling", "J/m", ledger.resampling);
   archive.number("solver/energy/tools", "J/m", ledger.tools);
+  archive.number("solver/energy/pressure_exchange", "J/m", ledger.pressure_exchange);
   archive.number("solver/energy/supports", "J/m", ledger.supports);
   archive.number("solver/energy/recovery", "J/m", ledger.recovery);
   archive.number("solver/energy/loads", "J/m", ledger.loads);
@@ -57,11 +61,49 @@ void archive_ledger(Archive& archive, EnergyLedger& ledger) {
 
 } // namespace
 
+/// The nodes themselves, once resampling has made them other than those of the case.
+template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
+  archive.integer("solver/resamplings", resamplings_);
+  if (resamplings_ == 0) {
+    Fields<dim> initial = initial_position_;
+    archive.field("solver/node/initial_position", "m", initial);
+    if (initial != initial_position_)
+      throw IoError("its nodes are not those that this version makes of the case");
+    return;
+  }
+  PointState<dim>& point = state_.point;
+  std::vector<std::int32_t> facets;
+  for (const Facet<dim>& facet : model_.cloud.facets) {
+    facets.insert(facets.end(), facet.node.begin(), facet.node.end());
+    facets.push_back(facet.piece);
+  }
+  archive.integers("solver/cloud/facets", facets);
+  archive.integers("solver/point/material", point.material);
+  const std::size_t n = point.material.size();
+  if (archive.loading()) {
+    model_.cloud.position.resize(n);
+    model_.cloud.facets.clear();
+    for (std::size_t at = 0; at + dim < facets.size(); at += dim + 1) {
+      Facet<dim> facet;
+      std::copy_n(facets.begin() + static_cast<std::ptrdiff_t>(at), dim, facet.node.begin());
+      facet.piece = facets[at + dim];
+      model_.cloud.facets.push_back(facet);
+    }
+    if (!model_.node_material.empty()) model_.node_material = point.material;
+    resize_state(n);
+  }
+  archive.field("solver/node/initial_position", "m", initial_position_);
+  archive.field("solver/node/initial_temperature", "K", initial_temperature_);
+  archive.field("solver/point/strength", "1", point.strength);
+  model_.supports.archive_nodes(archive, n);
+  model_.heat_boundaries.archive_nodes(archive);
+  if (!archive.loading()) return;
+  model_.loads.resample(model_.cloud, initial_position_);
+  model_.heat_boundaries.resample(model_.cloud);
+}
+
 template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
-  Fields<dim> initial = initial_position_;
-  archive.field("solver/node/initial_position", "m", initial);
-  if (initial != initial_position_)
-    throw IoError("its nodes are not those that this version makes of the case");
+  archive_cloud(archive);
   archive_state(archive, state_);
   archive.field("solver/point/flow_stress", "Pa", flow_stress_);
   archive.field("solver/point/density", "kg/m^3", density_);
@@ -75,7 +117,21 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive.integer("solver/references", references_);
   edge_defect_.archive(archive);
   damage_.archive(archive, state_.point.size());
+  if (local_.on()) {
+    local_.archive(archive);
+    archive.number("solver/local/finest_before", "s", finest_before_);
+    archive.integer("solver/local/on_new_reference", on_new_reference_);
+    std::vector<double> next(next_levels_.begin(), next_levels_.end());
+    archive.list("solver/local/next_level", "1", next);
+    next_levels_.clear();
+    for (const double level : next) next_levels_.push_back(static_cast<std::int8_t>(level));
+  }
+  exchange_.archive(archive);
+  if (model_.mass_scaling.active()) archive.field("solver/node/mass_scale", "1", mass_scale_);
   model_.supports.archive(archive);
+  if (archive.loading()) // pairs of touching bodies are listed on it
+    model_.contact.set_boundary(model_.cloud.facets, state_.node.size(), model_.supports.constraints(),
+                                model_.ties.group());
   model_.contact.archive(archive);
   if (!archive.loading()) return;
 
@@ -86,9 +142,13 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   approximation_ = model_.method->rebuild(model_.cloud);
   if (model_.thermal) set_conduction();
   place_reference();
+  if (local_.on()) take_levels(local_.level());
+  scale_masses();
+  reset_exchange();
   model_.loads.evaluate(state_.time, node.position, node.mass);
 }
 
+template void ExplicitSolver<2>::archive_cloud(Archive&);
 template void ExplicitSolver<2>::archive(Archive&);
 
 } // namespace cnem

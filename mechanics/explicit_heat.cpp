@@ -15,13 +15,13 @@ template<int dim> void ExplicitSolver<dim>::measure_conduction_step() {
   conduction_step_ = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
 }
 
-/// Plastic and friction heat, then explicit conduction (58), in as many sub-steps as are stable.
-template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
+/// Plastic and friction heat. Plastic heat is local, per unit mass (nodal), or shared out with the shape
+/// functions.
+template<int dim> void ExplicitSolver<dim>::heat_plastically() {
   NodeState<dim>& node = state_.node;
   const PointState<dim>& point = state_.point;
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   const std::size_t n = node.size();
-  // Plastic heat: local, per unit mass (nodal), or shared out with the shape functions.
   running_.heat_generated += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
@@ -42,6 +42,12 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
     }
     return sum;
   });
+}
+
+/// Explicit conduction (58), in as many sub-steps as are stable.
+template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
+  NodeState<dim>& node = state_.node;
+  const std::size_t n = node.size();
   if (!model_.heat_ties.empty()) model_.heat_ties.share(node.heat_capacity, node.temperature);
   if (conduction_step_ == 0.0) measure_conduction_step();
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt / (0.9 * conduction_step_))));
@@ -66,6 +72,7 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
   }
 }
 
+template void ExplicitSolver<2>::heat_plastically();
 template void ExplicitSolver<2>::conduct(double);
 template void ExplicitSolver<2>::measure_conduction_step();
 

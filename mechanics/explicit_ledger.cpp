@@ -38,24 +38,44 @@ template<int dim> double ExplicitSolver<dim>::strain_since_reference() const {
       .value;
 }
 
-template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
+/// Of v_n = v_{n−½} + ½ Δt f_n/m, to first order in Δt.
+template<int dim> double ExplicitSolver<dim>::kinetic_energy() const {
   const NodeState<dim>& node = state_.node;
-  const PointState<dim>& point = state_.point;
-  EnergyLedger ledger = running_;
-  const double half = 0.5 * state_.step_before;
-  const Fields<dim>& load = model_.loads.force();
-  ledger.kinetic = sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
+  const double half = 0.5 * (local_.on() ? finest_before_ : state_.step_before);
+  const Field& mass = inertia();
+  return sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = begin; i < end; ++i) {
         const double v = node.velocity[k][i];
-        sum += 0.5 * node.mass[i] * v * v + half * v * node.force[k][i];
+        sum += 0.5 * mass[i] * v * v + half * v * node.force[k][i];
       }
+    return sum;
+  });
+}
+
+template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
+  const NodeState<dim>& node = state_.node;
+  const PointState<dim>& point = state_.point;
+  EnergyLedger ledger = running_;
+  const double half = 0.5 * (local_.on() ? finest_before_ : state_.step_before);
+  const Fields<dim>& load = model_.loads.force();
+  const Field& mass = inertia();
+  ledger.kinetic = kinetic_energy();
+  ledger.inertial = sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < dim; ++k)
+      for (std::size_t i = begin; i < end; ++i)
+        sum += 0.5 * mass[i] * node.velocity[k][i] * node.velocity[k][i];
     return sum;
   });
   if (!model_.loads.empty())
     for (std::size_t k = 0; k < dim; ++k)
-      for (std::size_t i = 0; i < node.size(); ++i) ledger.loads += half * node.velocity[k][i] * load[k][i];
+      for (std::size_t i = 0; i < node.size(); ++i)
+        ledger.loads += half * load_weight(i) * node.velocity[k][i] * load[k][i];
+  const contact::DriveEnergy drives = model_.contact.drive_energy();
+  ledger.tool_kinetic = drives.kinetic;
+  ledger.drives = drives.work;
   ledger.elastic = energy_over_body(point.stored_energy);
   ledger.plastic = plastic_offset_ + energy_over_body(point.plastic_work);
   for (std::size_t i = 0; i < node.size(); ++i)
@@ -76,6 +96,7 @@ template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() cons
 }
 
 template double ExplicitSolver<2>::energy_over_body(const Field&) const;
+template double ExplicitSolver<2>::kinetic_energy() const;
 template double ExplicitSolver<2>::strain_since_reference() const;
 template EnergyLedger ExplicitSolver<2>::ledger() const;
 template std::array<double, 2> ExplicitSolver<2>::mass_balance() const;

@@ -1,5 +1,6 @@
 #include "mechanics/explicit_solver.hpp"
 
+#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "mechanics/kinematics.hpp"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 namespace cnem {
 
@@ -31,7 +33,8 @@ template<int dim> void set_identity(Fields<tensor_size<dim>>& f, std::size_t siz
 
 template<int dim>
 ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature)
-    : model_(std::move(model)), edge_defect_(model_.stabilisation), damage_(model_.materials) {
+    : model_(std::move(model)), edge_defect_(model_.stabilisation), damage_(model_.materials),
+      exchange_(model_.pressure_exchange), local_(model_.local) {
   NodeState<dim>& node = state_.node;
   const auto n = static_cast<std::size_t>(model_.cloud.nodes());
   resize_all(node.position, n);
@@ -48,19 +51,28 @@ ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Fiel
   resize_all(node.force, n);
   prepare();
   if (!model_.ties.empty())
-    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
+    for (Field& component : node.velocity) model_.ties.share(inertia(), component);
   running_.initial = ledger().total();
 }
 
-template<int dim> void ExplicitSolver<dim>::prepare() {
+template<int dim> Cloud<dim> ExplicitSolver<dim>::present_cloud() const {
+  Cloud<dim> cloud = model_.cloud;
+  for (std::size_t i = 0; i < state_.node.position[0].size(); ++i)
+    for (std::size_t k = 0; k < dim; ++k)
+      cloud.position[i][static_cast<Eigen::Index>(k)] = state_.node.position[k][i];
+  return cloud;
+}
+
+template<int dim> void ExplicitSolver<dim>::prepare() { renew(present_cloud(), nullptr); }
+
+template<int dim> void ExplicitSolver<dim>::prepare(const Resampling<dim>& change) {
+  renew(change.cloud, &change);
+}
+
+template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resampling<dim>* change) {
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
   const bool start = references_ == 0;
-
-  Cloud<dim> cloud = model_.cloud;
-  for (std::size_t i = 0; i < node.size(); ++i)
-    for (std::size_t k = 0; k < dim; ++k)
-      cloud.position[i][static_cast<Eigen::Index>(k)] = node.position[k][i];
   Approximation<dim> rebuilt = model_.method->rebuild(cloud);
 
   double elastic_before = 0.0, plastic_before = 0.0;
@@ -70,6 +82,8 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
     running_.penalty_release += running_.stabilisation;
     push_forward(point);
   }
+  const double kinetic_before = change ? kinetic_energy() : 0.0;
+  if (change) carry_over(*change);
   model_.cloud = std::move(cloud);
   approximation_ = std::move(rebuilt);
   const DiscreteOperators<dim>& op = approximation_.mechanics;
@@ -77,6 +91,7 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   node.reference = node.position;
   if (start) start_points();
   place_reference();
+  scale_masses();
   set_identity<dim>(point.deformation, points);
   jacobian_.assign(points, 1.0);
   damage_.weaken(point);
@@ -91,6 +106,7 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   if (edge_defect_.active(approximation_.links)) edge_defect_.take(point.deformation, 0, points);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints(),
                               model_.ties.group());
+  reset_exchange();
   if (model_.thermal) set_conduction();
   conduction_step_ = 0.0;
   if (!start) {
@@ -99,8 +115,14 @@ template<int dim> void ExplicitSolver<dim>::prepare() {
   }
   take_columns<dim>(point.piola, stress_);
   running_.stabilisation = 0.0;
-  assemble_forces();
+  if (local_.on())
+    rebuild_levels();
+  else
+    assemble_forces();
   ++references_;
+  if (!change) return;
+  running_.resampling += kinetic_before - kinetic_energy();
+  ++resamplings_;
 }
 
 template<int dim> void ExplicitSolver<dim>::set_conduction() {
@@ -111,11 +133,35 @@ template<int dim> void ExplicitSolver<dim>::set_conduction() {
   conduction_.set_operators(op, std::move(conductivity));
 }
 
+template<int dim> void ExplicitSolver<dim>::reset_exchange() {
+  if (!exchange_.active(approximation_.links)) return;
+  Field bulk_modulus(state_.point.size());
+  for (std::size_t p = 0; p < bulk_modulus.size(); ++p) bulk_modulus[p] = material_of(p).elasticity.kappa();
+  exchange_.reset(model_.cloud.facets, std::move(bulk_modulus));
+}
+
 /// What gathering passes read, on a new reference.
 template<int dim> void ExplicitSolver<dim>::place_reference() {
   reference_ = side_by_side<dim>(state_.node.reference);
   position_ = side_by_side<dim>(state_.node.position);
   take_columns<dim>(state_.point.piola, stress_);
+}
+
+/// Inertia on a new reference; factors that depend on cells are those of the start.
+template<int dim> void ExplicitSolver<dim>::scale_masses() {
+  const MassScaling& scaling = model_.mass_scaling;
+  if (!scaling.active()) return;
+  const Field& mass = state_.node.mass;
+  if (scaling.step <= 0.0) {
+    mass_scale_.assign(mass.size(), scaling.factor);
+  } else if (references_ == 0) {
+    const double omega = 2.0 * model_.safety / scaling.step;
+    const double alpha = edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0;
+    mass_scale_ =
+        scales_for_frequency(approximation_.mechanics, wave_modulus_, mass, omega * omega / (1.0 + alpha));
+  }
+  inertia_.resize(mass.size());
+  for (std::size_t i = 0; i < mass.size(); ++i) inertia_[i] = mass_scale_[i] * mass[i];
 }
 
 /// Masses, and stress points at rest.
@@ -146,14 +192,20 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   flow_stress_.assign(points, std::numeric_limits<double>::infinity());
   interpolate<dim>(op, node.temperature, point.temperature, 0, points);
   if (!model_.strength.empty()) interpolate<dim>(op, model_.strength, point.strength, 0, points);
-  for (std::size_t p = 0; p < points; ++p) {
-    if (!model_.node_material.empty()) point.material[p] = model_.node_material[first_node(op, p)];
-    const plasticity::Material& material = material_of(p);
-    shear_modulus_[p] = material.elasticity.mu();
-    wave_modulus_[p] = material.elasticity.lambda() + 2.0 * material.elasticity.mu();
-    if (material.hardening)
-      flow_stress_[p] = point.strength[p] *
-                        material.hardening->flow_stress(0.0, material.hardening->rate0, point.temperature[p]);
+  if (!model_.node_material.empty())
+    for (std::size_t p = 0; p < points; ++p) point.material[p] = model_.node_material[first_node(op, p)];
+  set_moduli();
+  for (std::size_t p = 0; p < points; ++p)
+    if (const auto& hardening = material_of(p).hardening)
+      flow_stress_[p] =
+          point.strength[p] * hardening->flow_stress(0.0, hardening->rate0, point.temperature[p]);
+}
+
+template<int dim> void ExplicitSolver<dim>::set_moduli() {
+  for (std::size_t p = 0; p < shear_modulus_.size(); ++p) {
+    const plasticity::Elasticity& elasticity = material_of(p).elasticity;
+    shear_modulus_[p] = elasticity.mu();
+    wave_modulus_[p] = elasticity.lambda() + 2.0 * elasticity.mu();
   }
 }
 
@@ -164,39 +216,57 @@ template<int dim> plasticity::StressPoints<dim> ExplicitSolver<dim>::points_to_s
 }
 
 template<int dim> void ExplicitSolver<dim>::advance(double dt) {
+  if (local_.on()) return advance_by_levels(dt);
   const double dt_mean = 0.5 * (state_.step_before + dt);
+  double lap = wall_time();
+  const auto take = [&](double& part) {
+    const double now = wall_time();
+    part += now - std::exchange(lap, now);
+  };
   if (model_.mechanical) {
     accelerate_and_move(dt, dt_mean); // (i)   (54), (55), corrected by supports and contact
-    strain_and_stress(dt);            // (ii)  Box 2
+    take(times_.motion);
+    strain_and_stress(dt); // (ii)  Box 2
+    take(times_.stress);
   }
   state_.time += dt;
   state_.step_before = dt;
   ++state_.step;
   if (model_.mechanical) assemble_forces(); // (iii) (52), (53)
-  if (model_.thermal) conduct(dt);          // (58), staggered
+  take(times_.forces);
+  if (model_.thermal) {
+    heat_plastically();
+    conduct(dt); // (58), staggered
+  }
+  take(times_.heat);
 }
 
 template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, double dt_mean) {
   NodeState<dim>& node = state_.node;
+  const Field& inertia = this->inertia();
   model_.contact.remember(node.velocity);
   std::swap(velocity_before_, node.velocity);
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = begin; i < end; ++i)
-        node.velocity[k][i] = velocity_before_[k][i] + dt_mean * node.force[k][i] / node.mass[i];
+        node.velocity[k][i] = velocity_before_[k][i] + dt_mean * node.force[k][i] / inertia[i];
   });
   if (!model_.ties.empty())
-    for (Field& component : node.velocity) model_.ties.share(node.mass, component);
-  model_.supports.apply(state_.time, dt, dt_mean, node.mass, velocity_before_, node.velocity);
+    for (Field& component : node.velocity) model_.ties.share(inertia, component);
+  model_.supports.apply(state_.time, dt, dt_mean, inertia, velocity_before_, node.velocity);
   running_.supports = model_.supports.work();
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = begin; i < end; ++i) node.position[k][i] += dt * node.velocity[k][i];
   });
 
+  const double start = wall_time();
   correct_contact(dt, dt_mean);
-  if (!model_.ties.empty())
-    tie_loss_ += model_.ties.share_motion(node.mass, dt, node.velocity, node.position);
+  take_contact_heat();
+  const double contact = wall_time() - start;
+  times_.contact += contact;
+  times_.motion -= contact; // whoever times the whole motion counts it too
+  if (!model_.ties.empty()) tie_loss_ += model_.ties.share_motion(inertia, dt, node.velocity, node.position);
 
   for_each_block(node.size(), [&](std::size_t begin, std::size_t end) {
     place_side_by_side<dim>(node.position, position_, begin, end);
@@ -214,7 +284,8 @@ template<int dim> void ExplicitSolver<dim>::accelerate_and_move(double dt, doubl
   }
 }
 
-template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt_mean) {
+template<int dim>
+void ExplicitSolver<dim>::correct_contact(double dt, double dt_mean, std::span<const double> window) {
   contact::RigidContact<dim>& contact = model_.contact;
   if (!contact.active()) return;
   NodeState<dim>& node = state_.node;
@@ -237,22 +308,30 @@ template<int dim> void ExplicitSolver<dim>::correct_contact(double dt, double dt
                    .dt_mean = dt_mean,
                    .position = node.position,
                    .velocity = node.velocity,
-                   .mass = node.mass,
+                   .mass = inertia(),
                    .flow_stress = flow_stress,
-                   .effusivity = effusivity});
+                   .effusivity = effusivity,
+                   .window = window});
   running_.tools = running_.friction = running_.recovery = 0.0;
   running_.impact = tie_loss_;
   const contact::ContactWork& bodies = contact.body_result().total;
   running_.recovery += bodies.recovery;
   running_.friction += bodies.friction;
   running_.impact += bodies.impact;
-  for (const contact::ToolResult<dim>& tool : contact.results()) {
-    running_.tools += tool.total.tool;
+  for (std::size_t t = 0; t < contact.tools().size(); ++t) {
+    const contact::ToolResult<dim>& tool = contact.results()[t];
+    if (!contact.tools()[t].drive) running_.tools += tool.total.tool;
     running_.recovery += tool.total.recovery;
     running_.friction += tool.total.friction;
     running_.impact += tool.total.impact;
   }
-  if (!model_.thermal) return;
+}
+
+/// Friction heat and conductance of the contacts of the step.
+template<int dim> void ExplicitSolver<dim>::take_contact_heat() {
+  const contact::RigidContact<dim>& contact = model_.contact;
+  if (!model_.thermal || !contact.active()) return;
+  const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
   for (std::size_t b = 0; b < boundary.size(); ++b)
     contact_heat_[static_cast<std::size_t>(boundary[b])] = contact.friction_heat()[b];
   tool_conductance_.clear();
@@ -271,6 +350,8 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   const EdgePoints edge = edge_defect_.active(approximation_.links)
                               ? edge_defect_.points(shear_modulus_, point.plastic_strain)
                               : EdgePoints{};
+  const bool exchange = exchange_.active(approximation_.links);
+  if (exchange) exchange_.remember(point.pressure);
   std::vector<std::ptrdiff_t> bad(blocks(n), -1);
   std::vector<double> damping(blocks(n), 0.0), released(blocks(n), 0.0);
   running_.viscosity += sum_blocks(n, [&](std::size_t begin, std::size_t end) {
@@ -292,6 +373,10 @@ template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {
   viscosity_ratio_ = *std::max_element(damping.begin(), damping.end());
   for (const std::ptrdiff_t p : bad)
     if (p >= 0) diverged(static_cast<std::size_t>(p), "deformation gradient");
+  if (!exchange) return;
+  const auto energy = exchange_.apply(op, approximation_.links, reference_, dt, point, stress_);
+  running_.pressure_exchange += energy.dissipated;
+  plastic_offset_ += energy.plastic;
 }
 
 template<int dim> void ExplicitSolver<dim>::assemble_forces() {
@@ -331,8 +416,9 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
     measure_conduction_step();
     return {model_.safety * conduction_step_, 0, "conduction"};
   }
+  if (local_.on()) return stable_macro_step();
   const StableStep step = stable_mechanical_step(
-      bound_, approximation_.mechanics, point.deformation, wave_modulus_, state_.node.mass,
+      bound_, approximation_.mechanics, point.deformation, wave_modulus_, inertia(),
       edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);
   if (!(step.dt > 0.0)) diverged(step.point, "stable step");
   return {model_.safety * step.dt, step.point, "elastic waves"};

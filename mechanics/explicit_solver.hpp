@@ -4,11 +4,15 @@
 #include "contact/contact.hpp"
 #include "core/archive.hpp"
 #include "core/discretisation.hpp"
+#include "core/resampling.hpp"
 #include "core/state.hpp"
 #include "mechanics/bulk_viscosity.hpp"
 #include "mechanics/energy_ledger.hpp"
 #include "mechanics/loads.hpp"
+#include "mechanics/local_steps.hpp"
+#include "mechanics/mass_scaling.hpp"
 #include "mechanics/point_damage.hpp"
+#include "mechanics/pressure_exchange.hpp"
 #include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
@@ -19,6 +23,7 @@
 #include "thermal/conduction.hpp"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,11 +42,19 @@ template<int dim> struct Model {
   Loads<dim> loads;
   ThermalBoundaries<dim> heat_boundaries;
   contact::RigidContact<dim> contact{std::vector<contact::Tool<dim>>{}};
-  double stabilisation = 0.05; ///< α of the edge defect
+  double stabilisation = 0.05;    ///< α of the edge defect
+  double pressure_exchange = 0.0; ///< α of the exchange of volume between flowing neighbours
   BulkViscosity viscosity;
   bool thermal = true;
   bool mechanical = true; ///< false: nothing moves, heat alone
   double safety = 0.9;    ///< factor on the stable step
+  LocalStepControl local; ///< local time steps
+  MassScaling mass_scaling;
+};
+
+/// Wall time spent in the parts of advance(), s.
+struct StepTimes {
+  double motion = 0.0, contact = 0.0, stress = 0.0, forces = 0.0, heat = 0.0;
 };
 
 /// Advances a State. One object per run.
@@ -50,8 +63,14 @@ public:
   /// Starts from the cloud's positions with the given velocities [component][node] and temperatures [node].
   ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature);
 
-  /// One step of the algorithm box of 5.1.4, from t_n to t_{n+1} = t_n + dt. Throws DivergenceError.
+  /// One step of the algorithm box of 5.1.4, from t_n to t_{n+1} = t_n + dt; with local time steps one macro
+  /// step of that length, in `sub_steps()` finest ones. Throws DivergenceError.
   void advance(double dt);
+  /// Finest steps in the next call of `advance`; 1 without local time steps.
+  int sub_steps() const;
+  /// Updates of nodes (and their stress points) in the last call of `advance`.
+  double updates() const;
+  const LocalSteps<dim>& local_steps() const { return local_; }
 
   /// Makes the present configuration the reference: cells and functions are rebuilt, b_e is pushed forward,
   /// nodes keep mass, velocity and temperature, and what this changes in energy is booked. Start-up comes
@@ -59,7 +78,13 @@ public:
   /// structure.
   void prepare();
 
-  /// Stable step for the present configuration with the safety factor, and what limits it.
+  /// prepare() on a resampled cloud: nodes keep mass, momentum and heat in parcels, b_e is averaged as its
+  /// logarithm, and the kinetic energy that averaging loses is booked. Only for nodal methods. Throws
+  /// GeometryError, with everything left as it was.
+  void prepare(const Resampling<dim>& change);
+
+  /// Stable step for the present configuration with the safety factor, and what limits it. With local time
+  /// steps it chooses the levels of the next macro steps, and this is the stable macro step.
   struct Step {
     double dt;         ///< s
     std::size_t point; ///< where
@@ -76,20 +101,37 @@ public:
   /// bits. Throws IoError when what is carried in does not fit the model.
   void archive(Archive& archive);
 
+  /// The cloud with its nodes where they are now.
+  Cloud<dim> present_cloud() const;
   const State<dim>& state() const { return state_; }
   const Model<dim>& model() const { return model_; }
   const Approximation<dim>& approximation() const { return approximation_; }
   const Field& flow_stress() const { return flow_stress_; }
+  /// What resists acceleration, kg/m^(3−dim), [node]: the mass, or more with mass scaling.
+  const Field& inertia() const { return inertia_.empty() ? state_.node.mass : inertia_; }
   const Fields<dim>& initial_position() const { return initial_position_; }
   int references() const { return references_; }
+  int resamplings() const { return resamplings_; } ///< how many of them changed the nodes
+  const StepTimes& times() const { return times_; }
+  /// log of b_e's J over the geometric one by the pressure exchange, [node]; empty without.
+  const Field& volume_drift() const { return exchange_.drift(); }
   /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
   std::array<double, 2> mass_balance() const;
 
 private:
+  void renew(Cloud<dim> cloud, const Resampling<dim>* change);
+  void carry_over(const Resampling<dim>& change);
+  void mix_elastic(const Resampling<dim>& change, const Field& mass);
+  void resize_fields(std::size_t n);
+  void resize_state(std::size_t n);
+  void archive_cloud(Archive& archive);
+  double kinetic_energy() const;
   void start_points();
   /// What the return map works on: damaged points flow at a lower stress.
   plasticity::StressPoints<dim> points_to_stress();
+  void set_moduli();
   void place_reference();
+  void scale_masses();
   const plasticity::Material& material_of(std::size_t point) const {
     return model_.materials[static_cast<std::size_t>(state_.point.material[point])];
   }
@@ -98,10 +140,25 @@ private:
         .materials[model_.node_material.empty() ? 0 : static_cast<std::size_t>(model_.node_material[node])];
   }
   void accelerate_and_move(double dt, double dt_mean);
-  void correct_contact(double dt, double dt_mean);
+  void correct_contact(double dt, double dt_mean, std::span<const double> window = {});
+  void take_contact_heat();
   void strain_and_stress(double dt);
   void assemble_forces();
+  // Local time steps (mechanics/explicit_local.cpp).
+  void advance_by_levels(double dt);
+  void rebuild_levels();
+  void take_levels(typename LocalSteps<dim>::Levels level);
+  void change_levels(double finest);
+  void move_due(int activity, double dt, double dt_mean);
+  void strain_and_stress_due(int activity, int before, double dt);
+  void assemble_impulses(int activity);
+  void restore_columns();
+  Step stable_macro_step();
+  double load_weight(std::size_t node) const;
+
   void set_conduction();
+  void heat_plastically();
+  void reset_exchange();
   void conduct(double dt);
   void measure_conduction_step();
   /// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).
@@ -113,9 +170,18 @@ private:
   Approximation<dim> approximation_;
   EdgeDefect<dim> edge_defect_;
   PointDamage<dim> damage_;
+  PressureExchange<dim> exchange_;
   Conduction<dim> conduction_;
   SpectralBound<dim> bound_;
+  LocalSteps<dim> local_;
+  typename LocalSteps<dim>::Levels next_levels_; ///< to be taken with the next step; empty: as they are
+  double finest_before_ = 0.0;                   ///< s, the finest step that led to t_n; with local steps
+  bool on_new_reference_ = false;                ///< no step has been made on it
+  std::vector<std::vector<double>> window_;      ///< [activity][boundary node], as contact takes it
+  std::vector<double>
+      start_load_weight_; ///< [block] in the first sub-step after a change of levels, else empty
 
+  Field mass_scale_, inertia_;         ///< [node] –, kg/m^(3−dim); empty without mass scaling
   Fields<dim> initial_position_;       ///< [node] m
   Field initial_temperature_;          ///< [node] K
   Fields<dim> velocity_before_;        ///< [node] v_{n−1/2} while v_{n+1/2} is made
@@ -134,6 +200,8 @@ private:
   double viscosity_ratio_ = 0.0; ///< largest share of critical damping by the bulk viscosity in the last step
   double conduction_step_ = 0.0; ///< s, stable for heat at the last reference
   int references_ = 0;
+  int resamplings_ = 0;
+  StepTimes times_;
 };
 
 extern template class ExplicitSolver<2>;

@@ -8,12 +8,32 @@ Loads<dim>::Loads(std::vector<Traction<dim>> tractions, std::vector<Pressure<dim
     : tractions_(std::move(tractions)), pressures_(std::move(pressures)),
       acceleration_(std::move(acceleration)), space_(space) {
   for (const TimeTable& component : acceleration_) body_force_ |= !component.empty();
+  share_out(initial);
+}
+
+template<int dim> void Loads<dim>::resample(const Cloud<dim>& cloud, const Fields<dim>& initial) {
+  const auto renew = [&](auto& conditions) {
+    for (auto& condition : conditions) {
+      const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(condition.facets));
+      condition.facets = facets_of_pieces(cloud, std::span<const std::int32_t>(pieces));
+    }
+  };
+  renew(tractions_);
+  renew(pressures_);
+  std::vector<Vec<dim>> position(cloud.position.size());
+  for (std::size_t i = 0; i < position.size(); ++i)
+    for (std::size_t k = 0; k < dim; ++k) position[i][static_cast<Eigen::Index>(k)] = initial[k][i];
+  share_out(position);
+}
+
+template<int dim> void Loads<dim>::share_out(const std::vector<Vec<dim>>& initial) {
+  traction_share_.clear();
   for (const Traction<dim>& traction : tractions_) {
     std::vector<std::array<double, dim>>& share = traction_share_.emplace_back();
     for (const Facet<dim>& facet : traction.facets) {
       const Vec<dim>& a = initial[static_cast<std::size_t>(facet.node[0])];
       const Vec<dim>& b = initial[static_cast<std::size_t>(facet.node[1])];
-      share.push_back(end_areas(space, a, b));
+      share.push_back(end_areas(space_, a, b));
     }
   }
   resize_all(force_, initial.size());

@@ -1,6 +1,7 @@
 #pragma once
 // Applied forces: tractions and pressures on boundary pieces, body forces.
 #include "core/cloud.hpp"
+#include "core/resampling.hpp"
 #include "core/revolution.hpp"
 #include "core/state.hpp"
 #include "core/time_table.hpp"
@@ -33,6 +34,9 @@ public:
         std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial,
         Space space = Space::plane);
 
+  /// Acts on a changed cloud. initial: labels of the nodes (core/resampling.hpp).
+  void resample(const Cloud<dim>& cloud, const Fields<dim>& initial);
+
   bool empty() const { return tractions_.empty() && pressures_.empty() && !body_force_; }
 
   /// External force at nodes, N/m^(3−dim) (N of revolution), written to force().
@@ -48,6 +52,8 @@ public:
   std::vector<FacetTraction> facet_tractions(double time, const Fields<dim>& position) const;
 
 private:
+  void share_out(const std::vector<Vec<dim>>& initial);
+
   std::vector<Traction<dim>> tractions_;
   std::vector<std::vector<std::array<double, dim>>> traction_share_; ///< area of each facet its nodes carry
   std::vector<Pressure<dim>> pressures_;

@@ -23,6 +23,12 @@ void EdgeDefect<dim>::take(const Fields<tensor_size<dim>>& deformation, std::siz
   }
 }
 
+template<int dim> void EdgeDefect<dim>::hold_moduli(std::size_t begin, std::size_t end) {
+  constexpr std::size_t stride = dim * dim + 2;
+  for (std::size_t i = begin; i < end; ++i)
+    record_[stride * i + dim * dim] = modulus_[i] = modulus_before_[i];
+}
+
 namespace {
 
 template<int dim>

@@ -34,6 +34,10 @@ public:
   /// Takes what `apply` reads of the nodes [begin, end), F and moduli, of a state that no step has made.
   void take(const Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end);
 
+  /// Takes the moduli of the nodes [begin, end) back to what they were before the step: with local time steps
+  /// they change only where all links are due.
+  void hold_moduli(std::size_t begin, std::size_t end);
+
   /// Adds k r to the force of the nodes [begin, end) and the penalty's share −½ Σ_j k r ⊗ X_ij / V_i to their
   /// first Piola stress. `reference` and `position` side by side; volume [node]. Expects `take` of all nodes.
   EdgeEnergy apply(const StabilisationLinks<dim>& links, const Field& volume, const Field& reference,

@@ -32,22 +32,29 @@ SpectralMaximum largest(const SpectralView<dim>& view, const double* modulus, st
 
 } // namespace
 
+namespace {
+
 template<int dim>
-typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteOperators<dim>& operators,
-                                                                 const Fields<tensor_size<dim>>& deformation,
-                                                                 const Field& modulus, const Field& weight) {
+SpectralView<dim> view_of(const DiscreteOperators<dim>& operators, Field& inverse, Field& transfer) {
+  const bool round = operators.of_revolution();
+  return {.rows = sparse_rows<dim>(operators.row_begin, operators.node, operators.gradient),
+          .columns = sparse_rows<dim>(operators.col_begin, operators.point, operators.weighted_gradient),
+          .hoop = round ? operators.hoop.data() : nullptr,
+          .weighted_hoop = round ? operators.weighted_hoop.data() : nullptr,
+          .inverse = inverse.data(),
+          .transfer = transfer.data()};
+}
+
+} // namespace
+
+template<int dim>
+void SpectralBound<dim>::prepare(const DiscreteOperators<dim>& operators,
+                                 const Fields<tensor_size<dim>>& deformation, const Field& weight) {
   const auto nodes = static_cast<std::size_t>(operators.nodes),
              points = static_cast<std::size_t>(operators.points);
   inverse_.resize(SpectralView<dim>::stride * points);
   transfer_.resize(nodes);
-  const bool round = operators.of_revolution();
-  const SpectralView<dim> view{
-      .rows = sparse_rows<dim>(operators.row_begin, operators.node, operators.gradient),
-      .columns = sparse_rows<dim>(operators.col_begin, operators.point, operators.weighted_gradient),
-      .hoop = round ? operators.hoop.data() : nullptr,
-      .weighted_hoop = round ? operators.weighted_hoop.data() : nullptr,
-      .inverse = inverse_.data(),
-      .transfer = transfer_.data()};
+  const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
   for_each_block(points, [&](std::size_t begin, std::size_t end) {
     invert_all(pointers(deformation).data(), view, static_cast<std::ptrdiff_t>(begin),
                static_cast<std::ptrdiff_t>(end));
@@ -55,12 +62,47 @@ typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteO
   for_each_block(nodes, [&](std::size_t begin, std::size_t end) {
     transfer(view, weight.data(), static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
   });
-  const BlockMaximum worst = max_blocks(points, [&](std::size_t begin, std::size_t end) {
-    const SpectralMaximum most =
-        largest(view, modulus.data(), static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
-    return BlockMaximum{most.value, static_cast<std::size_t>(most.point)};
-  });
+}
+
+template<int dim>
+typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteOperators<dim>& operators,
+                                                                 const Fields<tensor_size<dim>>& deformation,
+                                                                 const Field& modulus, const Field& weight) {
+  prepare(operators, deformation, weight);
+  const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
+  const BlockMaximum worst =
+      max_blocks(static_cast<std::size_t>(operators.points), [&](std::size_t begin, std::size_t end) {
+        const SpectralMaximum most = largest(view, modulus.data(), static_cast<std::ptrdiff_t>(begin),
+                                             static_cast<std::ptrdiff_t>(end));
+        return BlockMaximum{most.value, static_cast<std::size_t>(most.point)};
+      });
   return {worst.value, worst.index};
+}
+
+template<int dim>
+std::vector<typename SpectralBound<dim>::Result>
+SpectralBound<dim>::evaluate_ranges(const DiscreteOperators<dim>& operators,
+                                    const Fields<tensor_size<dim>>& deformation, const Field& modulus,
+                                    const Field& weight, std::size_t width) {
+  prepare(operators, deformation, weight);
+  const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
+  const auto points = static_cast<std::size_t>(operators.points);
+  std::vector<Result> ranges((points + width - 1) / width);
+  for_each_block(ranges.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t r = first; r < last; ++r) {
+      const SpectralMaximum most = largest(view, modulus.data(), static_cast<std::ptrdiff_t>(r * width),
+                                           static_cast<std::ptrdiff_t>(std::min((r + 1) * width, points)));
+      ranges[r] = {most.value, static_cast<std::size_t>(most.point)};
+    }
+  });
+  return ranges;
+}
+
+double stable_wave_step(double bound, double stabilisation, double viscosity_ratio) {
+  const double omega2 = bound * (1.0 + stabilisation);
+  if (omega2 == 0.0) return std::numeric_limits<double>::infinity();
+  const double damped = std::sqrt(1.0 + viscosity_ratio * viscosity_ratio) - viscosity_ratio;
+  return 2.0 / std::sqrt(omega2) * damped;
 }
 
 template<int dim>
@@ -68,10 +110,7 @@ StableStep stable_mechanical_step(SpectralBound<dim>& bound, const DiscreteOpera
                                   const Fields<tensor_size<dim>>& deformation, const Field& wave_modulus,
                                   const Field& mass, double stabilisation, double viscosity_ratio) {
   const auto worst = bound.evaluate(operators, deformation, wave_modulus, mass);
-  const double omega2 = worst.value * (1.0 + stabilisation);
-  if (omega2 == 0.0) return {std::numeric_limits<double>::infinity(), worst.point};
-  const double damped = std::sqrt(1.0 + viscosity_ratio * viscosity_ratio) - viscosity_ratio;
-  return {2.0 / std::sqrt(omega2) * damped, worst.point};
+  return {stable_wave_step(worst.value, stabilisation, viscosity_ratio), worst.point};
 }
 
 template class SpectralBound<2>;

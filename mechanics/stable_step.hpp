@@ -3,6 +3,8 @@
 #include "core/operators.hpp"
 #include "core/state.hpp"
 
+#include <vector>
+
 namespace cnem {
 
 struct StableStep {
@@ -27,11 +29,21 @@ public:
   };
   Result evaluate(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
                   const Field& modulus, const Field& weight);
+  /// The bound of each of the ranges of `width` points.
+  std::vector<Result> evaluate_ranges(const DiscreteOperators<dim>& operators,
+                                      const Fields<tensor_size<dim>>& deformation, const Field& modulus,
+                                      const Field& weight, std::size_t width);
 
 private:
+  void prepare(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
+               const Field& weight);
+
   Field transfer_; ///< [node] s_J
   Field inverse_;  ///< [point] F⁻ᵀ and det F as mechanics/step_kernels.hpp lays them
 };
+
+/// Δt ≤ 2/√λ of elastic waves from the bound λ = max k …; infinite for λ = 0.
+double stable_wave_step(double bound, double stabilisation, double viscosity_ratio);
 
 /// Δt ≤ 2/ω for elastic waves. wave_modulus [point] λ + 2μ in Pa, mass [node] in kg. `stabilisation` is the
 /// factor α of the edge defect, which raises ω² by less than the fraction α.

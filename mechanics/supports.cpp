@@ -10,6 +10,19 @@ namespace cnem {
 template<int dim>
 Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
     : support_(std::move(supports)), reaction_(support_.size(), Vec<dim>::Zero()) {
+  resolve(nodes);
+}
+
+template<int dim> void Supports<dim>::resample(const Resampling<dim>& change) {
+  for (Support<dim>& support : support_)
+    support.nodes = renumbered(change, std::span<const std::int32_t>(support.nodes),
+                               std::span<const std::int32_t>(support.pieces));
+  resolve(change.cloud.position.size());
+}
+
+template<int dim> void Supports<dim>::resolve(std::size_t nodes) {
+  prescribed_.clear();
+  constraints_.clear();
   std::vector<std::vector<Prescribed>> held(nodes);
   for (std::size_t s = 0; s < support_.size(); ++s) {
     const bool moving = support_[s].kind != Support<dim>::Kind::symmetry;
@@ -77,6 +90,12 @@ template<int dim> void Supports<dim>::archive(Archive& archive) {
   for (std::size_t s = 0; s < reaction_.size(); ++s)
     archive.vector<dim>(fmt::format("solver/supports/{}/reaction", s), "N/m", reaction_[s]);
   archive.number("solver/energy/support_work", "J/m", work_);
+}
+
+template<int dim> void Supports<dim>::archive_nodes(Archive& archive, std::size_t nodes) {
+  for (std::size_t s = 0; s < support_.size(); ++s)
+    archive.integers(fmt::format("solver/supports/{}/nodes", s), support_[s].nodes);
+  if (archive.loading()) resolve(nodes);
 }
 
 template<int dim> double Supports<dim>::displacement(std::int32_t s, double time) const {

@@ -2,12 +2,14 @@
 // Prescribed motion of boundary nodes: symmetry planes, velocities, displacements.
 #include "contact/contact.hpp"
 #include "core/archive.hpp"
+#include "core/resampling.hpp"
 #include "core/state.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem {
@@ -20,6 +22,7 @@ template<int dim> struct Support {
   Vec<dim> direction; ///< unit vector of the prescribed component
   TimeTable value;    ///< m/s or m along `direction`; unused for symmetry
   std::vector<std::int32_t> nodes;
+  std::vector<std::int32_t> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
 };
 
 /// All supports of a run, resolved into orthonormal prescribed directions for each node.
@@ -31,6 +34,9 @@ public:
   /// that is oblique to an earlier direction holds what is left free of it. Throws InputError when a *moving*
   /// support is oblique to another one of the same node.
   Supports(std::vector<Support<dim>> supports, std::size_t nodes);
+
+  /// Holds the nodes of a changed cloud.
+  void resample(const Resampling<dim>& change);
 
   /// Replaces the prescribed components of the velocity v_{n+1/2} by the mean velocity of the step [time,
   /// time + dt], so that positions follow the prescribed motion exactly. `before` is v_{n−1/2}, dt_mean =
@@ -54,13 +60,19 @@ public:
   const std::vector<Support<dim>>& list() const { return support_; }
   /// Reaction of support s on the body in the last step, N/m^(3−dim).
   const std::vector<Vec<dim>>& reactions() const { return reaction_; }
+  /// Reports these instead: means over several calls of `apply`.
+  void report(std::vector<Vec<dim>> reactions) { reaction_ = std::move(reactions); }
   /// Work done by all supports since the start, J/m^(3−dim).
   double work() const { return work_; }
 
+  /// Carries the lists of nodes of a resampled cloud out or in.
+  void archive_nodes(Archive& archive, std::size_t nodes);
   /// Carries reactions and work out or in.
   void archive(Archive& archive);
 
 private:
+  void resolve(std::size_t nodes);
+
   std::vector<Support<dim>> support_;
   std::vector<Prescribed> prescribed_;
   std::vector<contact::NodeConstraint<dim>> constraints_;

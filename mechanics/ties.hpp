@@ -24,6 +24,8 @@ public:
   bool empty() const { return node_.empty(); }
   /// [node] number of its group, −1: free; empty when there are no ties.
   const std::vector<std::int32_t>& group() const { return group_; }
+  /// Tied nodes, group by group.
+  const std::vector<std::int32_t>& nodes() const { return node_; }
   /// The list with all nodes tied to its members, each once, given ones first.
   std::vector<std::int32_t> with_partners(std::vector<std::int32_t> nodes) const;
 

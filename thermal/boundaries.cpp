@@ -1,6 +1,7 @@
 #include "thermal/boundaries.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace cnem {
 
@@ -12,6 +13,29 @@ std::array<double, 2> areas(Space space, const Facet<2>& facet, const Fields<2>&
 }
 
 } // namespace
+
+template<int dim> void ThermalBoundaries<dim>::resample(const Resampling<dim>& change) {
+  for (FixedTemperature& fixed : fixed_)
+    fixed.nodes = renumbered(change, std::span<const std::int32_t>(fixed.nodes),
+                             std::span<const std::int32_t>(fixed.pieces));
+  resample(change.cloud);
+}
+
+template<int dim> void ThermalBoundaries<dim>::archive_nodes(Archive& archive) {
+  for (std::size_t k = 0; k < fixed_.size(); ++k)
+    archive.integers(fmt::format("solver/fixed_temperatures/{}/nodes", k), fixed_[k].nodes);
+}
+
+template<int dim> void ThermalBoundaries<dim>::resample(const Cloud<dim>& cloud) {
+  const auto renew = [&](auto& conditions) {
+    for (auto& condition : conditions) {
+      const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(condition.facets));
+      condition.facets = facets_of_pieces(cloud, std::span<const std::int32_t>(pieces));
+    }
+  };
+  renew(fluxes_);
+  renew(convections_);
+}
 
 template<int dim>
 void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, const Field& temperature,

@@ -1,6 +1,8 @@
 #pragma once
 // Heat through the boundary: prescribed temperature, flux, convection, conductance to tools.
+#include "core/archive.hpp"
 #include "core/cloud.hpp"
+#include "core/resampling.hpp"
 #include "core/revolution.hpp"
 #include "core/state.hpp"
 #include "core/time_table.hpp"
@@ -16,6 +18,7 @@ struct FixedTemperature {
   std::string name;
   TimeTable value;
   std::vector<std::int32_t> nodes;
+  std::vector<std::int32_t> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
 };
 
 /// Heat flux into the body, W/m² of current boundary.
@@ -58,6 +61,12 @@ public:
                     std::vector<ContactConductance<dim>> interfaces = {})
       : fixed_(std::move(fixed)), fluxes_(std::move(fluxes)), convections_(std::move(convections)),
         interfaces_(std::move(interfaces)), space_(space) {}
+
+  /// Acts on a changed cloud. Interfaces cannot be followed (their clouds are not resampled).
+  void resample(const Resampling<dim>& change);
+  void resample(const Cloud<dim>& cloud);
+  /// Carries the lists of nodes of a resampled cloud out or in.
+  void archive_nodes(Archive& archive);
 
   /// Adds what flows into the nodes at `time` to `flow`, W/m^(3−dim).
   void add_flow(double time, const Fields<dim>& position, const Field& temperature,

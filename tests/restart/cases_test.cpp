@@ -90,6 +90,11 @@ TEST(ThreadsWith, every_instruction_set_do_not_change_the_bits) {
                        std::string(isa_name(isa)));
 }
 
+TEST(ThreadsWith, pressure_exchange_do_not_change_the_bits) {
+  expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/verification/taylor_slab_copper",
+                   std::string(isa_name(active_isa())), {"--set", "method.pressure_exchange=0.3"});
+}
+
 TEST(ThreadsWith, new_references_do_not_change_the_bits) {
   expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/paper/shearing_sharp",
                    std::string(isa_name(active_isa())),

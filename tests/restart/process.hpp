@@ -22,6 +22,7 @@ public:
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  pid_t id() const { return pid_; }
   bool running();
   void send(int signal) const;
   Ending wait();

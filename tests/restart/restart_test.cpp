@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <random>
@@ -160,7 +161,8 @@ TEST_F(Restart, a_bad_checkpoint_is_refused_with_the_reason_and_the_one_before_i
   const std::string newest = io::read_file(folder / "stopped" / "checkpoint.h5");
   std::string flipped = newest, format = newest;
   flipped[newest.size() / 2] = static_cast<char>(flipped[newest.size() / 2] ^ 4);
-  format.replace(format.find("format 1"), 8, "format 7");
+  const std::string own = "format " + std::to_string(io::checkpoint_format);
+  format.replace(format.find(own), own.size(), "format 7");
   for (const auto& [name, content, reason] :
        {std::tuple("truncated", newest.substr(0, newest.size() / 2), "cut short"),
         std::tuple("empty", std::string(), "empty"), std::tuple("flipped", flipped, "checksum"),
@@ -268,6 +270,20 @@ TEST_F(Restart, a_file_that_may_not_grow_stops_the_run_with_4_and_a_valid_checkp
   EXPECT_NO_THROW(io::CheckpointReader(io::read_file(folder / "limited" / "checkpoint.h5")));
   EXPECT_EQ(restart("limited").code, 0);
   expect_reference("limited");
+}
+
+TEST_F(Restart, a_folder_of_frames_that_goes_away_stops_the_run_with_4_and_a_valid_checkpoint) {
+  Process process(run_of("punched", "robbed", {"--threads", "1"}));
+  wait_for(process, folder / "robbed" / "checkpoint.h5");
+  ASSERT_TRUE(process.running());
+  fs::remove_all(folder / "robbed" / "fields");
+  const Ending ending = process.wait();
+  EXPECT_EQ(ending.code, 4) << ending.printed;
+  EXPECT_NE(ending.printed.find("fields/cells_0000"), std::string::npos) << ending.printed;
+  EXPECT_EQ(io::read_status(folder / "robbed").exit, 4);
+  EXPECT_NO_THROW(io::CheckpointReader(io::read_file(folder / "robbed" / "checkpoint.h5")));
+  fs::create_directories(folder / "robbed" / "fields");
+  EXPECT_EQ(restart("robbed").code, 0);
 }
 
 TEST_F(Restart, a_full_disk_stops_the_run_with_4_and_a_valid_checkpoint) {

@@ -53,6 +53,42 @@ every_wall = "0 s"
 keep = 3
 )toml" + steel;
 
+// Local time steps in a block that is fine where a punch's corner goes in.
+const std::string levels = R"toml(
+[time]
+end = "1.5 us"
+step = { local = true, levels = 4 }
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 3 mm" }
+[cloud]
+spacing = "0.1 mm"
+refine.corner = { points = ["1.1 3 mm"], spacing = "0.0125 mm", growth = 0.3 }
+[boundary.base]
+pieces = ["bottom"]
+symmetry = true
+[boundary.side]
+pieces = ["right"]
+pressure = "20 MPa"
+[tools.punch]
+rectangle = { from = "-1 3 mm", to = "1.1 5 mm" }
+velocity = { y = { value = "-60 m/s", ramp = "0.5 us" } }
+friction = { law = "tresca-limited", coefficient = 0.2 }
+heat = { conductance = "1e5 W/(m2 K)", effusivity = "1e4 W s^0.5/(m2 K)" }
+[method]
+bulk_viscosity = { linear = 0.06, quadratic = 1.2 }
+rereference = { every = 20, strain = 0.05 }
+[output]
+history_every = "0 s"
+fields_every = "0.5 us"
+pictures = "1.5 us"
+picture_fields = ["plastic_strain"]
+[output.checkpoint]
+every_steps = 15
+every_wall = "0 s"
+keep = 3
+)toml" + steel;
+
 // Every load and support, functions of Laplace on a jittered cloud, a row of history at every step.
 const std::string loaded = R"toml(
 [time]
@@ -242,9 +278,9 @@ std::string outcome(const fs::path& folder) {
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
-  static const std::vector<SmallCase> cases{{"punched", punched},     {"loaded", loaded},
-                                            {"round_bar", round_bar}, {"triangles", triangles},
-                                            {"breaking", breaking},   {"touching", touching}};
+  static const std::vector<SmallCase> cases{
+      {"punched", punched},     {"levels", levels},     {"loaded", loaded},    {"round_bar", round_bar},
+      {"triangles", triangles}, {"breaking", breaking}, {"touching", touching}};
   return cases;
 }
 

@@ -84,7 +84,7 @@ Breaking break_it(const std::string& text, const std::string& spacing, std::vect
     const double until = input.time.end * k / 8.0;
     while (solver.state().time < until * (1.0 - 1e-9)) {
       const bool renewed = renewal.due(solver);
-      if (renewed) renewal.renew(solver);
+      if (renewed) renewal.renew(solver, [&] { solver.prepare(); });
       if (renewed || solver.state().step % 10 == 0) control.refresh(solver);
       solver.advance(control.choose(solver.state().time, until));
     }

@@ -89,6 +89,33 @@ TEST_F(CommandLine, run_leaves_every_promised_file_and_closes_its_books) {
   EXPECT_EQ(io::read_history(folder / "again" / "history.csv").column, history.column);
 }
 
+TEST_F(CommandLine, status_splits_the_wall_time_and_profile_prints_it) {
+  ASSERT_EQ(call({"run", file(), "--output", results(), "--threads", "1", "--profile"}), 0) << message;
+  EXPECT_NE(printed.find("ns/node-step"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("\n  stress "), std::string::npos) << printed;
+  const io::RunStatus status = io::read_status(results());
+  const auto wall = [&](const std::string& phase) {
+    for (const auto& [name, seconds] : status.wall_s)
+      if (name == phase) return seconds;
+    ADD_FAILURE() << "no phase " << phase;
+    return 0.0;
+  };
+  double step = 0.0, output = 0.0;
+  for (const char* part : {"motion", "contact", "stress", "forces", "heat", "stable"}) {
+    EXPECT_GT(wall(std::string("step.") + part), 0.0) << part;
+    step += wall(std::string("step.") + part);
+  }
+  for (const char* part : {"history", "fields", "pictures", "checkpoint", "disk", "report"})
+    output += wall(std::string("output.") + part);
+  EXPECT_LE(step, wall("step"));
+  EXPECT_GT(step, 0.5 * wall("step"));
+  EXPECT_LE(output, wall("output"));
+  EXPECT_GT(wall("output.report"), 0.0);
+  EXPECT_LE(wall("setup") + wall("step") + wall("rebuild") + wall("output"), wall("total"));
+  ASSERT_EQ(call({"run", file(), "--output", results(), "--threads", "1", "--force"}), 0) << message;
+  EXPECT_EQ(printed.find("ns/node-step"), std::string::npos) << printed;
+}
+
 TEST_F(CommandLine, a_folder_that_holds_a_run_is_kept_unless_forced) {
   ASSERT_EQ(call({"run", file(), "--output", results()}), 0);
   EXPECT_EQ(call({"run", file(), "--output", results()}), 2);

@@ -79,6 +79,31 @@ TEST(Bodies, penetration_found_at_the_start_is_removed_slowly) {
   EXPECT_GE(scene.contact->body_result().total.recovery, 0.0);
 }
 
+TEST(Bodies, sub_steps_are_reported_as_one_step) {
+  Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
+  append(scene, block(5, 5, 0.25, {0.02, 1.01}, 400.0, 0.5, 0.1, {0.05, -0.2}));
+  let_bodies_touch(scene, 0.2);
+  while (scene.contact->body_result().total.friction == 0.0) scene.step(1e-3);
+  ContactWork sum;
+  double impulse = 0.0;
+  Masses same = scene;
+  same.contact = std::make_shared<RigidContact<2>>(*scene.contact);
+  for (int n = 0; n < 5; ++n) {
+    same.step(1e-3);
+    sum += same.contact->body_result().step;
+    impulse += 1e-3 * same.contact->body_result().pressing;
+  }
+  scene.contact->begin_sub_steps();
+  for (int n = 0; n < 5; ++n) scene.step(1e-3);
+  scene.contact->end_sub_steps(5e-3);
+  const BodyResult<2>& result = scene.contact->body_result();
+  EXPECT_GT(sum.friction, 0.0);
+  EXPECT_NEAR(result.step.friction, sum.friction, 1e-12 * sum.friction);
+  EXPECT_NEAR(result.step.workpiece, sum.workpiece, 1e-12);
+  EXPECT_NEAR(result.step.impact, sum.impact, 1e-12);
+  EXPECT_NEAR(result.pressing, impulse / 5e-3, 1e-12 * result.pressing);
+}
+
 TEST(Bodies, a_stack_between_two_tools_shares_one_force) {
   Masses scene = block(5, 3, 0.25, {0, 0}, 400.0, 1.0);
   append(scene, block(6, 3, 0.2, {0, 0.5}, 400.0, 1.0));

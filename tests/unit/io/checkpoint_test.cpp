@@ -125,7 +125,8 @@ TEST(Checkpoint, files_that_are_no_checkpoint_are_refused_with_the_reason) {
   EXPECT_NE(refusal_of("time[s],step\n0,0\n").find("no checkpoint"), std::string::npos);
   EXPECT_NE(refusal_of(good.substr(512)).find("HDF5 file, but no checkpoint"), std::string::npos);
   std::string other = good;
-  other.replace(other.find(fmt::format("format {}", checkpoint_format)), 8, "format 9");
+  const std::string format = fmt::format("format {}", checkpoint_format);
+  other.replace(other.find(format), format.size(), "format 9");
   EXPECT_NE(refusal_of(other).find(
                 fmt::format("format 9, this version of cnem reads format {}", checkpoint_format)),
             std::string::npos);

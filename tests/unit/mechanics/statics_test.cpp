@@ -58,8 +58,8 @@ Body pulled_square(Discretisation<2>& method) {
   const auto left = nodes_where(cloud, [](const Vec2& x) { return x.x() == 0.0; });
   const auto corner = nodes_where(cloud, [](const Vec2& x) { return x.norm() == 0.0; });
   Body body(cloud, method,
-            {{"left", Kind::symmetry, Vec2(1, 0), {}, left},
-             {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner}});
+            {{"left", Kind::symmetry, Vec2(1, 0), {}, left, {}},
+             {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner, {}}});
   for (const Facet<2>& facet : body.cloud.facets) {
     const Vec2 a = body.cloud.position[static_cast<std::size_t>(facet.node[0])],
                b = body.cloud.position[static_cast<std::size_t>(facet.node[1])];
@@ -138,8 +138,8 @@ TEST(Statics, patch_body_of_revolution_under_constant_stress_is_exact) {
       for (Vec2& x : cloud.position) x.x() += bore;
       const auto bottom = nodes_where(cloud, [](const Vec2& x) { return x.y() == 0.0; });
       const auto axis = nodes_where(cloud, [](const Vec2& x) { return x.x() == 0.0; });
-      std::vector<Support<2>> supports{{"bottom", Kind::symmetry, Vec2(0, -1), {}, bottom}};
-      if (!axis.empty()) supports.push_back({"axis", Kind::symmetry, Vec2(-1, 0), {}, axis});
+      std::vector<Support<2>> supports{{"bottom", Kind::symmetry, Vec2(0, -1), {}, bottom, {}}};
+      if (!axis.empty()) supports.push_back({"axis", Kind::symmetry, Vec2(-1, 0), {}, axis, {}});
       Body body(std::move(cloud), *method, std::move(supports));
       const double radial = 3.0, axial = 1.0; // stresses
       for (const Facet<2>& facet : body.cloud.facets) {
@@ -178,7 +178,7 @@ TEST(MissingSupport, of_a_body_of_revolution_is_the_axial_one_alone) {
   EXPECT_NE(missing_support(loose.approximation.mechanics, loose.cloud.position, loose.supports)
                 .find("translation along (0, 1)"),
             std::string::npos);
-  const Body held(cloud, method, {{"node", Kind::displacement, Vec2(0, 1), TimeTable(0.0), {0}}});
+  const Body held(cloud, method, {{"node", Kind::displacement, Vec2(0, 1), TimeTable(0.0), {0}, {}}});
   EXPECT_EQ(missing_support(held.approximation.mechanics, held.cloud.position, held.supports), "");
 }
 
@@ -192,14 +192,14 @@ TEST(MissingSupport, is_named) {
                            Supports<2>(std::move(list), static_cast<std::size_t>(cloud.nodes())));
   };
   EXPECT_NE(missing({}), "");
-  EXPECT_NE(missing({{"left", Kind::symmetry, Vec2(1, 0), {}, left}}).find("displacement in y"),
+  EXPECT_NE(missing({{"left", Kind::symmetry, Vec2(1, 0), {}, left, {}}}).find("displacement in y"),
             std::string::npos);
-  EXPECT_NE(missing({{"corner", Kind::displacement, Vec2(1, 0), TimeTable(0.0), corner},
-                     {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner}})
+  EXPECT_NE(missing({{"corner", Kind::displacement, Vec2(1, 0), TimeTable(0.0), corner, {}},
+                     {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner, {}}})
                 .find("rotation about (0, 0) m"),
             std::string::npos);
-  EXPECT_EQ(missing({{"left", Kind::symmetry, Vec2(1, 0), {}, left},
-                     {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner}}),
+  EXPECT_EQ(missing({{"left", Kind::symmetry, Vec2(1, 0), {}, left, {}},
+                     {"corner", Kind::displacement, Vec2(0, 1), TimeTable(0.0), corner, {}}}),
             "");
 }
 

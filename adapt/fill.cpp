@@ -1,0 +1,190 @@
+// Insertion: nodes where the cloud has become too coarse.
+#include "adapt/resample.hpp"
+#include "core/error.hpp"
+#include "voronoi/locate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem::adapt {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+struct Gap {
+  double length;                        ///< over its limit
+  std::array<std::int32_t, 2> node;     ///< between these; −1, −1: at a Voronoi vertex
+  std::array<std::int32_t, 2> triangle; ///< that the new node lies in or between
+  Vec2 x;
+};
+
+/// The triangles that a new node at x does away with, and their nodes.
+class Cavity {
+public:
+  Cavity(const WorkingCloud& work, const Structure& structure)
+      : work_(work), structure_(structure), seen_(structure.mesh.node.size(), -1) {}
+
+  void collect(const Gap& gap, std::int32_t stamp) {
+    triangle_.clear();
+    for (const std::int32_t t : gap.triangle)
+      if (t >= 0) visit(t, stamp);
+    for (std::size_t k = 0; k < triangle_.size(); ++k)
+      for (const std::int32_t across : structure_.mesh.neighbour[u(triangle_[k])])
+        if (across >= 0 && (structure_.circles.centre[u(across)] - gap.x).squaredNorm() <
+                               structure_.circles.limit[u(across)])
+          visit(across, stamp);
+  }
+  const std::vector<std::int32_t>& triangles() const { return triangle_; }
+
+  /// Nothing is nearer to x than it should be.
+  bool clear(const Gap& gap, bool on_boundary, const Thresholds& limit) const {
+    for (const std::int32_t t : triangle_)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t i = structure_.mesh.node[u(t)][k];
+        const double h = work_.node().size[u(i)];
+        const Vec2& x = work_.cloud().position[u(i)];
+        if ((x - gap.x).norm() < limit.clear_node * h) return false;
+        if (on_boundary || structure_.mesh.facet[u(t)][k] < 0) continue;
+        const Vec2 &a = work_.cloud().position[u(structure_.mesh.node[u(t)][(k + 1) % 3])],
+                   &b = work_.cloud().position[u(structure_.mesh.node[u(t)][(k + 2) % 3])];
+        if (cross(b - a, gap.x - a) < limit.clear_edge * h * (b - a).norm()) return false;
+      }
+    return true;
+  }
+
+private:
+  void visit(std::int32_t t, std::int32_t stamp) {
+    if (seen_[u(t)] == stamp) return;
+    seen_[u(t)] = stamp;
+    triangle_.push_back(t);
+  }
+
+  const WorkingCloud& work_;
+  const Structure& structure_;
+  std::vector<std::int32_t> seen_; ///< [triangle] by which gap
+  std::vector<std::int32_t> triangle_;
+};
+
+class Filling {
+public:
+  Filling(const WorkingCloud& work, const Structure& structure, const Thresholds& limit, Placement placement)
+      : work_(work), structure_(structure), limit_(limit) {
+    edges(placement == Placement::between_nodes);
+    if (placement == Placement::voronoi_vertices) vertices();
+    std::sort(gaps_.begin(), gaps_.end(), [](const Gap& a, const Gap& b) {
+      if (a.length != b.length) return a.length > b.length;
+      return a.triangle != b.triangle ? a.triangle < b.triangle : a.node < b.node;
+    });
+  }
+  const std::vector<Gap>& gaps() const { return gaps_; }
+
+private:
+  const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
+
+  void edges(bool interior) {
+    const auto& mesh = structure_.mesh;
+    for (std::int32_t t = 0; t < mesh.triangles(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t across = mesh.neighbour[u(t)][k];
+        if (across > t || (across >= 0 && !interior)) continue;
+        const std::int32_t a = mesh.node[u(t)][(k + 1) % 3], b = mesh.node[u(t)][(k + 2) % 3];
+        const double limit = (across < 0 ? limit_.split_edge : limit_.long_edge) * work_.size_between(a, b);
+        const double squared = (at(b) - at(a)).squaredNorm();
+        if (squared <= limit * limit) continue;
+        // boundary edges first
+        const double length = std::sqrt(squared) / limit;
+        gaps_.push_back({across < 0 ? 1e3 * length : length, {a, b}, {t, across}, 0.5 * (at(a) + at(b))});
+      }
+  }
+
+  /// A lattice of edges d has its Voronoi vertices d/√3 from the nodes.
+  void vertices() {
+    const auto& mesh = structure_.mesh;
+    for (std::int32_t t = 0; t < mesh.triangles(); ++t) {
+      if (structure_.cells.hidden_of_triangle[u(t)] >= 0) continue;
+      double h = 0.0;
+      for (const std::int32_t i : mesh.node[u(t)]) h += work_.node().size[u(i)] / 3.0;
+      const Vec2& centre = structure_.circles.centre[u(t)];
+      const double radius = (centre - at(mesh.node[u(t)][0])).norm();
+      const double limit = limit_.long_edge / std::sqrt(3.0) * h;
+      if (radius <= limit) continue;
+      const auto end = voronoi::walk(work_.cloud(), mesh, t, centre);
+      if (end.facet >= 0) continue;
+      gaps_.push_back({radius / limit, {-1, -1}, {end.triangle, t}, centre});
+    }
+  }
+
+  const WorkingCloud& work_;
+  const Structure& structure_;
+  const Thresholds& limit_;
+  std::vector<Gap> gaps_;
+};
+
+/// What the old cells lost goes to the new cells at them.
+std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
+                           const std::vector<char>& made) {
+  std::vector<Contribution> list = contributions(cloud, after.cells, made);
+  Field claimed(made.size(), 0.0);
+  for (const Contribution& c : list) claimed[u(c.other)] += c.area;
+  std::vector<Parcel> parcels;
+  for (const Contribution& c : list) {
+    const double volume = before.cells.volume[u(c.other)];
+    const double lost = (volume - after.cells.volume[u(c.other)]) / volume;
+    if (lost > 0.0 && c.area > 0.0)
+      parcels.push_back({c.other, c.marked, lost * c.area / claimed[u(c.other)]});
+  }
+  return parcels;
+}
+
+} // namespace
+
+bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, Placement placement,
+          PassReport& report) {
+  const Filling filling(work, structure, thresholds, placement);
+  Cavity cavity(work, structure);
+  std::vector<char> taken(structure.mesh.node.size(), 0);
+  WorkingCloud filled = work;
+  PassReport done = report;
+  std::int32_t stamp = 0;
+  for (const Gap& gap : filling.gaps()) {
+    cavity.collect(gap, stamp++);
+    const bool edge = gap.node[0] >= 0,
+               on_boundary = edge && work.next(gap.node[0]) == gap.node[1] && gap.triangle[1] < 0;
+    const auto& triangles = cavity.triangles();
+    if (std::any_of(triangles.begin(), triangles.end(), [&](std::int32_t t) { return taken[u(t)] != 0; }) ||
+        !cavity.clear(gap, on_boundary, thresholds))
+      continue;
+    for (const std::int32_t t : triangles) taken[u(t)] = 1;
+    if (edge)
+      filled.insert_between(gap.node[0], gap.node[1], on_boundary);
+    else
+      filled.insert_at(gap.x, structure.mesh.node[u(gap.triangle[0])],
+                       voronoi::barycentric(work.cloud(), structure.mesh, gap.triangle[0], gap.x));
+    ++(on_boundary ? done.inserted_boundary : done.inserted);
+  }
+  if (filled.size() == work.size()) return false;
+
+  filled.refresh_facets();
+  Structure after;
+  try {
+    after = build_structure(filled.cloud());
+  } catch (const GeometryError&) {
+    ++report.undone;
+    return false;
+  }
+  std::vector<char> made(filled.size(), 0);
+  std::fill(made.begin() + static_cast<std::ptrdiff_t>(work.size()), made.end(), 1);
+  filled.move(stolen(filled.cloud(), structure, after, made));
+  for (std::size_t i = work.size(); i < filled.size(); ++i)
+    if (!(filled.node().mass[i] > 0.0)) {
+      ++report.undone;
+      return false;
+    }
+  work = std::move(filled);
+  structure = std::move(after);
+  report = done;
+  return true;
+}
+
+} // namespace cnem::adapt

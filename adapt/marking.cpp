@@ -1,0 +1,94 @@
+#include "adapt/marking.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace cnem::adapt {
+
+namespace {
+
+const double hexagon = 0.5 * std::sqrt(3.0); ///< area of a cell over the square of the spacing
+
+/// Mean distance of each node to its neighbours.
+Field present_spacing(const Cloud<2>& cloud, const Structure& structure) {
+  Field spacing(cloud.position.size());
+  for (std::size_t i = 0; i < spacing.size(); ++i) {
+    const auto around = structure.neighbours(static_cast<std::int32_t>(i));
+    double sum = 0.0;
+    for (const std::int32_t k : around)
+      sum += (cloud.position[static_cast<std::size_t>(k)] - cloud.position[i]).norm();
+    spacing[i] = sum / static_cast<double>(around.size());
+  }
+  return spacing;
+}
+
+/// The marks at one tolerance.
+Field marked(const Field& spacing, const Indicator& indicator, const MarkingRules& rules, double tolerance,
+             const Field& size, Marking& count) {
+  const auto n = static_cast<double>(size.size());
+  const double limit = tolerance * indicator.norm / std::sqrt(n);
+  Field wanted = size;
+  count = {0, 0, tolerance};
+  constexpr double followed = 1.35; // a cloud this much coarser or finer than wanted is still to follow
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    if (indicator.error[i] > limit && size[i] > rules.h_min) {
+      if (spacing[i] > followed * size[i]) continue;
+      wanted[i] = std::max(0.5 * size[i], rules.h_min);
+      ++count.refined;
+    } else if (indicator.error[i] < rules.coarsen * limit && size[i] < rules.h_max) {
+      if (size[i] > followed * spacing[i]) continue;
+      wanted[i] = std::min(2.0 * size[i], rules.h_max);
+      ++count.coarsened;
+    }
+  }
+  return wanted;
+}
+
+} // namespace
+
+double nodes_wanted(const Structure& structure, const Field& size) {
+  double nodes = 0.0;
+  for (std::size_t i = 0; i < size.size(); ++i)
+    nodes += structure.cells.volume[i] / (hexagon * size[i] * size[i]);
+  return nodes;
+}
+
+Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator& indicator,
+             const MarkingRules& rules, Field& size) {
+  Marking count;
+  if (!(indicator.norm > 0.0)) return count;
+  const Field spacing = present_spacing(cloud, structure);
+  constexpr double raise = 1.25;
+  constexpr int most = 60;
+  double tolerance = rules.tolerance;
+  Field wanted = marked(spacing, indicator, rules, tolerance, size, count);
+  for (int k = 0; k < most && count.refined > 0 &&
+                  nodes_wanted(structure, wanted) > static_cast<double>(rules.max_nodes);
+       ++k)
+    wanted = marked(spacing, indicator, rules, tolerance *= raise, size, count);
+  size = std::move(wanted);
+  return count;
+}
+
+void limit_growth(const Cloud<2>& cloud, const Structure& structure, double growth, Field& size) {
+  using Entry = std::pair<double, std::int32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+  for (std::size_t i = 0; i < size.size(); ++i) front.emplace(size[i], static_cast<std::int32_t>(i));
+  while (!front.empty()) {
+    const auto [h, i] = front.top();
+    front.pop();
+    const auto at = static_cast<std::size_t>(i);
+    if (h > size[at]) continue; // lowered since
+    for (const std::int32_t k : structure.neighbours(i)) {
+      const auto other = static_cast<std::size_t>(k);
+      const double limit = h + growth * (cloud.position[other] - cloud.position[at]).norm();
+      if (limit < size[other] * (1.0 - 1e-12)) {
+        size[other] = limit;
+        front.emplace(limit, k);
+      }
+    }
+  }
+}
+
+} // namespace cnem::adapt

@@ -1,0 +1,128 @@
+// What has to be put right before a cloud can be triangulated at all.
+#include "adapt/resample.hpp"
+#include "core/parallel.hpp"
+#include "voronoi/edge_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cnem::adapt {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// Whether the segments ab and cd cross.
+bool crosses(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const double c_side = cross(b - a, c - a), d_side = cross(b - a, d - a);
+  const double a_side = cross(d - c, a - c), b_side = cross(d - c, b - c);
+  return c_side * d_side < 0.0 && a_side * b_side < 0.0;
+}
+
+class Mending {
+public:
+  explicit Mending(const WorkingCloud& work) : work_(work) {}
+
+  bool may_go(std::int32_t i) const {
+    const std::int32_t a = work_.previous(i), c = work_.next(i);
+    return !work_.held(i) && !work_.ends_piece(i) && work_.next(c) != a;
+  }
+
+  /// The boundary comes back along itself: the body has an angle below 3 degrees there. The tip of an open
+  /// crack, round which the body lies, is none.
+  bool turns_back(std::int32_t i) const {
+    constexpr double cosine = 0.9986, open = -1e-6;
+    const Vec2 back = at(work_.previous(i)) - at(i), ahead = at(work_.next(i)) - at(i);
+    const double lengths = back.norm() * ahead.norm();
+    return back.dot(ahead) > cosine * lengths && cross(ahead, back) > open * lengths;
+  }
+
+  /// The facets before and behind the one that leaves the node cross.
+  bool loops(std::int32_t i) const {
+    const std::int32_t before = work_.previous(i), next = work_.next(i), behind = work_.next(next);
+    return behind != before && crosses(at(before), at(i), at(next), at(behind));
+  }
+
+private:
+  const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
+  const WorkingCloud& work_;
+};
+
+} // namespace
+
+void mend_boundary(WorkingCloud& work, PassReport& report) {
+  const Mending mending(work);
+  std::vector<char> gone(work.size(), 0);
+  bool any = false;
+  const auto bypass = [&](std::int32_t i) {
+    const Vec2& x = work.cloud().position[u(i)];
+    const std::int32_t a = work.previous(i), c = work.next(i);
+    const bool to_a = (work.cloud().position[u(a)] - x).norm() < (work.cloud().position[u(c)] - x).norm();
+    work.move_now(i, to_a ? a : c, 1.0);
+    work.bypass(i);
+    gone[u(i)] = 1;
+    any = true;
+    ++report.folded;
+  };
+  constexpr int most = 8; // nodes of one fold, one after the other
+  for (int round = 0; round < most; ++round) {
+    const int before = report.folded;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i) {
+      if (!work.on_boundary(i)) continue;
+      if (mending.turns_back(i)) {
+        if (mending.may_go(i)) bypass(i);
+      } else if (mending.loops(i)) {
+        const std::int32_t next = work.next(i);
+        if (mending.may_go(i))
+          bypass(i);
+        else if (mending.may_go(next))
+          bypass(next);
+      }
+    }
+    if (report.folded == before) break;
+  }
+  if (!any) return;
+  work.drop(gone);
+  work.refresh_facets();
+}
+
+void drop_outside(WorkingCloud& work, PassReport& report) {
+  const Cloud<2>& cloud = work.cloud();
+  const voronoi::EdgeTree tree(cloud);
+  std::vector<char> gone(work.size(), 0);
+  for_each_block(work.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (work.on_boundary(static_cast<std::int32_t>(i))) continue;
+      const Vec2& x = cloud.position[i];
+      const double touching = 1e-6 * work.node().size[i];
+      gone[i] = tree.distance(x, touching) < touching || !tree.inside(x);
+    }
+  });
+  std::vector<Parcel> parcels;
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (!gone[i]) continue;
+    double best = std::numeric_limits<double>::max();
+    Parcel to_start{static_cast<std::int32_t>(i), -1, 1.0}, to_end = to_start;
+    for (const Facet<2>& facet : cloud.facets) {
+      const auto [a, b] = facet.node;
+      const Foot foot = foot_on(cloud.position[i], cloud.position[u(a)], cloud.position[u(b)]);
+      if (foot.distance >= best) continue;
+      best = foot.distance;
+      const double place = std::clamp(foot.place, 0.0, 1.0);
+      to_start.to = a;
+      to_start.fraction = 1.0 - place;
+      to_end.to = b;
+      to_end.fraction = place;
+    }
+    for (const Parcel& parcel : {to_start, to_end})
+      if (parcel.fraction > 0.0) parcels.push_back(parcel);
+    ++report.outside;
+  }
+  if (parcels.empty()) return;
+  work.move(parcels);
+  work.drop(gone);
+  work.refresh_facets();
+}
+
+} // namespace cnem::adapt

@@ -1,0 +1,88 @@
+#include "adapt/resample.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem::adapt {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+} // namespace
+
+double area_of(const Cloud<2>& cloud) {
+  double twice = 0.0;
+  for (const Facet<2>& facet : cloud.facets)
+    twice += cross(cloud.position[u(facet.node[0])], cloud.position[u(facet.node[1])]);
+  return 0.5 * twice;
+}
+
+PassReport& PassReport::operator+=(const PassReport& other) {
+  for (int PassReport::*count : {&PassReport::folded, &PassReport::outside, &PassReport::removed,
+                                 &PassReport::removed_boundary, &PassReport::promoted, &PassReport::inserted,
+                                 &PassReport::inserted_boundary, &PassReport::balanced, &PassReport::undone})
+    this->*count += other.*count;
+  area_change += other.area_change;
+  return *this;
+}
+
+double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node) {
+  const NodeProperties& p = work.node();
+  return p.density[u(node)] * structure.cells.volume[u(node)] /
+         (p.mass[u(node)] * std::exp(p.log_jacobian[u(node)]));
+}
+
+/// Neighbours whose ratios differ exchange half of what would make them equal, the worst nodes first.
+void balance(WorkingCloud& work, const Structure& structure, const Thresholds& thresholds,
+             PassReport& report) {
+  std::vector<std::pair<double, std::int32_t>> out;
+  const auto distance = [](double r) { return std::max(r, 1.0 / r); };
+  for (int sweep = 0; sweep < thresholds.rounds; ++sweep) {
+    out.clear();
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i) {
+      const double r = volume_ratio(work, structure, i);
+      if (r < thresholds.light || r > thresholds.heavy) out.emplace_back(-distance(r), i);
+    }
+    if (out.empty()) return;
+    std::sort(out.begin(), out.end());
+    for (const auto& [order, i] : out) {
+      for (const std::int32_t j : structure.neighbours(i)) {
+        const double mine = volume_ratio(work, structure, i), other = volume_ratio(work, structure, j);
+        if (mine >= thresholds.light && mine <= thresholds.heavy) break;
+        // the ratio falls as mass comes: who has the larger one takes
+        const bool takes = mine > thresholds.heavy;
+        if (takes ? other >= mine : other <= mine) continue;
+        const std::int32_t from = takes ? j : i, to = takes ? i : j;
+        const NodeProperties& p = work.node();
+        const double wanted_from = p.mass[u(from)] * volume_ratio(work, structure, from),
+                     wanted_to = p.mass[u(to)] * volume_ratio(work, structure, to);
+        const double equal =
+            (wanted_to * p.mass[u(from)] - wanted_from * p.mass[u(to)]) / (wanted_from + wanted_to);
+        const double fraction = 0.5 * equal / p.mass[u(from)];
+        if (!(fraction > 1e-6)) continue;
+        work.move_now(from, to, fraction);
+        ++report.balanced;
+      }
+    }
+  }
+}
+
+Resampling<2> resample(const Cloud<2>& cloud, NodeProperties properties, const Thresholds& thresholds,
+                       Placement placement, PassReport& report) {
+  WorkingCloud work(cloud, std::move(properties));
+  mend_boundary(work, report);
+  drop_outside(work, report);
+  Structure structure = build_structure(work.cloud());
+  for (int round = 0; round < thresholds.rounds; ++round)
+    if (!thin(work, structure, thresholds, report)) break;
+  for (int round = 0; round < thresholds.rounds; ++round)
+    if (!fill(work, structure, thresholds, placement, report)) break;
+  balance(work, structure, thresholds, report);
+  report.area_change = area_of(work.cloud()) - area_of(cloud);
+  Resampling<2> change = work.finish();
+  change.old_position = cloud.position;
+  return change;
+}
+
+} // namespace cnem::adapt

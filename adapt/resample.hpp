@@ -1,0 +1,76 @@
+#pragma once
+// The resampling pass: nodes that crowd go, gaps are filled, the boundary keeps its resolution, and mass and
+// volume are brought together again (docs/theory.md, "Resampling").
+#include "adapt/working_cloud.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace cnem::adapt {
+
+/// Lengths are in units of the wanted spacing h at the place.
+struct Thresholds {
+  double boundary_gap = 0.3; ///< an interior node nearer to a boundary edge goes, or becomes part of it
+  double pair = 0.4;         ///< of two nodes nearer to each other one goes
+  double short_edge = 0.4;   ///< a boundary node at a shorter edge goes, when
+  double flat_area = 0.12;   ///< the triangle it spans with its neighbours is smaller (in h²)
+  double dense = 0.62;       ///< nodes whose neighbours are nearer than this on average go
+  double straight = 0.02; ///< on the boundary only where the triangle with its neighbours is smaller (in h²)
+  double spike = 25.0;    ///< degrees: boundary nodes with a sharper angle go
+  double split_edge = 1.5;  ///< longer boundary edges are split
+  double long_edge = 1.6;   ///< longer Delaunay edges get a node
+  double clear_node = 0.55; ///< least distance of a new node from others
+  double clear_edge = 0.5;  ///< and from the boundary, unless it is on it
+  double light = 0.8;       ///< ρ₀V/(mJ) below which a node gives mass away
+  double heavy = 1.25;      ///< and above which it takes some
+  int rounds = 4;           ///< of removal, and of insertion
+};
+
+/// Where new nodes are put (paper 004, Figure 18).
+enum class Placement { between_nodes, voronoi_vertices };
+
+/// What a pass did, for the audit and the output.
+struct PassReport {
+  int folded = 0;  ///< boundary nodes at which the boundary turned back on itself or crossed
+  int outside = 0; ///< interior nodes found outside the boundary
+  int removed = 0, removed_boundary = 0;
+  int promoted = 0; ///< interior nodes that became part of the boundary
+  int inserted = 0, inserted_boundary = 0;
+  int balanced = 0;       ///< exchanges of mass between neighbours
+  int undone = 0;         ///< rounds given up because the cloud had no valid structure after them
+  double area_change = 0; ///< m², of the domain
+  bool changed() const {
+    return folded + outside + removed + removed_boundary + promoted + inserted + inserted_boundary +
+               balanced >
+           0;
+  }
+  PassReport& operator+=(const PassReport& other);
+};
+
+/// Resamples a cloud. Conserves Σ of every quantity carried in parcels to rounding; a node that nothing
+/// happened to keeps its bits. The result depends on the arguments alone.
+/// Throws GeometryError when no valid structure is found (crossing boundaries).
+Resampling<2> resample(const Cloud<2>& cloud, NodeProperties properties, const Thresholds& thresholds,
+                       Placement placement, PassReport& report);
+
+// The parts of a pass, each a class of its own in what it looks at. They keep `structure` up to date.
+
+/// Before anything is triangulated: boundary nodes at which the boundary turns back on itself, and short
+/// loops of it, are bypassed; their mass goes to the nearer neighbour.
+void mend_boundary(WorkingCloud& work, PassReport& report);
+/// Interior nodes outside the boundary give their mass to the ends of the nearest edge.
+void drop_outside(WorkingCloud& work, PassReport& report);
+/// One round; false when there was nothing to do.
+bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report);
+bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, Placement placement,
+          PassReport& report);
+void balance(WorkingCloud& work, const Structure& structure, const Thresholds& thresholds,
+             PassReport& report);
+
+/// Area enclosed by the boundary, m².
+double area_of(const Cloud<2>& cloud);
+
+/// r_i = ρ₀ V_i/(m_i J_i) of one node.
+double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node);
+
+} // namespace cnem::adapt

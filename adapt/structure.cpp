@@ -1,0 +1,65 @@
+#include "adapt/structure.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace cnem::adapt {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+} // namespace
+
+Structure build_structure(const Cloud<2>& cloud) {
+  Structure s;
+  s.mesh = voronoi::triangulate(cloud);
+  s.circles = voronoi::circumcircles(cloud, s.mesh);
+  s.cells = voronoi::constrained_cells(cloud, s.mesh, s.circles);
+
+  const std::size_t n = cloud.position.size();
+  std::vector<std::array<std::int32_t, 2>> edges;
+  edges.reserve(3 * n);
+  for (std::size_t t = 0; t < s.mesh.node.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (s.mesh.neighbour[t][k] < static_cast<std::int32_t>(t))
+        edges.push_back({s.mesh.node[t][(k + 1) % 3], s.mesh.node[t][(k + 2) % 3]});
+  s.begin.assign(n + 1, 0);
+  for (const auto& edge : edges)
+    for (const std::int32_t i : edge) ++s.begin[u(i) + 1];
+  for (std::size_t i = 0; i < n; ++i) s.begin[i + 1] += s.begin[i];
+  std::vector<std::int32_t> at(s.begin.begin(), s.begin.end() - 1);
+  s.neighbour.resize(2 * edges.size());
+  for (const auto& [a, b] : edges) {
+    s.neighbour[u(at[u(a)]++)] = b;
+    s.neighbour[u(at[u(b)]++)] = a;
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    std::sort(s.neighbour.begin() + s.begin[i], s.neighbour.begin() + s.begin[i + 1]);
+  return s;
+}
+
+std::vector<Contribution> contributions(const Cloud<2>& cloud, const voronoi::Cells& cells,
+                                        const std::vector<char>& marked) {
+  std::vector<Contribution> list;
+  for (const voronoi::InteriorFacet& facet : cells.interior) {
+    const auto [i, j] = facet.cell;
+    if (marked[u(i)] == marked[u(j)]) continue;
+    const std::int32_t inside = marked[u(i)] ? i : j, other = marked[u(i)] ? j : i;
+    const double area =
+        0.5 * std::abs(cross(facet.start - cloud.position[u(inside)], facet.end - facet.start));
+    list.push_back({inside, other, area});
+  }
+  std::sort(list.begin(), list.end(), [](const Contribution& a, const Contribution& b) {
+    return std::tie(a.marked, a.other) < std::tie(b.marked, b.other);
+  });
+  return list;
+}
+
+Foot foot_on(const Vec2& x, const Vec2& a, const Vec2& b) {
+  const Vec2 edge = b - a;
+  const double place = (x - a).dot(edge) / edge.squaredNorm();
+  return {(x - a - std::clamp(place, 0.0, 1.0) * edge).norm(), place};
+}
+
+} // namespace cnem::adapt

@@ -1,0 +1,47 @@
+#pragma once
+// Cells without shape functions: what insertion and removal look at between two rounds.
+#include "voronoi/cells.hpp"
+#include "voronoi/circumcircles.hpp"
+#include "voronoi/triangulation.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cnem::adapt {
+
+/// Triangles, cells and neighbours of one cloud.
+struct Structure {
+  voronoi::Triangulation mesh;
+  voronoi::Circumcircles circles;
+  voronoi::Cells cells;
+  std::vector<std::int32_t> begin;     ///< [node + 1] into `neighbour`
+  std::vector<std::int32_t> neighbour; ///< Delaunay neighbours, in increasing order
+
+  std::span<const std::int32_t> neighbours(std::int32_t node) const {
+    const auto first = static_cast<std::size_t>(begin[static_cast<std::size_t>(node)]);
+    const auto last = static_cast<std::size_t>(begin[static_cast<std::size_t>(node) + 1]);
+    return {neighbour.data() + first, last - first};
+  }
+};
+
+/// Throws GeometryError as voronoi::triangulate and voronoi::constrained_cells do.
+Structure build_structure(const Cloud<2>& cloud);
+
+/// The facet of two cells, where one of the two nodes is marked: area of the triangle of that facet and the
+/// marked node, m²: how much of the marked cell lies towards the other.
+struct Contribution {
+  std::int32_t marked, other;
+  double area;
+};
+/// All facets between a marked and an unmarked node, by marked node and then by the other.
+std::vector<Contribution> contributions(const Cloud<2>& cloud, const voronoi::Cells& cells,
+                                        const std::vector<char>& marked);
+
+/// Distance from x to the segment ab, and where its foot is on the line: 0 at a, 1 at b.
+struct Foot {
+  double distance, place;
+};
+Foot foot_on(const Vec2& x, const Vec2& a, const Vec2& b);
+
+} // namespace cnem::adapt

@@ -1,0 +1,272 @@
+#include "adapt/working_cloud.hpp"
+
+#include "core/error.hpp"
+#include "voronoi/boundary_checks.hpp"
+#include "voronoi/order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace cnem::adapt {
+
+namespace {
+
+/// a += factor · b.
+void add(Row& a, const Row& b, double factor) {
+  Row sum;
+  sum.reserve(a.size() + b.size());
+  auto i = a.begin();
+  auto j = b.begin();
+  while (i != a.end() || j != b.end()) {
+    if (j == b.end() || (i != a.end() && i->first < j->first))
+      sum.push_back(*i++);
+    else if (i == a.end() || j->first < i->first) {
+      sum.emplace_back(j->first, factor * j->second);
+      ++j;
+    } else {
+      sum.emplace_back(i->first, i->second + factor * j->second);
+      ++i;
+      ++j;
+    }
+  }
+  a = std::move(sum);
+}
+
+} // namespace
+
+WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties)
+    : cloud_(cloud), node_(std::move(properties)), old_nodes_(cloud.position.size()) {
+  if (!cloud.twins.empty())
+    throw GeometryError("a cloud with cracks or interfaces cannot be resampled: their two faces would part");
+  voronoi::outgoing_facets(cloud); // throws for open loops
+  next_.assign(old_nodes_, -1);
+  previous_.assign(old_nodes_, -1);
+  piece_.assign(old_nodes_, -1);
+  std::vector<char> seen(old_nodes_, 0);
+  for (const Facet<2>& facet : cloud.facets) {
+    const auto [a, b] = facet.node;
+    next_[index(a)] = b;
+    previous_[index(b)] = a;
+    piece_[index(a)] = facet.piece;
+  }
+  for (const Facet<2>& facet : cloud.facets) {
+    if (seen[index(facet.node[0])]) continue;
+    loop_.push_back(facet.node[0]);
+    for (std::int32_t i = facet.node[0]; !seen[index(i)]; i = next_[index(i)]) seen[index(i)] = 1;
+  }
+  old_of_.resize(old_nodes_);
+  std::iota(old_of_.begin(), old_of_.end(), 0);
+  parcels_.resize(old_nodes_);
+  labels_.resize(old_nodes_);
+}
+
+Row& WorkingCloud::row(std::vector<Row>& rows, std::int32_t i) {
+  Row& mine = rows[index(i)];
+  if (mine.empty() && old_of_[index(i)] >= 0) mine = {{old_of_[index(i)], 1.0}};
+  return mine;
+}
+
+std::int32_t WorkingCloud::append(const Vec2& x,
+                                  const std::vector<std::pair<std::int32_t, double>>& parents) {
+  const auto made = static_cast<std::int32_t>(size());
+  cloud_.position.push_back(x);
+  Row label;
+  double size = 0.0;
+  for (const auto& [parent, weight] : parents) {
+    add(label, row(labels_, parent), weight);
+    size += weight * node_.size[index(parent)];
+  }
+  labels_.push_back(std::move(label));
+  parcels_.emplace_back();
+  node_.mass.push_back(0.0);
+  node_.log_jacobian.push_back(0.0);
+  node_.density.push_back(node_.density[index(parents.front().first)]);
+  node_.size.push_back(size);
+  node_.held.push_back(0);
+  next_.push_back(-1);
+  previous_.push_back(-1);
+  piece_.push_back(-1);
+  old_of_.push_back(-1);
+  return made;
+}
+
+std::int32_t WorkingCloud::insert_between(std::int32_t a, std::int32_t b, bool on_boundary) {
+  const Vec2 x = 0.5 * (cloud_.position[index(a)] + cloud_.position[index(b)]);
+  const std::int32_t made = append(x, {{a, 0.5}, {b, 0.5}});
+  if (on_boundary) {
+    next_[index(a)] = made;
+    next_[index(made)] = b;
+    previous_[index(b)] = made;
+    previous_[index(made)] = a;
+    piece_[index(made)] = piece_[index(a)];
+  }
+  return made;
+}
+
+std::int32_t WorkingCloud::insert_at(const Vec2& x, const std::array<std::int32_t, 3>& corner,
+                                     const std::array<double, 3>& weight) {
+  return append(x, {{corner[0], weight[0]}, {corner[1], weight[1]}, {corner[2], weight[2]}});
+}
+
+void WorkingCloud::promote(std::int32_t node, std::int32_t a, const Vec2& x) {
+  const std::int32_t b = next_[index(a)];
+  cloud_.position[index(node)] = x;
+  next_[index(a)] = previous_[index(b)] = node;
+  next_[index(node)] = b;
+  previous_[index(node)] = a;
+  piece_[index(node)] = piece_[index(a)];
+}
+
+void WorkingCloud::bypass(std::int32_t node) {
+  const std::int32_t a = previous_[index(node)], b = next_[index(node)];
+  next_[index(a)] = b;
+  previous_[index(b)] = a;
+  for (std::int32_t& start : loop_)
+    if (start == node) start = b;
+  next_[index(node)] = previous_[index(node)] = piece_[index(node)] = -1;
+}
+
+std::vector<std::array<std::int32_t, 2>> WorkingCloud::open_edge(std::int32_t from, std::int32_t to,
+                                                                 std::int32_t piece, double gap) {
+  const Vec2 along = (cloud_.position[index(to)] - cloud_.position[index(from)]).normalized();
+  const Vec2 aside = 0.5 * gap * left_normal(along);
+  const auto link = [&](std::int32_t a, std::int32_t b, std::int32_t of_piece) {
+    next_[index(a)] = b;
+    previous_[index(b)] = a;
+    piece_[index(a)] = of_piece;
+  };
+  const auto double_of = [&](std::int32_t i) {
+    const std::int32_t made = append(cloud_.position[index(i)] - aside, {{i, 1.0}});
+    cloud_.position[index(i)] += aside;
+    return made;
+  };
+  const bool through = on_boundary(to);
+  const std::int32_t after = next(from), piece_after = piece_[index(from)];
+  // left of the edge: … → from → to → …; right of it: … → other end of `to` → other end of `from` → …
+  const std::int32_t from_right = double_of(from);
+  if (!through) {
+    link(from_right, after, piece_after);
+    link(from, to, piece);
+    link(to, from_right, piece);
+    return {{from, from_right}};
+  }
+  const std::int32_t before_to = previous(to), piece_before = piece_[index(before_to)];
+  const std::int32_t to_right = double_of(to);
+  link(from_right, after, piece_after);
+  link(before_to, to_right, piece_before);
+  link(to_right, from_right, piece);
+  link(from, to, piece);
+  renew_loops();
+  return {{from, from_right}, {to, to_right}};
+}
+
+void WorkingCloud::renew_loops() {
+  loop_.clear();
+  std::vector<char> seen(size(), 0);
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (next_[i] < 0 || seen[i]) continue;
+    loop_.push_back(static_cast<std::int32_t>(i));
+    for (auto k = static_cast<std::int32_t>(i); !seen[index(k)]; k = next_[index(k)]) seen[index(k)] = 1;
+  }
+}
+
+void WorkingCloud::move(const std::vector<Parcel>& parcels) {
+  std::vector<std::pair<std::int32_t, double>> left; // donor and what has left it
+  for (const Parcel& parcel : parcels) {
+    const std::size_t from = index(parcel.from), to = index(parcel.to);
+    const double mass = parcel.fraction * node_.mass[from];
+    const double total = node_.mass[to] + mass;
+    node_.log_jacobian[to] =
+        (node_.log_jacobian[to] * node_.mass[to] + node_.log_jacobian[from] * mass) / total;
+    node_.mass[to] = total;
+    add(row(parcels_, parcel.to), row(parcels_, parcel.from), parcel.fraction);
+    left.emplace_back(parcel.from, parcel.fraction);
+  }
+  std::stable_sort(left.begin(), left.end(), [](auto& a, auto& b) { return a.first < b.first; });
+  for (std::size_t k = 0; k < left.size();) {
+    const std::size_t from = index(left[k].first);
+    double gone = 0.0;
+    for (; k < left.size() && index(left[k].first) == from; ++k) gone += left[k].second;
+    node_.mass[from] *= 1.0 - gone;
+    for (auto& entry : row(parcels_, static_cast<std::int32_t>(from))) entry.second *= 1.0 - gone;
+  }
+}
+
+void WorkingCloud::move_now(std::int32_t from, std::int32_t to, double fraction) {
+  move({{from, to, fraction}});
+}
+
+std::vector<std::int32_t> WorkingCloud::drop(const std::vector<char>& gone) {
+  std::vector<std::int32_t> number(size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < gone.size(); ++i)
+    if (!gone[i]) number[i] = static_cast<std::int32_t>(kept++);
+  const auto compact = [&](auto& list) {
+    for (std::size_t i = 0; i < gone.size(); ++i)
+      if (!gone[i] && index(number[i]) != i) list[index(number[i])] = std::move(list[i]);
+    list.resize(kept);
+  };
+  const auto rename = [&](std::int32_t& i) { i = i < 0 ? -1 : number[index(i)]; };
+  compact(cloud_.position);
+  compact(node_.mass);
+  compact(node_.log_jacobian);
+  compact(node_.density);
+  compact(node_.size);
+  compact(node_.held);
+  compact(next_);
+  compact(previous_);
+  compact(piece_);
+  compact(old_of_);
+  compact(parcels_);
+  compact(labels_);
+  for (auto* list : {&next_, &previous_, &loop_})
+    for (std::int32_t& i : *list) rename(i);
+  return number;
+}
+
+void WorkingCloud::refresh_facets() {
+  cloud_.facets.clear();
+  for (const std::int32_t start : loop_) {
+    std::int32_t i = start;
+    do {
+      cloud_.facets.push_back({{i, next_[index(i)]}, piece_[index(i)]});
+      i = next_[index(i)];
+    } while (i != start);
+  }
+}
+
+NodeRows WorkingCloud::in_order(std::vector<Row>& rows, const std::vector<std::int32_t>& order) {
+  NodeRows result;
+  result.begin.reserve(order.size() + 1);
+  result.begin.push_back(0);
+  for (const std::int32_t i : order) {
+    for (const auto& [node, weight] : row(rows, i)) {
+      result.node.push_back(node);
+      result.weight.push_back(weight);
+    }
+    result.begin.push_back(static_cast<std::int32_t>(result.node.size()));
+  }
+  return result;
+}
+
+Resampling<2> WorkingCloud::finish() {
+  Resampling<2> result;
+  const bool same_nodes =
+      size() == old_nodes_ && std::find(old_of_.begin(), old_of_.end(), -1) == old_of_.end();
+  std::vector<std::int32_t> order(size());
+  std::iota(order.begin(), order.end(), 0);
+  if (!same_nodes) order = voronoi::hilbert_order(cloud_.position);
+  result.cloud = voronoi::renumber(cloud_, order);
+  result.parcels = in_order(parcels_, order);
+  result.labels = in_order(labels_, order);
+  result.new_of.assign(old_nodes_, -1);
+  result.old_of.resize(size());
+  for (std::size_t p = 0; p < order.size(); ++p) {
+    result.old_of[p] = old_of_[index(order[p])];
+    if (result.old_of[p] >= 0) result.new_of[index(result.old_of[p])] = static_cast<std::int32_t>(p);
+  }
+  return result;
+}
+
+} // namespace cnem::adapt

@@ -1,0 +1,95 @@
+#pragma once
+// A cloud while it is being resampled: nodes come and go, and mass goes with them in parcels.
+#include "adapt/structure.hpp"
+#include "core/resampling.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace cnem::adapt {
+
+/// What resampling has to know of a node. Each list is [node].
+struct NodeProperties {
+  Field mass;             ///< kg/m, carried
+  Field log_jacobian;     ///< ln J of the elastic volume change, –; mixes with mass
+  Field density;          ///< kg/m³ at J = 1; a label
+  Field size;             ///< m, wanted spacing; a label
+  std::vector<char> held; ///< corners and nodes that conditions name: they stay
+};
+
+/// Part of a node's matter on its way to another.
+struct Parcel {
+  std::int32_t from, to;
+  double fraction; ///< of what `from` had at the start of the round
+};
+
+/// Sorted sparse row over the nodes the resampling began with.
+using Row = std::vector<std::pair<std::int32_t, double>>;
+
+class WorkingCloud {
+public:
+  /// Throws GeometryError when the cloud has twins (cracks, interfaces) or its facets do not form loops.
+  WorkingCloud(const Cloud<2>& cloud, NodeProperties properties);
+
+  const Cloud<2>& cloud() const { return cloud_; }
+  const NodeProperties& node() const { return node_; }
+  std::size_t size() const { return cloud_.position.size(); }
+  bool on_boundary(std::int32_t i) const { return next_[index(i)] >= 0; }
+  std::int32_t next(std::int32_t i) const { return next_[index(i)]; } ///< along the boundary; −1 inside
+  std::int32_t previous(std::int32_t i) const { return previous_[index(i)]; }
+  std::int32_t piece(std::int32_t i) const { return piece_[index(i)]; } ///< of the facet that leaves it
+  bool held(std::int32_t i) const { return node_.held[index(i)] != 0; }
+  /// Facets have changed pieces here: the node is an end of named boundaries.
+  bool ends_piece(std::int32_t i) const {
+    return on_boundary(i) && piece_[index(i)] != piece_[index(previous_[index(i)])];
+  }
+  double size_between(std::int32_t a, std::int32_t b) const {
+    return 0.5 * (node_.size[index(a)] + node_.size[index(b)]);
+  }
+
+  /// Adds a node without matter half-way between two others, or on the facet a → b of the boundary. Returns
+  /// its number.
+  std::int32_t insert_between(std::int32_t a, std::int32_t b, bool on_boundary);
+  /// Adds an interior node without matter at x, the mean of a triangle's nodes with these weights.
+  std::int32_t insert_at(const Vec2& x, const std::array<std::int32_t, 3>& corner,
+                         const std::array<double, 3>& weight);
+  /// Makes an interior node part of the facet a → next(a), at x.
+  void promote(std::int32_t node, std::int32_t a, const Vec2& x);
+  /// Takes the boundary past a node, which becomes an interior one (to be removed).
+  void bypass(std::int32_t node);
+  /// Opens the domain along the edge from a boundary node to another node; the two faces stand `gap` (m)
+  /// apart at doubled nodes. An inner node becomes the tip. Returns the pairs {old node, its double without
+  /// matter}.
+  std::vector<std::array<std::int32_t, 2>> open_edge(std::int32_t from, std::int32_t to, std::int32_t piece,
+                                                     double gap);
+  /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
+  void move(const std::vector<Parcel>& parcels);
+  /// Moves at once; `fraction` of what `from` has now.
+  void move_now(std::int32_t from, std::int32_t to, double fraction);
+  /// Drops nodes that have no matter left; renumbers. Returns [old number] → new number, −1 for the dropped.
+  std::vector<std::int32_t> drop(const std::vector<char>& gone);
+  /// Writes the facets of the loops into cloud().
+  void refresh_facets();
+
+  /// Everything since construction, with the nodes in space-filling order when any came or went.
+  Resampling<2> finish();
+
+private:
+  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  void renew_loops();
+  Row& row(std::vector<Row>& rows, std::int32_t i);
+  NodeRows in_order(std::vector<Row>& rows, const std::vector<std::int32_t>& order);
+  std::int32_t append(const Vec2& x, const std::vector<std::pair<std::int32_t, double>>& parents);
+
+  Cloud<2> cloud_;
+  NodeProperties node_;
+  std::size_t old_nodes_;
+  std::vector<std::int32_t> next_, previous_; ///< [node] along the boundary
+  std::vector<std::int32_t> piece_;           ///< [node] of the facet that leaves it
+  std::vector<std::int32_t> loop_;            ///< a node of each loop, in order
+  std::vector<std::int32_t> old_of_;          ///< [node] number at the start; −1: inserted
+  std::vector<Row> parcels_, labels_;         ///< [node]; empty: the old node itself, if there was one
+};
+
+} // namespace cnem::adapt

@@ -1,0 +1,54 @@
+#pragma once
+// Estimate, mark, resample, transfer: what happens to the cloud at a new reference.
+#include "adapt/marking.hpp"
+#include "adapt/resample.hpp"
+#include "app/snapshot.hpp"
+#include "io/case.hpp"
+#include "mechanics/explicit_solver.hpp"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cnem::app {
+
+class Adaptation {
+public:
+  /// The spacing that the cloud has is the one that is wanted.
+  Adaptation(const io::Case& input, const ExplicitSolver<2>& solver);
+
+  bool active() const { return input_->adapt.resample; }
+
+  /// Before the first step: passes until the cloud has the spacing that tools want.
+  void fit_to_tools(ExplicitSolver<2>& solver, const std::function<void(const Resampling<2>&)>& follow);
+
+  /// Resamples the present cloud and makes it the reference. Returns how nodes went over. Throws
+  /// GeometryError with the solver left as it was.
+  Resampling<2> renew(ExplicitSolver<2>& solver);
+
+  /// For pictures and files at a time, s.
+  AdaptationFields fields(double time) const;
+  /// Sums over the run, for status.json.
+  std::vector<std::pair<std::string, double>> metrics() const;
+  void archive(Archive& archive);
+
+private:
+  Field wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud);
+  double tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) const;
+  adapt::NodeProperties properties(const ExplicitSolver<2>& solver, Field wanted) const;
+
+  const io::Case* input_;
+  Field size_, birth_;    ///< [node] m, wanted spacing before tools and growth; s, when it was inserted
+  Field wanted_;          ///< [node] m, wanted spacing of the last pass
+  Field error_;           ///< [node] indicator at the last new reference; empty before the first estimate
+  double coarsest_ = 0.0; ///< m, the spacing of level 0
+  std::vector<std::vector<Vec2>> tips_;         ///< [tool] m, points of its corners and arcs at time 0
+  double error_total_ = 0.0, error_norm_ = 0.0; ///< of the last estimate
+  std::int64_t refined_ = 0, coarsened_ = 0;    ///< cells marked so far
+  std::vector<std::int32_t> corner_;            ///< [node] 1: stays
+  adapt::PassReport total_;
+  std::int64_t passes_ = 0;
+};
+
+} // namespace cnem::app

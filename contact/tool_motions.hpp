@@ -1,0 +1,60 @@
+#pragma once
+// Where tools are and how fast: led by prescribed velocities, or free bodies of a given mass under a force
+// and what the workpiece does to them.
+#include "contact/impulse_solver.hpp"
+#include "contact/tool.hpp"
+#include "core/archive.hpp"
+
+#include <vector>
+
+namespace cnem::contact {
+
+/// A tool during the step t_n → t_{n+1}; at rest unless told otherwise.
+template<int dim> struct Pose {
+  Vec<dim> start = Vec<dim>::Zero(), end = Vec<dim>::Zero();       ///< m, displacement at t_n and t_{n+1}
+  Vec<dim> before = Vec<dim>::Zero(), velocity = Vec<dim>::Zero(); ///< m/s, at t_{n−½} and t_{n+½}
+  double recovery = 0.0; ///< m/s, half the speed of the fastest tool
+};
+
+/// What free tools hold and have received, J/m^(3−dim).
+struct DriveEnergy {
+  double kinetic = 0.0; ///< Σ ½ M V² at t_{n−½}
+  double work = 0.0;    ///< of the forces F(t) since the start
+};
+
+/// Free tools move by central differences as nodes do: M (V_{n+½} − V_{n−½}) = P (∫F dt − Σ contact impulses)
+/// over [t_{n−½}, t_{n+½}], P the projector on the directions they may move in; the impulse of F is exact.
+template<int dim> class ToolMotions {
+public:
+  ToolMotions() = default;
+  explicit ToolMotions(const std::vector<Tool<dim>>& tools);
+
+  /// Poses of the step [time, time + dt] without contact; dt_mean = (Δt₁ + Δt₂)/2.
+  std::vector<Pose<dim>> predict(const std::vector<Tool<dim>>& tools, double time, double dt, double dt_mean);
+  /// How tools answer impulses: not at all where their motion is prescribed.
+  std::vector<Reaction<dim>> reactions(const std::vector<Tool<dim>>& tools,
+                                       const std::vector<Pose<dim>>& poses) const;
+  /// Takes over the motion of free tools, with contact, and books the work of their forces.
+  void accept(const std::vector<Tool<dim>>& tools, const std::vector<Pose<dim>>& poses);
+
+  /// Displacement since t = 0, m, of the tool of index t; `time` is that of the present state for free ones.
+  Vec<dim> displacement(const Tool<dim>& tool, std::size_t t, double time) const;
+  /// Velocity, m/s: prescribed at `time`, of free tools at t_{n−½}.
+  Vec<dim> velocity(const Tool<dim>& tool, std::size_t t, double time) const;
+  /// At t_{n−½}: the force of contact at t_n, which would carry it on, is known only with the next step.
+  DriveEnergy energy(const std::vector<Tool<dim>>& tools) const;
+
+  void archive(Archive& archive, std::size_t t);
+
+private:
+  struct Body {
+    Vec<dim> displacement = Vec<dim>::Zero(), velocity = Vec<dim>::Zero();
+    Vec<dim> impulse = Vec<dim>::Zero(); ///< N s/m^(3−dim), of the force in the step in hand
+    double work = 0.0;                   ///< J/m^(3−dim)
+  };
+  std::vector<Body> body_; ///< [tool]; unused where motion is prescribed
+};
+
+extern template class ToolMotions<2>;
+
+} // namespace cnem::contact

@@ -1,0 +1,103 @@
+#include "core/resampling.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace cnem {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// f(first, last entry) for every row makes the new field.
+template<class RowValue> void carry(const NodeRows& rows, Field& value, const RowValue& row_value) {
+  Field made(rows.size());
+  for (std::size_t p = 0; p < made.size(); ++p) {
+    const std::size_t first = u(rows.begin[p]), last = u(rows.begin[p + 1]);
+    made[p] =
+        last - first == 1 && rows.weight[first] == 1.0 ? value[u(rows.node[first])] : row_value(first, last);
+  }
+  value = std::move(made);
+}
+
+} // namespace
+
+NodeRows NodeRows::identity(std::size_t n) {
+  NodeRows rows;
+  rows.begin.resize(n + 1);
+  std::iota(rows.begin.begin(), rows.begin.end(), 0);
+  rows.node.resize(n);
+  std::iota(rows.node.begin(), rows.node.end(), 0);
+  rows.weight.assign(n, 1.0);
+  return rows;
+}
+
+void carry_sum(const NodeRows& parcels, Field& value) {
+  carry(parcels, value, [&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t e = first; e < last; ++e) sum += parcels.weight[e] * value[u(parcels.node[e])];
+    return sum;
+  });
+}
+
+void carry_mean(const NodeRows& parcels, const Field& weight, Field& value) {
+  carry(parcels, value, [&](std::size_t first, std::size_t last) {
+    if (last - first == 1) return value[u(parcels.node[first])];
+    const double one = value[u(parcels.node[first])]; // equal values stay what they are to the bit
+    double sum = 0.0, total = 0.0;
+    for (std::size_t e = first; e < last; ++e) {
+      const double share = parcels.weight[e] * weight[u(parcels.node[e])];
+      sum += share * (value[u(parcels.node[e])] - one);
+      total += share;
+    }
+    return one + sum / total;
+  });
+}
+
+void carry_label(const NodeRows& labels, Field& value) { carry_sum(labels, value); }
+
+void carry_label(const NodeRows& labels, std::vector<std::int32_t>& value) {
+  std::vector<std::int32_t> made(labels.size());
+  for (std::size_t p = 0; p < made.size(); ++p) made[p] = value[u(labels.node[u(labels.begin[p])])];
+  value = std::move(made);
+}
+
+template<int dim>
+std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<const std::int32_t> pieces) {
+  std::vector<Facet<dim>> facets;
+  for (const Facet<dim>& facet : cloud.facets)
+    if (std::find(pieces.begin(), pieces.end(), facet.piece) != pieces.end()) facets.push_back(facet);
+  return facets;
+}
+
+template<int dim>
+std::vector<std::int32_t> renumbered(const Resampling<dim>& change, std::span<const std::int32_t> nodes,
+                                     std::span<const std::int32_t> pieces) {
+  std::vector<std::int32_t> list;
+  for (const std::int32_t i : nodes)
+    if (change.new_of[u(i)] >= 0) list.push_back(change.new_of[u(i)]);
+  for (const Facet<dim>& facet : facets_of_pieces(change.cloud, pieces))
+    list.insert(list.end(), facet.node.begin(), facet.node.end());
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>> facets) {
+  std::vector<std::int32_t> pieces;
+  for (const Facet<dim>& facet : facets) pieces.push_back(facet.piece);
+  std::sort(pieces.begin(), pieces.end());
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+  return pieces;
+}
+
+#define CNEM_INSTANTIATE(dim)                                                                                \
+  template std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>&, std::span<const std::int32_t>);       \
+  template std::vector<std::int32_t> renumbered(const Resampling<dim>&, std::span<const std::int32_t>,       \
+                                                std::span<const std::int32_t>);                              \
+  template std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>>);
+CNEM_INSTANTIATE(2)
+CNEM_INSTANTIATE(3)
+#undef CNEM_INSTANTIATE
+
+} // namespace cnem

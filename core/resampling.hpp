@@ -1,0 +1,64 @@
+#pragma once
+// How the nodes of a new cloud are made of those of an old one, and what is carried over with them.
+#include "core/aligned.hpp"
+#include "core/cloud.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cnem {
+
+/// Sparse rows of weights: row n of the new cloud over nodes of the old one.
+struct NodeRows {
+  std::vector<std::int32_t> begin; ///< [new + 1]
+  std::vector<std::int32_t> node;  ///< old node
+  Field weight;                    ///< –
+
+  std::size_t size() const { return begin.size() - 1; }
+  /// Row of one entry of weight 1 for each of n nodes.
+  static NodeRows identity(std::size_t n);
+};
+
+/// A change of the cloud by insertion, removal and exchange of mass between neighbours.
+///
+/// Matter goes over in parcels: new node p receives the fraction f_pk of old node k, so that Σ_p f_pk = 1 and
+/// every sum over nodes of a quantity carried per mass is kept. A node that no parcel left or reached has the
+/// row {itself, 1} and keeps its bits. Labels are positions in a sense: initial positions, sizes; they are
+/// interpolated where a node is inserted and otherwise stay with the node.
+template<int dim> struct Resampling {
+  Cloud<dim> cloud;                   ///< the new nodes, at their present positions
+  NodeRows parcels;                   ///< f_pk, fractions of old nodes
+  NodeRows labels;                    ///< weights that sum to 1 over each row
+  std::vector<Vec<dim>> old_position; ///< [old node] m, present
+  std::vector<std::int32_t> new_of;   ///< [old node] the new node that continues it; −1: removed
+  std::vector<std::int32_t> old_of;   ///< [new node] the old node that it continues; −1: inserted
+
+  /// Whether node p is other matter than one old node.
+  bool mixed(std::size_t p) const {
+    const auto first = static_cast<std::size_t>(parcels.begin[p]);
+    return parcels.begin[p + 1] - parcels.begin[p] != 1 || parcels.weight[first] != 1.0;
+  }
+};
+
+/// Sums over parcels: value'_p = Σ f_pk value_k. For mass, momentum, heat capacity.
+void carry_sum(const NodeRows& parcels, Field& value);
+/// Means over parcels weighted with an extensive quantity (mass before the change): value'_p = Σ f_pk m_k
+/// value_k / Σ f_pk m_k. Rows of one entry keep their bits.
+void carry_mean(const NodeRows& parcels, const Field& weight, Field& value);
+/// Interpolates labels: value'_p = Σ w_pk value_k.
+void carry_label(const NodeRows& labels, Field& value);
+/// A label that cannot be averaged: that of the first old node in the row.
+void carry_label(const NodeRows& labels, std::vector<std::int32_t>& value);
+
+/// Which facets and nodes a condition holds after a change of the cloud.
+template<int dim>
+std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<const std::int32_t> pieces);
+/// Old nodes that are still there, and all nodes of the given pieces; in increasing order.
+template<int dim>
+std::vector<std::int32_t> renumbered(const Resampling<dim>& change, std::span<const std::int32_t> nodes,
+                                     std::span<const std::int32_t> pieces);
+/// The pieces of a list of facets, each once, in increasing order.
+template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>> facets);
+
+} // namespace cnem

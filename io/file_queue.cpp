@@ -1,0 +1,123 @@
+#include "io/file_queue.hpp"
+
+#include <algorithm>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace cnem::io {
+
+// A step on all cores waits for its slowest thread: where cores are scarce, files can wait instead.
+constexpr int lower_priority = 10;
+
+FileQueue::~FileQueue() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void FileQueue::rethrow() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void FileQueue::put(std::filesystem::path path, std::string content) {
+  const std::size_t bytes = content.size();
+  put(Job{{std::move(path), std::move(content)}, nullptr, bytes, Stage::made});
+}
+
+void FileQueue::put(std::filesystem::path path, Maker maker, std::size_t bytes) {
+  put(Job{{std::move(path), {}}, std::move(maker), bytes, Stage::waiting});
+}
+
+void FileQueue::put(Job job) {
+  Lock lock(mutex_);
+  changed_.wait(lock, [&] { return failure_ || waiting_bytes_ <= most_waiting; });
+  rethrow();
+  // A list that is replaced before it was written need not be; the new one goes last, behind what it names.
+  const auto old = std::find_if(jobs_.begin(), jobs_.end(), [&](const Job& other) {
+    return other.file.path == job.file.path && other.stage != Stage::under_way;
+  });
+  if (old != jobs_.end()) {
+    waiting_bytes_ -= old->bytes;
+    jobs_.erase(old);
+  }
+  waiting_bytes_ += job.bytes;
+  jobs_.push_back(std::move(job));
+  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  changed_.notify_all();
+}
+
+void FileQueue::wait() {
+  Lock lock(mutex_);
+  while (!failure_ && !jobs_.empty())
+    if (!make_one(lock) && !write_made(lock)) changed_.wait(lock);
+  rethrow();
+}
+
+void FileQueue::work() {
+  [[maybe_unused]] const int priority = ::nice(lower_priority); // of this thread alone
+  Lock lock(mutex_);
+  while (!failure_) {
+    if (make_one(lock) || write_made(lock)) continue;
+    if (closed_ && jobs_.empty()) return;
+    changed_.wait(lock);
+  }
+}
+
+void FileQueue::fail(std::exception_ptr failure) {
+  failure_ = std::move(failure);
+  changed_.notify_all();
+}
+
+/// Makes the first file that waits for it. Returns false when there is none.
+bool FileQueue::make_one(Lock& lock) {
+  const auto job = std::find_if(jobs_.begin(), jobs_.end(),
+                                [](const Job& other) { return other.stage == Stage::waiting; });
+  if (job == jobs_.end()) return false;
+  job->stage = Stage::under_way;
+  lock.unlock();
+  std::exception_ptr failure;
+  try {
+    job->file.content = job->maker();
+  } catch (...) { failure = std::current_exception(); }
+  job->maker = nullptr; // and what it holds
+  lock.lock();
+  waiting_bytes_ += job->file.content.size() - job->bytes;
+  job->bytes = job->file.content.size();
+  job->stage = Stage::made;
+  if (failure)
+    fail(failure);
+  else
+    changed_.notify_all();
+  return true;
+}
+
+/// Writes the files at the head of the queue that are made. Returns false when there is none.
+bool FileQueue::write_made(Lock& lock) {
+  const auto end =
+      std::find_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.stage != Stage::made; });
+  if (end == jobs_.begin()) return false;
+  std::vector<FileContent> batch;
+  for (auto job = jobs_.begin(); job != end; ++job) {
+    job->stage = Stage::under_way; // stays in the list: whoever waits, waits for it
+    batch.push_back(std::move(job->file));
+  }
+  lock.unlock();
+  std::exception_ptr failure;
+  try {
+    write_atomically(batch);
+  } catch (...) { failure = std::current_exception(); }
+  lock.lock();
+  if (failure) {
+    fail(failure);
+    return true;
+  }
+  for (std::size_t k = 0; k < batch.size(); ++k, jobs_.pop_front()) waiting_bytes_ -= jobs_.front().bytes;
+  changed_.notify_all();
+  return true;
+}
+
+} // namespace cnem::io

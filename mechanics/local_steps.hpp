@@ -1,0 +1,144 @@
+#pragma once
+// Local time steps: which stress points and nodes are due in each sub-step (docs/theory.md, "Local time
+// steps").
+#include "core/archive.hpp"
+#include "core/discretisation.hpp"
+#include "core/resampling.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cnem {
+
+/// What a run asks of local time steps.
+struct LocalStepControl {
+  bool on = false;
+  int levels = 5;          ///< at most so many: the coarsest step is up to 2^(levels − 1) finest ones
+  double least_gain = 1.5; ///< where they would save less, all points take the finest step
+};
+
+/// Consecutive nodes (and their stress points) that are treated alike.
+struct LevelRange {
+  std::size_t begin, end;
+  int level;
+  bool marked; ///< what it means is said where ranges are handed out
+};
+
+/// Levels of stress points at nodes, in blocks of `block` so that kernels work on ranges. A point of level l
+/// steps by 2^l finest steps. All points that share a node, and so all stencils that overlap, are within one
+/// level of each other. A node moves at the rate of its finest point: when a point is due, all nodes of its
+/// stencil are at the present time.
+///
+/// A macro step is 2^L finest steps, L the highest level. In it the *activity* of the state after sub-step s
+/// is the number of times 2 divides s, L at its end; points of level ≤ activity are due.
+template<int dim> class LocalSteps {
+public:
+  static constexpr std::size_t block = 16; ///< whole vectors of every instruction set
+  using Levels = std::vector<std::int8_t>; ///< [block]
+
+  explicit LocalSteps(LocalStepControl control = {}) : control_(control) {}
+
+  bool on() const { return control_.on; }
+
+  /// Levels for steps that are stable for each block, and the finest step they allow, s.
+  struct Choice {
+    Levels level;
+    double finest = 0.0;
+    std::size_t limit = 0; ///< block that limits the finest step
+  };
+  /// Chooses for the stable steps [block], s. Levels in use are kept as long as they cost at most 5% more
+  /// updates than new ones, or than when they were chosen.
+  Choice choose(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
+                const Field& stable);
+  /// The nodes are others: blocks take the finest level that their nodes, or the first
+  /// of those an inserted one lies between, had.
+  void follow(const NodeRows& labels);
+  /// The operators are new: the next choice compares levels in use with new ones.
+  void look_again() { chosen_cost_ = 0.0; }
+
+  /// Lowers levels until neighbours are within one of each other.
+  static void grade(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
+                    Levels& level);
+
+  /// Takes levels for these operators. `finest` [node]: nodes that move in every finest step, because
+  /// something outside the cells acts on them there.
+  void take(Levels level, const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
+            const std::vector<bool>& finest);
+
+  /// Carries the levels out or in; `take` must follow.
+  void archive(Archive& archive);
+
+  const Levels& level() const { return level_; }
+  int highest() const { return highest_; }
+  int sub_steps() const { return 1 << highest_; }
+  /// After sub-step s = 1 … 2^L of a macro step.
+  int activity(int s) const;
+  /// Updates of stress points in a macro step.
+  double updates() const { return updates_; }
+
+  // What is due at an activity.
+  /// Stress points; marked: some are linked to coarser neighbours.
+  const std::vector<LevelRange>& points(int activity) const { return due_[at(activity)].points; }
+  /// Nodes that receive impulses, at the level of their finest point; marked: their own points are due too.
+  const std::vector<LevelRange>& kicked(int activity) const { return due_[at(activity)].kicked; }
+  /// Nodes that move, at the level of their motion; marked: they are kicked before.
+  const std::vector<LevelRange>& moved(int activity) const { return due_[at(activity)].moved; }
+  /// Points due at this activity but not in the next sub-step, that finer nodes gather from in the meantime.
+  const std::vector<LevelRange>& silenced(int activity) const { return due_[at(activity)].silenced; }
+
+  /// Links of each node to neighbours that are not coarser, due with the node.
+  const StabilisationLinks<dim>& own_links() const { return own_; }
+  /// Links to coarser neighbours, due with those; weighted by the ratio of steps, since what acts on a node
+  /// is multiplied with its own step.
+  const StabilisationLinks<dim>& coarse_links() const { return coarse_; }
+
+  /// 2^level of the impulses of node i.
+  double weight(std::size_t node) const { return static_cast<double>(1 << kick_[node / block]); }
+  /// Over how many finest steps the forces reach a node at an activity, as a mean over its points.
+  double window(const DiscreteOperators<dim>& operators, std::size_t node, int activity) const;
+
+private:
+  struct Due {
+    std::vector<LevelRange> points, kicked, moved, silenced;
+  };
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  void split(const StabilisationLinks<dim>& links);
+  void list(std::size_t nodes, const std::vector<bool>& silent);
+
+  LocalStepControl control_;
+  Levels level_; ///< of points
+  Levels kick_;  ///< of the finest point that acts on a node of the block
+  Levels move_;
+  int highest_ = 0;
+  double updates_ = 0.0;
+  double chosen_cost_ = 0.0; ///< 1/s, updates over time when levels were compared last
+  StabilisationLinks<dim> own_, coarse_;
+  std::vector<bool> has_coarse_; ///< [block]
+  std::vector<Due> due_;         ///< [activity]
+};
+
+extern template class LocalSteps<2>;
+extern template class LocalSteps<3>;
+
+/// body(range) for all ranges, shared out to the threads. body must write only to its range.
+template<class Body> void for_each_range(const std::vector<LevelRange>& ranges, Body&& body) {
+  const auto count = static_cast<std::ptrdiff_t>(ranges.size());
+  if (count == 1) return body(ranges.front());
+#pragma omp parallel for schedule(dynamic)
+  for (std::ptrdiff_t r = 0; r < count; ++r) body(ranges[static_cast<std::size_t>(r)]);
+}
+
+/// Sum of body(range), added up in the order of the ranges.
+template<class Body> double sum_ranges(const std::vector<LevelRange>& ranges, Body&& body) {
+  std::vector<double> partial(ranges.size());
+  for_each_range(ranges, [&](const LevelRange& range) {
+    partial[static_cast<std::size_t>(&range - ranges.data())] = body(range);
+  });
+  double sum = 0.0;
+  for (const double value : partial) sum += value;
+  return sum;
+}
+
+} // namespace cnem

@@ -1,0 +1,27 @@
+#pragma once
+// More inertia than mass, so that slow processes can take longer steps.
+#include "core/operators.hpp"
+#include "core/state.hpp"
+
+namespace cnem {
+
+/// What is asked for; by default nothing.
+struct MassScaling {
+  double factor = 1.0; ///< – on the inertia of all nodes, ≥ 1
+  double step = 0.0;   ///< s, stable step wanted at the start, safety included; 0: none
+
+  bool active() const { return factor != 1.0 || step > 0.0; }
+};
+
+/// Factors ≥ 1 on the masses of nodes, [node], such that the bound on ω² of mechanics/stable_step.hpp is at
+/// most `most` (1/s²) on the reference: each node takes the largest excess of the stress points it belongs
+/// to, so that only nodes of cells that limit the step grow heavier. wave_modulus [point] λ + 2μ in Pa, mass
+/// [node].
+template<int dim>
+Field scales_for_frequency(const DiscreteOperators<dim>& operators, const Field& wave_modulus,
+                           const Field& mass, double most);
+
+extern template Field scales_for_frequency<2>(const DiscreteOperators<2>&, const Field&, const Field&,
+                                              double);
+
+} // namespace cnem

@@ -1,0 +1,77 @@
+#pragma once
+// Smooths the oscillating pressure of nodal integration where the metal flows: neighbours trade volume.
+#include "core/archive.hpp"
+#include "core/cloud.hpp"
+#include "core/discretisation.hpp"
+#include "core/resampling.hpp"
+#include "core/state.hpp"
+#include "mechanics/kinematics.hpp"
+
+#include <vector>
+
+namespace cnem {
+
+/// After the return map, on the links between two nodes that both flow and are not on the boundary:
+///
+///   Δp_ij = p_j − p_i − ½ (g_i + g_j)·X_ij,  g_i = Σ_k b_ik (p_k − p_i)
+///   w_ij = min[α L_ij d_ij 3 min(Δγ_i, Δγ_j)/(σ_i + σ_j), ½ min(V_i/n_i, V_j/n_j)/κ]
+///   δθ_i = −Σ_j w_ij Δp_ij / V_i,  b_e ← e^{2δθ/3} b_e,  p_i ← p_i − κ δθ_i
+///
+/// (Bochev and Dohrmann's projection with the plastic tangent viscosity; n_i is the number of links of node
+/// i.) w_ij Δp_ij changes its sign alone when i and j are exchanged, so that Σ V δθ = 0; nodes do not move
+/// and momenta are untouched, as are constant and linear pressures and elastic zones. What b_e's J and the
+/// geometric one part by is Σ δθ of each node.
+template<int dim> class PressureExchange {
+public:
+  PressureExchange() = default;
+  explicit PressureExchange(double alpha) : alpha_(alpha) {}
+
+  bool active(const StabilisationLinks<dim>& links) const { return alpha_ > 0.0 && !links.neighbour.empty(); }
+
+  /// Takes a new reference: its boundary, and the bulk moduli of the nodes, Pa.
+  void reset(const std::vector<Facet<dim>>& facets, Field bulk_modulus);
+  /// Keeps the pressures of t_n for the energy of this step.
+  void remember(const Field& pressure) { before_ = pressure; }
+
+  /// What an exchange has done to the energies of the body, J/m^(3−dim).
+  struct Energy {
+    double dissipated =
+        0.0; ///< −Σ V ½(τⁿ + τⁿ⁺¹) δθ, τ = −p, and stored energy of the volume that was traded
+    double plastic = 0.0; ///< plastic work of the past counted in that volume, to be given back
+  };
+  /// One exchange, for a nodal method. `reference` [node · dim + component]; `stress` gets the change of P.
+  Energy apply(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
+               const Field& reference, double dt, PointState<dim>& point, ColumnStress<dim>& stress);
+
+  /// Σ δθ since the start, [node]: log of b_e's J over the geometric one, up to what re-references add. Empty
+  /// when there was no exchange.
+  const Field& drift() const { return drift_; }
+
+  /// The drift goes with the matter of a resampled cloud; `mass` [old node].
+  void carry_over(const NodeRows& parcels, const Field& mass) {
+    if (!drift_.empty()) carry_mean(parcels, mass, drift_);
+  }
+
+  /// Before a checkpoint fills the drift of a resampled cloud.
+  void resize(std::size_t nodes) { drift_.resize(nodes); }
+
+  void archive(Archive& archive);
+
+private:
+  double alpha_ = 0.0;
+  Field bulk_modulus_, before_, drift_;
+  std::vector<char> boundary_; ///< [node]
+  Field record_;               ///< [node] p, g, Δγ (0: no part in it), σ, V/n
+};
+
+/// Root mean square of (p − mean of the neighbours' p)/σ_eq over interior nodes that flow; 0 when there is
+/// none.
+template<int dim>
+double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Facet<dim>>& facets,
+                      const PointState<dim>& point);
+
+extern template class PressureExchange<2>;
+extern template double pressure_noise<2>(const StabilisationLinks<2>&, const std::vector<Facet<2>>&,
+                                         const PointState<2>&);
+
+} // namespace cnem

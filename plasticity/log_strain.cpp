@@ -1,0 +1,72 @@
+#include "plasticity/log_strain.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace cnem::plasticity {
+
+namespace {
+
+using Tensor = Eigen::Matrix3d;
+
+template<int dim> Tensor full(const Symmetric<dim>& a) {
+  Tensor t = Tensor::Zero();
+  t.diagonal() = a.template head<3>();
+  t(0, 1) = t(1, 0) = a[3];
+  if constexpr (dim == 3) {
+    t(1, 2) = t(2, 1) = a[4];
+    t(0, 2) = t(2, 0) = a[5];
+  }
+  return t;
+}
+
+template<int dim> Symmetric<dim> packed(const Tensor& t) {
+  Symmetric<dim> a;
+  a.template head<3>() = t.diagonal();
+  a[3] = t(0, 1);
+  if constexpr (dim == 3) {
+    a[4] = t(1, 2);
+    a[5] = t(0, 2);
+  }
+  return a;
+}
+
+template<int dim, class Function> Symmetric<dim> isotropic(const Symmetric<dim>& a, const Function& f) {
+  const Eigen::SelfAdjointEigenSolver<Tensor> spectrum(full<dim>(a));
+  const Tensor& axis = spectrum.eigenvectors();
+  return packed<dim>(axis * spectrum.eigenvalues().unaryExpr(f).asDiagonal() * axis.transpose());
+}
+
+} // namespace
+
+template<int dim> Symmetric<dim> logarithm(const Symmetric<dim>& b) {
+  return isotropic<dim>(b, [](double v) { return std::log(v); });
+}
+
+template<int dim> Symmetric<dim> exponential(const Symmetric<dim>& h) {
+  return isotropic<dim>(h, [](double v) { return std::exp(v); });
+}
+
+template<int dim> Symmetric<dim> limited_to(const Symmetric<dim>& log_elastic, double yield, double mu) {
+  const double mean = log_elastic.template head<3>().sum() / 3.0;
+  Symmetric<dim> deviator = log_elastic;
+  deviator.template head<3>().array() -= mean;
+  // ε_e is half the logarithm; shear components stand for two entries of the tensor
+  const double norm = std::sqrt(deviator.template head<3>().squaredNorm() +
+                                2.0 * deviator.template tail<symmetric_size<dim> - 3>().squaredNorm());
+  const double stress = mu * std::sqrt(1.5) * norm;
+  if (stress <= yield) return log_elastic;
+  deviator *= yield / stress;
+  deviator.template head<3>().array() += mean;
+  return deviator;
+}
+
+#define CNEM_INSTANTIATE(dim)                                                                                \
+  template Symmetric<dim> logarithm<dim>(const Symmetric<dim>&);                                             \
+  template Symmetric<dim> exponential<dim>(const Symmetric<dim>&);                                           \
+  template Symmetric<dim> limited_to<dim>(const Symmetric<dim>&, double, double);
+CNEM_INSTANTIATE(2)
+CNEM_INSTANTIATE(3)
+#undef CNEM_INSTANTIATE
+
+} // namespace cnem::plasticity

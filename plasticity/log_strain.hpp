@@ -1,0 +1,28 @@
+#pragma once
+// Logarithm and exponential of symmetric tensors, for the averaging of elastic states (paper 004, (31)).
+#include "core/state.hpp"
+
+#include <Eigen/Core>
+
+namespace cnem::plasticity {
+
+/// Components of a symmetric tensor as in core/state.hpp: 2D xx, yy, zz, xy; 3D xx, yy, zz, xy, yz, zx.
+template<int dim> using Symmetric = Eigen::Matrix<double, symmetric_size<dim>, 1>;
+
+/// The tensor of point p.
+template<int dim> Symmetric<dim> at_point(const Fields<symmetric_size<dim>>& fields, std::size_t p) {
+  Symmetric<dim> a;
+  for (std::size_t k = 0; k < fields.size(); ++k) a[static_cast<Eigen::Index>(k)] = fields[k][p];
+  return a;
+}
+
+/// ln b of a positive definite tensor. NaN where it is not.
+template<int dim> Symmetric<dim> logarithm(const Symmetric<dim>& b);
+/// exp h.
+template<int dim> Symmetric<dim> exponential(const Symmetric<dim>& h);
+
+/// ln b_e = 2 ε_e whose deviatoric part is drawn back so that σ_eq = 2μ √(3/2) |dev ε_e| does not exceed
+/// `yield` (Pa); mu in Pa. The volume change stays.
+template<int dim> Symmetric<dim> limited_to(const Symmetric<dim>& log_elastic, double yield, double mu);
+
+} // namespace cnem::plasticity

@@ -1,0 +1,194 @@
+// The audit of every change of a cloud: what the solver has before and after.
+#include "adapt/resample.hpp"
+#include "mechanics/kinematics.hpp"
+#include "tests/unit/mechanics/models.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::testing {
+namespace {
+
+Resampling<2> resampled(const ExplicitSolver<2>& solver, double factor) {
+  const State<2>& state = solver.state();
+  adapt::NodeProperties node;
+  node.mass = state.node.mass;
+  for (std::size_t i = 0; i < node.mass.size(); ++i) {
+    node.log_jacobian.push_back(
+        std::log(jacobian<2>(state.point.deformation, i) / state.point.stress_free[i]));
+    node.density.push_back(solver.model().materials[0].density);
+    // finer on the left, coarser on the right
+    node.size.push_back(1e-4 * (solver.initial_position()[0][i] < 5e-4 ? factor : 1.0 / factor));
+    node.held.push_back(0);
+  }
+  adapt::PassReport report;
+  return adapt::resample(solver.present_cloud(), std::move(node), {}, adapt::Placement::between_nodes,
+                         report);
+}
+
+ExplicitSolver<2> deformed_block(int steps, const plasticity::Material& material = steel_304L()) {
+  Cloud<2> cloud = rectangle(1e-3, 1e-3, 1e-4, Lattice::hexagonal, 0.2);
+  Model<2> model = model_of(cloud, Method::cnem, material);
+  model.thermal = true;
+  ExplicitSolver<2> solver = start(std::move(model), [](const Vec2& x) -> Vec2 {
+    return {2e5 * (x.y() - 5e-4), 4e4 * std::sin(x.x() / 2e-4) * 1e-3};
+  });
+  for (int n = 0; n < steps; ++n) solver.advance(solver.stable_step().dt);
+  return solver;
+}
+
+double sum(const Field& a, const Field& b) {
+  double total = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) total += a[i] * b[i];
+  return total;
+}
+
+TEST(Audit, mass_momentum_and_heat_are_kept_and_energy_is_booked) {
+  ExplicitSolver<2> solver = deformed_block(150);
+  for (const double factor : {0.5, 1.0, 2.0}) {
+    const State<2>& state = solver.state();
+    const Momenta momentum = momenta(solver);
+    const double mass = sum(state.node.mass, Field(state.node.size(), 1.0)),
+                 heat = sum(state.node.heat_capacity, state.node.temperature);
+    const EnergyLedger before = solver.ledger();
+    const auto nodes = state.node.size();
+    double scale = 0.0;
+    for (std::size_t i = 0; i < nodes; ++i)
+      scale += state.node.mass[i] * std::hypot(state.node.velocity[0][i], state.node.velocity[1][i]);
+    solver.prepare(resampled(solver, factor));
+    EXPECT_NE(solver.state().node.size(), nodes);
+    EXPECT_NEAR(sum(state.node.mass, Field(state.node.size(), 1.0)), mass, 1e-12 * mass);
+    EXPECT_NEAR((momenta(solver).linear - momentum.linear).norm(), 0.0, 1e-12 * scale);
+    EXPECT_NEAR(sum(state.node.heat_capacity, state.node.temperature), heat, 1e-12 * heat);
+    const EnergyLedger after = solver.ledger();
+    EXPECT_NEAR(after.residual(), before.residual(), 1e-11 * after.total());
+    EXPECT_NEAR(after.heat_residual(), before.heat_residual(), 1e-11 * heat);
+    EXPECT_NEAR(after.plastic, before.plastic, 1e-12 * after.plastic);
+    for (int n = 0; n < 20; ++n) solver.advance(solver.stable_step().dt);
+  }
+}
+
+TEST(Audit, stresses_of_mixed_points_do_not_exceed_the_yield_stress) {
+  ExplicitSolver<2> solver = deformed_block(150);
+  const Resampling<2> change = resampled(solver, 0.5);
+  solver.prepare(change);
+  const PointState<2>& point = solver.state().point;
+  const plasticity::JohnsonCook& law = *solver.model().materials[0].hardening;
+  int mixed = 0;
+  for (std::size_t p = 0; p < point.size(); ++p) {
+    if (change.parcels.begin[p + 1] - change.parcels.begin[p] < 2) continue;
+    ++mixed;
+    EXPECT_LE(point.equivalent_stress[p],
+              law.flow_stress(point.plastic_strain[p], point.plastic_rate[p], point.temperature[p]) *
+                  (1 + 1e-9));
+  }
+  EXPECT_GT(mixed, 50);
+}
+
+TEST(Audit, damage_goes_with_the_mass_and_limits_mixed_stresses) {
+  plasticity::Material material = steel_304L();
+  plasticity::JohnsonCookDamage& damage = material.damage.emplace();
+  damage.D1 = 0.005;
+  damage.fracture_energy = 1e3;
+  ExplicitSolver<2> solver = deformed_block(150, material);
+  for (const double factor : {0.5, 2.0}) {
+    const State<2>& state = solver.state();
+    const PointState<2>& point = state.point;
+    const double damaged = sum(state.node.mass, point.damage), soft = sum(state.node.mass, point.softening);
+    const Field old_damage = point.damage;
+    const EnergyLedger before = solver.ledger();
+    EXPECT_GT(before.damage, 0.0);
+    const Resampling<2> change = resampled(solver, factor);
+    solver.prepare(change);
+    ASSERT_EQ(point.softening.size(), state.node.size());
+    EXPECT_NEAR(sum(state.node.mass, point.damage), damaged, 1e-12 * damaged);
+    EXPECT_NEAR(sum(state.node.mass, point.softening), soft, 1e-12 * soft);
+    EXPECT_NEAR(solver.ledger().residual(), before.residual(), 1e-11 * before.total());
+    int initiated = 0, limited = 0;
+    for (std::size_t p = 0; p < point.size(); ++p) {
+      const auto first = change.parcels.node.begin() + change.parcels.begin[p],
+                 last = change.parcels.node.begin() + change.parcels.begin[p + 1];
+      if (last - first < 2) continue;
+      if (std::all_of(first, last, [&](std::int32_t i) { return old_damage[std::size_t(i)] == 1.0; })) {
+        ++initiated;
+        EXPECT_EQ(point.damage[p], 1.0) << "to the bit: else it would initiate again";
+        EXPECT_GT(point.initiation_strain[p], 0.0049);
+      } else {
+        EXPECT_EQ(point.initiation_strain[p], 0.0);
+      }
+      if (point.softening[p] == 0.0) continue;
+      ++limited;
+      const double flow = material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],
+                                                          point.temperature[p]);
+      EXPECT_LE(point.equivalent_stress[p], (1.0 - point.softening[p] + 1e-9) * flow);
+    }
+    EXPECT_GT(initiated, 10);
+    EXPECT_GT(limited, 20);
+    for (int n = 0; n < 20; ++n) solver.advance(solver.stable_step().dt);
+    EXPECT_LE(*std::max_element(point.softening.begin(), point.softening.end()), 1.0);
+  }
+}
+
+// The patch test of a change: a body in uniform stress is in the same uniform stress afterwards.
+TEST(Audit, a_uniform_state_stays_uniform) {
+  Cloud<2> cloud = rectangle(1e-3, 1e-3, 1e-4, Lattice::hexagonal, 0.2);
+  const Mat2 F = (Mat2() << 1.002, 0.001, -0.0005, 0.998).finished();
+  std::vector<Support<2>> supports;
+  const double time = 1e-7;
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+    const Vec2 u = (F - Mat2::Identity()) * cloud.position[static_cast<std::size_t>(i)];
+    for (int k = 0; k < 2; ++k)
+      supports.push_back({k == 0 ? "x" : "y",
+                          Support<2>::Kind::velocity,
+                          k == 0 ? Vec2(1, 0) : Vec2(0, 1),
+                          TimeTable(u[k] / time),
+                          {i},
+                          {}});
+  }
+  Model<2> model = model_of(cloud, Method::cnem, steel());
+  model.supports = Supports<2>(std::move(supports), static_cast<std::size_t>(cloud.nodes()));
+  model.viscosity = {};
+  ExplicitSolver<2> solver =
+      start(std::move(model), [&](const Vec2& x) -> Vec2 { return (F - Mat2::Identity()) * x / time; });
+  for (int n = 0; n < 20; ++n) solver.advance(time / 20);
+  const double stress = solver.state().point.equivalent_stress[0],
+               pressure = solver.state().point.pressure[0];
+  solver.prepare(resampled(solver, 0.5));
+  const State<2>& state = solver.state();
+  for (std::size_t p = 0; p < state.point.size(); ++p) {
+    EXPECT_NEAR(state.point.equivalent_stress[p], stress, 1e-9 * stress);
+    EXPECT_NEAR(state.point.pressure[p], pressure, 1e-9 * stress);
+  }
+  std::vector<char> boundary(state.node.size(), 0);
+  for (const Facet<2>& facet : solver.model().cloud.facets)
+    for (const std::int32_t i : facet.node) boundary[static_cast<std::size_t>(i)] = 1;
+  for (std::size_t i = 0; i < state.node.size(); ++i) {
+    if (boundary[i]) continue;
+    EXPECT_NEAR(std::hypot(state.node.force[0][i], state.node.force[1][i]), 0.0, 1e-9 * stress * 1e-4);
+  }
+}
+
+// Conditions hold what is new on their pieces.
+TEST(Audit, supports_and_loads_follow_the_boundary) {
+  Cloud<2> cloud = rectangle(1e-3, 1e-3, 1e-4, Lattice::hexagonal, 0.1);
+  Model<2> model = model_of(cloud, Method::cnem, steel());
+  model.supports =
+      Supports<2>({{"left", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3), {3}}},
+                  static_cast<std::size_t>(cloud.nodes()));
+  std::vector<Facet<2>> right;
+  for (const Facet<2>& facet : cloud.facets)
+    if (facet.piece == 1) right.push_back(facet);
+  model.loads = Loads<2>({{"pull", {TimeTable(1e6), TimeTable()}, right}}, {}, {}, cloud.position);
+  ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
+  for (int n = 0; n < 3; ++n) solver.advance(solver.stable_step().dt);
+  const std::size_t held = solver.model().supports.constraints().size();
+  solver.prepare(resampled(solver, 0.4));
+  EXPECT_GT(solver.model().supports.constraints().size(), held);
+  for (const auto& constraint : solver.model().supports.constraints())
+    EXPECT_NEAR(solver.state().node.position[0][static_cast<std::size_t>(constraint.node)], 0.0, 1e-15);
+  double pull = 0.0;
+  for (const double f : solver.model().loads.force()[0]) pull += f;
+  EXPECT_NEAR(pull, 1e6 * 1e-3, 1e-9 * 1e3);
+}
+
+} // namespace
+} // namespace cnem::testing

@@ -1,0 +1,215 @@
+// The exchange of volume between flowing neighbours: what it conserves, what it leaves alone, what it
+// smooths.
+#include "mechanics/pressure_exchange.hpp"
+#include "models.hpp"
+#include "plasticity/return_map.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::testing {
+namespace {
+
+/// A stretched block of flowing cells with given pressures, without a solver around it.
+struct Block {
+  Cloud<2> cloud;
+  Approximation<2> approximation;
+  PointState<2> point;
+  ColumnStress<2> stress;
+  Field reference;
+  std::vector<char> on_boundary;
+  plasticity::Material material = steel_304L();
+  double kappa = steel_304L().elasticity.kappa();
+
+  explicit Block(const std::function<double(const Vec2&, std::size_t)>& pressure, bool revolution = false) {
+    cloud = rectangle(2e-3, 1e-3, 1e-4, Lattice::hexagonal, 0.2);
+    approximation = make(Method::cnem, revolution ? Space::revolution : Space::plane)->rebuild(cloud);
+    const std::size_t n = cloud.position.size();
+    Fields<2> position;
+    resize_all(position, n);
+    on_boundary.assign(n, 0);
+    for (const Facet<2>& facet : cloud.facets)
+      for (const std::int32_t node : facet.node) on_boundary[std::size_t(node)] = 1;
+    resize_all(point.deformation, n, 0.0);
+    resize_all(point.elastic, n, 0.0);
+    resize_all(point.piola, n, 0.0);
+    for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress,
+                         &point.pressure, &point.stored_energy, &point.plastic_work, &point.dissipation,
+                         &point.temperature, &point.stress_free, &point.strength})
+      field->assign(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) position[k][i] = cloud.position[i][Eigen::Index(k)];
+      const double F[5] = {1.2, 0.3, -0.1, 0.9, 1.0};
+      for (std::size_t c = 0; c < 5; ++c) point.deformation[c][i] = F[c];
+      // b_e = e^{−2p/3κ} (1 + a little shear), pulled back by the same F
+      const double p = pressure(cloud.position[i], i), s = std::exp(-2.0 * p / (3.0 * kappa));
+      const double det = F[0] * F[3] - F[1] * F[2];
+      const double G[4] = {F[3] / det, -F[1] / det, -F[2] / det, F[0] / det};
+      const double shear = 1e-3, b[3] = {s * std::exp(shear), s * std::exp(-shear), s};
+      point.elastic[0][i] = G[0] * G[0] * b[0] + G[1] * G[1] * b[1];
+      point.elastic[1][i] = G[2] * G[2] * b[0] + G[3] * G[3] * b[1];
+      point.elastic[3][i] = G[0] * G[2] * b[0] + G[1] * G[3] * b[1];
+      point.elastic[2][i] = b[2];
+      point.temperature[i] = 296.0;
+      point.strength[i] = 1.0;
+      point.plastic_work[i] = 3e7;
+    }
+    reference = side_by_side<2>(position);
+    update();
+    for (std::size_t i = 0; i < n; ++i) point.plastic_rate[i] = 1e4;
+    take_columns<2>(point.piola, stress);
+  }
+  /// Stress and energy anew from F and C_p⁻¹, without flow.
+  void update() {
+    ASSERT_EQ(plasticity::update_stress(material, plasticity::stress_points(point), 0,
+                                        std::ptrdiff_t(point.size()), 0.0),
+              -1);
+  }
+  PressureExchange<2> exchange(double alpha) const {
+    PressureExchange<2> made(alpha);
+    made.reset(cloud.facets, Field(point.size(), kappa));
+    return made;
+  }
+  PressureExchange<2>::Energy apply(PressureExchange<2>& exchange, double dt = 1e-8) {
+    exchange.remember(point.pressure);
+    return exchange.apply(approximation.mechanics, approximation.links, reference, dt, point, stress);
+  }
+  double total(const Field& density) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < point.size(); ++i)
+      sum += approximation.mechanics.volume[i] * point.stress_free[i] * density[i];
+    return sum;
+  }
+};
+
+double noise(const Vec2&, std::size_t i) { return 2e8 * (double(i * 2654435761U % 1000) / 500.0 - 1.0); }
+
+class Exchange : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Exchange, conserves_volume_and_books_its_energy) {
+  Block block(noise, GetParam());
+  PressureExchange<2> exchange = block.exchange(0.3);
+  const Field before = block.point.pressure, stress_free = block.point.stress_free;
+  const double stored = block.total(block.point.stored_energy),
+               plastic = block.total(block.point.plastic_work);
+  const auto energy = block.apply(exchange);
+  double sum = 0.0, size = 0.0, changed = 0.0, forces = 0.0;
+  for (std::size_t i = 0; i < block.point.size(); ++i) {
+    const double traded = block.approximation.mechanics.volume[i] * exchange.drift()[i];
+    sum += traded;
+    size += std::abs(traded);
+    changed += block.point.pressure[i] != before[i];
+    // p −= κ δθ, and the stress-free volume follows b_e
+    EXPECT_NEAR(block.point.pressure[i], before[i] - block.kappa * exchange.drift()[i], 1e-3);
+    EXPECT_NEAR(block.point.stress_free[i], stress_free[i] * std::exp(-exchange.drift()[i]), 1e-15);
+    for (std::size_t c = 0; c < 4; ++c)
+      forces += std::abs(block.stress.columns[4 * i + c] - block.point.piola[(c % 2) * 2 + c / 2][i]);
+  }
+  EXPECT_GT(changed, 0.6 * double(block.point.size()));
+  EXPECT_LT(std::abs(sum), 1e-15 * size);
+  EXPECT_LT(forces, 1e-3);
+  EXPECT_NEAR(energy.dissipated, stored - block.total(block.point.stored_energy), 1e-9 * energy.dissipated);
+  EXPECT_NEAR(energy.plastic, plastic - block.total(block.point.plastic_work), 1e-12 * plastic);
+  EXPECT_GT(energy.dissipated, 0.0);
+  // what it left is the state that the return map makes of F and C_p⁻¹
+  const PointState<2> left = block.point;
+  block.update();
+  for (std::size_t i = 0; i < block.point.size(); ++i) {
+    EXPECT_NEAR(block.point.pressure[i], left.pressure[i], 1e-6 * 2e8);
+    EXPECT_NEAR(block.point.stored_energy[i], left.stored_energy[i], 1e-9 * 2e5);
+    EXPECT_NEAR(block.point.stress_free[i], left.stress_free[i], 1e-13);
+    for (std::size_t c = 0; c < 5; ++c) EXPECT_NEAR(block.point.piola[c][i], left.piola[c][i], 1e-6 * 2e8);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Of, Exchange, ::testing::Bool(),
+                         [](const auto& round) { return round.param ? "revolution" : "plane"; });
+
+TEST(PressureExchange, is_nothing_on_constant_and_linear_pressures) {
+  Block constant([](const Vec2&, std::size_t) { return 3e8; });
+  PressureExchange<2> exchange = constant.exchange(0.3);
+  constant.apply(exchange);
+  Block linear([](const Vec2& x, std::size_t) { return 1e8 + 2e11 * x.x() - 1e11 * x.y(); });
+  PressureExchange<2> other = linear.exchange(0.3);
+  linear.apply(other);
+  Block noisy(noise);
+  PressureExchange<2> third = noisy.exchange(0.3);
+  noisy.apply(third);
+  double typical = 0.0;
+  for (const double theta : third.drift()) typical = std::max(typical, std::abs(theta));
+  for (std::size_t i = 0; i < linear.point.size(); ++i) {
+    EXPECT_LT(std::abs(exchange.drift()[i]), 1e-12 * typical);
+    EXPECT_LT(std::abs(other.drift()[i]), 1e-11 * typical);
+  }
+}
+
+TEST(PressureExchange, leaves_elastic_zones_and_boundaries_alone) {
+  Block block(noise);
+  for (std::size_t i = 0; i < block.point.size(); ++i)
+    if (block.cloud.position[i].x() > 1e-3) block.point.plastic_rate[i] = 0.0;
+  PressureExchange<2> exchange = block.exchange(0.3);
+  const PointState<2> before = block.point;
+  block.apply(exchange);
+  int touched = 0;
+  for (std::size_t i = 0; i < block.point.size(); ++i) {
+    const bool out = block.on_boundary[i] || block.point.plastic_rate[i] == 0.0;
+    touched += block.point.pressure[i] != before.pressure[i];
+    if (!out) continue;
+    EXPECT_EQ(block.point.pressure[i], before.pressure[i]);
+    EXPECT_EQ(block.point.elastic[0][i], before.elastic[0][i]);
+    EXPECT_EQ(block.point.piola[3][i], before.piola[3][i]);
+    EXPECT_EQ(exchange.drift()[i], 0.0);
+  }
+  EXPECT_GT(touched, 20);
+}
+
+TEST(PressureExchange, damps_a_checkerboard_faster_the_more_flows_and_never_beyond) {
+  const auto checkerboard = [](const Vec2& x, std::size_t) {
+    const long row = std::lround(x.y() / (1e-4 * std::sqrt(0.75)));
+    return row % 2 == 0 ? 2e8 : -2e8;
+  };
+  double last = 1.0;
+  for (const double dt : {1e-10, 1e-9, 1e-8, 1e-5}) { // the last at the limit of w
+    Block block(checkerboard);
+    PressureExchange<2> exchange = block.exchange(0.3);
+    const double before = pressure_noise<2>(block.approximation.links, block.cloud.facets, block.point);
+    const double energy = block.total(block.point.stored_energy);
+    double dissipated = block.apply(exchange, dt).dissipated;
+    EXPECT_GT(dissipated, 0.0);
+    for (int n = 1; n < 20; ++n) dissipated += block.apply(exchange, dt).dissipated;
+    EXPECT_NEAR(block.total(block.point.stored_energy), energy - dissipated, 1e-9 * energy);
+    EXPECT_LT(block.total(block.point.stored_energy), energy);
+    const double after =
+        pressure_noise<2>(block.approximation.links, block.cloud.facets, block.point) / before;
+    EXPECT_LT(after, last) << dt;
+    last = after;
+  }
+  EXPECT_LT(last, 0.35);
+}
+
+TEST(PressureExchange, keeps_momentum_and_the_energy_balance_of_a_run) {
+  for (const double alpha : {0.0, 0.3}) {
+    Model<2> model = model_of(rectangle(2e-3, 1e-3, 1e-4), Method::cnem, steel_304L());
+    model.pressure_exchange = alpha;
+    model.viscosity = {1.2, 0.06};
+    ExplicitSolver<2> solver = start(std::move(model), [](const Vec2& x) -> Vec2 {
+      return {60.0 * std::sin(2000.0 * x.y()), -80.0 * std::sin(1500.0 * x.x())};
+    });
+    const Momenta before = momenta(solver);
+    const double dt = 0.8 * solver.stable_step().dt, initial = solver.ledger().initial;
+    for (int n = 0; n < 600; ++n) {
+      if (n % 100 == 99) solver.prepare();
+      solver.advance(dt);
+    }
+    const Momenta after = momenta(solver);
+    const double scale = 2e-6 * 7850.0 * 80.0;
+    EXPECT_LT((after.linear - before.linear).norm(), 1e-12 * scale) << alpha;
+    EXPECT_LT(std::abs(after.angular - before.angular), 1e-12 * scale * 1e-3) << alpha;
+    const EnergyLedger ledger = solver.ledger();
+    EXPECT_GT(ledger.plastic, 0.1 * initial);
+    EXPECT_LT(std::abs(ledger.residual()), 1e-3 * initial) << alpha;
+    EXPECT_EQ(ledger.pressure_exchange > 0.0, alpha > 0.0);
+    EXPECT_EQ(solver.volume_drift().empty(), alpha == 0.0);
+  }
+}
+
+} // namespace
+} // namespace cnem::testing

@@ -1,0 +1,127 @@
+// Tools with a mass of their own, with the whole solver, against exact solutions.
+#include "contact/curve_shape.hpp"
+#include "tests/unit/mechanics/models.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::testing {
+namespace {
+
+contact::Tool<2> ram(const Vec2& low, const Vec2& high, double mass, const Vec2& velocity,
+                     std::array<TimeTable, 2> force = {}) {
+  Curve curve;
+  const Vec2 corner[] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+  for (int i = 0; i < 4; ++i) {
+    CurvePiece piece;
+    piece.from = corner[i];
+    piece.to = corner[(i + 1) % 4];
+    curve.pieces.push_back(piece);
+  }
+  contact::Tool<2> tool;
+  tool.name = "ram";
+  tool.shape = std::make_shared<contact::CurveShape>(curve);
+  tool.drive = contact::ToolDrive<2>{mass, std::move(force), velocity};
+  return tool;
+}
+
+/// Steel without lateral strain: bars are one-dimensional, c = √(E/ρ).
+plasticity::Material rod() {
+  plasticity::Material material = steel();
+  material.elasticity.poisson = 0.0;
+  return material;
+}
+
+double total_mass(const ExplicitSolver<2>& solver) {
+  double mass = 0.0;
+  for (const double m : solver.state().node.mass) mass += m;
+  return mass;
+}
+
+Vec2 ram_velocity(const ExplicitSolver<2>& solver) {
+  return solver.model().contact.velocity(0, solver.state().time);
+}
+
+class Hammer : public ::testing::TestWithParam<Method> {};
+
+TEST_P(Hammer, that_hits_a_long_bar_is_slowed_exponentially_by_its_impedance) {
+  // until the wave is back from the far end: m dv/dt = −ρ c A v
+  const double length = 2e-2, width = 1e-3, h = 1.25e-4, speed = 5.0;
+  const plasticity::Material material = rod();
+  Model<2> model = model_of(rectangle(length, width, h, Lattice::square, 0.0), GetParam(), material);
+  const double c = material.elasticity.bar_speed(material.density);
+  const double mass = 0.3 * material.density * length * width;
+  model.contact = contact::RigidContact<2>({ram({-1e-2, -1e-2}, {0.0, 1e-2}, mass, {speed, 0})});
+  ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
+  const double dt = solver.stable_step().dt, momentum = mass * speed;
+  double worst = 0.0;
+  while (solver.state().time < 1.8 * length / c) {
+    solver.advance(dt);
+    const double t = solver.state().time - 0.5 * dt;
+    const double exact = speed * std::exp(-material.density * c * width * t / mass);
+    worst = std::max(worst, std::abs(ram_velocity(solver).x() - exact));
+    EXPECT_NEAR(momenta(solver).linear.x() + mass * ram_velocity(solver).x(), momentum, 1e-12 * momentum);
+  }
+  EXPECT_LT(worst, 0.012 * speed);
+  const EnergyLedger ledger = solver.ledger();
+  EXPECT_NEAR(ledger.initial, 0.5 * mass * speed * speed, 1e-12 * ledger.initial);
+  EXPECT_LT(std::abs(ledger.residual()), 1e-3 * ledger.initial);
+  EXPECT_LT(std::abs(ledger.external()), 1e-12 * ledger.initial);
+}
+INSTANTIATE_TEST_SUITE_P(methods, Hammer, ::testing::Values(Method::cnem, Method::triangles));
+
+TEST(Hammer, bounces_off_a_free_block_with_the_momentum_and_energy_they_had) {
+  for (const double ratio : {5.0, 0.05}) {
+    Model<2> model = model_of(rectangle(2e-3, 1e-3, 1e-4), Method::cnem, steel());
+    const double mass = ratio * 7850.0 * 2e-6, speed = 3.0;
+    model.contact = contact::RigidContact<2>({ram({0.4e-3, 1.02e-3}, {1.6e-3, 2e-3}, mass, {0.0, -speed})});
+    ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
+    const double dt = solver.stable_step().dt, momentum = mass * speed;
+    for (int n = 0; n < 3000; ++n) {
+      solver.advance(dt);
+      const Vec2 sum = momenta(solver).linear + mass * ram_velocity(solver);
+      ASSERT_LT((sum - Vec2(0, -momentum)).norm(), 1e-12 * momentum) << "step " << n;
+    }
+    EXPECT_EQ(solver.model().contact.points().size(), 0U) << "they have parted";
+    const double block = momenta(solver).linear.y() / total_mass(solver);
+    EXPECT_GT(ram_velocity(solver).y(), block);
+    const EnergyLedger ledger = solver.ledger();
+    EXPECT_LT(std::abs(ledger.residual()), 1e-3 * ledger.initial);
+    const double layer = 7850.0 * 1.2e-3 * 0.5e-4; // of nodes that meet the ram at once, inelastically
+    EXPECT_LT(ledger.impact, 1.3 * layer / (layer + mass) * ledger.initial);
+    EXPECT_NEAR(ledger.tool_kinetic, 0.5 * mass * ram_velocity(solver).squaredNorm(), 1e-12 * ledger.initial);
+  }
+}
+
+TEST(ForcePress, comes_to_rest_where_an_elastic_block_carries_its_force) {
+  const double width = 2e-3, height = 1e-3, force = 4e5;
+  for (const double mass : {0.1, 1e-6}) { // kg/m: the block weighs 0.0157, a node on its top 4e-4
+    Cloud<2> cloud = rectangle(width, height, 2e-4);
+    Model<2> model = model_of(std::move(cloud), Method::cnem, rod());
+    model.supports =
+        Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(model.cloud, 0)}},
+                    static_cast<std::size_t>(model.cloud.nodes()));
+    model.viscosity = {1.2, 1.0};
+    std::vector<double> time, value; // from 0 to F without a kink
+    for (int k = 0; k <= 50; ++k) {
+      const double s = k / 50.0;
+      time.push_back(s * 4e-5);
+      value.push_back(-force * s * s * (3.0 - 2.0 * s));
+    }
+    model.contact = contact::RigidContact<2>(
+        {ram({-1e-3, height}, {3e-3, 2e-3}, mass, {0, 0}, {TimeTable(), TimeTable(time, value)})});
+    ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
+    const double dt = solver.stable_step().dt;
+    while (solver.state().time < 1e-4) solver.advance(dt);
+    const double strain =
+        force / (width * 210e9); // logarithmic, in Kirchhoff measure: 1e-3 apart from Cauchy
+    const auto& contact = solver.model().contact;
+    EXPECT_NEAR(contact.displacement(0, 0.0).y(), -height * strain, 2e-3 * height * strain) << mass;
+    EXPECT_NEAR(contact.results()[0].force.y(), -force, 5e-3 * force) << mass;
+    EXPECT_NEAR(solver.ledger().drives, 0.5 * force * height * strain, 0.02 * force * height * strain)
+        << mass;
+    EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * solver.ledger().drives) << mass;
+  }
+}
+
+} // namespace
+} // namespace cnem::testing
