@@ -104,6 +104,23 @@ TEST(Bodies, sub_steps_are_reported_as_one_step) {
   EXPECT_NEAR(result.pressing, impulse / 5e-3, 1e-12 * result.pressing);
 }
 
+TEST(Bodies, a_free_tool_on_a_stack_keeps_their_common_momentum) {
+  Masses scene = block(5, 3, 0.25, {0, 0}, 400.0, 0.05);
+  append(scene, block(6, 3, 0.2, {0, 0.51}, 400.0, 0.05));
+  Tool<2> hammer = tool(box({-1, 0.92}, {2, 2}));
+  hammer.drive = ToolDrive<2>{3.0, {TimeTable(0.0), TimeTable(0.0)}, {0.0, -0.5}};
+  let_bodies_touch(scene, 0.0, {hammer});
+  bool pressed = false;
+  for (int n = 0; n < 2000; ++n) {
+    scene.step(2e-4);
+    const double hit = scene.contact->results()[0].force.norm();
+    pressed = pressed || (hit > 0.0 && scene.contact->body_result().pressing > 0.0);
+  }
+  EXPECT_TRUE(pressed) << "both in one step";
+  const Vec2 momentum = scene.momentum() + 3.0 * scene.contact->velocity(0, scene.time);
+  EXPECT_LT((momentum - Vec2(0.0, -1.5)).norm(), 1e-12);
+}
+
 TEST(Bodies, a_stack_between_two_tools_shares_one_force) {
   Masses scene = block(5, 3, 0.25, {0, 0}, 400.0, 1.0);
   append(scene, block(6, 3, 0.2, {0, 0.5}, 400.0, 1.0));
