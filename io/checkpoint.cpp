@@ -173,17 +173,17 @@ struct CheckpointReader::File {
     file = std::make_unique<Handle>(H5Fopen(unused_name().c_str(), H5F_ACC_RDONLY, access), H5Fclose,
                                     "its content");
   }
-  /// A set of the kind and length expected, 0 for any length.
+  /// A set of the kind and length expected; H5T_NO_CLASS and `any` for any.
   hid_t open(const std::string& name, H5T_class_t kind, std::size_t length) const {
     const hid_t set = H5Dopen2(*file, name.c_str(), H5P_DEFAULT);
     if (set < 0) throw IoError(fmt::format("it lacks '{}'", name));
     const Handle type(H5Dget_type(set), H5Tclose, name), space(H5Dget_space(set), H5Sclose, name);
     const auto found = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
-    if (H5Tget_class(type) == kind && (length == any || found == length)) return set;
+    const bool fits = kind == H5T_NO_CLASS || H5Tget_class(type) == kind;
+    if (fits && (length == any || found == length)) return set;
     H5Dclose(set);
-    throw IoError(H5Tget_class(type) != kind
-                      ? fmt::format("'{}' is of another type than expected", name)
-                      : fmt::format("'{}' has {} values, expected {}", name, found, length));
+    throw IoError(!fits ? fmt::format("'{}' is of another type than expected", name)
+                        : fmt::format("'{}' has {} values, expected {}", name, found, length));
   }
   static constexpr std::size_t any = static_cast<std::size_t>(-1);
 };
@@ -193,7 +193,7 @@ CheckpointReader::CheckpointReader(std::string_view content)
 CheckpointReader::~CheckpointReader() = default;
 
 std::size_t CheckpointReader::extent(const std::string& name) {
-  const Handle set(file_->open(name, H5T_FLOAT, File::any), H5Dclose, name);
+  const Handle set(file_->open(name, H5T_NO_CLASS, File::any), H5Dclose, name);
   const Handle space(H5Dget_space(set), H5Sclose, name);
   return static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
 }

@@ -50,6 +50,7 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
   const Field momentum_mass = inertia();
   if (!mass_scale_.empty()) carry_mean(parcels, mass, mass_scale_);
   exchange_.carry_over(parcels, mass);
+  edge_defect_.carry_over(parcels, mass);
   carry_sum(parcels, node.mass);
   carry_sum(parcels, node.heat_capacity);
   for (Field& component : node.velocity) carry_mean(parcels, momentum_mass, component);
@@ -116,6 +117,7 @@ template<int dim> void ExplicitSolver<dim>::resize_state(std::size_t n) {
   if (!mass_scale_.empty()) mass_scale_.resize(n);
   resize_fields(n);
   edge_defect_.reset(shear_modulus_);
+  edge_defect_.take(point.deformation, 0, n);
 }
 
 template void ExplicitSolver<2>::carry_over(const Resampling<2>&);

@@ -4,6 +4,7 @@
 // not lock (docs/theory.md, "Weak modes").
 #include "core/archive.hpp"
 #include "core/discretisation.hpp"
+#include "core/resampling.hpp"
 #include "core/state.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/step_kernels.hpp"
@@ -43,6 +44,9 @@ public:
   EdgeEnergy apply(const StabilisationLinks<dim>& links, const Field& volume, const Field& reference,
                    const Field& position, ColumnStress<dim>& stress, Fields<dim>& force, std::size_t begin,
                    std::size_t end) const;
+
+  /// The moduli go with the matter of a resampled cloud; `mass` [old node].
+  void carry_over(const NodeRows& parcels, const Field& mass) { carry_mean(parcels, mass, modulus_); }
 
   /// Carries the moduli out or in.
   void archive(Archive& archive);
