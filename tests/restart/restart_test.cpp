@@ -162,12 +162,13 @@ TEST_F(Restart, a_bad_checkpoint_is_refused_with_the_reason_and_the_one_before_i
   std::string flipped = newest, format = newest;
   flipped[newest.size() / 2] = static_cast<char>(flipped[newest.size() / 2] ^ 4);
   const std::string own = "format " + std::to_string(io::checkpoint_format);
-  format.replace(format.find(own), own.size(), "format 7");
+  const std::string other = "format " + std::to_string(io::checkpoint_format + 1);
+  format.replace(format.find(own), own.size(), other);
   for (const auto& [name, content, reason] :
        {std::tuple("truncated", newest.substr(0, newest.size() / 2), "cut short"),
         std::tuple("empty", std::string(), "empty"), std::tuple("flipped", flipped, "checksum"),
         std::tuple("foreign", newest.substr(512), "HDF5 file, but no checkpoint of cnem"),
-        std::tuple("format", format, "format 7"),
+        std::tuple("format", format, other.c_str()),
         std::tuple("case", io::read_file(folder / "other" / "checkpoint.h5"), "belongs to another case")}) {
     fs::copy(folder / "stopped", folder / name, fs::copy_options::recursive);
     std::ofstream(folder / name / "checkpoint.h5", std::ios::binary) << content;
