@@ -251,7 +251,8 @@ template<int dim> void ExplicitSolver<dim>::assemble_impulses(int activity) {
   model_.loads.evaluate(state_.time, node.position, node.mass);
   std::vector<EdgeEnergy> energy(due.size());
   for_each_range(due, [&](const LevelRange& range) {
-    const auto [begin, end, level, marked] = range;
+    const std::size_t begin = range.begin, end = range.end; // clang 14 captures no structured bindings
+    const int level = range.level;
     for (Field& component : node.force)
       std::fill(component.begin() + static_cast<std::ptrdiff_t>(begin),
                 component.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
@@ -261,7 +262,7 @@ template<int dim> void ExplicitSolver<dim>::assemble_impulses(int activity) {
       };
       EdgeEnergy& sum = energy[static_cast<std::size_t>(&range - due.data())];
       sum = apply(local_.own_links());
-      if (marked && activity > level) { // twice as heavy as seen from the other end
+      if (range.marked && activity > level) { // twice as heavy as seen from the other end
         const EdgeEnergy coarse = apply(local_.coarse_links());
         sum = {sum.stored + 0.5 * coarse.stored, sum.released + 0.5 * coarse.released};
       }
