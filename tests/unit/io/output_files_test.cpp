@@ -232,7 +232,7 @@ TEST_F(DrawnCells, lines_between_cells_are_darker_than_the_cells) {
 }
 
 TEST_F(DrawnCells, cells_of_one_colour_stay_apart) {
-  for (std::size_t v : {1, 4, 5, 2}) position[0][v] += 2.0; // the first cell keeps its corners 0 and 3
+  for (std::size_t v : {1U, 4U, 5U, 2U}) position[0][v] += 2.0; // the first cell keeps its corners 0 and 3
   cells.index = {0, 0, 3, 3, 1, 4, 5, 2, 3, 5, 8, 7, 6};
   value = {1.0, 1.0, 1.0};
   layout = layout_picture(picture);
