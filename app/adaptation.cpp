@@ -13,6 +13,8 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+constexpr const char* fracture_piece = "fracture";
+
 /// Nodes at which the boundary turns by more than 30 degrees.
 std::vector<std::int32_t> corners(const Cloud<2>& cloud) {
   constexpr double least_cosine = 0.866;
@@ -132,43 +134,65 @@ Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>
   return wanted;
 }
 
-Resampling<2> Adaptation::renew(ExplicitSolver<2>& solver) {
-  adapt::PassReport report;
-  const Cloud<2> cloud = solver.present_cloud();
-  const Field size_before = size_;
-  Field wanted = wanted_spacing(solver, cloud);
-  Resampling<2> change;
-  try {
-    change = adapt::resample(cloud, properties(solver, wanted), {},
-                             static_cast<adapt::Placement>(input_->adapt.placement), report);
-    solver.prepare(change);
-  } catch (const GeometryError&) {
-    size_ = size_before;
-    throw;
-  }
+void Adaptation::change_to(const Resampling<2>& change, ExplicitSolver<2>& solver, const Follow& follow) {
+  solver.prepare(change);
   if (!error_.empty()) carry_label(change.labels, error_);
-  carry_label(change.labels, size_);
-  carry_label(change.labels, wanted);
-  wanted_ = std::move(wanted);
-  carry_label(change.labels, birth_);
+  for (Field* label : {&size_, &wanted_, &birth_}) carry_label(change.labels, *label);
   for (std::size_t p = 0; p < change.old_of.size(); ++p)
     if (change.old_of[p] < 0) birth_[p] = solver.state().time;
   std::vector<std::int32_t> corner(change.old_of.size(), 0);
   for (std::size_t p = 0; p < corner.size(); ++p)
     if (change.old_of[p] >= 0) corner[p] = corner_[u(change.old_of[p])];
   corner_ = std::move(corner);
-  ++passes_;
-  total_ += report;
-  return change;
+  follow(change);
 }
 
-void Adaptation::fit_to_tools(ExplicitSolver<2>& solver,
-                              const std::function<void(const Resampling<2>&)>& follow) {
+/// Points that carry nothing any more (softening 1) are where the cloud may part.
+void Adaptation::open_broken(ExplicitSolver<2>& solver, const Follow& follow) {
+  const Field& softening = solver.state().point.softening;
+  if (!input_->adapt.separate ||
+      std::none_of(softening.begin(), softening.end(), [](double w) { return w >= 1.0; }))
+    return;
+  Cloud<2> cloud = solver.present_cloud();
+  const auto faces = std::find(cloud.piece_names.begin(), cloud.piece_names.end(), fracture_piece);
+  adapt::SplitRules rules;
+  rules.piece = static_cast<std::int32_t>(faces - cloud.piece_names.begin());
+  if (faces == cloud.piece_names.end()) cloud.piece_names.emplace_back(fracture_piece);
+  adapt::SplitReport report;
+  try {
+    const Resampling<2> change = adapt::split(cloud, properties(solver, wanted_), softening, rules, report);
+    if (report.opened > 0) change_to(change, solver, follow);
+  } catch (const GeometryError&) { return; } // resampling mends the cloud first
+  opened_ += report.opened;
+  separated_ += report.separated;
+  total_.area_change += report.area_change;
+}
+
+void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
+  open_broken(solver, follow);
+  adapt::PassReport report;
+  const Cloud<2> cloud = solver.present_cloud();
+  const Field size_before = size_, wanted_before = wanted_;
+  try {
+    wanted_ = wanted_spacing(solver, cloud);
+    change_to(adapt::resample(cloud, properties(solver, wanted_), {},
+                              static_cast<adapt::Placement>(input_->adapt.placement), report),
+              solver, follow);
+  } catch (const GeometryError&) {
+    size_ = size_before;
+    wanted_ = wanted_before;
+    throw;
+  }
+  ++passes_;
+  total_ += report;
+}
+
+void Adaptation::fit_to_tools(ExplicitSolver<2>& solver, const Follow& follow) {
   if (tips_.empty()) return;
   constexpr int most = 20;
   for (int pass = 0; pass < most; ++pass) {
     const int inserted = total_.inserted + total_.inserted_boundary;
-    follow(renew(solver));
+    renew(solver, follow);
     if (total_.inserted + total_.inserted_boundary == inserted) break;
   }
 }
@@ -198,6 +222,8 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
           {"adapt.balanced", total_.balanced},
           {"adapt.undone", total_.undone},
           {"adapt.area_change", total_.area_change},
+          {"adapt.opened", opened_},
+          {"adapt.separated", separated_},
           {"adapt.refined", static_cast<double>(refined_)},
           {"adapt.coarsened", static_cast<double>(coarsened_)},
           {"adapt.error", error_norm_ > 0.0 ? error_total_ / error_norm_ : 0.0}};
@@ -223,6 +249,8 @@ void Adaptation::archive(Archive& archive) {
   archive.field("run/adapt/wanted", "m", wanted_);
   archive.field("run/adapt/birth", "s", birth_);
   archive.integer("run/adapt/passes", passes_);
+  archive.integer("run/adapt/opened", opened_);
+  archive.integer("run/adapt/separated", separated_);
   for (auto& [name, count] : {std::pair{"folded", &total_.folded},
                               {"outside", &total_.outside},
                               {"removed", &total_.removed},

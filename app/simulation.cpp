@@ -215,7 +215,7 @@ void Simulation::adapt_and_step() {
 void Simulation::new_reference() {
   renewal_.renew(solver_, [&] {
     if (adaptation_.active())
-      history_.resample(adaptation_.renew(solver_), solver_);
+      adaptation_.renew(solver_, [&](const Resampling<2>& change) { history_.resample(change, solver_); });
     else
       solver_.prepare();
   });

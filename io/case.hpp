@@ -290,6 +290,7 @@ struct Adaptation {
   enum class Placement { between_nodes, voronoi_vertices };
   enum class Indicator { none, plastic_strain, plastic_rate, temperature };
   bool resample = false;
+  bool separate = false; ///< broken matter is opened along edges between nodes
   Placement placement = Placement::between_nodes;
   double growth = 0.3;                ///< – of the wanted spacing per distance
   std::optional<double> tool_spacing; ///< m, at corners and arcs of tools

@@ -13,6 +13,11 @@ void add_adaptation(Keys& k) {
         "thinned, "
         "and mass is exchanged between neighbours whose cells no longer fit it; all of it conservative.")
       .fallback("false");
+  k.add("adapt.separate", boolean,
+        "At each new reference the cloud is opened along edges between broken nodes (materials with "
+        "`damage`): nodes are "
+        "doubled, nothing is deleted, the new faces are the piece `fracture`.")
+      .fallback("false");
   k.add("adapt.placement", choice,
         "Where nodes are added: half-way between neighbours, or at vertices of Voronoi cells (boundary edges "
         "are "

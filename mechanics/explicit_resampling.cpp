@@ -25,8 +25,10 @@ template<int dim> void ExplicitSolver<dim>::mix_elastic(const Resampling<dim>& c
         total += share;
       }
       elastic /= total;
-      const double strength = point.strength[p] * (point.softening.empty() ? 1.0 : 1.0 - point.softening[p]);
-      if (const plasticity::Material& material = material_of(p); material.hardening)
+      const plasticity::Material& material = material_of(p);
+      const double strength =
+          point.strength[p] * (material.damage ? material.damage->flow_share(point.softening[p]) : 1.0);
+      if (material.hardening)
         elastic = plasticity::limited_to<dim>(
             elastic,
             strength * material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],
