@@ -2,7 +2,7 @@
 // Estimate, mark, resample, transfer: what happens to the cloud at a new reference.
 #include "adapt/marking.hpp"
 #include "adapt/resample.hpp"
-#include "adapt/split.hpp"
+#include "app/adaptation_log.hpp"
 #include "app/snapshot.hpp"
 #include "io/case.hpp"
 #include "mechanics/explicit_solver.hpp"
@@ -21,14 +21,18 @@ public:
 
   bool active() const { return input_->adapt.resample; }
 
+  /// Begins adaptation.csv, or goes on with it. Throw IoError.
+  void start_log(const std::filesystem::path& folder);
+  void resume_log(const std::filesystem::path& folder);
+
   /// Told how nodes went over, after each change of the cloud.
   using Follow = std::function<void(const Resampling<2>&)>;
 
   /// Before the first step: passes until the cloud has the spacing that tools want.
   void fit_to_tools(ExplicitSolver<2>& solver, const Follow& follow);
 
-  /// Opens the cloud where it is broken, if the case says so, resamples it and makes it the reference. Throws
-  /// GeometryError with the solver left as it was, but for what was opened.
+  /// Estimates, marks, opens the cloud where it is broken if the case says so, resamples it and makes it the
+  /// reference. Throws GeometryError with the solver left as it was, IoError.
   void renew(ExplicitSolver<2>& solver, const Follow& follow);
 
   /// For pictures and files at a time, s.
@@ -38,10 +42,11 @@ public:
   void archive(Archive& archive);
 
 private:
-  Field wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud);
-  void open_broken(ExplicitSolver<2>& solver, const Follow& follow);
-  /// Makes the changed cloud the reference and takes over what this object knows of nodes.
-  void change_to(const Resampling<2>& change, ExplicitSolver<2>& solver, const Follow& follow);
+  const Field& indicated(const ExplicitSolver<2>& solver, Field& made) const;
+  void estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
+                         const adapt::Structure& structure);
+  /// Takes over to a changed cloud what this object knows of nodes.
+  void follow_nodes(const Resampling<2>& change, double time);
   double tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) const;
   adapt::NodeProperties properties(const ExplicitSolver<2>& solver, Field wanted) const;
 
@@ -56,7 +61,7 @@ private:
   std::vector<std::int32_t> corner_;            ///< [node] 1: stays
   adapt::PassReport total_;
   std::int64_t passes_ = 0;
-  int opened_ = 0, separated_ = 0; ///< edges, and those that joined two boundaries
+  AdaptationLog log_;
 };
 
 } // namespace cnem::app

@@ -30,8 +30,12 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     const Setting* key = root.find(path);
     if (key) diagnostics.add(Mistake::conflict, key->where, key->path, why);
   };
-  if (adapt.separate && std::none_of(result.materials.begin(), result.materials.end(),
-                                     [](const Material& material) { return material.damage.has_value(); }))
+  const bool damage = std::any_of(result.materials.begin(), result.materials.end(),
+                                  [](const Material& material) { return material.damage.has_value(); });
+  if (adapt.indicator == Adaptation::Indicator::damage && !damage)
+    conflict("adapt.indicator.field",
+             "found \"damage\" where no material has a damage law, expected materials.NAME.damage");
+  if (adapt.separate && !damage)
     conflict("adapt.separate",
              "found true where no material has a damage law, expected materials.NAME.damage: nothing "
              "would ever break");

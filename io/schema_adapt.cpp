@@ -37,8 +37,10 @@ void add_adaptation(Keys& k) {
       .always();
   k.add("adapt.indicator.field", choice,
         "The field: `none` keeps the spacing of the cloud. The indicator of a cell is the L2 distance of the "
-        "interpolated field from the value of the cell.")
-      .one_of({"none", "plastic_strain", "plastic_rate", "temperature"})
+        "interpolated field from the value of the cell. `plastic_power` is von Mises stress times plastic "
+        "rate, "
+        "`damage` needs a material with damage.")
+      .one_of({"none", "plastic_strain", "plastic_power", "temperature", "damage"})
       .fallback("\"none\"");
   k.add("adapt.indicator.tolerance", quantity,
         "A cell is refined when its indicator exceeds this part of the norm of the field, shared out among "
