@@ -91,11 +91,17 @@ template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>
   return pieces;
 }
 
+template<int dim> void renew_facets(const Cloud<dim>& cloud, std::vector<Facet<dim>>& facets) {
+  const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(facets));
+  facets = facets_of_pieces(cloud, std::span<const std::int32_t>(pieces));
+}
+
 #define CNEM_INSTANTIATE(dim)                                                                                \
   template std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>&, std::span<const std::int32_t>);       \
   template std::vector<std::int32_t> renumbered(const Resampling<dim>&, std::span<const std::int32_t>,       \
                                                 std::span<const std::int32_t>);                              \
-  template std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>>);
+  template std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>>);                                 \
+  template void renew_facets(const Cloud<dim>&, std::vector<Facet<dim>>&);
 CNEM_INSTANTIATE(2)
 CNEM_INSTANTIATE(3)
 #undef CNEM_INSTANTIATE

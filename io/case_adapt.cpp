@@ -68,6 +68,13 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, least->where, least->path,
                     fmt::format("found {:g} m, expected less than adapt.indicator.h_max = {:g} m",
                                 adapt.h_min, adapt.h_max));
+  if (adapt.indicator == Adaptation::Indicator::temperature && !result.analysis.thermal)
+    conflict("adapt.indicator.field",
+             "found \"temperature\" in an analysis without heat, expected it with analysis.thermal = true");
+  if (result.time.mass_scaling && result.time.mass_scaling->step && (refines || adapt.tool_spacing))
+    conflict("time.mass_scaling.step",
+             "found a step for a cloud that is refined, expected time.mass_scaling.factor: the factors of "
+             "the first cloud do not bring finer cells to that step");
   const std::string path = "adapt.resample";
   if (result.analysis.type == Analysis::Type::statics)
     conflict(path, "found true in a static analysis, expected it with analysis.type = \"explicit\" only");

@@ -19,7 +19,7 @@ public:
   bool active() const { return active_; }
 
   /// Undamaged points.
-  void start(PointState<dim>& point) const;
+  void start(PointState<dim>& point);
 
   /// Measures the cells of a new reference. The length ℓ of a point is `band` √A of its material, A the
   /// stress-free area of its cell in the plane (the cube root of its volume in 3D).
@@ -36,13 +36,18 @@ public:
   double update(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
                 PointState<dim>& point, std::size_t begin, std::size_t end, double dt) const;
 
-  /// Carries the lengths out or in.
+  /// [point] –, the dilatation that the gaps of broken matter in a point take without tension. 0 but for
+  /// points that resampling mixed of broken and sound ones.
+  Field& opening() { return opening_; }
+
+  /// Carries lengths and openings out or in.
   void archive(Archive& archive, std::size_t points);
 
 private:
   bool active_ = false;
   std::vector<plasticity::JohnsonCookDamage> law_; ///< [material]; none: never softens
   Field length_;                                   ///< [point] ℓ, m
+  Field opening_;                                  ///< [point] –
   Field flow_factor_;                              ///< [point] –
 };
 
