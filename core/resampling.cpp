@@ -96,14 +96,15 @@ template<int dim> void renew_facets(const Cloud<dim>& cloud, std::vector<Facet<d
   facets = facets_of_pieces(cloud, std::span<const std::int32_t>(pieces));
 }
 
-#define CNEM_INSTANTIATE(dim)                                                                                \
-  template std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>&, std::span<const std::int32_t>);       \
-  template std::vector<std::int32_t> renumbered(const Resampling<dim>&, std::span<const std::int32_t>,       \
-                                                std::span<const std::int32_t>);                              \
-  template std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>>);                                 \
-  template void renew_facets(const Cloud<dim>&, std::vector<Facet<dim>>&);
-CNEM_INSTANTIATE(2)
-CNEM_INSTANTIATE(3)
-#undef CNEM_INSTANTIATE
+template std::vector<Facet<2>> facets_of_pieces(const Cloud<2>&, std::span<const std::int32_t>);
+template std::vector<std::int32_t> renumbered(const Resampling<2>&, std::span<const std::int32_t>,
+                                              std::span<const std::int32_t>);
+template std::vector<std::int32_t> pieces_of(std::span<const Facet<2>>);
+template std::vector<Facet<3>> facets_of_pieces(const Cloud<3>&, std::span<const std::int32_t>);
+template std::vector<std::int32_t> renumbered(const Resampling<3>&, std::span<const std::int32_t>,
+                                              std::span<const std::int32_t>);
+template std::vector<std::int32_t> pieces_of(std::span<const Facet<3>>);
+template void renew_facets(const Cloud<2>&, std::vector<Facet<2>>&);
+template void renew_facets(const Cloud<3>&, std::vector<Facet<3>>&);
 
 } // namespace cnem

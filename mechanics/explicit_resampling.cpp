@@ -59,14 +59,16 @@ void ExplicitSolver<dim>::mix_elastic(const Resampling<dim>& change, const Field
         total += share;
       }
       elastic /= total;
-      const double sound = point.softening.empty() ? 1.0 : 1.0 - point.softening[p];
-      if (sound < 1.0 && sound > 0.0) {
+      const plasticity::Material& material = material_of(p);
+      const double softening = material.damage ? point.softening[p] : 0.0;
+      if (softening > 0.0 && softening < 1.0) {
         double& opening = damage_.opening()[p];
-        opening = std::max(opening, dilatation<dim>(elastic, material_of(p), point.temperature[p]) -
-                                        std::sqrt(tension[p] / sound));
+        opening = std::max(opening, dilatation<dim>(elastic, material, point.temperature[p]) -
+                                        std::sqrt(tension[p] / (1.0 - softening)));
       }
-      const double strength = point.strength[p] * sound;
-      if (const plasticity::Material& material = material_of(p); material.hardening)
+      const double strength =
+          point.strength[p] * (material.damage ? material.damage->flow_share(softening) : 1.0);
+      if (material.hardening)
         elastic = plasticity::limited_to<dim>(
             elastic,
             strength * material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],

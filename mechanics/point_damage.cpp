@@ -10,6 +10,8 @@ template<int dim>
 PointDamage<dim>::PointDamage(const std::vector<plasticity::Material>& materials)
     : active_(std::any_of(materials.begin(), materials.end(),
                           [](const plasticity::Material& material) { return material.damage.has_value(); })) {
+  for (const plasticity::Material& material : materials)
+    law_.push_back(material.damage.value_or(plasticity::JohnsonCookDamage{}));
 }
 
 template<int dim> void PointDamage<dim>::start(PointState<dim>& point) {
@@ -43,7 +45,9 @@ template<int dim> void PointDamage<dim>::weaken(const PointState<dim>& point) {
 
 template<int dim>
 void PointDamage<dim>::weaken(const PointState<dim>& point, std::size_t begin, std::size_t end) {
-  for (std::size_t p = begin; p < end; ++p) flow_factor_[p] = point.strength[p] * (1.0 - point.softening[p]);
+  for (std::size_t p = begin; p < end; ++p)
+    flow_factor_[p] =
+        point.strength[p] * law_[static_cast<std::size_t>(point.material[p])].flow_share(point.softening[p]);
 }
 
 template<int dim>

@@ -26,7 +26,8 @@ public:
   void measure(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
                const PointState<dim>& point);
 
-  /// Factor on the flow stress, strength (1 − ω), for the return map: of all points, and of [begin, end).
+  /// Factor on the flow stress, strength and share left at ω, for the return map: of all points, and of
+  /// [begin, end).
   void weaken(const PointState<dim>& point);
   void weaken(const PointState<dim>& point, std::size_t begin, std::size_t end);
   const Field& flow_factor() const { return flow_factor_; }
@@ -44,9 +45,10 @@ public:
 
 private:
   bool active_ = false;
-  Field length_;      ///< [point] ℓ, m
-  Field opening_;     ///< [point] –
-  Field flow_factor_; ///< [point] –
+  std::vector<plasticity::JohnsonCookDamage> law_; ///< [material]; none: never softens
+  Field length_;                                   ///< [point] ℓ, m
+  Field opening_;                                  ///< [point] –
+  Field flow_factor_;                              ///< [point] –
 };
 
 extern template class PointDamage<2>;

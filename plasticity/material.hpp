@@ -67,6 +67,10 @@ struct JohnsonCookDamage {
   double fracture_energy = 0.0;                              ///< J/m² > 0, from initiation to separation
   double band = 2.5; ///< –    > 0, thickness of the band a broken cell stands for, in cell sizes
 
+  double residual_strength = 0.0; ///< –    in [0, 1), share of the flow stress that broken matter keeps
+
+  /// Share of the flow stress left at a softening ω.
+  double flow_share(double softening) const { return 1.0 - (1.0 - residual_strength) * softening; }
   /// ε_f at a triaxiality, rate (1/s) and temperature (K).
   double fracture_strain(double triaxiality, double rate, double temperature) const;
 };

@@ -21,8 +21,8 @@ Resampling<2> resampled(const ExplicitSolver<2>& solver, double factor) {
     node.held.push_back(0);
   }
   adapt::PassReport report;
-  return adapt::resample(solver.present_cloud(), std::move(node), {}, adapt::Placement::between_nodes,
-                         report);
+  const Cloud<2> cloud = solver.present_cloud();
+  return adapt::resample(cloud, adapt::structure_if_valid(cloud), std::move(node), {}, report);
 }
 
 ExplicitSolver<2> deformed_block(int steps, const plasticity::Material& material = steel_304L()) {

@@ -58,7 +58,7 @@ struct Point {
 
   void step(const Mat3& f, double dt) {
     set_deformation<2>(state, 0, f);
-    Field factor{state.strength[0] * (1.0 - state.softening[0])};
+    Field factor{state.strength[0] * material.damage->flow_share(state.softening[0])};
     auto points = stress_points<2>(state);
     points.strength = factor.data();
     ASSERT_EQ(update_stress<2>({material}, state.material, points, 0, 1, dt), -1);
@@ -157,6 +157,16 @@ TEST(damage, breaking_takes_the_fracture_energy_whatever_size_and_hardening) {
       point.material.hardening->B = hardening;
       EXPECT_NEAR(cost_of_breaking(point, 2e-4 * 1e-4 / length), 1.0, 2e-3) << length << ' ' << hardening;
     }
+}
+
+TEST(damage, what_broken_matter_keeps_is_paid_from_the_fracture_energy) {
+  Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
+  point.material.damage->residual_strength = 0.3;
+  EXPECT_NEAR(cost_of_breaking(point, 2e-4), 1.0, 2e-3);
+  const Mat3 f = general<2>(point.state.deformation, 0);
+  for (double e = 0.01; e < 0.1; e += 1e-3) // in compression, as it is in shear
+    point.step(f * Mat3(Eigen::Vector3d(std::exp(-e), std::exp(e / 2), std::exp(e / 2)).asDiagonal()), 1e-6);
+  EXPECT_NEAR(point.state.equivalent_stress[0], 0.3 * 500e6, 1e-6 * 500e6);
 }
 
 TEST(damage, strength_falls_linearly_with_the_opening) {
