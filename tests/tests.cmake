@@ -39,7 +39,7 @@ cnem_tests(conservation cnem_adapt cnem_mechanics cnem_alternatives)
 cnem_tests(degenerate cnem_voronoi cnem_cnem cnem_alternatives)
 cnem_tests(contract cnem_cnem cnem_alternatives)
 cnem_tests(convergence cnem_app)
-cnem_tests(verification cnem_app)
+cnem_tests(verification cnem_app VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
 cnem_tests(bad_input cnem_app)
 
 add_test(NAME include_rule COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}

@@ -1,9 +1,7 @@
 // Local time steps against the global one: a graded shearing cloud, both solvers in turns over the same
 // simulated time.
-#include "cnem/scni.hpp"
+#include "benchmarks/models.hpp"
 #include "contact/curve_shape.hpp"
-#include "mechanics/explicit_solver.hpp"
-#include "voronoi/generate.hpp"
 
 #include <algorithm>
 #include <benchmark/benchmark.h>
@@ -14,24 +12,12 @@
 namespace {
 
 using namespace cnem;
-
-Curve box(const Vec2& low, const Vec2& high, const std::string& name) {
-  const Vec2 corner[4] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-  Curve curve;
-  for (int i = 0; i < 4; ++i) {
-    CurvePiece side;
-    side.from = corner[i];
-    side.to = corner[(i + 1) % 4];
-    side.name = name;
-    curve.pieces.push_back(side);
-  }
-  return curve;
-}
+using namespace cnem::benchmarks;
 
 contact::Tool<2> tool(const Vec2& low, const Vec2& high, double speed) {
   contact::Tool<2> made;
   made.name = "tool";
-  made.shape = std::make_shared<contact::CurveShape>(box(low, high, "tool"));
+  made.shape = std::make_shared<contact::CurveShape>(testing::box(low, high));
   made.motion.velocity = {TimeTable(0.0), TimeTable(-speed)};
   made.friction.coulomb = 0.1;
   return made;
@@ -41,25 +27,10 @@ contact::Tool<2> tool(const Vec2& low, const Vec2& high, double speed) {
 /// eight times as much.
 ExplicitSolver<2> shearing(double coarse, bool local) {
   const double edge = 4e-3, clearance = 1e-4, thickness = 4e-3, width = 10e-3, speed = 20.0;
-  voronoi::DomainShape domain;
-  domain.outer = box({0, 0}, {width, thickness}, "side");
   voronoi::SpacingField spacing;
   spacing.spacing = coarse;
   spacing.refinements = {{.points = {{edge, 0}, {edge, thickness}}, .spacing = coarse / 8.0, .growth = 0.3}};
-  Model<2> model;
-  model.cloud = voronoi::generate_cloud(domain, spacing, {}).cloud;
-  model.method = std::make_unique<scni::Cnem>();
-  model.materials = {
-      {.name = "304L",
-       .density = 7850.0,
-       .elasticity = {210e9, 0.33},
-       .hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
-       .damage = {},
-       .specific_heat = 500.0,
-       .conductivity = 5.86}};
-  const auto n = static_cast<std::size_t>(model.cloud.nodes());
-  model.supports = Supports<2>({}, n);
-  model.loads = Loads<2>({}, {}, {}, model.cloud.position);
+  Model<2> model = model_304L(testing::box({0, 0}, {width, thickness}, "side"), spacing);
   model.contact =
       contact::RigidContact<2>({tool({-1e-3, thickness}, {edge - clearance, 2 * thickness}, speed),
                                 tool({edge + clearance, -thickness}, {12e-3, 0}, 0.0),
@@ -67,8 +38,8 @@ ExplicitSolver<2> shearing(double coarse, bool local) {
   model.viscosity = {1.2, 0.06};
   model.local.on = local;
   Fields<2> velocity;
-  resize_all(velocity, n);
-  return ExplicitSolver<2>(std::move(model), std::move(velocity), Field(n, 296.0));
+  resize_all(velocity, static_cast<std::size_t>(model.cloud.nodes()));
+  return start(std::move(model), std::move(velocity));
 }
 
 struct Seconds {

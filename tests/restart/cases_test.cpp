@@ -5,12 +5,12 @@
 #include "io/output_folder.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace cnem::app {
 namespace {
@@ -37,8 +37,8 @@ bool is_explicit(const fs::path& input) {
 /// Runs a case with 1, 2, 3, 4 and 7 threads.
 void expect_same_bits(const fs::path& input, const std::string& isa,
                       const std::vector<std::string>& set = {}) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("cnem_threads_{}", ::getpid());
-  fs::remove_all(folder);
+  const testing::TemporaryFolder temporary("threads");
+  const fs::path& folder = temporary.path();
   for (const int threads : {1, 2, 3, 4, 7}) {
     const fs::path output = folder / fmt::format("{}", threads);
     std::vector<std::string> words{
@@ -52,7 +52,6 @@ void expect_same_bits(const fs::path& input, const std::string& isa,
     EXPECT_EQ(difference(folder / "1", output), "") << threads << " threads";
     if (threads > 1) fs::remove_all(output);
   }
-  fs::remove_all(folder);
 }
 
 class Threads : public ::testing::TestWithParam<std::size_t> {};
@@ -67,8 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Threads, ::testing::Range(std::size_t{0}, all_cases
 TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
   const fs::path& input = all_cases()[GetParam()];
   if (!is_explicit(input)) GTEST_SKIP() << "a static analysis has no checkpoints";
-  const fs::path folder = fs::temp_directory_path() / fmt::format("cnem_restarted_{}", ::getpid());
-  fs::remove_all(folder);
+  const testing::TemporaryFolder temporary("restarted");
+  const fs::path& folder = temporary.path();
   const Ending whole =
       run_cnem({"run", input.string(), "--output", (folder / "whole").string(), "--threads", "1", "--set",
                 "output.picture_fields=[\"pressure\"]", "--set", "time.max_steps=60", "--set",
@@ -80,7 +79,6 @@ TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
   EXPECT_EQ(rest.code, 0) << rest.printed;
   EXPECT_NE(rest.printed.find("going on from"), std::string::npos) << rest.printed;
   EXPECT_EQ(difference(folder / "whole", folder / "restarted"), "");
-  fs::remove_all(folder);
 }
 
 TEST(ThreadsWith, every_instruction_set_do_not_change_the_bits) {

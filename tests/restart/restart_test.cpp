@@ -6,6 +6,7 @@
 #include "io/status.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -15,7 +16,6 @@
 #include <random>
 #include <sys/mount.h>
 #include <thread>
-#include <unistd.h>
 
 namespace cnem::app {
 namespace {
@@ -26,13 +26,9 @@ using Seconds = std::chrono::duration<double>;
 class Restart : public ::testing::Test {
 protected:
   void SetUp() override {
-    folder = fs::temp_directory_path() / ("cnem_restart_" + std::to_string(::getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
     for (const SmallCase& small : small_cases())
       std::ofstream(folder / (std::string(small.name) + ".toml")) << small.text;
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   std::string at(const std::string& name) const { return (folder / name).string(); }
   std::vector<std::string> run_of(const std::string& name, const std::string& output,
@@ -65,7 +61,8 @@ protected:
     ASSERT_EQ(ending.code, 5) << ending.printed;
   }
 
-  fs::path folder;
+  const cnem::testing::TemporaryFolder temporary{"restart"};
+  const fs::path& folder = temporary.path();
 };
 
 /// Kills a run and its restarts at random moments: the first one in its set-up, the others later; `whole` is
@@ -106,9 +103,10 @@ TEST_P(KilledRun, ends_with_the_same_bits) {
     expect_reference(output);
   }
 }
-INSTANTIATE_TEST_SUITE_P(, KilledRun, ::testing::Range(0, 6), [](const auto& parameter) {
-  return std::string(small_cases()[static_cast<std::size_t>(parameter.param)].name);
-});
+INSTANTIATE_TEST_SUITE_P(, KilledRun, ::testing::Range(0, static_cast<int>(small_cases().size())),
+                         [](const auto& parameter) {
+                           return std::string(small_cases()[static_cast<std::size_t>(parameter.param)].name);
+                         });
 
 TEST_F(Restart, sigterm_stops_at_a_checkpoint_with_5_and_goes_on) {
   reference("punched");

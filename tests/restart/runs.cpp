@@ -21,7 +21,22 @@ plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0
 heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
 )toml";
 
-// A punch with friction and warm contact on a block; references are renewed.
+// A base without friction and a punch at 60 m/s, with friction and warm contact, on a block 4 mm wide.
+std::string base_and_punch(const char* height, const char* ramp) {
+  return fmt::format(R"toml(
+[boundary.base]
+pieces = ["bottom"]
+symmetry = true
+[tools.punch]
+rectangle = {{ from = "-1 {0} mm", to = "1.1 5 mm" }}
+velocity = {{ y = {{ value = "-60 m/s", ramp = "{1} us" }} }}
+friction = {{ law = "tresca-limited", coefficient = 0.2 }}
+heat = {{ conductance = "1e5 W/(m2 K)", effusivity = "1e4 W s^0.5/(m2 K)" }}
+)toml",
+                     height, ramp);
+}
+
+// A punch on a block; references are renewed.
 const std::string punched = R"toml(
 [time]
 end = "12 us"
@@ -30,14 +45,6 @@ material = "steel"
 outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
 [cloud]
 spacing = "0.25 mm"
-[boundary.base]
-pieces = ["bottom"]
-symmetry = true
-[tools.punch]
-rectangle = { from = "-1 2 mm", to = "1.1 4 mm" }
-velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
-friction = { law = "tresca-limited", coefficient = 0.2 }
-heat = { conductance = "1e5 W/(m2 K)", effusivity = "1e4 W s^0.5/(m2 K)" }
 [method]
 rereference = { every = 40, strain = 0.05 }
 [output]
@@ -51,7 +58,8 @@ lines.middle = { from = "0.1 1 mm", to = "3.9 1 mm", samples = 20, fields = ["st
 every_steps = 25
 every_wall = "0 s"
 keep = 3
-)toml" + steel;
+)toml" + base_and_punch("2", "2") +
+                            steel;
 
 // Local time steps in a block that is fine where a punch's corner goes in.
 const std::string levels = R"toml(
@@ -64,17 +72,9 @@ outer.rectangle = { from = "0 0 mm", to = "4 3 mm" }
 [cloud]
 spacing = "0.1 mm"
 refine.corner = { points = ["1.1 3 mm"], spacing = "0.0125 mm", growth = 0.3 }
-[boundary.base]
-pieces = ["bottom"]
-symmetry = true
 [boundary.side]
 pieces = ["right"]
 pressure = "20 MPa"
-[tools.punch]
-rectangle = { from = "-1 3 mm", to = "1.1 5 mm" }
-velocity = { y = { value = "-60 m/s", ramp = "0.5 us" } }
-friction = { law = "tresca-limited", coefficient = 0.2 }
-heat = { conductance = "1e5 W/(m2 K)", effusivity = "1e4 W s^0.5/(m2 K)" }
 [method]
 bulk_viscosity = { linear = 0.06, quadratic = 1.2 }
 rereference = { every = 20, strain = 0.05 }
@@ -87,7 +87,8 @@ picture_fields = ["plastic_strain"]
 every_steps = 15
 every_wall = "0 s"
 keep = 3
-)toml" + steel;
+)toml" + base_and_punch("3", "0.5") +
+                           steel;
 
 // Every load and support, functions of Laplace on a jittered cloud, a row of history at every step.
 const std::string loaded = R"toml(
@@ -220,6 +221,40 @@ picture_fields = ["damage", "softening"]
 every_steps = 50
 )toml";
 
+// A cloud that refines itself where a punch goes in, and metal that breaks there.
+const std::string adapted = R"toml(
+[time]
+end = "8 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "0.3 mm"
+[method]
+rereference = { every = 30, strain = 0.1 }
+[adapt]
+resample = true
+tool_spacing = "0.15 mm"
+[adapt.indicator]
+field = "plastic_strain"
+h_min = "0.12 mm"
+[output]
+history_every = "0.1 us"
+fields_every = "4 us"
+pictures = "8 us"
+picture_fields = ["plastic_strain", "level", "indicator", "age", "softening"]
+probes.corner = { at = "1 1.5 mm", fields = ["plastic_strain"] }
+[output.checkpoint]
+every_steps = 35
+[materials.steel.damage]
+law = "johnson-cook"
+D1 = 0.05
+D2 = 0.1
+D3 = -1.5
+fracture_energy = "20 kJ/m2"
+)toml" + base_and_punch("2", "1") +
+                            steel;
+
 // Two parts with a crack between them, pressed together by a tool that slides: friction, heat, renewals.
 const std::string touching = R"toml(
 [time]
@@ -279,8 +314,8 @@ std::string outcome(const fs::path& folder) {
 
 const std::vector<SmallCase>& small_cases() {
   static const std::vector<SmallCase> cases{
-      {"punched", punched},     {"levels", levels},     {"loaded", loaded},    {"round_bar", round_bar},
-      {"triangles", triangles}, {"breaking", breaking}, {"touching", touching}};
+      {"punched", punched},     {"levels", levels},     {"loaded", loaded},   {"round_bar", round_bar},
+      {"triangles", triangles}, {"breaking", breaking}, {"adapted", adapted}, {"touching", touching}};
   return cases;
 }
 

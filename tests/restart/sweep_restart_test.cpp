@@ -2,6 +2,7 @@
 #include "io/output_folder.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -10,7 +11,6 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <thread>
-#include <unistd.h>
 
 namespace cnem::app {
 namespace {
@@ -20,13 +20,9 @@ namespace fs = std::filesystem;
 class SweepRestart : public ::testing::Test {
 protected:
   void SetUp() override {
-    folder = fs::temp_directory_path() / fmt::format("cnem_sweep_restart_{}", ::getpid());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
     std::ofstream(folder / "punched.toml") << small_case("punched");
     write_study("");
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   void write_study(const std::string& set) const {
     std::ofstream(folder / "study.toml")
@@ -62,7 +58,8 @@ protected:
     return process.wait();
   }
 
-  fs::path folder;
+  const cnem::testing::TemporaryFolder temporary{"sweep_restart"};
+  const fs::path& folder = temporary.path();
 };
 
 TEST_F(SweepRestart, a_sweep_that_was_stopped_goes_on_from_the_checkpoints_of_its_runs) {

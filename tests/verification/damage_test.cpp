@@ -8,23 +8,26 @@
 namespace cnem::app {
 namespace {
 
-// A strip, endless along x, whose upper and lower sides slide past each other; the middle is a little weaker.
-const std::string strip = R"toml(
+const std::string steel = R"toml(
 [analysis]
 thermal = false
 [time]
 end = "40 us"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "500 MPa" }
+damage = { law = "johnson-cook", D1 = 0.005, D2 = 0.0, D3 = 0.0, fracture_energy = "40 kJ/m2" }
+)toml";
+
+// A strip, endless along x, whose upper and lower sides slide past each other; the middle is a little weaker.
+const std::string strip = steel + R"toml(
 [domain]
 material = "steel"
 outer.rectangle = { from = "0 -0.5 mm", to = "0.2 0.5 mm" }
 [cloud]
 spacing = "0.05 mm"
 pattern = "regular"
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "perfect", yield = "500 MPa" }
-damage = { law = "johnson-cook", D1 = 0.005, D2 = 0.0, D3 = 0.0, fracture_energy = "40 kJ/m2" }
 [initial]
 velocity_gradient = { xy = "10000 1/s" }
 imperfections.weak = { points = ["-1 0 mm", "1 0 mm"], width = "0.1 mm", reduction = 0.05 }
@@ -39,22 +42,13 @@ velocity = { x = "5 m/s", y = "0 m/s" }
 )toml";
 
 // A bar pulled at both ends, with a weaker middle.
-const std::string bar = R"toml(
-[analysis]
-thermal = false
-[time]
-end = "40 us"
+const std::string bar = steel + R"toml(
 [domain]
 material = "steel"
 outer.rectangle = { from = "-0.6 0 mm", to = "0.6 0.4 mm" }
 [cloud]
 spacing = "0.1 mm"
 pattern = "regular"
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "perfect", yield = "500 MPa" }
-damage = { law = "johnson-cook", D1 = 0.005, D2 = 0.0, D3 = 0.0, fracture_energy = "40 kJ/m2" }
 [initial]
 velocity_gradient = { xx = "8333 1/s" }
 imperfections.weak = { points = ["0 -1 mm", "0 1 mm"], width = "0.15 mm", reduction = 0.1 }

@@ -5,6 +5,7 @@
 #include "io/history_writer.hpp"
 #include "io/output_folder.hpp"
 #include "io/status.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace {
 class Ladder : public ::testing::Test {
 protected:
   void run(const std::string& name, std::vector<std::string> overrides) {
-    folder = std::filesystem::temp_directory_path() / ("cnem_ladder_" + name);
+    const std::filesystem::path& folder = temporary.path();
     for (const char* quiet : {"output.pictures=[]", "output.fields_every=1 s"}) overrides.emplace_back(quiet);
     const io::Case input =
         io::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml", overrides);
@@ -26,11 +27,10 @@ protected:
     history = io::read_history(folder / io::files::history);
     EXPECT_LT(io::read_status(folder).energy_residual, 1e-4);
   }
-  void TearDown() override { std::filesystem::remove_all(folder); }
   const std::vector<double>& column(const std::string& name) const {
     return history.column.at(static_cast<std::size_t>(history.find(name)));
   }
-  std::filesystem::path folder;
+  const TemporaryFolder temporary{"ladder"};
   io::HistoryTable history;
 };
 

@@ -1,6 +1,5 @@
 // Tools with a mass of their own, with the whole solver, against exact solutions.
-#include "contact/curve_shape.hpp"
-#include "tests/unit/mechanics/models.hpp"
+#include "tests/unit/mechanics/tools.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +8,7 @@ namespace {
 
 contact::Tool<2> ram(const Vec2& low, const Vec2& high, double mass, const Vec2& velocity,
                      std::array<TimeTable, 2> force = {}) {
-  Curve curve;
-  const Vec2 corner[] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-  for (int i = 0; i < 4; ++i) {
-    CurvePiece piece;
-    piece.from = corner[i];
-    piece.to = corner[(i + 1) % 4];
-    curve.pieces.push_back(piece);
-  }
-  contact::Tool<2> tool;
-  tool.name = "ram";
-  tool.shape = std::make_shared<contact::CurveShape>(curve);
+  contact::Tool<2> tool = rigid_tool("ram", box(low, high));
   tool.drive = contact::ToolDrive<2>{mass, std::move(force), velocity};
   return tool;
 }
@@ -29,12 +18,6 @@ plasticity::Material rod() {
   plasticity::Material material = steel();
   material.elasticity.poisson = 0.0;
   return material;
-}
-
-double total_mass(const ExplicitSolver<2>& solver) {
-  double mass = 0.0;
-  for (const double m : solver.state().node.mass) mass += m;
-  return mass;
 }
 
 Vec2 ram_velocity(const ExplicitSolver<2>& solver) {

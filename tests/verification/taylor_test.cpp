@@ -3,6 +3,7 @@
 #include "app/run.hpp"
 #include "io/case_reader.hpp"
 #include "io/status.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -59,7 +60,8 @@ TEST(TaylorBar, copper_with_linear_hardening) {
 }
 
 TEST(TaylorBar, goes_on_with_the_old_reference_where_nodes_have_passed_each_other) {
-  const auto folder = std::filesystem::temp_directory_path() / "cnem_taylor_renewal";
+  const TemporaryFolder temporary("taylor_renewal");
+  const std::filesystem::path& folder = temporary.path();
   const io::Case input =
       io::read_case(CNEM_SOURCE_DIR "/cases/verification/taylor_copper/case.toml",
                     {"cloud.spacing=0.64 mm", "output.pictures=[]", "output.fields_every=80 us"});
@@ -68,7 +70,6 @@ TEST(TaylorBar, goes_on_with_the_old_reference_where_nodes_have_passed_each_othe
   ASSERT_EQ(status.warnings.size(), 1U);
   EXPECT_NE(status.warnings[0].find("the reference could not be renewed"), std::string::npos);
   EXPECT_LT(status.energy_residual, 1e-3);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(TaylorBar, stainless_steel_with_heat) {

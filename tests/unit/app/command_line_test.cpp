@@ -5,13 +5,13 @@
 #include "io/case.hpp"
 #include "io/history_writer.hpp"
 #include "io/status.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
-#include <unistd.h>
 
 namespace cnem::app {
 namespace {
@@ -41,13 +41,7 @@ history_every = "0.1 us"
 
 class CommandLine : public ::testing::Test {
 protected:
-  void SetUp() override {
-    folder = std::filesystem::temp_directory_path() / ("cnem_cli_" + std::to_string(::getpid()));
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "block.toml") << block;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
+  void SetUp() override { std::ofstream(folder / "block.toml") << block; }
 
   int call(std::vector<std::string> words) {
     words.insert(words.begin(), "cnem");
@@ -63,7 +57,8 @@ protected:
   std::string file() const { return (folder / "block.toml").string(); }
   std::string results() const { return (folder / "results").string(); }
 
-  std::filesystem::path folder;
+  const cnem::testing::TemporaryFolder temporary{"command_line"};
+  const std::filesystem::path& folder = temporary.path();
   std::string message, printed;
 };
 

@@ -4,12 +4,12 @@
 #include "core/error.hpp"
 #include "io/case_reader.hpp"
 #include "io/history_writer.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
-#include <unistd.h>
 
 namespace cnem::app {
 namespace {
@@ -38,13 +38,7 @@ history_every = "0.1 us"
 
 class Axisymmetric : public ::testing::Test {
 protected:
-  void SetUp() override {
-    folder = std::filesystem::temp_directory_path() / ("cnem_axi_" + std::to_string(::getpid()));
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "bar.toml") << bar;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
+  void SetUp() override { std::ofstream(folder / "bar.toml") << bar; }
   io::Case read(const std::vector<std::string>& overrides) {
     return io::read_case((folder / "bar.toml").string(), overrides);
   }
@@ -54,7 +48,8 @@ protected:
     } catch (const InputError& error) { return error.what(); }
     return "";
   }
-  std::filesystem::path folder;
+  const cnem::testing::TemporaryFolder temporary{"axisymmetric"};
+  const std::filesystem::path& folder = temporary.path();
 };
 
 TEST_F(Axisymmetric, the_workpiece_must_not_cross_the_axis) {

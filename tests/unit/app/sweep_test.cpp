@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "io/history_writer.hpp"
 #include "io/output_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <csignal>
 #include <cstdlib>
@@ -39,12 +40,9 @@ corner = { points = ["0 0 mm"], displacement = "0 0 m" }
 class Sweep : public ::testing::Test {
 protected:
   void SetUp() override {
-    folder = fs::temp_directory_path() / ("cnem_sweep_" + std::to_string(::getpid()));
-    fs::remove_all(folder);
     fs::create_directories(folder / "plate");
     std::ofstream(folder / "plate" / "case.toml") << plate;
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   io::Study study(const std::string& text) {
     return io::read_study_text("case = \"plate\"\n" + text, folder / "loads.toml");
@@ -75,7 +73,8 @@ protected:
       EXPECT_NE(text.find(part), std::string::npos) << part << "\nin " << text;
   }
 
-  fs::path folder;
+  const cnem::testing::TemporaryFolder temporary{"sweep"};
+  const fs::path& folder = temporary.path();
   std::string printed, message;
 };
 

@@ -187,11 +187,7 @@ TEST(Corner, ActsOnTheSideItComesFromOnly) {
 TEST(Corner, AtAConvexNodeOnlyTheEdgeItCameThroughIsPushed) {
   // a corner over the right end of a block, a little inside its upper side, is far behind its right side
   Masses scene;
-  scene.add({0.0, 0.0}, 1.0);
-  scene.add({1.0, 0.0}, 1.0);
-  scene.add({1.0, 1.0}, 1.0);
-  scene.add({0.0, 1.0}, 1.0);
-  scene.loop({0, 1, 2, 3});
+  scene.square({0, 0}, 1.0);
   scene.start({tool(box({0.9, 1.0 - 1e-6}, {3.0, 2.0}), {0, -1})});
   for (int i = 0; i < 5; ++i) scene.step(1e-3);
   EXPECT_LT(scene.velocity(2).y(), -0.9);
@@ -214,11 +210,7 @@ TEST(Corner, InASlotDoesNotFeelTheOuterSide) {
 TEST(Corner, ShearStrengthCountsEachAreaOnce) {
   // pure shear friction on a face over one node and on the corner in the middle of the edge beside it
   Masses scene;
-  scene.add({0.0, 0.0}, 1.0);
-  scene.add({1.0, 0.0}, 1.0);
-  scene.add({1.0, 1.0}, 1.0);
-  scene.add({0.0, 1.0}, 1.0);
-  scene.loop({0, 1, 2, 3});
+  scene.square({0, 0}, 1.0);
   Tool<2> belt = tool(box({-1, 1}, {0.5, 2}), {1.0, -0.1}, std::numeric_limits<double>::infinity());
   belt.friction.shear_factor = 0.7;
   scene.start({belt});

@@ -140,11 +140,7 @@ TEST(Motion, WorkOfAPunchIsForceTimesStroke) {
 
 TEST(StartUp, PenetrationIsPushedOutAtHalfTheToolSpeed) {
   Masses scene;
-  scene.add({0.0, 0.0}, 1.0);
-  scene.add({0.1, 0.0}, 1.0);
-  scene.add({0.1, 0.1}, 1.0);
-  scene.add({0.0, 0.1}, 1.0);
-  scene.loop({0, 1, 2, 3});
+  scene.square({0, 0}, 0.1);
   const double depth = 0.02, dt = 1e-4;
   scene.start({tool(box({-1, 0.1 - depth}, {1, 1}), {0, -1})});
   const auto found = scene.contact->overlaps(scene.x, 0.0);

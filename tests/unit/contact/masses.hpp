@@ -2,6 +2,7 @@
 // A small explicit integrator of masses and springs, so that contact is tested without the solver.
 #include "contact/contact.hpp"
 #include "contact/curve_shape.hpp"
+#include "tests/curves.hpp"
 
 #include <cmath>
 #include <functional>
@@ -33,16 +34,8 @@ inline CurvePiece arc(const Vec2& from, const Vec2& to, const Vec2& centre, bool
   return piece;
 }
 
-inline Curve polygon(const std::vector<Vec2>& corner) {
-  Curve curve;
-  for (std::size_t i = 0; i < corner.size(); ++i)
-    curve.pieces.push_back(segment(corner[i], corner[(i + 1) % corner.size()]));
-  return curve;
-}
-
-inline Curve box(const Vec2& low, const Vec2& high) {
-  return polygon({low, {high.x(), low.y()}, high, {low.x(), high.y()}});
-}
+using cnem::testing::box;
+using cnem::testing::polygon;
 
 /// A box with all four corners rounded.
 inline Curve rounded_box(const Vec2& low, const Vec2& high, double r) {
@@ -107,6 +100,12 @@ struct Masses {
   void loop(const std::vector<int>& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       facets.push_back({{nodes[i], nodes[(i + 1) % nodes.size()]}, 0});
+  }
+  /// Four masses of 1 kg/m at the corners of a square body.
+  void square(const Vec2& low, double side) {
+    const int first = add(low, 1.0);
+    for (const Vec2& corner : {Vec2(side, 0), Vec2(side, side), Vec2(0, side)}) add(low + corner, 1.0);
+    loop({first, first + 1, first + 2, first + 3});
   }
   void start(std::vector<Tool<2>> tools) {
     contact = std::make_shared<RigidContact<2>>(std::move(tools));

@@ -2,6 +2,7 @@
 // A square with a central crack, and its tips.
 #include "cnem/scni.hpp"
 #include "fracture/crack_tip.hpp"
+#include "tests/curves.hpp"
 #include "voronoi/generate.hpp"
 
 #include <array>
@@ -13,9 +14,7 @@ namespace cnem::testing {
 /// The square [−1, 1]² with sides named "side".
 inline voronoi::DomainShape square_shape() {
   voronoi::DomainShape shape;
-  const std::array<Vec2, 4> corner{Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)};
-  for (std::size_t k = 0; k < 4; ++k)
-    shape.outer.pieces.push_back({corner[k], corner[(k + 1) % 4], {0, 0}, 0.0, false, "side"});
+  shape.outer = box({-1, -1}, {1, 1}, "side");
   return shape;
 }
 

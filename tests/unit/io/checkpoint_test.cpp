@@ -5,13 +5,13 @@
 #include "core/error.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/output_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <bit>
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
-#include <unistd.h>
 
 namespace cnem::io {
 namespace {
@@ -151,18 +151,13 @@ TEST(Checkpoint, a_flipped_bit_anywhere_is_seen) {
 
 class CheckpointFolder : public ::testing::Test {
 protected:
-  void SetUp() override {
-    folder = fs::temp_directory_path() / ("cnem_checkpoints_" + std::to_string(::getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
   std::vector<std::string> contents() const {
     std::vector<std::string> list;
     for (const fs::path& path : list_checkpoints(folder)) list.push_back(read_file(path));
     return list;
   }
-  fs::path folder;
+  const cnem::testing::TemporaryFolder temporary{"checkpoints"};
+  const fs::path& folder = temporary.path();
 };
 
 using Texts = std::vector<std::string>;

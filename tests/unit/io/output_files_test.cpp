@@ -4,6 +4,7 @@
 #include "io/palette_png.hpp"
 #include "io/picture.hpp"
 #include "io/vtk_writer.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -16,7 +17,6 @@
 #include <png.h>
 #include <random>
 #include <thread>
-#include <unistd.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -32,13 +32,8 @@ namespace fs = std::filesystem;
 
 class OutputFiles : public ::testing::Test {
 protected:
-  void SetUp() override {
-    folder = fs::temp_directory_path() / ("cnem_output_" + std::to_string(::getpid()));
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-  fs::path folder;
+  const cnem::testing::TemporaryFolder temporary{"output"};
+  const fs::path& folder = temporary.path();
 };
 
 TEST_F(OutputFiles, queued_files_are_whole_and_the_last_of_a_name_stays) {
@@ -142,28 +137,25 @@ TEST(Palette, the_colour_map_is_met_within_what_can_be_seen) {
 }
 
 /// A square of two cells, x from 0 to 20 and from 20 to 40, and one that is not convex, above them.
-CellGeometry<2> three_cells(std::vector<Vec2>& vertex) {
-  vertex = {{0, 0}, {20, 0}, {20, 20}, {0, 20}, {40, 0}, {40, 20}, {0, 40}, {20, 30}, {40, 40}};
+CellGeometry<2> three_cells() {
   CellGeometry<2> cells;
+  cells.vertex = {{0, 0}, {20, 0}, {20, 20}, {0, 20}, {40, 0}, {40, 20}, {0, 40}, {20, 30}, {40, 40}};
   cells.begin = {0, 4, 8, 13};
   cells.index = {0, 1, 2, 3, 1, 4, 5, 2, 3, 5, 8, 7, 6};
+  cells.vertex_begin = {0};
+  for (std::int32_t v = 0; v < 9; ++v) { // vertices move with nodes at them
+    cells.vertex_begin.push_back(v + 1);
+    cells.vertex_node.push_back(v);
+    cells.vertex_weight.push_back(1.0);
+  }
   return cells;
 }
 
 class DrawnCells : public ::testing::Test {
 protected:
   DrawnCells() {
-    std::vector<Vec2> vertex;
-    cells = three_cells(vertex);
-    cells.vertex = vertex;
-    cells.vertex_begin = {0};
-    for (std::int32_t v = 0; v < 9; ++v) {
-      cells.vertex_begin.push_back(v + 1);
-      cells.vertex_node.push_back(v);
-      cells.vertex_weight.push_back(1.0);
-      for (std::size_t k = 0; k < 2; ++k)
-        position[k].push_back(vertex[static_cast<std::size_t>(v)][static_cast<Eigen::Index>(k)]);
-    }
+    for (const Vec2& at : cells.vertex)
+      for (std::size_t k = 0; k < 2; ++k) position[k].push_back(at[static_cast<Eigen::Index>(k)]);
     picture.cells = &cells;
     picture.position = {position[0], position[1]};
     picture.value = value;
@@ -198,7 +190,7 @@ protected:
     return least;
   }
   static std::uint32_t green(std::uint32_t colour) { return colour >> 8 & 0xFFU; }
-  CellGeometry<2> cells;
+  CellGeometry<2> cells = three_cells();
   std::array<std::vector<double>, 2> position;
   std::vector<double> value{0.0, 1.0, std::nan("")};
   Picture picture;
@@ -254,17 +246,10 @@ TEST_F(DrawnCells, cells_that_are_not_finite_are_left_out) {
 class VtuFiles : public OutputFiles {
 protected:
   void write() {
-    std::vector<Vec2> vertex;
-    cells = three_cells(vertex);
-    cells.vertex = vertex;
-    cells.vertex_begin = {0};
-    for (std::int32_t v = 0; v < 9; ++v) {
-      cells.vertex_begin.push_back(v + 1);
-      cells.vertex_node.push_back(v);
-      cells.vertex_weight.push_back(1.0);
-      position[0].push_back(vertex[static_cast<std::size_t>(v)].x() + 1.0);
-      position[1].push_back(vertex[static_cast<std::size_t>(v)].y());
-      temperature.push_back(300.0 + v / 7.0);
+    for (const Vec2& at : cells.vertex) {
+      temperature.push_back(300.0 + static_cast<double>(temperature.size()) / 7.0);
+      position[0].push_back(at.x() + 1.0);
+      position[1].push_back(at.y());
     }
     FileQueue queue;
     FieldWriter writer(folder);
@@ -285,7 +270,7 @@ protected:
     reader->Update();
     return reader->GetOutput();
   }
-  CellGeometry<2> cells;
+  CellGeometry<2> cells = three_cells();
   std::array<std::vector<double>, 2> position;
   std::vector<double> pressure{1.0 / 3.0, -2e8, 5e-300}, temperature;
 };

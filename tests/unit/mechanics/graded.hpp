@@ -1,7 +1,6 @@
 #pragma once
 // Graded bodies for tests of local time steps.
-#include "contact/curve_shape.hpp"
-#include "tests/unit/mechanics/models.hpp"
+#include "tests/unit/mechanics/tools.hpp"
 #include "voronoi/generate.hpp"
 
 namespace cnem::testing {
@@ -11,38 +10,13 @@ namespace cnem::testing {
 inline Cloud<2> graded_rectangle(double a, double b, double coarse, double fine, std::vector<Vec2> along,
                                  double growth = 0.3) {
   voronoi::DomainShape domain;
-  const Vec2 corner[4] = {{0, 0}, {a, 0}, {a, b}, {0, b}};
+  domain.outer = box({0, 0}, {a, b});
   const char* name[4] = {"bottom", "right", "top", "left"};
-  for (int i = 0; i < 4; ++i) {
-    CurvePiece piece;
-    piece.from = corner[i];
-    piece.to = corner[(i + 1) % 4];
-    piece.name = name[i];
-    domain.outer.pieces.push_back(piece);
-  }
+  for (std::size_t k = 0; k < 4; ++k) domain.outer.pieces[k].name = name[k];
   voronoi::SpacingField spacing;
   spacing.spacing = coarse;
   spacing.refinements = {{.points = std::move(along), .spacing = fine, .growth = growth}};
   return voronoi::generate_cloud(domain, spacing, {}).cloud;
-}
-
-inline contact::Tool<2> box_tool(const std::string& name, Vec2 low, Vec2 high, Vec2 velocity,
-                                 contact::Friction friction) {
-  Curve curve;
-  const Vec2 corner[4] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-  for (int i = 0; i < 4; ++i) {
-    CurvePiece piece;
-    piece.from = corner[i];
-    piece.to = corner[(i + 1) % 4];
-    curve.pieces.push_back(piece);
-  }
-  contact::Tool<2> tool;
-  tool.name = name;
-  tool.shape = std::make_shared<contact::CurveShape>(curve);
-  tool.motion.velocity = {TimeTable(velocity.x()), TimeTable(velocity.y())};
-  tool.friction = friction;
-  tool.thermal = {.effusivity = 1e4, .conductance = 1e4, .temperature = 296.0};
-  return tool;
 }
 
 /// A half blank between punch and die, refined where it will shear, with friction and heat: spacings differ
@@ -55,9 +29,9 @@ inline Model<2> graded_shearing(double speed, double coarse = 4e-4) {
   model.supports = Supports<2>(std::move(axis), static_cast<std::size_t>(cloud.nodes()));
   const contact::Friction friction{.coulomb = 0.1, .shear_factor = 0.5};
   model.contact = contact::RigidContact<2>(
-      {box_tool("punch", {-1e-3, 4e-3}, {edge - clearance, 8e-3}, {0, -speed}, friction),
-       box_tool("die", {edge + clearance, -4e-3}, {12e-3, 0}, {0, 0}, friction),
-       box_tool("holder", {edge + clearance, 4e-3}, {12e-3, 8e-3}, {0, 0}, friction)});
+      {warm_box("punch", {-1e-3, 4e-3}, {edge - clearance, 8e-3}, {0, -speed}, friction),
+       warm_box("die", {edge + clearance, -4e-3}, {12e-3, 0}, {0, 0}, friction),
+       warm_box("holder", {edge + clearance, 4e-3}, {12e-3, 8e-3}, {0, 0}, friction)});
   model.viscosity = {1.2, 0.06};
   model.thermal = true;
   return model;

@@ -1,6 +1,5 @@
 // Mass scaling: longer steps, inertia alone, the same forces in slow processes.
-#include "contact/curve_shape.hpp"
-#include "models.hpp"
+#include "tests/unit/mechanics/tools.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,16 +74,7 @@ struct Upset {
 };
 Upset upset(const MassScaling& scaling) {
   const double end = 1e-4;
-  Curve plate;
-  const Vec2 corner[] = {{-1e-3, 1e-3}, {3e-3, 1e-3}, {3e-3, 2e-3}, {-1e-3, 2e-3}};
-  for (int i = 0; i < 4; ++i) {
-    CurvePiece piece;
-    piece.from = corner[i];
-    piece.to = corner[(i + 1) % 4];
-    plate.pieces.push_back(piece);
-  }
-  contact::Tool<2> tool;
-  tool.shape = std::make_shared<contact::CurveShape>(plate);
+  contact::Tool<2> tool = rigid_tool("plate", box({-1e-3, 1e-3}, {3e-3, 2e-3}));
   tool.motion.velocity[1] = TimeTable({0.0, 0.3 * end, 0.5 * end}, {0.0, -0.4, -1.0});
   Model<2> model = model_of(rectangle(2e-3, 1e-3, 2e-4), Method::cnem, steel_304L());
   model.supports =

@@ -94,6 +94,13 @@ inline ExplicitSolver<2> start(Model<2> model, const std::function<Vec2(const Ve
   return ExplicitSolver<2>(std::move(model), std::move(v), std::move(t));
 }
 
+/// kg/m
+inline double total_mass(const ExplicitSolver<2>& solver) {
+  double mass = 0.0;
+  for (const double m : solver.state().node.mass) mass += m;
+  return mass;
+}
+
 /// Linear and angular momentum of the nodes about the origin, at t_n.
 struct Momenta {
   Vec2 linear = Vec2::Zero();

@@ -1,7 +1,5 @@
 // Re-referencing, stabilisation energy, determinism, adiabatic shear: what the solver as a whole must keep.
-#include "tests/unit/mechanics/models.hpp"
-
-#include "contact/curve_shape.hpp"
+#include "tests/unit/mechanics/tools.hpp"
 
 #include <cstring>
 #include <gtest/gtest.h>
@@ -10,33 +8,15 @@
 namespace cnem::testing {
 namespace {
 
-contact::Tool<2> box_tool(const std::string& name, Vec2 low, Vec2 high, Vec2 velocity, double friction) {
-  Curve curve;
-  const Vec2 corner[4] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-  for (int i = 0; i < 4; ++i) {
-    CurvePiece piece;
-    piece.from = corner[i];
-    piece.to = corner[(i + 1) % 4];
-    curve.pieces.push_back(piece);
-  }
-  contact::Tool<2> tool;
-  tool.name = name;
-  tool.shape = std::make_shared<contact::CurveShape>(curve);
-  tool.motion.velocity = {TimeTable(velocity.x()), TimeTable(velocity.y())};
-  tool.friction.coulomb = friction;
-  tool.thermal = {.effusivity = 1e4, .conductance = 1e4, .temperature = 296.0};
-  return tool;
-}
-
 /// A small blank between punch and die, with friction and heat.
 ExplicitSolver<2> small_shearing(double speed) {
   Cloud<2> cloud = rectangle(4e-3, 2e-3, 2e-4, Lattice::hexagonal, 0.1);
   std::vector<Support<2>> axis{{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}};
   Model<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.supports = Supports<2>(std::move(axis), static_cast<std::size_t>(cloud.nodes()));
-  model.contact =
-      contact::RigidContact<2>({box_tool("punch", {-1e-3, 2e-3}, {1.45e-3, 4e-3}, {0, -speed}, 0.1),
-                                box_tool("die", {1.55e-3, -2e-3}, {5e-3, 0}, {0, 0}, 0.1)});
+  model.contact = contact::RigidContact<2>(
+      {warm_box("punch", {-1e-3, 2e-3}, {1.45e-3, 4e-3}, {0, -speed}, {.coulomb = 0.1}),
+       warm_box("die", {1.55e-3, -2e-3}, {5e-3, 0}, {0, 0}, {.coulomb = 0.1})});
   model.thermal = true;
   return start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Domains that the tests of the cloud generator share.
-#include "core/curve.hpp"
+#include "tests/curves.hpp"
 #include "voronoi/generate.hpp"
 #include "voronoi/triangulation.hpp"
 
@@ -14,14 +14,8 @@ namespace cnem::voronoi {
 
 /// Polygon with pieces named NAME0, NAME1, …
 inline Curve polygon(const std::vector<Vec2>& corners, const std::string& name = "side") {
-  Curve curve;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    CurvePiece piece;
-    piece.from = corners[k];
-    piece.to = corners[(k + 1) % corners.size()];
-    piece.name = name + std::to_string(k);
-    curve.pieces.push_back(piece);
-  }
+  Curve curve = testing::polygon(corners);
+  for (std::size_t k = 0; k < corners.size(); ++k) curve.pieces[k].name = name + std::to_string(k);
   return curve;
 }
 

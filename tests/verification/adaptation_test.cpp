@@ -1,0 +1,370 @@
+// Every option of adaptation in whole runs: what is asked for happens, and nothing is lost by it.
+#include "app/registry.hpp"
+#include "app/run.hpp"
+#include "io/case_reader.hpp"
+#include "io/history_writer.hpp"
+#include "io/output_folder.hpp"
+#include "io/status.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <stdexcept>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+namespace cnem::testing {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+const std::string steel = R"toml(
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0.0973, rate0 = "1 /s", m = 2.044, T0 = "296 K", Tmelt = "1698 K" }
+heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
+[method]
+rereference = { every = 40, strain = 0.1 }
+[adapt]
+resample = true
+[output]
+history_every = "0.1 us"
+fields_every = "10 us"
+)toml";
+
+// A punch goes into the left of a block.
+const std::string block = R"toml(
+[time]
+end = "10 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "0.25 mm"
+[boundary.base]
+pieces = ["bottom"]
+symmetry = true
+)toml" + steel;
+const std::string punched = block + R"toml(
+[tools.punch]
+rectangle = { from = "-1 2 mm", to = "1.1 5 mm" }
+velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
+friction = { law = "tresca-limited", coefficient = 0.2 }
+)toml";
+
+// A roller goes along the top of a block from left to right, and the metal flows under it alone.
+const std::string rolled = R"toml(
+[time]
+end = "20 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "5 1 mm" }
+[cloud]
+spacing = "0.25 mm"
+[boundary.base]
+pieces = ["bottom"]
+symmetry = true
+[tools.roller]
+circle = { centre = "0.5 1.94 mm", radius = "1 mm" }
+velocity = "180 0 m/s"
+[adapt.indicator]
+field = "plastic_rate"
+h_min = "0.1 mm"
+)toml" + steel;
+
+// A slot that a plate closes, until its faces touch.
+const std::string slotted = R"toml(
+[time]
+end = "8 us"
+[domain]
+material = "steel"
+[domain.outer]
+start = "0 0 mm"
+path = [
+  { to = "3 0 mm", name = "base" },
+  { to = "3 0.9 mm" }, { to = "1 0.9 mm" }, { to = "1 1.2 mm" }, { to = "3 1.2 mm" }, { to = "3 2 mm" }, { to = "0 2 mm" },
+]
+[cloud]
+spacing = "0.2 mm"
+[boundary.base]
+pieces = ["base"]
+symmetry = true
+[contact]
+deformable = true
+friction = { law = "coulomb", coefficient = 0.1 }
+[tools.plate]
+rectangle = { from = "-1 2 mm", to = "5 3 mm" }
+velocity = "0 -60 m/s"
+)toml" + steel;
+
+const Texts by_strain{"adapt.indicator.field=plastic_strain", "adapt.indicator.h_min=0.1 mm"};
+
+struct Node {
+  Vec2 at;
+  double plastic_strain, level, age;
+  double nearest; ///< m, distance to the nearest other node
+};
+
+/// A run to its end, with nothing lost.
+struct Adapted {
+  io::RunStatus status;
+  io::HistoryTable history;
+  std::vector<Node> nodes; ///< at the end
+
+  double metric(const std::string& name) const {
+    for (const auto& [key, value] : status.metrics)
+      if (key == name) return value;
+    throw std::out_of_range(name);
+  }
+  double counted(const std::string& what) const { return metric("adapt." + what); }
+  const std::vector<double>& column(const std::string& name) const {
+    return history.column.at(static_cast<std::size_t>(history.find(name)));
+  }
+  double energy(const std::string& term) const { return column("energy." + term + "[J/m]").back(); }
+  double work() const { return energy("tool_work") + energy("drive_work"); }
+  double finest() const {
+    return std::min_element(nodes.begin(), nodes.end(),
+                            [](const Node& a, const Node& b) { return a.nearest < b.nearest; })
+        ->nearest;
+  }
+  template<class Test> std::ptrdiff_t count(Test&& test) const {
+    return std::count_if(nodes.begin(), nodes.end(), std::forward<Test>(test));
+  }
+};
+
+std::vector<Node> last_nodes(const std::filesystem::path& folder) {
+  std::filesystem::path last;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / io::files::fields_folder))
+    if (entry.path().filename().string().starts_with("nodes")) last = std::max(last, entry.path());
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(last.c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  const auto value = [&](const char* field, vtkIdType i) {
+    return grid->GetPointData()->GetArray(field)->GetTuple1(i);
+  };
+  std::vector<Node> nodes;
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    nodes.push_back({{grid->GetPoint(i)[0], grid->GetPoint(i)[1]},
+                     value("equivalent plastic strain", i),
+                     value("level of refinement", i),
+                     value("age of the node [s]", i),
+                     std::numeric_limits<double>::infinity()});
+  for (Node& a : nodes)
+    for (const Node& b : nodes)
+      if (&a != &b) a.nearest = std::min(a.nearest, (a.at - b.at).norm());
+  return nodes;
+}
+
+Adapted run(const std::string& text, Texts overrides = {}, double residual = 5e-4) {
+  overrides.emplace_back("output.pictures=[]");
+  const io::Case input = io::read_case_text(text, "case.toml", overrides);
+  const TemporaryFolder folder("adaptation");
+  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), app::Exit::done);
+  Adapted result{io::read_status(folder.path()), io::read_history(folder.path() / io::files::history),
+                 last_nodes(folder.path())};
+  EXPECT_LT(std::abs(result.metric("mass_drift")), 1e-12);
+  EXPECT_LT(result.status.energy_residual, residual);
+  EXPECT_GT(result.metric("mass_balance.low"), 0.75);
+  EXPECT_LT(result.metric("mass_balance.high"), 1.3);
+  EXPECT_EQ(result.counted("outside"), 0.0);
+  EXPECT_EQ(static_cast<double>(result.nodes.size()), result.column("nodes").back());
+  const int start = app::build(input).model.cloud.nodes();
+  if (result.counted("folded") == 0.0) {
+    EXPECT_EQ(result.column("nodes").back() - start,
+              result.counted("inserted") + result.counted("inserted_boundary") - result.counted("removed") -
+                  result.counted("removed_boundary"));
+  }
+  return result;
+}
+
+Texts with(Texts all, const Texts& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+TEST(Adaptation, follows_the_flow_without_an_indicator) {
+  const Adapted kept = run(punched);
+  EXPECT_GT(kept.counted("passes"), 5);
+  EXPECT_LT(std::abs(kept.column("nodes").back() / kept.column("nodes").front() - 1.0), 0.1);
+  EXPECT_GT(kept.finest(), 0.3 * 0.25e-3);
+}
+
+class Placement : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Placement, fills_the_band) {
+  const Adapted filled = run(punched, with(by_strain, {fmt::format("adapt.placement={}", GetParam())}));
+  EXPECT_GT(filled.counted("inserted"), 100);
+  EXPECT_GT(filled.counted("inserted_boundary"), 5);
+  double deformed = 0.0, still = 0.0; // spacing where much and where nothing has flown
+  int many = 0, few = 0;
+  for (const Node& node : filled.nodes) {
+    if (node.plastic_strain > 0.3) deformed += node.nearest, ++many;
+    if (node.at.x() > 3.2e-3) still += node.nearest, ++few;
+  }
+  ASSERT_GT(many, 20);
+  ASSERT_GT(few, 10);
+  EXPECT_LT(deformed / many, 0.65 * still / few);
+}
+INSTANTIATE_TEST_SUITE_P(Of, Placement, ::testing::Values("between nodes", "voronoi vertices"),
+                         [](const auto& placement) {
+                           return std::string(placement.index == 0 ? "midpoints" : "vertices");
+                         });
+
+TEST(Adaptation, refines_where_the_field_is_not_resolved) {
+  const std::size_t start = run(punched, {"time.max_steps=1"}).nodes.size();
+  for (const char* field : {"plastic_strain", "plastic_rate", "temperature"}) {
+    SCOPED_TRACE(field);
+    const Adapted refined = run(punched, {fmt::format("adapt.indicator.field={}", field),
+                                          "adapt.indicator.h_min=0.1 mm", "adapt.indicator.tolerance=0.05"});
+    EXPECT_GT(refined.counted("refined"), 20);
+    EXPECT_GT(refined.nodes.size(), start + 20);
+    EXPECT_GT(refined.counted("error"), 0.0);
+    // the newest and finest nodes are under the corner of the punch
+    EXPECT_GT(refined.count([](const Node& n) { return n.level > 0.5 && n.age < 9e-6; }), 20);
+    EXPECT_EQ(refined.count([](const Node& n) { return n.level > 0.9 && n.at.x() > 3.2e-3; }), 0);
+  }
+}
+
+TEST(Adaptation, keeps_to_the_least_spacing) {
+  const Adapted coarse = run(punched, with(by_strain, {"adapt.indicator.h_min=0.18 mm"})),
+                fine = run(punched, by_strain);
+  EXPECT_GT(coarse.finest(), 0.3 * 0.18e-3);
+  EXPECT_LT(fine.finest(), 0.12e-3);
+  EXPECT_GT(fine.nodes.size(), coarse.nodes.size() * 3 / 2);
+  for (const Node& node : coarse.nodes) EXPECT_LE(node.level, std::log2(0.25 / 0.18) + 1e-9);
+}
+
+TEST(Adaptation, coarsens_up_to_the_largest_spacing) {
+  const Adapted coarser =
+      run(punched, with(by_strain, {"adapt.indicator.h_max=0.5 mm", "adapt.indicator.coarsen=0.05"}));
+  EXPECT_GT(coarser.counted("removed"), 10);
+  // the far end, where nothing happens: the spacing doubles at most
+  double spacing = 0.0;
+  int few = 0;
+  for (const Node& node : coarser.nodes)
+    if (node.at.x() > 3.2e-3) spacing += node.nearest, ++few;
+  ASSERT_GT(few, 5);
+  EXPECT_GT(spacing / few, 0.26e-3);
+  EXPECT_LT(spacing / few, 0.55e-3);
+}
+
+TEST(Adaptation, coarsens_where_the_band_has_passed) {
+  const Adapted followed = run(rolled, {}, 2e-3), kept = run(rolled, {"adapt.indicator.coarsen=0"}, 2e-3);
+  // in the track of the roller, which has gone on to x = 4.1 mm
+  const auto behind = [](const Node& n) { return n.at.x() > 0.5e-3 && n.at.x() < 2.2e-3; };
+  const auto under = [](const Node& n) { return n.at.x() > 3.3e-3 && n.at.x() < 5e-3; };
+  EXPECT_EQ(kept.counted("coarsened"), 0.0);
+  EXPECT_GT(followed.counted("coarsened"), 50);
+  EXPECT_GT(followed.counted("removed"), 30);
+  EXPECT_LT(followed.count(behind), 0.75 * static_cast<double>(kept.count(behind)));
+  EXPECT_GT(followed.count(under), 0.8 * static_cast<double>(kept.count(under)));
+  EXPECT_NEAR(followed.energy("plastic"), kept.energy("plastic"), 0.05 * kept.energy("plastic"));
+}
+
+TEST(Adaptation, stays_near_the_budget_of_nodes) {
+  const Adapted free = run(punched, by_strain),
+                held = run(punched, with(by_strain, {"adapt.indicator.max_nodes=220"}));
+  EXPECT_GT(free.nodes.size(), 300U);
+  EXPECT_GT(held.nodes.size(), 200U);
+  EXPECT_LT(held.nodes.size(),
+            286U); // 30% above: cells grow no faster than asked, and the body's area changes
+  EXPECT_LT(held.counted("refined"), free.counted("refined"));
+}
+
+TEST(Adaptation, spacing_grows_from_tools_no_faster_than_asked) {
+  const auto at_tool = [](double growth) {
+    return run(punched,
+               {"adapt.tool_spacing=0.06 mm", fmt::format("adapt.growth={}", growth), "time.end=2 us"});
+  };
+  const Adapted slow = at_tool(0.1), fast = at_tool(0.3);
+  EXPECT_GT(static_cast<double>(slow.nodes.size()), 1.25 * static_cast<double>(fast.nodes.size()));
+  for (const auto& [run, growth] : {std::pair(&slow, 0.1), std::pair(&fast, 0.3)})
+    for (const Node& node : run->nodes) { // edges up to 1.6 of what is wanted are left alone
+      const double away = (node.at - Vec2(1.1e-3, 2e-3)).norm();
+      EXPECT_LT(node.nearest, 1.6 * std::min(0.25e-3, 0.06e-3 + growth * (away + 0.06e-3)));
+    }
+  EXPECT_LT(fast.finest(), 0.08e-3);
+}
+
+TEST(Adaptation, carries_scaled_masses) {
+  const Adapted plain = run(punched, by_strain),
+                scaled = run(punched, with(by_strain, {"time.mass_scaling.factor=4"}));
+  EXPECT_LT(scaled.status.steps, 0.65 * static_cast<double>(plain.status.steps));
+  EXPECT_NEAR(scaled.energy("plastic"), plain.energy("plastic"), 0.1 * plain.energy("plastic"));
+}
+
+TEST(Adaptation, carries_local_time_steps) {
+  const Texts graded{"adapt.tool_spacing=0.03 mm", "time.end=4 us"};
+  const Adapted global = run(punched, graded), local = run(punched, with(graded, {"time.step.local=true"}));
+  EXPECT_LT(local.status.steps, global.status.steps / 2);
+  EXPECT_LT(local.status.node_steps, 0.6 * global.status.node_steps);
+  EXPECT_NEAR(local.energy("plastic"), global.energy("plastic"), 0.01 * global.energy("plastic"));
+}
+
+TEST(Adaptation, carries_the_pressure_exchange) {
+  const Adapted plain = run(punched, by_strain),
+                exchanged = run(punched, with(by_strain, {"method.pressure_exchange=0.3"}));
+  EXPECT_GT(exchanged.energy("pressure_exchange"), 0.0);
+  EXPECT_GT(exchanged.metric("max.volume_drift"), 0.0);
+  EXPECT_NEAR(exchanged.energy("plastic"), plain.energy("plastic"), 0.01 * plain.energy("plastic"));
+}
+
+TEST(Adaptation, carries_damage_without_making_energy) {
+  const Adapted broken = run(punched + R"toml(
+[materials.steel.damage]
+law = "johnson-cook"
+D1 = 0.05
+D2 = 0.1
+D3 = -1.5
+fracture_energy = "20 kJ/m2"
+)toml",
+                             by_strain);
+  EXPECT_EQ(broken.metric("max_damage"), 1.0);
+  EXPECT_GT(broken.counted("inserted"), 50);
+  EXPECT_GT(broken.energy("rereference"), -1e-3 * broken.work()) << "stored energy comes from nowhere";
+}
+
+TEST(Adaptation, carries_bodies_in_contact) {
+  const Adapted closed = run(slotted, by_strain);
+  const std::vector<double>& pressing = closed.column("body_contact.pressing[N/m]");
+  EXPECT_GT(*std::max_element(pressing.begin(), pressing.end()), 1e4);
+  EXPECT_GT(closed.counted("inserted"), 50);
+}
+
+TEST(Adaptation, carries_loads_supports_and_a_free_tool) {
+  const Adapted loaded = run(block + R"toml(
+[tools.punch]
+rectangle = { from = "-1 2 mm", to = "1.1 5 mm" }
+mass = "2 kg/m"
+direction = "0 1"
+initial_velocity = "0 -60 m/s"
+[boundary.right]
+pieces = ["right"]
+pressure = "20 MPa"
+convection = { coefficient = "1e4 W/(m2 K)", ambient = "400 K" }
+[boundary.left]
+pieces = ["left"]
+velocity = { x = "0 m/s" }
+temperature = "300 K"
+[output.probes.corner]
+at = "1 1.5 mm"
+fields = ["temperature", "plastic_strain"]
+)toml",
+                             by_strain);
+  EXPECT_LT(loaded.energy("tool_kinetic"), 0.95 * 0.5 * 2.0 * 60.0 * 60.0);
+  EXPECT_GT(loaded.column("probe.corner.plastic_strain").back(), 0.01);
+  const std::vector<double>& push = loaded.column("support.left.force_x[N/m]");
+  EXPECT_GT(*std::max_element(push.begin(), push.end()), 20e6 * 2e-3 * 0.5);
+}
+
+} // namespace
+} // namespace cnem::testing
