@@ -59,10 +59,14 @@ struct BodySpringback {
 
 struct BlankingResult {
   std::string punch;
+  std::vector<std::string> dies;
+  double direction_x = 0.0,
+         direction_y = 0.0;               ///< of the cut: unit vector of the punch's motion against the die
   double stroke = 0.0;                    ///< m, of the punch against the die
   double time = 0.0;                      ///< s
   double smoothing = 0.0, parallel = 0.0; ///< m, rad, with which faces were measured
   std::string note;                       ///< why there are no faces; empty otherwise
+  std::string force_unit = "N/m", work_unit = "J/m"; ///< of revolution: N, J
   std::vector<ShearedFace> faces;
   std::vector<ToolForce> forces;
   std::vector<BodySpringback> springback;
@@ -70,6 +74,8 @@ struct BlankingResult {
 
 /// Named numbers for status.json: "blanking.slug.rollover", …
 std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& result);
+/// "springback.largest", "springback.slug.angle_change", …
+std::vector<std::pair<std::string, double>> metrics_of(const std::vector<BodySpringback>& bodies);
 
 /// Written atomically to `folder`/blanking.json. Throws IoError.
 void write_blanking(const std::filesystem::path& folder, const BlankingResult& result);
