@@ -83,9 +83,13 @@ Loop outline_of(const CutSheet& sheet, std::int32_t part) {
   return longest;
 }
 
-bool touches_plane(const CutSheet& sheet, std::int32_t part) {
-  for (std::size_t i = 0; i < sheet.part.size(); ++i)
-    if (sheet.part[i] == part && sheet.on_plane[i]) return true;
+/// Whether a plane of symmetry holds the body on its side of the cut.
+bool held_by_plane(const Cut& cut, const CutTools& tools, const CutSheet& sheet, bool slug) {
+  for (std::size_t i = 0; i < sheet.part.size(); ++i) {
+    if (!sheet.on_plane[i] || sheet.part[i] != (slug ? cut.slug : cut.skeleton)) continue;
+    const double t = across(tools, sheet.position[i]);
+    if (slug ? cut.side * (t - cut.punch) <= 0.0 : cut.side * (t - cut.die) >= 0.0) return true;
+  }
   return false;
 }
 
@@ -111,7 +115,7 @@ io::ShearedFace measure_side(const Cut& cut, const CutTools& tools, const CutShe
     rules.smoothing = smoothing > 0.0 ? smoothing : cut.thickness / 50.0;
     rules.edge = outwards * (slug ? cut.die : cut.punch);
     rules.limit = rules.edge + std::max(0.25 * cut.thickness, 2.0 * std::abs(cut.die - cut.punch));
-    rules.fixed = touches_plane(sheet, part) || (slug && cut.slug == cut.skeleton);
+    rules.fixed = held_by_plane(cut, tools, sheet, slug) || (slug && cut.slug == cut.skeleton);
     rules.whole_surface = slug;
     face = measure_face(outline, rules);
   }

@@ -141,11 +141,16 @@ private:
     }
   }
 
+  /// Parallel to the cutting direction, which leans by −tilt in the frame of the body, to its normal, or
+  /// between.
   void find_parallel() {
     wall_ = false;
     for (double l = 0.0; l + rules_.smoothing <= walk_.length(); l += step_) {
       if (crack_ && l + rules_.smoothing > crack_begin_) break;
-      if (!near(walk_(l).x()) || std::abs(walk_.lean(l, rules_.smoothing)) > rules_.parallel) continue;
+      const double lean = walk_.lean(l, rules_.smoothing);
+      if (!near(walk_(l).x()) || lean < std::min(0.0, -face_.tilt) - rules_.parallel ||
+          lean > std::max(0.0, -face_.tilt) + rules_.parallel)
+        continue;
       wall_ = true;
       wall_begin_ = l;
       break;

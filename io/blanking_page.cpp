@@ -150,17 +150,19 @@ std::optional<Chart> force_stroke_chart(const BlankingResult& result, const Hist
 }
 
 std::string face_drawing(const ShearedFace& face) {
-  constexpr double high = 300.0, top = 40.0, left = 20.0, font = 13.0, line = 17.0;
-  const double scale = high / face.thickness;
-  double low_u = 0.0, high_u = 0.0, deep = face.thickness;
+  constexpr double high = 320.0, wide = 360.0, width = 640.0, top = 40.0, left = 20.0, font = 13.0,
+                   line = 17.0;
+  double low_u = 0.0, high_u = 0.0, deep = face.parted ? face.thickness : 0.0;
   for (const Vec2& x : face.profile) {
     low_u = std::min(low_u, x.x());
     high_u = std::max(high_u, x.x());
     deep = std::max(deep, x.y());
   }
+  deep *= 1.02;
+  const double scale = std::min(high / deep, wide / (high_u - low_u));
   const auto px = [&](double v) { return left + (v - low_u) * scale; };
   const auto py = [&](double w) { return top + w * scale; };
-  const double right = px(high_u) + 30.0, width = right + 230.0;
+  const double right = px(high_u) + 30.0;
 
   std::string svg =
       fmt::format("<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" font-size=\"{:.0f}\">\n"
@@ -169,9 +171,9 @@ std::string face_drawing(const ShearedFace& face) {
   std::string body;
   for (std::size_t k = 0; k < face.profile.size(); ++k)
     body += fmt::format("{}{:.1f} {:.1f}", k ? "L" : "M", px(face.profile[k].x()), py(face.profile[k].y()));
-  if (face.parted) // closed behind the face
-    svg += fmt::format("<path class=\"body\" d=\"{}H{:.1f}V{:.1f}Z\"/>\n", body, px(low_u),
-                       py(face.profile.front().y()));
+  if (!face.parted) body += fmt::format("V{:.1f}", py(deep)); // the sheet goes on below
+  svg += fmt::format("<path class=\"body\" d=\"{}H{:.1f}V{:.1f}Z\"/>\n", body, px(low_u),
+                     py(face.profile.front().y()));
   svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">surface on the side of the {}</text>\n", px(low_u),
                      top - 12.0, face.body == "slug" ? "die" : "punch");
   const double edge = px(0.0);

@@ -79,7 +79,12 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
   const std::string punch_name = std::get<std::string>(punch->value);
   const auto punch_index = index_of(*punch, punch_name);
   if (!punch_index) return;
-  root.set_default("report.blanking.die", usual_dies(result.tools, punch_name));
+  if (const auto usual = usual_dies(result.tools, punch_name); !usual.empty())
+    root.set_default("report.blanking.die", usual);
+  else if (!root.find("report.blanking.die"))
+    return diagnostics.add(
+        Mistake::missing_key, root.find("report.blanking")->where, "report.blanking.die",
+        "missing, expected the names of the tools that the punch cuts against: no other one is at rest");
   const Setting& dies = *root.find("report.blanking.die");
   BlankingReport report;
   report.punch = *punch_index;
@@ -90,9 +95,6 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
     else if (const auto index = index_of(dies, name))
       report.dies.push_back(*index);
   }
-  if (std::get<std::vector<std::string>>(dies.value).empty())
-    diagnostics.add(dies.given ? Mistake::range : Mistake::missing_key, dies.where, dies.path,
-                    "found no tool, expected the names of those that the punch cuts against");
   report.parallel = root.get<double>("report.blanking.parallel");
   report.smoothing = root.find("report.blanking")->maybe<double>("smoothing");
   result.report.blanking = std::move(report);

@@ -55,7 +55,7 @@ figure { margin: 0; }
 .chart .s3 { stroke: var(--c3); } .chart .s4 { stroke: var(--c4); } .chart .s5 { stroke: var(--c5); }
 .chart .s6 { stroke: var(--c6); } .chart .s7 { stroke: var(--c7); }
 .face table { max-width: 460px; }
-.chart .body { fill: var(--grid); }
+.chart path.body { fill: var(--grid); }
 .chart .surface, .chart .burr_side { stroke: var(--c7); } .chart .rollover { stroke: var(--c1); stroke-width: 3; }
 .chart .burnish { stroke: var(--c0); stroke-width: 3; } .chart .second_burnish { stroke: var(--c5); stroke-width: 3; }
 .chart .fracture { stroke: var(--c6); stroke-width: 3; } .chart .burr { stroke: var(--c3); stroke-width: 3; }

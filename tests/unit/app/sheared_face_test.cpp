@@ -181,6 +181,19 @@ TEST(ShearedFace, tilted_body_has_the_same_heights) {
   }
 }
 
+// A sheet that bends up beside the punch, whose wall stays upright: 15 degrees from its own normal.
+TEST(ShearedFace, wall_along_the_punch_of_a_tilted_sheet_is_burnish) {
+  const double slope = std::tan(-15.0 * degree), height = 0.4;
+  const std::vector<Vec2> corner{{-3, 3 * -slope - 1.0}, {0, -1.0}, {0, -1.0 + height},
+                                 {3, -1.0 + height},     {3, 1.0},  {0, 0.1},
+                                 {-3, 3 * -slope + 0.1}};
+  const io::ShearedFace face =
+      measure_face(Profile::divided(corner, {0, 0, 0, 0, 0, 0, 0}, 0.01, 0.0), rules());
+  EXPECT_NEAR(face.tilt, -15.0 * degree, 1e-6);
+  EXPECT_NEAR(face.rollover, 0.0, 0.006);
+  EXPECT_NEAR(face.burnish, height * std::cos(15.0 * degree), 0.01); // along the normal of the sheet
+}
+
 TEST(ShearedFace, burnish_alone_and_fracture_alone) {
   Profile smooth;
   smooth.burnish = 0.85;
