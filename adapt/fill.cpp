@@ -1,10 +1,10 @@
 // Insertion: nodes where the cloud has become too coarse.
 #include "adapt/resample.hpp"
-#include "core/error.hpp"
 #include "voronoi/locate.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace cnem::adapt {
 
@@ -149,8 +149,7 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   std::int32_t stamp = 0;
   for (const Gap& gap : filling.gaps()) {
     cavity.collect(gap, stamp++);
-    const bool edge = gap.node[0] >= 0,
-               on_boundary = edge && work.next(gap.node[0]) == gap.node[1] && gap.triangle[1] < 0;
+    const bool edge = gap.node[0] >= 0, on_boundary = gap.triangle[1] < 0;
     const auto& triangles = cavity.triangles();
     if (std::any_of(triangles.begin(), triangles.end(), [&](std::int32_t t) { return taken[u(t)] != 0; }) ||
         !cavity.clear(gap, on_boundary, thresholds))
@@ -166,23 +165,21 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   if (filled.size() == work.size()) return false;
 
   filled.refresh_facets();
-  Structure after;
-  try {
-    after = build_structure(filled.cloud());
-  } catch (const GeometryError&) {
+  std::optional<Structure> after = structure_if_valid(filled.cloud());
+  if (!after) {
     ++report.undone;
     return false;
   }
   std::vector<char> made(filled.size(), 0);
   std::fill(made.begin() + static_cast<std::ptrdiff_t>(work.size()), made.end(), 1);
-  filled.move(stolen(filled.cloud(), structure, after, made));
+  filled.move(stolen(filled.cloud(), structure, *after, made));
   for (std::size_t i = work.size(); i < filled.size(); ++i)
     if (!(filled.node().mass[i] > 0.0)) {
       ++report.undone;
       return false;
     }
   work = std::move(filled);
-  structure = std::move(after);
+  structure = std::move(*after);
   report = done;
   return true;
 }

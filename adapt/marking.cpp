@@ -10,19 +10,6 @@ namespace {
 
 const double hexagon = 0.5 * std::sqrt(3.0); ///< area of a cell over the square of the spacing
 
-/// Mean distance of each node to its neighbours.
-Field present_spacing(const Cloud<2>& cloud, const Structure& structure) {
-  Field spacing(cloud.position.size());
-  for (std::size_t i = 0; i < spacing.size(); ++i) {
-    const auto around = structure.neighbours(static_cast<std::int32_t>(i));
-    double sum = 0.0;
-    for (const std::int32_t k : around)
-      sum += (cloud.position[static_cast<std::size_t>(k)] - cloud.position[i]).norm();
-    spacing[i] = sum / static_cast<double>(around.size());
-  }
-  return spacing;
-}
-
 /// The marks at one tolerance.
 Field marked(const Field& spacing, const Indicator& indicator, const MarkingRules& rules, double tolerance,
              const Field& size, Marking& count) {
@@ -58,7 +45,7 @@ Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator&
              const MarkingRules& rules, Field& size) {
   Marking count;
   if (!(indicator.norm > 0.0)) return count;
-  const Field spacing = present_spacing(cloud, structure);
+  const Field spacing = spacing_of(cloud, structure);
   constexpr double raise = 1.25;
   constexpr int most = 60;
   double tolerance = rules.tolerance;

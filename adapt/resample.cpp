@@ -11,17 +11,11 @@ std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 } // namespace
 
-double area_of(const Cloud<2>& cloud) {
-  double twice = 0.0;
-  for (const Facet<2>& facet : cloud.facets)
-    twice += cross(cloud.position[u(facet.node[0])], cloud.position[u(facet.node[1])]);
-  return 0.5 * twice;
-}
-
 PassReport& PassReport::operator+=(const PassReport& other) {
-  for (int PassReport::*count : {&PassReport::folded, &PassReport::outside, &PassReport::removed,
-                                 &PassReport::removed_boundary, &PassReport::promoted, &PassReport::inserted,
-                                 &PassReport::inserted_boundary, &PassReport::balanced, &PassReport::undone})
+  for (int PassReport::*count :
+       {&PassReport::cuts, &PassReport::opened, &PassReport::folded, &PassReport::outside,
+        &PassReport::removed, &PassReport::removed_boundary, &PassReport::promoted, &PassReport::inserted,
+        &PassReport::inserted_boundary, &PassReport::balanced, &PassReport::undone})
     this->*count += other.*count;
   area_change += other.area_change;
   return *this;
@@ -68,18 +62,22 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
   }
 }
 
-Resampling<2> resample(const Cloud<2>& cloud, NodeProperties properties, const Thresholds& thresholds,
-                       Placement placement, PassReport& report) {
+Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure, NodeProperties properties,
+                       const ResampleRules& rules, PassReport& report) {
   WorkingCloud work(cloud, std::move(properties));
-  mend_boundary(work, report);
-  drop_outside(work, report);
-  Structure structure = build_structure(work.cloud());
+  if (!structure) {
+    mend_boundary(work, report);
+    drop_outside(work, report);
+    structure = build_structure(work.cloud());
+  }
+  if (!work.node().broken.empty()) split(work, *structure, rules.split, report);
+  const Thresholds& thresholds = rules.thresholds;
   for (int round = 0; round < thresholds.rounds; ++round)
-    if (!thin(work, structure, thresholds, report)) break;
+    if (!thin(work, *structure, thresholds, report)) break;
   for (int round = 0; round < thresholds.rounds; ++round)
-    if (!fill(work, structure, thresholds, placement, report)) break;
-  balance(work, structure, thresholds, report);
-  report.area_change = area_of(work.cloud()) - area_of(cloud);
+    if (!fill(work, *structure, thresholds, rules.placement, report)) break;
+  balance(work, *structure, thresholds, report);
+  report.area_change = enclosed_area(work.cloud()) - enclosed_area(cloud);
   Resampling<2> change = work.finish();
   change.old_position = cloud.position;
   return change;

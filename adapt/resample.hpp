@@ -4,6 +4,7 @@
 #include "adapt/working_cloud.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace cnem::adapt {
@@ -29,8 +30,26 @@ struct Thresholds {
 /// Where new nodes are put (paper 004, Figure 18).
 enum class Placement { between_nodes, voronoi_vertices };
 
+/// How the cloud parts where broken matter goes through it. Lengths are in units of the wanted spacing.
+struct SplitRules {
+  std::int32_t piece = -1;   ///< index of the boundary piece that new faces belong to
+  double gap = 1e-3;         ///< how far the two faces are set apart, so that no nodes coincide
+  double part = 2.0;         ///< least length of boundary of a part that comes off, over that of the cut
+  double least_angle = 30.0; ///< degrees between a cut and the boundary at its ends
+  int least_loop = 8;        ///< least boundary nodes of a part, besides those of the cut
+  double smoothed = 0.3;     ///< how far nodes may be moved to straighten a cut
+};
+
+struct ResampleRules {
+  Thresholds thresholds{};
+  Placement placement = Placement::between_nodes;
+  SplitRules split{}; ///< where NodeProperties::broken is given
+};
+
 /// What a pass did, for the audit and the output.
 struct PassReport {
+  int cuts = 0;    ///< paths through broken matter that were opened
+  int opened = 0;  ///< edges of these
   int folded = 0;  ///< boundary nodes at which the boundary turned back on itself or crossed
   int outside = 0; ///< interior nodes found outside the boundary
   int removed = 0, removed_boundary = 0;
@@ -40,18 +59,19 @@ struct PassReport {
   int undone = 0;         ///< rounds given up because the cloud had no valid structure after them
   double area_change = 0; ///< m², of the domain
   bool changed() const {
-    return folded + outside + removed + removed_boundary + promoted + inserted + inserted_boundary +
+    return opened + folded + outside + removed + removed_boundary + promoted + inserted + inserted_boundary +
                balanced >
            0;
   }
   PassReport& operator+=(const PassReport& other);
 };
 
-/// Resamples a cloud. Conserves Σ of every quantity carried in parcels to rounding; a node that nothing
+/// Resamples a cloud. structure: that of the cloud; empty when it has none (structure_if_valid): the boundary
+/// is then mended first. Conserves Σ of every quantity carried in parcels to rounding; a node that nothing
 /// happened to keeps its bits. The result depends on the arguments alone.
 /// Throws GeometryError when no valid structure is found (crossing boundaries).
-Resampling<2> resample(const Cloud<2>& cloud, NodeProperties properties, const Thresholds& thresholds,
-                       Placement placement, PassReport& report);
+Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure, NodeProperties properties,
+                       const ResampleRules& rules, PassReport& report);
 
 // The parts of a pass, each a class of its own in what it looks at. They keep `structure` up to date.
 
@@ -60,15 +80,17 @@ Resampling<2> resample(const Cloud<2>& cloud, NodeProperties properties, const T
 void mend_boundary(WorkingCloud& work, PassReport& report);
 /// Interior nodes outside the boundary give their mass to the ends of the nearest edge.
 void drop_outside(WorkingCloud& work, PassReport& report);
-/// One round; false when there was nothing to do.
+/// Opens the cloud along paths of Delaunay edges between broken nodes that join two parts of the boundary,
+/// through the most broken matter. Nodes are doubled, nothing is deleted; the matter of a doubled node is
+/// shared out by the volumes of its two cells. Matter that is broken but does not part the body stays whole.
+void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
+/// One round; false when there was nothing to do. Where the thinned cloud has no valid structure the round is
+/// undone, and made once more without changes of the boundary.
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report);
 bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, Placement placement,
           PassReport& report);
 void balance(WorkingCloud& work, const Structure& structure, const Thresholds& thresholds,
              PassReport& report);
-
-/// Area enclosed by the boundary, m².
-double area_of(const Cloud<2>& cloud);
 
 /// r_i = ρ₀ V_i/(m_i J_i) of one node.
 double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node);

@@ -1,115 +1,215 @@
-#include "adapt/split.hpp"
-
+// Separation: where broken matter goes through the body, the cloud is opened along Delaunay edges.
 #include "adapt/resample.hpp"
-#include "core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <queue>
+#include <vector>
 
 namespace cnem::adapt {
 
 namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+double cosine(const Vec2& a, const Vec2& b) { return a.dot(b) / (a.norm() * b.norm()); }
 
-/// An edge to open: from a boundary node to an inner one, or to another boundary node.
-struct Opening {
-  std::int32_t from, to;
-  double weakness; ///< sum of both ends' measure of damage
-};
+/// Two boundary nodes and the interior ones between them.
+using Path = std::vector<std::int32_t>;
 
-class Splitter {
+class Cutting {
 public:
-  Splitter(const WorkingCloud& work, const Structure& structure, const Field& broken, const SplitRules& rules)
-      : work_(work), structure_(structure), broken_(broken), rules_(rules) {}
+  Cutting(const WorkingCloud& work, const Structure& structure, const SplitRules& rules)
+      : work_(work), structure_(structure), broken_(work.node().broken), rules_(rules),
+        steepest_(std::cos(rules.least_angle * std::numbers::pi / 180.0)) {
+    number_chains();
+    measure_loops();
+  }
 
-  /// The best edge there is.
-  std::optional<Opening> next() const {
-    std::optional<Opening> best;
-    for (std::int32_t b = 0; b < static_cast<std::int32_t>(work_.size()); ++b) {
-      if (!work_.on_boundary(b) || !(broken_[u(b)] >= 1.0)) continue;
-      const bool tip = is_tip(b);
-      if (!tip && near_face(b)) continue;
-      for (const std::int32_t i : structure_.neighbours(b)) {
-        if (!(broken_[u(i)] >= 1.0) || work_.next(b) == i || work_.previous(b) == i) continue;
-        if (tip ? turns_too_much(b, i) : near_face(i)) continue;
-        if (work_.on_boundary(i) && work_.next(work_.next(i)) == b) continue; // would cut off one triangle
-        if (work_.on_boundary(i) && work_.next(work_.next(b)) == i) continue;
-        const double weakness =
-            broken_[u(b)] + broken_[u(i)] + (tip ? 1e3 : 0.0); // cracks grow before new start
-        if (!best || weakness > best->weakness) best = {b, i, weakness};
+  /// The cut of least cost, the integral of 1/broken along it. Empty when there is none.
+  Path best() const {
+    Path best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::int32_t from = 0; from < count(); ++from) {
+      if (chain_[u(from)] < 0 || chain_[u(from)] == longest_) continue; // from its other end then
+      const auto [path, cost] = from_node(from, least);
+      if (cost < least) {
+        least = cost;
+        best = path;
       }
     }
     return best;
   }
 
 private:
+  std::int32_t count() const { return static_cast<std::int32_t>(work_.size()); }
   const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
-  bool on_face(std::int32_t i) const {
-    return work_.on_boundary(i) &&
-           (work_.piece(i) == rules_.piece || work_.piece(work_.previous(i)) == rules_.piece);
+  bool broken(std::int32_t i) const { return broken_[u(i)] >= 1.0; }
+
+  /// Broken boundary nodes that follow each other make a chain: a cut leads from one to another.
+  void number_chains() {
+    chain_.assign(work_.size(), -1);
+    std::vector<std::int32_t> length;
+    for (std::int32_t i = 0; i < count(); ++i) {
+      if (!work_.on_boundary(i) || !broken(i) || chain_[u(i)] >= 0) continue;
+      std::int32_t begin = i;
+      while (broken(work_.previous(begin)) && work_.previous(begin) != i) begin = work_.previous(begin);
+      length.push_back(0);
+      for (std::int32_t k = begin; broken(k) && chain_[u(k)] < 0; k = work_.next(k)) {
+        chain_[u(k)] = static_cast<std::int32_t>(length.size()) - 1;
+        ++length.back();
+      }
+    }
+    longest_ = static_cast<std::int32_t>(std::max_element(length.begin(), length.end()) - length.begin());
   }
-  /// Both facets are new faces and the boundary turns back there.
-  bool is_tip(std::int32_t b) const {
-    if (work_.piece(b) != rules_.piece || work_.piece(work_.previous(b)) != rules_.piece) return false;
-    const Vec2 back = at(work_.previous(b)) - at(b), ahead = at(work_.next(b)) - at(b);
-    return back.dot(ahead) > 0.0 && cross(ahead, back) <= 0.0;
+
+  /// Where each boundary node is along its loop.
+  void measure_loops() {
+    loop_.assign(work_.size(), -1);
+    along_.assign(work_.size(), 0.0);
+    order_.assign(work_.size(), 0);
+    for (std::int32_t i = 0; i < count(); ++i) {
+      if (!work_.on_boundary(i) || loop_[u(i)] >= 0) continue;
+      double length = 0.0;
+      int nodes = 0;
+      for (std::int32_t k = i; loop_[u(k)] < 0; k = work_.next(k)) {
+        loop_[u(k)] = static_cast<std::int32_t>(length_.size());
+        along_[u(k)] = length;
+        order_[u(k)] = nodes++;
+        length += (at(work_.next(k)) - at(k)).norm();
+      }
+      length_.push_back(length);
+      nodes_.push_back(nodes);
+    }
   }
-  bool turns_too_much(std::int32_t tip, std::int32_t to) const {
-    const Vec2 came = at(tip) - 0.5 * (at(work_.previous(tip)) + at(work_.next(tip))),
-               goes = at(to) - at(tip);
-    return came.dot(goes) < std::cos(rules_.turn * std::numbers::pi / 180.0) * came.norm() * goes.norm();
+
+  /// Whether what comes off is a part and no crumb or skin; between two loops nothing comes off.
+  bool parts(std::int32_t from, std::int32_t to, double length) const {
+    if (loop_[u(from)] != loop_[u(to)]) return true;
+    const auto loop = u(loop_[u(from)]);
+    const double one = std::abs(along_[u(from)] - along_[u(to)]);
+    const int some = std::abs(order_[u(from)] - order_[u(to)]);
+    return std::min(one, length_[loop] - one) >= rules_.part * length &&
+           std::min(some, nodes_[loop] - some) > rules_.least_loop;
   }
-  /// A node of a new face is near.
-  bool near_face(std::int32_t i) const {
-    const double limit = rules_.clear * work_.node().size[u(i)];
-    for (std::int32_t f = 0; f < static_cast<std::int32_t>(work_.size()); ++f)
-      if (on_face(f) && (at(f) - at(i)).norm() < limit) return true;
-    return false;
+
+  /// The edge leaves a boundary node nearly along one of its facets.
+  bool shaves(std::int32_t from, std::int32_t to) const {
+    const Vec2 along = at(to) - at(from);
+    return std::max(cosine(along, at(work_.next(from)) - at(from)),
+                    cosine(along, at(work_.previous(from)) - at(from))) > steepest_;
+  }
+
+  /// Cuts run inside, not in the layer of nodes beside the boundary.
+  double detour(std::int32_t i) const {
+    constexpr double beside = 4.0;
+    const auto around = structure_.neighbours(i);
+    return std::any_of(around.begin(), around.end(), [&](std::int32_t k) { return work_.on_boundary(k); })
+               ? beside
+               : 1.0;
+  }
+
+  /// The cheapest cut from a boundary node to another chain, and its cost (Dijkstra's algorithm).
+  std::pair<Path, double> from_node(std::int32_t from, double limit) const {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    Field cost(work_.size(), far), length(work_.size(), 0.0);
+    std::vector<std::int32_t> came(work_.size(), -1);
+    using Entry = std::pair<double, std::int32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+    cost[u(from)] = 0.0;
+    front.emplace(0.0, from);
+    while (!front.empty()) {
+      const auto [known, i] = front.top();
+      front.pop();
+      if (known > cost[u(i)]) continue;
+      if (known >= limit) break;
+      if (i != from && work_.on_boundary(i)) {
+        if (!parts(from, i, length[u(i)])) continue;
+        Path path;
+        for (std::int32_t k = i; k >= 0; k = came[u(k)]) path.push_back(k);
+        std::reverse(path.begin(), path.end());
+        return {path, known};
+      }
+      for (const std::int32_t k : structure_.neighbours(i)) {
+        if (!broken(k)) continue;
+        if (i == from && (work_.on_boundary(k) || shaves(from, k))) continue;
+        if (work_.on_boundary(k) && (chain_[u(k)] == chain_[u(from)] || shaves(k, i))) continue;
+        const double step = (at(k) - at(i)).norm();
+        const double reached =
+            known + step * (work_.on_boundary(k) ? 1.0 : detour(k)) * 2.0 / (broken_[u(i)] + broken_[u(k)]);
+        if (reached >= cost[u(k)]) continue;
+        cost[u(k)] = reached;
+        length[u(k)] = length[u(i)] + step;
+        came[u(k)] = i;
+        front.emplace(reached, k);
+      }
+    }
+    return {{}, far};
   }
 
   const WorkingCloud& work_;
   const Structure& structure_;
   const Field& broken_;
   const SplitRules& rules_;
+  double steepest_;
+  std::vector<std::int32_t> chain_; ///< [node] −1: none
+  std::int32_t longest_ = -1;
+  std::vector<std::int32_t> loop_; ///< [node] −1: inside
+  Field along_;                    ///< [node] m
+  std::vector<int> order_;         ///< [node] number along its loop
+  Field length_;                   ///< [loop] m
+  std::vector<int> nodes_;         ///< [loop]
 };
+
+/// Moves the inner nodes of a cut towards a smooth line, so that its two faces do not interlock.
+void straighten(WorkingCloud& work, const Path& path, double most) {
+  constexpr int sweeps = 10;
+  std::vector<Vec2> place;
+  for (const std::int32_t i : path) place.push_back(work.cloud().position[u(i)]);
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+      const Vec2& start = work.cloud().position[u(path[k])];
+      const Vec2 moved = 0.5 * place[k] + 0.25 * (place[k - 1] + place[k + 1]) - start;
+      const double limit = most * work.node().size[u(path[k])];
+      place[k] = start + moved * std::min(1.0, limit / std::max(moved.norm(), 1e-300));
+    }
+  for (std::size_t k = 1; k + 1 < path.size(); ++k) work.place(path[k], place[k]);
+}
+
+bool open(WorkingCloud& work, Structure& structure, const Path& path, const SplitRules& rules,
+          double smoothed) {
+  WorkingCloud opened = work;
+  straighten(opened, path, smoothed);
+  const double gap = rules.gap * work.size_between(path.front(), path.back());
+  const std::vector<std::array<std::int32_t, 2>> doubled = opened.open(path, rules.piece, gap);
+  opened.refresh_facets();
+  std::optional<Structure> after = structure_if_valid(opened.cloud());
+  if (!after) return false;
+  for (const auto& [old, made] : doubled) {
+    const double mine = after->cells.volume[u(old)], other = after->cells.volume[u(made)];
+    opened.move_now(old, made, other / (mine + other));
+  }
+  work = std::move(opened);
+  structure = std::move(*after);
+  return true;
+}
 
 } // namespace
 
-Resampling<2> split(const Cloud<2>& cloud, NodeProperties properties, const Field& broken,
-                    const SplitRules& rules, SplitReport& report) {
-  WorkingCloud work(cloud, std::move(properties));
-  Structure structure = build_structure(work.cloud());
-  Field measure = broken;
-  for (int opened = 0; opened < rules.most; ++opened) {
-    const std::optional<Opening> edge = Splitter(work, structure, measure, rules).next();
-    if (!edge) break;
-    WorkingCloud open = work;
-    const bool through = open.on_boundary(edge->to);
-    const double gap = rules.gap * work.size_between(edge->from, edge->to);
-    const std::vector<std::array<std::int32_t, 2>> doubled =
-        open.open_edge(edge->from, edge->to, rules.piece, gap);
-    open.refresh_facets();
-    Structure after;
-    try {
-      after = build_structure(open.cloud());
-    } catch (const GeometryError&) { break; }
-    for (const auto& [old, made] : doubled) {
-      const double mine = after.cells.volume[u(old)], other = after.cells.volume[u(made)];
-      open.move_now(old, made, other / (mine + other));
-      measure.push_back(measure[u(old)]);
+void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report) {
+  constexpr int most = 8; // cuts in one pass
+  for (int k = 0; k < most; ++k) {
+    const Path path = Cutting(work, structure, rules).best();
+    if (path.empty()) return;
+    if (!open(work, structure, path, rules, rules.smoothed) && !open(work, structure, path, rules, 0.0)) {
+      ++report.undone;
+      return;
     }
-    report.area_change += area_of(open.cloud()) - area_of(work.cloud());
-    work = std::move(open);
-    structure = std::move(after);
-    ++report.opened;
-    report.separated += through;
+    ++report.cuts;
+    report.opened += static_cast<int>(path.size()) - 1;
   }
-  Resampling<2> change = work.finish();
-  change.old_position = cloud.position;
-  return change;
 }
 
 } // namespace cnem::adapt

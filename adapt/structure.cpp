@@ -1,5 +1,7 @@
 #include "adapt/structure.hpp"
 
+#include "core/error.hpp"
+
 #include <algorithm>
 #include <tuple>
 
@@ -37,6 +39,26 @@ Structure build_structure(const Cloud<2>& cloud) {
   for (std::size_t i = 0; i < n; ++i)
     std::sort(s.neighbour.begin() + s.begin[i], s.neighbour.begin() + s.begin[i + 1]);
   return s;
+}
+
+std::optional<Structure> structure_if_valid(const Cloud<2>& cloud) {
+  try {
+    return build_structure(cloud);
+  } catch (const GeometryError&) { return std::nullopt; }
+}
+
+double spacing_at(const Cloud<2>& cloud, const Structure& structure, std::int32_t node) {
+  const auto around = structure.neighbours(node);
+  double sum = 0.0;
+  for (const std::int32_t k : around) sum += (cloud.position[u(k)] - cloud.position[u(node)]).norm();
+  return sum / static_cast<double>(around.size());
+}
+
+Field spacing_of(const Cloud<2>& cloud, const Structure& structure) {
+  Field spacing(cloud.position.size());
+  for (std::size_t i = 0; i < spacing.size(); ++i)
+    spacing[i] = spacing_at(cloud, structure, static_cast<std::int32_t>(i));
+  return spacing;
 }
 
 std::vector<Contribution> contributions(const Cloud<2>& cloud, const voronoi::Cells& cells,

@@ -5,6 +5,7 @@
 #include "voronoi/triangulation.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,13 @@ struct Structure {
 
 /// Throws GeometryError as voronoi::triangulate and voronoi::constrained_cells do.
 Structure build_structure(const Cloud<2>& cloud);
+/// Empty where there is none: nodes have passed each other or boundaries cross.
+std::optional<Structure> structure_if_valid(const Cloud<2>& cloud);
+
+/// Mean distance of a node to its neighbours, m.
+double spacing_at(const Cloud<2>& cloud, const Structure& structure, std::int32_t node);
+/// That of all nodes.
+Field spacing_of(const Cloud<2>& cloud, const Structure& structure);
 
 /// The facet of two cells, where one of the two nodes is marked: area of the triangle of that facet and the
 /// marked node, m²: how much of the marked cell lies towards the other.

@@ -1,10 +1,10 @@
 // Removal: nodes that crowd at the boundary or each other.
 #include "adapt/resample.hpp"
-#include "core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace cnem::adapt {
 
@@ -41,7 +41,9 @@ public:
     const std::int32_t a = work_.previous(node), c = work_.next(node);
     if (work_.next(c) == a || work_.held(node) || work_.ends_piece(node)) return false;
     const Vec2 &xa = at(a), &xc = at(c);
-    const bool convex = cross(at(node) - xa, xc - xa) < 0.0;
+    const bool convex = cross(at(node) - xa, xc - xa) > 0.0;
+    // the tip of a crack: its faces would be joined by a facet as short as the crack is open
+    if (!convex && (xc - xa).norm() < limit_.pair * work_.size_between(a, c)) return false;
     for (const std::int32_t k : structure_.neighbours(node)) {
       if (k == a || k == c) continue;
       const double side = cross(xc - xa, at(k) - xa) / (xc - xa).norm();
@@ -110,20 +112,16 @@ private:
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(work_.size()); ++i) {
       if (work_.held(i)) continue;
       const double h = work_.node().size[u(i)];
-      double sum = 0.0, count = 0.0;
+      double spacing = 0.0;
       if (work_.on_boundary(i)) {
         const Vec2 back = at(work_.previous(i)) - at(i), ahead = at(work_.next(i)) - at(i);
         if (work_.ends_piece(i) || 0.5 * std::abs(cross(back, ahead)) > limit_.straight * h * h) continue;
-        sum = back.norm() + ahead.norm();
-        count = 2.0;
+        spacing = 0.5 * (back.norm() + ahead.norm());
       } else {
-        for (const std::int32_t k : structure_.neighbours(i)) {
-          sum += (at(k) - at(i)).norm();
-          count += 1.0;
-        }
+        spacing = spacing_at(work_.cloud(), structure_, i);
       }
-      const double mean = sum / (count * limit_.dense * h);
-      if (mean < 1.0) list_.push_back({i, after_others + mean});
+      const double badness = spacing / (limit_.dense * h);
+      if (badness < 1.0) list_.push_back({i, after_others + badness});
     }
   }
 
@@ -164,7 +162,12 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
 
 } // namespace
 
-bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report) {
+namespace {
+
+enum class Outcome { nothing_to_do, done, invalid };
+
+Outcome thin_once(WorkingCloud& work, Structure& structure, const Thresholds& thresholds,
+                  bool boundary_may_change, PassReport& report) {
   Thinning thinning(work, structure, thresholds);
   WorkingCloud changed = work;
   std::vector<char> gone(work.size(), 0), touched(work.size(), 0);
@@ -175,6 +178,8 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
     if (touched[u(i)] ||
         std::any_of(around.begin(), around.end(), [&](std::int32_t k) { return touched[u(k)] != 0; }))
       continue;
+    const bool changes_boundary = candidate.promote_to >= 0 || work.on_boundary(i);
+    if (changes_boundary && !boundary_may_change) continue;
     if (candidate.promote_to >= 0) {
       const Vec2 &a = work.cloud().position[u(candidate.promote_to)],
                  &b = work.cloud().position[u(work.next(candidate.promote_to))];
@@ -195,32 +200,35 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   }
   if (done.removed == report.removed && done.removed_boundary == report.removed_boundary &&
       done.promoted == report.promoted)
-    return false;
+    return Outcome::nothing_to_do;
 
   WorkingCloud emptied = changed;
   const std::vector<std::int32_t> number = emptied.drop(gone);
   emptied.refresh_facets();
-  Structure after;
-  try {
-    after = build_structure(emptied.cloud());
-  } catch (const GeometryError&) {
-    ++report.undone;
-    return false;
-  }
-  const std::vector<Parcel> parcels = inheritance(work, structure, after, gone, number);
+  std::optional<Structure> after = structure_if_valid(emptied.cloud());
+  if (!after) return Outcome::invalid;
+  const std::vector<Parcel> parcels = inheritance(work, structure, *after, gone, number);
   std::vector<char> orphaned = gone;
   for (const Parcel& parcel : parcels) orphaned[u(parcel.from)] = 0;
-  if (std::find(orphaned.begin(), orphaned.end(), 1) != orphaned.end()) {
-    ++report.undone;
-    return false;
-  }
+  if (std::find(orphaned.begin(), orphaned.end(), 1) != orphaned.end()) return Outcome::invalid;
   changed.move(parcels);
   changed.drop(gone);
   changed.refresh_facets();
   work = std::move(changed);
-  structure = std::move(after);
+  structure = std::move(*after);
   report = done;
-  return true;
+  return Outcome::done;
+}
+
+} // namespace
+
+bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report) {
+  for (const bool boundary_may_change : {true, false}) {
+    const Outcome outcome = thin_once(work, structure, thresholds, boundary_may_change, report);
+    if (outcome != Outcome::invalid) return outcome == Outcome::done;
+    ++report.undone;
+  }
+  return false;
 }
 
 } // namespace cnem::adapt

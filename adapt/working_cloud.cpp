@@ -84,6 +84,11 @@ std::int32_t WorkingCloud::append(const Vec2& x,
   node_.density.push_back(node_.density[index(parents.front().first)]);
   node_.size.push_back(size);
   node_.held.push_back(0);
+  if (!node_.broken.empty()) {
+    double broken = 0.0;
+    for (const auto& [parent, weight] : parents) broken += weight * node_.broken[index(parent)];
+    node_.broken.push_back(broken);
+  }
   next_.push_back(-1);
   previous_.push_back(-1);
   piece_.push_back(-1);
@@ -127,38 +132,45 @@ void WorkingCloud::bypass(std::int32_t node) {
   next_[index(node)] = previous_[index(node)] = piece_[index(node)] = -1;
 }
 
-std::vector<std::array<std::int32_t, 2>> WorkingCloud::open_edge(std::int32_t from, std::int32_t to,
-                                                                 std::int32_t piece, double gap) {
-  const Vec2 along = (cloud_.position[index(to)] - cloud_.position[index(from)]).normalized();
-  const Vec2 aside = 0.5 * gap * left_normal(along);
+std::vector<std::array<std::int32_t, 2>> WorkingCloud::open(std::span<const std::int32_t> path,
+                                                            std::int32_t piece, double gap) {
+  const auto at = [&](std::int32_t i) -> Vec2& { return cloud_.position[index(i)]; };
   const auto link = [&](std::int32_t a, std::int32_t b, std::int32_t of_piece) {
     next_[index(a)] = b;
     previous_[index(b)] = a;
     piece_[index(a)] = of_piece;
   };
-  const auto double_of = [&](std::int32_t i) {
-    const std::int32_t made = append(cloud_.position[index(i)] - aside, {{i, 1.0}});
-    cloud_.position[index(i)] += aside;
-    return made;
+  const std::int32_t first = path.front(), last = path.back();
+  const std::int32_t after_first = next(first), before_last = previous(last);
+  const std::int32_t piece_first = piece_[index(first)], piece_last = piece_[index(before_last)];
+  // ends part along the boundary, so that they stay on it
+  const auto towards = [&](std::int32_t from, std::int32_t to) {
+    return Vec2(0.5 * gap * (at(to) - at(from)).normalized());
   };
-  const bool through = on_boundary(to);
-  const std::int32_t after = next(from), piece_after = piece_[index(from)];
-  // left of the edge: … → from → to → …; right of it: … → other end of `to` → other end of `from` → …
-  const std::int32_t from_right = double_of(from);
-  if (!through) {
-    link(from_right, after, piece_after);
-    link(from, to, piece);
-    link(to, from_right, piece);
-    return {{from, from_right}};
+  std::vector<Vec2> left(path.size()), right(path.size());
+  left.front() = towards(first, previous(first));
+  right.front() = towards(first, after_first);
+  left.back() = towards(last, next(last));
+  right.back() = towards(last, before_last);
+  for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+    left[k] = 0.5 * gap * left_normal((at(path[k + 1]) - at(path[k - 1])).normalized());
+    right[k] = -left[k];
   }
-  const std::int32_t before_to = previous(to), piece_before = piece_[index(before_to)];
-  const std::int32_t to_right = double_of(to);
-  link(from_right, after, piece_after);
-  link(before_to, to_right, piece_before);
-  link(to_right, from_right, piece);
-  link(from, to, piece);
+  std::vector<std::array<std::int32_t, 2>> doubled;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const std::int32_t made = append(at(path[k]) + right[k], {{path[k], 1.0}});
+    at(path[k]) += left[k];
+    node_.held[index(made)] = node_.held[index(path[k])];
+    doubled.push_back({path[k], made});
+  }
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    link(path[k], path[k + 1], piece);
+    link(doubled[k + 1][1], doubled[k][1], piece);
+  }
+  link(doubled.front()[1], after_first, piece_first);
+  link(before_last, doubled.back()[1], piece_last);
   renew_loops();
-  return {{from, from_right}, {to, to_right}};
+  return doubled;
 }
 
 void WorkingCloud::renew_loops() {
@@ -214,6 +226,7 @@ std::vector<std::int32_t> WorkingCloud::drop(const std::vector<char>& gone) {
   compact(node_.density);
   compact(node_.size);
   compact(node_.held);
+  if (!node_.broken.empty()) compact(node_.broken);
   compact(next_);
   compact(previous_);
   compact(piece_);

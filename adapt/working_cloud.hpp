@@ -4,18 +4,20 @@
 #include "core/resampling.hpp"
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace cnem::adapt {
 
-/// What resampling has to know of a node. Each list is [node].
+/// What resampling has to know of a node. Each list is [node]; held nodes that are doubled stay both.
 struct NodeProperties {
   Field mass;             ///< kg/m, carried
   Field log_jacobian;     ///< ln J of the elastic volume change, –; mixes with mass
   Field density;          ///< kg/m³ at J = 1; a label
   Field size;             ///< m, wanted spacing; a label
   std::vector<char> held; ///< corners and nodes that conditions name: they stay
+  Field broken; ///< – from 1 on it carries nothing, larger ones part first; a label; empty: nothing breaks
 };
 
 /// Part of a node's matter on its way to another.
@@ -58,11 +60,12 @@ public:
   void promote(std::int32_t node, std::int32_t a, const Vec2& x);
   /// Takes the boundary past a node, which becomes an interior one (to be removed).
   void bypass(std::int32_t node);
-  /// Opens the domain along the edge from a boundary node to another node; the two faces stand `gap` (m)
-  /// apart at doubled nodes. An inner node becomes the tip. Returns the pairs {old node, its double without
-  /// matter}.
-  std::vector<std::array<std::int32_t, 2>> open_edge(std::int32_t from, std::int32_t to, std::int32_t piece,
-                                                     double gap);
+  /// Puts an interior node elsewhere; its matter goes with it.
+  void place(std::int32_t node, const Vec2& x) { cloud_.position[index(node)] = x; }
+  /// Opens the domain along a path between two boundary nodes, over interior ones: nodes are doubled, and the
+  /// two faces stand `gap` (m) apart. Returns the pairs {old node, its double without matter}.
+  std::vector<std::array<std::int32_t, 2>> open(std::span<const std::int32_t> path, std::int32_t piece,
+                                                double gap);
   /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
   void move(const std::vector<Parcel>& parcels);
   /// Moves at once; `fraction` of what `from` has now.

@@ -5,13 +5,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <optional>
 
 namespace cnem::app {
 
 namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+constexpr const char* fracture = "fracture";
+
+/// The piece that new faces belong to.
+std::int32_t fracture_piece(Cloud<2>& cloud) {
+  const auto found = std::find(cloud.piece_names.begin(), cloud.piece_names.end(), fracture);
+  const auto piece = static_cast<std::int32_t>(found - cloud.piece_names.begin());
+  if (found == cloud.piece_names.end()) cloud.piece_names.emplace_back(fracture);
+  return piece;
+}
 
 /// Nodes at which the boundary turns by more than 30 degrees.
 std::vector<std::int32_t> corners(const Cloud<2>& cloud) {
@@ -26,20 +38,6 @@ std::vector<std::int32_t> corners(const Cloud<2>& cloud) {
     if (in.dot(out) < least_cosine) corner[u(b)] = 1;
   }
   return corner;
-}
-
-/// Mean distance to the neighbours each node is linked with.
-Field spacing_of(const ExplicitSolver<2>& solver) {
-  const StabilisationLinks<2>& links = solver.approximation().links;
-  const std::vector<Vec2>& x = solver.model().cloud.position;
-  Field size(x.size());
-  for (std::size_t i = 0; i < size.size(); ++i) {
-    double sum = 0.0;
-    for (std::int32_t l = links.begin[i]; l < links.begin[i + 1]; ++l)
-      sum += (x[u(links.neighbour[u(l)])] - x[i]).norm();
-    size[i] = sum / static_cast<double>(links.begin[i + 1] - links.begin[i]);
-  }
-  return size;
 }
 
 /// Corners of a tool, and points along its arcs no further apart than `spacing`.
@@ -63,10 +61,19 @@ Adaptation::Adaptation(const io::Case& input, const ExplicitSolver<2>& solver) :
   if (input.adapt.tool_spacing)
     for (const io::Tool& tool : input.tools)
       tips_.push_back(features(tool.outline, *input.adapt.tool_spacing));
-  wanted_ = size_ = spacing_of(solver);
+  const Cloud<2>& cloud = solver.model().cloud;
+  wanted_ = size_ = adapt::spacing_of(cloud, adapt::build_structure(cloud));
   birth_.assign(size_.size(), 0.0);
-  corner_ = corners(solver.model().cloud);
+  corner_ = corners(cloud);
   coarsest_ = input.cloud.spacing > 0.0 ? input.cloud.spacing : *std::max_element(size_.begin(), size_.end());
+}
+
+void Adaptation::start_log(const std::filesystem::path& folder) {
+  if (active()) log_.start(folder);
+}
+
+void Adaptation::resume_log(const std::filesystem::path& folder) {
+  if (active()) log_.resume(folder);
 }
 
 adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
@@ -83,6 +90,11 @@ adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Fi
         std::log(jacobian<2>(state.point.deformation, i) / state.point.stress_free[i]);
     properties.density[i] = solver.model().materials[u(state.point.material[i])].density;
   }
+  if (input_->adapt.separate) { // of what is broken, the most strained is in the middle of the band
+    properties.broken = state.point.softening;
+    for (std::size_t i = 0; i < n; ++i)
+      if (properties.broken[i] >= 1.0) properties.broken[i] += state.point.plastic_strain[i];
+  }
   return properties;
 }
 
@@ -95,80 +107,95 @@ double Adaptation::tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) co
   return *input_->adapt.tool_spacing + input_->adapt.growth * nearest;
 }
 
-/// Estimates and marks. Where nodes have passed each other there is nothing to estimate on: resampling mends
-/// that first.
-Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud) {
-  const io::Adaptation& rules = input_->adapt;
-  const bool indicator = rules.indicator != io::Adaptation::Indicator::none;
-  if (!indicator && tips_.empty()) return size_;
-  adapt::Structure structure;
-  try {
-    structure = adapt::build_structure(cloud);
-  } catch (const GeometryError&) { return size_; }
-  if (indicator) {
-    const PointState<2>& point = solver.state().point;
-    const Field& field = rules.indicator == io::Adaptation::Indicator::plastic_strain ? point.plastic_strain
-                         : rules.indicator == io::Adaptation::Indicator::plastic_rate ? point.plastic_rate
-                                                                                      : point.temperature;
-    const adapt::Indicator estimate = adapt::indicator(cloud, structure, field);
-    const adapt::Marking marking = adapt::mark(cloud, structure, estimate,
-                                               {.tolerance = rules.tolerance,
-                                                .coarsen = rules.coarsen,
-                                                .h_min = rules.h_min,
-                                                .h_max = rules.h_max,
-                                                .max_nodes = rules.max_nodes},
-                                               size_);
-    refined_ += marking.refined;
-    coarsened_ += marking.coarsened;
-    error_ = estimate.error;
-    error_total_ = estimate.total;
-    error_norm_ = estimate.norm;
+const Field& Adaptation::indicated(const ExplicitSolver<2>& solver, Field& made) const {
+  const PointState<2>& point = solver.state().point;
+  switch (input_->adapt.indicator) {
+  case io::Adaptation::Indicator::plastic_power:
+    made.resize(point.size());
+    for (std::size_t p = 0; p < made.size(); ++p)
+      made[p] = point.equivalent_stress[p] * point.plastic_rate[p];
+    return made;
+  case io::Adaptation::Indicator::temperature:
+    return point.temperature;
+  case io::Adaptation::Indicator::damage:
+    return point.damage;
+  default:
+    return point.plastic_strain;
   }
-  Field wanted = size_;
-  if (!tips_.empty())
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      wanted[i] = std::min(wanted[i], tool_limit(solver, cloud.position[i]));
-  adapt::limit_growth(cloud, structure, rules.growth, wanted);
-  return wanted;
 }
 
-Resampling<2> Adaptation::renew(ExplicitSolver<2>& solver) {
+void Adaptation::estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
+                                   const adapt::Structure& structure) {
+  const io::Adaptation& rules = input_->adapt;
+  Field made;
+  const adapt::Indicator estimate = adapt::indicator(cloud, structure, indicated(solver, made));
+  const adapt::Marking marking = adapt::mark(cloud, structure, estimate,
+                                             {.tolerance = rules.tolerance,
+                                              .coarsen = rules.coarsen,
+                                              .h_min = rules.h_min,
+                                              .h_max = rules.h_max,
+                                              .max_nodes = rules.max_nodes},
+                                             size_);
+  refined_ += marking.refined;
+  coarsened_ += marking.coarsened;
+  error_ = estimate.error;
+  error_total_ = estimate.total;
+  error_norm_ = estimate.norm;
+}
+
+void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   adapt::PassReport report;
-  const Cloud<2> cloud = solver.present_cloud();
+  Cloud<2> cloud = solver.present_cloud();
   const Field size_before = size_;
-  Field wanted = wanted_spacing(solver, cloud);
-  Resampling<2> change;
+  const Audit before = audit(solver);
   try {
-    change = adapt::resample(cloud, properties(solver, wanted), {},
-                             static_cast<adapt::Placement>(input_->adapt.placement), report);
+    std::optional<adapt::Structure> structure = adapt::structure_if_valid(cloud);
+    Field wanted = wanted_; // where nodes have passed each other there is nothing to estimate on
+    if (structure) {
+      if (input_->adapt.indicator != io::Adaptation::Indicator::none)
+        estimate_and_mark(solver, cloud, *structure);
+      wanted = size_;
+      if (!tips_.empty())
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+          wanted[i] = std::min(wanted[i], tool_limit(solver, cloud.position[i]));
+      adapt::limit_growth(cloud, *structure, input_->adapt.growth, wanted);
+    }
+    adapt::ResampleRules rules;
+    rules.placement = static_cast<adapt::Placement>(input_->adapt.placement);
+    if (input_->adapt.separate) rules.split.piece = fracture_piece(cloud);
+    const Resampling<2> change =
+        adapt::resample(cloud, std::move(structure), properties(solver, wanted), rules, report);
     solver.prepare(change);
+    wanted_ = std::move(wanted);
+    follow_nodes(change, solver.state().time);
+    follow(change);
   } catch (const GeometryError&) {
     size_ = size_before;
     throw;
   }
-  if (!error_.empty()) carry_label(change.labels, error_);
-  carry_label(change.labels, size_);
-  carry_label(change.labels, wanted);
-  wanted_ = std::move(wanted);
-  carry_label(change.labels, birth_);
-  for (std::size_t p = 0; p < change.old_of.size(); ++p)
-    if (change.old_of[p] < 0) birth_[p] = solver.state().time;
-  std::vector<std::int32_t> corner(change.old_of.size(), 0);
-  for (std::size_t p = 0; p < corner.size(); ++p)
-    if (change.old_of[p] >= 0) corner[p] = corner_[u(change.old_of[p])];
-  corner_ = std::move(corner);
   ++passes_;
   total_ += report;
-  return change;
+  log_.record(solver.state(), report, before, audit(solver));
 }
 
-void Adaptation::fit_to_tools(ExplicitSolver<2>& solver,
-                              const std::function<void(const Resampling<2>&)>& follow) {
+void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
+  for (Field* label : {&error_, &size_, &wanted_, &birth_})
+    if (!label->empty()) carry_label(change.labels, *label);
+  std::vector<std::int32_t> corner(change.old_of.size(), 0);
+  for (std::size_t p = 0; p < corner.size(); ++p)
+    if (change.old_of[p] >= 0)
+      corner[p] = corner_[u(change.old_of[p])];
+    else
+      birth_[p] = time;
+  corner_ = std::move(corner);
+}
+
+void Adaptation::fit_to_tools(ExplicitSolver<2>& solver, const Follow& follow) {
   if (tips_.empty()) return;
   constexpr int most = 20;
   for (int pass = 0; pass < most; ++pass) {
     const int inserted = total_.inserted + total_.inserted_boundary;
-    follow(renew(solver));
+    renew(solver, follow);
     if (total_.inserted + total_.inserted_boundary == inserted) break;
   }
 }
@@ -187,20 +214,26 @@ AdaptationFields Adaptation::fields(double time) const {
 
 std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
   if (!active()) return {};
-  return {{"adapt.passes", static_cast<double>(passes_)},
-          {"adapt.folded", total_.folded},
-          {"adapt.outside", total_.outside},
-          {"adapt.removed", total_.removed},
-          {"adapt.removed_boundary", total_.removed_boundary},
-          {"adapt.promoted", total_.promoted},
-          {"adapt.inserted", total_.inserted},
-          {"adapt.inserted_boundary", total_.inserted_boundary},
-          {"adapt.balanced", total_.balanced},
-          {"adapt.undone", total_.undone},
-          {"adapt.area_change", total_.area_change},
-          {"adapt.refined", static_cast<double>(refined_)},
-          {"adapt.coarsened", static_cast<double>(coarsened_)},
-          {"adapt.error", error_norm_ > 0.0 ? error_total_ / error_norm_ : 0.0}};
+  std::vector<std::pair<std::string, double>> list = log_.metrics();
+  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
+           {"adapt.passes", static_cast<double>(passes_)},
+           {"adapt.cuts", total_.cuts},
+           {"adapt.opened", total_.opened},
+           {"adapt.folded", total_.folded},
+           {"adapt.outside", total_.outside},
+           {"adapt.removed", total_.removed},
+           {"adapt.removed_boundary", total_.removed_boundary},
+           {"adapt.promoted", total_.promoted},
+           {"adapt.inserted", total_.inserted},
+           {"adapt.inserted_boundary", total_.inserted_boundary},
+           {"adapt.balanced", total_.balanced},
+           {"adapt.undone", total_.undone},
+           {"adapt.area_change", total_.area_change},
+           {"adapt.refined", static_cast<double>(refined_)},
+           {"adapt.coarsened", static_cast<double>(coarsened_)},
+           {"adapt.error", error_norm_ > 0.0 ? error_total_ / error_norm_ : 0.0}})
+    list.emplace_back(name, value);
+  return list;
 }
 
 void Adaptation::archive(Archive& archive) {
@@ -223,7 +256,10 @@ void Adaptation::archive(Archive& archive) {
   archive.field("run/adapt/wanted", "m", wanted_);
   archive.field("run/adapt/birth", "s", birth_);
   archive.integer("run/adapt/passes", passes_);
-  for (auto& [name, count] : {std::pair{"folded", &total_.folded},
+  log_.archive(archive);
+  for (auto& [name, count] : {std::pair{"cuts", &total_.cuts},
+                              {"opened", &total_.opened},
+                              {"folded", &total_.folded},
                               {"outside", &total_.outside},
                               {"removed", &total_.removed},
                               {"removed_boundary", &total_.removed_boundary},

@@ -2,6 +2,7 @@
 // Estimate, mark, resample, transfer: what happens to the cloud at a new reference.
 #include "adapt/marking.hpp"
 #include "adapt/resample.hpp"
+#include "app/adaptation_log.hpp"
 #include "app/snapshot.hpp"
 #include "io/case.hpp"
 #include "mechanics/explicit_solver.hpp"
@@ -20,12 +21,19 @@ public:
 
   bool active() const { return input_->adapt.resample; }
 
-  /// Before the first step: passes until the cloud has the spacing that tools want.
-  void fit_to_tools(ExplicitSolver<2>& solver, const std::function<void(const Resampling<2>&)>& follow);
+  /// Begins adaptation.csv, or goes on with it. Throw IoError.
+  void start_log(const std::filesystem::path& folder);
+  void resume_log(const std::filesystem::path& folder);
 
-  /// Resamples the present cloud and makes it the reference. Returns how nodes went over. Throws
-  /// GeometryError with the solver left as it was.
-  Resampling<2> renew(ExplicitSolver<2>& solver);
+  /// Told how nodes went over, after each change of the cloud.
+  using Follow = std::function<void(const Resampling<2>&)>;
+
+  /// Before the first step: passes until the cloud has the spacing that tools want.
+  void fit_to_tools(ExplicitSolver<2>& solver, const Follow& follow);
+
+  /// Estimates, marks, opens the cloud where it is broken if the case says so, resamples it and makes it the
+  /// reference. Throws GeometryError with the solver left as it was, IoError.
+  void renew(ExplicitSolver<2>& solver, const Follow& follow);
 
   /// For pictures and files at a time, s.
   AdaptationFields fields(double time) const;
@@ -34,7 +42,11 @@ public:
   void archive(Archive& archive);
 
 private:
-  Field wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud);
+  const Field& indicated(const ExplicitSolver<2>& solver, Field& made) const;
+  void estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
+                         const adapt::Structure& structure);
+  /// Takes over to a changed cloud what this object knows of nodes.
+  void follow_nodes(const Resampling<2>& change, double time);
   double tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) const;
   adapt::NodeProperties properties(const ExplicitSolver<2>& solver, Field wanted) const;
 
@@ -49,6 +61,7 @@ private:
   std::vector<std::int32_t> corner_;            ///< [node] 1: stays
   adapt::PassReport total_;
   std::int64_t passes_ = 0;
+  AdaptationLog log_;
 };
 
 } // namespace cnem::app

@@ -101,8 +101,7 @@ void blame_place(const io::Case& input, const ExplicitSolver<2>& solver, std::si
 } // namespace
 
 std::size_t node_of(const ExplicitSolver<2>& solver, std::size_t point) {
-  const DiscreteOperators<2>& op = solver.approximation().mechanics;
-  return op.nodal ? point : static_cast<std::size_t>(op.node[static_cast<std::size_t>(op.row_begin[point])]);
+  return solver.approximation().mechanics.first_node(point);
 }
 
 DivergenceError step_collapse(const ExplicitSolver<2>& solver, std::size_t point, double dt,

@@ -159,12 +159,10 @@ double weighted_value(const Snapshot& shot, const std::string& name, std::span<c
 
 double boundary_area(const Snapshot& shot) {
   const Fields<2>& x = shot.state.node.position;
-  double twice = 0.0;
-  for (const Facet<2>& facet : shot.cloud.facets) {
-    const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
-    twice += x[0][a] * x[1][b] - x[1][a] * x[0][b];
-  }
-  return 0.5 * twice;
+  return enclosed_area(shot.cloud.facets, [&](std::int32_t node) {
+    const auto i = static_cast<std::size_t>(node);
+    return Vec2{x[0][i], x[1][i]};
+  });
 }
 
 double broken_area(const Snapshot& shot) {

@@ -42,8 +42,8 @@ public:
 
   /// What a checkpoint keeps of it.
   void archive(Archive& archive);
-  /// Goes on with the history that is there: rows later than the solver's time are dropped. Throws IoError
-  /// when earlier ones are missing.
+  /// Goes on with the history that is there: rows later than the checkpoint are dropped. Throws IoError when
+  /// earlier ones are missing.
   void resume(const ExplicitSolver<2>& solver);
 
   /// Largest |residual| seen over the largest (external work + initial energy) seen.

@@ -103,7 +103,8 @@ plasticity::Material make_material(const io::Material& spec) {
                                                     .Tmelt = spec.damage->Tmelt,
                                                     .cut_off = spec.damage->cut_off,
                                                     .fracture_energy = spec.damage->fracture_energy,
-                                                    .band = spec.damage->band};
+                                                    .band = spec.damage->band,
+                                                    .residual_strength = spec.damage->residual_strength};
   if (spec.heat) {
     material.specific_heat = spec.heat->specific_heat;
     material.conductivity = spec.heat->conductivity;

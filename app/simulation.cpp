@@ -58,6 +58,7 @@ Simulation::Simulation(const io::Case& input, const RunOptions& options)
       renewal_(input.method), adaptation_(input, solver_), checkpoints_(input.output.checkpoint) {}
 
 void Simulation::start() {
+  adaptation_.start_log(options_.output);
   watch_.time("rebuild", [&] {
     adaptation_.fit_to_tools(solver_,
                              [&](const Resampling<2>& change) { history_.resample(change, solver_); });
@@ -76,6 +77,7 @@ void Simulation::resume(io::CheckpointReader& checkpoint) {
     throw IoError(fmt::format("{} has {} of the {} frames written until then",
                               (options_.output / io::files::fields).string(), fields_->frames(), frames));
   history_.resume(solver_);
+  adaptation_.resume_log(options_.output);
   pictures_.emplace(input_, options_.output);
   pictures_->truncate(now);
   checkpoints_.written(solver_.state());
@@ -250,7 +252,7 @@ void Simulation::adapt_and_step() {
 void Simulation::new_reference() {
   renewal_.renew(solver_, [&] {
     if (adaptation_.active())
-      history_.resample(adaptation_.renew(solver_), solver_);
+      adaptation_.renew(solver_, [&](const Resampling<2>& change) { history_.resample(change, solver_); });
     else
       solver_.prepare();
   });

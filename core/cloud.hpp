@@ -32,4 +32,16 @@ template<int dim> struct Cloud {
   int nodes() const { return static_cast<int>(position.size()); }
 };
 
+/// Area that a boundary in the plane encloses, m², with position(node) for the places of its nodes.
+template<class Position> double enclosed_area(const std::vector<Facet<2>>& facets, const Position& position) {
+  double twice = 0.0;
+  for (const Facet<2>& facet : facets) twice += cross(position(facet.node[0]), position(facet.node[1]));
+  return 0.5 * twice;
+}
+inline double enclosed_area(const Cloud<2>& cloud) {
+  return enclosed_area(cloud.facets, [&](std::int32_t i) -> const Vec2& {
+    return cloud.position[static_cast<std::size_t>(i)];
+  });
+}
+
 } // namespace cnem

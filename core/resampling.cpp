@@ -91,13 +91,20 @@ template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>
   return pieces;
 }
 
-#define CNEM_INSTANTIATE(dim)                                                                                \
-  template std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>&, std::span<const std::int32_t>);       \
-  template std::vector<std::int32_t> renumbered(const Resampling<dim>&, std::span<const std::int32_t>,       \
-                                                std::span<const std::int32_t>);                              \
-  template std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>>);
-CNEM_INSTANTIATE(2)
-CNEM_INSTANTIATE(3)
-#undef CNEM_INSTANTIATE
+template<int dim> void renew_facets(const Cloud<dim>& cloud, std::vector<Facet<dim>>& facets) {
+  const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(facets));
+  facets = facets_of_pieces(cloud, std::span<const std::int32_t>(pieces));
+}
+
+template std::vector<Facet<2>> facets_of_pieces(const Cloud<2>&, std::span<const std::int32_t>);
+template std::vector<std::int32_t> renumbered(const Resampling<2>&, std::span<const std::int32_t>,
+                                              std::span<const std::int32_t>);
+template std::vector<std::int32_t> pieces_of(std::span<const Facet<2>>);
+template std::vector<Facet<3>> facets_of_pieces(const Cloud<3>&, std::span<const std::int32_t>);
+template std::vector<std::int32_t> renumbered(const Resampling<3>&, std::span<const std::int32_t>,
+                                              std::span<const std::int32_t>);
+template std::vector<std::int32_t> pieces_of(std::span<const Facet<3>>);
+template void renew_facets(const Cloud<2>&, std::vector<Facet<2>>&);
+template void renew_facets(const Cloud<3>&, std::vector<Facet<3>>&);
 
 } // namespace cnem

@@ -60,5 +60,7 @@ std::vector<std::int32_t> renumbered(const Resampling<dim>& change, std::span<co
                                      std::span<const std::int32_t> pieces);
 /// The pieces of a list of facets, each once, in increasing order.
 template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>> facets);
+/// Replaces the facets that a condition holds by those of a new cloud on the same pieces.
+template<int dim> void renew_facets(const Cloud<dim>& cloud, std::vector<Facet<dim>>& facets);
 
 } // namespace cnem

@@ -151,6 +151,7 @@ struct JohnsonCookDamage {
   double fracture_energy = 0.0;                              ///< J/m²
   double band = 2.5;                                         ///< – cell sizes across the broken band
   double cut_off = -std::numeric_limits<double>::infinity(); ///< – no damage at σ_m/σ_eq ≤ this
+  double residual_strength = 0.0;                            ///< – of the flow stress, when broken
 };
 
 struct HeatProperties {
@@ -288,8 +289,9 @@ struct Method {
 /// How the cloud follows the deformation.
 struct Adaptation {
   enum class Placement { between_nodes, voronoi_vertices };
-  enum class Indicator { none, plastic_strain, plastic_rate, temperature };
+  enum class Indicator { none, plastic_strain, plastic_power, temperature, damage };
   bool resample = false;
+  bool separate = false; ///< broken matter is opened along edges between nodes
   Placement placement = Placement::between_nodes;
   double growth = 0.3;                ///< – of the wanted spacing per distance
   std::optional<double> tool_spacing; ///< m, at corners and arcs of tools

@@ -14,6 +14,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("adapt");
   Adaptation& adapt = result.adapt;
   adapt.resample = table.get<bool>("resample");
+  adapt.separate = table.get<bool>("separate");
   adapt.placement = table.choice<Adaptation::Placement>("placement");
   adapt.growth = table.get<double>("growth");
   adapt.tool_spacing = table.maybe<double>("tool_spacing");
@@ -29,7 +30,20 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     const Setting* key = root.find(path);
     if (key) diagnostics.add(Mistake::conflict, key->where, key->path, why);
   };
+  const bool damage = std::any_of(result.materials.begin(), result.materials.end(),
+                                  [](const Material& material) { return material.damage.has_value(); });
+  if (adapt.indicator == Adaptation::Indicator::damage && !damage)
+    conflict("adapt.indicator.field",
+             "found \"damage\" where no material has a damage law, expected materials.NAME.damage");
+  if (adapt.separate && !damage)
+    conflict("adapt.separate",
+             "found true where no material has a damage law, expected materials.NAME.damage: nothing "
+             "would ever break");
   if (!adapt.resample) {
+    if (adapt.separate)
+      conflict("adapt.separate",
+               "found true where adapt.resample is false, expected true: the cloud is opened at new "
+               "references alone");
     if (refines)
       conflict("adapt.indicator.field",
                "found an indicator where adapt.resample is false, expected true: without "
@@ -54,6 +68,13 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, least->where, least->path,
                     fmt::format("found {:g} m, expected less than adapt.indicator.h_max = {:g} m",
                                 adapt.h_min, adapt.h_max));
+  if (adapt.indicator == Adaptation::Indicator::temperature && !result.analysis.thermal)
+    conflict("adapt.indicator.field",
+             "found \"temperature\" in an analysis without heat, expected it with analysis.thermal = true");
+  if (result.time.mass_scaling && result.time.mass_scaling->step && (refines || adapt.tool_spacing))
+    conflict("time.mass_scaling.step",
+             "found a step for a cloud that is refined, expected time.mass_scaling.factor: the factors of "
+             "the first cloud do not bring finer cells to that step");
   const std::string path = "adapt.resample";
   if (result.analysis.type == Analysis::Type::statics)
     conflict(path, "found true in a static analysis, expected it with analysis.type = \"explicit\" only");

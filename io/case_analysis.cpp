@@ -23,6 +23,27 @@ bool moves(const VectorFunction& velocity) {
   });
 }
 
+void check_local_steps(Setting& root, const Case& result, Diagnostics& diagnostics) {
+  const auto clash = [&](const std::string& other, const std::string& expected) {
+    refuse(root, "time.step.local", fmt::format("found local steps {}, expected {}", other, expected),
+           diagnostics);
+  };
+  const std::string one = "one of them";
+  if (result.time.mass_scaling) clash("with time.mass_scaling", one);
+  if (result.method.pressure_exchange > 0.0) clash("with method.pressure_exchange", one);
+  for (const Material& material : result.materials)
+    if (material.damage) clash(fmt::format("with material '{}', which has a damage law", material.name), one);
+  if (result.contact.deformable) clash("with contact.deformable", one);
+  for (const Tool& tool : result.tools)
+    if (tool.drive)
+      clash(fmt::format("with tool '{}', which has a mass", tool.name), "tools of given velocity");
+  if (result.time.fixed) clash("and a fixed one", one);
+  if (!result.analysis.mechanical)
+    clash("in an analysis without motion", "them with analysis.mechanical = true");
+  if (result.method.name == Method::Name::fe_triangles)
+    clash("with finite-element triangles, whose stress points are not nodes", "method.name = \"cnem\"");
+}
+
 } // namespace
 
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics) {
@@ -51,42 +72,7 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
                                "initial.velocity_gradient", "report"})
         refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
                diagnostics);
-    if (result.time.local) {
-      const std::string local = "time.step.local";
-      if (result.time.mass_scaling)
-        refuse(root, local, "found local steps with time.mass_scaling, expected one of them", diagnostics);
-      if (result.method.pressure_exchange > 0.0)
-        refuse(root, local, "found local steps with method.pressure_exchange, expected one of them",
-               diagnostics);
-      for (const Material& material : result.materials)
-        if (material.damage)
-          refuse(root, local,
-                 fmt::format(
-                     "found local steps with material '{}', which has a damage law, expected one of them",
-                     material.name),
-                 diagnostics);
-      if (result.contact.deformable)
-        refuse(root, local, "found local steps with contact.deformable, expected one of them", diagnostics);
-      for (const Tool& tool : result.tools)
-        if (tool.drive)
-          refuse(root, local,
-                 fmt::format(
-                     "found local steps with tool '{}', which has a mass, expected tools of given velocity",
-                     tool.name),
-                 diagnostics);
-      if (result.time.fixed)
-        refuse(root, local, "found local steps and a fixed one, expected one of them", diagnostics);
-      if (!result.analysis.mechanical)
-        refuse(
-            root, local,
-            "found local steps in an analysis without motion, expected them with analysis.mechanical = true",
-            diagnostics);
-      if (result.method.name == Method::Name::fe_triangles)
-        refuse(root, local,
-               "found local steps with finite-element triangles, whose stress points are not nodes, expected "
-               "method.name = \"cnem\"",
-               diagnostics);
-    }
+    if (result.time.local) check_local_steps(root, result, diagnostics);
     if (result.method.pressure_exchange > 0.0)
       for (const Material& material : result.materials)
         if (material.damage)

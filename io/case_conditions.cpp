@@ -22,6 +22,7 @@ JohnsonCookDamage read_damage(const Setting& table, const Setting& material, Dia
                         .T0 = number("T0"),
                         .fracture_energy = number("fracture_energy"),
                         .band = number("band")};
+  law.residual_strength = number("residual_strength");
   if (const auto cut_off = table.maybe<double>("cut_off")) law.cut_off = *cut_off;
   const Setting* melt = table.find("Tmelt");
   if (melt) law.Tmelt = std::get<double>(melt->value);

@@ -85,13 +85,17 @@ HistoryWriter::HistoryWriter(std::filesystem::path path, std::vector<std::string
   open();
 }
 
-HistoryWriter HistoryWriter::resume(std::filesystem::path path, std::vector<std::string> names, double time) {
+HistoryWriter HistoryWriter::resume(std::filesystem::path path, std::vector<std::string> names,
+                                    std::int64_t rows) {
   check_names(names);
   const HistoryTable table = read_history(path);
   if (table.names != names)
     throw InputError(fmt::format("{}: its columns are not those of this case: it has \"{}\", expected \"{}\"",
                                  path.string(), fmt::join(table.names, ","), fmt::join(names, ",")));
-  truncate_history(path, time);
+  const auto found = static_cast<std::int64_t>(table.rows());
+  if (found < rows)
+    throw IoError(fmt::format("{} has {} of the {} rows written until then", path.string(), found, rows));
+  truncate_history(path, rows);
   HistoryWriter writer;
   writer.path_ = std::move(path);
   writer.names_ = std::move(names);
@@ -141,14 +145,12 @@ HistoryTable read_history(const std::filesystem::path& path) {
   return table;
 }
 
-void truncate_history(const std::filesystem::path& path, double time) {
+void truncate_history(const std::filesystem::path& path, std::int64_t rows) {
   const std::string text = read_file(path);
   std::string kept;
-  std::size_t number = 0;
+  std::int64_t lines = 0;
   for_complete_lines(text, [&](std::string_view line) {
-    ++number;
-    if (number > 1 && parse(line.substr(0, line.find(',')), path, number) > time) return;
-    kept.append(line).push_back('\n');
+    if (lines++ <= rows) kept.append(line).push_back('\n'); // after the header
   });
   write_atomically(path, kept);
 }

@@ -9,6 +9,7 @@
 //   probe.<name>.<field>[unit]
 //   mass[kg/m], area[m^2]
 // Axisymmetric runs count the whole body: N, J and kg; the area is that of the meridian plane.
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -41,9 +42,10 @@ public:
   /// written.
   HistoryWriter(std::filesystem::path path, std::vector<std::string> names);
 
-  /// Goes on with an existing file after a restart: rows later than `time` (s), and a half-written last one,
-  /// are dropped. Throws InputError when the columns of the file differ from `names`, IoError.
-  static HistoryWriter resume(std::filesystem::path path, std::vector<std::string> names, double time);
+  /// Goes on with an existing file after a restart behind its first `rows` rows; later ones, and a
+  /// half-written last one, are dropped. Throws InputError when the columns of the file differ from `names`,
+  /// IoError when it has fewer rows.
+  static HistoryWriter resume(std::filesystem::path path, std::vector<std::string> names, std::int64_t rows);
 
   /// Appends one row and flushes it; one value per column. Numbers round-trip exactly. Throws IoError.
   void write(std::span<const double> row);
@@ -62,7 +64,7 @@ private:
 /// Reads a history file; a last line without its end (a run killed while writing) is ignored. Throws IoError.
 HistoryTable read_history(const std::filesystem::path& path);
 
-/// Drops the rows later than `time` (s), and a half-written last one. Throws IoError.
-void truncate_history(const std::filesystem::path& path, double time);
+/// Drops all but the first `rows` rows, and a half-written last one. Throws IoError.
+void truncate_history(const std::filesystem::path& path, std::int64_t rows);
 
 } // namespace cnem::io

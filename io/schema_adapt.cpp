@@ -13,6 +13,11 @@ void add_adaptation(Keys& k) {
         "thinned, "
         "and mass is exchanged between neighbours whose cells no longer fit it; all of it conservative.")
       .fallback("false");
+  k.add("adapt.separate", boolean,
+        "At each new reference the cloud is opened along edges between broken nodes (materials with "
+        "`damage`): nodes are "
+        "doubled, nothing is deleted, the new faces are the piece `fracture`.")
+      .fallback("false");
   k.add("adapt.placement", choice,
         "Where nodes are added: half-way between neighbours, or at vertices of Voronoi cells (boundary edges "
         "are "
@@ -32,8 +37,10 @@ void add_adaptation(Keys& k) {
       .always();
   k.add("adapt.indicator.field", choice,
         "The field: `none` keeps the spacing of the cloud. The indicator of a cell is the L2 distance of the "
-        "interpolated field from the value of the cell.")
-      .one_of({"none", "plastic_strain", "plastic_rate", "temperature"})
+        "interpolated field from the value of the cell. `plastic_power` is von Mises stress times plastic "
+        "rate, "
+        "`damage` needs a material with damage.")
+      .one_of({"none", "plastic_strain", "plastic_power", "temperature", "damage"})
       .fallback("\"none\"");
   k.add("adapt.indicator.tolerance", quantity,
         "A cell is refined when its indicator exceeds this part of the norm of the field, shared out among "

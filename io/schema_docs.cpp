@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view introduction = R"(# Case reference
 
-<!-- Generated from io/schema_keys.cpp and io/schema_geometry.cpp by `cnem schema --markdown`. -->
+<!-- Generated from io/schema_*.cpp by `cnem schema --markdown`. -->
 
 A case is one [TOML](https://toml.io) file. Keys that are not listed here are errors, and so are values of the
 wrong dimension. Anything can be overridden on the command line: `--set time.end="3 us"`,
@@ -31,8 +31,8 @@ Units are products, quotients and powers of m, g, t, s, min, h, K, N, Pa, bar, J
 with the prefixes n, u (µ), m, c, d, k, M, G: `kg/m3`, `W/(m K)`, `mm/us`, `1/s`, `s^0.5`. After a slash a product
 needs parentheses. `degC` stands for an absolute temperature and cannot be part of another unit.
 
-The model is plane, of unit thickness: forces are per metre of thickness. x points right, y up, z to the reader;
-angles and rotations count counter-clockwise.
+Plane models have unit thickness: forces are per metre of it. Axisymmetric ones are whole bodies, x the radius and y
+the axis. x points right, y up, z to the reader; angles and rotations count counter-clockwise.
 
 ## A small case
 

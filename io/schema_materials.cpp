@@ -44,6 +44,11 @@ void add_damage(Keys& k, const std::string& at) {
       .unit(d::surface_energy)
       .in(positive)
       .required();
+  k.add(at + ".residual_strength", quantity,
+        "Share of the flow stress that broken matter keeps, as rubble and the edges of cracks do; tension is "
+        "lost whole.")
+      .in({.low = 0.0, .high = 1.0, .high_open = true})
+      .fallback("0");
   k.add(at + ".band", quantity,
         "Thickness of the band in which cells break, in cell sizes √area: with it the fracture energy is "
         "spread over the cells. docs/theory.md says where the default comes from.")

@@ -2,11 +2,45 @@
 #include "mechanics/explicit_solver.hpp"
 #include "plasticity/log_strain.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cnem {
 
+namespace {
+
+/// What ln b_e has of volume change beside thermal expansion: pressure is −κ times it.
+template<int dim>
+double dilatation(const plasticity::Symmetric<dim>& log_elastic, const plasticity::Material& material,
+                  double temperature) {
+  return 0.5 * log_elastic.template head<3>().sum() -
+         3.0 * material.expansion * (temperature - material.expansion_reference);
+}
+
+} // namespace
+
+/// (1 − ω)⟨θ − opening⟩² of each point, θ the dilatation: the energy of its tension over κ/2. Expects b_e in
+/// place of C_p⁻¹. Empty without damage.
+template<int dim> Field ExplicitSolver<dim>::held_tension() {
+  if (!damage_.active()) return {};
+  const PointState<dim>& point = state_.point;
+  Field held(point.size());
+  for (std::size_t p = 0; p < held.size(); ++p) {
+    const auto log_elastic = plasticity::logarithm<dim>(plasticity::at_point<dim>(point.elastic, p));
+    const double tension =
+        dilatation<dim>(log_elastic, material_of(p), point.temperature[p]) - damage_.opening()[p];
+    held[p] = tension > 0.0 ? (1.0 - point.softening[p]) * tension * tension : 0.0;
+  }
+  return held;
+}
+
 /// ln b_e averaged over the parcels of a node, so that the mean is objective and its volume change additive,
-/// drawn back to the yield surface of the averaged state without counting plastic work.
-template<int dim> void ExplicitSolver<dim>::mix_elastic(const Resampling<dim>& change, const Field& mass) {
+/// drawn back to the yield surface of the averaged state without counting plastic work. Where broken matter
+/// is mixed with sound matter its gap must not come to bear on the latter: as much of the dilatation becomes
+/// an opening as leaves no more than the tension that the parts held.
+template<int dim>
+void ExplicitSolver<dim>::mix_elastic(const Resampling<dim>& change, const Field& mass,
+                                      const Field& tension) {
   PointState<dim>& point = state_.point;
   Fields<symmetric_size<dim>> mixed;
   for (std::size_t k = 0; k < mixed.size(); ++k) mixed[k].resize(change.parcels.size());
@@ -25,8 +59,16 @@ template<int dim> void ExplicitSolver<dim>::mix_elastic(const Resampling<dim>& c
         total += share;
       }
       elastic /= total;
-      const double strength = point.strength[p] * (point.softening.empty() ? 1.0 : 1.0 - point.softening[p]);
-      if (const plasticity::Material& material = material_of(p); material.hardening)
+      const plasticity::Material& material = material_of(p);
+      const double softening = material.damage ? point.softening[p] : 0.0;
+      if (softening > 0.0 && softening < 1.0) {
+        double& opening = damage_.opening()[p];
+        opening = std::max(opening, dilatation<dim>(elastic, material, point.temperature[p]) -
+                                        std::sqrt(tension[p] / (1.0 - softening)));
+      }
+      const double strength =
+          point.strength[p] * (material.damage ? material.damage->flow_share(softening) : 1.0);
+      if (material.hardening)
         elastic = plasticity::limited_to<dim>(
             elastic,
             strength * material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],
@@ -48,6 +90,7 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
   const Field capacity = model_.thermal ? node.heat_capacity : mass; // without heat there may be none
 
   const Field momentum_mass = inertia();
+  Field tension = held_tension();
   if (!mass_scale_.empty()) carry_mean(parcels, mass, mass_scale_);
   exchange_.carry_over(parcels, mass);
   edge_defect_.carry_over(parcels, mass);
@@ -58,7 +101,8 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
                        &point.strength, &point.stress_free, &flow_stress_, &viscous_pressure_})
     carry_mean(parcels, mass, *value);
   if (damage_.active()) {
-    for (Field* value : {&point.damage, &point.softening, &point.initiation_strain})
+    for (Field* value :
+         {&point.damage, &point.softening, &point.initiation_strain, &damage_.opening(), &tension})
       carry_mean(parcels, mass, *value);
     for (std::size_t p = 0; p < point.damage.size(); ++p)
       if (point.damage[p] < 1.0) point.initiation_strain[p] = 0.0; // a mixed point is yet to initiate
@@ -69,7 +113,7 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
   for (Field& component : initial_position_) carry_label(change.labels, component);
   carry_label(change.labels, point.material);
   if (!model_.node_material.empty()) carry_label(change.labels, model_.node_material);
-  mix_elastic(change, mass);
+  mix_elastic(change, mass, tension);
 
   const std::size_t n = change.cloud.position.size();
   for (std::size_t k = 0; k < dim; ++k) {
@@ -121,7 +165,8 @@ template<int dim> void ExplicitSolver<dim>::resize_state(std::size_t n) {
 }
 
 template void ExplicitSolver<2>::carry_over(const Resampling<2>&);
-template void ExplicitSolver<2>::mix_elastic(const Resampling<2>&, const Field&);
+template void ExplicitSolver<2>::mix_elastic(const Resampling<2>&, const Field&, const Field&);
+template Field ExplicitSolver<2>::held_tension();
 template void ExplicitSolver<2>::resize_fields(std::size_t);
 template void ExplicitSolver<2>::resize_state(std::size_t);
 

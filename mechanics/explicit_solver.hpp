@@ -121,7 +121,8 @@ public:
 private:
   void renew(Cloud<dim> cloud, const Resampling<dim>* change);
   void carry_over(const Resampling<dim>& change);
-  void mix_elastic(const Resampling<dim>& change, const Field& mass);
+  Field held_tension();
+  void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& tension);
   void resize_fields(std::size_t n);
   void resize_state(std::size_t n);
   void archive_cloud(Archive& archive);

@@ -12,14 +12,8 @@ Loads<dim>::Loads(std::vector<Traction<dim>> tractions, std::vector<Pressure<dim
 }
 
 template<int dim> void Loads<dim>::resample(const Cloud<dim>& cloud, const Fields<dim>& initial) {
-  const auto renew = [&](auto& conditions) {
-    for (auto& condition : conditions) {
-      const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(condition.facets));
-      condition.facets = facets_of_pieces(cloud, std::span<const std::int32_t>(pieces));
-    }
-  };
-  renew(tractions_);
-  renew(pressures_);
+  for (Traction<dim>& traction : tractions_) renew_facets(cloud, traction.facets);
+  for (Pressure<dim>& pressure : pressures_) renew_facets(cloud, pressure.facets);
   std::vector<Vec<dim>> position(cloud.position.size());
   for (std::size_t i = 0; i < position.size(); ++i)
     for (std::size_t k = 0; k < dim; ++k) position[i][static_cast<Eigen::Index>(k)] = initial[k][i];

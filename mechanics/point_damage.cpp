@@ -10,10 +10,13 @@ template<int dim>
 PointDamage<dim>::PointDamage(const std::vector<plasticity::Material>& materials)
     : active_(std::any_of(materials.begin(), materials.end(),
                           [](const plasticity::Material& material) { return material.damage.has_value(); })) {
+  for (const plasticity::Material& material : materials)
+    law_.push_back(material.damage.value_or(plasticity::JohnsonCookDamage{}));
 }
 
-template<int dim> void PointDamage<dim>::start(PointState<dim>& point) const {
+template<int dim> void PointDamage<dim>::start(PointState<dim>& point) {
   if (!active_) return;
+  opening_.assign(point.size(), 0.0);
   for (Field* field : {&point.damage, &point.softening, &point.initiation_strain})
     field->assign(point.size(), 0.0);
 }
@@ -42,7 +45,9 @@ template<int dim> void PointDamage<dim>::weaken(const PointState<dim>& point) {
 
 template<int dim>
 void PointDamage<dim>::weaken(const PointState<dim>& point, std::size_t begin, std::size_t end) {
-  for (std::size_t p = begin; p < end; ++p) flow_factor_[p] = point.strength[p] * (1.0 - point.softening[p]);
+  for (std::size_t p = begin; p < end; ++p)
+    flow_factor_[p] =
+        point.strength[p] * law_[static_cast<std::size_t>(point.material[p])].flow_share(point.softening[p]);
 }
 
 template<int dim>
@@ -50,7 +55,7 @@ double PointDamage<dim>::update(const DiscreteOperators<dim>& operators,
                                 const std::vector<plasticity::Material>& materials, PointState<dim>& point,
                                 std::size_t begin, std::size_t end, double dt) const {
   return plasticity::update_damage(materials, point.material,
-                                   plasticity::damage_points(point, length_, operators.volume),
+                                   plasticity::damage_points(point, length_, operators.volume, opening_),
                                    static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end), dt)
       .released;
 }
@@ -59,6 +64,8 @@ template<int dim> void PointDamage<dim>::archive(Archive& archive, std::size_t p
   if (!active_) return;
   length_.resize(points);
   flow_factor_.resize(points);
+  opening_.resize(points);
+  archive.field("solver/point/damage_opening", "1", opening_);
   archive.field("solver/point/damage_length", "m", length_);
 }
 

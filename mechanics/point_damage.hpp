@@ -19,14 +19,15 @@ public:
   bool active() const { return active_; }
 
   /// Undamaged points.
-  void start(PointState<dim>& point) const;
+  void start(PointState<dim>& point);
 
   /// Measures the cells of a new reference. The length ℓ of a point is `band` √A of its material, A the
   /// stress-free area of its cell in the plane (the cube root of its volume in 3D).
   void measure(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
                const PointState<dim>& point);
 
-  /// Factor on the flow stress, strength (1 − ω), for the return map: of all points, and of [begin, end).
+  /// Factor on the flow stress, strength and share left at ω, for the return map: of all points, and of
+  /// [begin, end).
   void weaken(const PointState<dim>& point);
   void weaken(const PointState<dim>& point, std::size_t begin, std::size_t end);
   const Field& flow_factor() const { return flow_factor_; }
@@ -35,13 +36,19 @@ public:
   double update(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
                 PointState<dim>& point, std::size_t begin, std::size_t end, double dt) const;
 
-  /// Carries the lengths out or in.
+  /// [point] –, the dilatation that the gaps of broken matter in a point take without tension. 0 but for
+  /// points that resampling mixed of broken and sound ones.
+  Field& opening() { return opening_; }
+
+  /// Carries lengths and openings out or in.
   void archive(Archive& archive, std::size_t points);
 
 private:
   bool active_ = false;
-  Field length_;      ///< [point] ℓ, m
-  Field flow_factor_; ///< [point] –
+  std::vector<plasticity::JohnsonCookDamage> law_; ///< [material]; none: never softens
+  Field length_;                                   ///< [point] ℓ, m
+  Field opening_;                                  ///< [point] –
+  Field flow_factor_;                              ///< [point] –
 };
 
 extern template class PointDamage<2>;

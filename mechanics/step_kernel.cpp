@@ -1,5 +1,6 @@
 #include "mechanics/step_kernels.hpp"
 
+#include "core/cofactor.hpp"
 #include "core/simd.hpp"
 #include "core/small_vector.hpp"
 #include "core/sparse_rows.hpp"
@@ -158,28 +159,12 @@ template<int dim, class T>
 CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic, double linear, double by_dt,
                               std::ptrdiff_t p, T& dissipated, T& damping) {
   constexpr int general = ViscousPoints<dim>::general;
-  T f[general], stress[general], cofactor[general];
+  T f[general], stress[general], cof[general];
   for (int c = 0; c < general; ++c) {
     f[c] = load<T>(points.deformation[c] + p);
     stress[c] = load<T>(points.piola[c] + p);
   }
-  T J;
-  if constexpr (dim == 2) {
-    const T plane = f[0] * f[3] - f[1] * f[2];
-    J = plane * f[4];
-    cofactor[0] = f[3] * f[4];
-    cofactor[1] = -f[2] * f[4];
-    cofactor[2] = -f[1] * f[4];
-    cofactor[3] = f[0] * f[4];
-    cofactor[4] = plane;
-  } else {
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, d = (k + 2) % 3;
-        cofactor[i * 3 + k] = f[a * 3 + c] * f[b * 3 + d] - f[a * 3 + d] * f[b * 3 + c];
-      }
-    J = f[0] * cofactor[0] + f[1] * cofactor[1] + f[2] * cofactor[2];
-  }
+  const T J = cofactor(f, cof);
   const T before = load<T>(points.jacobian + p), change = J - before;
   const T volume = load<T>(points.volume + p);
   const Mask<T> closing = change < T(0.0);
@@ -196,7 +181,7 @@ CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic
     q = select(closing, -rho * length * rate * speed * share, T(0.0));
     damping = max(damping, select(closing, share, T(0.0)));
   }
-  for (int c = 0; c < general; ++c) stress[c] = stress[c] - q * cofactor[c];
+  for (int c = 0; c < general; ++c) stress[c] = stress[c] - q * cof[c];
   dissipated = dissipated - T(0.5) * (load<T>(points.pressure + p) + q) * volume * change;
   store(points.pressure + p, q);
   store(points.jacobian + p, J);

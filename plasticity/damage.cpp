@@ -1,6 +1,7 @@
 #include "plasticity/damage.hpp"
 
 #include "core/isa.hpp"
+#include "plasticity/return_map.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,7 @@ DamageParameters damage_parameters(const Material& material, double dt) {
           1.0 / law.rate0,
           law.cut_off,
           1.0 / law.fracture_energy,
+          material.elasticity.kappa(),
           0.5 / material.elasticity.kappa(),
           dt};
 }
@@ -40,26 +42,15 @@ double on_active_isa(const DamageParameters& parameters, const DamagePoints<dim>
 } // namespace
 
 template<int dim>
-DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, const Field& volume) {
-  DamagePoints<dim> p{};
-  for (std::size_t c = 0; c < state.deformation.size(); ++c) {
-    p.deformation[c] = state.deformation[c].data();
-    p.piola[c] = state.piola[c].data();
-  }
-  p.temperature = state.temperature.data();
-  p.plastic_strain = state.plastic_strain.data();
-  p.plastic_rate = state.plastic_rate.data();
-  p.equivalent_stress = state.equivalent_stress.data();
-  p.dissipation = state.dissipation.data();
-  p.stress_free = state.stress_free.data();
-  p.length = length.data();
-  p.volume = volume.data();
-  p.damage = state.damage.data();
-  p.softening = state.softening.data();
-  p.initiation_strain = state.initiation_strain.data();
-  p.pressure = state.pressure.data();
-  p.stored_energy = state.stored_energy.data();
-  return p;
+DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, const Field& volume,
+                                const Field& opening) {
+  return {stress_points(state),
+          length.data(),
+          volume.data(),
+          opening.data(),
+          state.damage.data(),
+          state.softening.data(),
+          state.initiation_strain.data()};
 }
 
 template<int dim>
@@ -67,19 +58,15 @@ DamageSums update_damage(const std::vector<Material>& materials, const std::vect
                          const DamagePoints<dim>& points, std::ptrdiff_t begin, std::ptrdiff_t end,
                          double dt) {
   DamageSums sums;
-  for (std::ptrdiff_t p = begin; p < end;) {
-    const std::int32_t index = material[static_cast<std::size_t>(p)];
-    std::ptrdiff_t stop = p + 1;
-    while (stop < end && material[static_cast<std::size_t>(stop)] == index) ++stop;
-    const Material& own = materials[static_cast<std::size_t>(index)];
-    if (own.damage) sums.released += on_active_isa(damage_parameters(own, dt), points, p, stop);
-    p = stop;
-  }
+  for_each_run(materials, material, begin, end,
+               [&](const Material& own, std::ptrdiff_t p, std::ptrdiff_t stop) {
+                 if (own.damage) sums.released += on_active_isa(damage_parameters(own, dt), points, p, stop);
+               });
   return sums;
 }
 
-template DamagePoints<2> damage_points(PointState<2>&, const Field&, const Field&);
-template DamagePoints<3> damage_points(PointState<3>&, const Field&, const Field&);
+template DamagePoints<2> damage_points(PointState<2>&, const Field&, const Field&, const Field&);
+template DamagePoints<3> damage_points(PointState<3>&, const Field&, const Field&, const Field&);
 template DamageSums update_damage(const std::vector<Material>&, const std::vector<std::int32_t>&,
                                   const DamagePoints<2>&, std::ptrdiff_t, std::ptrdiff_t, double);
 template DamageSums update_damage(const std::vector<Material>&, const std::vector<std::int32_t>&,

@@ -15,10 +15,11 @@ struct DamageSums {
   double released = 0.0; ///< J/m^(3−dim), elastic energy of tension let go as points break, ≥ 0
 };
 
-/// Pointers into the fields of `state` and to lengths [point], m, and volumes [point]; valid until one of
-/// them is resized.
+/// Pointers into the fields of `state` and to lengths [point], m, volumes [point] and openings [point], –;
+/// valid until one of them is resized.
 template<int dim>
-DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, const Field& volume);
+DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, const Field& volume,
+                                const Field& opening);
 
 /// Takes the points [begin, end) from the stress that update_stress has just made (with the flow stress
 /// lowered by 1 − ω of the last step) to the damaged one:
@@ -28,6 +29,7 @@ DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, con
 /// so that a band of thickness ℓ takes G_f per area whatever it hardens and however long ℓ is, and 1 − ω
 /// falls linearly with ℓ ε̄p at constant flow stress. The mean stress is multiplied by 1 − ω in tension and
 /// kept in compression, in P, pressure and stored energy; what that lets go of the stored energy is returned.
+/// Dilatation up to the opening of a point, a gap that it holds, makes no tension.
 /// dt = 0: nothing evolves. Points of materials without damage are left alone. material[p] as for
 /// update_stress.
 template<int dim>

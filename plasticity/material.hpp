@@ -1,8 +1,11 @@
 #pragma once
 // Materials as plain structs that can be tried at a single point.
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cnem::plasticity {
 
@@ -64,6 +67,10 @@ struct JohnsonCookDamage {
   double fracture_energy = 0.0;                              ///< J/m² > 0, from initiation to separation
   double band = 2.5; ///< –    > 0, thickness of the band a broken cell stands for, in cell sizes
 
+  double residual_strength = 0.0; ///< –    in [0, 1), share of the flow stress that broken matter keeps
+
+  /// Share of the flow stress left at a softening ω.
+  double flow_share(double softening) const { return 1.0 - (1.0 - residual_strength) * softening; }
   /// ε_f at a triaxiality, rate (1/s) and temperature (K).
   double fracture_strain(double triaxiality, double rate, double temperature) const;
 };
@@ -80,5 +87,19 @@ struct Material {
   double expansion = 0.0;                  ///< 1/K    linear, logarithmic
   double expansion_reference = 293.15;     ///< K      free of thermal strain at this temperature
 };
+
+/// f(material, first, stop) for each run of points of one material among [begin, end); material[p] is the
+/// index into `materials` of point p.
+template<class F>
+void for_each_run(const std::vector<Material>& materials, const std::vector<std::int32_t>& material,
+                  std::ptrdiff_t begin, std::ptrdiff_t end, F&& f) {
+  for (std::ptrdiff_t first = begin; first < end;) {
+    const std::int32_t index = material[static_cast<std::size_t>(first)];
+    std::ptrdiff_t stop = first + 1;
+    while (stop < end && material[static_cast<std::size_t>(stop)] == index) ++stop;
+    f(materials[static_cast<std::size_t>(index)], first, stop);
+    first = stop;
+  }
+}
 
 } // namespace cnem::plasticity

@@ -81,14 +81,11 @@ std::ptrdiff_t update_stress(const std::vector<Material>& materials,
                              const std::vector<std::int32_t>& material, const StressPoints<dim>& points,
                              std::ptrdiff_t begin, std::ptrdiff_t end, double dt) {
   std::ptrdiff_t first_bad = -1;
-  for (std::ptrdiff_t p = begin; p < end;) {
-    const std::int32_t index = material[static_cast<std::size_t>(p)];
-    std::ptrdiff_t stop = p + 1;
-    while (stop < end && material[static_cast<std::size_t>(stop)] == index) ++stop;
-    const std::ptrdiff_t bad = update_stress(materials[static_cast<std::size_t>(index)], points, p, stop, dt);
-    if (first_bad < 0) first_bad = bad;
-    p = stop;
-  }
+  for_each_run(materials, material, begin, end,
+               [&](const Material& own, std::ptrdiff_t p, std::ptrdiff_t stop) {
+                 const std::ptrdiff_t bad = update_stress(own, points, p, stop, dt);
+                 if (first_bad < 0) first_bad = bad;
+               });
   return first_bad;
 }
 

@@ -27,14 +27,8 @@ template<int dim> void ThermalBoundaries<dim>::archive_nodes(Archive& archive) {
 }
 
 template<int dim> void ThermalBoundaries<dim>::resample(const Cloud<dim>& cloud) {
-  const auto renew = [&](auto& conditions) {
-    for (auto& condition : conditions) {
-      const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(condition.facets));
-      condition.facets = facets_of_pieces(cloud, std::span<const std::int32_t>(pieces));
-    }
-  };
-  renew(fluxes_);
-  renew(convections_);
+  for (HeatFlux<dim>& flux : fluxes_) renew_facets(cloud, flux.facets);
+  for (Convection<dim>& convection : convections_) renew_facets(cloud, convection.facets);
 }
 
 template<int dim>

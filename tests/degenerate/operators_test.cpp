@@ -16,7 +16,7 @@ void expect_linear_fields_reproduced(const Cloud<2>& cloud, const DiscreteOperat
   for (std::size_t p = 0; p < static_cast<std::size_t>(op.points); ++p) {
     const auto begin = static_cast<std::size_t>(op.row_begin[p]),
                end = static_cast<std::size_t>(op.row_begin[p + 1]);
-    const Vec2 origin = cloud.position[op.nodal ? p : static_cast<std::size_t>(op.node[begin])];
+    const Vec2 origin = cloud.position[op.first_node(p)];
     Vec2 sum = Vec2::Zero();
     Mat2 identity = Mat2::Zero();
     double total = 0.0, scale = 1.0, last_bit = 0.0;

@@ -19,4 +19,4 @@ function(cnem_fuzz name)
 endfunction()
 
 cnem_fuzz(case cnem_io)
-cnem_fuzz(geometry cnem_cnem)
+cnem_fuzz(geometry cnem_app)

@@ -1,7 +1,11 @@
-// Any outline, holes, cracks and spacings or nodes: a cloud whose cells and operators keep their promises, or
-// a GeometryError.
+// Any outline, holes, cracks, interfaces, regions and spacings or nodes: a cloud whose cells and operators
+// keep their promises, whose parts are told apart and whose bonded faces match, and which, where it has no
+// faces inside, can be deformed and resampled; or a GeometryError.
+#include "adapt/resample.hpp"
+#include "app/bodies.hpp"
 #include "cnem/scni.hpp"
 #include "core/error.hpp"
+#include "mechanics/ties.hpp"
 #include "tests/fuzz/shapes.hpp"
 #include "voronoi/cells.hpp"
 
@@ -10,6 +14,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <fmt/format.h>
 
 namespace {
 
@@ -95,6 +100,178 @@ void check_operators(const Cloud<2>& cloud, const DiscreteOperators<2>& op) {
   }
 }
 
+/// Constants and linear fields for either kind of functions; of conduction, whose operators are those of
+/// finite-element triangles, too.
+void check_operators(const Cloud<2>& cloud, const voronoi::Triangulation& mesh, bool smooth) {
+  const auto functions = smooth ? scni::Functions::sibson : scni::Functions::laplace;
+  const Approximation<2> built = scni::Cnem({.functions = functions}).rebuild(cloud);
+  // The case reader lets no curves come closer than 1e-9 of their size, below which rounding decides.
+  if (thinness(cloud, mesh) < 1e-9) return;
+  check_operators(cloud, built.mechanics);
+  check_operators(cloud, built.conduction);
+}
+
+/// What the case reader would have made of the shape, as far as the program reads it here.
+io::Case case_of(const fuzz::Shape& shape) {
+  io::Case input;
+  const std::vector<voronoi::Crack>& cracks = shape.domain.cracks;
+  for (std::size_t k = 0; k < shape.interfaces; ++k) {
+    const voronoi::Crack& face = cracks[cracks.size() - shape.interfaces + k];
+    input.domain.interfaces.push_back({face.name, face.path, {}});
+    if (k % 2 == 1) input.domain.interfaces.back().conductance = 1.0;
+  }
+  for (const Vec2& at : shape.regions)
+    input.domain.regions.push_back(
+        {fmt::format("region{}", input.domain.regions.size()), at, "", 0.0, {0, 0}});
+  return input;
+}
+
+/// A region is bounded by loops of its own: they enclose what its cells make up. Its triangles lie in it as a
+/// whole.
+void check_regions(const io::Case& input, const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
+  std::vector<std::int32_t> region;
+  try {
+    region = app::region_of_nodes(input, cloud);
+  } catch (const InputError&) { return; } // two in one part
+  if (region.empty()) return;
+  for (const auto& [i, j, k] : mesh.node)
+    if (region[u(i)] != region[u(j)] || region[u(i)] != region[u(k)])
+      fail("regions of one triangle", region[u(j)], region[u(i)]);
+  const Field volume = adapt::build_structure(cloud).cells.volume;
+  const double rounding = 1e-11 * polygon_area(cloud) + 100.0 * last_bit(cloud) * extent(cloud);
+  const Vec2 origin = cloud.position.front();
+  for (std::int32_t r = 0; r < static_cast<std::int32_t>(input.domain.regions.size()); ++r) {
+    double enclosed = 0.0, cells = 0.0;
+    for (const Facet<2>& f : cloud.facets)
+      if (region[u(f.node[0])] == r)
+        enclosed += 0.5 * cross(cloud.position[u(f.node[0])] - origin, cloud.position[u(f.node[1])] - origin);
+    for (std::size_t i = 0; i < volume.size(); ++i)
+      if (region[i] == r) cells += volume[i];
+    if (!(cells > 0.0)) fail("cells of a region", cells, enclosed);
+    if (!(std::abs(cells - enclosed) <= rounding)) fail("cells of a region", cells, enclosed);
+  }
+}
+
+/// Each node on either face of an interface is tied to the one opposite, at the same place, and heat crosses
+/// each facet to the one opposite.
+void check_interfaces(const io::Case& input, const Cloud<2>& cloud) {
+  const app::Pairs pairs = app::tied_pairs(input, cloud);
+  for (const auto& [a, b] : pairs.motion)
+    if (cloud.position[u(a)] != cloud.position[u(b)])
+      fail("distance of tied nodes", (cloud.position[u(a)] - cloud.position[u(b)]).norm(), 0.0);
+  const Ties<2> ties(pairs.motion, cloud.position);
+  const std::vector<ContactConductance<2>> heat = app::conductances(input, cloud);
+  std::size_t crossed = 0;
+  for (const io::Interface& face : input.domain.interfaces) {
+    const auto front = app::facets_of(cloud, {face.name + "+"}),
+               back = app::facets_of(cloud, {face.name + "-"});
+    if (front.empty() || front.size() != back.size())
+      fail("facets of the faces of an interface", double(front.size()), double(back.size()));
+    for (const auto& facets : {front, back})
+      for (const std::int32_t i : app::nodes_of(facets))
+        if (ties.group()[u(i)] < 0) fail("group of a node on an interface", -1.0, 0.0);
+    if (!face.conductance) continue;
+    const ContactConductance<2>& exchange = heat[crossed++];
+    for (std::size_t f = 0; f < exchange.facets.size(); ++f)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Vec2 gap =
+            cloud.position[u(exchange.opposite[f][k])] - cloud.position[u(exchange.facets[f].node[k])];
+        if (gap != Vec2::Zero()) fail("gap of a conductance", gap.norm(), 0.0);
+      }
+  }
+  if (crossed != heat.size()) fail("conductances", double(heat.size()), double(crossed));
+}
+
+double sum_of(const Field& field) {
+  double sum = 0.0;
+  for (const double v : field) sum += v;
+  return sum;
+}
+
+/// A cloud on its way through deformations: what its nodes carry.
+class Resampled {
+public:
+  Resampled(const Cloud<2>& cloud, bool smooth) : cloud_(cloud), smooth_(smooth) {
+    const adapt::Structure structure = adapt::build_structure(cloud);
+    mass_ = structure.cells.volume;
+    for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+      double sum = 0.0;
+      for (const std::int32_t k : structure.neighbours(i))
+        sum += (cloud.position[u(k)] - cloud.position[u(i)]).norm();
+      size_.push_back(sum / static_cast<double>(structure.neighbours(i).size()));
+    }
+  }
+
+  void deform_and_resample(const fuzz::Deformation& change) {
+    deform(change);
+    std::vector<char> held(mass_.size(), 0);
+    for (std::size_t f = 0; f < cloud_.facets.size(); ++f)
+      held[u(cloud_.facets[f].node[0])] = change.held > 0 && f % static_cast<std::size_t>(change.held) == 0;
+    const auto placement =
+        change.at_vertices ? adapt::Placement::voronoi_vertices : adapt::Placement::between_nodes;
+    adapt::PassReport report;
+    const Resampling<2> made =
+        adapt::resample(cloud_, adapt::structure_if_valid(cloud_),
+                        {mass_, Field(mass_.size(), 0.0), Field(mass_.size(), 1.0), size_, held, {}},
+                        {.placement = placement}, report);
+    check_rows(made);
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      if (!held[i]) continue;
+      if (made.new_of[i] < 0) fail("new number of a node that has to stay", made.new_of[i], 0.0);
+      if (made.cloud.position[u(made.new_of[i])] != cloud_.position[i])
+        fail("motion of a node that has to stay",
+             (made.cloud.position[u(made.new_of[i])] - cloud_.position[i]).norm(), 0.0);
+    }
+    const double before = sum_of(mass_);
+    carry_sum(made.parcels, mass_);
+    carry_label(made.labels, size_);
+    if (!(std::abs(sum_of(mass_) - before) <= 1e-12 * before)) fail("mass", sum_of(mass_), before);
+    for (const double m : mass_)
+      if (!(m > 0.0)) fail("mass of a node", m, 0.0);
+    cloud_ = made.cloud;
+    const voronoi::Triangulation mesh = voronoi::triangulate(cloud_);
+    check_cells(cloud_, mesh);
+    check_operators(cloud_, mesh, smooth_);
+  }
+
+private:
+  void deform(const fuzz::Deformation& change) {
+    const Vec2 origin = cloud_.position.front();
+    const double size = extent(cloud_);
+    const auto node = [&](int k) { return static_cast<std::size_t>(k) % mass_.size(); };
+    for (Vec2& x : cloud_.position) {
+      Vec2 d = (x - origin) / size;
+      d.x() += change.shear[0] * std::sin(change.wave[0] * d.y()) + change.shear[1] * d.y();
+      d.y() += change.shear[2] * std::sin(change.wave[1] * d.x()) + change.shear[3] * d.x();
+      x = origin + size * d;
+    }
+    for (const auto& jump : change.jumps)
+      cloud_.position[node(jump.node)] += size_[node(jump.node)] * jump.by;
+    for (const auto& wish : change.wishes) size_[node(wish.node)] *= wish.factor;
+  }
+
+  /// Every old node's matter is given away exactly once, every label is a mean.
+  void check_rows(const Resampling<2>& made) const {
+    Field given(mass_.size(), 0.0);
+    for (std::size_t e = 0; e < made.parcels.node.size(); ++e) {
+      if (!(made.parcels.weight[e] > 0.0)) fail("weight of a parcel", made.parcels.weight[e], 0.0);
+      given[u(made.parcels.node[e])] += made.parcels.weight[e];
+    }
+    for (const double sum : given)
+      if (!(std::abs(sum - 1.0) <= 1e-12)) fail("sum of the parcels of a node", sum, 1.0);
+    for (std::size_t p = 0; p < made.labels.size(); ++p) {
+      double sum = 0.0;
+      for (auto e = u(made.labels.begin[p]); e < u(made.labels.begin[p + 1]); ++e)
+        sum += made.labels.weight[e];
+      if (!(std::abs(sum - 1.0) <= 1e-12)) fail("sum of the weights of a label", sum, 1.0);
+    }
+  }
+
+  Cloud<2> cloud_;
+  bool smooth_;
+  Field mass_, size_;
+};
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -104,12 +281,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const voronoi::Triangulation mesh = voronoi::triangulate(made.cloud);
     check_cells(made.cloud, mesh);
     const bool smooth = shape.options.seed % 2 == 0;
-    const auto functions = smooth ? scni::Functions::sibson : scni::Functions::laplace;
-    const Approximation<2> built = scni::Cnem({.functions = functions}).rebuild(made.cloud);
-    // The case reader lets no curves come closer than 1e-9 of their size, below which rounding decides.
-    if (thinness(made.cloud, mesh) < 1e-9) return 0;
-    check_operators(made.cloud, built.mechanics);
-    check_operators(made.cloud, built.conduction); // the same as finite-element triangles
-  } catch (const GeometryError&) {}                // refused with words
+    check_operators(made.cloud, mesh, smooth);
+    const io::Case input = case_of(shape);
+    check_regions(input, made.cloud, mesh);
+    check_interfaces(input, made.cloud);
+    if (shape.deformations.empty() || !made.cloud.twins.empty()) return 0;
+    Resampled cloud(made.cloud, smooth);
+    for (const fuzz::Deformation& change : shape.deformations) cloud.deform_and_resample(change);
+  } catch (const GeometryError&) {} // refused with words
   return 0;
 }

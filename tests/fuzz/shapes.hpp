@@ -1,5 +1,6 @@
 #pragma once
-// Bytes as a domain with its spacing and pattern, so that mutations of bytes are small changes of shape.
+// Bytes as a domain with its spacing and pattern, the parts that interfaces divide it into and what happens
+// to its cloud, so that mutations of bytes are small changes of shape.
 #include "voronoi/generate.hpp"
 
 #include <algorithm>
@@ -10,10 +11,32 @@
 
 namespace cnem::fuzz {
 
+/// What a cloud goes through before it is resampled. Lengths are in units of the size of the domain, or,
+/// where single nodes move, of the spacing at them.
+struct Deformation {
+  double shear[4] = {0.0, 0.0, 0.0, 0.0}; ///< amplitudes of waves and plain shears along x and y
+  double wave[2] = {0.0, 0.0};
+  struct Jump {
+    int node;
+    Vec2 by;
+  };
+  std::vector<Jump> jumps; ///< nodes that pass others, or the boundary
+  struct Wish {
+    int node;
+    double factor;
+  };
+  std::vector<Wish> wishes; ///< where another spacing is wanted
+  int held = 0;             ///< every n-th boundary node has to stay; 0: none
+  bool at_vertices = false; ///< new nodes on Voronoi vertices
+};
+
 struct Shape {
   voronoi::DomainShape domain;
   voronoi::SpacingField spacing;
   voronoi::CloudOptions options;
+  std::size_t interfaces = 0; ///< so many of the cracks, the last ones, are bonded
+  std::vector<Vec2> regions;  ///< a point of each, m
+  std::vector<Deformation> deformations;
 };
 
 class Decoder {
@@ -31,6 +54,14 @@ public:
     for (int k = below(3); k > 0; --k) result.domain.cracks.push_back(crack(k));
     result.spacing = spacing();
     result.options = options();
+    // What was added later stands at the end of the bytes: old entries of the corpus keep their meaning.
+    result.interfaces = static_cast<std::size_t>(below(4));
+    for (std::size_t k = 0; k < result.interfaces; ++k) {
+      voronoi::Crack face = interface(result.domain, static_cast<int>(k));
+      result.domain.cracks.push_back(std::move(face));
+    }
+    for (int k = below(4); k > 0; --k) result.regions.push_back(point());
+    for (int k = below(4); k > 0; --k) result.deformations.push_back(deformation());
     if (result.options.pattern == voronoi::Pattern::list) list_corners(result);
     return result;
   }
@@ -88,6 +119,38 @@ private:
   voronoi::Crack crack(int number) {
     voronoi::Crack result{"crack" + std::to_string(number), {}};
     for (int k = below(4) + 1; k > 0; --k) result.path.push_back(point());
+    return result;
+  }
+
+  /// From a place on the boundary to another.
+  voronoi::Crack interface(const voronoi::DomainShape& domain, int number) {
+    voronoi::Crack result{"interface" + std::to_string(number), {place(domain)}};
+    for (int k = below(3); k > 0; --k) result.path.push_back(point());
+    result.path.push_back(place(domain));
+    return result;
+  }
+  Vec2 place(const voronoi::DomainShape& domain) {
+    const auto curve = static_cast<std::size_t>(below(static_cast<int>(domain.holes.size()) + 1));
+    const auto& pieces = (curve == 0 ? domain.outer : domain.holes[curve - 1]).pieces;
+    const auto piece = static_cast<std::size_t>(below(static_cast<int>(pieces.size())));
+    return pieces[piece].point(byte() / 255.0);
+  }
+
+  Deformation deformation() {
+    Deformation result;
+    for (double& amplitude : result.shear) amplitude = 0.3 * (byte() - 128) / 128.0;
+    for (double& wave : result.wave) wave = byte() / 16.0;
+    for (int k = below(4); k > 0; --k) {
+      const int node = byte();
+      const double x = (byte() - 128) / 64.0;
+      result.jumps.push_back({node, {x, (byte() - 128) / 64.0}});
+    }
+    for (int k = below(4); k > 0; --k) {
+      const int node = byte();
+      result.wishes.push_back({node, std::ldexp(1.0, below(5) - 2)});
+    }
+    result.held = below(8);
+    result.at_vertices = below(2) == 1;
     return result;
   }
 

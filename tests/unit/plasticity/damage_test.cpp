@@ -52,19 +52,19 @@ PointState<2> sound_points(std::size_t n, double temperature) {
 /// A point that is taken along a path as the solver takes it.
 struct Point {
   Material material;
-  double length = 1e-4, temperature = 300.0;
+  double length = 1e-4, temperature = 300.0, opening = 0.0;
   PointState<2> state = sound_points(1, temperature);
   double released = 0.0;
 
   void step(const Mat3& f, double dt) {
     set_deformation<2>(state, 0, f);
-    Field factor{state.strength[0] * (1.0 - state.softening[0])};
+    Field factor{state.strength[0] * material.damage->flow_share(state.softening[0])};
     auto points = stress_points<2>(state);
     points.strength = factor.data();
     ASSERT_EQ(update_stress<2>({material}, state.material, points, 0, 1, dt), -1);
-    released +=
-        update_damage<2>({material}, state.material, damage_points<2>(state, {length}, {1.0}), 0, 1, dt)
-            .released;
+    released += update_damage<2>({material}, state.material,
+                                 damage_points<2>(state, {length}, {1.0}, {opening}), 0, 1, dt)
+                    .released;
   }
   double triaxiality() const { return -state.pressure[0] / state.equivalent_stress[0]; }
 };
@@ -93,8 +93,8 @@ TEST(damage, fracture_strains_of_the_table) {
     s.plastic_rate.assign(3, rate);
     s.equivalent_stress.assign(3, 500e6);
     s.pressure.assign(3, -eta * 500e6);
-    const Field length(3, 1e-4), volume(3, 1.0);
-    update_damage<2>({perfect_steel(law)}, s.material, damage_points<2>(s, length, volume), 0, 3,
+    const Field length(3, 1e-4), volume(3, 1.0), opening(3, 0.0);
+    update_damage<2>({perfect_steel(law)}, s.material, damage_points<2>(s, length, volume, opening), 0, 3,
                      increment / rate);
     for (const double d : s.damage) EXPECT_NEAR(increment / d, expected, 1e-4 * expected + 5e-6) << line;
     ++rows;
@@ -159,6 +159,16 @@ TEST(damage, breaking_takes_the_fracture_energy_whatever_size_and_hardening) {
     }
 }
 
+TEST(damage, what_broken_matter_keeps_is_paid_from_the_fracture_energy) {
+  Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
+  point.material.damage->residual_strength = 0.3;
+  EXPECT_NEAR(cost_of_breaking(point, 2e-4), 1.0, 2e-3);
+  const Mat3 f = general<2>(point.state.deformation, 0);
+  for (double e = 0.01; e < 0.1; e += 1e-3) // in compression, as it is in shear
+    point.step(f * Mat3(Eigen::Vector3d(std::exp(-e), std::exp(e / 2), std::exp(e / 2)).asDiagonal()), 1e-6);
+  EXPECT_NEAR(point.state.equivalent_stress[0], 0.3 * 500e6, 1e-6 * 500e6);
+}
+
 TEST(damage, strength_falls_linearly_with_the_opening) {
   Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
   const double opening = 2.0 * point.material.damage->fracture_energy / 500e6; // u_f = 2 G_f/σ_y
@@ -184,6 +194,26 @@ TEST(damage, a_broken_point_carries_pressure_but_neither_tension_nor_shear) {
     EXPECT_NEAR(point.state.pressure[0], -expected, 1e-7 * kappa);
     EXPECT_NEAR(point.state.stored_energy[0], 0.5 * expected * expected / kappa, 1e-9 * kappa);
   }
+}
+
+TEST(damage, an_opening_takes_dilatation_without_tension) {
+  Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
+  point.opening = 0.01;
+  const double kappa = point.material.elasticity.kappa();
+  double work = 0.0, last_tension = 0.0, last_volume = 1.0;
+  for (int k = 1; k <= 500; ++k) {
+    const double dilatation = 3e-2 * std::sin(2.0 * std::numbers::pi * k / 400),
+                 volume = std::exp(dilatation);
+    point.step(std::cbrt(volume) * Mat3::Identity(), 1e-6);
+    const double tension = kappa * (std::max(dilatation - point.opening, 0.0) + std::min(dilatation, 0.0));
+    EXPECT_NEAR(point.state.pressure[0], -tension, 1e-9 * kappa);
+    EXPECT_NEAR((kirchhoff<2>(point.state, 0) - tension * Mat3::Identity()).norm(), 0.0, 1e-9 * kappa);
+    EXPECT_NEAR(point.state.stored_energy[0], 0.5 * tension * tension / kappa, 1e-9 * kappa);
+    work += 0.5 * (tension / volume + last_tension / last_volume) * (volume - last_volume);
+    last_tension = tension, last_volume = volume;
+    EXPECT_NEAR(work, point.state.stored_energy[0], 1e-6 * kappa);
+  }
+  EXPECT_EQ(point.released, 0.0);
 }
 
 TEST(damage, work_of_a_path_with_tension_is_accounted_for) {
