@@ -114,7 +114,9 @@ io::ShearedFace measure_side(const Cut& cut, const CutTools& tools, const CutShe
     rules.parallel = parallel;
     rules.smoothing = smoothing > 0.0 ? smoothing : cut.thickness / 50.0;
     rules.edge = outwards * (slug ? cut.die : cut.punch);
-    rules.limit = rules.edge + std::max(0.25 * cut.thickness, 2.0 * std::abs(cut.die - cut.punch));
+    rules.limit = cut.slug == cut.skeleton
+                      ? rules.edge + std::max(0.25 * cut.thickness, 2.0 * std::abs(cut.die - cut.punch))
+                      : std::numeric_limits<double>::infinity(); // it may have moved on since
     rules.fixed = held_by_plane(cut, tools, sheet, slug) || (slug && cut.slug == cut.skeleton);
     rules.whole_surface = slug;
     face = measure_face(outline, rules);
