@@ -60,6 +60,15 @@ velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
 friction = { law = "tresca-limited", coefficient = 0.2 }
 )toml";
 
+const std::string brittle = R"toml(
+[materials.steel.damage]
+law = "johnson-cook"
+D1 = 0.05
+D2 = 0.1
+D3 = -1.5
+fracture_energy = "20 kJ/m2"
+)toml";
+
 // A roller goes along the top of a block from left to right, and the metal flows under it alone.
 const std::string rolled = R"toml(
 [time]
@@ -76,7 +85,7 @@ symmetry = true
 circle = { centre = "0.5 1.94 mm", radius = "1 mm" }
 velocity = "180 0 m/s"
 [adapt.indicator]
-field = "plastic_rate"
+field = "plastic_power"
 h_min = "0.1 mm"
 )toml" + steel;
 
@@ -135,8 +144,8 @@ struct Adapted {
                             [](const Node& a, const Node& b) { return a.nearest < b.nearest; })
         ->nearest;
   }
-  template<class Test> std::ptrdiff_t count(Test&& test) const {
-    return std::count_if(nodes.begin(), nodes.end(), std::forward<Test>(test));
+  template<class Test> double count(Test&& test) const {
+    return static_cast<double>(std::count_if(nodes.begin(), nodes.end(), std::forward<Test>(test)));
   }
 };
 
@@ -178,7 +187,10 @@ Adapted run(const std::string& text, Texts overrides = {}, double residual = 5e-
   EXPECT_EQ(result.counted("outside"), 0.0);
   EXPECT_EQ(static_cast<double>(result.nodes.size()), result.column("nodes").back());
   const int start = app::build(input).model.cloud.nodes();
-  if (result.counted("folded") == 0.0) {
+  for (const char* what : {"mass_error", "momentum_error", "heat_error"})
+    EXPECT_LT(result.counted(what), 1e-12) << what;
+  EXPECT_LT(result.counted("energy_error"), 1e-10);
+  if (result.counted("folded") + result.counted("cuts") == 0.0) {
     EXPECT_EQ(result.column("nodes").back() - start,
               result.counted("inserted") + result.counted("inserted_boundary") - result.counted("removed") -
                   result.counted("removed_boundary"));
@@ -221,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Placement, ::testing::Values("between nodes", "voro
 
 TEST(Adaptation, refines_where_the_field_is_not_resolved) {
   const std::size_t start = run(punched, {"time.max_steps=1"}).nodes.size();
-  for (const char* field : {"plastic_strain", "plastic_rate", "temperature"}) {
+  for (const char* field : {"plastic_strain", "plastic_power", "temperature"}) {
     SCOPED_TRACE(field);
     const Adapted refined = run(punched, {fmt::format("adapt.indicator.field={}", field),
                                           "adapt.indicator.h_min=0.1 mm", "adapt.indicator.tolerance=0.05"});
@@ -265,8 +277,8 @@ TEST(Adaptation, coarsens_where_the_band_has_passed) {
   EXPECT_EQ(kept.counted("coarsened"), 0.0);
   EXPECT_GT(followed.counted("coarsened"), 50);
   EXPECT_GT(followed.counted("removed"), 30);
-  EXPECT_LT(followed.count(behind), 0.75 * static_cast<double>(kept.count(behind)));
-  EXPECT_GT(followed.count(under), 0.8 * static_cast<double>(kept.count(under)));
+  EXPECT_LT(followed.count(behind), 0.75 * kept.count(behind));
+  EXPECT_GT(followed.count(under), 0.8 * kept.count(under));
   EXPECT_NEAR(followed.energy("plastic"), kept.energy("plastic"), 0.05 * kept.energy("plastic"));
 }
 
@@ -306,7 +318,7 @@ TEST(Adaptation, carries_local_time_steps) {
   const Texts graded{"adapt.tool_spacing=0.03 mm", "time.end=4 us"};
   const Adapted global = run(punched, graded), local = run(punched, with(graded, {"time.step.local=true"}));
   EXPECT_LT(local.status.steps, global.status.steps / 2);
-  EXPECT_LT(local.status.node_steps, 0.6 * global.status.node_steps);
+  EXPECT_LT(2 * local.status.node_steps, global.status.node_steps);
   EXPECT_NEAR(local.energy("plastic"), global.energy("plastic"), 0.01 * global.energy("plastic"));
 }
 
@@ -319,18 +331,25 @@ TEST(Adaptation, carries_the_pressure_exchange) {
 }
 
 TEST(Adaptation, carries_damage_without_making_energy) {
-  const Adapted broken = run(punched + R"toml(
-[materials.steel.damage]
-law = "johnson-cook"
-D1 = 0.05
-D2 = 0.1
-D3 = -1.5
-fracture_energy = "20 kJ/m2"
-)toml",
-                             by_strain);
+  const Adapted broken = run(punched + brittle, by_strain);
   EXPECT_EQ(broken.metric("max_damage"), 1.0);
   EXPECT_GT(broken.counted("inserted"), 50);
   EXPECT_GT(broken.energy("rereference"), -1e-3 * broken.work()) << "stored energy comes from nowhere";
+}
+
+TEST(Adaptation, refines_where_damage_is_not_resolved) {
+  const Adapted broken =
+      run(punched + brittle, {"adapt.indicator.field=damage", "adapt.indicator.h_min=0.1 mm"});
+  EXPECT_GT(broken.counted("refined"), 20);
+  EXPECT_GT(broken.counted("inserted"), 30);
+}
+
+TEST(Adaptation, opens_the_cloud_where_it_breaks) {
+  const Adapted opened =
+      run(punched + brittle, with(by_strain, {"adapt.separate=true", "contact.deformable=true"}), 5e-3);
+  EXPECT_GT(opened.counted("opened"), 2);
+  EXPECT_EQ(opened.metric("max_damage"), 1.0);
+  EXPECT_LT(std::abs(opened.metric("area_drift")), 0.05);
 }
 
 TEST(Adaptation, carries_bodies_in_contact) {
