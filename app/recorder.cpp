@@ -96,6 +96,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     row.emplace_back(name + ".displacement_y[m]", at.y());
     row.emplace_back(name + ".velocity_x[m/s]", speed.x());
     row.emplace_back(name + ".velocity_y[m/s]", speed.y());
+    row.emplace_back(name + ".work" + units_.energy, result.total.tool);
   }
   if (contact.bodies_touch())
     row.emplace_back("body_contact.pressing" + units_.force, contact.body_result().pressing);
@@ -308,7 +309,7 @@ void FieldRecorder::record(io::FileQueue& files, const Snapshot& shot) {
   struct Kept {
     io::FieldFrame frame;
     CellGeometry<2> cells;
-    Fields<2> position, velocity;
+    Fields<2> position, velocity, springback;
     std::vector<Field> values;
   };
   const auto kept = std::make_shared<Kept>();
@@ -332,6 +333,10 @@ void FieldRecorder::record(io::FileQueue& files, const Snapshot& shot) {
       frame.node_scalars.push_back({name, kept->values.emplace_back(values_at_nodes(shot, info.name))});
   }
   frame.node_vectors.push_back({"velocity [m/s]", {kept->velocity[0], kept->velocity[1], {}}});
+  if (shot.springback) {
+    kept->springback = *shot.springback;
+    frame.node_vectors.push_back({"springback [m]", {kept->springback[0], kept->springback[1], {}}});
+  }
   writer_.write(files, {kept, &frame});
 }
 

@@ -140,7 +140,8 @@ Exit restart(const RunOptions& options) {
   const RunSignals signals;
   std::unique_ptr<Simulation> simulation = at_last_checkpoint(input, options);
   if (simulation) {
-    for (const char* end : {io::files::status, io::files::report}) fs::remove(options.output / end);
+    for (const char* end : {io::files::blanking, io::files::status, io::files::report})
+      fs::remove(options.output / end);
   } else {
     fmt::print("there is no checkpoint to go on from: starting at step 0\n");
     simulation = std::make_unique<Simulation>(input, options);

@@ -1,5 +1,6 @@
 #include "app/simulation.hpp"
 
+#include "app/blanking.hpp"
 #include "app/profile.hpp"
 #include "app/registry.hpp"
 #include "app/run_signals.hpp"
@@ -111,6 +112,7 @@ Exit Simulation::run() {
     watch_.time("output", [&] {
       if (exit_ != Exit::interrupted) write_lines(input_, snapshot(solver_), options_.output);
       watch_.time("output.disk", [&] { files_.wait(); });
+      evaluate();
     });
     progress_.finish();
     if (const std::string warning = renewal_.warning(); !warning.empty())
@@ -141,7 +143,10 @@ Exit Simulation::run() {
 void Simulation::loop() {
   if (control_.limit() == 0.0) watch_.time("step", [&] { control_.refresh(solver_); });
   while (true) {
-    watch_.time("output", [&] { record_due(); });
+    watch_.time("output", [&] {
+      let_go();
+      record_due();
+    });
     if (finished()) return;
     const State<2>& state = solver_.state();
     check_energy(history_.last_residual(), history_.energy_scale(), input_.method.energy_tolerance, state);
@@ -163,11 +168,11 @@ void Simulation::loop() {
 
 bool Simulation::finished() {
   const State<2>& state = solver_.state();
+  if (!at_end()) return false;
   if (state.time >= input_.time.end * (1.0 - 1e-9)) {
     stop(Exit::done, "reached the end of the run");
     return true;
   }
-  if (!input_.time.max_steps || state.step < *input_.time.max_steps) return false;
   watch_.time("output", [&] { record_last(); });
   stop(Exit::done, "reached time.max_steps");
   return true;
@@ -191,9 +196,39 @@ void Simulation::record_last() {
 }
 
 Snapshot Simulation::shot() {
-  if (!adaptation_.active()) return snapshot(solver_);
-  adaptation_fields_ = adaptation_.fields(solver_.state().time);
-  return snapshot(solver_, &adaptation_fields_);
+  Snapshot shot = snapshot(solver_);
+  if (adaptation_.active()) {
+    adaptation_fields_ = adaptation_.fields(solver_.state().time);
+    shot.adaptation = &adaptation_fields_;
+  }
+  if (springback_) shot.springback = &springback_->displacement;
+  return shot;
+}
+
+bool Simulation::at_end() const {
+  const State<2>& state = solver_.state();
+  return state.time >= input_.time.end * (1.0 - 1e-9) ||
+         (input_.time.max_steps && state.step >= *input_.time.max_steps);
+}
+
+/// Springback belongs into the last frame: before it is recorded.
+void Simulation::let_go() {
+  if (!input_.report.springback || !at_end()) return;
+  const Model<2>& model = solver_.model();
+  const State<2>& state = solver_.state();
+  check_finite(state);
+  try {
+    springback_ = springback({solver_.approximation(), state.point, state.node.position, state.node.mass,
+                              model.materials, model.supports, model.stabilisation});
+  } catch (const InputError& error) { warn(fmt::format("there is no springback: {}", error.what())); }
+}
+
+void Simulation::evaluate() {
+  if (exit_ != Exit::done || !(input_.report.blanking || springback_)) return;
+  blanking_ =
+      evaluate_blanking(input_, shot(), solver_.model().supports, springback_ ? &*springback_ : nullptr,
+                        io::read_history(options_.output / io::files::history));
+  io::write_blanking(options_.output, *blanking_);
 }
 
 void Simulation::record(bool history, bool fields, bool pictures) {
@@ -304,6 +339,12 @@ io::RunStatus Simulation::status() {
   status.metrics = history_.metrics();
   status.metrics.emplace_back("references", solver_.references());
   for (const auto& metric : adaptation_.metrics()) status.metrics.push_back(metric);
+  if (blanking_) {
+    if (!blanking_->punch.empty())
+      for (const auto& metric : io::metrics_of(*blanking_)) status.metrics.push_back(metric);
+    if (!blanking_->springback.empty())
+      for (const auto& metric : io::metrics_of(blanking_->springback)) status.metrics.push_back(metric);
+  }
   status.step_limits = control_.shares();
   status.warnings = warnings_;
   if (const std::string warning = renewal_.warning(); !warning.empty()) status.warnings.push_back(warning);

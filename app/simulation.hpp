@@ -7,10 +7,12 @@
 #include "app/run.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
+#include "io/blanking.hpp"
 #include "io/checkpoint.hpp"
 #include "io/file_queue.hpp"
 #include "io/progress.hpp"
 #include "io/status.hpp"
+#include "mechanics/springback.hpp"
 
 #include <optional>
 #include <string>
@@ -58,6 +60,10 @@ private:
   bool finished();
   void record_due();
   void record_last();
+  /// Whether no step follows.
+  bool at_end() const;
+  void let_go();
+  void evaluate();
   /// Good until the next one.
   Snapshot shot();
   void record(bool history, bool fields, bool pictures);
@@ -85,6 +91,8 @@ private:
   ReferenceRenewal renewal_;
   Adaptation adaptation_;
   AdaptationFields adaptation_fields_;
+  std::optional<Springback> springback_;       ///< of the state at the end
+  std::optional<io::BlankingResult> blanking_; ///< where the case asks for it and the run has ended well
   CheckpointTimer checkpoints_;
   io::Progress progress_;
   std::int64_t last_check_ = -1; ///< step of the last look at the stable step; −1: none yet

@@ -22,6 +22,7 @@ struct Snapshot {
   const contact::RigidContact<2>& contact;
   const AdaptationFields* adaptation = nullptr; ///< null: the cloud is not adapted
   double displacement_scale = 1.0;              ///< pictures draw initial position + scale · displacement
+  const Fields<2>* springback = nullptr;        ///< [k][node] m; null: not asked for, or not the end
 };
 
 inline Snapshot snapshot(const ExplicitSolver<2>& solver, const AdaptationFields* adaptation = nullptr) {

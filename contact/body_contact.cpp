@@ -146,8 +146,12 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
       const FacetView facet(surface, f, listed_);
       const Vec2 foot = facet.nearest(listed_[b]);
       if ((foot - listed_[b]).norm() > skin_) continue;
-      const bool behind = facet.gap(listed_[b]) < -rounding * facet.length;
-      if (behind && winding_number(surface, listed_, 0.5 * (foot + listed_[b])) < 2) continue;
+      if (facet.gap(listed_[b]) < -rounding * facet.length) {
+        const int bodies = winding_number(surface, listed_, 0.5 * (foot + listed_[b]));
+        const double place = facet.place(listed_[b]);
+        const bool round_a_corner = bodies == 0 && (place < 0.0 || place > 1.0);
+        if (bodies < 2 && !round_a_corner) continue;
+      }
       pairs_.push_back({static_cast<std::int32_t>(b), f});
     }
   }

@@ -28,7 +28,8 @@ template<int dim> struct FacetHit {
 /// Lists pairs of node and facet that are near each other (a bounding-volume tree over the facets) and looks
 /// at those alone until boundary nodes have moved by half a skin. Nodes are never paired with facets that end
 /// at them, nor, seen through the body, with facets of its far side: of pairs whose node lies behind the
-/// facet only those stay between whose ends two bodies overlap (winding number 2).
+/// facet only those stay between whose ends two bodies overlap (winding number 2), or nothing is (0) where
+/// the node may yet come round a corner onto the facet.
 template<int dim> class BodyContact {
 public:
   /// Takes a boundary. group[node of the cloud], ≥ 0: nodes that are tied have the same number; facets

@@ -342,6 +342,20 @@ struct Output {
   CheckpointControl checkpoint;
 };
 
+/// Who cuts, and how sheared faces are measured.
+struct BlankingReport {
+  std::size_t punch = 0;           ///< index of the tool
+  std::vector<std::size_t> dies;   ///< indices of tools
+  double parallel = 0.0;           ///< rad
+  std::optional<double> smoothing; ///< m
+};
+
+/// What is evaluated at the end of an explicit run.
+struct Report {
+  bool springback = false;
+  std::optional<BlankingReport> blanking;
+};
+
 /// Evaluation of crack tips.
 struct Fracture {
   bool enrichment = true;                  ///< branch functions near tips (statics, cnem)
@@ -380,6 +394,7 @@ struct Case {
   Adaptation adapt;
   Fracture fracture;
   Output output;
+  Report report;
 
   std::string resolved;                        ///< the whole case in SI, defaults included, as TOML
   std::map<std::string, std::string> location; ///< key → "file:line:column", or the --set that gave it

@@ -39,10 +39,14 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict("adapt.separate",
              "found true where no material has a damage law, expected materials.NAME.damage: nothing "
              "would ever break");
+  if (adapt.separate && !result.contact.deformable)
+    conflict("adapt.separate",
+             "found true without contact.deformable, expected contact.deformable = true: the new faces would "
+             "go through each other");
   if (!adapt.resample) {
     if (adapt.separate)
       conflict("adapt.separate",
-               "found true where adapt.resample is false, expected true: the cloud is opened at new "
+               "found true where adapt.resample is false, expected true: the cloud is cut at new "
                "references alone");
     if (refines)
       conflict("adapt.indicator.field",

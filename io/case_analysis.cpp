@@ -69,7 +69,7 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
              diagnostics);
     if (!result.analysis.mechanical)
       for (const char* path : {"tools", "contact", "time.mass_scaling", "initial.velocity", "initial.spin",
-                               "initial.velocity_gradient"})
+                               "initial.velocity_gradient", "report"})
         refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
                diagnostics);
     if (result.time.local) check_local_steps(root, result, diagnostics);
@@ -107,7 +107,7 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
   for (const char* path :
        {"time.step", "time.max_steps", "time.mass_scaling", "tools", "contact", "initial.velocity",
         "initial.spin", "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",
-        "domain.regions", "periodic", "output.checkpoint"})
+        "domain.regions", "periodic", "output.checkpoint", "report"})
     refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))

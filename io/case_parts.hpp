@@ -39,6 +39,9 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// How the cloud is adapted, with defaults from its spacing. Expects everything but crack tips.
 void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// What is evaluated at the end, with defaults from the tools. Expects tools, domain and periodic pieces.
+void read_report(Setting& root, Case& result, Diagnostics& diagnostics);
+
 /// Crack tips: enrichment and domain of the interaction integral.
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
 

@@ -171,6 +171,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_method(root, result, diagnostics);
   read_adaptation(root, result, diagnostics);
   read_fracture(root, result, diagnostics);
+  read_report(root, result, diagnostics);
   check_analysis(root, result, diagnostics);
   diagnostics.throw_if_any();
   result.resolved = write_resolved(root, fmt::format("Resolved from {}: SI units, defaults included.", path));

@@ -1,4 +1,5 @@
 #include "io/chart.hpp"
+#include "io/force_stroke.hpp"
 #include "io/si_format.hpp"
 
 #include <fmt/format.h>
@@ -23,30 +24,6 @@ double largest(const std::vector<double>& values) {
   for (const double value : values)
     if (std::isfinite(value)) size = std::max(size, std::abs(value));
   return size;
-}
-
-// Evenly spread times, enough for a smooth curve.
-std::vector<double> even_times(const std::vector<double>& t) {
-  const std::size_t count = std::min<std::size_t>(t.size(), 600);
-  std::vector<double> even(count);
-  for (std::size_t k = 0; k < count; ++k)
-    even[k] = count == 1 ? t.front()
-                         : t.front() + (t.back() - t.front()) * static_cast<double>(k) /
-                                           static_cast<double>(count - 1);
-  return even;
-}
-
-std::vector<double> interpolate(const std::vector<double>& t, const std::vector<double>& y,
-                                const std::vector<double>& at) {
-  std::vector<double> value;
-  for (const double time : at) {
-    const auto upper = std::upper_bound(t.begin(), t.end(), time);
-    const auto k =
-        static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(upper - t.begin(), 1, std::ssize(t) - 1));
-    const double s = std::clamp((time - t[k - 1]) / (t[k] - t[k - 1]), 0.0, 1.0);
-    value.push_back((1.0 - s) * y[k - 1] + s * y[k]);
-  }
-  return value;
 }
 
 // Sorts the columns of a history into charts; each column is drawn once.
@@ -123,7 +100,7 @@ private:
       chart.x_label = "stroke of " + moving;
       chart.x_unit = name(history_.find(moving + ".stroke")).unit;
     }
-    const double sigma = 0.01 * (time_.back() - time_.front());
+    const double sigma = force_filter(time_);
     const std::vector<double> even = even_times(time_);
     double most = 0.0;
     for (std::size_t n = 0; n < tools.size(); ++n) {
@@ -137,7 +114,7 @@ private:
       raw.faint = true;
       ChartSeries smooth = series(tools[n], k, n);
       if (sigma > 0.0) {
-        smooth.x = stroke ? interpolate(time_, *stroke, even) : even;
+        smooth.x = stroke ? interpolated(time_, *stroke, even) : even;
         smooth.y = gaussian_filter(time_, column(k), sigma, even);
       }
       chart.series.push_back(std::move(raw));

@@ -3,7 +3,7 @@
 //
 // Names of columns, which the report goes by (units in brackets, none when dimensionless):
 //   time[s], step, dt[s], nodes
-//   <tool>.force_x[N/m], <tool>.force_y[N/m], <tool>.stroke[m]
+//   <tool>.force_x[N/m], <tool>.force_y[N/m], <tool>.stroke[m], <tool>.work[J/m]
 //   energy.<term>[J/m], energy.residual[J/m]
 //   max.<field>[unit], e.g. max.plastic_strain, max.temperature[K]
 //   probe.<name>.<field>[unit]

@@ -16,6 +16,7 @@ inline constexpr const char* fields_folder = "fields";     ///< .vtu files
 inline constexpr const char* pictures_folder = "pictures"; ///< .png files and their index.json
 inline constexpr const char* lines_folder = "lines";       ///< fields along lines, .csv
 inline constexpr const char* checkpoint = "checkpoint.h5";
+inline constexpr const char* blanking = "blanking.json";
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files

@@ -1,5 +1,6 @@
 #include "io/report.hpp"
 
+#include "io/blanking_page.hpp"
 #include "io/document.hpp"
 #include "io/output_folder.hpp"
 #include "io/picture_album.hpp"
@@ -128,6 +129,9 @@ ReportData collect_report(const fs::path& folder, const RunStatus& status) {
   if (history) report.charts = history_charts(*history);
   if (history && history->find("mass[kg]") >= 0)
     report.subtitle += " · axisymmetric: x is the radius, totals of the whole body";
+
+  report.blanking = read_blanking(folder);
+  if (report.blanking && history) report.blanking_forces = force_stroke_chart(*report.blanking, *history);
 
   const PictureAlbum album(folder);
   for (const AlbumEntry& entry : album.entries()) {

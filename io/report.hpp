@@ -1,5 +1,6 @@
 #pragma once
 // report.html: one file that needs nothing else, neither network nor the folder it came from.
+#include "io/blanking.hpp"
 #include "io/chart.hpp"
 #include "io/status.hpp"
 
@@ -33,6 +34,8 @@ struct ReportData {
   std::optional<ReportPicture> place;  ///< where it went wrong
   std::vector<ReportPicture> pictures; ///< shown by field, in order of time
   std::vector<Chart> charts;
+  std::optional<BlankingResult> blanking;
+  std::optional<Chart> blanking_forces;
   std::vector<ReportTable> tables;
   std::string case_text; ///< resolved case, shown verbatim
 };

@@ -1,5 +1,6 @@
 #include "io/report.hpp"
 
+#include "io/blanking_page.hpp"
 #include "io/html.hpp"
 #include "io/report_style.hpp"
 #include "io/si_format.hpp"
@@ -117,6 +118,11 @@ std::string render_report(const ReportData& data) {
   html += render_figures(data);
   html += section("post-mortem", "Where it went wrong", render_post_mortem(data));
   html += section("warnings", "Warnings", render_warnings(data));
+  if (data.blanking) {
+    const bool cut = !data.blanking->punch.empty();
+    html += section("blanking", cut ? "Blanking" : "Springback",
+                    render_blanking(*data.blanking, data.blanking_forces));
+  }
   html += section("pictures", "Pictures", render_pictures(data));
   html += section("histories", "Histories", render_charts(data));
   html += section("numbers", "Numbers", render_tables(data));

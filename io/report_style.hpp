@@ -54,6 +54,11 @@ figure { margin: 0; }
 .chart .s0 { stroke: var(--c0); } .chart .s1 { stroke: var(--c1); } .chart .s2 { stroke: var(--c2); }
 .chart .s3 { stroke: var(--c3); } .chart .s4 { stroke: var(--c4); } .chart .s5 { stroke: var(--c5); }
 .chart .s6 { stroke: var(--c6); } .chart .s7 { stroke: var(--c7); }
+.face table { max-width: 460px; }
+.chart path.body { fill: var(--grid); }
+.chart .surface, .chart .burr_side { stroke: var(--c7); } .chart .rollover { stroke: var(--c1); stroke-width: 3; }
+.chart .burnish { stroke: var(--c0); stroke-width: 3; } .chart .second_burnish { stroke: var(--c5); stroke-width: 3; }
+.chart .fracture { stroke: var(--c6); stroke-width: 3; } .chart .burr { stroke: var(--c3); stroke-width: 3; }
 .tables { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(400px, 100%), 1fr)); gap: 16px; align-items: start; }
 .tables > div { padding: 16px 18px 10px; }
 table { width: 100%; border-collapse: collapse; font-size: 14px; }

@@ -14,9 +14,9 @@ void add_adaptation(Keys& k) {
         "and mass is exchanged between neighbours whose cells no longer fit it; all of it conservative.")
       .fallback("false");
   k.add("adapt.separate", boolean,
-        "At each new reference the cloud is opened along edges between broken nodes (materials with "
-        "`damage`): nodes are "
-        "doubled, nothing is deleted, the new faces are the piece `fracture`.")
+        "At each new reference the cloud is cut along edges between broken nodes (materials with `damage`) "
+        "where broken matter joins two parts of the boundary: nodes are doubled, nothing is deleted, the new "
+        "faces are the piece `fracture`. Needs `contact.deformable`.")
       .fallback("false");
   k.add("adapt.placement", choice,
         "Where nodes are added: half-way between neighbours, or at vertices of Voronoi cells (boundary edges "

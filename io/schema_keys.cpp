@@ -361,6 +361,7 @@ const std::vector<Key>& schema() {
     add_adaptation(k);
     add_fracture(k);
     add_output(k);
+    add_report(k);
     return std::move(k.all);
   }();
   return keys;

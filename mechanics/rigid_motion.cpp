@@ -10,28 +10,6 @@ namespace cnem {
 
 namespace {
 
-/// Parts of the body as the smallest node of each: [node] → representative.
-std::vector<std::size_t> parts_of(const DiscreteOperators<2>& op, std::size_t nodes) {
-  std::vector<std::size_t> parent(nodes);
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (std::size_t p = 0; p < static_cast<std::size_t>(op.points); ++p) {
-    const auto first = static_cast<std::size_t>(op.row_begin[p]),
-               last = static_cast<std::size_t>(op.row_begin[p + 1]);
-    for (std::size_t e = first + 1; e < last; ++e) {
-      const auto a = static_cast<std::size_t>(op.node[first]), b = static_cast<std::size_t>(op.node[e]);
-      if (a >= nodes || b >= nodes) continue; // enrichment
-      const std::size_t ra = root(a), rb = root(b);
-      parent[std::max(ra, rb)] = std::min(ra, rb);
-    }
-  }
-  for (std::size_t i = 0; i < nodes; ++i) parent[i] = root(i);
-  return parent;
-}
-
 struct Part {
   Vec2 centre{0, 0};
   double nodes = 0.0, radius = 0.0;
@@ -58,6 +36,27 @@ std::string describe(const Part& part, const Eigen::Vector3d& motion, bool sever
 }
 
 } // namespace
+
+std::vector<std::size_t> parts_of(const DiscreteOperators<2>& op, std::size_t nodes) {
+  std::vector<std::size_t> parent(nodes);
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t p = 0; p < static_cast<std::size_t>(op.points); ++p) {
+    const auto first = static_cast<std::size_t>(op.row_begin[p]),
+               last = static_cast<std::size_t>(op.row_begin[p + 1]);
+    for (std::size_t e = first + 1; e < last; ++e) {
+      const auto a = static_cast<std::size_t>(op.node[first]), b = static_cast<std::size_t>(op.node[e]);
+      if (a >= nodes || b >= nodes) continue; // enrichment
+      const std::size_t ra = root(a), rb = root(b);
+      parent[std::max(ra, rb)] = std::min(ra, rb);
+    }
+  }
+  for (std::size_t i = 0; i < nodes; ++i) parent[i] = root(i);
+  return parent;
+}
 
 std::string missing_support(const DiscreteOperators<2>& operators, const std::vector<Vec2>& position,
                             const Supports<2>& supports) {

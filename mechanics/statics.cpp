@@ -12,8 +12,8 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-double lame_lambda(const StaticProblem& problem) {
-  const double lambda = problem.elasticity.lambda(), mu = problem.elasticity.mu();
+double lame_lambda(const StaticProblem& problem, std::size_t point) {
+  const double lambda = problem.at_point(point).lambda(), mu = problem.at_point(point).mu();
   return problem.out_of_plane == OutOfPlane::stress_free ? 2.0 * lambda * mu / (lambda + 2.0 * mu) : lambda;
 }
 
@@ -96,11 +96,11 @@ Fields<5> gradients(const StaticProblem& problem, const Fields<2>& u) {
 
 /// σ = λ* tr ε 1 + 2μ ε; fills the out-of-plane component of ∇u where no hoop strain is there.
 Fields<4> stresses(const StaticProblem& problem, Fields<5>& g) {
-  const double lambda = problem.elasticity.lambda(), mu = problem.elasticity.mu(),
-               in_plane = lame_lambda(problem);
   Fields<4> s;
   resize_all(s, g[0].size());
   for (std::size_t p = 0; p < g[0].size(); ++p) {
+    const double lambda = problem.at_point(p).lambda(), mu = problem.at_point(p).mu(),
+                 in_plane = lame_lambda(problem, p);
     const double trace = g[0][p] + g[3][p] + g[4][p];
     s[0][p] = in_plane * trace + 2.0 * mu * g[0][p];
     s[1][p] = in_plane * trace + 2.0 * mu * g[3][p];
@@ -134,15 +134,15 @@ Fields<2> internal_force(const StaticProblem& problem, const Fields<4>& stress) 
 /// i < j: visit(row, function, coefficient).
 template<class Visit> std::size_t each_defect(const StaticProblem& problem, Visit&& visit) {
   const DiscreteOperators<2>& op = problem.link_points;
-  const double stiffness = problem.stabilisation * problem.elasticity.mu();
   std::size_t row = 0;
-  if (stiffness <= 0.0 || problem.links.neighbour.empty()) return row;
+  if (problem.stabilisation <= 0.0 || problem.links.neighbour.empty()) return row;
   for (std::size_t i = 0; i + 1 < problem.links.begin.size(); ++i)
     for (auto l = static_cast<std::size_t>(problem.links.begin[i]);
          l < static_cast<std::size_t>(problem.links.begin[i + 1]); ++l) {
       const auto j = static_cast<std::size_t>(problem.links.neighbour[l]);
       if (j < i) continue;
-      const double root = std::sqrt(stiffness * problem.links.weight[l]);
+      const double mu = 0.5 * (problem.at_point(i).mu() + problem.at_point(j).mu());
+      const double root = std::sqrt(problem.stabilisation * mu * problem.links.weight[l]);
       const Vec<2> X = problem.position[j] - problem.position[i];
       visit(row, j, root);
       visit(row, i, -root);
@@ -170,10 +170,10 @@ SparseMatrix matrix(std::size_t rows, Eigen::Index columns, const Triplets& entr
 SparseMatrix elastic_stiffness(const StaticProblem& problem, const FreeUnknowns& unknowns, std::size_t begin,
                                std::size_t end) {
   const DiscreteOperators<2>& op = problem.operators;
-  const double lambda = lame_lambda(problem), mu = problem.elasticity.mu();
   Triplets strain, stress; // rows per point: xx, yy, the engineering shear, and the hoop where there is one
   const int rows = op.of_revolution() ? 4 : 3;
-  for (std::size_t p = begin; p < end; ++p)
+  for (std::size_t p = begin; p < end; ++p) {
+    const double lambda = lame_lambda(problem, p), mu = problem.at_point(p).mu();
     for (auto e = static_cast<std::size_t>(op.row_begin[p]);
          e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
       const auto a = static_cast<std::size_t>(op.node[e]);
@@ -193,6 +193,7 @@ SparseMatrix elastic_stiffness(const StaticProblem& problem, const FreeUnknowns&
           if (rows == 4) stress.emplace_back(row + 3, q, V * c * (volumetric + 2.0 * mu * s[3]));
         });
     }
+  }
   const std::size_t all = static_cast<std::size_t>(rows) * (end - begin);
   return matrix(all, unknowns.size(), strain).transpose() * matrix(all, unknowns.size(), stress);
 }

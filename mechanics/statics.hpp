@@ -6,6 +6,7 @@
 #include "mechanics/supports.hpp"
 #include "plasticity/material.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,17 @@ struct StaticProblem {
   const StabilisationLinks<2>& links;      ///< between nodal stress points
   const DiscreteOperators<2>& link_points; ///< rows of the gradients at the nodes that `links` join
   plasticity::Elasticity elasticity;
+  std::span<const plasticity::Elasticity> elasticity_of_point =
+      {}; ///< [point]; empty: `elasticity` everywhere
   OutOfPlane out_of_plane = OutOfPlane::strain_free;
-  double stabilisation = 0.05; ///< α of the edge defect, on μ
+  double stabilisation = 0.05; ///< α of the edge defect, on μ (the mean of both ends)
   const Supports<2>& supports;
   double time = 0.0;      ///< s, at which prescribed displacements are taken
   const Fields<2>& force; ///< [k][function] N/m, external forces; functions beyond its length are not loaded
+
+  const plasticity::Elasticity& at_point(std::size_t p) const {
+    return elasticity_of_point.empty() ? elasticity : elasticity_of_point[p];
+  }
 };
 
 struct StaticSolution {

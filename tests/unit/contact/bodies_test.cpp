@@ -65,6 +65,28 @@ TEST(Bodies, a_thin_body_does_not_touch_its_own_far_side) {
   EXPECT_EQ(scene.contact->body_result().total.recovery, 0.0);
 }
 
+TEST(Bodies, a_corner_that_slides_over_a_ridge_is_stopped_by_the_facet_behind_it) {
+  Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
+  const std::size_t ridge = 22;
+  ASSERT_LT((scene.position(int(ridge)) - Vec2(0.5, 1.0)).norm(), 1e-12);
+  scene.x[1][ridge] += 0.02;
+  scene.springs.clear();
+  for (double& m : scene.mass) m = 1e9;       // does not give way
+  scene.add({0.47, 1.018}, 1.0, {1.0, -0.5}); // standing on its corner
+  scene.add({0.57, 1.118}, 1.0, {1.0, -0.5});
+  scene.add({0.37, 1.118}, 1.0, {1.0, -0.5});
+  const int corner = 25;
+  for (int k = 0; k < 3; ++k) scene.facets.push_back({{corner + k, corner + (k + 1) % 3}, 0});
+  let_bodies_touch(scene, 0.0);
+  for (int n = 0; n < 50; ++n) {
+    for (std::size_t i = corner; i < scene.mass.size(); ++i) scene.v[0][i] = 1.0, scene.v[1][i] = -0.5;
+    scene.step(1e-3);
+  }
+  const Vec2 a = scene.position(int(ridge)), b = scene.position(int(ridge) + 1), x = scene.position(corner);
+  ASSERT_GT(x.x(), a.x() + 0.01);
+  EXPECT_GT(cross(b - a, x - a), -1e-5) << "outside of the facet that falls away";
+}
+
 TEST(Bodies, penetration_found_at_the_start_is_removed_slowly) {
   const double depth = 0.02, closing = 0.1;
   Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);

@@ -1,0 +1,146 @@
+// A slug comes off: what is left of it are two bodies, with nothing lost, that do not go through each other.
+#include "adapt/structure.hpp"
+#include "app/adaptation.hpp"
+#include "app/run.hpp"
+#include "app/simulation.hpp"
+#include "io/case_reader.hpp"
+#include "io/history_writer.hpp"
+#include "io/output_folder.hpp"
+#include "io/status.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cnem::testing {
+namespace {
+
+// Half of a sheet of 2 mm between a punch and a die.
+const std::string blanked = R"toml(
+[time]
+end = "40 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "6 2 mm" }
+[cloud]
+spacing = "0.25 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "johnson-cook", A = "300 MPa", B = "400 MPa", n = 0.3, C = 0.02, rate0 = "1 /s", m = 1.0, T0 = "296 K", Tmelt = "1698 K" }
+heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
+damage = { law = "johnson-cook", D1 = 0.2, D2 = 0.2, D3 = -1.5, fracture_energy = "30 kJ/m2", residual_strength = 0.3 }
+[contact]
+deformable = true
+friction = { law = "coulomb", coefficient = 0.1 }
+[boundary.symmetry]
+pieces = ["left"]
+symmetry = true
+[tools.punch]
+start = "-1 2 mm"
+path = [{ to = "3 2 mm", fillet = "0.1 mm" }, { to = "3 6 mm" }, { to = "-1 6 mm" }]
+velocity = "0 -45 m/s"
+[tools.die]
+start = "9 0 mm"
+path = [{ to = "3.1 0 mm", fillet = "0.1 mm" }, { to = "3.1 -3 mm" }, { to = "9 -3 mm" }]
+[tools.holder] # rests on the sheet
+rectangle = { from = "3.4 2 mm", to = "9 3 mm" }
+[method]
+rereference = { every = 50, strain = 0.2 }
+[adapt]
+resample = true
+separate = true
+tool_spacing = "0.12 mm"
+[adapt.indicator]
+field = "plastic_strain"
+h_min = "0.12 mm"
+[output]
+history_every = "0.2 us"
+pictures = []
+)toml";
+
+int loops(const Cloud<2>& cloud) {
+  std::vector<std::int32_t> next(cloud.position.size(), -1);
+  for (const Facet<2>& facet : cloud.facets) next[static_cast<std::size_t>(facet.node[0])] = facet.node[1];
+  int count = 0;
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    if (next[i] < 0) continue;
+    ++count;
+    for (std::size_t k = i; next[k] >= 0;) {
+      const auto after = static_cast<std::size_t>(next[k]);
+      next[k] = -1;
+      k = after;
+    }
+  }
+  return count;
+}
+
+TEST(Separation, of_a_slug_loses_nothing_and_leaves_faces_that_do_not_cross) {
+  const TemporaryFolder folder("separation");
+  const io::Case input = io::read_case_text(blanked, "case.toml", {});
+  ASSERT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), app::Exit::done);
+  const io::RunStatus status = io::read_status(folder.path());
+  const auto metric = [&](const std::string& name) {
+    for (const auto& [key, value] : status.metrics)
+      if (key == name) return value;
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  EXPECT_GE(metric("adapt.cuts"), 1.0);
+  EXPECT_GE(metric("adapt.opened"), 5.0);
+  EXPECT_LT(std::abs(metric("mass_drift")), 1e-12);
+  EXPECT_LT(std::abs(metric("area_drift")), 0.005);
+  EXPECT_LT(status.energy_residual, 3e-3);
+  // the audit of every change of the cloud
+  for (const char* kept : {"mass_error", "momentum_error", "heat_error", "energy_error"})
+    EXPECT_LT(metric(std::string("adapt.") + kept), 1e-12) << kept;
+  const io::HistoryTable events = io::read_history(folder.path() / io::files::adaptation);
+  const auto column = [&](const char* name) {
+    return events.column[static_cast<std::size_t>(events.find(name))];
+  };
+  double cuts = 0.0;
+  for (const double c : column("cuts")) cuts += c;
+  EXPECT_EQ(cuts, metric("adapt.cuts"));
+  EXPECT_EQ(static_cast<double>(events.rows()), metric("adapt.passes"));
+  for (std::size_t e = 1; e < events.rows(); ++e)
+    EXPECT_EQ(column("before.nodes")[e], column("after.nodes")[e - 1]);
+  // the punch pushes nothing but the slug any more
+  const io::HistoryTable history = io::read_history(folder.path() / io::files::history);
+  const auto& force = history.column[static_cast<std::size_t>(history.find("punch.force_y"))];
+  double last = 0.0, peak = 0.0;
+  for (std::size_t r = 0; r < force.size(); ++r) {
+    peak = std::max(peak, std::abs(force[r]));
+    if (r + 10 >= force.size()) last += std::abs(force[r]) / 10.0;
+  }
+  EXPECT_LT(last, 0.15 * peak);
+}
+
+TEST(Separation, makes_two_bodies) {
+  const io::Case input = io::read_case_text(blanked, "case.toml", {});
+  const TemporaryFolder folder("separation");
+  std::vector<std::string> warnings;
+  ExplicitSolver<2> solver = app::make_solver(input, warnings);
+  app::StepControl control(input.time);
+  app::ReferenceRenewal renewal(input.method);
+  app::Adaptation adaptation(input, solver);
+  adaptation.start_log(folder.path());
+  const auto nothing = [](const Resampling<2>&) {};
+  adaptation.fit_to_tools(solver, nothing);
+  while (solver.state().time < input.time.end * (1.0 - 1e-9)) {
+    const bool renewed = renewal.due(solver);
+    if (renewed) renewal.renew(solver, [&] { adaptation.renew(solver, nothing); });
+    if (renewed || solver.state().step % 10 == 0) control.refresh(solver);
+    solver.advance(control.choose(solver.state().time, input.time.end));
+  }
+  const Cloud<2> cloud = solver.present_cloud();
+  EXPECT_GE(loops(cloud), 2);
+  EXPECT_TRUE(adapt::structure_if_valid(cloud)) << "boundaries cross";
+  int faces = 0;
+  for (const Facet<2>& facet : cloud.facets)
+    faces += cloud.piece_names[static_cast<std::size_t>(facet.piece)] == "fracture";
+  EXPECT_GE(faces, 10);
+}
+
+} // namespace
+} // namespace cnem::testing
