@@ -1,4 +1,5 @@
-// Every option of adaptation in whole runs: what is asked for happens, and nothing is lost by it.
+// Every option of adaptation in whole runs (of separation: separation_test.cpp): what is asked for happens,
+// and nothing is lost by it.
 #include "app/registry.hpp"
 #include "app/run.hpp"
 #include "io/case_reader.hpp"
@@ -342,14 +343,6 @@ TEST(Adaptation, refines_where_damage_is_not_resolved) {
       run(punched + brittle, {"adapt.indicator.field=damage", "adapt.indicator.h_min=0.1 mm"});
   EXPECT_GT(broken.counted("refined"), 20);
   EXPECT_GT(broken.counted("inserted"), 30);
-}
-
-TEST(Adaptation, opens_the_cloud_where_it_breaks) {
-  const Adapted opened =
-      run(punched + brittle, with(by_strain, {"adapt.separate=true", "contact.deformable=true"}), 5e-3);
-  EXPECT_GT(opened.counted("opened"), 2);
-  EXPECT_EQ(opened.metric("max_damage"), 1.0);
-  EXPECT_LT(std::abs(opened.metric("area_drift")), 0.05);
 }
 
 TEST(Adaptation, carries_bodies_in_contact) {
