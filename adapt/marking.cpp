@@ -50,9 +50,12 @@ Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator&
   constexpr int most = 60;
   double tolerance = rules.tolerance;
   Field wanted = marked(spacing, indicator, rules, tolerance, size, count);
-  for (int k = 0; k < most && count.refined > 0 &&
-                  nodes_wanted(structure, wanted) > static_cast<double>(rules.max_nodes);
-       ++k)
+  const auto too_many = [&] {
+    Field grown = wanted;
+    limit_growth(cloud, structure, rules.growth, grown);
+    return nodes_wanted(structure, grown) > static_cast<double>(rules.max_nodes);
+  };
+  for (int k = 0; k < most && count.refined > 0 && too_many(); ++k)
     wanted = marked(spacing, indicator, rules, tolerance *= raise, size, count);
   size = std::move(wanted);
   return count;

@@ -134,6 +134,7 @@ void Adaptation::estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<
                                               .coarsen = rules.coarsen,
                                               .h_min = rules.h_min,
                                               .h_max = rules.h_max,
+                                              .growth = rules.growth,
                                               .max_nodes = rules.max_nodes},
                                              size_);
   refined_ += marking.refined;

@@ -3,6 +3,7 @@
 // step.
 #include "app/adaptation.hpp"
 #include "app/divergence.hpp"
+#include "app/picture_recorder.hpp"
 #include "app/recorder.hpp"
 #include "app/run.hpp"
 #include "app/stopwatch.hpp"

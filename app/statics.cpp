@@ -1,6 +1,7 @@
 #include "app/statics.hpp"
 
 #include "app/fields.hpp"
+#include "app/picture_recorder.hpp"
 #include "app/profile.hpp"
 #include "app/recorder.hpp"
 #include "app/static_model.hpp"

@@ -323,6 +323,13 @@ struct Window {
   Vec2 upper{0, 0}; ///< m
 };
 
+/// What is said in the report beside the pictures of a field at one of their times.
+struct PictureNote {
+  double at = 0.0;   ///< s
+  std::string field; ///< of picture_fields
+  std::string text;
+};
+
 /// When checkpoints are written besides the one at step 0; 0: not by this.
 struct CheckpointControl {
   std::int64_t every_steps = 0;
@@ -337,6 +344,7 @@ struct Output {
   std::vector<double> pictures;            ///< s, increasing; times beyond the end are kept here
   std::vector<std::string> picture_fields; ///< of field_names()
   std::vector<Window> windows;             ///< parts of the domain drawn enlarged, beside the whole
+  std::vector<PictureNote> notes;
   std::vector<Probe> probes;
   std::vector<SampleLine> lines;
   CheckpointControl checkpoint;

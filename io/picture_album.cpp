@@ -23,27 +23,29 @@ PictureAlbum::PictureAlbum(fs::path output_folder)
   if (!fs::exists(index, error)) return;
   try {
     for (const nlohmann::json& entry : nlohmann::json::parse(read_file(index)))
-      entries_.push_back({entry.at("file"), entry.at("field"), entry.at("time"), entry.at("caption")});
+      entries_.push_back(
+          {entry.at("file"), entry.at("field"), entry.at("time"), entry.at("caption"), entry.at("note")});
   } catch (const nlohmann::json::exception& problem) {
     throw IoError(fmt::format("{} is not an index of pictures: {}", index.string(), problem.what()));
   }
 }
 
-std::string PictureAlbum::add(FileQueue& queue, const std::string& key, const std::string& field, double time,
-                              FileQueue::Maker png, std::size_t bytes, const std::string& caption) {
+std::string PictureAlbum::add(FileQueue& queue, const std::string& key, AlbumEntry entry,
+                              FileQueue::Maker png, std::size_t bytes) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw IoError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
   int number = 0;
   const auto name = [&] { return fmt::format("{}_{:03}.png", key, number); };
   const auto taken = [&] {
-    for (const AlbumEntry& entry : entries_)
-      if (entry.file == name()) return true;
+    for (const AlbumEntry& known : entries_)
+      if (known.file == name()) return true;
     return false;
   };
   while (taken()) ++number;
   queue.put(folder_ / name(), std::move(png), bytes);
-  entries_.push_back({name(), field, time, caption});
+  entry.file = name();
+  entries_.push_back(std::move(entry));
   queue.put(folder_ / index_name, index());
   return entries_.back().file;
 }
@@ -59,8 +61,11 @@ void PictureAlbum::truncate(double time) {
 std::string PictureAlbum::index() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const AlbumEntry& entry : entries_)
-    json.push_back(
-        {{"file", entry.file}, {"field", entry.field}, {"time", entry.time}, {"caption", entry.caption}});
+    json.push_back({{"file", entry.file},
+                    {"field", entry.field},
+                    {"time", entry.time},
+                    {"caption", entry.caption},
+                    {"note", entry.note}});
   return json.dump(2) + "\n";
 }
 

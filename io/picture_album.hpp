@@ -9,10 +9,11 @@
 namespace cnem::io {
 
 struct AlbumEntry {
-  std::string file;    ///< name in the pictures folder
+  std::string file{};  ///< name in the pictures folder
   std::string field;   ///< what is coloured, "equivalent plastic strain"
   double time = 0.0;   ///< s
   std::string caption; ///< further words, may be empty ("zoom on the band")
+  std::string note{};  ///< what the case says of it, may be empty
 };
 
 /// pictures/ of an output folder.
@@ -22,9 +23,10 @@ public:
   explicit PictureAlbum(std::filesystem::path output_folder);
 
   /// Hands the maker of a PNG, which holds about `bytes`, to `queue` under a name made of `key`
-  /// ("plastic_strain") and a running number, then the index. Returns its name. Throws IoError.
-  std::string add(FileQueue& queue, const std::string& key, const std::string& field, double time,
-                  FileQueue::Maker png, std::size_t bytes, const std::string& caption = "");
+  /// ("plastic_strain") and a running number, which becomes the file of the entry, then the index. Returns
+  /// that name. Throws IoError.
+  std::string add(FileQueue& queue, const std::string& key, AlbumEntry entry, FileQueue::Maker png,
+                  std::size_t bytes);
 
   /// Drops the pictures later than `time` (s), for a restart.
   void truncate(double time);

@@ -135,7 +135,7 @@ ReportData collect_report(const fs::path& folder, const RunStatus& status) {
 
   const PictureAlbum album(folder);
   for (const AlbumEntry& entry : album.entries()) {
-    ReportPicture picture{read_file(album.path(entry)), entry.field, entry.time, entry.caption};
+    ReportPicture picture{read_file(album.path(entry)), entry.field, entry.time, entry.caption, entry.note};
     if (status.post_mortem && entry.file == status.post_mortem->picture)
       report.place = std::move(picture);
     else

@@ -16,6 +16,7 @@ struct ReportPicture {
   std::string field;
   double time = 0.0; ///< s
   std::string caption;
+  std::string note{}; ///< what the case says of it
 };
 
 struct ReportTable {

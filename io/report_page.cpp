@@ -40,9 +40,14 @@ std::string render_warnings(const ReportData& data) {
   return html.empty() ? "" : "<ul class=\"warnings\">\n" + html + "</ul>\n";
 }
 
+std::string caption_of(const std::string& note) {
+  return note.empty() ? "" : fmt::format("<figcaption>{}</figcaption>", html_escape(note));
+}
+
 std::string figure(const ReportPicture& picture, const std::string& what) {
-  return fmt::format("<figure><img alt=\"{} at {}\" src=\"data:image/png;base64,{}\"/></figure>\n",
-                     html_escape(what), html_escape(si_format(picture.time, "s")), base64(picture.png));
+  return fmt::format("<figure><img alt=\"{} at {}\" src=\"data:image/png;base64,{}\"/>{}</figure>\n",
+                     html_escape(what), html_escape(si_format(picture.time, "s")), base64(picture.png),
+                     caption_of(picture.note));
 }
 
 std::string render_post_mortem(const ReportData& data) {
@@ -91,9 +96,8 @@ std::string render_pictures(const ReportData& data) {
 std::string render_charts(const ReportData& data) {
   std::string html;
   for (const Chart& chart : data.charts)
-    html += fmt::format(
-        "<figure><h3>{}</h3>\n{}{}</figure>\n", html_escape(chart.title), svg_chart(chart),
-        chart.note.empty() ? "" : fmt::format("<figcaption>{}</figcaption>", html_escape(chart.note)));
+    html += fmt::format("<figure><h3>{}</h3>\n{}{}</figure>\n", html_escape(chart.title), svg_chart(chart),
+                        caption_of(chart.note));
   return html.empty() ? "" : "<div class=\"charts\">\n" + html + "</div>\n";
 }
 

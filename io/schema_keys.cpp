@@ -329,6 +329,18 @@ void add_output(Keys& k) {
       .one_of(fields)
       .required()
       .example("[\"stress_yy\"]");
+  k.add("output.notes", named_tables, "Words beside pictures in the report, as on what a paper shows there.");
+  k.add("output.notes.*", table, "A note.");
+  k.add("output.notes.*.at", quantity, "One of the times in `output.pictures`.")
+      .unit(d::time)
+      .in(not_negative)
+      .required()
+      .example("\"12 us\"");
+  k.add("output.notes.*.field", choice, "One of `output.picture_fields`.")
+      .one_of(field_names())
+      .computed("the first of `output.picture_fields`")
+      .example("\"plastic_strain\"");
+  k.add("output.notes.*.text", text, "What to say.").required().example("\"Figure 22: a band.\"");
   k.add("output.windows", named_tables, "Parts drawn enlarged, beside the whole.");
   k.add("output.windows.*", table, "A window.");
   k.add("output.windows.*.box", vectors, "Two opposite corners.")

@@ -165,6 +165,24 @@ TEST_F(CommandLine, the_post_mortem_names_likely_causes_and_shows_the_place) {
     EXPECT_NE(report.str().find(text), std::string::npos) << text;
 }
 
+TEST_F(CommandLine, notes_stand_beside_their_pictures) {
+  const std::string noted = (folder / "noted.toml").string();
+  std::ofstream(noted)
+      << std::ifstream(file()).rdbuf()
+      << "[output.notes.end]\nat = \"2 us\"\nfield = \"temperature\"\ntext = \"what < is\"\n";
+  ASSERT_EQ(call({"run", noted, "--output", results(), "--set", "output.pictures=1 2 us", "--set",
+                  "output.picture_fields=[\"plastic_strain\", \"temperature\"]"}),
+            0)
+      << message;
+  std::stringstream report;
+  report << std::ifstream(folder / "results" / "report.html").rdbuf();
+  const std::string text = report.str(), caption = "<figcaption>what &lt; is</figcaption>";
+  const std::size_t found = text.find(caption);
+  ASSERT_NE(found, std::string::npos);
+  EXPECT_EQ(text.find(caption, found + 1), std::string::npos) << "once";
+  EXPECT_GT(found, text.find("alt=\"temperature at 2 "));
+}
+
 TEST_F(CommandLine, a_step_that_collapses_is_a_divergence_with_a_place) {
   EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "time.step.min=1 us"}), 3);
   const io::PostMortem post = io::read_status(results()).post_mortem.value();

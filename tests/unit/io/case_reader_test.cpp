@@ -95,6 +95,7 @@ history_every = "10 ns"
 fields_every = "1 us"
 pictures = "4 2 4 us"
 picture_fields = ["temperature"]
+notes.two = { at = "2 us", text = "hot" }
 [output.windows.zoom]
 box = ["10 0 mm", "0 5 mm"]
 [output.probes.a]
@@ -202,6 +203,9 @@ TEST(CaseReader, FullCaseInSI) {
   EXPECT_EQ(c.method.energy_tolerance, 0.01);
   EXPECT_EQ(c.output.pictures, (std::vector{2e-6, 4e-6}));
   EXPECT_EQ(c.output.windows[0].upper, Vec2(0.01, 0.005));
+  ASSERT_EQ(c.output.notes.size(), 1U);
+  EXPECT_EQ(c.output.notes[0].field, "temperature");
+  EXPECT_EQ(c.output.notes[0].text, "hot");
   EXPECT_EQ(c.output.probes[0].fields, (std::vector<std::string>{"temperature", "velocity_x"}));
 }
 
