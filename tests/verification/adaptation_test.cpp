@@ -289,7 +289,7 @@ TEST(Adaptation, stays_near_the_budget_of_nodes) {
   EXPECT_GT(free.nodes.size(), 300U);
   EXPECT_GT(held.nodes.size(), 200U);
   EXPECT_LT(held.nodes.size(),
-            286U); // 30% above: cells grow no faster than asked, and the body's area changes
+            264U); // 20% above: what the pass makes of a wanted spacing
   EXPECT_LT(held.counted("refined"), free.counted("refined"));
 }
 
