@@ -168,4 +168,19 @@ inline std::vector<NamedCloud> domains() {
   return list;
 }
 
+/// Closed loops that the boundary consists of.
+inline int loops(const Cloud<2>& cloud) {
+  const auto u = [](std::int32_t i) { return static_cast<std::size_t>(i); };
+  std::vector<std::int32_t> next(cloud.position.size(), -1);
+  for (const Facet<2>& facet : cloud.facets) next[u(facet.node[0])] = facet.node[1];
+  std::vector<char> seen(next.size(), 0);
+  int count = 0;
+  for (const Facet<2>& facet : cloud.facets) {
+    if (seen[u(facet.node[0])]) continue;
+    ++count;
+    for (std::int32_t i = facet.node[0]; !seen[u(i)]; i = next[u(i)]) seen[u(i)] = 1;
+  }
+  return count;
+}
+
 } // namespace cnem::testing

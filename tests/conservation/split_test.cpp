@@ -50,19 +50,6 @@ double total(const Field& f) {
   return sum;
 }
 
-int loops(const Cloud<2>& cloud) {
-  std::vector<std::int32_t> next(cloud.position.size(), -1);
-  for (const Facet<2>& facet : cloud.facets) next[u(facet.node[0])] = facet.node[1];
-  std::vector<char> seen(next.size(), 0);
-  int count = 0;
-  for (const Facet<2>& facet : cloud.facets) {
-    if (seen[u(facet.node[0])]) continue;
-    ++count;
-    for (std::int32_t i = facet.node[0]; !seen[u(i)]; i = next[u(i)]) seen[u(i)] = 1;
-  }
-  return count;
-}
-
 int faces_of(const Cloud<2>& cloud) {
   int faces = 0;
   for (const Facet<2>& facet : cloud.facets) faces += facet.piece == 1;
@@ -90,7 +77,7 @@ TEST(Split, takes_the_body_apart_where_it_is_broken_through) {
   EXPECT_LE(report.opened, 8);
   EXPECT_EQ(change.cloud.nodes(), b.cloud.nodes() + report.opened + 1);
   EXPECT_EQ(faces_of(change.cloud), 2 * report.opened);
-  EXPECT_EQ(loops(change.cloud), 2);
+  EXPECT_EQ(testing::loops(change.cloud), 2);
   Field mass = b.node.mass;
   carry_sum(change.parcels, mass);
   EXPECT_NEAR(total(mass), 0.6, 1e-12);
@@ -165,12 +152,12 @@ TEST(Split, takes_no_crumbs_and_no_skin_off) {
 
 TEST(Split, opens_the_bridge_between_a_hole_and_the_edge) {
   Blank b(0.05, true);
-  ASSERT_EQ(loops(b.cloud), 2);
+  ASSERT_EQ(testing::loops(b.cloud), 2);
   b.break_band(0.5, 0.3);
   PassReport report;
   const Resampling<2> change = b.opened({.piece = 1}, report);
   EXPECT_EQ(report.cuts, 1);
-  EXPECT_EQ(loops(change.cloud), 1);
+  EXPECT_EQ(testing::loops(change.cloud), 1);
   EXPECT_EQ(faces_of(change.cloud), 2 * report.opened);
   Field mass = b.node.mass;
   const double before = total(mass);
@@ -192,7 +179,7 @@ TEST(Split, resampling_goes_on_with_the_parts) {
   const Resampling<2> change = resample(parted.cloud, structure_if_valid(parted.cloud), b.node, {}, pass);
   EXPECT_EQ(pass.folded, 0);
   EXPECT_EQ(pass.undone, 0);
-  EXPECT_EQ(loops(change.cloud), 2);
+  EXPECT_EQ(testing::loops(change.cloud), 2);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "io/history_writer.hpp"
 #include "io/output_folder.hpp"
 #include "io/status.hpp"
+#include "tests/clouds.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -59,22 +60,6 @@ h_min = "0.12 mm"
 history_every = "0.2 us"
 pictures = []
 )toml";
-
-int loops(const Cloud<2>& cloud) {
-  std::vector<std::int32_t> next(cloud.position.size(), -1);
-  for (const Facet<2>& facet : cloud.facets) next[static_cast<std::size_t>(facet.node[0])] = facet.node[1];
-  int count = 0;
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    if (next[i] < 0) continue;
-    ++count;
-    for (std::size_t k = i; next[k] >= 0;) {
-      const auto after = static_cast<std::size_t>(next[k]);
-      next[k] = -1;
-      k = after;
-    }
-  }
-  return count;
-}
 
 TEST(Separation, of_a_slug_loses_nothing_and_leaves_faces_that_do_not_cross) {
   const TemporaryFolder folder("separation");
