@@ -72,7 +72,7 @@ Walk walk_of(const FaceOutline& outline, const FaceRules& rules, bool& parted) {
   return walk;
 }
 
-/// A least-squares line w = a + b u through segments, by length.
+/// A least-squares line w = a + b u through segments that run towards the cut, by length.
 struct Line {
   double length = 0.0, slope = 0.0;
 };
@@ -81,7 +81,7 @@ template<class Wanted> Line fitted(const Walk& walk, double from, double to, Wan
   for (std::size_t k = 0; k < walk.segments() && walk.at[k + 1] <= to; ++k) {
     const Vec2 &a = walk.point[k], &b = walk.point[k + 1];
     const Vec2 middle = 0.5 * (a + b), d = b - a;
-    if (walk.at[k] < from || !wanted(middle)) continue;
+    if (walk.at[k] < from || std::abs(d.y()) > d.x() || !wanted(middle)) continue;
     const double l = d.norm();
     length += l;
     u += l * middle.x();
@@ -299,7 +299,7 @@ private:
                           : Zone::surface;
     if (w > all) return Zone::burr;
     if (crack_ && l >= crack_begin_) return l <= crack_end_ ? Zone::fracture : Zone::second_burnish;
-    return l <= wall_end_ ? Zone::burnish : Zone::second_burnish;
+    return crack_ || l <= wall_end_ ? Zone::burnish : Zone::second_burnish;
   }
 
   /// Keeps what lies beside the cut, with a point wherever the zone changes.

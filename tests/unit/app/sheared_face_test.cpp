@@ -194,6 +194,19 @@ TEST(ShearedFace, wall_along_the_punch_of_a_tilted_sheet_is_burnish) {
   EXPECT_NEAR(face.burnish, height * std::cos(15.0 * degree), 0.01); // along the normal of the sheet
 }
 
+// Its far end, which a turned body shows to this side, is no surface of the sheet.
+TEST(ShearedFace, far_end_of_a_short_turned_body_does_not_count) {
+  FaceOutline outline = Profile().outline();
+  for (Vec2& x : outline.point) {
+    x.x() = std::max(x.x(), -1.52); // the window of the tilt ends at 1.5
+    x = Vec2(std::cos(0.25) * x.x() - std::sin(0.25) * x.y(),
+             std::sin(0.25) * x.x() + std::cos(0.25) * x.y());
+  }
+  const io::ShearedFace face = measure_face(outline, rules());
+  EXPECT_NEAR(face.tilt, 0.25, 1e-9);
+  expect_heights(face, Profile(), 0.005);
+}
+
 TEST(ShearedFace, burnish_alone_and_fracture_alone) {
   Profile smooth;
   smooth.burnish = 0.85;
