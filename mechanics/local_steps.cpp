@@ -137,7 +137,7 @@ void LocalSteps<dim>::take(Levels level, const DiscreteOperators<dim>& op,
   level_ = std::move(level);
   const std::size_t nodes = u(op.nodes);
   level_.resize(blocks_of(nodes, block), 0);
-  highest_ = static_cast<int>(*std::max_element(level_.begin(), level_.end()));
+  highest_ = *std::max_element(level_.begin(), level_.end());
   const std::vector<std::int8_t> least = finest_point(op, level_);
   kick_ = level_;
   for (std::size_t i = 0; i < nodes; ++i) kick_[i / block] = std::min(kick_[i / block], least[i]);
@@ -209,7 +209,7 @@ double LocalSteps<dim>::window(const DiscreteOperators<dim>& op, std::size_t nod
     double square = 0.0;
     for (std::size_t k = 0; k < dim; ++k) square += op.weighted_gradient[k][e] * op.weighted_gradient[k][e];
     const double share = std::sqrt(square);
-    const auto level = static_cast<int>(level_[u(op.point[e]) / block]);
+    const int level = level_[u(op.point[e]) / block];
     whole += share;
     if (level <= activity) sum += share * (1 << level);
   }
