@@ -80,12 +80,14 @@ CNEM_INLINE bool any_negative(MaskVector m) { return _mm_movemask_pd((__m128d)m)
 
 #define CNEM_EACH(...)                                                                                       \
   for (int k = 0; k < n; ++k) __VA_ARGS__
+// NOLINTBEGIN(bugprone-macro-parentheses): types cannot stand in parentheses
 #define CNEM_OPERATOR(Result, A, B, op, right)                                                               \
   CNEM_INLINE friend Result operator op(A a, B b) {                                                          \
     Result r;                                                                                                \
     CNEM_EACH(r.v[k] = a.v[k] op right);                                                                     \
     return r;                                                                                                \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 
 template<int n> struct PackBits {
   BitsVector v[n];

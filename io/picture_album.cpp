@@ -16,8 +16,7 @@ constexpr const char* index_name = "index.json";
 
 }
 
-PictureAlbum::PictureAlbum(fs::path output_folder)
-    : folder_(std::move(output_folder) / files::pictures_folder) {
+PictureAlbum::PictureAlbum(const fs::path& output_folder) : folder_(output_folder / files::pictures_folder) {
   const fs::path index = folder_ / index_name;
   std::error_code error;
   if (!fs::exists(index, error)) return;

@@ -20,7 +20,7 @@ struct AlbumEntry {
 class PictureAlbum {
 public:
   /// Goes on with the pictures that are there.
-  explicit PictureAlbum(std::filesystem::path output_folder);
+  explicit PictureAlbum(const std::filesystem::path& output_folder);
 
   /// Hands the maker of a PNG, which holds about `bytes`, to `queue` under a name made of `key`
   /// ("plastic_strain") and a running number, which becomes the file of the entry, then the index. Returns

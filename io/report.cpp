@@ -166,7 +166,7 @@ ReportData collect_report(const fs::path& folder, const RunStatus& status) {
 fs::path write_report(const fs::path& folder) { return write_report(folder, read_status(folder)); }
 
 fs::path write_report(const fs::path& folder, const RunStatus& status) {
-  const fs::path path = folder / files::report;
+  fs::path path = folder / files::report;
   write_atomically(path, render_report(collect_report(folder, status)));
   return path;
 }

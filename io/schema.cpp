@@ -31,7 +31,7 @@ std::string Key::example_text() const {
   if (type == Type::choice) return fmt::format("\"{}\"", choices.front());
   if (type == Type::choices) return fmt::format("[\"{}\"]", choices.front());
   if (type == Type::text || type == Type::texts) return "\"name\"";
-  const std::string quantity = describe(dimension).example;
+  std::string quantity = describe(dimension).example;
   if (dimension.dimensionless()) return quantity;
   if (type == Type::vector || type == Type::vector_function) return fmt::format("\"0 {}\"", quantity);
   return fmt::format("\"{}\"", quantity);

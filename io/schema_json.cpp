@@ -49,8 +49,8 @@ Json time_tables(const Json& value) {
 Json object_schema(const std::string& pattern);
 
 Json value_schema(const Key& key) {
-  const Json scalar = quantity(key);
-  const Json vector = one_of({text_type(), pair_of(scalar)});
+  Json scalar = quantity(key);
+  Json vector = one_of({text_type(), pair_of(scalar)});
   switch (key.type) {
   case Type::table:
     return object_schema(key.path);

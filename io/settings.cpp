@@ -107,10 +107,12 @@ private:
         table(setting, written, key.path);
         break;
       case Type::named_tables:
+        if (!written) break; // no entries
         if (written->kind != Value::Kind::table) (void)convert_value(*written, key);
         named(setting, *written);
         break;
       case Type::table_list:
+        if (!written) break;
         if (written->kind != Value::Kind::array) (void)convert_value(*written, key);
         list(setting, *written);
         break;
@@ -212,15 +214,16 @@ int Setting::choice_index(const Setting& setting) {
 void Setting::set_default(std::string_view relative, SettingValue computed) {
   if (find(relative)) return;
   const auto dot = relative.rfind('.');
-  Setting& table = dot == std::string_view::npos ? *this : *find(relative.substr(0, dot));
+  Setting* table = dot == std::string_view::npos ? this : find(relative.substr(0, dot));
+  if (!table) return;
   const std::string member(dot == std::string_view::npos ? relative : relative.substr(dot + 1));
-  const std::string pattern = table.key ? join(table.key->path, member) : member;
+  const std::string pattern = table->key ? join(table->key->path, member) : member;
   const Key* spec = find_key(pattern);
   // The schema is one array, so its order is that of addresses in it.
-  const auto place = std::find_if(table.members.begin(), table.members.end(),
+  const auto place = std::find_if(table->members.begin(), table->members.end(),
                                   [&](const Setting& other) { return find_key(other.key->path) > spec; });
-  table.members.insert(
-      place, {spec, member, join(table.path, member), table.where, false, std::move(computed), {}, {}});
+  table->members.insert(
+      place, {spec, member, join(table->path, member), table->where, false, std::move(computed), {}, {}});
 }
 
 void Setting::erase(std::string_view relative) {

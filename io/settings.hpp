@@ -55,7 +55,8 @@ struct Setting {
   /// Members of a table of names or of a list; none when it is absent.
   const std::vector<Setting>& entries(std::string_view relative) const;
 
-  /// Gives a key that was not written its computed default, beside the other members of its table.
+  /// Gives a key that was not written its computed default, beside the other members of its table; nothing
+  /// where that table is absent.
   void set_default(std::string_view relative, SettingValue value);
 
   /// Takes out the setting at a relative path, if there is one.

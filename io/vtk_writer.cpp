@@ -204,7 +204,7 @@ void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame> fram
   queue.put(
       folder_ / entry.cells, [frame] { return cells_text(*frame); }, bytes);
   queue.put(
-      folder_ / entry.nodes, [frame] { return nodes_text(*frame); }, bytes);
+      folder_ / entry.nodes, [frame = std::move(frame)] { return nodes_text(*frame); }, bytes);
   entries_.push_back(std::move(entry));
   queue.put(folder_ / files::fields, collection());
 }

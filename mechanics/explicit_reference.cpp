@@ -33,8 +33,8 @@ ExplicitSolver<dim>::ExplicitSolver(Model<dim> model, Fields<dim> velocity, Fiel
   initial_position_ = node.position;
   node.velocity = std::move(velocity);
   velocity_before_ = node.velocity;
-  node.temperature = std::move(temperature);
-  initial_temperature_ = node.temperature;
+  initial_temperature_ = std::move(temperature);
+  node.temperature = initial_temperature_;
   contact_heat_.assign(n, 0.0);
   heat_flow_.assign(n, 0.0);
   resize_all(node.force, n);
