@@ -198,6 +198,11 @@ TEST_F(CommandLine, an_energy_residual_beyond_the_key_is_a_divergence) {
   EXPECT_NE(post.causes.front().find("method.energy_tolerance"), std::string::npos) << post.causes.front();
 }
 
+TEST_F(CommandLine, a_body_at_rest_is_no_divergence) {
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "tools.punch.velocity=0 0 m/s"}), 0)
+      << message;
+}
+
 TEST_F(CommandLine, a_run_may_end_after_so_many_steps) {
   ASSERT_EQ(call({"run", file(), "--output", results(), "--set", "time.max_steps=7", "--set",
                   "output.history_every=0 s"}),
