@@ -3,7 +3,6 @@
 #include "io/case_parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -99,22 +98,10 @@ void read_method(const Setting& root, Case& result, Diagnostics& diagnostics) {
   method.energy_tolerance = table.get<double>("energy_tolerance");
 }
 
-PictureNote read_note(const Setting& table, const Output& output, Diagnostics& diagnostics) {
+PictureNote read_note(const Setting& table, const Output& output) {
   PictureNote note{table.get<double>("at"), table.maybe<std::string>("field").value_or(""),
                    table.get<std::string>("text")};
   if (note.field.empty() && !output.picture_fields.empty()) note.field = output.picture_fields.front();
-  const bool drawn = std::any_of(output.pictures.begin(), output.pictures.end(),
-                                 [&](double time) { return std::abs(time - note.at) <= 1e-9 * time; });
-  if (const Setting& at = *table.find("at"); !drawn)
-    diagnostics.add(Mistake::conflict, at.where, at.path,
-                    fmt::format("found {:g} s, expected one of output.pictures: {:g} s", note.at,
-                                fmt::join(output.pictures, " s, ")));
-  const auto& fields = output.picture_fields;
-  if (const Setting* field = table.find("field");
-      field && std::find(fields.begin(), fields.end(), note.field) == fields.end())
-    diagnostics.add(Mistake::conflict, field->where, field->path,
-                    fmt::format("found \"{}\", expected one of output.picture_fields: {}", note.field,
-                                fmt::join(fields, ", ")));
   return note;
 }
 
@@ -141,8 +128,7 @@ void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
                        checkpoint.get<double>("every_wall"),
                        static_cast<int>(checkpoint.get<std::int64_t>("keep"))};
-  for (const Setting& note : table.entries("notes"))
-    output.notes.push_back(read_note(note, output, diagnostics));
+  for (const Setting& note : table.entries("notes")) output.notes.push_back(read_note(note, output));
   for (const Setting& probe : table.entries("probes"))
     output.probes.push_back(
         {probe.name, probe.get<Vec2>("at"), probe.get<std::vector<std::string>>("fields")});

@@ -329,14 +329,16 @@ void add_output(Keys& k) {
       .one_of(fields)
       .required()
       .example("[\"stress_yy\"]");
-  k.add("output.notes", named_tables, "Words beside pictures in the report, as on what a paper shows there.");
+  k.add("output.notes", named_tables,
+        "Words beside pictures in the report, as on what a paper shows there. Notes on what is not drawn are "
+        "left out.");
   k.add("output.notes.*", table, "A note.");
-  k.add("output.notes.*.at", quantity, "One of the times in `output.pictures`.")
+  k.add("output.notes.*.at", quantity, "A time of `output.pictures`.")
       .unit(d::time)
       .in(not_negative)
       .required()
       .example("\"12 us\"");
-  k.add("output.notes.*.field", choice, "One of `output.picture_fields`.")
+  k.add("output.notes.*.field", choice, "A field of `output.picture_fields`.")
       .one_of(field_names())
       .computed("the first of `output.picture_fields`")
       .example("\"plastic_strain\"");
