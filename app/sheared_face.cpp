@@ -48,6 +48,8 @@ public:
 /// furthest from the cut; it ends where it passes the limit.
 Walk walk_of(const FaceOutline& outline, const FaceRules& rules, bool& parted) {
   const std::size_t n = outline.point.size();
+  parted = true;
+  if (n == 0) return {};
   double twice = 0.0;
   for (std::size_t k = 0; k < n; ++k) twice += cross(outline.point[k], outline.point[(k + 1) % n]);
   const bool forward = twice > 0.0;
@@ -57,7 +59,6 @@ Walk walk_of(const FaceOutline& outline, const FaceRules& rules, bool& parted) {
     if (a.x() < b.x() || (a.x() == b.x() && a.y() < b.y())) first = k;
   }
   Walk walk;
-  parted = true;
   for (std::size_t k = 0; k <= n; ++k) {
     const std::size_t here = forward ? (first + k) % n : (first + n - k % n) % n;
     const Vec2& x = outline.point[here];
@@ -306,9 +307,9 @@ private:
   void crop() {
     if (!wall_ && !crack_) {
       rollover_begin_ = walk_.length();
-      for (double l = 0.0; l < walk_.length(); l += step_)
-        if (near(walk_(l).x()) && depth(l) > touch * rules_.thickness) {
-          rollover_begin_ = l;
+      for (int k = 0; k * step_ < walk_.length(); ++k)
+        if (near(walk_(k * step_).x()) && depth(k * step_) > touch * rules_.thickness) {
+          rollover_begin_ = k * step_;
           break;
         }
     }

@@ -18,6 +18,7 @@ bool moves(const Tool& tool) {
 
 std::vector<std::string> names_of(const std::vector<Tool>& tools) {
   std::vector<std::string> names;
+  names.reserve(tools.size());
   for (const Tool& tool : tools) names.push_back(tool.name);
   return names;
 }
