@@ -39,11 +39,12 @@ public:
   /// at the triangle between them.
   bool may_bypass(std::int32_t node) const {
     const std::int32_t a = work_.previous(node), c = work_.next(node);
-    if (work_.next(c) == a || work_.held(node) || work_.ends_piece(node)) return false;
+    if (work_.next(c) == a || stays(node)) return false;
     const Vec2 &xa = at(a), &xc = at(c);
     const bool convex = cross(at(node) - xa, xc - xa) > 0.0;
-    // the tip of a crack: its faces would be joined by a facet as short as the crack is open
-    if (!convex && (xc - xa).norm() < limit_.pair * work_.size_between(a, c)) return false;
+    // the bottom of a slit: its mouth becomes a short facet, one of whose ends has to be able to go then
+    if (!convex && (xc - xa).norm() < limit_.pair * work_.size_between(a, c) && stays(a) && stays(c))
+      return false;
     for (const std::int32_t k : structure_.neighbours(node)) {
       if (k == a || k == c) continue;
       const double side = cross(xc - xa, at(k) - xa) / (xc - xa).norm();
@@ -56,6 +57,7 @@ public:
 
 private:
   const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
+  bool stays(std::int32_t i) const { return work_.held(i) || work_.ends_piece(i); }
 
   void near_edges() {
     const auto& mesh = structure_.mesh;
@@ -94,14 +96,15 @@ private:
   void boundary_nodes() {
     const double sharpest = std::cos(limit_.spike * std::numbers::pi / 180.0);
     for (std::int32_t b = 0; b < static_cast<std::int32_t>(work_.size()); ++b) {
-      if (!work_.on_boundary(b) || work_.held(b) || work_.ends_piece(b)) continue;
+      if (!work_.on_boundary(b) || stays(b)) continue;
       const std::int32_t a = work_.previous(b), c = work_.next(b);
       const Vec2 back = at(a) - at(b), ahead = at(c) - at(b);
       const double h = work_.node().size[u(b)], shortest = std::min(back.norm(), ahead.norm());
       const double area = 0.5 * std::abs(cross(back, ahead));
       if (shortest < limit_.short_edge * h && area < limit_.flat_area * h * h)
         list_.push_back({b, shortest / (limit_.short_edge * h)});
-      else if (back.dot(ahead) > sharpest * back.norm() * ahead.norm() && cross(ahead, back) > 0.0)
+      else if (back.dot(ahead) > sharpest * back.norm() * ahead.norm() &&
+               (cross(ahead, back) > 0.0 || std::max(back.norm(), ahead.norm()) < limit_.shallow * h))
         list_.push_back({b, 0.5});
     }
   }
@@ -115,7 +118,7 @@ private:
       double spacing = 0.0;
       if (work_.on_boundary(i)) {
         const Vec2 back = at(work_.previous(i)) - at(i), ahead = at(work_.next(i)) - at(i);
-        if (work_.ends_piece(i) || 0.5 * std::abs(cross(back, ahead)) > limit_.straight * h * h) continue;
+        if (stays(i) || 0.5 * std::abs(cross(back, ahead)) > limit_.straight * h * h) continue;
         spacing = 0.5 * (back.norm() + ahead.norm());
       } else {
         spacing = spacing_at(work_.cloud(), structure_, i);
