@@ -60,7 +60,7 @@ public:
   void promote(std::int32_t node, std::int32_t a, const Vec2& x);
   /// Takes the boundary past a node, which becomes an interior one (to be removed).
   void bypass(std::int32_t node);
-  /// Puts an interior node elsewhere; its matter goes with it.
+  /// Puts an interior node elsewhere; what it has goes with it.
   void place(std::int32_t node, const Vec2& x) { cloud_.position[index(node)] = x; }
   /// Opens the domain along a path between two boundary nodes, over interior ones: nodes are doubled, and the
   /// two faces stand `gap` (m) apart. Returns the pairs {old node, its double without matter}.
