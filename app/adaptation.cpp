@@ -15,13 +15,12 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-constexpr const char* fracture = "fracture";
-
 /// The piece that new faces belong to.
 std::int32_t fracture_piece(Cloud<2>& cloud) {
-  const auto found = std::find(cloud.piece_names.begin(), cloud.piece_names.end(), fracture);
+  constexpr const char* name = io::Adaptation::fracture_piece;
+  const auto found = std::find(cloud.piece_names.begin(), cloud.piece_names.end(), name);
   const auto piece = static_cast<std::int32_t>(found - cloud.piece_names.begin());
-  if (found == cloud.piece_names.end()) cloud.piece_names.emplace_back(fracture);
+  if (found == cloud.piece_names.end()) cloud.piece_names.emplace_back(name);
   return piece;
 }
 

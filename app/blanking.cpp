@@ -18,8 +18,6 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-constexpr const char* fracture_name = "fracture";
-
 /// t across the cutting direction, s along it.
 double across(const CutTools& tools, const Vec2& x) { return x.dot(left_normal(tools.direction)); }
 double along(const CutTools& tools, const Vec2& x) { return x.dot(tools.direction); }
@@ -314,7 +312,7 @@ io::BlankingResult evaluate_blanking(const io::Case& input, const Snapshot& shot
           io::force_curve(history, tool.name, result.punch, result.dies, tools.direction), tool.name));
 
   const auto& pieces = shot.cloud.piece_names;
-  const auto piece = std::find(pieces.begin(), pieces.end(), fracture_name);
+  const auto piece = std::find(pieces.begin(), pieces.end(), io::Adaptation::fracture_piece);
   CutSheet sheet{positions(shot.state.node.position),
                  shot.cloud.facets,
                  piece == pieces.end() ? -1 : static_cast<std::int32_t>(piece - pieces.begin()),

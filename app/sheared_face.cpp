@@ -16,6 +16,8 @@ constexpr double touch = 0.01; ///< of the thickness: less than this is no draw-
 
 constexpr double beside = 0.6; ///< of the width of a body: no further than this is beside one of its faces
 
+constexpr double bent = 0.1; ///< rad within the length that a straight edge is laid on: heights are off by up to a twentieth of it
+
 /// A polyline by its length.
 class Walk {
 public:
@@ -49,7 +51,6 @@ public:
 Walk walk_of(const FaceOutline& outline, const FaceRules& rules, bool& parted) {
   const std::size_t n = outline.point.size();
   parted = true;
-  if (n == 0) return {};
   double twice = 0.0;
   for (std::size_t k = 0; k < n; ++k) twice += cross(outline.point[k], outline.point[(k + 1) % n]);
   const bool forward = twice > 0.0;
@@ -111,6 +112,7 @@ public:
     set_plane();
     find_end();
     divide();
+    judge_surface();
     crop();
   }
   io::ShearedFace result() { return std::move(face_); }
@@ -159,13 +161,17 @@ private:
     surface_end_ = wall_ ? wall_begin_ : crack_ ? crack_begin_ : walk_.length();
   }
 
+  /// The line through the drawn-in surface between two distances from the face.
+  Line surface(double far, double close) const {
+    return fitted(walk_, 0.0, surface_end_,
+                  [&](const Vec2& x) { return x.x() >= edge_ - far && x.x() <= edge_ - close; });
+  }
+
   /// Turns the walk so that the surface beside the cut lies level.
   void untilt() {
     if (rules_.fixed) return;
-    const double from = rules_.whole_surface ? 0.75 * width_ : 1.5 * reach_,
-                 to = rules_.whole_surface ? 0.25 * width_ : 0.5 * reach_;
-    const Line line = fitted(walk_, 0.0, surface_end_,
-                             [&](const Vec2& x) { return x.x() >= edge_ - from && x.x() <= edge_ - to; });
+    const Line line = rules_.whole_surface ? surface(0.75 * width_, 0.25 * width_)
+                                           : surface(1.5 * reach_, 0.5 * reach_);
     if (line.length < 0.25 * reach_) return;
     face_.tilt = std::atan(line.slope);
     const double c = std::cos(face_.tilt), s = std::sin(face_.tilt);
@@ -175,6 +181,19 @@ private:
       x = pivot + Vec2(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
     }
     find_parallel(); // in the frame of the body
+  }
+
+  /// Says where the surface that a skeleton is measured from is not straight.
+  void judge_surface() {
+    if (rules_.whole_surface) return;
+    const Line beyond = surface(1.5 * reach_, reach_), here = surface(reach_, 0.5 * reach_);
+    if (std::min(beyond.length, here.length) < 0.25 * reach_) return;
+    // their middles are half a reach apart
+    const double turn = 2.0 * std::abs(std::atan(here.slope) - std::atan(beyond.slope));
+    if (turn < bent) return;
+    face_.note += fmt::format("{}the surface beside the face is bent, by {:.0f} degrees within {:.3g} mm: "
+                              "heights and angle depend on where the straight edge is laid",
+                              face_.note.empty() ? "" : "; ", turn * 180.0 / std::numbers::pi, 1e3 * reach_);
   }
 
   /// A straight edge laid on the drawn-in surface.
@@ -345,6 +364,12 @@ private:
 } // namespace
 
 io::ShearedFace measure_face(const FaceOutline& outline, const FaceRules& rules) {
+  if (outline.point.size() < 3) {
+    io::ShearedFace face;
+    face.thickness = rules.thickness;
+    face.note = "the body has no outline";
+    return face;
+  }
   return Face(outline, rules).result();
 }
 

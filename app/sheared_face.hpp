@@ -24,7 +24,8 @@ struct FaceRules {
   bool fixed = false; ///< the body cannot tilt: it ends at a plane of symmetry
 };
 
-/// Measures one face. `body` and `cut` are left to the caller.
+/// Measures one face. `body` and `cut` are left to the caller. Fewer than three points are no face: its note
+/// says so.
 io::ShearedFace measure_face(const FaceOutline& outline, const FaceRules& rules);
 
 } // namespace cnem::app

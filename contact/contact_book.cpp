@@ -165,10 +165,10 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
   bodies_.archive(archive, surface_);
   archive.number("solver/body_contact/size", "m", size_);
   archive.number("solver/body_contact/pressing", "N/m", body_result_.pressing);
-  archive.number("solver/body_contact/work/workpiece", "J/m", body_result_.total.workpiece);
-  archive.number("solver/body_contact/work/recovery", "J/m", body_result_.total.recovery);
-  archive.number("solver/body_contact/work/friction", "J/m", body_result_.total.friction);
-  archive.number("solver/body_contact/work/impact", "J/m", body_result_.total.impact);
+  archive.number("solver/body_contact/energy/workpiece", "J/m", body_result_.total.workpiece);
+  archive.number("solver/body_contact/energy/recovery", "J/m", body_result_.total.recovery);
+  archive.number("solver/body_contact/energy/friction", "J/m", body_result_.total.friction);
+  archive.number("solver/body_contact/energy/impact", "J/m", body_result_.total.impact);
 }
 
 template void RigidContact<2>::book(const std::vector<Pose<2>>&, const ContactStep<2>&);

@@ -48,7 +48,7 @@ struct ToolForce {
 
 /// What letting go does to a body.
 struct BodySpringback {
-  std::string body;     ///< "slug", "skeleton", or "body 1", … by mass
+  std::string body;     ///< "slug", "skeleton" ("skeleton_left", …), or "body_1", … by their first nodes
   double largest = 0.0; ///< m, largest displacement
   double angle_before =
       std::numeric_limits<double>::quiet_NaN(); ///< rad, of the body against the sheet before

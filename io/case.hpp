@@ -291,6 +291,8 @@ struct Method {
 struct Adaptation {
   enum class Placement { between_nodes, voronoi_vertices };
   enum class Indicator { none, plastic_strain, plastic_power, temperature, damage };
+  /// The boundary piece that separation makes.
+  static constexpr const char* fracture_piece = "fracture";
   bool resample = false;
   bool separate = false; ///< broken matter is opened along edges between nodes
   Placement placement = Placement::between_nodes;

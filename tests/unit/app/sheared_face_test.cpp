@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -179,6 +180,29 @@ TEST(ShearedFace, tilted_body_has_the_same_heights) {
     held.fixed = true;
     EXPECT_EQ(measure_face(outline, held).tilt, 0.0);
   }
+}
+
+// Heights are then off by what the surface departs from a straight edge.
+TEST(ShearedFace, bent_surface_is_said) {
+  const Profile p;
+  for (const double turn : {2.0, 4.0, 8.0, 20.0, -20.0}) { // degrees within a thickness
+    const double curvature = turn * degree;
+    FaceOutline outline = p.outline();
+    for (Vec2& x : outline.point) {
+      const double angle = curvature * x.x(), radius = 1.0 / curvature - x.y();
+      x = Vec2(radius * std::sin(angle), 1.0 / curvature - radius * std::cos(angle));
+    }
+    const io::ShearedFace face = measure_face(outline, rules());
+    const std::string said = fmt::format("bent, by {:.0f} degrees within 1e+03 mm", std::abs(turn));
+    EXPECT_EQ(face.note.find(said) != std::string::npos, std::abs(turn) > 5.8) << turn << ' ' << face.note;
+    if (face.note.empty()) expect_heights(face, p, 0.05);
+  }
+}
+
+TEST(ShearedFace, no_outline_is_said) {
+  const io::ShearedFace face = measure_face({}, rules());
+  EXPECT_FALSE(face.found());
+  EXPECT_EQ(face.note, "the body has no outline");
 }
 
 // A sheet that bends up beside the punch, whose wall stays upright: 15 degrees from its own normal.
