@@ -18,7 +18,9 @@ struct Thresholds {
   double dense = 0.62;       ///< nodes whose neighbours are nearer than this on average go
   double straight = 0.02; ///< on the boundary only where the triangle with its neighbours is smaller (in h²)
   double spike = 25.0;    ///< degrees: boundary nodes with a sharper angle go
-  double shallow = 0.6;   ///< and the bottoms of slits so narrow that are not deeper than this
+  double notch = 60.0;    ///< degrees: the bottoms of sharper notches go that are
+  double shallow = 0.6;   ///< not deeper
+  double sliver = 0.05;   ///< (in h²) the least cell at the boundary
   double split_edge = 1.5;  ///< longer boundary edges are split
   double long_edge = 1.6;   ///< longer Delaunay edges get a node
   double clear_node = 0.55; ///< least distance of a new node from others

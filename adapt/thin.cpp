@@ -21,7 +21,10 @@ struct Candidate {
 class Thinning {
 public:
   Thinning(const WorkingCloud& work, const Structure& structure, const Thresholds& thresholds)
-      : work_(work), structure_(structure), limit_(thresholds) {}
+      : work_(work), structure_(structure), limit_(thresholds) {
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i)
+      if (work.on_boundary(i)) boundary_.push_back(i);
+  }
 
   /// Candidates, worst first.
   std::vector<Candidate> candidates() {
@@ -45,6 +48,11 @@ public:
     // the bottom of a slit: its mouth becomes a short facet, one of whose ends has to be able to go then
     if (!convex && (xc - xa).norm() < limit_.pair * work_.size_between(a, c) && stays(a) && stays(c))
       return false;
+    // what touches the boundary there
+    if (!convex && std::any_of(boundary_.begin(), boundary_.end(), [&](std::int32_t k) {
+          return k != a && k != node && k != c && within(at(k), xa, xc, at(node));
+        }))
+      return false;
     for (const std::int32_t k : structure_.neighbours(node)) {
       if (k == a || k == c) continue;
       const double side = cross(xc - xa, at(k) - xa) / (xc - xa).norm();
@@ -57,6 +65,13 @@ public:
 
 private:
   const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
+  /// Whether a point lies in or on a triangle, corners counter-clockwise, which may be as flat as rounding.
+  static bool within(const Vec2& x, const Vec2& a, const Vec2& b, const Vec2& c) {
+    const Vec2 along = b - a;
+    const double size = along.squaredNorm(), place = along.dot(x - a), top = along.dot(c - a);
+    return place >= std::min(0.0, top) && place <= std::max(size, top) && cross(along, x - a) >= 0.0 &&
+           cross(c - b, x - b) >= 0.0 && cross(a - c, x - c) >= 0.0;
+  }
   bool stays(std::int32_t i) const { return work_.held(i) || work_.ends_piece(i); }
 
   void near_edges() {
@@ -94,19 +109,42 @@ private:
   }
 
   void boundary_nodes() {
-    const double sharpest = std::cos(limit_.spike * std::numbers::pi / 180.0);
+    const double spike = std::cos(limit_.spike * std::numbers::pi / 180.0),
+                 notch = std::cos(limit_.notch * std::numbers::pi / 180.0);
     for (std::int32_t b = 0; b < static_cast<std::int32_t>(work_.size()); ++b) {
-      if (!work_.on_boundary(b) || stays(b)) continue;
-      const std::int32_t a = work_.previous(b), c = work_.next(b);
-      const Vec2 back = at(a) - at(b), ahead = at(c) - at(b);
-      const double h = work_.node().size[u(b)], shortest = std::min(back.norm(), ahead.norm());
-      const double area = 0.5 * std::abs(cross(back, ahead));
-      if (shortest < limit_.short_edge * h && area < limit_.flat_area * h * h)
+      if (!work_.on_boundary(b)) continue;
+      const Turn turn = turn_at(b);
+      const double h = work_.node().size[u(b)], shortest = std::min(turn.back, turn.ahead);
+      if (structure_.cells.volume[u(b)] < limit_.sliver * h * h) sliver(b);
+      if (stays(b)) continue;
+      if (shortest < limit_.short_edge * h && turn.area < limit_.flat_area * h * h)
         list_.push_back({b, shortest / (limit_.short_edge * h)});
-      else if (back.dot(ahead) > sharpest * back.norm() * ahead.norm() &&
-               (cross(ahead, back) > 0.0 || std::max(back.norm(), ahead.norm()) < limit_.shallow * h))
+      else if (turn.reflex ? turn.cosine > notch && std::max(turn.back, turn.ahead) < limit_.shallow * h
+                           : turn.cosine > spike)
         list_.push_back({b, 0.5});
     }
+  }
+
+  /// The boundary at one of its nodes.
+  struct Turn {
+    double back, ahead; ///< m, to the nodes before and after
+    double cosine;      ///< of the angle between these
+    double area;        ///< m², of the triangle with them
+    bool reflex;
+  };
+  Turn turn_at(std::int32_t b) const {
+    const Vec2 back = at(work_.previous(b)) - at(b), ahead = at(work_.next(b)) - at(b);
+    const double lengths = back.norm() * ahead.norm(), twice = cross(ahead, back);
+    return {back.norm(), ahead.norm(), back.dot(ahead) / lengths, 0.5 * std::abs(twice), twice < 0.0};
+  }
+
+  /// A tip too small for the step: it goes, or the bottom of the notch beside it where that changes less.
+  void sliver(std::int32_t tip) {
+    std::int32_t goes = -1;
+    for (const std::int32_t i : {tip, work_.previous(tip), work_.next(tip)})
+      if (!stays(i) && (i == tip || turn_at(i).reflex) && (goes < 0 || turn_at(i).area < turn_at(goes).area))
+        goes = i;
+    if (goes >= 0) list_.push_back({goes, 0.5});
   }
 
   /// What coarsening leaves to remove: after all that crowds.
@@ -131,6 +169,7 @@ private:
   const WorkingCloud& work_;
   const Structure& structure_;
   const Thresholds& limit_;
+  std::vector<std::int32_t> boundary_;
   std::vector<Candidate> list_;
 };
 
@@ -165,12 +204,7 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
 
 } // namespace
 
-namespace {
-
-enum class Outcome { nothing_to_do, done, invalid };
-
-Outcome thin_once(WorkingCloud& work, Structure& structure, const Thresholds& thresholds,
-                  bool boundary_may_change, PassReport& report) {
+bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report) {
   Thinning thinning(work, structure, thresholds);
   WorkingCloud changed = work;
   std::vector<char> gone(work.size(), 0), touched(work.size(), 0);
@@ -181,8 +215,6 @@ Outcome thin_once(WorkingCloud& work, Structure& structure, const Thresholds& th
     if (touched[u(i)] ||
         std::any_of(around.begin(), around.end(), [&](std::int32_t k) { return touched[u(k)] != 0; }))
       continue;
-    const bool changes_boundary = candidate.promote_to >= 0 || work.on_boundary(i);
-    if (changes_boundary && !boundary_may_change) continue;
     if (candidate.promote_to >= 0) {
       const Vec2 &a = work.cloud().position[u(candidate.promote_to)],
                  &b = work.cloud().position[u(work.next(candidate.promote_to))];
@@ -203,35 +235,27 @@ Outcome thin_once(WorkingCloud& work, Structure& structure, const Thresholds& th
   }
   if (done.removed == report.removed && done.removed_boundary == report.removed_boundary &&
       done.promoted == report.promoted)
-    return Outcome::nothing_to_do;
+    return false;
 
   WorkingCloud emptied = changed;
   const std::vector<std::int32_t> number = emptied.drop(gone);
   emptied.refresh_facets();
   std::optional<Structure> after = structure_if_valid(emptied.cloud());
-  if (!after) return Outcome::invalid;
-  const std::vector<Parcel> parcels = inheritance(work, structure, *after, gone, number);
+  std::vector<Parcel> parcels;
   std::vector<char> orphaned = gone;
+  if (after) parcels = inheritance(work, structure, *after, gone, number);
   for (const Parcel& parcel : parcels) orphaned[u(parcel.from)] = 0;
-  if (std::find(orphaned.begin(), orphaned.end(), 1) != orphaned.end()) return Outcome::invalid;
+  if (!after || std::find(orphaned.begin(), orphaned.end(), 1) != orphaned.end()) {
+    ++report.undone;
+    return false;
+  }
   changed.move(parcels);
   changed.drop(gone);
   changed.refresh_facets();
   work = std::move(changed);
   structure = std::move(*after);
   report = done;
-  return Outcome::done;
-}
-
-} // namespace
-
-bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report) {
-  for (const bool boundary_may_change : {true, false}) {
-    const Outcome outcome = thin_once(work, structure, thresholds, boundary_may_change, report);
-    if (outcome != Outcome::invalid) return outcome == Outcome::done;
-    ++report.undone;
-  }
-  return false;
+  return true;
 }
 
 } // namespace cnem::adapt
