@@ -11,7 +11,7 @@
 namespace cnem::io {
 
 /// Raised by every change of what is written or how; files of another format are refused.
-inline constexpr int checkpoint_format = 8;
+inline constexpr int checkpoint_format = 9;
 
 /// Whose checkpoint it is; kept under "info/".
 struct CheckpointInfo {

@@ -117,6 +117,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive.integer("solver/references", references_);
   edge_defect_.archive(archive);
   damage_.archive(archive, state_.point.size());
+  if (damage_.active()) archive.field("solver/point/wave_modulus", "Pa", wave_modulus_);
   if (local_.on()) {
     local_.archive(archive);
     archive.number("solver/local/finest_before", "s", finest_before_);

@@ -221,6 +221,7 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
     return {model_.safety * conduction_step_, 0, "conduction"};
   }
   if (local_.on()) return stable_macro_step();
+  damage_.wave_moduli(model_.materials, point, jacobian_, wave_modulus_);
   const StableStep step = stable_mechanical_step(
       bound_, approximation_.mechanics, point.deformation, wave_modulus_, inertia(),
       edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0, viscosity_ratio_);

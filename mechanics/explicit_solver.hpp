@@ -189,7 +189,7 @@ private:
   Field reference_, position_;         ///< [node] m, side by side
   ColumnStress<dim> stress_;           ///< P with viscosity and penalty: what forces are made from
   Field flow_stress_;                  ///< [point] σ_y where and when the point last flowed, Pa
-  Field shear_modulus_, wave_modulus_; ///< [point] μ, λ + 2μ, Pa
+  Field shear_modulus_, wave_modulus_; ///< [point] μ, λ + 2μ (less where broken: PointDamage), Pa
   Field density_;                      ///< [point] ρ at F = 1, kg/m³
   Field jacobian_, viscous_pressure_;  ///< [point] of the last step, for the bulk viscosity
   Field heat_flow_;                    ///< [node] W/m^(3−dim)

@@ -1,5 +1,7 @@
 #include "mechanics/point_damage.hpp"
 
+#include "core/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -58,6 +60,26 @@ double PointDamage<dim>::update(const DiscreteOperators<dim>& operators,
                                    plasticity::damage_points(point, length_, operators.volume, opening_),
                                    static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end), dt)
       .released;
+}
+
+template<int dim>
+void PointDamage<dim>::wave_moduli(const std::vector<plasticity::Material>& materials,
+                                   const PointState<dim>& point, const Field& jacobian,
+                                   Field& wave_modulus) const {
+  constexpr double open = 0.1; // more than closes between two measurements of the step
+  if (!active_) return;
+  for_each_block(point.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (point.softening[p] < 1.0) continue;
+      const plasticity::Material& material = materials[static_cast<std::size_t>(point.material[p])];
+      const double opened = jacobian[p] / point.stress_free[p];
+      const double expansion =
+          3.0 * material.expansion * (point.temperature[p] - material.expansion_reference);
+      const plasticity::Elasticity& elasticity = material.elasticity;
+      const double bulk = std::log(opened) - expansion > open ? 0.0 : elasticity.kappa();
+      wave_modulus[p] = (bulk + 4.0 / 3.0 * elasticity.mu()) / std::max(opened, 1.0);
+    }
+  });
 }
 
 template<int dim> void PointDamage<dim>::archive(Archive& archive, std::size_t points) {

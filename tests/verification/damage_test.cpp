@@ -116,5 +116,37 @@ TEST(Separation, of_a_bar_in_tension_does_not_depend_on_the_spacing) {
   }
 }
 
+// Dust that flies apart: what does not bear does not hold the step, on this reference or the next. Lengths
+// grow by s, what is left of the moduli falls by s² with the density, and the bulk modulus is gone.
+TEST(Separation, into_dust_leaves_the_step_to_what_bears) {
+  const io::Case input = io::read_case_text(
+      steel + R"toml(
+[domain]
+material = "steel"
+outer.rectangle = { from = "-0.5 -0.5 mm", to = "0.5 0.5 mm" }
+[cloud]
+spacing = "0.1 mm"
+[initial]
+velocity_gradient = { xx = "1e7 1/s", yy = "1e7 1/s" }
+[method]
+lagrangian = "periodic"
+)toml",
+      "case.toml",
+      {"materials.steel.damage.D1=1e-9", "materials.steel.damage.fracture_energy=\"1 J/m2\"",
+       "method.bulk_viscosity.linear=0", "method.bulk_viscosity.quadratic=0"});
+  std::vector<std::string> warnings;
+  ExplicitSolver<2> solver = make_solver(input, warnings);
+  const double first = solver.stable_step().dt;
+  while (solver.state().time < 0.05e-6) solver.advance(0.02 * first);
+  const State<2>& state = solver.state();
+  ASSERT_EQ(*std::min_element(state.point.softening.begin(), state.point.softening.end()), 1.0);
+  const plasticity::Elasticity elasticity{.young = 210e9, .poisson = 0.3};
+  const double shear = 4.0 / 3.0 * elasticity.mu(), s = 1.0 + 1e7 * state.time,
+               expected = first * s * std::sqrt((elasticity.kappa() + shear) / shear);
+  EXPECT_NEAR(solver.stable_step().dt, expected, 0.02 * expected);
+  solver.prepare();
+  EXPECT_NEAR(solver.stable_step().dt, expected, 0.02 * expected);
+}
+
 } // namespace
 } // namespace cnem::app

@@ -126,9 +126,9 @@ TEST(Checkpoint, files_that_are_no_checkpoint_are_refused_with_the_reason) {
   EXPECT_NE(refusal_of(good.substr(512)).find("HDF5 file, but no checkpoint"), std::string::npos);
   std::string other = good;
   const std::string format = fmt::format("format {}", checkpoint_format);
-  other.replace(other.find(format), format.size(), "format 9");
+  other.replace(other.find(format), format.size(), "format 1");
   EXPECT_NE(refusal_of(other).find(
-                fmt::format("format 9, this version of cnem reads format {}", checkpoint_format)),
+                fmt::format("format 1, this version of cnem reads format {}", checkpoint_format)),
             std::string::npos);
 }
 
