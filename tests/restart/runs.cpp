@@ -2,6 +2,7 @@
 
 #include "io/output_folder.hpp"
 #include "io/status.hpp"
+#include "tests/steel.hpp"
 
 #include <fmt/format.h>
 #include <set>
@@ -13,13 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string steel = R"toml(
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0.0973, rate0 = "1 /s", m = 2.044, T0 = "296 K", Tmelt = "1698 K" }
-heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
-)toml";
+using testing::steel_304l;
 
 // A base without friction and a punch at 60 m/s, with friction and warm contact, on a block 4 mm wide.
 std::string base_and_punch(const char* height, const char* ramp) {
@@ -59,7 +54,7 @@ every_steps = 25
 every_wall = "0 s"
 keep = 3
 )toml" + base_and_punch("2", "2") +
-                            steel;
+                            steel_304l;
 
 // Local time steps in a block that is fine where a punch's corner goes in.
 const std::string levels = R"toml(
@@ -88,7 +83,7 @@ every_steps = 15
 every_wall = "0 s"
 keep = 3
 )toml" + base_and_punch("3", "0.5") +
-                           steel;
+                           steel_304l;
 
 // Every load and support, functions of Laplace on a jittered cloud, a row of history at every step.
 const std::string loaded = R"toml(
@@ -134,7 +129,7 @@ picture_fields = ["temperature"]
 every_steps = 0
 every_time = "0.3 us"
 every_wall = "0 s"
-)toml" + steel;
+)toml" + steel_304l;
 
 // A round bar on a wall, renewed at every step.
 const std::string round_bar = R"toml(
@@ -160,7 +155,7 @@ pictures = "6 us"
 picture_fields = ["plastic_strain"]
 [output.checkpoint]
 every_steps = 20
-)toml" + steel;
+)toml" + steel_304l;
 
 // Finite elements, total Lagrangian, Coulomb friction.
 const std::string triangles = R"toml(
@@ -187,7 +182,7 @@ picture_fields = ["pressure"]
 [output.checkpoint]
 every_steps = 15
 keep = 1
-)toml" + steel;
+)toml" + steel_304l;
 
 // A bar that breaks in the middle, with and without renewals on the way.
 const std::string breaking = R"toml(
@@ -253,7 +248,7 @@ D2 = 0.1
 D3 = -1.5
 fracture_energy = "20 kJ/m2"
 )toml" + base_and_punch("2", "1") +
-                            steel;
+                            steel_304l;
 
 // A slug that comes off: the cloud is cut, and the faces touch.
 const std::string separated = R"toml(
@@ -297,7 +292,7 @@ pictures = "20 us"
 picture_fields = ["softening"]
 [output.checkpoint]
 every_steps = 100
-)toml" + steel;
+)toml" + steel_304l;
 
 // Two parts with a crack between them, pressed together by a tool that slides: friction, heat, renewals.
 const std::string touching = R"toml(
@@ -329,7 +324,7 @@ pictures = "8 us"
 picture_fields = ["plastic_strain"]
 [output.checkpoint]
 every_steps = 25
-)toml" + steel;
+)toml" + steel_304l;
 
 std::set<std::string> files_of(const fs::path& folder) {
   std::set<std::string> names;

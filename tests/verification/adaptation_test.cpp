@@ -6,6 +6,7 @@
 #include "io/history_writer.hpp"
 #include "io/output_folder.hpp"
 #include "io/status.hpp"
+#include "tests/steel.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <algorithm>
@@ -26,12 +27,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-const std::string steel = R"toml(
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0.0973, rate0 = "1 /s", m = 2.044, T0 = "296 K", Tmelt = "1698 K" }
-heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
+const std::string steel = steel_304l + R"toml(
 [method]
 rereference = { every = 40, strain = 0.1 }
 [adapt]
