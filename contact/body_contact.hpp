@@ -13,6 +13,7 @@ namespace cnem::contact {
 struct BodyContactLaw {
   bool active = false;
   Friction friction;
+  double conductance = 0.0; ///< W/(m² K), across faces that touch; 0 insulates
 };
 
 /// A node that has gone through a facet of the workpiece.

@@ -56,6 +56,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
   heat_.assign(n, 0.0);
   nodal_impulse_.assign(n, Vec<dim>::Zero());
   points_.clear();
+  touches_.clear();
 }
 
 template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) {
@@ -100,6 +101,7 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
   motions_.accept(tools_, poses);
   book(poses, step);
   list_points(poses, step);
+  list_touches();
   if (in_sub_steps_) add_sub_step(step.dt_mean);
 }
 

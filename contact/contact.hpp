@@ -75,6 +75,15 @@ template<int dim> struct ContactPoint {
   Vec<dim> force = Vec<dim>::Zero(); ///< N/m^(3−dim), on the node
 };
 
+/// A boundary node that touches a facet of the workpiece, another body's or its own.
+template<int dim> struct BodyTouch {
+  std::int32_t node = 0;
+  std::array<std::int32_t, dim> facet{}; ///< nodes of the facet
+  std::array<double, dim> weight{};      ///< of these at the place of the node
+  double area = 0.0; ///< m^(dim−1), of the touching surfaces: half of what is tributary to the node, as both
+                     ///< sides are listed
+};
+
 /// A node inside a tool, or a ridge of a tool inside the workpiece (then node is the nearer end of the edge).
 template<int dim> struct Overlap {
   std::int32_t tool = 0;
@@ -97,6 +106,7 @@ public:
   /// Whether there is anything to touch.
   bool active() const { return !tools_.empty() || law_.active; }
   bool bodies_touch() const { return law_.active; } ///< whether parts of the workpiece see each other
+  const BodyContactLaw& body_law() const { return law_; }
 
   /// Takes the boundary of the cloud and the nodes that are not free. group: as BodyContact takes it. Costs
   /// O(nodes + facets).
@@ -136,6 +146,7 @@ public:
   const BodyResult<dim>& body_result() const { return body_result_; }
   const BodyContact<dim>& bodies() const { return bodies_; }
   const std::vector<ContactPoint<dim>>& points() const { return points_; } ///< touching in the last step
+  const std::vector<BodyTouch<dim>>& touches() const { return touches_; }  ///< in the last step
   /// Workpiece's share of the friction heat of the last step, J/m^(3−dim), [boundary node].
   const std::vector<double>& friction_heat() const { return heat_; }
   /// Contact impulse of the last step, N s/m^(3−dim), [boundary node], before constraints take their part.
@@ -159,6 +170,7 @@ private:
   void scatter(const ContactStep<dim>& step);
   void book(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
   void list_points(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  void list_touches();
   void merge_points();
   void add_sub_step(double dt_mean);
 
@@ -185,6 +197,7 @@ private:
   std::vector<ToolResult<dim>> results_;
   BodyResult<dim> body_result_;
   std::vector<ContactPoint<dim>> points_;
+  std::vector<BodyTouch<dim>> touches_;
   std::vector<double> heat_;
   std::vector<Vec<dim>> nodal_impulse_;
 

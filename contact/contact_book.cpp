@@ -119,6 +119,38 @@ void RigidContact<dim>::list_points(const std::vector<Pose<dim>>& poses, const C
   }
 }
 
+/// Pairs that would have gone through each other and are now closed. Which of several redundant ones bear the
+/// impulse says nothing about touching.
+template<int dim> void RigidContact<dim>::list_touches() {
+  touches_.clear();
+  constexpr double closed = 1e-3; // of the facet
+  for (const Contact<dim>& contact : contacts_) {
+    if (contact.tool >= 0) continue;
+    BodyTouch<dim> touch;
+    for (std::size_t a = 0; a < dim; ++a) {
+      touch.facet[a] = surface_.node[static_cast<std::size_t>(contact.node[a + 1])];
+      touch.weight[a] = -contact.weight[a + 1];
+    }
+    const double length =
+        (end_[static_cast<std::size_t>(contact.node[1])] - end_[static_cast<std::size_t>(contact.node[2])])
+            .norm();
+    const double gap = contact.normal.dot(at_contact(contact, [&](std::size_t b) { return end_[b]; }));
+    if (gap > closed * length) continue;
+    const auto node = static_cast<std::size_t>(contact.node[0]);
+    touch.node = surface_.node[node];
+    touch.area = 0.5 * surface_.area_against(node, contact.normal, end_, space_);
+    touches_.push_back(touch);
+  }
+  // one node against several facets
+  const auto by_node = [](const BodyTouch<dim>& a, const BodyTouch<dim>& b) { return a.node < b.node; };
+  std::stable_sort(touches_.begin(), touches_.end(), by_node);
+  for (auto from = touches_.begin(); from != touches_.end();) {
+    const auto to = std::upper_bound(from, touches_.end(), *from, by_node);
+    for (auto touch = from; touch != to; ++touch) touch->area /= static_cast<double>(to - from);
+    from = to;
+  }
+}
+
 template<int dim>
 std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& position, double time) const {
   std::vector<Overlap<dim>> found;
@@ -173,6 +205,7 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
 
 template void RigidContact<2>::book(const std::vector<Pose<2>>&, const ContactStep<2>&);
 template void RigidContact<2>::share_heat(const Contact<2>&, double, const ContactStep<2>&);
+template void RigidContact<2>::list_touches();
 template void RigidContact<2>::list_points(const std::vector<Pose<2>>&, const ContactStep<2>&);
 template std::vector<Overlap<2>> RigidContact<2>::overlaps(const Fields<2>&, double) const;
 template void RigidContact<2>::archive(Archive&);

@@ -38,6 +38,21 @@ template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position,
   return area;
 }
 
+template<>
+double Surface<2>::area_against(std::size_t at, const Vec2& normal, std::span<const Vec2> position,
+                                Space space) const {
+  double area = 0.0;
+  for (const std::int32_t f : {entering[at], leaving[at]}) {
+    if (f < 0) continue;
+    const auto& facet = facets[static_cast<std::size_t>(f)];
+    const auto a = static_cast<std::size_t>(facet[0]), b = static_cast<std::size_t>(facet[1]);
+    const Vec2 d = position[b] - position[a], outwards(d.y(), -d.x());
+    if (outwards.dot(normal) < -0.5 * d.norm())
+      area += end_areas(space, position[a], position[b])[f == entering[at] ? 1 : 0];
+  }
+  return area;
+}
+
 bool encloses(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x) {
   bool inside = false;
   for (const auto& facet : surface.facets) {

@@ -21,10 +21,16 @@ template<int dim> struct Surface {
 
   /// [boundary node] share of the facets around it, m^(dim−1) (m² of revolution).
   std::vector<double> areas(std::span<const Vec<dim>> position, Space space) const;
+  /// The same of one boundary node, of those facets alone that face against `normal` within 60 degrees.
+  double area_against(std::size_t node, const Vec<dim>& normal, std::span<const Vec<dim>> position,
+                      Space space) const;
 };
 
 template<> Surface<2>::Surface(const std::vector<Facet<2>>& boundary, std::size_t nodes);
 template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position, Space space) const;
+template<>
+double Surface<2>::area_against(std::size_t node, const Vec2& normal, std::span<const Vec2> position,
+                                Space space) const;
 
 /// A ridge that has gone through a facet.
 template<int dim> struct RidgeHit {

@@ -268,6 +268,7 @@ struct Tool {
 struct BodyContact {
   bool deformable = false;
   Friction friction;
+  double conductance = 0.0; ///< W/(m² K)
 };
 
 struct Method {

@@ -158,7 +158,17 @@ Friction read_friction(const Setting& table) {
 
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("contact");
-  result.contact = {table.get<bool>("deformable"), read_friction(*table.find("friction"))};
+  result.contact = {table.get<bool>("deformable"), read_friction(*table.find("friction")),
+                    table.get<double>("conductance")};
+  const Setting& conductance = *table.find("conductance");
+  if (result.contact.conductance > 0.0 && !result.contact.deformable)
+    diagnostics.add(Mistake::conflict, conductance.where, conductance.path,
+                    "found a conductance between parts that pass through each other, expected it with "
+                    "contact.deformable = true only");
+  else if (result.contact.conductance > 0.0 && !result.analysis.thermal)
+    diagnostics.add(Mistake::conflict, conductance.where, conductance.path,
+                    "found a conductance in an analysis without heat, expected it with "
+                    "analysis.thermal = true only");
   const Setting& law = *table.find("friction.law");
   if (!result.contact.deformable && result.contact.friction.law != Friction::Law::none)
     diagnostics.add(Mistake::conflict, law.where, law.path,

@@ -250,6 +250,12 @@ void add_contact(Keys& k) {
         "Faces of the workpiece do not pass through each other: parts that cracks divide, and one part with "
         "itself. Bonded interfaces and periodic sides are no such faces.")
       .fallback("false");
+  k.add("contact.conductance", quantity,
+        "Of faces of the workpiece while they are pressed on each other: heat that passes, per area and "
+        "difference of temperature.")
+      .unit(d::heat_transfer)
+      .in(not_negative)
+      .fallback("\"0 W/(m2 K)\"");
   add_friction(k, "contact.friction", "Friction between parts; its heat is shared by their effusivities.");
 }
 

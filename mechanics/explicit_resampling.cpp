@@ -139,7 +139,7 @@ template<int dim> void ExplicitSolver<dim>::resize_fields(std::size_t n) {
   for (Field* value : {&point.equivalent_stress, &point.pressure, &point.stored_energy, &jacobian_,
                        &shear_modulus_, &wave_modulus_, &density_, &contact_heat_, &heat_flow_})
     value->assign(n, 0.0);
-  tool_conductance_.clear();
+  touching_.clear();
   set_moduli();
 }
 

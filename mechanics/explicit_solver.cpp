@@ -138,12 +138,15 @@ template<int dim> void ExplicitSolver<dim>::take_contact_heat() {
   const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
   for (std::size_t b = 0; b < boundary.size(); ++b)
     contact_heat_[static_cast<std::size_t>(boundary[b])] = contact.friction_heat()[b];
-  tool_conductance_.clear();
+  touching_.clear();
   for (const contact::ContactPoint<dim>& touch : contact.points()) {
     const contact::ToolThermal& thermal = contact.tools()[static_cast<std::size_t>(touch.tool)].thermal;
     if (thermal.conductance > 0.0)
-      tool_conductance_.push_back({touch.node, thermal.conductance, touch.area, thermal.temperature});
+      touching_.tools.push_back({touch.node, thermal.conductance, touch.area, thermal.temperature});
   }
+  if (const double conductance = contact.body_law().conductance; conductance > 0.0)
+    for (const contact::BodyTouch<dim>& touch : contact.touches())
+      touching_.bodies.push_back({touch.node, touch.facet, touch.weight, conductance, touch.area});
 }
 
 template<int dim> void ExplicitSolver<dim>::strain_and_stress(double dt) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace cnem {
 
@@ -33,7 +34,7 @@ template<int dim> void ThermalBoundaries<dim>::resample(const Cloud<dim>& cloud)
 
 template<int dim>
 void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, const Field& temperature,
-                                      const std::vector<ToolConductance>& tools, Field& flow) const {
+                                      const Touching<dim>& touching, Field& flow) const {
   for (const HeatFlux<dim>& flux : fluxes_) {
     const double value = flux.value(time);
     for (const Facet<dim>& facet : flux.facets) {
@@ -63,10 +64,35 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
         flow[j] -= crossing;
       }
     }
-  for (const ToolConductance& tool : tools) {
+  for (const ToolConductance& tool : touching.tools) {
     const auto i = static_cast<std::size_t>(tool.node);
     flow[i] += tool.conductance * tool.area * (tool.tool_temperature - temperature[i]);
   }
+  for (const BodyConductance<dim>& body : touching.bodies) {
+    double opposite = 0.0;
+    for (std::size_t a = 0; a < dim; ++a)
+      opposite += body.weight[a] * temperature[static_cast<std::size_t>(body.facet[a])];
+    const auto i = static_cast<std::size_t>(body.node);
+    const double crossing = body.conductance * body.area * (opposite - temperature[i]);
+    flow[i] += crossing;
+    for (std::size_t a = 0; a < dim; ++a)
+      flow[static_cast<std::size_t>(body.facet[a])] -= body.weight[a] * crossing;
+  }
+}
+
+template<int dim> double Touching<dim>::fastest_decay(const Field& heat_capacity) const {
+  // Gershgorin: a node's row of exchange is twice what it gives; one node may stand in many
+  std::map<std::int32_t, double> given;
+  for (const ToolConductance& tool : tools) given[tool.node] += tool.conductance * tool.area;
+  for (const BodyConductance<dim>& body : bodies) {
+    given[body.node] += 2.0 * body.conductance * body.area;
+    for (std::size_t a = 0; a < dim; ++a)
+      given[body.facet[a]] += 2.0 * body.weight[a] * body.conductance * body.area;
+  }
+  double worst = 0.0;
+  for (const auto& [node, sum] : given)
+    worst = std::max(worst, sum / heat_capacity[static_cast<std::size_t>(node)]);
+  return worst;
 }
 
 template<int dim>
@@ -105,6 +131,7 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
   return worst;
 }
 
+template struct Touching<2>;
 template class ThermalBoundaries<2>;
 
 } // namespace cnem

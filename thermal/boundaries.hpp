@@ -52,6 +52,28 @@ struct ToolConductance {
   double tool_temperature; ///< K
 };
 
+/// Exchange of one boundary node with a place on a facet of the workpiece that it touches.
+template<int dim> struct BodyConductance {
+  std::int32_t node;
+  std::array<std::int32_t, dim> facet; ///< its nodes
+  std::array<double, dim> weight;      ///< of these
+  double conductance;                  ///< W/(m² K)
+  double area;                         ///< m^(dim−1)
+};
+
+/// What touches in a step.
+template<int dim> struct Touching {
+  std::vector<ToolConductance> tools;
+  std::vector<BodyConductance<dim>> bodies;
+
+  void clear() {
+    tools.clear();
+    bodies.clear();
+  }
+  /// Largest share these add to the decay rate of a node, 1/s.
+  double fastest_decay(const Field& heat_capacity) const;
+};
+
 /// All thermal boundary conditions; a boundary that none names is insulated.
 template<int dim> class ThermalBoundaries {
 public:
@@ -70,7 +92,7 @@ public:
 
   /// Adds what flows into the nodes at `time` to `flow`, W/m^(3−dim).
   void add_flow(double time, const Fields<dim>& position, const Field& temperature,
-                const std::vector<ToolConductance>& tools, Field& flow) const;
+                const Touching<dim>& touching, Field& flow) const;
 
   /// Sets the held temperatures of `time`. Returns the heat this brought in, J/m^(3−dim).
   double hold(double time, const Field& heat_capacity, Field& temperature) const;
@@ -86,6 +108,7 @@ private:
   Space space_ = Space::plane;
 };
 
+extern template struct Touching<2>;
 extern template class ThermalBoundaries<2>;
 
 } // namespace cnem

@@ -268,6 +268,7 @@ fracture_energy = "20 kJ/m2"
 residual_strength = 0.3
 [contact]
 deformable = true
+conductance = "1e6 W/(m2 K)"
 friction = { law = "coulomb", coefficient = 0.1 }
 [boundary.left]
 pieces = ["left"]
@@ -310,6 +311,7 @@ pieces = ["bottom"]
 velocity = "0 0 m/s"
 [contact]
 deformable = true
+conductance = "1e6 W/(m2 K)"
 friction = { law = "tresca-limited", coefficient = 0.2 }
 [tools.plate]
 rectangle = { from = "-1 2 mm", to = "4 3 mm" }

@@ -30,7 +30,7 @@ std::vector<Vec2> corners(const Vec2& low, const Vec2& high) {
 
 contact::RigidContact<2> bodies(double friction, std::vector<contact::Tool<2>> tools = {}) {
   return contact::RigidContact<2>(std::move(tools), Space::plane,
-                                  {.active = true, .friction = {.coulomb = friction}});
+                                  {.active = true, .friction = {.coulomb = friction}, .conductance = 0.0});
 }
 
 /// Mass and momentum of the nodes that pass the test of their initial position.
@@ -128,6 +128,60 @@ TEST(SlidingBlock, decelerates_by_mu_g_and_heats_both_sides_alike) {
   EXPECT_NEAR(block.heat + ground.heat, solver.ledger().friction, 1e-9 * lost);
   EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * lost);
   EXPECT_FALSE(crosses_itself(solver));
+}
+
+// Two blocks of another spacing each, one resting on the other, so well conducting that each has one
+// temperature.
+TEST(RestingBlock, passes_its_heat_on_at_the_rate_of_the_conductance) {
+  const double h = 2.5e-4, width = 2e-3, height = 1e-3, g = 1e5, conductance = 1e7, gap = 1e-9,
+               ledge = 2.5e-4;
+  const auto upper = [=](const Vec2& x) { return x.y() > 0.5 * gap; };
+  for (const double ratio : {1.0, 0.7, 1.6}) {
+    const Cloud<2> cloud = two_blocks(corners({-ledge, -height}, {width + ledge, 0}),
+                                      corners({0, gap}, {width, gap + height}), h, ratio * h);
+    std::vector<std::int32_t> base;
+    for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+      if (cloud.position[static_cast<std::size_t>(i)].y() < -height + 1e-9) base.push_back(i);
+    plasticity::Material material = steel();
+    material.conductivity = 1e6;
+    Model<2> model = model_of(cloud, Method::cnem, material);
+    model.thermal = true;
+    model.supports = Supports<2>({{"base", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(0.0), base}},
+                                 static_cast<std::size_t>(cloud.nodes()));
+    model.contact = contact::RigidContact<2>({}, Space::plane,
+                                             {.active = true, .friction = {}, .conductance = conductance});
+    model.loads = Loads<2>({}, {}, {TimeTable(0.0), TimeTable(-g)}, cloud.position);
+    model.viscosity = {1.2, 0.06};
+    Fields<2> velocity;
+    resize_all(velocity, cloud.position.size(), 0.0);
+    Field temperature;
+    for (const Vec2& x : cloud.position) temperature.push_back(upper(x) ? 400.0 : 296.0);
+    ExplicitSolver<2> solver(std::move(model), std::move(velocity), std::move(temperature));
+    const double heat = material.density * material.specific_heat * height,      // J/(K m²)
+        rate = conductance * (1.0 / width + 1.0 / (width + 2.0 * ledge)) / heat, // 1/(m s)
+        end = 0.5 / (rate * width);
+    const double before = share_of(solver, upper).heat;
+    const double weight = material.density * g * width * height;
+    double touched = 0.0, pressed = 0.0, while_pressed = 0.0; // m s, s, m s
+    while (solver.state().time < end) {                       // it bounces a little
+      const double dt = std::min(solver.stable_step().dt, end - solver.state().time);
+      solver.advance(dt);
+      double area = 0.0;
+      for (const auto& touch : solver.model().contact.touches()) area += touch.area;
+      touched += dt * area;
+      if (solver.model().contact.body_result().pressing < 0.5 * weight) continue;
+      pressed += dt;
+      while_pressed += dt * area;
+    }
+    EXPECT_GT(pressed, 0.5 * end);
+    EXPECT_NEAR(while_pressed / pressed, width, 0.07 * width) << ratio; // corners come and go
+    const auto lower = [&](const Vec2& x) { return !upper(x); };
+    const double one = share_of(solver, upper).heat / width,
+                 other = share_of(solver, lower).heat / (width + 2.0 * ledge);
+    EXPECT_NEAR((one - other) / (before / width), std::exp(-rate * touched), 0.005) << ratio;
+    EXPECT_NEAR(one * width + other * (width + 2.0 * ledge), before, 1e-4 * before)
+        << ratio; // and some of the fall
+  }
 }
 
 /// A C that a tool presses shut: the slot closes on itself, with references renewed on the way.

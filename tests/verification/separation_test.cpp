@@ -34,6 +34,7 @@ heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
 damage = { law = "johnson-cook", D1 = 0.2, D2 = 0.2, D3 = -1.5, fracture_energy = "30 kJ/m2", residual_strength = 0.3 }
 [contact]
 deformable = true
+conductance = "1e6 W/(m2 K)"
 friction = { law = "coulomb", coefficient = 0.1 }
 [boundary.symmetry]
 pieces = ["left"]

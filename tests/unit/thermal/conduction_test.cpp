@@ -49,9 +49,9 @@ struct Body {
     return sum;
   }
   void step(double dt, const ThermalBoundaries<2>& boundaries = {}, double time = 0.0,
-            const std::vector<ToolConductance>& tools = {}) {
+            const Touching<2>& touching = {}) {
     std::fill(flow.begin(), flow.end(), 0.0);
-    boundaries.add_flow(time, position, temperature, tools, flow);
+    boundaries.add_flow(time, position, temperature, touching, flow);
     conduction.add_flow(side_by_side<2>(position), temperature, flow);
     for (std::size_t i = 0; i < flow.size(); ++i) temperature[i] += dt * flow[i] / capacity[i];
     boundaries.hold(time + dt, capacity, temperature);
@@ -132,9 +132,10 @@ TEST(Conduction, conductance_to_a_tool_relaxes_as_a_lump) {
   Body body(strip(1e-4, 1e-4, 5e-5));
   std::fill(body.temperature.begin(), body.temperature.end(), 400.0);
   const double conductance = 100.0, tool = 300.0;
-  std::vector<ToolConductance> touch;
-  for (const std::int32_t i : nodes_at_x(body.cloud, 0.0)) touch.push_back({i, conductance, 1e-4 / 3, tool});
-  ASSERT_EQ(touch.size(), 3U);
+  Touching<2> touch;
+  for (const std::int32_t i : nodes_at_x(body.cloud, 0.0))
+    touch.tools.push_back({i, conductance, 1e-4 / 3, tool});
+  ASSERT_EQ(touch.tools.size(), 3U);
   double capacity = 0.0;
   for (const double value : body.capacity) capacity += value;
   const double rate = conductance * 1e-4 / capacity, end = 0.5 / rate;
@@ -143,6 +144,42 @@ TEST(Conduction, conductance_to_a_tool_relaxes_as_a_lump) {
   const int inner = static_cast<int>(std::ceil(end / (0.9 * body.stable_step())));
   for (int n = 0; n < inner; ++n) body.step(end / inner, {}, 0.0, touch);
   EXPECT_NEAR(body.temperature[0], tool + 100.0 * std::exp(-0.5), 0.05);
+}
+
+TEST(Conduction, exchange_between_faces_keeps_heat_and_stays_below_its_bound) {
+  Field temperature{400.0, 300.0, 320.0, 350.0, 310.0};
+  const Field capacity{2.0, 1.0, 3.0, 0.5, 1.5};
+  Touching<2> touching; // nodes 0 and 3 on the facet 1 2, node 1 on the facet 3 0
+  touching.bodies = {{0, {1, 2}, {0.25, 0.75}, 1e3, 1e-3},
+                     {3, {1, 2}, {0.9, 0.1}, 1e3, 2e-3},
+                     {1, {3, 0}, {0.5, 0.5}, 1e3, 5e-4}};
+  touching.tools = {{4, 1e3, 1e-3, 500.0}};
+  const auto rate = [&](const Field& t) {
+    Field flow(t.size(), 0.0);
+    ThermalBoundaries<2>().add_flow(0.0, {}, t, touching, flow);
+    for (std::size_t i = 0; i < flow.size(); ++i) flow[i] /= capacity[i];
+    return flow;
+  };
+  const Field first = rate(temperature);
+  EXPECT_NEAR(capacity[4] * first[4], 190.0, 1e-12);
+  double bodies = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) bodies += capacity[i] * first[i];
+  EXPECT_NEAR(bodies, 0.0, 1e-12);
+  EXPECT_NEAR(capacity[2] * first[2], 0.75 * (400.0 - 315.0) + 0.1 * 2.0 * (350.0 - 302.0), 1e-12);
+  // largest eigenvalue by power iteration on differences from a state at rest
+  const Field rest(5, 500.0);
+  Field x{1.0, -1.0, 0.5, 2.0, 1.0};
+  double eigenvalue = 0.0;
+  for (int n = 0; n < 200; ++n) {
+    Field state = rest;
+    for (std::size_t i = 0; i < x.size(); ++i) state[i] += x[i];
+    const Field y = rate(state);
+    eigenvalue = 0.0;
+    for (const double value : y) eigenvalue = std::max(eigenvalue, std::abs(value));
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = y[i] / eigenvalue;
+  }
+  EXPECT_GT(touching.fastest_decay(capacity), eigenvalue);
+  EXPECT_LT(touching.fastest_decay(capacity), 3.0 * eigenvalue);
 }
 
 TEST(Conduction, insulated_body_keeps_its_heat_on_any_deformation) {
