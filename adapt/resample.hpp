@@ -21,6 +21,7 @@ struct Thresholds {
   double notch = 60.0;    ///< degrees: the bottoms of sharper notches go that are
   double shallow = 0.6;   ///< not deeper
   double sliver = 0.05;   ///< (in h²) the least cell at the boundary
+  double gives_way = 0.05;  ///< as far what touches the boundary moves where it is straightened
   double split_edge = 1.5;  ///< longer boundary edges are split
   double long_edge = 1.6;   ///< longer Delaunay edges get a node
   double clear_node = 0.55; ///< least distance of a new node from others

@@ -38,29 +38,39 @@ public:
     return std::move(list_);
   }
 
-  /// Whether the boundary may go straight from the node before to the node after: nothing else may lie in or
-  /// at the triangle between them.
-  bool may_bypass(std::int32_t node) const {
+  /// A node that touches the boundary from outside, moved back.
+  struct Shift {
+    std::int32_t node;
+    Vec2 to;
+  };
+  /// What it takes for the boundary to go straight from the node before to the node after; nothing if it may
+  /// not: but for what touches it and gives way a little, nothing else may lie in or at the triangle between
+  /// them.
+  std::optional<std::vector<Shift>> bypass(std::int32_t node) const {
     const std::int32_t a = work_.previous(node), c = work_.next(node);
-    if (work_.next(c) == a || stays(node)) return false;
+    if (work_.next(c) == a || stays(node)) return std::nullopt;
     const Vec2 &xa = at(a), &xc = at(c);
     const bool convex = cross(at(node) - xa, xc - xa) > 0.0;
     // the bottom of a slit: its mouth becomes a short facet, one of whose ends has to be able to go then
     if (!convex && (xc - xa).norm() < limit_.pair * work_.size_between(a, c) && stays(a) && stays(c))
-      return false;
-    // what touches the boundary there
-    if (!convex && std::any_of(boundary_.begin(), boundary_.end(), [&](std::int32_t k) {
-          return k != a && k != node && k != c && within(at(k), xa, xc, at(node));
-        }))
-      return false;
+      return std::nullopt;
+    std::vector<Shift> shifts;
+    if (!convex)
+      for (const std::int32_t k : boundary_) {
+        if (k == a || k == node || k == c || !within(at(k), xa, xc, at(node))) continue;
+        const Vec2 along = (xc - xa).normalized(), outwards(along.y(), -along.x());
+        const double depth = -outwards.dot(at(k) - xa);
+        if (depth > limit_.gives_way * work_.node().size[u(k)] || work_.held(k)) return std::nullopt;
+        shifts.push_back({k, at(k) + (depth + 1e-6 * (xc - xa).norm()) * outwards});
+      }
     for (const std::int32_t k : structure_.neighbours(node)) {
       if (k == a || k == c) continue;
       const double side = cross(xc - xa, at(k) - xa) / (xc - xa).norm();
       const double h = work_.size_between(node, k);
-      if (convex && side < 0.1 * h && foot_on(at(k), xa, xc).distance < 0.3 * h) return false;
-      if (convex && side <= 0.0) return false;
+      if (convex && side < 0.1 * h && foot_on(at(k), xa, xc).distance < 0.3 * h) return std::nullopt;
+      if (convex && side <= 0.0) return std::nullopt;
     }
-    return true;
+    return shifts;
   }
 
 private:
@@ -222,7 +232,14 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
       changed.promote(i, candidate.promote_to, a + place * (b - a));
       ++done.promoted;
     } else if (work.on_boundary(i)) {
-      if (!thinning.may_bypass(i)) continue;
+      const auto shifts = thinning.bypass(i);
+      if (!shifts || std::any_of(shifts->begin(), shifts->end(),
+                                 [&](const auto& shift) { return touched[u(shift.node)] != 0; }))
+        continue;
+      for (const auto& shift : *shifts) {
+        changed.place(shift.node, shift.to);
+        touched[u(shift.node)] = 1;
+      }
       changed.bypass(i);
       gone[u(i)] = 1;
       ++done.removed_boundary;

@@ -80,7 +80,7 @@ std::int32_t WorkingCloud::append(const Vec2& x,
   labels_.push_back(std::move(label));
   parcels_.emplace_back();
   node_.mass.push_back(0.0);
-  node_.log_jacobian.push_back(0.0);
+  node_.jacobian.push_back(1.0);
   node_.density.push_back(node_.density[index(parents.front().first)]);
   node_.size.push_back(size);
   node_.held.push_back(0);
@@ -189,8 +189,7 @@ void WorkingCloud::move(const std::vector<Parcel>& parcels) {
     const std::size_t from = index(parcel.from), to = index(parcel.to);
     const double mass = parcel.fraction * node_.mass[from];
     const double total = node_.mass[to] + mass;
-    node_.log_jacobian[to] =
-        (node_.log_jacobian[to] * node_.mass[to] + node_.log_jacobian[from] * mass) / total;
+    node_.jacobian[to] = (node_.jacobian[to] * node_.mass[to] + node_.jacobian[from] * mass) / total;
     node_.mass[to] = total;
     add(row(parcels_, parcel.to), row(parcels_, parcel.from), parcel.fraction);
     left.emplace_back(parcel.from, parcel.fraction);
@@ -222,7 +221,7 @@ std::vector<std::int32_t> WorkingCloud::drop(const std::vector<char>& gone) {
   const auto rename = [&](std::int32_t& i) { i = i < 0 ? -1 : number[index(i)]; };
   compact(cloud_.position);
   compact(node_.mass);
-  compact(node_.log_jacobian);
+  compact(node_.jacobian);
   compact(node_.density);
   compact(node_.size);
   compact(node_.held);

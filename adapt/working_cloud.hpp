@@ -13,7 +13,7 @@ namespace cnem::adapt {
 /// What resampling has to know of a node. Each list is [node]; held nodes that are doubled stay both.
 struct NodeProperties {
   Field mass;             ///< kg/m, carried
-  Field log_jacobian;     ///< ln J of the elastic volume change, –; mixes with mass
+  Field jacobian;         ///< J, volume over the stress-free one, –; mixes with mass, as volumes add
   Field density;          ///< kg/m³ at J = 1; a label
   Field size;             ///< m, wanted spacing; a label
   std::vector<char> held; ///< corners and nodes that conditions name: they stay
@@ -60,7 +60,7 @@ public:
   void promote(std::int32_t node, std::int32_t a, const Vec2& x);
   /// Takes the boundary past a node, which becomes an interior one (to be removed).
   void bypass(std::int32_t node);
-  /// Puts an interior node elsewhere; what it has goes with it.
+  /// Puts a node elsewhere; what it has goes with it.
   void place(std::int32_t node, const Vec2& x) { cloud_.position[index(node)] = x; }
   /// Opens the domain along a path between two boundary nodes, over interior ones: nodes are doubled, and the
   /// two faces stand `gap` (m) apart. Returns the pairs {old node, its double without matter}.

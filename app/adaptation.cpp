@@ -82,11 +82,10 @@ adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Fi
   properties.mass = state.node.mass;
   properties.size = std::move(wanted);
   properties.held.assign(corner_.begin(), corner_.end());
-  properties.log_jacobian.resize(n);
+  properties.jacobian.resize(n);
   properties.density.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    properties.log_jacobian[i] =
-        std::log(jacobian<2>(state.point.deformation, i) / state.point.stress_free[i]);
+    properties.jacobian[i] = jacobian<2>(state.point.deformation, i) / state.point.stress_free[i];
     properties.density[i] = solver.model().materials[u(state.point.material[i])].density;
   }
   if (input_->adapt.separate) { // of what is broken, the most strained is in the middle of the band

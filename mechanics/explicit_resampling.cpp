@@ -51,16 +51,21 @@ void ExplicitSolver<dim>::mix_elastic(const Resampling<dim>& change, const Field
         plasticity::at_point<dim>(point.elastic, static_cast<std::size_t>(change.parcels.node[first]));
     if (last - first > 1) {
       elastic.setZero();
-      double total = 0.0;
+      double total = 0.0, volume = 0.0;
       for (std::size_t e = first; e < last; ++e) {
         const auto k = static_cast<std::size_t>(change.parcels.node[e]);
         const double share = change.parcels.weight[e] * mass[k];
-        elastic += share * plasticity::logarithm<dim>(plasticity::at_point<dim>(point.elastic, k));
+        const auto part = plasticity::logarithm<dim>(plasticity::at_point<dim>(point.elastic, k));
+        elastic += share * part;
+        volume += share * std::exp(0.5 * part.template head<3>().sum());
         total += share;
       }
       elastic /= total;
       const plasticity::Material& material = material_of(p);
       const double softening = material.damage ? point.softening[p] : 0.0;
+      if (softening > 0.0) // gaps are volumes, which add
+        elastic.template head<3>().array() +=
+            2.0 / 3.0 * (std::log(volume / total) - 0.5 * elastic.template head<3>().sum());
       if (softening > 0.0 && softening < 1.0) {
         double& opening = damage_.opening()[p];
         opening = std::max(opening, dilatation<dim>(elastic, material, point.temperature[p]) -

@@ -70,14 +70,15 @@ void PointDamage<dim>::wave_moduli(const std::vector<plasticity::Material>& mate
   if (!active_) return;
   for_each_block(point.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      if (point.softening[p] < 1.0) continue;
+      const double softening = point.softening[p];
+      if (softening == 0.0) continue;
       const plasticity::Material& material = materials[static_cast<std::size_t>(point.material[p])];
+      const plasticity::Elasticity& elasticity = material.elasticity;
       const double opened = jacobian[p] / point.stress_free[p];
       const double expansion =
           3.0 * material.expansion * (point.temperature[p] - material.expansion_reference);
-      const plasticity::Elasticity& elasticity = material.elasticity;
-      const double bulk = std::log(opened) - expansion > open ? 0.0 : elasticity.kappa();
-      wave_modulus[p] = (bulk + 4.0 / 3.0 * elasticity.mu()) / std::max(opened, 1.0);
+      const double bulk = std::log(opened) - expansion > open ? 1.0 - softening : 1.0;
+      wave_modulus[p] = (bulk * elasticity.kappa() + 4.0 / 3.0 * elasticity.mu()) / std::max(opened, 1.0);
     }
   });
 }

@@ -36,9 +36,9 @@ public:
   double update(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
                 PointState<dim>& point, std::size_t begin, std::size_t end, double dt) const;
 
-  /// Brings the wave moduli of broken points up to date, Pa per present volume: (λ + 2μ)/J_e, J_e the
-  /// dilatation from the stress-free state, or where they stand open, so that nothing bears until they have
-  /// closed, 4μ/3J_e. The others keep λ + 2μ. jacobian [point] det F.
+  /// Brings the wave moduli of points that soften up to date, Pa per present volume: (κ + 4μ/3)/J_e, J_e ≥ 1
+  /// the dilatation from the stress-free state, or where they stand open, so that they bear in tension alone
+  /// until they have closed, ((1 − ω) κ + 4μ/3)/J_e. The others keep λ + 2μ. jacobian [point] det F.
   void wave_moduli(const std::vector<plasticity::Material>& materials, const PointState<dim>& point,
                    const Field& jacobian, Field& wave_modulus) const;
 

@@ -13,8 +13,7 @@ Resampling<2> resampled(const ExplicitSolver<2>& solver, double factor) {
   adapt::NodeProperties node;
   node.mass = state.node.mass;
   for (std::size_t i = 0; i < node.mass.size(); ++i) {
-    node.log_jacobian.push_back(
-        std::log(jacobian<2>(state.point.deformation, i) / state.point.stress_free[i]));
+    node.jacobian.push_back(jacobian<2>(state.point.deformation, i) / state.point.stress_free[i]);
     node.density.push_back(solver.model().materials[0].density);
     // finer on the left, coarser on the right
     node.size.push_back(1e-4 * (solver.initial_position()[0][i] < 5e-4 ? factor : 1.0 / factor));

@@ -21,7 +21,7 @@ struct Blank {
     testing::fill(cloud, testing::Lattice::hexagonal, spacing, 0.15, 0.5 * spacing, 1);
     const Structure structure = build_structure(cloud);
     node.mass = structure.cells.volume;
-    node.log_jacobian.assign(node.mass.size(), 0.0);
+    node.jacobian.assign(node.mass.size(), 1.0);
     node.density.assign(node.mass.size(), 1.0);
     node.size.assign(node.mass.size(), spacing);
     node.held.assign(node.mass.size(), 0);
@@ -186,7 +186,7 @@ TEST(Split, resampling_goes_on_with_the_parts) {
   b.break_band(0.5, 1.0);
   PassReport report;
   const Resampling<2> parted = b.opened({.piece = 1}, report);
-  carry_mean(parted.parcels, b.node.mass, b.node.log_jacobian);
+  carry_mean(parted.parcels, b.node.mass, b.node.jacobian);
   carry_sum(parted.parcels, b.node.mass);
   b.node.broken.clear();
   for (Field* label : {&b.node.density, &b.node.size}) carry_label(parted.labels, *label);

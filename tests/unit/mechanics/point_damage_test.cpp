@@ -20,7 +20,9 @@ TEST(PointDamage, wave_moduli_of_broken_points_are_those_of_what_bears) {
     double softening, jacobian, stress_free, temperature, expected;
   };
   const std::vector<Point> points{
-      {0.9, 2.0, 1.0, 300.0, full},           // not yet broken
+      {0.0, 1.2, 1.0, 300.0, full}, // sound
+      {0.9, 1.0, 1.0, 300.0, full}, // not yet broken
+      {0.9, 2.0, 1.0, 300.0, (0.1 * steel.elasticity.kappa() + shear) / 2.0},
       {1.0, 1.0, 1.0, 300.0, full},           // closed
       {1.0, 0.9, 1.0, 300.0, full},           // pressed together: Kirchhoff's modulus on less volume
       {1.0, 1.05, 1.0, 300.0, full / 1.05},   // about to close
