@@ -23,8 +23,7 @@ PassReport& PassReport::operator+=(const PassReport& other) {
 
 double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node) {
   const NodeProperties& p = work.node();
-  return p.density[u(node)] * structure.cells.volume[u(node)] /
-         (p.mass[u(node)] * p.jacobian[u(node)]);
+  return p.density[u(node)] * structure.cells.volume[u(node)] / (p.mass[u(node)] * p.jacobian[u(node)]);
 }
 
 /// Neighbours whose ratios differ exchange half of what would make them equal, the worst nodes first.

@@ -311,8 +311,9 @@ Setup build(const io::Case& input) {
   setup.warnings = std::move(generated.warnings);
   Model<2>& model = setup.model;
   const Space space = space_of(input);
-  model.contact = contact::RigidContact<2>(std::move(tools), space,
-                                           {input.contact.deformable, make_friction(input.contact.friction), input.contact.conductance});
+  model.contact = contact::RigidContact<2>(
+      std::move(tools), space,
+      {input.contact.deformable, make_friction(input.contact.friction), input.contact.conductance});
   model.cloud = std::move(generated.cloud);
   model.method = make_method(input.method, space);
   const std::vector<std::int32_t> region = region_of_nodes(input, model.cloud);

@@ -16,7 +16,8 @@ constexpr double touch = 0.01; ///< of the thickness: less than this is no draw-
 
 constexpr double beside = 0.6; ///< of the width of a body: no further than this is beside one of its faces
 
-constexpr double bent = 0.1; ///< rad within the length that a straight edge is laid on: heights are off by up to a twentieth of it
+constexpr double bent =
+    0.1; ///< rad within the length that a straight edge is laid on: a twentieth of it in height
 
 /// A polyline by its length.
 class Walk {
@@ -170,8 +171,8 @@ private:
   /// Turns the walk so that the surface beside the cut lies level.
   void untilt() {
     if (rules_.fixed) return;
-    const Line line = rules_.whole_surface ? surface(0.75 * width_, 0.25 * width_)
-                                           : surface(1.5 * reach_, 0.5 * reach_);
+    const Line line =
+        rules_.whole_surface ? surface(0.75 * width_, 0.25 * width_) : surface(1.5 * reach_, 0.5 * reach_);
     if (line.length < 0.25 * reach_) return;
     face_.tilt = std::atan(line.slope);
     const double c = std::cos(face_.tilt), s = std::sin(face_.tilt);

@@ -44,8 +44,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
              "found true without contact.deformable, expected contact.deformable = true: the new faces would "
              "go through each other");
   const std::vector<std::string> pieces = result.domain.piece_names();
-  if (adapt.separate &&
-      std::find(pieces.begin(), pieces.end(), Adaptation::fracture_piece) != pieces.end())
+  if (adapt.separate && std::find(pieces.begin(), pieces.end(), Adaptation::fracture_piece) != pieces.end())
     conflict("adapt.separate",
              fmt::format("found true in a domain with a piece \"{0}\", expected another name for it: the "
                          "faces that separation makes are the piece \"{0}\"",

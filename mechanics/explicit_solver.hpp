@@ -194,8 +194,8 @@ private:
   Field jacobian_, viscous_pressure_;  ///< [point] of the last step, for the bulk viscosity
   Field heat_flow_;                    ///< [node] W/m^(3−dim)
   Field contact_heat_;                 ///< [node] J/m^(3−dim) friction heat of this step
-  Touching<dim> touching_; ///< of this step
-  EnergyLedger running_;  ///< cumulative terms
+  Touching<dim> touching_;             ///< of this step
+  EnergyLedger running_;               ///< cumulative terms
   double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
   double plastic_offset_ = 0.0;  ///< keeps plastic work continuous over references
   double viscosity_ratio_ = 0.0; ///< largest share of critical damping by the bulk viscosity in the last step

@@ -4,6 +4,7 @@
 #include "cnem/scni.hpp"
 #include "core/error.hpp"
 #include "tests/clouds.hpp"
+#include "tests/conservation/blank.hpp"
 
 #include <gtest/gtest.h>
 
@@ -161,23 +162,6 @@ TEST_P(Sequences, keep_sums_and_the_patch_test) {
 }
 INSTANTIATE_TEST_SUITE_P(Of, Sequences, ::testing::Range(0, 4));
 
-/// Equal cells, each node with the mass of its cell.
-struct Blank {
-  Cloud<2> cloud;
-  NodeProperties node;
-};
-Blank blank(double spacing) {
-  Blank b;
-  b.cloud = domain(0, spacing, 1);
-  const Structure structure = build_structure(b.cloud);
-  b.node.mass = structure.cells.volume;
-  b.node.jacobian.assign(b.node.mass.size(), 1.0);
-  b.node.density.assign(b.node.mass.size(), 1.0);
-  b.node.size.assign(b.node.mass.size(), spacing);
-  b.node.held.assign(b.node.mass.size(), 0);
-  return b;
-}
-
 TEST(Resample, a_good_cloud_is_left_alone_to_the_bit) {
   const Blank b = blank(0.1);
   PassReport report;
@@ -306,114 +290,6 @@ TEST(Resample, a_small_loop_of_the_boundary_is_cut_off) {
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
   EXPECT_GE(report.folded, 1);
-}
-
-/// Three nodes in the lower side make a slit that narrows upwards.
-std::array<std::size_t, 3> cut_slit(Blank& b, double depth, double mouth = 0.006) {
-  const auto at = [&](double x) {
-    for (std::size_t i = 0; i < b.cloud.position.size(); ++i)
-      if (std::abs(b.cloud.position[i].x() - x) < 1e-9 && b.cloud.position[i].y() == 0.0) return i;
-    return std::size_t{0};
-  };
-  const std::array<std::size_t, 3> slit{at(0.4), at(0.5), at(0.6)};
-  b.cloud.position[slit[0]].x() = 0.5 - 0.5 * mouth;
-  b.cloud.position[slit[1]].y() = depth;
-  b.cloud.position[slit[2]].x() = 0.5 + 0.5 * mouth;
-  return slit;
-}
-
-double shortest_facet(const Cloud<2>& cloud) {
-  double shortest = 1.0;
-  for (const Facet<2>& facet : cloud.facets)
-    shortest =
-        std::min(shortest, (cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])]).norm());
-  return shortest;
-}
-
-// Metal that folds at the edge of a tool leaves laps whose lips stand a twentieth of a spacing apart.
-TEST(Resample, shallow_slits_are_closed) {
-  for (const auto& [depth, mouth] :
-       {std::pair{0.035, 0.006}, std::pair{0.055, 0.006}, std::pair{0.042, 0.036}, std::pair{0.045, 0.05}}) {
-    Blank b = blank(0.1);
-    const std::size_t bottom = cut_slit(b, depth, mouth)[1];
-    PassReport report;
-    const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
-    EXPECT_EQ(change.new_of[bottom], -1) << depth;
-    EXPECT_GT(shortest_facet(change.cloud), 0.03) << depth;
-    EXPECT_NEAR(testing::area(change.cloud), 0.6, 1e-3 * 0.6) << depth;
-  }
-}
-
-TEST(Resample, slits_stay_where_they_are_deep_or_blunt_or_their_lips_must_stay) {
-  for (const auto& [depth, mouth, held] :
-       {std::tuple{0.08, 0.006, false}, {0.035, 0.06, false}, {0.035, 0.006, true}}) {
-    Blank b = blank(0.1);
-    const auto [before, bottom, after] = cut_slit(b, depth, mouth);
-    if (held) b.node.held[before] = b.node.held[after] = 1;
-    PassReport report;
-    const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
-    EXPECT_GE(change.new_of[bottom], 0) << depth << ' ' << mouth << ' ' << held;
-  }
-}
-
-// A tip beside a notch, with a cell that would hold the step: of the two triangles the notch's is the
-// smaller.
-TEST(Resample, slivers_at_the_boundary_go) {
-  const std::array<Vec2, 4> notched{Vec2(0.5, 0.029), {0.5, -0.1}, {0.534, -0.07}, {0.545, -0.119}},
-      single{Vec2(0.47, 0.0), {0.5, -0.05}, {0.52, 0.0}, {0.6, 0.0}};
-  for (const auto& outline : {notched, single}) {
-    Blank b = blank(0.1);
-    std::array<std::size_t, 4> at{};
-    for (std::size_t i = 0; i < b.cloud.position.size(); ++i)
-      for (std::size_t k = 0; k < 4; ++k)
-        if ((b.cloud.position[i] - Vec2(0.4 + 0.1 * static_cast<double>(k), 0.0)).norm() < 1e-9) at[k] = i;
-    for (std::size_t k = 0; k < 4; ++k) b.cloud.position[at[k]] = outline[k];
-    const std::size_t tip = at[1], bottom = at[2];
-    const std::optional<Structure> structure = structure_if_valid(b.cloud);
-    ASSERT_TRUE(structure);
-    ASSERT_LT(structure->cells.volume[tip], 0.05 * 0.01);
-    PassReport report;
-    const Resampling<2> change = resample(b.cloud, structure, b.node, {}, report);
-    EXPECT_EQ(change.new_of[tip] < 0, outline == single);
-    EXPECT_EQ(change.new_of[bottom] < 0, outline == notched);
-  }
-}
-
-// A notch that another body reaches into.
-TEST(Resample, the_boundary_is_not_laid_across_what_touches_it_but_for_a_little) {
-  for (const double reach : {0.01, 0.003}) {
-    Blank b;
-    testing::add_loop(b.cloud, {{0, 0}, {1, 0}, {1, 0.6}, {0.52, 0.6}, {0.5, 0.57}, {0.48, 0.6}, {0, 0.6}},
-                      0.1);
-    testing::add_loop(b.cloud, {{0.5, 0.6 - reach}, {0.7, 0.9}, {0.3, 0.9}}, 0.1);
-    b.cloud.piece_names = {"boundary"};
-    testing::fill(b.cloud, testing::Lattice::hexagonal, 0.1, 0.0, 0.05, 1);
-    const auto twin = b.cloud.position.size(); // crowds an inner node
-    Vec2 inner = Vec2::Zero();
-    for (const Vec2& x : b.cloud.position)
-      if ((x - Vec2(0.25, 0.3)).norm() < (inner - Vec2(0.25, 0.3)).norm()) inner = x;
-    b.cloud.position.push_back(inner + Vec2(0.02, 0.01));
-    const Structure structure = build_structure(b.cloud);
-    const std::size_t n = b.cloud.position.size();
-    b.node.mass = structure.cells.volume;
-    b.node.jacobian.assign(n, 1.0);
-    b.node.density.assign(n, 1.0);
-    b.node.size.assign(n, 0.1);
-    b.node.held.assign(n, 1);
-    std::size_t bottom = 0, tip = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if ((b.cloud.position[i] - Vec2(0.5, 0.57)).norm() < 1e-9) bottom = i;
-      if ((b.cloud.position[i] - Vec2(0.5, 0.6 - reach)).norm() < 1e-9) tip = i;
-    }
-    for (const std::size_t i : {bottom, twin}) b.node.held[i] = 0;
-    b.node.held[tip] = 0;
-    PassReport report;
-    const Resampling<2> change = resample(b.cloud, structure, b.node, {}, report);
-    EXPECT_EQ(report.undone, 0);
-    EXPECT_EQ(change.new_of[twin], -1);
-    EXPECT_EQ(change.new_of[bottom] < 0, reach < 0.005) << reach;
-    EXPECT_TRUE(structure_if_valid(change.cloud));
-  }
 }
 
 TEST(Resample, cracks_are_refused) {

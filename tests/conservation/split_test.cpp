@@ -1,7 +1,7 @@
 // Cutting a cloud along edges: topology, matter, cells.
 #include "adapt/resample.hpp"
 #include "cnem/scni.hpp"
-#include "tests/clouds.hpp"
+#include "tests/conservation/blank.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,21 +10,13 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-struct Blank {
-  Cloud<2> cloud;
-  NodeProperties node;
-
-  explicit Blank(double spacing = 0.1, bool hole = false) {
+struct BrokenBlank : Blank {
+  explicit BrokenBlank(double spacing = 0.1, bool hole = false) {
     testing::add_loop(cloud, testing::rectangle(1.0, 0.6), spacing);
     if (hole) testing::add_loop(cloud, {{0.4, 0.2}, {0.4, 0.4}, {0.6, 0.4}, {0.6, 0.2}}, spacing);
     cloud.piece_names = {"boundary", "fracture"};
     testing::fill(cloud, testing::Lattice::hexagonal, spacing, 0.15, 0.5 * spacing, 1);
-    const Structure structure = build_structure(cloud);
-    node.mass = structure.cells.volume;
-    node.jacobian.assign(node.mass.size(), 1.0);
-    node.density.assign(node.mass.size(), 1.0);
-    node.size.assign(node.mass.size(), spacing);
-    node.held.assign(node.mass.size(), 0);
+    weigh(spacing);
     node.broken.assign(node.mass.size(), 0.0);
   }
   /// Opened and nothing else.
@@ -58,7 +50,7 @@ int faces_of(const Cloud<2>& cloud) {
 
 TEST(Split, leaves_alone_what_is_sound_or_broken_only_in_part) {
   for (const double until : {-1.0, 0.35}) {
-    Blank b;
+    BrokenBlank b;
     b.break_band(0.5, until);
     PassReport report;
     const Resampling<2> change = b.opened({.piece = 1}, report);
@@ -68,7 +60,7 @@ TEST(Split, leaves_alone_what_is_sound_or_broken_only_in_part) {
 }
 
 TEST(Split, takes_the_body_apart_where_it_is_broken_through) {
-  Blank b;
+  BrokenBlank b;
   b.break_band(0.5, 1.0);
   PassReport report;
   const Resampling<2> change = b.opened({.piece = 1}, report);
@@ -104,7 +96,7 @@ TEST(Split, takes_the_body_apart_where_it_is_broken_through) {
 
 // Nodes that were moved to straighten the cut have cells of another size: the pass brings matter along.
 TEST(Split, masses_fit_the_cells_after_the_pass) {
-  Blank b(0.05);
+  BrokenBlank b(0.05);
   b.break_band(0.5, 1.0);
   PassReport report;
   const Resampling<2> change =
@@ -121,7 +113,7 @@ TEST(Split, masses_fit_the_cells_after_the_pass) {
 }
 
 TEST(Split, faces_are_smooth_and_end_on_the_boundary) {
-  Blank b(0.05);
+  BrokenBlank b(0.05);
   b.break_band(0.5, 1.0);
   PassReport report;
   const Resampling<2> change = b.opened({.piece = 1}, report);
@@ -150,7 +142,7 @@ TEST(Split, faces_are_smooth_and_end_on_the_boundary) {
 
 TEST(Split, takes_no_crumbs_and_no_skin_off) {
   for (const bool skin : {false, true}) {
-    Blank b;
+    BrokenBlank b;
     for (std::size_t i = 0; i < b.node.broken.size(); ++i)
       if (skin ? b.cloud.position[i].y() < 0.25 : b.cloud.position[i].norm() < 0.33) b.node.broken[i] = 2.0;
     // two chains: the boundary is sound in between
@@ -167,7 +159,7 @@ TEST(Split, takes_no_crumbs_and_no_skin_off) {
 }
 
 TEST(Split, opens_the_bridge_between_a_hole_and_the_edge) {
-  Blank b(0.05, true);
+  BrokenBlank b(0.05, true);
   ASSERT_EQ(testing::loops(b.cloud), 2);
   b.break_band(0.5, 0.3);
   PassReport report;
@@ -182,7 +174,7 @@ TEST(Split, opens_the_bridge_between_a_hole_and_the_edge) {
 }
 
 TEST(Split, resampling_goes_on_with_the_parts) {
-  Blank b;
+  BrokenBlank b;
   b.break_band(0.5, 1.0);
   PassReport report;
   const Resampling<2> parted = b.opened({.piece = 1}, report);
