@@ -144,6 +144,9 @@ TEST(Audit, mixing_broken_with_sound_points_creates_no_tension) {
 
   const PointState<2>& point = solver.state().point;
   Field held(point.size()); // (1 − ω)⟨θ⟩² κ²
+  Field expanded(point.size());
+  for (std::size_t p = 0; p < held.size(); ++p)
+    expanded[p] = jacobian<2>(point.deformation, p) / point.stress_free[p];
   for (std::size_t p = 0; p < held.size(); ++p)
     if (point.softening[p] < 1.0 && point.pressure[p] < 0.0)
       held[p] = point.pressure[p] * point.pressure[p] / (1.0 - point.softening[p]);
@@ -151,12 +154,14 @@ TEST(Audit, mixing_broken_with_sound_points_creates_no_tension) {
   const EnergyLedger before = solver.ledger();
   const Resampling<2> change = resampled(solver, 0.5);
   carry_mean(change.parcels, mass, held);
+  carry_mean(change.parcels, mass, expanded);
   solver.prepare(change);
   EXPECT_NEAR(solver.ledger().residual(), before.residual(), 1e-11 * before.total());
   int torn = 0, in_tension = 0;
   for (std::size_t p = 0; p < point.size(); ++p) {
     if (!change.mixed(p) || point.softening[p] == 1.0 || point.softening[p] == 0.0) continue;
     ++torn;
+    EXPECT_NEAR(1.0 / point.stress_free[p], expanded[p], 1e-9) << "volumes add";
     if (point.pressure[p] >= 0.0) continue;
     ++in_tension;
     EXPECT_LE(point.pressure[p] * point.pressure[p] / (1.0 - point.softening[p]),
