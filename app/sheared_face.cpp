@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <utility>
 
 namespace cnem::app {
 
@@ -50,27 +51,31 @@ public:
 /// The outline as a walk along the drawn-in surface, up the face and back on the other side, from its point
 /// furthest from the cut; it ends where it passes the limit.
 Walk walk_of(const FaceOutline& outline, const FaceRules& rules, bool& parted) {
-  const std::size_t n = outline.point.size();
-  parted = true;
+  std::vector<Vec2> point = outline.point;
+  std::vector<char> fracture = outline.fracture;
   double twice = 0.0;
-  for (std::size_t k = 0; k < n; ++k) twice += cross(outline.point[k], outline.point[(k + 1) % n]);
-  const bool forward = twice > 0.0;
-  std::size_t first = 0;
-  for (std::size_t k = 1; k < n; ++k) {
-    const Vec2 &a = outline.point[k], &b = outline.point[first];
-    if (a.x() < b.x() || (a.x() == b.x() && a.y() < b.y())) first = k;
+  Vec2 last = point.back();
+  for (const Vec2& x : point) twice += cross(std::exchange(last, x), x);
+  if (twice <= 0.0) {
+    std::reverse(point.begin(), point.end());
+    std::reverse(fracture.begin(), fracture.end());
+    std::rotate(fracture.begin(), fracture.begin() + 1, fracture.end());
   }
+  const auto furthest = std::min_element(point.begin(), point.end(),
+                                         [](const Vec2& a, const Vec2& b) {
+                                           return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+                                         }) -
+                        point.begin();
+  std::rotate(point.begin(), point.begin() + furthest, point.end());
+  std::rotate(fracture.begin(), fracture.begin() + furthest, fracture.end());
+  point.push_back(point.front());
   Walk walk;
-  for (std::size_t k = 0; k <= n; ++k) {
-    const std::size_t here = forward ? (first + k) % n : (first + n - k % n) % n;
-    const Vec2& x = outline.point[here];
-    if (k > 0) walk.fracture.push_back(outline.fracture[forward ? (here + n - 1) % n : here]);
-    walk.point.push_back(x);
-    if (x.x() > rules.limit) {
-      parted = false;
-      break;
-    }
-  }
+  const auto beyond =
+      std::find_if(point.begin(), point.end(), [&](const Vec2& x) { return x.x() > rules.limit; });
+  parted = beyond == point.end();
+  walk.point.assign(point.begin(), parted ? beyond : beyond + 1);
+  fracture.resize(walk.point.size() - 1);
+  walk.fracture = std::move(fracture);
   walk.measure();
   return walk;
 }
