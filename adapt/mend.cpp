@@ -20,6 +20,8 @@ bool crosses(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return c_side * d_side < 0.0 && a_side * b_side < 0.0;
 }
 
+constexpr int longest_fold = 8; ///< nodes
+
 class Mending {
 public:
   explicit Mending(const WorkingCloud& work) : work_(work) {}
@@ -38,10 +40,16 @@ public:
     return back.dot(ahead) > cosine * lengths && cross(ahead, back) > open * lengths;
   }
 
-  /// The facets before and behind the one that leaves the node cross.
-  bool loops(std::int32_t i) const {
-    const std::int32_t before = work_.previous(i), next = work_.next(i), behind = work_.next(next);
-    return behind != before && crosses(at(before), at(i), at(next), at(behind));
+  /// How many nodes, from this one on, make a loop: the facets before and behind them cross. 0: none.
+  int loop(std::int32_t i) const {
+    const std::int32_t before = work_.previous(i);
+    std::int32_t last = work_.next(i);
+    for (int nodes = 2; nodes <= longest_fold; ++nodes, last = work_.next(last)) {
+      const std::int32_t behind = work_.next(last);
+      if (last == before || behind == before || (nodes > 2 && work_.next(behind) == before)) return 0;
+      if (crosses(at(before), at(i), at(last), at(behind))) return nodes;
+    }
+    return 0;
   }
 
 private:
@@ -65,19 +73,25 @@ void mend_boundary(WorkingCloud& work, PassReport& report) {
     any = true;
     ++report.folded;
   };
-  constexpr int most = 8; // nodes of one fold, one after the other
-  for (int round = 0; round < most; ++round) {
+  for (int round = 0; round < longest_fold; ++round) {
     const int before = report.folded;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i) {
       if (!work.on_boundary(i)) continue;
       if (mending.turns_back(i)) {
         if (mending.may_go(i)) bypass(i);
-      } else if (mending.loops(i)) {
+      } else if (const int nodes = mending.loop(i); nodes == 2) {
         const std::int32_t next = work.next(i);
         if (mending.may_go(i))
           bypass(i);
         else if (mending.may_go(next))
           bypass(next);
+      } else if (nodes > 2) { // a film that has been drawn through itself
+        std::int32_t k = i;
+        for (int n = 0; n < nodes; ++n) {
+          const std::int32_t next = work.next(k);
+          if (mending.may_go(k)) bypass(k);
+          k = next;
+        }
       }
     }
     if (report.folded == before) break;

@@ -63,7 +63,7 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
 
 Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure, NodeProperties properties,
                        const ResampleRules& rules, PassReport& report) {
-  WorkingCloud work(cloud, std::move(properties));
+  WorkingCloud work(cloud, std::move(properties), rules.split.piece);
   if (!structure) {
     mend_boundary(work, report);
     drop_outside(work, report);

@@ -35,8 +35,9 @@ void add(Row& a, const Row& b, double factor) {
 
 } // namespace
 
-WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties)
-    : cloud_(cloud), node_(std::move(properties)), old_nodes_(cloud.position.size()) {
+WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, std::int32_t free_piece)
+    : cloud_(cloud), node_(std::move(properties)), old_nodes_(cloud.position.size()),
+      free_piece_(free_piece) {
   if (!cloud.twins.empty())
     throw GeometryError("a cloud with cracks or interfaces cannot be resampled: their two faces would part");
   voronoi::outgoing_facets(cloud); // throws for open loops
@@ -123,8 +124,19 @@ void WorkingCloud::promote(std::int32_t node, std::int32_t a, const Vec2& x) {
   piece_[index(node)] = piece_[index(a)];
 }
 
+bool WorkingCloud::ends_piece(std::int32_t i) const {
+  if (!on_boundary(i)) return false;
+  const std::int32_t before = previous_[index(i)], entering = piece_[index(before)],
+                     leaving = piece_[index(i)];
+  if (entering == leaving) return false;
+  if (leaving == free_piece_) return piece_[index(previous_[index(before)])] != entering;
+  if (entering == free_piece_) return piece_[index(next_[index(i)])] != leaving;
+  return true;
+}
+
 void WorkingCloud::bypass(std::int32_t node) {
   const std::int32_t a = previous_[index(node)], b = next_[index(node)];
+  if (piece_[index(node)] == free_piece_) piece_[index(a)] = free_piece_;
   next_[index(a)] = b;
   previous_[index(b)] = a;
   for (std::int32_t& start : loop_)

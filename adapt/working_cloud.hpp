@@ -31,8 +31,10 @@ using Row = std::vector<std::pair<std::int32_t, double>>;
 
 class WorkingCloud {
 public:
-  /// Throws GeometryError when the cloud has twins (cracks, interfaces) or its facets do not form loops.
-  WorkingCloud(const Cloud<2>& cloud, NodeProperties properties);
+  /// free_piece: index of the boundary piece whose ends may go, because nothing refers to it (faces that
+  /// separation made); −1: none. Throws GeometryError when the cloud has twins (cracks, interfaces) or its
+  /// facets do not form loops.
+  WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, std::int32_t free_piece = -1);
 
   const Cloud<2>& cloud() const { return cloud_; }
   const NodeProperties& node() const { return node_; }
@@ -42,10 +44,9 @@ public:
   std::int32_t previous(std::int32_t i) const { return previous_[index(i)]; }
   std::int32_t piece(std::int32_t i) const { return piece_[index(i)]; } ///< of the facet that leaves it
   bool held(std::int32_t i) const { return node_.held[index(i)] != 0; }
-  /// Facets have changed pieces here: the node is an end of named boundaries.
-  bool ends_piece(std::int32_t i) const {
-    return on_boundary(i) && piece_[index(i)] != piece_[index(previous_[index(i)])];
-  }
+  /// Facets change pieces here, and the node has to stay for it: it is an end of named boundaries, or all
+  /// that keeps a piece beside the free one.
+  bool ends_piece(std::int32_t i) const;
   double size_between(std::int32_t a, std::int32_t b) const {
     return 0.5 * (node_.size[index(a)] + node_.size[index(b)]);
   }
@@ -58,7 +59,8 @@ public:
                          const std::array<double, 3>& weight);
   /// Makes an interior node part of the facet a → next(a), at x.
   void promote(std::int32_t node, std::int32_t a, const Vec2& x);
-  /// Takes the boundary past a node, which becomes an interior one (to be removed).
+  /// Takes the boundary past a node, which becomes an interior one (to be removed). The free piece takes over
+  /// from others.
   void bypass(std::int32_t node);
   /// Puts a node elsewhere; what it has goes with it.
   void place(std::int32_t node, const Vec2& x) { cloud_.position[index(node)] = x; }
@@ -88,6 +90,7 @@ private:
   Cloud<2> cloud_;
   NodeProperties node_;
   std::size_t old_nodes_;
+  std::int32_t free_piece_;
   std::vector<std::int32_t> next_, previous_; ///< [node] along the boundary
   std::vector<std::int32_t> piece_;           ///< [node] of the facet that leaves it
   std::vector<std::int32_t> loop_;            ///< a node of each loop, in order

@@ -81,6 +81,52 @@ TEST(Thin, slivers_at_the_boundary_go) {
   }
 }
 
+// A tail whose two sides have changed places.
+TEST(Mend, a_film_that_is_drawn_through_itself_is_cut_off) {
+  Blank b;
+  testing::add_loop(
+      b.cloud,
+      {{0, 0}, {0.4, 0}, {0.45, -0.05}, {0.5, -0.3}, {0.55, -0.05}, {0.6, 0}, {1, 0}, {1, 0.6}, {0, 0.6}},
+      0.1);
+  testing::fill(b.cloud, testing::Lattice::hexagonal, 0.1, 0.0, 0.05, 1);
+  b.weigh(0.1);
+  double mass = 0.0;
+  for (const double m : b.node.mass) mass += m;
+  for (Vec2& x : b.cloud.position)
+    if (x.y() < -0.01 && x.y() > -0.2) x.x() = 1.0 - x.x();
+  ASSERT_FALSE(structure_if_valid(b.cloud));
+  PassReport report;
+  const Resampling<2> change = resample(b.cloud, std::nullopt, b.node, {}, report);
+  EXPECT_GE(report.folded, 3);
+  for (const Vec2& x : change.cloud.position) EXPECT_GT(x.y(), -0.1);
+  Field after = b.node.mass;
+  carry_sum(change.parcels, after);
+  for (const double m : after) mass -= m;
+  EXPECT_NEAR(mass, 0.0, 1e-12);
+}
+
+// Ends of the faces that a cut made hold nothing, those of a named piece do; and no piece is used up.
+TEST(WorkingCloud, ends_of_the_free_piece_may_go) {
+  Blank b = blank(0.1, 0.0);
+  b.cloud.piece_names = {"boundary", "fracture"};
+  std::int32_t start = -1;
+  for (Facet<2>& facet : b.cloud.facets) {
+    const double x = b.cloud.position[u(facet.node[0])].x(), y = b.cloud.position[u(facet.node[0])].y();
+    if (y == 0.0 && x > 0.39 && x < 0.59) facet.piece = 1;
+    if (y == 0.0 && std::abs(x - 0.4) < 1e-9) start = facet.node[0];
+  }
+  const WorkingCloud named(b.cloud, b.node);
+  EXPECT_TRUE(named.ends_piece(start));
+  WorkingCloud work(b.cloud, b.node, 1);
+  EXPECT_FALSE(work.ends_piece(start));
+  const std::int32_t before = work.previous(start);
+  EXPECT_EQ(work.piece(before), 0);
+  work.bypass(start);
+  EXPECT_EQ(work.piece(before), 1) << "the named piece does not grow";
+  for (Facet<2>& facet : b.cloud.facets) facet.piece = facet.node[0] == before ? 0 : 1;
+  EXPECT_TRUE(WorkingCloud(b.cloud, b.node, 1).ends_piece(start)) << "its last facet";
+}
+
 // A notch that another body reaches into.
 TEST(Thin, the_boundary_is_not_laid_across_what_touches_it_but_for_a_little) {
   for (const double reach : {0.01, 0.003}) {
