@@ -88,8 +88,8 @@ void drop_outside(WorkingCloud& work, PassReport& report);
 /// through the most broken matter. Nodes are doubled, nothing is deleted; the matter of a doubled node is
 /// shared out by the volumes of its two cells. Matter that is broken but does not part the body stays whole.
 void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
-/// One round; false when there was nothing to do. Where the thinned cloud has no valid structure the round is
-/// undone, and made once more without changes of the boundary.
+/// One round; false when there was nothing to do, or it was undone because the cloud would have had no valid
+/// structure.
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report);
 bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, Placement placement,
           PassReport& report);
