@@ -46,14 +46,22 @@ public:
     std::int32_t last = work_.next(i);
     for (int nodes = 2; nodes <= longest_fold; ++nodes, last = work_.next(last)) {
       const std::int32_t behind = work_.next(last);
-      if (last == before || behind == before || (nodes > 2 && work_.next(behind) == before)) return 0;
-      if (crosses(at(before), at(i), at(last), at(behind))) return nodes;
+      if (last == before || behind == before) return 0;
+      if (crosses(at(before), at(i), at(last), at(behind)))
+        return nodes == 2 || longer(behind, before, nodes) ? nodes : 0;
     }
     return 0;
   }
 
 private:
   const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
+  /// Whether the boundary has more nodes than that from one node to another: what is cut off is the smaller
+  /// part.
+  bool longer(std::int32_t from, std::int32_t to, int nodes) const {
+    for (; nodes > 0; --nodes, from = work_.next(from))
+      if (from == to) return false;
+    return true;
+  }
   const WorkingCloud& work_;
 };
 

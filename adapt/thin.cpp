@@ -165,9 +165,9 @@ private:
       const double h = work_.node().size[u(i)];
       double spacing = 0.0;
       if (work_.on_boundary(i)) {
-        const Vec2 back = at(work_.previous(i)) - at(i), ahead = at(work_.next(i)) - at(i);
-        if (stays(i) || 0.5 * std::abs(cross(back, ahead)) > limit_.straight * h * h) continue;
-        spacing = 0.5 * (back.norm() + ahead.norm());
+        const Turn turn = turn_at(i);
+        if (work_.ends_piece(i) || turn.area > limit_.straight * h * h) continue;
+        spacing = 0.5 * (turn.back + turn.ahead);
       } else {
         spacing = spacing_at(work_.cloud(), structure_, i);
       }

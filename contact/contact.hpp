@@ -146,7 +146,8 @@ public:
   const BodyResult<dim>& body_result() const { return body_result_; }
   const BodyContact<dim>& bodies() const { return bodies_; }
   const std::vector<ContactPoint<dim>>& points() const { return points_; } ///< touching in the last step
-  const std::vector<BodyTouch<dim>>& touches() const { return touches_; }  ///< in the last step
+  /// In the last step; listed where the law has a conductance.
+  const std::vector<BodyTouch<dim>>& touches() const { return touches_; }
   /// Workpiece's share of the friction heat of the last step, J/m^(3−dim), [boundary node].
   const std::vector<double>& friction_heat() const { return heat_; }
   /// Contact impulse of the last step, N s/m^(3−dim), [boundary node], before constraints take their part.

@@ -123,6 +123,7 @@ void RigidContact<dim>::list_points(const std::vector<Pose<dim>>& poses, const C
 /// impulse says nothing about touching.
 template<int dim> void RigidContact<dim>::list_touches() {
   touches_.clear();
+  if (law_.conductance == 0.0) return;
   constexpr double closed = 1e-3; // of the facet
   for (const Contact<dim>& contact : contacts_) {
     if (contact.tool >= 0) continue;

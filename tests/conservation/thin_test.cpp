@@ -1,6 +1,7 @@
 // Nodes that go from the boundary: slits, slivers, faces that touch.
 #include "tests/conservation/blank.hpp"
 
+#include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
 #include <tuple>
@@ -103,6 +104,34 @@ TEST(Mend, a_film_that_is_drawn_through_itself_is_cut_off) {
   carry_sum(change.parcels, after);
   for (const double m : after) mass -= m;
   EXPECT_NEAR(mass, 0.0, 1e-12);
+}
+
+// Which part of a small body is the film: not the one with most of its nodes.
+TEST(Mend, what_is_cut_off_is_the_smaller_part) {
+  Blank b;
+  testing::add_loop(b.cloud,
+                    {{0, 0},
+                     {0.1, -0.1},
+                     {0.2, -0.1},
+                     {0.3, 0},
+                     {0.2, 0.1},
+                     {0.1, 0.1},
+                     {0, 0.02},
+                     {-0.1, 0.03},
+                     {-0.1, -0.01}},
+                    1.0);
+  b.weigh(0.1);
+  const auto n = static_cast<double>(b.cloud.nodes());
+  for (Vec2& x : b.cloud.position) // the neck crosses
+    if (x.x() == 0.0) x.y() = 0.02 - x.y();
+  PassReport report;
+  WorkingCloud work(b.cloud, b.node);
+  mend_boundary(work, report);
+  EXPECT_GE(report.folded, 1);
+  EXPECT_GT(static_cast<double>(work.size()), 0.5 * n);
+  for (const Vec2& x : {Vec2(0.2, -0.1), Vec2(0.3, 0.0), Vec2(0.2, 0.1)})
+    EXPECT_TRUE(std::any_of(work.cloud().position.begin(), work.cloud().position.end(),
+                            [&](const Vec2& y) { return (x - y).norm() < 1e-12; }));
 }
 
 // Ends of the faces that a cut made hold nothing, those of a named piece do; and no piece is used up.
