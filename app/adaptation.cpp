@@ -17,7 +17,7 @@ std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The piece that new faces belong to.
 std::int32_t fracture_piece(Cloud<2>& cloud) {
-  constexpr const char* name = io::Adaptation::fracture_piece;
+  constexpr const char* name = input::Adaptation::fracture_piece;
   const auto found = std::find(cloud.piece_names.begin(), cloud.piece_names.end(), name);
   const auto piece = static_cast<std::int32_t>(found - cloud.piece_names.begin());
   if (found == cloud.piece_names.end()) cloud.piece_names.emplace_back(name);
@@ -55,10 +55,10 @@ std::vector<Vec2> features(const Curve& outline, double spacing) {
 
 } // namespace
 
-Adaptation::Adaptation(const io::Case& input, const ExplicitSolver<2>& solver) : input_(&input) {
+Adaptation::Adaptation(const input::Case& input, const ExplicitSolver<2>& solver) : input_(&input) {
   if (!active()) return;
   if (input.adapt.tool_spacing)
-    for (const io::Tool& tool : input.tools)
+    for (const input::Tool& tool : input.tools)
       tips_.push_back(features(tool.outline, *input.adapt.tool_spacing));
   const Cloud<2>& cloud = solver.model().cloud;
   wanted_ = size_ = adapt::spacing_of(cloud, adapt::build_structure(cloud));
@@ -108,14 +108,14 @@ double Adaptation::tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) co
 const Field& Adaptation::indicated(const ExplicitSolver<2>& solver, Field& made) const {
   const PointState<2>& point = solver.state().point;
   switch (input_->adapt.indicator) {
-  case io::Adaptation::Indicator::plastic_power:
+  case input::Adaptation::Indicator::plastic_power:
     made.resize(point.size());
     for (std::size_t p = 0; p < made.size(); ++p)
       made[p] = point.equivalent_stress[p] * point.plastic_rate[p];
     return made;
-  case io::Adaptation::Indicator::temperature:
+  case input::Adaptation::Indicator::temperature:
     return point.temperature;
-  case io::Adaptation::Indicator::damage:
+  case input::Adaptation::Indicator::damage:
     return point.damage;
   default:
     return point.plastic_strain;
@@ -124,7 +124,7 @@ const Field& Adaptation::indicated(const ExplicitSolver<2>& solver, Field& made)
 
 void Adaptation::estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
                                    const adapt::Structure& structure) {
-  const io::Adaptation& rules = input_->adapt;
+  const input::Adaptation& rules = input_->adapt;
   Field made;
   const adapt::Indicator estimate = adapt::indicator(cloud, structure, indicated(solver, made));
   const adapt::Marking marking = adapt::mark(cloud, structure, estimate,
@@ -146,12 +146,12 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   adapt::PassReport report;
   Cloud<2> cloud = solver.present_cloud();
   const Field size_before = size_;
-  const Audit before = audit(solver);
+  const results::Audit before = results::audit(solver);
   try {
     std::optional<adapt::Structure> structure = adapt::structure_if_valid(cloud);
     Field wanted = wanted_; // where nodes have passed each other there is nothing to estimate on
     if (structure) {
-      if (input_->adapt.indicator != io::Adaptation::Indicator::none)
+      if (input_->adapt.indicator != input::Adaptation::Indicator::none)
         estimate_and_mark(solver, cloud, *structure);
       wanted = size_;
       if (!tips_.empty())
@@ -174,7 +174,7 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   }
   ++passes_;
   total_ += report;
-  log_.record(solver.state(), report, before, audit(solver));
+  log_.record(solver.state(), report, before, results::audit(solver));
 }
 
 void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
@@ -199,8 +199,8 @@ void Adaptation::fit_to_tools(ExplicitSolver<2>& solver, const Follow& follow) {
   }
 }
 
-AdaptationFields Adaptation::fields(double time) const {
-  AdaptationFields fields;
+results::AdaptationFields Adaptation::fields(double time) const {
+  results::AdaptationFields fields;
   fields.level.resize(size_.size());
   fields.age.resize(size_.size());
   for (std::size_t i = 0; i < size_.size(); ++i) {
@@ -243,7 +243,7 @@ void Adaptation::archive(Archive& archive) {
     wanted_.resize(corner_.size());
     birth_.resize(corner_.size());
   }
-  if (input_->adapt.indicator != io::Adaptation::Indicator::none) {
+  if (input_->adapt.indicator != input::Adaptation::Indicator::none) {
     archive.integer("run/adapt/refined", refined_);
     archive.integer("run/adapt/coarsened", coarsened_);
     archive.number("run/adapt/error_total", "m", error_total_);

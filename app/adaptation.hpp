@@ -2,10 +2,10 @@
 // Estimate, mark, resample, transfer: what happens to the cloud at a new reference.
 #include "adapt/marking.hpp"
 #include "adapt/resample.hpp"
-#include "app/adaptation_log.hpp"
-#include "app/snapshot.hpp"
-#include "io/case.hpp"
+#include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "results/adaptation_log.hpp"
+#include "results/snapshot.hpp"
 
 #include <functional>
 #include <string>
@@ -17,7 +17,7 @@ namespace cnem::app {
 class Adaptation {
 public:
   /// The spacing that the cloud has is the one that is wanted.
-  Adaptation(const io::Case& input, const ExplicitSolver<2>& solver);
+  Adaptation(const input::Case& input, const ExplicitSolver<2>& solver);
 
   bool active() const { return input_->adapt.resample; }
 
@@ -36,7 +36,7 @@ public:
   void renew(ExplicitSolver<2>& solver, const Follow& follow);
 
   /// For pictures and files at a time, s.
-  AdaptationFields fields(double time) const;
+  results::AdaptationFields fields(double time) const;
   /// Sums over the run, for status.json.
   std::vector<std::pair<std::string, double>> metrics() const;
   void archive(Archive& archive);
@@ -50,7 +50,7 @@ private:
   double tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) const;
   adapt::NodeProperties properties(const ExplicitSolver<2>& solver, Field wanted) const;
 
-  const io::Case* input_;
+  const input::Case* input_;
   Field size_, birth_;    ///< [node] m, wanted spacing before tools and growth; s, when it was inserted
   Field wanted_;          ///< [node] m, wanted spacing of the last pass
   Field error_;           ///< [node] indicator at the last new reference; empty before the first estimate
@@ -61,7 +61,7 @@ private:
   std::vector<std::int32_t> corner_;            ///< [node] 1: stays
   adapt::PassReport total_;
   std::int64_t passes_ = 0;
-  AdaptationLog log_;
+  results::AdaptationLog log_;
 };
 
 } // namespace cnem::app

@@ -71,8 +71,8 @@ std::vector<std::array<std::int32_t, 2>> face_pairs(const Cloud<2>& cloud, const
   return pairs;
 }
 
-std::vector<std::array<std::int32_t, 2>> matching_nodes(const io::Case& input, const io::Periodicity& spec,
-                                                        const Cloud<2>& cloud) {
+std::vector<std::array<std::int32_t, 2>>
+matching_nodes(const input::Case& input, const input::Periodicity& spec, const Cloud<2>& cloud) {
   const std::vector<std::int32_t> first = nodes_of(facets_of(cloud, {spec.pieces[0]}));
   std::vector<std::int32_t> second = nodes_of(facets_of(cloud, {spec.pieces[1]}));
   const auto fail = [&](const std::string& what) {
@@ -131,8 +131,8 @@ std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>& facets) {
   return nodes;
 }
 
-std::vector<std::int32_t> region_of_nodes(const io::Case& input, const Cloud<2>& cloud) {
-  const std::vector<io::Region>& regions = input.domain.regions;
+std::vector<std::int32_t> region_of_nodes(const input::Case& input, const Cloud<2>& cloud) {
+  const std::vector<input::Region>& regions = input.domain.regions;
   if (regions.empty()) return {};
   const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
   const std::vector<std::int32_t> part = parts(cloud, mesh);
@@ -153,14 +153,14 @@ std::vector<std::int32_t> region_of_nodes(const io::Case& input, const Cloud<2>&
   return region;
 }
 
-Pairs tied_pairs(const io::Case& input, const Cloud<2>& cloud) {
+Pairs tied_pairs(const input::Case& input, const Cloud<2>& cloud) {
   Pairs pairs;
-  for (const io::Interface& interface : input.domain.interfaces) {
+  for (const input::Interface& interface : input.domain.interfaces) {
     const auto faces = face_pairs(cloud, interface.name);
     pairs.motion.insert(pairs.motion.end(), faces.begin(), faces.end());
     if (!interface.conductance) pairs.heat.insert(pairs.heat.end(), faces.begin(), faces.end());
   }
-  for (const io::Periodicity& periodic : input.periodic) {
+  for (const input::Periodicity& periodic : input.periodic) {
     const auto sides = matching_nodes(input, periodic, cloud);
     pairs.motion.insert(pairs.motion.end(), sides.begin(), sides.end());
     pairs.heat.insert(pairs.heat.end(), sides.begin(), sides.end());
@@ -168,9 +168,9 @@ Pairs tied_pairs(const io::Case& input, const Cloud<2>& cloud) {
   return pairs;
 }
 
-std::vector<ContactConductance<2>> conductances(const io::Case& input, const Cloud<2>& cloud) {
+std::vector<ContactConductance<2>> conductances(const input::Case& input, const Cloud<2>& cloud) {
   std::vector<ContactConductance<2>> list;
-  for (const io::Interface& interface : input.domain.interfaces) {
+  for (const input::Interface& interface : input.domain.interfaces) {
     if (!interface.conductance) continue;
     std::map<std::int32_t, std::int32_t> opposite;
     for (const auto& [a, b] : face_pairs(cloud, interface.name)) opposite[a] = b;
@@ -183,10 +183,10 @@ std::vector<ContactConductance<2>> conductances(const io::Case& input, const Clo
   return list;
 }
 
-Field strength(const io::Case& input, const Cloud<2>& cloud) {
+Field strength(const input::Case& input, const Cloud<2>& cloud) {
   if (input.initial.imperfections.empty()) return {};
   Field factor(u(cloud.nodes()), 1.0);
-  for (const io::Imperfection& imperfection : input.initial.imperfections)
+  for (const input::Imperfection& imperfection : input.initial.imperfections)
     for (std::size_t i = 0; i < factor.size(); ++i) {
       const double d = distance_to(imperfection.points, cloud.position[i]) / imperfection.width;
       factor[i] *= 1.0 - imperfection.reduction * std::exp(-d * d);
@@ -194,9 +194,9 @@ Field strength(const io::Case& input, const Cloud<2>& cloud) {
   return factor;
 }
 
-void set_initial_state(const io::Case& input, const Cloud<2>& cloud, const std::vector<std::int32_t>& region,
-                       Fields<2>& velocity, Field& temperature) {
-  const io::InitialState& initial = input.initial;
+void set_initial_state(const input::Case& input, const Cloud<2>& cloud,
+                       const std::vector<std::int32_t>& region, Fields<2>& velocity, Field& temperature) {
+  const input::InitialState& initial = input.initial;
   resize_all(velocity, u(cloud.nodes()));
   temperature.assign(u(cloud.nodes()), initial.temperature);
   for (std::size_t i = 0; i < temperature.size(); ++i) {

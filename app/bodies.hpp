@@ -1,7 +1,7 @@
 #pragma once
 // What a case says about parts of the workpiece: materials and initial states of regions, bonded interfaces,
 // periodic pieces, imperfections.
-#include "io/case.hpp"
+#include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 #include <array>
@@ -19,7 +19,7 @@ std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>& facets);
 
 /// For each node the region of the case it belongs to, −1 where none was given; empty without regions.
 /// Throws InputError when two regions lie in one part of the domain.
-std::vector<std::int32_t> region_of_nodes(const io::Case& input, const Cloud<2>& cloud);
+std::vector<std::int32_t> region_of_nodes(const input::Case& input, const Cloud<2>& cloud);
 
 /// Pairs of nodes that move as one, and those of them that have one temperature.
 struct Pairs {
@@ -29,17 +29,17 @@ struct Pairs {
 
 /// Faces of interfaces and periodic pieces. Throws InputError when the nodes of two periodic pieces do not
 /// match.
-Pairs tied_pairs(const io::Case& input, const Cloud<2>& cloud);
+Pairs tied_pairs(const input::Case& input, const Cloud<2>& cloud);
 
 /// Interfaces that heat crosses through a conductance.
-std::vector<ContactConductance<2>> conductances(const io::Case& input, const Cloud<2>& cloud);
+std::vector<ContactConductance<2>> conductances(const input::Case& input, const Cloud<2>& cloud);
 
 /// Factor on the flow stress of each node; empty without imperfections.
-Field strength(const io::Case& input, const Cloud<2>& cloud);
+Field strength(const input::Case& input, const Cloud<2>& cloud);
 
 /// Velocity [component][node], m/s, and temperature [node], K, at time 0. region: as region_of_nodes gives
 /// it.
-void set_initial_state(const io::Case& input, const Cloud<2>& cloud, const std::vector<std::int32_t>& region,
-                       Fields<2>& velocity, Field& temperature);
+void set_initial_state(const input::Case& input, const Cloud<2>& cloud,
+                       const std::vector<std::int32_t>& region, Fields<2>& velocity, Field& temperature);
 
 } // namespace cnem::app

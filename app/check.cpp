@@ -1,56 +1,62 @@
 #include "app/divergence.hpp"
-#include "app/fields.hpp"
-#include "app/recorder.hpp"
 #include "app/run.hpp"
 #include "app/simulation.hpp"
 #include "app/statics.hpp"
-#include "io/output_folder.hpp"
-#include "io/status.hpp"
+#include "app/tool_speed.hpp"
+#include "core/threads.hpp"
+#include "results/fields.hpp"
+#include "results/output_folder.hpp"
+#include "results/recorder.hpp"
+#include "results/status.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <omp.h>
 
 namespace cnem::app {
 
-void check(const io::Case& input, const RunOptions& options) {
-  if (input.analysis.type == io::Analysis::Type::statics) return check_static(input, options);
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+void check(const input::Case& input, const RunOptions& options) {
+  use_threads(options.threads);
+  if (input.analysis.type == input::Analysis::Type::statics) return check_static(input, options);
   std::vector<std::string> warnings;
   ExplicitSolver<2> solver = make_solver(input, warnings);
   StepControl control(input.time);
   control.refresh(solver);
+  for (std::string& warning : supersonic_tools(input, solver)) warnings.push_back(std::move(warning));
+  if (!input.adapt.tool_spacing) check_tool_steps(input, solver, control.limit() / solver.sub_steps());
   const State<2>& state = solver.state();
   const std::size_t node = node_of(solver, control.point());
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   fmt::print("case        {}\n", input.title.empty() ? input.name : input.title);
   fmt::print("nodes       {}\n", state.node.size());
   fmt::print("points      {}\n", state.point.size());
-  fmt::print("area        {:.9g} m²\n", boundary_area(snapshot(solver)));
+  fmt::print("area        {:.9g} m²\n", results::boundary_area(results::snapshot(solver)));
   fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
   if (!input.time.fixed)
-    fmt::print(" at ({:.4g}, {:.4g}) m", state.node.position[0][node], state.node.position[1][node]);
+    fmt::print("{}", input.placed(fmt::format(" at ({:.4g}, {:.4g}) m", state.node.position[0][node],
+                                              state.node.position[1][node])));
   if (solver.sub_steps() > 1) fmt::print(", in {} finest steps", solver.sub_steps());
-  fmt::print("\nsteps       about {:.0f} to t = {:.4g} s\n", std::ceil(input.time.end / control.limit()),
+  fmt::print("\nsteps       about {:.12g} to t = {:.4g} s\n", std::ceil(input.time.end / control.limit()),
              input.time.end);
-  fmt::print("memory      {:.0f} MB\n", static_cast<double>(io::peak_rss_bytes()) / 1e6);
+  fmt::print("memory      {:.0f} MB\n", static_cast<double>(results::peak_rss_bytes()) / 1e6);
   const auto overlaps = solver.model().contact.overlaps(state.node.position, 0.0);
   if (overlaps.empty()) {
     fmt::print("tools       {} without overlap\n", solver.model().contact.tools().size());
   } else {
     fmt::print("tools       {} places where a tool overlaps the workpiece, the deepest:\n", overlaps.size());
     for (std::size_t k = 0; k < std::min<std::size_t>(overlaps.size(), 3); ++k)
-      fmt::print("            {} by {:.3g} m at ({:.4g}, {:.4g}) m\n",
-                 solver.model().contact.tools()[static_cast<std::size_t>(overlaps[k].tool)].name,
-                 overlaps[k].depth, overlaps[k].position.x(), overlaps[k].position.y());
+      fmt::print("            {}\n",
+                 input.placed(fmt::format(
+                     "{} by {:.3g} m at ({:.4g}, {:.4g}) m",
+                     solver.model().contact.tools()[static_cast<std::size_t>(overlaps[k].tool)].name,
+                     overlaps[k].depth, overlaps[k].position.x(), overlaps[k].position.y())));
   }
   const std::filesystem::path folder = options.output / "initial";
-  io::prepare_output_folder(folder, true);
-  io::FileQueue files;
-  FieldRecorder(folder).record(files, snapshot(solver));
+  results::prepare_output_folder(folder, true);
+  results::FileQueue files;
+  results::FieldRecorder(folder, input.origin).record(files, results::snapshot(solver));
   files.wait();
-  fmt::print("fields      {}\n", (folder / io::files::fields).string());
+  fmt::print("fields      {}\n", (folder / results::files::fields).string());
 }
 
 } // namespace cnem::app

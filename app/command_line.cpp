@@ -1,16 +1,21 @@
 #include "app/command_line.hpp"
 
+#include "app/process/exhaustion.hpp"
 #include "app/run.hpp"
-#include "app/sweep.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
-#include "io/case_reader.hpp"
-#include "io/report.hpp"
-#include "io/schema.hpp"
+#include "core/isa.hpp"
+#include "input/case_reader.hpp"
+#include "input/schema/schema.hpp"
+#include "report/report.hpp"
+#include "study/sweep.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
+#include <new>
+#include <sstream>
+#include <system_error>
 
 namespace cnem::app {
 
@@ -32,12 +37,12 @@ struct CaseOptions {
     command.add_flag("--force", force, "replace a run that the folder holds");
     command.add_option("--threads", threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
   }
-  io::Case read() const {
+  input::Case read() const {
     std::filesystem::path file = path;
     if (std::filesystem::is_directory(file)) file /= "case.toml";
-    return io::read_case(file, set);
+    return input::read_case(file, set);
   }
-  RunOptions options(const io::Case& input) const {
+  RunOptions options(const input::Case& input) const {
     return {.output = output.empty() ? std::filesystem::path("results") / input.name
                                      : std::filesystem::path(output),
             .force = force,
@@ -75,7 +80,7 @@ int act(CLI::App& program, int argc, char** argv) {
 
   CLI::App* sweep_command = program.add_subcommand("sweep", "run a parameter study: one case, many values");
   std::string study_path, sweep_output;
-  SweepOptions sweep_options;
+  study::SweepOptions sweep_options;
   sweep_command->add_option("study", study_path, "study file (TOML), or a folder that holds study.toml")
       ->required();
   sweep_command->add_option("--output", sweep_output, "folder of results (default: results/<study name>)");
@@ -84,11 +89,22 @@ int act(CLI::App& program, int argc, char** argv) {
       ->add_option("--processes", sweep_options.processes, "runs at a time (default: as the study says)")
       ->check(CLI::PositiveNumber);
 
+  for (CLI::App* command : {run_command, check_command, restart_command, sweep_command})
+    command->footer("CNEM_ISA=baseline, avx2 or avx512 in the environment chooses the instruction set of the "
+                    "kernels (default: the best one that the machine has).");
+
   try {
     program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) { return program.exit(error) == 0 ? Exit::done : Exit::bad_input; }
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out, problems;
+    const int code = program.exit(error, out, problems);
+    fmt::print("{}", out.str());
+    fmt::print(stderr, "{}", problems.str());
+    return code == 0 ? Exit::done : Exit::bad_input;
+  }
+  if (!*schema_command && !*report_command) wanted_isa(); // a mistake in it shows before anything is made
   if (*run_command) {
-    const io::Case input = run_options.read();
+    const input::Case input = run_options.read();
     RunOptions options = run_options.options(input);
     options.profile = profile;
     return run(input, options);
@@ -98,19 +114,19 @@ int act(CLI::App& program, int argc, char** argv) {
     return restart(restart_options);
   }
   if (*sweep_command) {
-    const io::Study study = io::read_study(study_path);
+    const study::Study study = study::read_study(study_path);
     sweep_options.output = sweep_output.empty() ? std::filesystem::path("results") / study.name
                                                 : std::filesystem::path(sweep_output);
     sweep_options.version = version();
-    return sweep(study, sweep_options);
+    return study::sweep(study, sweep_options);
   }
   if (*check_command) {
-    const io::Case input = check_options.read();
+    const input::Case input = check_options.read();
     check(input, check_options.options(input));
   } else if (*schema_command) {
-    fmt::print("{}", markdown ? io::case_reference() : io::json_schema());
+    fmt::print("{}", markdown ? input::case_reference() : input::json_schema());
   } else if (*report_command) {
-    fmt::print("{}\n", io::write_report(folder).string());
+    fmt::print("{}\n", report::write_report(folder).string());
   }
   return Exit::done;
 }
@@ -131,8 +147,11 @@ int command_line(int argc, char** argv) {
   } catch (const IoError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return Exit::io_failed;
-  } catch (const std::filesystem::filesystem_error& error) {
+  } catch (const std::system_error& error) { // files, threads and processes
     fmt::print(stderr, "{}\n", error.what());
+    return Exit::io_failed;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "{}\n", memory_exhausted());
     return Exit::io_failed;
   }
 }

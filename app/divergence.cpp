@@ -33,7 +33,7 @@ double strain_of(const PointState<2>& point, std::size_t p) {
 }
 
 /// What a user has chosen that makes runs diverge.
-void blame_settings(const io::Case& input, const std::string& field, std::vector<std::string>& causes) {
+void blame_settings(const input::Case& input, const std::string& field, std::vector<std::string>& causes) {
   if (input.time.fixed)
     causes.push_back(
         fmt::format("The step is fixed at {:.3g} s (time.step.fixed), whatever is stable: without "
@@ -43,16 +43,19 @@ void blame_settings(const io::Case& input, const std::string& field, std::vector
     causes.push_back(fmt::format("time.step.safety = {:.3g} leaves no room between two looks at the stable "
                                  "step: take 0.9 or less.",
                                  input.time.safety));
-  if (input.method.name == io::Method::Name::cnem && input.method.stabilisation == 0.0)
+  if (input.method.name == input::Method::Name::cnem && input.method.stabilisation == 0.0)
     causes.push_back(
         "method.stabilisation = 0 leaves the zigzag modes of nodal integration free: take 0.05.");
+  if (field == "tool velocity")
+    causes.push_back("Its force drives the tool faster than its contact can be seen: give it more mass or "
+                     "thickness, or a smaller time.step.max.");
   if (field == "energy residual" && input.method.energy_tolerance < 0.005)
     causes.push_back(fmt::format("method.energy_tolerance = {:.3g} is less than what a good run may leave.",
                                  input.method.energy_tolerance));
 }
 
 /// What the place tells.
-void blame_place(const io::Case& input, const ExplicitSolver<2>& solver, std::size_t node,
+void blame_place(const input::Case& input, const ExplicitSolver<2>& solver, std::size_t node,
                  std::vector<std::string>& causes) {
   const State<2>& state = solver.state();
   const DiscreteOperators<2>& op = solver.approximation().mechanics;
@@ -77,7 +80,7 @@ void blame_place(const io::Case& input, const ExplicitSolver<2>& solver, std::si
     causes.push_back("It lies on the boundary, which folds over itself where it stretches or buckles most: "
                      "refine there (cloud.refine), or end the run earlier.");
   const double strain = solver.state().point.size() > point ? strain_of(state.point, point) : 0.0;
-  if (strain > 1.0 && input.method.lagrangian == io::Method::Lagrangian::total)
+  if (strain > 1.0 && input.method.lagrangian == input::Method::Lagrangian::total)
     causes.push_back(fmt::format("Its cell has strained by {:.2g} since the start and method.lagrangian is "
                                  "\"total\": \"periodic\" renews the reference in time.",
                                  strain));
@@ -132,11 +135,11 @@ void check_finite(const State<2>& state) {
             static_cast<int>(i), name);
 }
 
-void check_energy(double residual, double scale, double tolerance, const State<2>& state) {
-  const double share = std::abs(residual) / scale;
+void check_energy(double residual, const EnergyScale& scale, double tolerance, const State<2>& state) {
+  const double share = std::abs(residual) / scale.energy;
   // The error of a gentle start falls with the square of the steps while it is compared with next to nothing.
   constexpr std::int64_t first_judged = 10;
-  if (state.step < first_judged || !(scale > 0.0) || share <= tolerance) return;
+  if (state.step < first_judged || share <= tolerance) return;
   const Fields<2>& v = state.node.velocity;
   std::size_t fastest = 0;
   for (std::size_t i = 0; i < state.node.size(); ++i)
@@ -145,9 +148,9 @@ void check_energy(double residual, double scale, double tolerance, const State<2
   if (std::hypot(v[0][fastest], v[1][fastest]) < at_rest) return;
   throw DivergenceError(
       fmt::format(
-          "the energy residual is {:.3g} of the work done, more than method.energy_tolerance = {:.3g} "
+          "the energy residual is {:.3g} of {}, more than method.energy_tolerance = {:.3g} "
           "allows, at step {}, t = {:.6g} s; the fastest node is {} at ({:.6g}, {:.6g}) m with {:.3g} m/s",
-          share, tolerance, state.step, state.time, fastest, state.node.position[0][fastest],
+          share, scale.what, tolerance, state.step, state.time, fastest, state.node.position[0][fastest],
           state.node.position[1][fastest], std::hypot(v[0][fastest], v[1][fastest])),
       static_cast<int>(fastest), "energy residual");
 }
@@ -177,20 +180,20 @@ Place place_of(const ExplicitSolver<2>& solver, std::size_t node) {
           cells_around * spacing};
 }
 
-io::PostMortem post_mortem(const DivergenceError& error, const io::Case& input,
-                           const ExplicitSolver<2>& solver) {
+results::PostMortem post_mortem(const DivergenceError& error, const input::Case& input,
+                                const ExplicitSolver<2>& solver) {
   const State<2>& state = solver.state();
-  io::PostMortem dead;
+  results::PostMortem dead;
   dead.step = state.step;
   dead.time = state.time;
   dead.node = error.node;
   dead.field = error.field;
-  dead.text = error.what();
+  dead.text = input.placed(error.what());
   blame_settings(input, error.field, dead.causes);
   if (error.node >= 0) {
     const auto node = static_cast<std::size_t>(error.node);
-    dead.x = state.node.position[0][node];
-    dead.y = state.node.position[1][node];
+    dead.x = input.origin.x() + state.node.position[0][node];
+    dead.y = input.origin.y() + state.node.position[1][node];
     blame_place(input, solver, node, dead.causes);
   }
   if (dead.causes.empty())

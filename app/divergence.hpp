@@ -1,9 +1,9 @@
 #pragma once
 // How a run tells that it means nothing any more, and what it says about it afterwards.
 #include "core/error.hpp"
-#include "io/case.hpp"
-#include "io/status.hpp"
+#include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "results/status.hpp"
 
 #include <string>
 
@@ -21,14 +21,14 @@ void check_finite(const State<2>& state);
 
 /// Throws DivergenceError when the energy residual is more than the case allows, from step 10 on; it has no
 /// place of its own: the fastest node shows where the run has come apart.
-void check_energy(double residual, double scale, double tolerance, const State<2>& state);
+void check_energy(double residual, const EnergyScale& scale, double tolerance, const State<2>& state);
 
 /// The reference could not be renewed: the place is the most strained cell.
 DivergenceError lost_reference(const ExplicitSolver<2>& solver, const GeometryError& error);
 
 /// Where and when, and the likely causes in plain words.
-io::PostMortem post_mortem(const DivergenceError& error, const io::Case& input,
-                           const ExplicitSolver<2>& solver);
+results::PostMortem post_mortem(const DivergenceError& error, const input::Case& input,
+                                const ExplicitSolver<2>& solver);
 
 /// The neighbourhood of a node to draw.
 struct Place {

@@ -1,4 +1,6 @@
 #include "app/command_line.hpp"
+#include "app/process/exhaustion.hpp"
+#include "app/process/standard_streams.hpp"
 
 #include <csignal>
 #include <cstdlib>
@@ -20,5 +22,8 @@ void limit_spinning(char** argv) {
 int main(int argc, char** argv) {
   limit_spinning(argv);
   std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of writing, with its exit code
-  return cnem::app::command_line(argc, argv);
+  std::signal(SIGPIPE, SIG_IGN); // nor does a reader of what is printed end a run by going away
+  cnem::app::prepare_for_exhaustion();
+  const cnem::app::StandardStreams streams;
+  return cnem::app::in_order(streams.finish(cnem::app::command_line(argc, argv)));
 }

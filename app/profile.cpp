@@ -4,7 +4,7 @@
 
 namespace cnem::app {
 
-std::string profile_table(const io::RunStatus& status) {
+std::string profile_table(const results::RunStatus& status) {
   double total = 0.0;
   for (const auto& [phase, seconds] : status.wall_s)
     if (phase == "total") total = seconds;

@@ -1,10 +1,10 @@
 #include "app/registry.hpp"
 
-#include "alternatives/fe_triangle.hpp"
 #include "app/bodies.hpp"
+#include "clouds/generate.hpp"
 #include "cnem/scni.hpp"
 #include "contact/curve_shape.hpp"
-#include "voronoi/generate.hpp"
+#include "methods/fe_triangle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,20 +14,20 @@ namespace cnem::app {
 
 namespace {
 
-voronoi::DomainShape domain_shape(const io::Domain& domain) {
-  voronoi::DomainShape shape;
+clouds::DomainShape domain_shape(const input::Domain& domain) {
+  clouds::DomainShape shape;
   shape.outer = domain.outer;
-  for (const io::Hole& hole : domain.holes) shape.holes.push_back(hole.outline);
-  for (const io::Crack& crack : domain.cracks) shape.cracks.push_back({crack.name, crack.points});
-  for (const io::Interface& face : domain.interfaces) shape.cracks.push_back({face.name, face.points});
+  for (const input::Hole& hole : domain.holes) shape.holes.push_back(hole.outline);
+  for (const input::Crack& crack : domain.cracks) shape.cracks.push_back({crack.name, crack.points});
+  for (const input::Interface& face : domain.interfaces) shape.cracks.push_back({face.name, face.points});
   return shape;
 }
 
-voronoi::SpacingField spacing_field(const io::CloudSpec& spec) {
-  voronoi::SpacingField field;
+clouds::SpacingField spacing_field(const input::CloudSpec& spec) {
+  clouds::SpacingField field;
   field.spacing = spec.spacing;
-  for (const io::Refinement& refine : spec.refine) {
-    voronoi::Refinement region;
+  for (const input::Refinement& refine : spec.refine) {
+    clouds::Refinement region;
     region.spacing = refine.spacing;
     region.growth = refine.growth;
     for (const Vec2& tip : refine.tips) {
@@ -36,7 +36,7 @@ voronoi::SpacingField spacing_field(const io::CloudSpec& spec) {
     }
     if (!refine.tips.empty()) continue;
     if (refine.box) {
-      region.region = voronoi::Refinement::Region::box;
+      region.region = clouds::Refinement::Region::box;
       region.points = {(*refine.box)[0], (*refine.box)[1]};
     } else {
       region.points = refine.points;
@@ -46,20 +46,20 @@ voronoi::SpacingField spacing_field(const io::CloudSpec& spec) {
   return field;
 }
 
-voronoi::CloudOptions cloud_options(const io::CloudSpec& spec) {
-  voronoi::CloudOptions options;
+clouds::CloudOptions cloud_options(const input::CloudSpec& spec) {
+  clouds::CloudOptions options;
   switch (spec.pattern) {
-  case io::CloudSpec::Pattern::hexagonal:
-    options.pattern = voronoi::Pattern::hexagonal;
+  case input::CloudSpec::Pattern::hexagonal:
+    options.pattern = clouds::Pattern::hexagonal;
     break;
-  case io::CloudSpec::Pattern::regular:
-    options.pattern = voronoi::Pattern::regular;
+  case input::CloudSpec::Pattern::regular:
+    options.pattern = clouds::Pattern::regular;
     break;
-  case io::CloudSpec::Pattern::jittered:
-    options.pattern = voronoi::Pattern::jittered;
+  case input::CloudSpec::Pattern::jittered:
+    options.pattern = clouds::Pattern::jittered;
     break;
-  case io::CloudSpec::Pattern::list:
-    options.pattern = voronoi::Pattern::list;
+  case input::CloudSpec::Pattern::list:
+    options.pattern = clouds::Pattern::list;
     break;
   }
   options.jitter = spec.jitter;
@@ -68,21 +68,21 @@ voronoi::CloudOptions cloud_options(const io::CloudSpec& spec) {
   return options;
 }
 
-plasticity::Material make_material(const io::Material& spec) {
+plasticity::Material make_material(const input::Material& spec) {
   plasticity::Material material;
   material.name = spec.name;
   material.density = spec.density;
   material.elasticity = {spec.young, spec.poisson};
-  if (const auto* perfect = std::get_if<io::PerfectPlasticity>(&spec.plastic)) {
+  if (const auto* perfect = std::get_if<input::PerfectPlasticity>(&spec.plastic)) {
     material.hardening = plasticity::JohnsonCook{.A = perfect->yield};
-  } else if (const auto* linear = std::get_if<io::LinearHardening>(&spec.plastic)) {
+  } else if (const auto* linear = std::get_if<input::LinearHardening>(&spec.plastic)) {
     material.hardening = plasticity::JohnsonCook{.A = linear->yield, .B = linear->hardening};
-  } else if (const auto* voce = std::get_if<io::Voce>(&spec.plastic)) {
+  } else if (const auto* voce = std::get_if<input::Voce>(&spec.plastic)) {
     material.hardening = plasticity::JohnsonCook{.A = voce->yield,
                                                  .B = voce->hardening,
                                                  .saturation = voce->saturation - voce->yield,
                                                  .saturation_exponent = voce->exponent};
-  } else if (const auto* jc = std::get_if<io::JohnsonCook>(&spec.plastic)) {
+  } else if (const auto* jc = std::get_if<input::JohnsonCook>(&spec.plastic)) {
     material.hardening = plasticity::JohnsonCook{.A = jc->A,
                                                  .B = jc->B,
                                                  .n = jc->n,
@@ -116,7 +116,7 @@ plasticity::Material make_material(const io::Material& spec) {
 }
 
 /// The materials in use and which node is of which. region: as region_of_nodes gives it.
-void set_materials(const io::Case& input, const std::vector<std::int32_t>& region, Model<2>& model) {
+void set_materials(const input::Case& input, const std::vector<std::int32_t>& region, Model<2>& model) {
   std::vector<std::string> names;
   const auto index_of = [&](const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -128,7 +128,7 @@ void set_materials(const io::Case& input, const std::vector<std::int32_t>& regio
   };
   const std::int32_t everywhere = index_of(input.domain.material);
   std::vector<std::int32_t> of_region;
-  for (const io::Region& part : input.domain.regions) of_region.push_back(index_of(part.material));
+  for (const input::Region& part : input.domain.regions) of_region.push_back(index_of(part.material));
   if (model.materials.size() == 1) return;
   for (const std::int32_t r : region)
     model.node_material.push_back(r < 0 ? everywhere : of_region[static_cast<std::size_t>(r)]);
@@ -144,7 +144,7 @@ struct Conditions {
 };
 
 /// The nodes nearest to the points of a condition.
-std::vector<std::int32_t> nodes_at(const io::Case& input, const io::BoundaryCondition& spec,
+std::vector<std::int32_t> nodes_at(const input::Case& input, const input::BoundaryCondition& spec,
                                    const Cloud<2>& cloud) {
   std::vector<std::int32_t> nodes;
   for (const Vec2& point : spec.points) {
@@ -165,7 +165,7 @@ std::vector<std::int32_t> nodes_at(const io::Case& input, const io::BoundaryCond
   return nodes;
 }
 
-void add_condition(const io::Case& input, const io::BoundaryCondition& spec, const Cloud<2>& cloud,
+void add_condition(const input::Case& input, const input::BoundaryCondition& spec, const Cloud<2>& cloud,
                    Conditions& all) {
   const std::vector<Facet<2>> facets = facets_of(cloud, spec.pieces);
   std::vector<std::int32_t> nodes = nodes_of(facets);
@@ -209,7 +209,7 @@ void add_condition(const io::Case& input, const io::BoundaryCondition& spec, con
 }
 
 /// Nodes on the axis of revolution stay on it. Throws InputError when the workpiece reaches beyond the axis.
-void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& supports,
+void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& supports,
                std::vector<std::string>& warnings) {
   double size = 0.0;
   for (const Vec2& x : cloud.position) size = std::max(size, x.norm());
@@ -240,14 +240,14 @@ void hold_axis(const io::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& 
                     {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis), {}});
 }
 
-contact::Friction make_friction(const io::Friction& spec) {
+contact::Friction make_friction(const input::Friction& spec) {
   contact::Friction friction;
-  if (spec.law != io::Friction::Law::none) friction.coulomb = spec.coefficient;
-  if (spec.law == io::Friction::Law::tresca_limited) friction.shear_factor = spec.shear_factor;
+  if (spec.law != input::Friction::Law::none) friction.coulomb = spec.coefficient;
+  if (spec.law == input::Friction::Law::tresca_limited) friction.shear_factor = spec.shear_factor;
   return friction;
 }
 
-contact::Tool<2> make_tool(const io::Case& input, const io::Tool& spec) {
+contact::Tool<2> make_tool(const input::Case& input, const input::Tool& spec) {
   contact::Tool<2> tool;
   tool.name = spec.name;
   try {
@@ -272,45 +272,40 @@ contact::Tool<2> make_tool(const io::Case& input, const io::Tool& spec) {
 
 } // namespace
 
-Space space_of(const io::Case& input) {
-  return input.analysis.kinematics == io::Analysis::Kinematics::axisymmetric ? Space::revolution
-                                                                             : Space::plane;
-}
-
-std::unique_ptr<Discretisation<2>> make_method(const io::Method& method, Space space) {
-  if (method.name == io::Method::Name::fe_triangles)
-    return std::make_unique<alternatives::FeTriangles>(space);
+std::unique_ptr<Discretisation<2>> make_method(const input::Method& method, Space space) {
+  if (method.name == input::Method::Name::fe_triangles) return std::make_unique<methods::FeTriangles>(space);
   scni::Options options;
-  options.functions =
-      method.functions == io::Method::Functions::laplace ? scni::Functions::laplace : scni::Functions::sibson;
+  options.functions = method.functions == input::Method::Functions::laplace ? scni::Functions::laplace
+                                                                            : scni::Functions::sibson;
   options.gauss_points = method.gauss_points;
   options.space = space;
   return std::make_unique<scni::Cnem>(options);
 }
 
-Setup build(const io::Case& input) {
-  voronoi::GeneratedCloud generated;
+Setup build(const input::Case& input) {
+  clouds::GeneratedCloud generated;
   try {
-    generated = voronoi::generate_cloud(domain_shape(input.domain), spacing_field(input.cloud),
-                                        cloud_options(input.cloud));
-  } catch (const voronoi::SpacingError& error) {
+    generated = clouds::generate_cloud(domain_shape(input.domain), spacing_field(input.cloud),
+                                       cloud_options(input.cloud));
+  } catch (const clouds::SpacingError& error) {
     throw input.error("cloud.spacing", error.what());
   } catch (const GeometryError& error) {
-    const bool list = input.cloud.pattern == io::CloudSpec::Pattern::list;
+    const bool list = input.cloud.pattern == input::CloudSpec::Pattern::list;
     throw input.error(list ? "cloud.nodes" : "domain", error.what());
   }
-  if (input.method.name == io::Method::Name::fe_triangles &&
-      input.method.lagrangian != io::Method::Lagrangian::total)
+  if (input.method.name == input::Method::Name::fe_triangles &&
+      input.method.lagrangian != input::Method::Lagrangian::total)
     throw input.error("method.lagrangian",
                       "finite-element triangles carry their history in the elements and run total "
                       "Lagrangian only; expected \"total\"");
 
   std::vector<contact::Tool<2>> tools;
-  for (const io::Tool& tool : input.tools) tools.push_back(make_tool(input, tool));
+  for (const input::Tool& tool : input.tools) tools.push_back(make_tool(input, tool));
   Setup setup;
-  setup.warnings = std::move(generated.warnings);
+  setup.warnings = input.warnings;
+  setup.warnings.insert(setup.warnings.end(), generated.warnings.begin(), generated.warnings.end());
   Model<2>& model = setup.model;
-  const Space space = space_of(input);
+  const Space space = input.analysis.space();
   model.contact = contact::RigidContact<2>(
       std::move(tools), space,
       {input.contact.deformable, make_friction(input.contact.friction), input.contact.conductance});
@@ -334,7 +329,7 @@ Setup build(const io::Case& input) {
     model.mass_scaling = {scaling->factor.value_or(1.0), scaling->step.value_or(0.0)};
 
   Conditions all;
-  for (const io::BoundaryCondition& condition : input.boundary)
+  for (const input::BoundaryCondition& condition : input.boundary)
     add_condition(input, condition, model.cloud, all);
   if (space == Space::revolution) hold_axis(input, model.cloud, all.supports, setup.warnings);
   // What holds one node of a tie holds them all.
@@ -354,6 +349,7 @@ Setup build(const io::Case& input) {
                            space, conductances(input, model.cloud));
 
   set_initial_state(input, model.cloud, region, setup.velocity, setup.temperature);
+  for (std::string& warning : setup.warnings) warning = input.placed(warning);
   return setup;
 }
 

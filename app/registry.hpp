@@ -1,6 +1,6 @@
 #pragma once
 // From a case to solver objects: the only place that knows every method, material and tool.
-#include "io/case.hpp"
+#include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 #include <memory>
@@ -20,12 +20,11 @@ struct Setup {
 /// Builds cloud, method, material, boundary conditions and tools of a case. Throws InputError with file, line
 /// and key for what only geometry can tell: impossible clouds, pieces without nodes, conditions that
 /// contradict each other.
-Setup build(const io::Case& input);
+Setup build(const input::Case& input);
 
 /// The names of the methods a case can ask for, as in the schema.
-std::unique_ptr<Discretisation<2>> make_method(const io::Method& method, Space space = Space::plane);
+std::unique_ptr<Discretisation<2>> make_method(const input::Method& method, Space space = Space::plane);
 
 /// What the plane of a case stands for.
-Space space_of(const io::Case& input);
 
 } // namespace cnem::app

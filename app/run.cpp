@@ -1,18 +1,19 @@
 #include "app/run.hpp"
 
-#include "app/folder_lock.hpp"
-#include "app/run_signals.hpp"
+#include "app/process/exhaustion.hpp"
+#include "app/process/run_signals.hpp"
 #include "app/simulation.hpp"
 #include "app/statics.hpp"
 #include "core/isa.hpp"
-#include "io/case_reader.hpp"
-#include "io/checkpoint_folder.hpp"
-#include "io/output_folder.hpp"
-#include "io/report.hpp"
+#include "core/threads.hpp"
+#include "input/case_reader.hpp"
+#include "report/report.hpp"
+#include "results/checkpoint_folder.hpp"
+#include "results/folder_lock.hpp"
+#include "results/output_folder.hpp"
 
 #include <fmt/format.h>
 #include <memory>
-#include <omp.h>
 
 namespace cnem::app {
 
@@ -22,132 +23,144 @@ namespace {
 
 constexpr const char* another_run = "run";
 
-void take_folder(const io::Case& input, const RunOptions& options) {
-  io::prepare_output_folder(options.output, options.force);
-  io::write_atomically(options.output / io::files::resolved_case, input.resolved);
+void take_folder(const input::Case& input, const RunOptions& options) {
+  results::prepare_output_folder(options.output, options.force);
+  results::write_atomically(options.output / results::files::resolved_case, input.resolved);
 }
 
-/// Whether a checkpoint is one of this case; takes over its name and instruction set then, so that the run
-/// goes on with the same bits.
-bool adopt(io::CheckpointReader& checkpoint, io::Case& input, const std::string& version,
-           std::vector<std::string>& warnings) {
-  io::CheckpointInfo info;
+/// Whether a checkpoint is one of this case; takes over its name then, and its instruction set unless
+/// CNEM_ISA asks for another, so that the run goes on with the same bits.
+bool adopt(results::CheckpointReader& checkpoint, input::Case& input, const std::string& version,
+           std::vector<std::string>& differences) {
+  results::CheckpointInfo info;
   info.archive(checkpoint);
-  if (info.inputs != io::hash_of_inputs(input.resolved)) return false;
+  if (info.inputs != results::hash_of_inputs(input.resolved)) return false;
   input.name = info.name;
+  const std::optional<Isa> wanted = wanted_isa();
   for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512})
-    if (info.isa == isa_name(isa) && isa_supported(isa)) set_isa(isa);
+    if (info.isa == isa_name(isa) && isa_supported(isa)) set_isa(wanted.value_or(isa));
   if (info.isa != isa_name(active_isa()))
-    warnings.push_back(
-        fmt::format("the run began with instruction set {}, which this machine lacks: it will not "
-                    "end with the same bits",
-                    info.isa));
+    differences.push_back(
+        fmt::format("the run began with instruction set {} and goes on with {}, {}: it may not end with the "
+                    "same bits",
+                    info.isa, isa_name(active_isa()),
+                    wanted ? "as CNEM_ISA says" : "because this machine lacks the first"));
   if (info.version != version)
-    warnings.push_back(
+    differences.push_back(
         fmt::format("the run began with version {}, this is {}: it may not end with the same bits",
                     info.version, version));
   return true;
 }
 
-/// A file that is no use must not come before good ones again.
-void set_aside(const fs::path& checkpoint) {
-  std::error_code ignored;
-  fs::rename(checkpoint, checkpoint.parent_path() / "checkpoint.refused.h5", ignored);
-}
-
-/// The run at its last good checkpoint; none when there is no checkpoint. Throws InputError when there are
-/// only those of another case.
-std::unique_ptr<Simulation> at_last_checkpoint(io::Case& input, const RunOptions& options) {
-  std::vector<std::string> warnings;
+/// The run at its last good checkpoint; none when there is no good one, of which `warnings` tell. Files that
+/// are no use are set aside, so that they do not come before good ones again. Throws InputError when there
+/// are only those of another case.
+std::unique_ptr<Simulation> at_last_checkpoint(input::Case& input, const RunOptions& options,
+                                               std::vector<std::string>& warnings) {
   std::vector<fs::path> refused;
   bool foreign = false;
-  for (const fs::path& path : io::list_checkpoints(options.output)) {
+  for (const fs::path& path : results::list_checkpoints(options.output)) {
     try {
-      io::CheckpointReader checkpoint(io::read_file(path));
-      if (!adopt(checkpoint, input, options.version, warnings)) {
+      std::vector<std::string> differences;
+      results::CheckpointReader checkpoint(results::read_file(path));
+      if (!adopt(checkpoint, input, options.version, differences)) {
         foreign = true;
-        throw IoError(fmt::format("it belongs to another case than {}", io::files::resolved_case));
+        throw IoError(fmt::format("it belongs to another case than {}", results::files::resolved_case));
       }
       auto simulation = std::make_unique<Simulation>(input, options);
       simulation->resume(checkpoint);
-      for (std::string& warning : warnings) simulation->warn(std::move(warning));
-      for (const fs::path& other : refused) set_aside(other);
+      warnings.insert(warnings.end(), differences.begin(), differences.end());
+      for (const fs::path& other : refused) results::set_aside(other);
       fmt::print("going on from {}\n", path.string());
       return simulation;
     } catch (const IoError& error) {
       warnings.push_back(fmt::format("{} is refused: {}", path.string(), error.what()));
-      fmt::print(stderr, "warning: {}\n", warnings.back());
       refused.push_back(path);
     }
   }
   if (foreign)
     throw InputError(
-        fmt::format("{} has no checkpoint of the case in its {}: put that file back as it was, or run "
+        fmt::format("{}\n{} has no checkpoint of the case in its {}: put that file back as it was, or run "
                     "the case anew",
-                    options.output.string(), io::files::resolved_case));
+                    fmt::join(warnings, "\n"), options.output.string(), results::files::resolved_case));
+  for (const fs::path& path : refused) results::set_aside(path);
+  if (!refused.empty()) warnings.emplace_back("there is no good checkpoint: the run begins again at step 0");
   return nullptr;
+}
+
+Exit run_explicit(const input::Case& input, const RunOptions& options) {
+  const RunSignals signals;
+  const bool fresh = !results::holds_run(options.output);
+  // A new folder is taken before the set-up, so that a run killed meanwhile can be restarted; one that holds
+  // a run loses it only when the set-up has succeeded.
+  if (fresh || !options.force) take_folder(input, options);
+  const auto set_up = [&] { return std::make_unique<Simulation>(input, options); };
+  std::unique_ptr<Simulation> simulation;
+  try {
+    simulation = fresh ? before_steps(input, options, set_up) : set_up();
+    simulation->check_tools();
+  } catch (const InputError&) {
+    std::error_code ignored;
+    if (fresh) fs::remove(options.output / results::files::resolved_case, ignored);
+    throw;
+  }
+  if (!fresh) take_folder(input, options);
+  before_steps(input, options, [&] { simulation->start(); });
+  return simulation->run();
 }
 
 } // namespace
 
-Exit run(const io::Case& input, const RunOptions& options) {
-  if (input.analysis.type == io::Analysis::Type::statics) return run_static(input, options);
-  if (options.threads > 0) omp_set_num_threads(options.threads);
-  const RunSignals signals;
-  const bool fresh = !io::holds_run(options.output);
-  // A new folder is taken before the set-up, so that a run killed meanwhile can be restarted; one that holds
-  // a run loses it only when the set-up has succeeded.
-  if (fresh || !options.force) take_folder(input, options);
-  const FolderLock lock(options.output, another_run);
-  std::unique_ptr<Simulation> simulation;
-  try {
-    simulation = std::make_unique<Simulation>(input, options);
-  } catch (const InputError&) {
-    std::error_code ignored;
-    if (fresh) fs::remove(options.output / io::files::resolved_case, ignored);
-    if (fresh) fs::remove(options.output, ignored);
-    throw;
-  }
-  if (!fresh) take_folder(input, options);
-  simulation->start();
-  return simulation->run();
+Exit run(const input::Case& input, const RunOptions& options) {
+  use_threads(options.threads);
+  const results::FolderLock lock(options.output, another_run);
+  if (input.analysis.type != input::Analysis::Type::statics) return run_explicit(input, options);
+  const auto solve = [&] { return run_static(input, options); };
+  // The status of a run that is there stays until that run is replaced.
+  return results::holds_run(options.output) ? solve() : before_steps(input, options, solve);
 }
 
 Exit restart(const RunOptions& options) {
-  const fs::path resolved = options.output / io::files::resolved_case;
+  const fs::path resolved = options.output / results::files::resolved_case;
   if (!fs::exists(resolved))
     throw InputError(
         fmt::format("{} holds no run to restart: expected the output folder of `cnem run`, with its {}",
-                    options.output.string(), io::files::resolved_case));
-  const FolderLock lock(options.output, another_run);
-  io::clear_leftovers(options.output);
-  if (fs::exists(options.output / io::files::status) && io::read_status(options.output).exit == Exit::done) {
-    const fs::path report = options.output / io::files::report;
-    if (!fs::exists(report)) io::write_report(options.output);
+                    options.output.string(), results::files::resolved_case));
+  const results::FolderLock lock(options.output, another_run);
+  results::clear_leftovers(options.output);
+  if (fs::exists(options.output / results::files::status) &&
+      results::read_status(options.output).exit == Exit::done) {
+    const fs::path report = options.output / results::files::report;
+    if (!fs::exists(report)) report::write_report(options.output);
     fmt::print("the run in {} has finished: there is nothing to do\nreport: {}\n", options.output.string(),
                report.string());
     return Exit::done;
   }
-  io::Case input = io::read_case(resolved.string());
-  if (input.analysis.type == io::Analysis::Type::statics) {
+  input::Case input = input::read_case(resolved.string());
+  use_threads(options.threads);
+  if (input.analysis.type == input::Analysis::Type::statics) {
     fmt::print("a static analysis has no checkpoints: it is solved again\n");
-    input.resolved = io::read_file(resolved);
+    input.resolved = results::read_file(resolved);
     RunOptions again = options;
     again.force = true;
     return run_static(input, again);
   }
-  if (options.threads > 0) omp_set_num_threads(options.threads);
   const RunSignals signals;
-  std::unique_ptr<Simulation> simulation = at_last_checkpoint(input, options);
-  if (simulation) {
-    for (const char* end : {io::files::blanking, io::files::status, io::files::report})
-      fs::remove(options.output / end);
-  } else {
-    fmt::print("there is no checkpoint to go on from: starting at step 0\n");
-    simulation = std::make_unique<Simulation>(input, options);
-    io::clear_results(options.output);
-    simulation->start();
-  }
+  std::unique_ptr<Simulation> simulation;
+  before_steps(input, options, [&] {
+    std::vector<std::string> warnings;
+    simulation = at_last_checkpoint(input, options, warnings);
+    if (simulation) {
+      for (const char* end : {results::files::blanking, results::files::status, results::files::report})
+        fs::remove(options.output / end);
+    } else {
+      fmt::print("there is no checkpoint to go on from: starting at step 0\n");
+      simulation = std::make_unique<Simulation>(input, options);
+      results::clear_results(options.output);
+      simulation->start();
+    }
+    for (std::string& warning : warnings) simulation->warn(std::move(warning));
+  });
   return simulation->run();
 }
 

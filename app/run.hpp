@@ -1,14 +1,11 @@
 #pragma once
 // Runs of a case, as the command line asks for them.
-#include "io/case.hpp"
+#include "input/case.hpp"
 
 #include <filesystem>
 #include <string>
 
 namespace cnem::app {
-
-/// Documented exit codes (docs/user_guide.md).
-enum Exit : int { done = 0, bad_input = 2, diverged = 3, io_failed = 4, interrupted = 5 };
 
 struct RunOptions {
   std::filesystem::path output; ///< folder of results
@@ -21,7 +18,7 @@ struct RunOptions {
 /// Runs the case into the folder and writes its report. Returns done, diverged (with the post-mortem in
 /// status.json and the report), interrupted (a signal stopped it at a checkpoint) or io_failed (writing
 /// failed on the way; checkpoints are whole). Throws InputError and IoError.
-Exit run(const io::Case& input, const RunOptions& options);
+Exit run(const input::Case& input, const RunOptions& options);
 
 /// Goes on with the run in options.output from its newest good checkpoint, from step 0 without one, and ends
 /// as the uninterrupted run would have, to the bit. Returns as run() does; done at once for a run that has
@@ -30,6 +27,6 @@ Exit restart(const RunOptions& options);
 
 /// Builds geometry and model without running: prints nodes, first step and what limits it, steps to come,
 /// memory, tool overlap, and writes the initial fields to output/initial. Throws InputError and IoError.
-void check(const io::Case& input, const RunOptions& options);
+void check(const input::Case& input, const RunOptions& options);
 
 } // namespace cnem::app

@@ -1,13 +1,15 @@
 #include "app/simulation.hpp"
 
-#include "app/blanking.hpp"
+#include "app/process/exhaustion.hpp"
+#include "app/process/run_signals.hpp"
 #include "app/profile.hpp"
 #include "app/registry.hpp"
-#include "app/run_signals.hpp"
+#include "app/tool_speed.hpp"
 #include "core/isa.hpp"
-#include "io/checkpoint_folder.hpp"
-#include "io/output_folder.hpp"
-#include "io/report.hpp"
+#include "evaluate/blanking.hpp"
+#include "report/report.hpp"
+#include "results/checkpoint_folder.hpp"
+#include "results/output_folder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,20 +28,7 @@ Schedule every(double interval, double end, const Schedule& otherwise) {
 
 } // namespace
 
-bool CheckpointTimer::due(const State<2>& state) const {
-  return step_ < 0 || (control_->every_steps > 0 && state.step >= step_ + control_->every_steps) ||
-         (control_->every_time > 0.0 && state.time >= next_time_) ||
-         (control_->every_wall > 0.0 && wall_time() >= wall_ + control_->every_wall);
-}
-
-void CheckpointTimer::written(const State<2>& state) {
-  step_ = state.step;
-  wall_ = wall_time();
-  if (control_->every_time > 0.0)
-    next_time_ = (std::floor(state.time / control_->every_time) + 1.0) * control_->every_time;
-}
-
-ExplicitSolver<2> make_solver(const io::Case& input, std::vector<std::string>& warnings) {
+ExplicitSolver<2> make_solver(const input::Case& input, std::vector<std::string>& warnings) {
   Setup setup = build(input);
   warnings = std::move(setup.warnings);
   try {
@@ -47,7 +36,7 @@ ExplicitSolver<2> make_solver(const io::Case& input, std::vector<std::string>& w
   } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
 }
 
-Simulation::Simulation(const io::Case& input, const RunOptions& options)
+Simulation::Simulation(const input::Case& input, const RunOptions& options)
     : input_(input), options_(options),
       solver_(watch_.time("setup", [&] { return make_solver(input, warnings_); })),
       history_(input, solver_, options.output),
@@ -55,7 +44,18 @@ Simulation::Simulation(const io::Case& input, const RunOptions& options)
       fields_due_(every(input.output.fields_every, input.time.end,
                         Schedule::at({0.0, input.time.end}, input.time.end))),
       pictures_due_(Schedule::at(input.output.pictures, input.time.end)), control_(input.time),
-      renewal_(input.method), adaptation_(input, solver_), checkpoints_(input.output.checkpoint) {}
+      renewal_(input.method), adaptation_(input, solver_), checkpoints_(input.output.checkpoint) {
+  for (std::string& warning : supersonic_tools(input, solver_)) warn(std::move(warning));
+}
+
+void Simulation::check_tools() {
+  if (input_.adapt.tool_spacing) return; // the step is known once the cloud fits the tools
+  try {
+    StepControl first(input_.time);
+    first.refresh(solver_);
+    check_tool_steps(input_, solver_, first.limit() / solver_.sub_steps());
+  } catch (const DivergenceError&) {} // the run tells, with a report
+}
 
 void Simulation::start() {
   adaptation_.start_log(options_.output);
@@ -63,19 +63,20 @@ void Simulation::start() {
     adaptation_.fit_to_tools(solver_,
                              [&](const Resampling<2>& change) { history_.resample(change, solver_); });
   });
-  fields_.emplace(options_.output);
+  fields_.emplace(options_.output, input_.origin);
   pictures_.emplace(input_, options_.output);
 }
 
-void Simulation::resume(io::CheckpointReader& checkpoint) {
+void Simulation::resume(results::CheckpointReader& checkpoint) {
   archive(checkpoint);
   const double now = solver_.state().time;
   int frames = 0;
   checkpoint.integer("run/frames", frames);
-  fields_.emplace(options_.output, now);
+  fields_.emplace(options_.output, input_.origin, now);
   if (fields_->frames() != frames)
     throw IoError(fmt::format("{} has {} of the {} frames written until then",
-                              (options_.output / io::files::fields).string(), fields_->frames(), frames));
+                              (options_.output / results::files::fields).string(), fields_->frames(),
+                              frames));
   history_.resume(solver_);
   adaptation_.resume_log(options_.output);
   pictures_.emplace(input_, options_.output);
@@ -91,6 +92,7 @@ void Simulation::archive(Archive& archive) {
   pictures_due_.archive(archive, "run/due/pictures");
   control_.archive(archive);
   renewal_.archive(archive);
+  melting_.archive(archive);
   adaptation_.archive(archive);
   history_.archive(archive);
   archive.integer("run/last_check", last_check_);
@@ -110,21 +112,20 @@ Exit Simulation::run() {
       diverge(lost_reference(solver_, error));
     }
     watch_.time("output", [&] {
-      if (exit_ != Exit::interrupted) write_lines(input_, snapshot(solver_), options_.output);
+      if (exit_ != Exit::interrupted)
+        results::write_lines(input_, results::snapshot(solver_), options_.output);
       watch_.time("output.disk", [&] { files_.wait(); });
       evaluate();
     });
     progress_.finish();
-    if (const std::string warning = renewal_.warning(); !warning.empty())
-      progress_.message("warning: " + warning);
-    if (const std::string warning = history_.kinetic_warning(input_); !warning.empty())
-      progress_.message("warning: " + warning);
-    io::RunStatus end = status();
+    for (const std::string& warning : late_warnings()) progress_.message("warning: " + warning);
+    results::RunStatus end = status();
     const std::filesystem::path report = watch_.time("output", [&] {
-      return watch_.time("output.report", [&] { return io::write_report(options_.output, end); });
+      return watch_.time("output.report", [&] { return report::write_report(options_.output, end); });
     });
     end.wall_s = wall();
-    io::write_status(options_.output, end);
+    forget_last_words();
+    results::write_status(options_.output, end);
     fmt::print("{}: {}\n",
                exit_ == Exit::done          ? "done"
                : exit_ == Exit::interrupted ? "stopped"
@@ -137,17 +138,26 @@ Exit Simulation::run() {
     return exit_;
   } catch (const IoError& error) {
     return fail(error.what());
-  } catch (const std::filesystem::filesystem_error& error) { return fail(error.what()); }
+  } catch (const std::system_error& error) { // files and threads
+    return fail(error.what());
+  } catch (const std::bad_alloc&) {
+    files_.give_up();
+    return fail(memory_exhausted());
+  }
 }
 
 void Simulation::loop() {
-  if (control_.limit() == 0.0) watch_.time("step", [&] { control_.refresh(solver_); });
+  if (control_.limit() == 0.0) watch_.time("step", [&] { refresh_step(); });
   while (true) {
     watch_.time("output", [&] {
-      let_go();
+      unload();
       record_due();
     });
-    if (finished()) return;
+    if (finished()) {
+      melting_.look(solver_);
+      return;
+    }
+    check_reserve();
     const State<2>& state = solver_.state();
     check_energy(history_.last_residual(), history_.energy_scale(), input_.method.energy_tolerance, state);
     const char* signal = RunSignals::stop();
@@ -195,8 +205,8 @@ void Simulation::record_last() {
   record(history_due_.last() != now, fields_due_.last() != now, pictures_due_.last() != now);
 }
 
-Snapshot Simulation::shot() {
-  Snapshot shot = snapshot(solver_);
+results::Snapshot Simulation::shot() {
+  results::Snapshot shot = results::snapshot(solver_);
   if (adaptation_.active()) {
     adaptation_fields_ = adaptation_.fields(solver_.state().time);
     shot.adaptation = &adaptation_fields_;
@@ -212,7 +222,7 @@ bool Simulation::at_end() const {
 }
 
 /// Springback belongs into the last frame: before it is recorded.
-void Simulation::let_go() {
+void Simulation::unload() {
   if (!input_.report.springback || !at_end()) return;
   const Model<2>& model = solver_.model();
   const State<2>& state = solver_.state();
@@ -220,15 +230,17 @@ void Simulation::let_go() {
   try {
     springback_ = springback({solver_.approximation(), state.point, state.node.position, state.node.mass,
                               model.materials, model.supports, model.stabilisation});
-  } catch (const InputError& error) { warn(fmt::format("there is no springback: {}", error.what())); }
+  } catch (const InputError& error) {
+    warn(input_.placed(fmt::format("there is no springback: {}", error.what())));
+  }
 }
 
 void Simulation::evaluate() {
   if (exit_ != Exit::done || !(input_.report.blanking || springback_)) return;
-  blanking_ =
-      evaluate_blanking(input_, shot(), solver_.model().supports, springback_ ? &*springback_ : nullptr,
-                        io::read_history(options_.output / io::files::history));
-  io::write_blanking(options_.output, *blanking_);
+  blanking_ = evaluate::evaluate_blanking(input_, shot(), solver_.model().supports,
+                                          springback_ ? &*springback_ : nullptr,
+                                          results::read_history(options_.output / results::files::history));
+  evaluate::write_blanking(options_.output, *blanking_);
 }
 
 void Simulation::record(bool history, bool fields, bool pictures) {
@@ -260,25 +272,32 @@ void Simulation::new_reference() {
 
 void Simulation::look_at_step() {
   check_finite(solver_.state());
-  control_.refresh(solver_);
+  melting_.look(solver_);
+  refresh_step();
   last_check_ = solver_.state().step;
+}
+
+void Simulation::refresh_step() {
+  control_.refresh(solver_);
+  check_moving_tools(input_, solver_, control_.limit() / solver_.sub_steps());
 }
 
 void Simulation::write_checkpoint() {
   const State<2>& state = solver_.state();
-  io::flush_file(options_.output /
-                 io::files::history); // what the checkpoint counts on must not be lost before it
-  io::CheckpointWriter writer;
-  io::CheckpointInfo info{options_.version, std::string(isa_name(active_isa())),
-                          input_.name,      io::hash_of_inputs(input_.resolved),
-                          state.step,       state.time};
+  results::flush_file(options_.output /
+                      results::files::history); // what the checkpoint counts on must not be lost before it
+  results::CheckpointWriter writer;
+  results::CheckpointInfo info{options_.version, std::string(isa_name(active_isa())),
+                               input_.name,      results::hash_of_inputs(input_.resolved),
+                               state.step,       state.time};
   info.archive(writer);
   archive(writer);
   int frames = fields_->frames();
   writer.integer("run/frames", frames);
-  io::add_checkpoint(options_.output, writer.content(), input_.output.checkpoint.keep);
+  results::add_checkpoint(options_.output, writer.content(), input_.output.checkpoint.keep);
   checkpoints_.written(state);
   last_checkpoint_ = fmt::format("step {}, t = {:.6g} s", state.step, state.time);
+  set_last_words(options_.output, status(), how_to_go_on());
 }
 
 void Simulation::stop(Exit exit, std::string reason) {
@@ -287,28 +306,43 @@ void Simulation::stop(Exit exit, std::string reason) {
 }
 
 void Simulation::diverge(const DivergenceError& error) {
-  stop(Exit::diverged, error.what());
   dead_ = post_mortem(error, input_, solver_);
+  stop(Exit::diverged, dead_->text);
   if (const std::string warning = renewal_.warning(); !warning.empty())
     dead_->causes.push_back(fmt::format("Nodes have passed each other: {}.", warning));
-  dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", io::files::checkpoint,
+  dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", results::files::checkpoint,
                                  last_checkpoint_.empty() ? "no step" : last_checkpoint_, fields_due_.last());
   const Place place = place_of(solver_, static_cast<std::size_t>(error.node));
   dead_->picture = pictures_->record_place(files_, shot(), place.centre, place.radius);
 }
 
+std::string Simulation::how_to_go_on() const {
+  const std::string folder = options_.output.string();
+  return last_checkpoint_.empty()
+             ? fmt::format(
+                   "there is no checkpoint yet: once this is mended, `cnem restart {}` begins at step 0",
+                   folder)
+             : fmt::format(
+                   "the last checkpoint is of {}: once this is mended, `cnem restart {}` goes on from it",
+                   last_checkpoint_, folder);
+}
+
 Exit Simulation::fail(const std::string& message) {
+  forget_last_words();
   progress_.finish();
   stop(Exit::io_failed, message);
-  fmt::print(stderr, "{}\n", message);
-  if (!last_checkpoint_.empty())
-    fmt::print(stderr,
-               "the last checkpoint is of {}: once this is mended, `cnem restart {}` goes on from it\n",
-               last_checkpoint_, options_.output.string());
+  fmt::print(stderr, "{}\n{}\n", message, how_to_go_on());
   try {
-    io::write_status(options_.output, status());
-  } catch (const IoError&) {} // there may be no room for this either
+    results::write_status(options_.output, status());
+  } catch (const std::exception&) {} // there may be no room for this either
   return Exit::io_failed;
+}
+
+std::vector<std::string> Simulation::late_warnings() const {
+  std::vector<std::string> list{melting_.warning(), renewal_.warning(), history_.kinetic_warning(input_)};
+  std::erase(list, "");
+  for (std::string& warning : list) warning = input_.placed(warning);
+  return list;
 }
 
 std::vector<std::pair<std::string, double>> Simulation::wall() const {
@@ -322,9 +356,9 @@ std::vector<std::pair<std::string, double>> Simulation::wall() const {
   return watch.spent();
 }
 
-io::RunStatus Simulation::status() {
+results::RunStatus Simulation::status() {
   const State<2>& state = solver_.state();
-  io::RunStatus status;
+  results::RunStatus status;
   status.exit = exit_;
   status.reason = reason_;
   status.version = options_.version;
@@ -334,22 +368,20 @@ io::RunStatus Simulation::status() {
   status.nodes = static_cast<std::int64_t>(state.node.size());
   status.node_steps = static_cast<std::int64_t>(node_steps_);
   status.threads = omp_get_max_threads();
-  status.peak_rss_bytes = io::peak_rss_bytes();
+  status.peak_rss_bytes = results::peak_rss_bytes();
   status.energy_residual = history_.energy_residual();
   status.metrics = history_.metrics();
   status.metrics.emplace_back("references", solver_.references());
   for (const auto& metric : adaptation_.metrics()) status.metrics.push_back(metric);
   if (blanking_) {
     if (!blanking_->punch.empty())
-      for (const auto& metric : io::metrics_of(*blanking_)) status.metrics.push_back(metric);
+      for (const auto& metric : evaluate::metrics_of(*blanking_)) status.metrics.push_back(metric);
     if (!blanking_->springback.empty())
-      for (const auto& metric : io::metrics_of(blanking_->springback)) status.metrics.push_back(metric);
+      for (const auto& metric : evaluate::metrics_of(blanking_->springback)) status.metrics.push_back(metric);
   }
   status.step_limits = control_.shares();
   status.warnings = warnings_;
-  if (const std::string warning = renewal_.warning(); !warning.empty()) status.warnings.push_back(warning);
-  if (const std::string warning = history_.kinetic_warning(input_); !warning.empty())
-    status.warnings.push_back(warning);
+  for (std::string& warning : late_warnings()) status.warnings.push_back(std::move(warning));
   status.post_mortem = dead_;
   status.wall_s = wall();
   return status;

@@ -3,17 +3,18 @@
 // step.
 #include "app/adaptation.hpp"
 #include "app/divergence.hpp"
-#include "app/picture_recorder.hpp"
-#include "app/recorder.hpp"
+#include "app/melting.hpp"
 #include "app/run.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
-#include "io/blanking.hpp"
-#include "io/checkpoint.hpp"
-#include "io/file_queue.hpp"
-#include "io/progress.hpp"
-#include "io/status.hpp"
-#include "mechanics/springback.hpp"
+#include "evaluate/blanking_result.hpp"
+#include "evaluate/springback.hpp"
+#include "report/picture_recorder.hpp"
+#include "results/checkpoint.hpp"
+#include "results/file_queue.hpp"
+#include "results/progress.hpp"
+#include "results/recorder.hpp"
+#include "results/status.hpp"
 
 #include <optional>
 #include <string>
@@ -22,37 +23,24 @@
 
 namespace cnem::app {
 
-/// When checkpoints are due by steps, simulated time and wall clock.
-class CheckpointTimer {
-public:
-  explicit CheckpointTimer(const io::CheckpointControl& control) : control_(&control) {}
-  bool due(const State<2>& state) const;
-  /// A checkpoint of this state is there.
-  void written(const State<2>& state);
-
-private:
-  const io::CheckpointControl* control_;
-  std::int64_t step_ = -1; ///< of the last one; −1: none yet
-  double next_time_ = 0.0; ///< s
-  double wall_ = 0.0;      ///< s, wall_time() of the last one
-};
-
 class Simulation {
 public:
   /// Builds the solver at time 0. `input` must outlive this object. Throws InputError.
-  Simulation(const io::Case& input, const RunOptions& options);
+  Simulation(const input::Case& input, const RunOptions& options);
 
+  /// Throws InputError when a tool is too fast for the first step: at the start of a new run.
+  void check_tools();
   /// Begins the files of a new run. Throws IoError.
   void start();
   /// Takes the state of a checkpoint and goes on with the files that are there: what is later than the
   /// checkpoint is dropped. Throws IoError with the reason when the checkpoint does not fit them or the case;
   /// then this object is of no more use.
-  void resume(io::CheckpointReader& checkpoint);
+  void resume(results::CheckpointReader& checkpoint);
   /// To be told in the status.
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
 
-  /// Runs to the end, or until it diverges, writing fails or a signal (app/run_signals.hpp) stops it; writes
-  /// status and report.
+  /// Runs to the end, or until it diverges, writing fails or a signal (app/process/run_signals.hpp) stops it;
+  /// writes status and report.
   Exit run();
 
 private:
@@ -63,48 +51,54 @@ private:
   void record_last();
   /// Whether no step follows.
   bool at_end() const;
-  void let_go();
+  void unload();
   void evaluate();
   /// Good until the next one.
-  Snapshot shot();
+  results::Snapshot shot();
   void record(bool history, bool fields, bool pictures);
   void adapt_and_step();
   void new_reference();
   void look_at_step();
+  void refresh_step();
   void write_checkpoint();
   void stop(Exit exit, std::string reason);
   void diverge(const DivergenceError& error);
   Exit fail(const std::string& message);
-  io::RunStatus status();
+  std::string how_to_go_on() const;
+  results::RunStatus status();
+  /// Those that come up on the way.
+  std::vector<std::string> late_warnings() const;
   std::vector<std::pair<std::string, double>> wall() const;
 
-  const io::Case& input_;
+  const input::Case& input_;
   RunOptions options_;
   Stopwatch watch_;
   std::vector<std::string> warnings_;
   ExplicitSolver<2> solver_;
-  HistoryRecorder history_;
-  io::FileQueue files_; ///< frames and pictures on their way to the disk
-  std::optional<FieldRecorder> fields_;
-  std::optional<PictureRecorder> pictures_;
+  results::HistoryRecorder history_;
+  results::FileQueue files_; ///< frames and pictures on their way to the disk
+  std::optional<results::FieldRecorder> fields_;
+  std::optional<report::PictureRecorder> pictures_;
   Schedule history_due_, fields_due_, pictures_due_;
   StepControl control_;
   ReferenceRenewal renewal_;
+  MeltingWatch melting_;
   Adaptation adaptation_;
-  AdaptationFields adaptation_fields_;
-  std::optional<Springback> springback_;       ///< of the state at the end
-  std::optional<io::BlankingResult> blanking_; ///< where the case asks for it and the run has ended well
+  results::AdaptationFields adaptation_fields_;
+  std::optional<Springback> springback_; ///< of the state at the end
+  std::optional<evaluate::BlankingResult>
+      blanking_; ///< where the case asks for it and the run has ended well
   CheckpointTimer checkpoints_;
-  io::Progress progress_;
+  results::Progress progress_;
   std::int64_t last_check_ = -1; ///< step of the last look at the stable step; −1: none yet
   double node_steps_ = 0.0;
   std::string last_checkpoint_; ///< of which step and time it is, in words
   Exit exit_ = Exit::done;
   std::string reason_;
-  std::optional<io::PostMortem> dead_;
+  std::optional<results::PostMortem> dead_;
 };
 
 /// Builds the solver of a case. Throws InputError.
-ExplicitSolver<2> make_solver(const io::Case& input, std::vector<std::string>& warnings);
+ExplicitSolver<2> make_solver(const input::Case& input, std::vector<std::string>& warnings);
 
 } // namespace cnem::app

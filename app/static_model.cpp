@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numbers>
 
 namespace cnem::app {
 
@@ -15,31 +16,47 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-std::vector<fracture::CrackTip> tips_of(const io::Case& input, const Cloud<2>& cloud) {
+std::vector<fracture::CrackTip> tips_of(const input::Case& input, const Cloud<2>& cloud) {
   std::vector<fracture::CrackPath> paths;
-  for (const io::Crack& crack : input.domain.cracks) paths.push_back({crack.name, crack.points, crack.tips});
+  for (const input::Crack& crack : input.domain.cracks)
+    paths.push_back({crack.name, crack.points, crack.tips});
   return fracture::find_tips(cloud, paths);
 }
 
-double enrichment_radius(const io::Case& input, const fracture::CrackTip& tip) {
-  if (!input.fracture.enrichment || input.method.name != io::Method::Name::cnem) return 0.0;
+double enrichment_radius(const input::Case& input, const fracture::CrackTip& tip) {
+  if (!input.fracture.enrichment || input.method.name != input::Method::Name::cnem) return 0.0;
   const double room = 0.9 * std::min({tip.straight, tip.clearance});
   return std::min(
       room, input.fracture.enrichment_radius.value_or(std::max(0.3 * tip.half_length, 2.5 * tip.spacing)));
 }
 
-voronoi::Functions functions_of(const io::Method& method) {
-  return method.functions == io::Method::Functions::laplace ? voronoi::Functions::laplace
-                                                            : voronoi::Functions::sibson;
+voronoi::Functions functions_of(const input::Method& method) {
+  return method.functions == input::Method::Functions::laplace ? voronoi::Functions::laplace
+                                                               : voronoi::Functions::sibson;
 }
 
-bool plane_stress(const io::Case& input) {
-  return input.analysis.kinematics == io::Analysis::Kinematics::plane_stress;
+/// Doubted beyond it: spread of K, and spacing over length of a crack that is not enriched.
+constexpr double tolerance = 0.01;
+
+/// σ√(πR), σ² the mean of σ:σ over the points within R of the tip.
+double load_scale(const fracture::CrackTip& tip, double radius, const fracture::ElasticField& field) {
+  double area = 0.0, square = 0.0;
+  for (std::size_t p = 0; p < field.position.size(); ++p) {
+    if ((field.position[p] - tip.position).norm() > radius) continue;
+    const auto s = [&](std::size_t k) { return field.stress[k][p]; };
+    area += field.operators.volume[p];
+    square += field.operators.volume[p] * (s(0) * s(0) + s(1) * s(1) + 2.0 * s(3) * s(3));
+  }
+  return area > 0.0 ? std::sqrt(square / area * std::numbers::pi * radius) : 0.0;
+}
+
+bool plane_stress(const input::Case& input) {
+  return input.analysis.kinematics == input::Analysis::Kinematics::plane_stress;
 }
 
 } // namespace
 
-StaticModel::StaticModel(const io::Case& in) : input(in), setup(build(in)) {
+StaticModel::StaticModel(const input::Case& in) : input(in), setup(build(in)) {
   Model<2>& model = setup.model;
   const Cloud<2>& cloud = model.cloud;
   try {
@@ -80,16 +97,18 @@ StaticProblem StaticModel::problem() const {
           .force = force};
 }
 
-std::vector<fracture::Ring> rings(const io::Fracture& spec, const fracture::CrackTip& tip) {
+std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::CrackTip& tip) {
   std::vector<fracture::Ring> list = fracture::default_rings(tip);
-  if (!spec.integral_outer && !spec.integral_inner) return list;
-  const double outer =
-      spec.integral_outer.value_or(std::max(list.back().outer, 2.0 * spec.integral_inner.value_or(0.0)));
-  const double inner = spec.integral_inner.value_or(0.5 * outer);
-  const double share = inner / outer;
-  for (fracture::Ring& ring : list) ring = {share * ring.outer, ring.outer};
-  std::erase_if(list, [&](const fracture::Ring& ring) { return ring.outer >= outer; });
-  list.push_back({inner, outer});
+  if (spec.integral_outer || spec.integral_inner) {
+    const double outer =
+        spec.integral_outer.value_or(std::max(list.back().outer, 2.0 * spec.integral_inner.value_or(0.0)));
+    const double inner = spec.integral_inner.value_or(0.5 * outer);
+    const double share = inner / outer;
+    for (fracture::Ring& ring : list) ring = {share * ring.outer, ring.outer};
+    std::erase_if(list, [&](const fracture::Ring& ring) { return ring.outer >= outer; });
+    list.push_back({inner, outer});
+  }
+  list.insert(list.begin(), {0.0, list.back().outer});
   return list;
 }
 
@@ -101,29 +120,54 @@ std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolut
   const fracture::ElasticField field{model.enriched.operators, model.setup.model.cloud.position,
                                      model.enriched.position, solution.gradient, solution.stress};
   std::vector<TipResult> results;
-  for (const fracture::CrackTip& tip : model.tips) {
+  for (std::size_t t = 0; t < model.tips.size(); ++t) {
+    const fracture::CrackTip& tip = model.tips[t];
     TipResult result;
     result.name = tip.name;
+    result.enriched = model.enrichment_radius[t] > 0.0;
+    result.spacing_over_half_length = tip.spacing / tip.half_length;
     std::vector<fracture::StressIntensity> found;
     for (const fracture::Ring& ring : rings(model.input.fracture, tip)) {
       found.push_back(fracture::stress_intensity(tip, ring, plane, field, model.loads));
       result.ring = ring;
     }
     result.intensity = found.back();
-    const double size = std::hypot(found.back().K_I, found.back().K_II);
+    if (!std::isfinite(std::hypot(found.back().K_I, found.back().K_II)))
+      throw DivergenceError(
+          fmt::format("the stress intensity at tip '{}' is not a number, at ({:.6g}, {:.6g}) m", tip.name,
+                      tip.position.x(), tip.position.y()),
+          -1, "stress intensity");
     for (const auto& k : found)
-      if (size > 0.0)
-        result.spread =
-            std::max(result.spread, std::hypot(k.K_I - found.back().K_I, k.K_II - found.back().K_II) / size);
+      result.difference =
+          std::max(result.difference, std::hypot(k.K_I - found.back().K_I, k.K_II - found.back().K_II));
+    const double size = std::hypot(found.back().K_I, found.back().K_II);
+    if (size > 0.0) result.spread = result.difference / size;
+    result.scale = load_scale(tip, result.ring.outer, field);
     results.push_back(std::move(result));
   }
   return results;
 }
 
+std::string doubt(const TipResult& tip) {
+  const bool spreads = tip.spread > tolerance && tip.difference > tolerance * tip.scale;
+  if (!tip.enriched && (spreads || tip.spacing_over_half_length > tolerance))
+    return fmt::format(
+        "the stress intensity at tip '{}' may be off by several per cent: it is not enriched, its "
+        "spacing is {:.2g}% of the crack's half-length, and K changes by {:.2g}% from domain to "
+        "domain; enrich it (method.name = \"cnem\", fracture.enrichment) or refine the cloud there",
+        tip.name, 100.0 * tip.spacing_over_half_length, 100.0 * tip.spread);
+  if (spreads)
+    return fmt::format(
+        "the stress intensity at tip '{}' changes by {:.2g}% from domain to domain: refine the "
+        "cloud at the tip, or set fracture.integral",
+        tip.name, 100.0 * tip.spread);
+  return {};
+}
+
 std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution& solution) {
   const Cloud<2>& cloud = model.setup.model.cloud;
   std::vector<std::string> warnings;
-  for (const io::Crack& crack : model.input.domain.cracks) {
+  for (const input::Crack& crack : model.input.domain.cracks) {
     std::map<std::int32_t, Vec2> normal; // of nodes on the left face, out of the right one
     for (const Facet<2>& facet : cloud.facets)
       if (cloud.piece_names[u(facet.piece)] == crack.name + "+")

@@ -1,10 +1,10 @@
 #pragma once
 // A static problem made ready, solved, and looked at.
 #include "app/registry.hpp"
-#include "app/snapshot.hpp"
 #include "fracture/enrichment.hpp"
 #include "fracture/interaction_integral.hpp"
-#include "mechanics/statics.hpp"
+#include "mechanics/statics/statics.hpp"
+#include "results/snapshot.hpp"
 
 #include <string>
 #include <utility>
@@ -14,11 +14,11 @@ namespace cnem::app {
 
 /// What a static analysis works on.
 struct StaticModel {
-  explicit StaticModel(const io::Case& input);
+  explicit StaticModel(const input::Case& input);
 
   StaticProblem problem() const;
 
-  const io::Case& input;
+  const input::Case& input;
   Setup setup;
   Approximation<2> approximation;
   std::vector<fracture::CrackTip> tips;
@@ -34,12 +34,22 @@ struct TipResult {
   std::string name;
   fracture::StressIntensity intensity; ///< of the default or the given ring
   fracture::Ring ring;
-  double spread = 0.0; ///< largest change of (K_I, K_II) over the rings, over |K|
+  double difference = 0.0; ///< Pa √m, largest change of (K_I, K_II) over the rings
+  double spread = 0.0;     ///< the same over |K|
+  double scale = 0.0; ///< Pa √m, of the load: σ√(πR), σ the mean norm of stress within R = ring.outer
+  bool enriched = false;
+  double spacing_over_half_length = 0.0; ///< – at the tip: the order of the error of K without enrichment
 };
+/// Throws DivergenceError when one is not a number.
 std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolution& solution);
 
-/// The rings a tip is evaluated in, the one that counts last.
-std::vector<fracture::Ring> rings(const io::Fracture& spec, const fracture::CrackTip& tip);
+/// What there is to doubt in K: a spread beyond 1% of |K| and of the load, or a tip without enrichment whose
+/// spacing is beyond 1% of the crack. Empty when there is nothing.
+std::string doubt(const TipResult& tip);
+
+/// The rings a tip is evaluated in, the one that counts last. The first has no plateau: those that leave the
+/// tip out agree with each other by discrete equilibrium, however badly the cells there follow √r.
+std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::CrackTip& tip);
 
 /// One sentence for each crack whose faces overlap: linear statics lets them.
 std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution& solution);

@@ -1,16 +1,17 @@
 #include "app/statics.hpp"
 
-#include "app/fields.hpp"
-#include "app/picture_recorder.hpp"
+#include "app/process/exhaustion.hpp"
 #include "app/profile.hpp"
-#include "app/recorder.hpp"
 #include "app/static_model.hpp"
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
-#include "io/output_folder.hpp"
-#include "io/report.hpp"
-#include "io/status.hpp"
-#include "mechanics/rigid_motion.hpp"
+#include "mechanics/statics/rigid_motion.hpp"
+#include "report/picture_recorder.hpp"
+#include "report/report.hpp"
+#include "results/fields.hpp"
+#include "results/output_folder.hpp"
+#include "results/recorder.hpp"
+#include "results/status.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +21,6 @@
 namespace cnem::app {
 
 namespace {
-
-/// Spread of K over the rings beyond which the result is doubted.
-constexpr double path_tolerance = 0.01;
 
 double largest_displacement(const StaticModel& model, const StaticSolution& solution) {
   double most = 0.0;
@@ -42,9 +40,9 @@ double drawing_scale(const StaticModel& model, const StaticSolution& solution) {
   return most > 0.0 ? 0.05 * size / most : 1.0;
 }
 
-void write_history(const StaticModel& model, const StaticSolution& solution, const Snapshot& shot,
+void write_history(const StaticModel& model, const StaticSolution& solution, const results::Snapshot& shot,
                    const std::filesystem::path& folder) {
-  const HistoryUnits units = history_units(model.input);
+  const results::HistoryUnits units = results::history_units(model.input);
   std::vector<std::pair<std::string, double>> row{{"time[s]", model.input.time.end},
                                                   {"step", 0.0},
                                                   {"dt[s]", 0.0},
@@ -70,39 +68,42 @@ void write_history(const StaticModel& model, const StaticSolution& solution, con
   double mass = 0.0;
   for (const double m : shot.state.node.mass) mass += m;
   row.emplace_back("mass" + units.mass, mass);
-  row.emplace_back("area[m^2]", boundary_area(shot));
+  row.emplace_back("area[m^2]", results::boundary_area(shot));
   std::vector<std::string> names;
   std::vector<double> values;
   for (const auto& [name, value] : row) {
     names.push_back(name);
     values.push_back(value);
   }
-  io::HistoryWriter(folder / io::files::history, names).write(values);
+  results::HistoryWriter(folder / results::files::history, names).write(values);
 }
 
-io::RunStatus make_status(const StaticModel& model, const StaticSolution& solution,
-                          const std::vector<TipResult>& tips, const RunOptions& options) {
-  io::RunStatus status;
-  status.exit = Exit::done;
-  status.reason = "solved";
+/// Without what comes of the solution.
+results::RunStatus blank_status(const StaticModel& model, const RunOptions& options) {
+  results::RunStatus status;
   status.version = options.version;
   status.case_name = model.input.name;
   status.time = model.input.time.end;
   status.nodes = static_cast<std::int64_t>(model.position[0].size());
   status.threads = omp_get_max_threads();
-  status.peak_rss_bytes = io::peak_rss_bytes();
-  status.energy_residual = solution.residual;
+  status.peak_rss_bytes = results::peak_rss_bytes();
   status.warnings = model.setup.warnings;
-  for (const std::string& warning : closed_cracks(model, solution)) status.warnings.push_back(warning);
+  return status;
+}
+
+results::RunStatus make_status(const StaticModel& model, const StaticSolution& solution,
+                               const std::vector<TipResult>& tips, const RunOptions& options) {
+  results::RunStatus status = blank_status(model, options);
+  status.exit = Exit::done;
+  status.reason = "solved";
+  status.energy_residual = solution.residual;
+  for (const std::string& warning : closed_cracks(model, solution))
+    status.warnings.push_back(model.input.placed(warning));
   for (const TipResult& tip : tips) {
     status.metrics.emplace_back("K_I." + tip.name, tip.intensity.K_I);
     status.metrics.emplace_back("K_II." + tip.name, tip.intensity.K_II);
     status.metrics.emplace_back("K_spread." + tip.name, tip.spread);
-    if (tip.spread > path_tolerance)
-      status.warnings.push_back(fmt::format(
-          "the stress intensity at tip '{}' changes by {:.2g}% from domain to domain: refine the cloud "
-          "at the tip, or set fracture.integral",
-          tip.name, 100.0 * tip.spread));
+    if (std::string text = doubt(tip); !text.empty()) status.warnings.push_back(std::move(text));
   }
   status.metrics.emplace_back("strain_energy", solution.strain_energy);
   status.metrics.emplace_back("stabilisation_energy", solution.stabilisation_energy);
@@ -113,50 +114,77 @@ io::RunStatus make_status(const StaticModel& model, const StaticSolution& soluti
   return status;
 }
 
-} // namespace
+/// The status and report of a solution that means nothing: there are no fields to show.
+Exit give_up(const StaticModel& model, const DivergenceError& error, const RunOptions& options,
+             const Stopwatch& watch) {
+  const input::Case& input = model.input;
+  results::RunStatus status = blank_status(model, options);
+  status.exit = Exit::diverged;
+  results::PostMortem& dead = status.post_mortem.emplace();
+  dead.time = input.time.end;
+  dead.node = error.node;
+  dead.field = error.field;
+  dead.text = status.reason = input.placed(error.what());
+  dead.causes.push_back(
+      "Loads, prescribed displacements or elastic constants are beyond anything physical: look at "
+      "their units.");
+  dead.last_good = "nothing was solved";
+  if (error.node >= 0) {
+    const Vec2 at = input.origin + model.setup.model.cloud.position[static_cast<std::size_t>(error.node)];
+    dead.x = at.x();
+    dead.y = at.y();
+  }
+  status.wall_s = watch.spent();
+  results::write_status(options.output, status);
+  fmt::print("diverged: {}\nreport: {}\n", status.reason,
+             report::write_report(options.output, status).string());
+  return Exit::diverged;
+}
 
-Exit run_static(const io::Case& input, const RunOptions& options) {
-  if (options.threads > 0) omp_set_num_threads(options.threads);
-  Stopwatch watch;
-  const StaticModel model = watch.time("setup", [&] { return StaticModel(input); });
-  io::prepare_output_folder(options.output, options.force);
-  io::write_atomically(options.output / io::files::resolved_case, input.resolved);
+Exit solve(const StaticModel& model, const RunOptions& options, Stopwatch& watch) {
+  const input::Case& input = model.input;
   for (const std::string& warning : model.setup.warnings) fmt::print(stderr, "warning: {}\n", warning);
 
-  const StaticSolution solution = watch.time("step", [&] {
-    try {
-      return solve_statics(model.problem());
-    } catch (const InputError& error) { throw input.error("boundary", error.what()); }
-  });
-  const std::vector<TipResult> tips = evaluate_tips(model, solution);
+  StaticSolution solution;
+  std::vector<TipResult> tips;
+  try {
+    solution = watch.time("step", [&] {
+      try {
+        return solve_statics(model.problem());
+      } catch (const InputError& error) { throw input.error("boundary", error.what()); }
+    });
+    tips = evaluate_tips(model, solution);
+  } catch (const DivergenceError& error) { return give_up(model, error, options, watch); }
   const State<2> state = as_state(model, solution);
-  const Snapshot shot{state,
-                      model.approximation,
-                      model.position,
-                      model.setup.model.cloud,
-                      model.setup.model.contact,
-                      nullptr,
-                      drawing_scale(model, solution)};
+  const results::Snapshot shot{state,
+                               model.approximation,
+                               model.position,
+                               model.setup.model.cloud,
+                               model.setup.model.contact,
+                               nullptr,
+                               drawing_scale(model, solution)};
   watch.time("output", [&] {
-    io::FileQueue files;
+    results::FileQueue files;
     watch.time("output.history", [&] { write_history(model, solution, shot, options.output); });
-    write_lines(input, shot, options.output);
-    watch.time("output.fields", [&] { FieldRecorder(options.output).record(files, shot); });
-    watch.time("output.pictures", [&] { PictureRecorder(input, options.output).record(files, shot); });
+    results::write_lines(input, shot, options.output);
+    watch.time("output.fields",
+               [&] { results::FieldRecorder(options.output, input.origin).record(files, shot); });
+    watch.time("output.pictures",
+               [&] { report::PictureRecorder(input, options.output).record(files, shot); });
     watch.time("output.disk", [&] { files.wait(); });
   });
-  io::RunStatus status = make_status(model, solution, tips, options);
+  results::RunStatus status = make_status(model, solution, tips, options);
   status.wall_s = watch.spent();
   const std::filesystem::path report = watch.time("output", [&] {
-    return watch.time("output.report", [&] { return io::write_report(options.output, status); });
+    return watch.time("output.report", [&] { return report::write_report(options.output, status); });
   });
   status.wall_s = watch.spent();
-  io::write_status(options.output, status);
+  results::write_status(options.output, status);
   for (std::size_t w = model.setup.warnings.size(); w < status.warnings.size(); ++w)
     fmt::print(stderr, "warning: {}\n", status.warnings[w]);
   for (const TipResult& tip : tips)
-    fmt::print("tip {}: K_I = {:.6g}, K_II = {:.6g} Pa m^0.5 within {:.2g}%\n", tip.name, tip.intensity.K_I,
-               tip.intensity.K_II, 100.0 * tip.spread);
+    fmt::print("tip {}: K_I = {:.6g}, K_II = {:.6g} Pa m^0.5; domains differ by {:.2g} Pa m^0.5 ({:.2g}%)\n",
+               tip.name, tip.intensity.K_I, tip.intensity.K_II, tip.difference, 100.0 * tip.spread);
   fmt::print("done: {} nodes in {:.2f} s; equilibrium to {:.1g}\n", status.nodes,
              status.wall_s.front().second, solution.residual);
   if (options.profile) fmt::print("{}", profile_table(status));
@@ -164,7 +192,16 @@ Exit run_static(const io::Case& input, const RunOptions& options) {
   return Exit::done;
 }
 
-void check_static(const io::Case& input, const RunOptions& options) {
+} // namespace
+
+Exit run_static(const input::Case& input, const RunOptions& options) {
+  Stopwatch watch;
+  const StaticModel model = watch.time("setup", [&] { return StaticModel(input); });
+  results::prepare_output_folder(options.output, options.force);
+  results::write_atomically(options.output / results::files::resolved_case, input.resolved);
+  return before_steps(input, options, [&] { return solve(model, options, watch); });
+}
+void check_static(const input::Case& input, const RunOptions& options) {
   const StaticModel model(input);
   for (const std::string& warning : model.setup.warnings) fmt::print("warning: {}\n", warning);
   fmt::print("case        {}\n", input.title.empty() ? input.name : input.title);
@@ -177,8 +214,8 @@ void check_static(const io::Case& input, const RunOptions& options) {
     fmt::print(
         "tip         {} at ({:.6g}, {:.6g}) m, spacing {:.3g} m, enriched within {:.3g} m, integral from "
         "{:.3g} to {:.3g} m\n",
-        tip.name, tip.position.x(), tip.position.y(), tip.spacing, model.enrichment_radius[t], ring.inner,
-        ring.outer);
+        tip.name, input.origin.x() + tip.position.x(), input.origin.y() + tip.position.y(), tip.spacing,
+        model.enrichment_radius[t], ring.inner, ring.outer);
   }
   const std::string motion =
       missing_support(model.enriched.operators, model.setup.model.cloud.position, model.setup.model.supports);
@@ -189,12 +226,13 @@ void check_static(const io::Case& input, const RunOptions& options) {
   resize_all(nothing.stress, static_cast<std::size_t>(model.enriched.operators.points));
   const State<2> state = as_state(model, nothing);
   const std::filesystem::path folder = options.output / "initial";
-  io::prepare_output_folder(folder, true);
-  io::FileQueue files;
-  FieldRecorder(folder).record(files, {state, model.approximation, model.position, model.setup.model.cloud,
-                                       model.setup.model.contact});
+  results::prepare_output_folder(folder, true);
+  results::FileQueue files;
+  results::FieldRecorder(folder, input.origin)
+      .record(files, {state, model.approximation, model.position, model.setup.model.cloud,
+                      model.setup.model.contact});
   files.wait();
-  fmt::print("fields      {}\n", (folder / io::files::fields).string());
+  fmt::print("fields      {}\n", (folder / results::files::fields).string());
   if (!motion.empty()) throw input.error("boundary", motion);
 }
 

@@ -1,6 +1,7 @@
 #include "app/time_control.hpp"
 
 #include "app/divergence.hpp"
+#include "core/clock.hpp"
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -103,11 +104,11 @@ void StepControl::archive(Archive& archive) {
 bool ReferenceRenewal::due(const ExplicitSolver<2>& solver) const {
   const std::int64_t steps = solver.state().step - last_;
   switch (method_->lagrangian) {
-  case io::Method::Lagrangian::total:
+  case input::Method::Lagrangian::total:
     return false;
-  case io::Method::Lagrangian::updated:
+  case input::Method::Lagrangian::updated:
     return steps >= 1;
-  case io::Method::Lagrangian::periodic:
+  case input::Method::Lagrangian::periodic:
     break;
   }
   if (method_->rereference_every > 0 && steps >= method_->rereference_every) return true;
@@ -142,6 +143,19 @@ void ReferenceRenewal::archive(Archive& archive) {
   archive.integer("run/reference/last", last_);
   archive.integer("run/reference/postponed", postponed_);
   archive.text("run/reference/first_postponed", first_);
+}
+
+bool CheckpointTimer::due(const State<2>& state) const {
+  return step_ < 0 || (control_->every_steps > 0 && state.step >= step_ + control_->every_steps) ||
+         (control_->every_time > 0.0 && state.time >= next_time_) ||
+         (control_->every_wall > 0.0 && wall_time() >= wall_ + control_->every_wall);
+}
+
+void CheckpointTimer::written(const State<2>& state) {
+  step_ = state.step;
+  wall_ = wall_time();
+  if (control_->every_time > 0.0)
+    next_time_ = (std::floor(state.time / control_->every_time) + 1.0) * control_->every_time;
 }
 
 } // namespace cnem::app

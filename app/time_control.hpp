@@ -1,6 +1,6 @@
 #pragma once
-// When something is due, how long the next step is, and when the reference is renewed.
-#include "io/case.hpp"
+// When something is due, checkpoints among it, how long the next step is, and when the reference is renewed.
+#include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 #include <cstdint>
@@ -39,7 +39,7 @@ private:
 /// Chooses each step: the stable one, looked at every so often, shortened to land on the next event.
 class StepControl {
 public:
-  explicit StepControl(const io::TimeControl& time) : time_(&time) {}
+  explicit StepControl(const input::TimeControl& time) : time_(&time) {}
 
   /// Looks at the stable step anew: after a re-reference, and every `check_every` steps. Throws
   /// DivergenceError when it has collapsed.
@@ -55,7 +55,7 @@ public:
   void archive(Archive& archive);
 
 private:
-  const io::TimeControl* time_;
+  const input::TimeControl* time_;
   double limit_ = 0.0; ///< s
   double first_ = 0.0; ///< s, the stable step at the start
   std::string limited_by_;
@@ -68,7 +68,7 @@ private:
 /// unless it is stretched too far to mean anything.
 class ReferenceRenewal {
 public:
-  explicit ReferenceRenewal(const io::Method& method) : method_(&method) {}
+  explicit ReferenceRenewal(const input::Method& method) : method_(&method) {}
 
   bool due(const ExplicitSolver<2>& solver) const;
   /// Throws GeometryError. `prepare` renews the reference and leaves the solver as it is when it throws one.
@@ -78,10 +78,25 @@ public:
   void archive(Archive& archive);
 
 private:
-  const io::Method* method_;
+  const input::Method* method_;
   std::int64_t last_ = 0; ///< step of the last renewal, or when to try again
   int postponed_ = 0;
   std::string first_;
+};
+
+/// When checkpoints are due by steps, simulated time and wall clock.
+class CheckpointTimer {
+public:
+  explicit CheckpointTimer(const input::CheckpointControl& control) : control_(&control) {}
+  bool due(const State<2>& state) const;
+  /// A checkpoint of this state is there.
+  void written(const State<2>& state);
+
+private:
+  const input::CheckpointControl* control_;
+  std::int64_t step_ = -1; ///< of the last one; −1: none yet
+  double next_time_ = 0.0; ///< s
+  double wall_ = 0.0;      ///< s, wall_time() of the last one
 };
 
 } // namespace cnem::app

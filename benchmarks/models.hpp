@@ -1,9 +1,9 @@
 #pragma once
 // Bodies of 304L that benchmarks work on.
+#include "clouds/generate.hpp"
 #include "cnem/scni.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "tests/curves.hpp"
-#include "voronoi/generate.hpp"
 
 #include <memory>
 #include <utility>
@@ -11,9 +11,9 @@
 namespace cnem::benchmarks {
 
 /// Free of supports and loads, C-NEM.
-inline Model<2> model_304L(const Curve& outline, const voronoi::SpacingField& spacing) {
+inline Model<2> model_304L(const Curve& outline, const clouds::SpacingField& spacing) {
   Model<2> model;
-  model.cloud = voronoi::generate_cloud({outline, {}, {}}, spacing, {}).cloud;
+  model.cloud = clouds::generate_cloud({outline, {}, {}}, spacing, {}).cloud;
   model.method = std::make_unique<scni::Cnem>();
   model.materials = {
       {.name = "304L",

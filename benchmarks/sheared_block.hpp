@@ -11,7 +11,7 @@ namespace cnem::benchmarks {
 /// A 304L block in steady simple shear at 1e5 /s, its boundary driven, so that every node flows.
 inline ExplicitSolver<2> sheared_block(int nodes) {
   const double size = 1e-2;
-  voronoi::SpacingField spacing;
+  clouds::SpacingField spacing;
   spacing.spacing = size / std::sqrt(nodes * std::sqrt(0.75));
   Model<2> model = model_304L(testing::box({0, 0}, {size, size}, "side"), spacing);
   const auto n = static_cast<std::size_t>(model.cloud.nodes());

@@ -8,11 +8,11 @@ function(cnem_warnings target)
   endif()
 endfunction()
 
-# One static library per folder of the method. Files named *_kernel.cpp are compiled once per instruction set
+# One static library per folder of the method, with the folders inside it. Files named *_kernel.cpp are compiled once per instruction set
 # (see cnem_kernel); app/main.cpp belongs to the executable.
 function(cnem_library folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
-  file(GLOB kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*_kernel.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  file(GLOB_RECURSE kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*_kernel.cpp)
   list(FILTER sources EXCLUDE REGEX "(_kernel|/app/main)\\.cpp$")
   if(NOT sources AND NOT kernels)
     add_library(cnem_${folder} INTERFACE)

@@ -1,9 +1,9 @@
 #include "cnem/quadrature.hpp"
 
-#include "core/error.hpp"
+#include "core/parallel.hpp"
 
 #include <algorithm>
-#include <exception>
+#include <optional>
 #include <vector>
 
 namespace cnem::scni {
@@ -85,20 +85,18 @@ FacetMeans facet_means(const Cloud<2>& cloud, const voronoi::Triangulation& tria
     }
   };
 
-  // An exception that left the parallel region would end the program.
-  std::vector<std::exception_ptr> failed(means.blocks_.size());
+  ParallelFailure failure;
 #pragma omp parallel
   {
-    voronoi::NaturalNeighbours neighbours(cloud, triangulation, circles);
+    std::optional<voronoi::NaturalNeighbours> neighbours;
 #pragma omp for schedule(dynamic)
-    for (std::size_t b = 0; b < means.blocks_.size(); ++b) {
-      try {
-        integrate(b, neighbours);
-      } catch (const GeometryError&) { failed[b] = std::current_exception(); }
-    }
+    for (std::size_t b = 0; b < means.blocks_.size(); ++b)
+      failure.guard(static_cast<std::ptrdiff_t>(b), [&] {
+        if (!neighbours) neighbours.emplace(cloud, triangulation, circles);
+        integrate(b, *neighbours);
+      });
   }
-  for (const std::exception_ptr& error : failed)
-    if (error) std::rethrow_exception(error);
+  failure.rethrow();
   return means;
 }
 

@@ -1,7 +1,10 @@
 #include "cnem/smoothing.hpp"
 
+#include "core/parallel.hpp"
+
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace cnem::scni {
@@ -89,7 +92,6 @@ CellFacets facets_of_cells(int nodes, const voronoi::Cells& cells) {
 DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Cells& cells,
                                         const CellFacets& around, const FacetMeans& means,
                                         const CentroidValues* revolution) {
-  constexpr std::size_t block_size = 512;
   const auto nodes = index(cloud.nodes());
   const CellFacets boundary = group_by_cell(cloud.nodes(), cells.boundary.size(), [&](std::size_t f) {
     return std::array<std::int32_t, 1>{cells.boundary[f].cell};
@@ -106,52 +108,59 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
   op.row_begin.assign(nodes + 1, 0);
 
   std::vector<RowBlock> blocks((nodes + block_size - 1) / block_size);
+  const auto sum_rows = [&](std::size_t k, RowAccumulator& row) {
+    RowBlock& block = blocks[k];
+    const std::size_t first = k * block_size, last = std::min(first + block_size, nodes);
+    block.node.reserve(11 * (last - first));
+    for (auto& g : block.gradient) g.reserve(11 * (last - first));
+    for (std::size_t i = first; i < last; ++i) {
+      for (auto a = index(around.begin[i]); a < index(around.begin[i + 1]); ++a) {
+        const auto f = index(around.facet[a]);
+        const voronoi::InteriorFacet& facet = cells.interior[f];
+        const double sign = index(facet.cell[0]) == i ? 1.0 : -1.0;
+        const Vec2 normal = sign * right_normal(facet.end - facet.start);
+        const auto node = means.nodes(f);
+        const auto value = means.values(f);
+        for (std::size_t e = 0; e < node.size(); ++e) row.add(node[e], value[e] * normal);
+      }
+      for (auto a = index(boundary.begin[i]); a < index(boundary.begin[i + 1]); ++a) {
+        const voronoi::BoundaryPiece& piece = cells.boundary[index(boundary.facet[a])];
+        const auto& ends = cloud.facets[index(piece.facet)].node;
+        const Vec2 &a0 = cloud.position[index(ends[0])], &a1 = cloud.position[index(ends[1])];
+        const Vec2 normal = right_normal(a1 - a0);
+        const auto share = end_integrals(piece, a0, a1, revolution != nullptr);
+        row.add(ends[0], share[0] * normal);
+        row.add(ends[1], share[1] * normal);
+      }
+      double measure = cells.volume[i];
+      if (revolution) {
+        for (auto e = index(revolution->begin[i]); e < index(revolution->begin[i + 1]); ++e)
+          row.add(revolution->node[e], Vec2(-cells.volume[i] * revolution->value[e], 0.0),
+                  revolution->value[e]);
+        measure *= op.radius[i];
+      }
+      for (const auto& entry : row.sorted()) {
+        block.node.push_back(entry.node);
+        for (std::size_t d = 0; d < 2; ++d)
+          block.gradient[d].push_back(entry.b[static_cast<Eigen::Index>(d)] / measure);
+        if (revolution) block.hoop.push_back(entry.value / op.radius[i]);
+      }
+      row.clear();
+      op.row_begin[i + 1] = static_cast<std::int32_t>(block.node.size()); // of the block, so far
+    }
+  };
+  ParallelFailure failure;
 #pragma omp parallel
   {
-    RowAccumulator row(cloud.nodes());
+    std::optional<RowAccumulator> row;
 #pragma omp for schedule(dynamic)
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-      RowBlock& block = blocks[k];
-      const std::size_t first = k * block_size, last = std::min(first + block_size, nodes);
-      block.node.reserve(11 * (last - first));
-      for (auto& g : block.gradient) g.reserve(11 * (last - first));
-      for (std::size_t i = first; i < last; ++i) {
-        for (auto a = index(around.begin[i]); a < index(around.begin[i + 1]); ++a) {
-          const auto f = index(around.facet[a]);
-          const voronoi::InteriorFacet& facet = cells.interior[f];
-          const double sign = index(facet.cell[0]) == i ? 1.0 : -1.0;
-          const Vec2 normal = sign * right_normal(facet.end - facet.start);
-          const auto node = means.nodes(f);
-          const auto value = means.values(f);
-          for (std::size_t e = 0; e < node.size(); ++e) row.add(node[e], value[e] * normal);
-        }
-        for (auto a = index(boundary.begin[i]); a < index(boundary.begin[i + 1]); ++a) {
-          const voronoi::BoundaryPiece& piece = cells.boundary[index(boundary.facet[a])];
-          const auto& ends = cloud.facets[index(piece.facet)].node;
-          const Vec2 &a0 = cloud.position[index(ends[0])], &a1 = cloud.position[index(ends[1])];
-          const Vec2 normal = right_normal(a1 - a0);
-          const auto share = end_integrals(piece, a0, a1, revolution != nullptr);
-          row.add(ends[0], share[0] * normal);
-          row.add(ends[1], share[1] * normal);
-        }
-        double measure = cells.volume[i];
-        if (revolution) {
-          for (auto e = index(revolution->begin[i]); e < index(revolution->begin[i + 1]); ++e)
-            row.add(revolution->node[e], Vec2(-cells.volume[i] * revolution->value[e], 0.0),
-                    revolution->value[e]);
-          measure *= op.radius[i];
-        }
-        for (const auto& entry : row.sorted()) {
-          block.node.push_back(entry.node);
-          for (std::size_t d = 0; d < 2; ++d)
-            block.gradient[d].push_back(entry.b[static_cast<Eigen::Index>(d)] / measure);
-          if (revolution) block.hoop.push_back(entry.value / op.radius[i]);
-        }
-        row.clear();
-        op.row_begin[i + 1] = static_cast<std::int32_t>(block.node.size()); // of the block, so far
-      }
-    }
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+      failure.guard(static_cast<std::ptrdiff_t>(k), [&] {
+        if (!row) row.emplace(cloud.nodes());
+        sum_rows(k, *row);
+      });
   }
+  failure.rethrow();
 
   std::vector<std::int32_t> offset(blocks.size() + 1, 0);
   for (std::size_t k = 0; k < blocks.size(); ++k)

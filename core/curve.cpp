@@ -43,7 +43,7 @@ double Curve::length() const {
 double Curve::area() const {
   double sum = 0.0;
   for (const CurvePiece& piece : pieces) {
-    sum += 0.5 * cross(piece.from, piece.to);
+    sum += 0.5 * cross(piece.from - pieces.front().from, piece.to - pieces.front().from);
     const double angle = piece.sweep();
     if (piece.is_arc())
       sum += 0.5 * piece.radius * piece.radius * (angle - std::sin(angle)); // circular segment

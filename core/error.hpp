@@ -5,6 +5,9 @@
 
 namespace cnem {
 
+/// Documented exit codes (docs/user_guide.md).
+enum Exit : int { done = 0, bad_input = 2, diverged = 3, io_failed = 4, interrupted = 5 };
+
 /// Wrong case, wrong geometry or wrong usage: exit code 2. The message says where, what and what was
 /// expected.
 struct InputError : std::runtime_error {

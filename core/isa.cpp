@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdlib>
+#include <string>
 
 namespace cnem {
 
@@ -36,32 +38,45 @@ bool isa_supported(Isa isa) {
 
 namespace {
 
-Isa checked(Isa isa) {
-  if (!isa_supported(isa))
-    throw InputError(fmt::format("instruction set {}: this machine does not have it", isa_name(isa)));
-  return isa;
-}
+constexpr std::array all_sets{Isa::baseline, Isa::avx2, Isa::avx512};
 
-Isa initial_isa() {
-  if (const char* name = std::getenv("CNEM_ISA")) {
-    for (Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512})
-      if (name == isa_name(isa)) return checked(isa);
-    throw InputError(
-        fmt::format("environment variable CNEM_ISA = \"{}\": expected baseline, avx2 or avx512", name));
-  }
-  for (Isa isa : {Isa::avx512, Isa::avx2})
+Isa best_isa() {
+  for (const Isa isa : {Isa::avx512, Isa::avx2})
     if (isa_supported(isa)) return isa;
   return Isa::baseline;
 }
 
+std::string available_sets() {
+  std::string names;
+  for (const Isa isa : all_sets)
+    if (isa_supported(isa)) names += fmt::format("{}{}", names.empty() ? "" : ", ", isa_name(isa));
+  return names;
+}
+
 Isa& current() {
-  static Isa isa = initial_isa();
+  static Isa isa = wanted_isa().value_or(best_isa());
   return isa;
 }
 
 } // namespace
 
+std::optional<Isa> wanted_isa() {
+  const char* name = std::getenv("CNEM_ISA");
+  if (!name) return {};
+  for (const Isa isa : all_sets)
+    if (name == isa_name(isa) && isa_supported(isa)) return isa;
+  throw InputError(fmt::format(
+      "environment variable CNEM_ISA = \"{}\": expected an instruction set that this machine has: {}", name,
+      available_sets()));
+}
+
 Isa active_isa() { return current(); }
-void set_isa(Isa isa) { current() = checked(isa); }
+
+void set_isa(Isa isa) {
+  if (!isa_supported(isa))
+    throw InputError(fmt::format("instruction set {}: expected one that this machine has: {}", isa_name(isa),
+                                 available_sets()));
+  current() = isa;
+}
 
 } // namespace cnem

@@ -1,5 +1,6 @@
 #pragma once
 // Instruction sets for which the vector kernels (*_kernel.cpp) are compiled, and the one in use.
+#include <optional>
 #include <string_view>
 
 namespace cnem {
@@ -12,8 +13,12 @@ std::string_view isa_name(Isa isa);
 /// Whether this machine can run kernels of the set.
 bool isa_supported(Isa isa);
 
+/// The set that the environment variable CNEM_ISA asks for; none when it is not there. Throws InputError when
+/// it is not a name or the machine lacks the set.
+std::optional<Isa> wanted_isa();
+
 /// The set in use: the best supported one, or that of the environment variable CNEM_ISA (read once), or the
-/// last set_isa(). Throws InputError when CNEM_ISA is not a name or the machine lacks the set.
+/// last set_isa(). Throws InputError as wanted_isa() does.
 Isa active_isa();
 
 /// Forces a set; not to be called while kernels run. Throws InputError when the machine lacks it.

@@ -1,6 +1,8 @@
 #pragma once
 // Loops over nodes and stress points in fixed blocks: results do not depend on the number of threads.
 #include <cstddef>
+#include <exception>
+#include <mutex>
 #include <vector>
 
 namespace cnem {
@@ -9,16 +11,42 @@ inline constexpr std::size_t block_size = 512;
 
 inline std::size_t blocks(std::size_t n) { return (n + block_size - 1) / block_size; }
 
+/// Carries an exception out of a parallel region: one that left it by itself would end the program. Of
+/// several it is that of the lowest part, whatever the number of threads.
+class ParallelFailure {
+public:
+  template<class Body> void guard(std::ptrdiff_t part, Body&& body) {
+    try {
+      body();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (failure_ && part_ <= part) return;
+      failure_ = std::current_exception();
+      part_ = part;
+    }
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+private:
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  std::ptrdiff_t part_ = 0;
+};
+
 /// body(begin, end) for consecutive blocks of [0, n), shared out to the threads. body must write only to its
 /// block.
 template<class Body> void for_each_block(std::size_t n, Body&& body) {
   const auto count = static_cast<std::ptrdiff_t>(blocks(n));
   if (count == 1) return body(std::size_t{0}, n); // no barrier where there is nothing to share
+  ParallelFailure failure;
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t b = 0; b < count; ++b) {
     const std::size_t begin = static_cast<std::size_t>(b) * block_size;
-    body(begin, begin + block_size < n ? begin + block_size : n);
+    failure.guard(b, [&] { body(begin, begin + block_size < n ? begin + block_size : n); });
   }
+  failure.rethrow();
 }
 
 /// Sum of body(begin, end) over the blocks, added up in the order of the blocks.

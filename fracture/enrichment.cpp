@@ -40,6 +40,15 @@ struct QuadraturePoint {
   double weight; ///< m²
 };
 
+/// The functions ψ of one node at a point of a facet that ends there, where φ is linear.
+std::array<double, branch_count> on_facet(const EnrichedOperators::Function& function, const FacetLoad& facet,
+                                          const FacetPoint& point) {
+  const double phi = facet.node[0] == function.node ? 1.0 - point.s : point.s;
+  auto psi = branch(point.r, point.theta);
+  for (std::size_t k = 0; k < branch_count; ++k) psi[k] = phi * (psi[k] - function.shift[k]);
+  return psi;
+}
+
 /// Points on the triangles between the node and the edges of its cell, collapsed towards the node. With
 /// `at_tip` the radius goes with the square of its parameter, which takes out the singularity there.
 std::vector<QuadraturePoint> fan(const CellGeometry<2>& cells, std::size_t cell, const Vec2& apex,
@@ -194,6 +203,41 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
   }
 }
 
+/// Moves the gradients of each function ψ that enriches by a constant on its support, so that ∫ ∇ψ dA = ∮ ψ n
+/// dΓ: quadrature leaves them off, and then a uniform stress acts on ψ (variational consistency, Chen,
+/// Hillman and Rüter 2013).
+void make_consistent(const Cloud<2>& cloud, const std::vector<CrackTip>& tips,
+                     const std::vector<EnrichedOperators::Function>& functions, DiscreteOperators<2>& op) {
+  const auto first = u(cloud.nodes()), count = u(op.nodes) - first;
+  std::vector<Vec2> defect(count, Vec2::Zero());
+  for (const auto& function : functions)
+    for (const Facet<2>& facet : cloud.facets) {
+      if (facet.node[0] != function.node && facet.node[1] != function.node) continue;
+      const Vec2 &a = cloud.position[u(facet.node[0])], &b = cloud.position[u(facet.node[1])];
+      const Vec2 outward = -left_normal(b - a).normalized();
+      const FacetLoad load{facet.node, a, b, outward};
+      for (const FacetPoint& point : facet_points(tips[function.tip], load)) {
+        const auto psi = on_facet(function, load, point);
+        for (std::size_t k = 0; k < branch_count; ++k)
+          defect[u(function.column) + k - first] += point.weight * psi[k] * outward;
+      }
+    }
+  std::vector<double> area(count, 0.0);
+  const auto each_entry = [&](auto&& act) {
+    for (std::size_t p = 0; p < u(op.points); ++p)
+      for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e)
+        if (u(op.node[e]) >= first) act(p, e, u(op.node[e]) - first);
+  };
+  each_entry([&](std::size_t p, std::size_t e, std::size_t a) {
+    area[a] += op.volume[p];
+    defect[a] -= op.volume[p] * Vec2(op.gradient[0][e], op.gradient[1][e]);
+  });
+  each_entry([&](std::size_t, std::size_t e, std::size_t a) {
+    op.gradient[0][e] += defect[a].x() / area[a];
+    op.gradient[1][e] += defect[a].y() / area[a];
+  });
+}
+
 } // namespace
 
 EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
@@ -240,10 +284,11 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
                                       cloud.position[i].x(), cloud.position[i].y(), error.what()));
     }
   }
-  op.build_transpose();
-  result.links.begin.assign(u(cloud.nodes()) + 1, 0);
   for (const auto& list : layout.of_node)
     result.functions.insert(result.functions.end(), list.begin(), list.end());
+  make_consistent(cloud, tips, result.functions, op);
+  op.build_transpose();
+  result.links.begin.assign(u(cloud.nodes()) + 1, 0);
   return result;
 }
 
@@ -273,11 +318,9 @@ Fields<2> forces_on_functions(const EnrichedOperators& enriched, const std::vect
     for (const FacetLoad& load : loads) {
       if (load.node[0] != function.node && load.node[1] != function.node) continue;
       for (const FacetPoint& point : facet_points(tips[function.tip], load)) {
-        const double phi = load.node[0] == function.node ? 1.0 - point.s : point.s; // linear on the boundary
-        const auto F = branch(point.r, point.theta);
+        const auto psi = on_facet(function, load, point);
         for (std::size_t k = 0; k < branch_count; ++k)
-          add(function.column + static_cast<std::int32_t>(k),
-              point.weight * phi * (F[k] - function.shift[k]) * load.traction);
+          add(function.column + static_cast<std::int32_t>(k), point.weight * psi[k] * load.traction);
       }
     }
   }

@@ -17,8 +17,9 @@ namespace cnem::fracture {
 /// All cells are integrated with Gauss points on the triangles between node and cell edges: near a tip one
 /// point has three strains for up to ten unknowns of a node, and further out smoothing makes the graded cells
 /// around it too soft (docs/theory.md). ∇φ_J is corrected by a constant per cell so that its mean is the
-/// smoothed gradient of the base: the operators stay exact on linear fields. Weak
-/// modes are gone, and the stabilisation with them.
+/// smoothed gradient of the base: the operators stay exact on linear fields. ∇ψ is corrected by a constant on
+/// its support so that its integral is the one of ψ n over the boundary: a uniform stress that the faces may
+/// carry is solved exactly. Weak modes are gone, and the stabilisation with them.
 struct EnrichedOperators {
   DiscreteOperators<2> operators; ///< with values at the points when there is enrichment
   std::vector<Vec2> position;     ///< [point] m; of cells their centroid

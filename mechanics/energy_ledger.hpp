@@ -50,4 +50,10 @@ struct EnergyLedger {
   double heat_residual() const { return heat_content - heat_generated - heat_exchanged; }
 };
 
+/// What an energy residual is compared with.
+struct EnergyScale {
+  double energy = 0.0;   ///< J/m, J of revolution; > 0
+  const char* what = ""; ///< "the work done"
+};
+
 } // namespace cnem

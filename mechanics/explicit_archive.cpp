@@ -118,9 +118,9 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   edge_defect_.archive(archive);
   damage_.archive(archive, state_.point.size());
   if (damage_.active()) archive.field("solver/point/wave_modulus", "Pa", wave_modulus_);
+  archive.number("solver/finest_before", "s", finest_before_);
   if (local_.on()) {
     local_.archive(archive);
-    archive.number("solver/local/finest_before", "s", finest_before_);
     archive.integer("solver/local/on_new_reference", on_new_reference_);
     std::vector<double> next(next_levels_.begin(), next_levels_.end());
     archive.list("solver/local/next_level", "1", next);
@@ -143,7 +143,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   approximation_ = model_.method->rebuild(model_.cloud);
   if (model_.thermal) set_conduction();
   place_reference();
-  if (local_.on()) take_levels(local_.level());
+  set_levels(local_.level());
   scale_masses();
   reset_exchange();
   model_.loads.evaluate(state_.time, node.position, node.mass);

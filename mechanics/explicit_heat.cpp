@@ -50,12 +50,12 @@ template<int dim> void ExplicitSolver<dim>::conduct(double dt) {
   const std::size_t n = node.size();
   if (!model_.heat_ties.empty()) model_.heat_ties.share(node.heat_capacity, node.temperature);
   if (conduction_step_ == 0.0) measure_conduction_step();
-  const double decay = 2.0 / conduction_step_ + touching_.fastest_decay(node.heat_capacity);
+  const double decay = 2.0 / conduction_step_ + heat_contacts_.fastest_decay(node.heat_capacity);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt * decay / 1.8)));
   const double h = dt / substeps;
   for (int s = 0; s < substeps; ++s) {
     std::fill(heat_flow_.begin(), heat_flow_.end(), 0.0);
-    model_.heat_boundaries.add_flow(state_.time, node.position, node.temperature, touching_, heat_flow_);
+    model_.heat_boundaries.add_flow(state_.time, node.position, node.temperature, heat_contacts_, heat_flow_);
     double received = h * sum_blocks(n, [&](std::size_t begin, std::size_t end) {
                         double sum = 0.0;
                         for (std::size_t i = begin; i < end; ++i) sum += heat_flow_[i];

@@ -41,7 +41,7 @@ template<int dim> double ExplicitSolver<dim>::strain_since_reference() const {
 /// Of v_n = v_{n−½} + ½ Δt f_n/m, to first order in Δt.
 template<int dim> double ExplicitSolver<dim>::kinetic_energy() const {
   const NodeState<dim>& node = state_.node;
-  const double half = 0.5 * (local_.on() ? finest_before_ : state_.step_before);
+  const double half = 0.5 * finest_before_;
   const Field& mass = inertia();
   return sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
@@ -58,7 +58,7 @@ template<int dim> EnergyLedger ExplicitSolver<dim>::ledger() const {
   const NodeState<dim>& node = state_.node;
   const PointState<dim>& point = state_.point;
   EnergyLedger ledger = running_;
-  const double half = 0.5 * (local_.on() ? finest_before_ : state_.step_before);
+  const double half = 0.5 * finest_before_;
   const Fields<dim>& load = model_.loads.force();
   const Field& mass = inertia();
   ledger.kinetic = kinetic_energy();

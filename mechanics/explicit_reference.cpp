@@ -92,7 +92,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   for (std::size_t p = 0; p < points; ++p) density_[p] = material_of(p).density * point.stress_free[p];
 
   edge_defect_.reset(shear_modulus_);
-  if (edge_defect_.active(approximation_.links)) edge_defect_.take(point.deformation, 0, points);
+  if (edge_defect_.active(approximation_.links)) edge_defect_.store_records(point.deformation, 0, points);
   model_.contact.set_boundary(model_.cloud.facets, node.size(), model_.supports.constraints(),
                               model_.ties.group());
   reset_exchange();
@@ -102,12 +102,9 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
     running_.rereference += elastic_before - energy_over_body(point.stored_energy);
     plastic_offset_ += plastic_before - energy_over_body(point.plastic_work);
   }
-  take_columns<dim>(point.piola, stress_);
+  copy_stress_columns<dim>(point.piola, stress_);
   running_.stabilisation = 0.0;
-  if (local_.on())
-    rebuild_levels();
-  else
-    assemble_forces();
+  rebuild_levels();
   ++references_;
   if (!change) return;
   running_.resampling += kinetic_before - kinetic_energy();
@@ -133,7 +130,7 @@ template<int dim> void ExplicitSolver<dim>::reset_exchange() {
 template<int dim> void ExplicitSolver<dim>::place_reference() {
   reference_ = side_by_side<dim>(state_.node.reference);
   position_ = side_by_side<dim>(state_.node.position);
-  take_columns<dim>(state_.point.piola, stress_);
+  copy_stress_columns<dim>(state_.point.piola, stress_);
 }
 
 /// Inertia on a new reference; factors that depend on cells are those of the start.

@@ -144,7 +144,7 @@ template<int dim> void ExplicitSolver<dim>::resize_fields(std::size_t n) {
   for (Field* value : {&point.equivalent_stress, &point.pressure, &point.stored_energy, &jacobian_,
                        &shear_modulus_, &wave_modulus_, &density_, &contact_heat_, &heat_flow_})
     value->assign(n, 0.0);
-  touching_.clear();
+  heat_contacts_.clear();
   set_moduli();
 }
 
@@ -166,7 +166,7 @@ template<int dim> void ExplicitSolver<dim>::resize_state(std::size_t n) {
   if (!mass_scale_.empty()) mass_scale_.resize(n);
   resize_fields(n);
   edge_defect_.reset(shear_modulus_);
-  edge_defect_.take(point.deformation, 0, n);
+  edge_defect_.store_records(point.deformation, 0, n);
 }
 
 template void ExplicitSolver<2>::carry_over(const Resampling<2>&);

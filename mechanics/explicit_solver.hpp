@@ -6,16 +6,16 @@
 #include "core/discretisation.hpp"
 #include "core/resampling.hpp"
 #include "core/state.hpp"
-#include "mechanics/bulk_viscosity.hpp"
 #include "mechanics/energy_ledger.hpp"
-#include "mechanics/loads.hpp"
 #include "mechanics/local_steps.hpp"
 #include "mechanics/mass_scaling.hpp"
-#include "mechanics/point_damage.hpp"
-#include "mechanics/pressure_exchange.hpp"
-#include "mechanics/stabilisation.hpp"
 #include "mechanics/stable_step.hpp"
 #include "mechanics/supports.hpp"
+#include "mechanics/terms/bulk_viscosity.hpp"
+#include "mechanics/terms/edge_defect.hpp"
+#include "mechanics/terms/loads.hpp"
+#include "mechanics/terms/point_damage.hpp"
+#include "mechanics/terms/pressure_exchange.hpp"
 #include "mechanics/ties.hpp"
 #include "plasticity/material.hpp"
 #include "plasticity/stress_points.hpp"
@@ -63,8 +63,8 @@ public:
   /// Starts from the cloud's positions with the given velocities [component][node] and temperatures [node].
   ExplicitSolver(Model<dim> model, Fields<dim> velocity, Field temperature);
 
-  /// One step of the algorithm box of 5.1.4, from t_n to t_{n+1} = t_n + dt; with local time steps one macro
-  /// step of that length, in `sub_steps()` finest ones. Throws DivergenceError.
+  /// The algorithm box of 5.1.4 from t_n to t_{n+1} = t_n + dt, in `sub_steps()` finest steps. Throws
+  /// DivergenceError.
   void advance(double dt);
   /// Finest steps in the next call of `advance`; 1 without local time steps.
   int sub_steps() const;
@@ -140,21 +140,31 @@ private:
     return model_
         .materials[model_.node_material.empty() ? 0 : static_cast<std::size_t>(model_.node_material[node])];
   }
-  void accelerate_and_move(double dt, double dt_mean);
-  void correct_contact(double dt, double dt_mean, std::span<const double> window = {});
-  void take_contact_heat();
-  void strain_and_stress(double dt);
-  void assemble_forces();
-  // Local time steps (mechanics/explicit_local.cpp).
-  void advance_by_levels(double dt);
+  /// Mean reactions of a macro step.
+  class Reactions {
+  public:
+    Reactions(ExplicitSolver& solver, double duration, int count);
+    void add(double dt_mean);
+    void report();
+
+  private:
+    bool several() const;
+    ExplicitSolver& solver_;
+    double duration_;
+    int count_;
+    std::vector<Vec<dim>> mean_;
+  };
+  // The parts of a step, for what is due at an activity (mechanics/local_steps.hpp).
+  void move(int activity, double dt, double dt_mean);
+  void correct_contact(double dt, double dt_mean, std::span<const double> window);
+  void collect_contact_heat();
+  void update_stress(int activity, int before, double dt);
+  void assemble_forces(int activity);
+  // Levels of steps (mechanics/explicit_levels.cpp).
   void rebuild_levels();
-  void take_levels(typename LocalSteps<dim>::Levels level);
+  void set_levels(typename LocalSteps<dim>::Levels level);
   void change_levels(double finest);
-  void move_due(int activity, double dt, double dt_mean);
-  void strain_and_stress_due(int activity, int before, double dt);
-  void assemble_impulses(int activity);
   void restore_columns();
-  Step stable_macro_step();
   double load_weight(std::size_t node) const;
 
   void set_conduction();
@@ -176,7 +186,7 @@ private:
   SpectralBound<dim> bound_;
   LocalSteps<dim> local_;
   typename LocalSteps<dim>::Levels next_levels_; ///< to be taken with the next step; empty: as they are
-  double finest_before_ = 0.0;                   ///< s, the finest step that led to t_n; with local steps
+  double finest_before_ = 0.0;                   ///< s, the finest step that led to t_n
   bool on_new_reference_ = false;                ///< no step has been made on it
   std::vector<std::vector<double>> window_;      ///< [activity][boundary node], as contact takes it
   std::vector<double>
@@ -194,7 +204,7 @@ private:
   Field jacobian_, viscous_pressure_;  ///< [point] of the last step, for the bulk viscosity
   Field heat_flow_;                    ///< [node] W/m^(3−dim)
   Field contact_heat_;                 ///< [node] J/m^(3−dim) friction heat of this step
-  Touching<dim> touching_;             ///< of this step
+  HeatContacts<dim> heat_contacts_;    ///< of this step
   EnergyLedger running_;               ///< cumulative terms
   double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
   double plastic_offset_ = 0.0;  ///< keeps plastic work continuous over references

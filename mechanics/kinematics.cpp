@@ -77,7 +77,7 @@ template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators
   return nodal;
 }
 
-template<int dim> void take_columns(const Fields<tensor_size<dim>>& piola, ColumnStress<dim>& stress) {
+template<int dim> void copy_stress_columns(const Fields<tensor_size<dim>>& piola, ColumnStress<dim>& stress) {
   const std::size_t n = piola[0].size();
   stress.columns.resize(dim * dim * n);
   for (std::size_t p = 0; p < n; ++p)
@@ -132,7 +132,7 @@ template<> double jacobian<3>(const Fields<9>& f, std::size_t p) {
                                  std::size_t);                                                               \
   template double average_at_node<dim>(const DiscreteOperators<dim>&, const Field&, std::size_t);            \
   template Field average_at_nodes<dim>(const DiscreteOperators<dim>&, const Field&);                         \
-  template void take_columns<dim>(const Fields<tensor_size<dim>>&, ColumnStress<dim>&);                      \
+  template void copy_stress_columns<dim>(const Fields<tensor_size<dim>>&, ColumnStress<dim>&);               \
   template void subtract_internal_force<dim>(const DiscreteOperators<dim>&, const ColumnStress<dim>&,        \
                                              Fields<dim>&, std::size_t, std::size_t);
 CNEM_INSTANTIATE(2)

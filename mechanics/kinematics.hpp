@@ -31,7 +31,7 @@ template<int dim> struct ColumnStress {
 };
 
 /// Takes the stresses of all points.
-template<int dim> void take_columns(const Fields<tensor_size<dim>>& piola, ColumnStress<dim>& stress);
+template<int dim> void copy_stress_columns(const Fields<tensor_size<dim>>& piola, ColumnStress<dim>& stress);
 
 /// force_J −= Σ_p V_p (P_p b_pJ + P_θθ h_pJ e_r) for the nodes [begin, end): minus the internal force (52),
 /// gathered.

@@ -92,6 +92,13 @@ typename LocalSteps<dim>::Choice LocalSteps<dim>::choose(const DiscreteOperators
                                                          const StabilisationLinks<dim>& links,
                                                          const Field& stable) {
   const std::size_t nodes = u(op.nodes);
+  if (!on()) { // all of one level, whatever the blocks are
+    Choice one;
+    one.finest = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < stable.size(); ++b)
+      if (stable[b] < one.finest) one = {{}, stable[b], b};
+    return one;
+  }
   const auto complete = [&](Choice& choice) {
     choice.finest = finest_step(choice.level, stable, choice.limit);
     return cost(choice.level, nodes, block, choice.finest);
@@ -132,8 +139,8 @@ template<int dim> void LocalSteps<dim>::follow(const NodeRows& labels) {
 }
 
 template<int dim>
-void LocalSteps<dim>::take(Levels level, const DiscreteOperators<dim>& op,
-                           const StabilisationLinks<dim>& links, const std::vector<bool>& finest) {
+void LocalSteps<dim>::set_levels(Levels level, const DiscreteOperators<dim>& op,
+                                 const StabilisationLinks<dim>& links, const std::vector<bool>& finest) {
   level_ = std::move(level);
   const std::size_t nodes = u(op.nodes);
   level_.resize(blocks_of(nodes, block), 0);
@@ -150,6 +157,23 @@ void LocalSteps<dim>::take(Levels level, const DiscreteOperators<dim>& op,
       if (kick_[u(op.node[e]) / block] < level_[p / block]) silent[p / block] = true;
   split(links);
   list(nodes, silent);
+}
+
+template<int dim> void LocalSteps<dim>::set_one_level(std::size_t points, std::size_t nodes) {
+  level_.clear();
+  highest_ = 0;
+  updates_ = static_cast<double>(nodes);
+  due_.assign(1, {});
+  Due& due = due_.front();
+  const auto in_blocks = [](std::size_t n, bool marked) {
+    std::vector<LevelRange> ranges;
+    for (std::size_t begin = 0; begin < n; begin += block_size)
+      ranges.push_back({begin, std::min(begin + block_size, n), 0, marked});
+    return ranges;
+  };
+  due.points = in_blocks(points, false);
+  due.kicked = in_blocks(nodes, points == nodes);
+  due.moved = in_blocks(nodes, true);
 }
 
 template<int dim> void LocalSteps<dim>::split(const StabilisationLinks<dim>& links) {

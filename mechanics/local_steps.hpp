@@ -3,6 +3,7 @@
 // steps").
 #include "core/archive.hpp"
 #include "core/discretisation.hpp"
+#include "core/parallel.hpp"
 #include "core/resampling.hpp"
 
 #include <cstddef>
@@ -62,12 +63,15 @@ public:
   static void grade(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
                     Levels& level);
 
-  /// Takes levels for these operators. `finest` [node]: nodes that move in every finest step, because
+  /// Sets the levels for these operators. `finest` [node]: nodes that move in every finest step, because
   /// something outside the cells acts on them there.
-  void take(Levels level, const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
-            const std::vector<bool>& finest);
+  void set_levels(Levels level, const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
+                  const std::vector<bool>& finest);
 
-  /// Carries the levels out or in; `take` must follow.
+  /// One level: all points and all nodes in every step.
+  void set_one_level(std::size_t points, std::size_t nodes);
+
+  /// Carries the levels out or in; `set_levels` must follow.
   void archive(Archive& archive);
 
   const Levels& level() const { return level_; }
@@ -88,14 +92,18 @@ public:
   /// Points due at this activity but not in the next sub-step, that finer nodes gather from in the meantime.
   const std::vector<LevelRange>& silenced(int activity) const { return due_[at(activity)].silenced; }
 
-  /// Links of each node to neighbours that are not coarser, due with the node.
-  const StabilisationLinks<dim>& own_links() const { return own_; }
+  /// Of all links those of each node to neighbours that are not coarser, due with the node.
+  const StabilisationLinks<dim>& own_links(const StabilisationLinks<dim>& all) const {
+    return highest_ == 0 ? all : own_;
+  }
   /// Links to coarser neighbours, due with those; weighted by the ratio of steps, since what acts on a node
   /// is multiplied with its own step.
   const StabilisationLinks<dim>& coarse_links() const { return coarse_; }
 
   /// 2^level of the impulses of node i.
-  double weight(std::size_t node) const { return static_cast<double>(1 << kick_[node / block]); }
+  double weight(std::size_t node) const {
+    return highest_ == 0 ? 1.0 : static_cast<double>(1 << kick_[node / block]);
+  }
   /// Over how many finest steps the forces reach a node at an activity, as a mean over its points.
   double window(const DiscreteOperators<dim>& operators, std::size_t node, int activity) const;
 
@@ -126,8 +134,11 @@ extern template class LocalSteps<3>;
 template<class Body> void for_each_range(const std::vector<LevelRange>& ranges, Body&& body) {
   const auto count = static_cast<std::ptrdiff_t>(ranges.size());
   if (count == 1) return body(ranges.front());
+  ParallelFailure failure;
 #pragma omp parallel for schedule(dynamic)
-  for (std::ptrdiff_t r = 0; r < count; ++r) body(ranges[static_cast<std::size_t>(r)]);
+  for (std::ptrdiff_t r = 0; r < count; ++r)
+    failure.guard(r, [&] { body(ranges[static_cast<std::size_t>(r)]); });
+  failure.rethrow();
 }
 
 /// Sum of body(range), added up in the order of the ranges.

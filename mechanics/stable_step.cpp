@@ -65,34 +65,19 @@ void SpectralBound<dim>::prepare(const DiscreteOperators<dim>& operators,
 }
 
 template<int dim>
-typename SpectralBound<dim>::Result SpectralBound<dim>::evaluate(const DiscreteOperators<dim>& operators,
-                                                                 const Fields<tensor_size<dim>>& deformation,
-                                                                 const Field& modulus, const Field& weight) {
-  prepare(operators, deformation, weight);
-  const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
-  const BlockMaximum worst =
-      max_blocks(static_cast<std::size_t>(operators.points), [&](std::size_t begin, std::size_t end) {
-        const SpectralMaximum most = largest(view, modulus.data(), static_cast<std::ptrdiff_t>(begin),
-                                             static_cast<std::ptrdiff_t>(end));
-        return BlockMaximum{most.value, static_cast<std::size_t>(most.point)};
-      });
-  return {worst.value, worst.index};
-}
-
-template<int dim>
 std::vector<typename SpectralBound<dim>::Result>
-SpectralBound<dim>::evaluate_ranges(const DiscreteOperators<dim>& operators,
-                                    const Fields<tensor_size<dim>>& deformation, const Field& modulus,
-                                    const Field& weight, std::size_t width) {
+SpectralBound<dim>::evaluate(const DiscreteOperators<dim>& operators,
+                             const Fields<tensor_size<dim>>& deformation, const Field& modulus,
+                             const Field& weight, std::size_t width) {
   prepare(operators, deformation, weight);
   const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
   const auto points = static_cast<std::size_t>(operators.points);
   std::vector<Result> ranges((points + width - 1) / width);
-  for_each_block(ranges.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t r = first; r < last; ++r) {
-      const SpectralMaximum most = largest(view, modulus.data(), static_cast<std::ptrdiff_t>(r * width),
-                                           static_cast<std::ptrdiff_t>(std::min((r + 1) * width, points)));
-      ranges[r] = {most.value, static_cast<std::size_t>(most.point)};
+  for_each_block(points, [&](std::size_t first, std::size_t last) {
+    for (std::size_t begin = first; begin < last; begin += width) {
+      const SpectralMaximum most = largest(view, modulus.data(), static_cast<std::ptrdiff_t>(begin),
+                                           static_cast<std::ptrdiff_t>(std::min(begin + width, last)));
+      ranges[begin / width] = {most.value, static_cast<std::size_t>(most.point)};
     }
   });
   return ranges;
@@ -105,19 +90,7 @@ double stable_wave_step(double bound, double stabilisation, double viscosity_rat
   return 2.0 / std::sqrt(omega2) * damped;
 }
 
-template<int dim>
-StableStep stable_mechanical_step(SpectralBound<dim>& bound, const DiscreteOperators<dim>& operators,
-                                  const Fields<tensor_size<dim>>& deformation, const Field& wave_modulus,
-                                  const Field& mass, double stabilisation, double viscosity_ratio) {
-  const auto worst = bound.evaluate(operators, deformation, wave_modulus, mass);
-  return {stable_wave_step(worst.value, stabilisation, viscosity_ratio), worst.point};
-}
-
 template class SpectralBound<2>;
 template class SpectralBound<3>;
-template StableStep stable_mechanical_step<2>(SpectralBound<2>&, const DiscreteOperators<2>&,
-                                              const Fields<5>&, const Field&, const Field&, double, double);
-template StableStep stable_mechanical_step<3>(SpectralBound<3>&, const DiscreteOperators<3>&,
-                                              const Fields<9>&, const Field&, const Field&, double, double);
 
 } // namespace cnem

@@ -7,11 +7,6 @@
 
 namespace cnem {
 
-struct StableStep {
-  double dt;         ///< s, the bound itself, no safety factor; infinite when nothing moves
-  std::size_t point; ///< the stress point that limits it
-};
-
 /// Bound on the largest eigenvalue of M⁻¹ Gᵀ V k G for scalar weights M at nodes and moduli k at stress
 /// points, on the current configuration (b = F⁻ᵀ b_r, V = V_r det F):
 ///
@@ -27,12 +22,10 @@ public:
     double value;      ///< 1/s² (or 1/s for heat)
     std::size_t point; ///< row that attains it
   };
-  Result evaluate(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
-                  const Field& modulus, const Field& weight);
-  /// The bound of each of the ranges of `width` points.
-  std::vector<Result> evaluate_ranges(const DiscreteOperators<dim>& operators,
-                                      const Fields<tensor_size<dim>>& deformation, const Field& modulus,
-                                      const Field& weight, std::size_t width);
+  /// The bound of each of the ranges of `width` points; width divides block_size.
+  std::vector<Result> evaluate(const DiscreteOperators<dim>& operators,
+                               const Fields<tensor_size<dim>>& deformation, const Field& modulus,
+                               const Field& weight, std::size_t width);
 
 private:
   void prepare(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
@@ -42,15 +35,9 @@ private:
   Field inverse_;  ///< [point] F⁻ᵀ and det F as mechanics/step_kernels.hpp lays them
 };
 
-/// Δt ≤ 2/√λ of elastic waves from the bound λ = max k …; infinite for λ = 0.
+/// Δt ≤ 2/ω of elastic waves, s, from the bound on ω² with λ + 2μ (Pa) and masses (kg); infinite for 0.
+/// `stabilisation` is the factor α of the edge defect, which raises ω² by less than the fraction α.
 double stable_wave_step(double bound, double stabilisation, double viscosity_ratio);
-
-/// Δt ≤ 2/ω for elastic waves. wave_modulus [point] λ + 2μ in Pa, mass [node] in kg. `stabilisation` is the
-/// factor α of the edge defect, which raises ω² by less than the fraction α.
-template<int dim>
-StableStep stable_mechanical_step(SpectralBound<dim>& bound, const DiscreteOperators<dim>& operators,
-                                  const Fields<tensor_size<dim>>& deformation, const Field& wave_modulus,
-                                  const Field& mass, double stabilisation, double viscosity_ratio);
 
 extern template class SpectralBound<2>;
 extern template class SpectralBound<3>;

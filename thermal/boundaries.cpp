@@ -34,7 +34,7 @@ template<int dim> void ThermalBoundaries<dim>::resample(const Cloud<dim>& cloud)
 
 template<int dim>
 void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, const Field& temperature,
-                                      const Touching<dim>& touching, Field& flow) const {
+                                      const HeatContacts<dim>& touching, Field& flow) const {
   for (const HeatFlux<dim>& flux : fluxes_) {
     const double value = flux.value(time);
     for (const Facet<dim>& facet : flux.facets) {
@@ -80,7 +80,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
   }
 }
 
-template<int dim> double Touching<dim>::fastest_decay(const Field& heat_capacity) const {
+template<int dim> double HeatContacts<dim>::fastest_decay(const Field& heat_capacity) const {
   // Gershgorin: a node's row of exchange is twice what it gives; one node may stand in many
   std::map<std::int32_t, double> given;
   for (const ToolConductance& tool : tools) given[tool.node] += tool.conductance * tool.area;
@@ -131,7 +131,7 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
   return worst;
 }
 
-template struct Touching<2>;
+template struct HeatContacts<2>;
 template class ThermalBoundaries<2>;
 
 } // namespace cnem

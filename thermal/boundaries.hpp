@@ -62,7 +62,7 @@ template<int dim> struct BodyConductance {
 };
 
 /// What touches in a step.
-template<int dim> struct Touching {
+template<int dim> struct HeatContacts {
   std::vector<ToolConductance> tools;
   std::vector<BodyConductance<dim>> bodies;
 
@@ -92,7 +92,7 @@ public:
 
   /// Adds what flows into the nodes at `time` to `flow`, W/m^(3−dim).
   void add_flow(double time, const Fields<dim>& position, const Field& temperature,
-                const Touching<dim>& touching, Field& flow) const;
+                const HeatContacts<dim>& touching, Field& flow) const;
 
   /// Sets the held temperatures of `time`. Returns the heat this brought in, J/m^(3−dim).
   double hold(double time, const Field& heat_capacity, Field& temperature) const;
@@ -108,7 +108,7 @@ private:
   Space space_ = Space::plane;
 };
 
-extern template struct Touching<2>;
+extern template struct HeatContacts<2>;
 extern template class ThermalBoundaries<2>;
 
 } // namespace cnem

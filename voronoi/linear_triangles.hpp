@@ -1,6 +1,6 @@
 #pragma once
 // Linear finite-element operators on the constrained Delaunay triangles. They are a discretisation of their
-// own (alternatives/fe_triangle) and the operators C-NEM conducts heat with: GᵀV k G of nodal integration
+// own (methods/fe_triangle) and the operators C-NEM conducts heat with: GᵀV k G of nodal integration
 // lets checkerboards of temperature stand, the triangles do not.
 #include "core/operators.hpp"
 #include "core/revolution.hpp"

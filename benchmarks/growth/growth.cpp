@@ -6,9 +6,9 @@
 #include "benchmarks/sheared_block.hpp"
 #include "core/clock.hpp"
 #include "core/error.hpp"
-#include "io/chart.hpp"
-#include "io/output_folder.hpp"
-#include "io/status.hpp"
+#include "report/chart.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -57,7 +57,7 @@ template<class Work> double median_time(Work&& work) {
 }
 
 Cost measure(int nodes) {
-  const auto before = static_cast<double>(io::peak_rss_bytes());
+  const auto before = static_cast<double>(results::peak_rss_bytes());
   ExplicitSolver<2> solver = benchmarks::sheared_block(nodes);
   const auto count = static_cast<double>(solver.state().node.size());
   double dt = solver.stable_step().dt;
@@ -68,7 +68,7 @@ Cost measure(int nodes) {
   });
   const double rebuild = median_time([&] { solver.prepare(); });
   return {count, ten_steps / 10.0 / count, rebuild / count,
-          (static_cast<double>(io::peak_rss_bytes()) - before) / count};
+          (static_cast<double>(results::peak_rss_bytes()) - before) / count};
 }
 
 /// measure() in a process of its own; none when it failed.
@@ -94,8 +94,8 @@ std::optional<Cost> measure_apart(int nodes, int threads) {
 }
 
 /// All costs in one chart.
-io::Chart chart_of(const std::vector<Cost>& costs, int threads) {
-  io::Chart chart;
+report::Chart chart_of(const std::vector<Cost>& costs, int threads) {
+  report::Chart chart;
   chart.title = fmt::format("Cost per node, {} {}", threads, threads == 1 ? "thread" : "threads");
   chart.x_label = "nodes";
   chart.x_unit = "";
@@ -103,7 +103,7 @@ io::Chart chart_of(const std::vector<Cost>& costs, int threads) {
   chart.log_x = chart.log_y = true;
   chart.series = {{"step", {}, {}, 0}, {"rebuild", {}, {}, 1}, {"peak memory", {}, {}, 2}};
   for (const Cost& cost : costs) {
-    for (io::ChartSeries& series : chart.series) series.x.push_back(cost.nodes);
+    for (report::ChartSeries& series : chart.series) series.x.push_back(cost.nodes);
     chart.series[0].y.push_back(1e9 * cost.step);
     chart.series[1].y.push_back(1e9 * cost.rebuild);
     chart.series[2].y.push_back(cost.memory);
@@ -133,9 +133,9 @@ int run(int to, int threads, const std::filesystem::path& output) {
     std::fflush(stdout); // before the next process copies it
     markdown += row;
   }
-  io::write_atomically(output / "growth.csv", csv);
-  io::write_atomically(output / "growth.md", markdown);
-  io::write_atomically(output / "growth.svg", io::svg_file(chart_of(costs, threads)));
+  results::write_atomically(output / "growth.csv", csv);
+  results::write_atomically(output / "growth.md", markdown);
+  results::write_atomically(output / "growth.svg", report::svg_file(chart_of(costs, threads)));
   return 0;
 }
 

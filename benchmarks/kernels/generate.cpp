@@ -1,5 +1,5 @@
 // Cost of generating clouds, ns per node.
-#include "voronoi/generate.hpp"
+#include "clouds/generate.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace {
 
 using namespace cnem;
-using namespace cnem::voronoi;
+using namespace cnem::clouds;
 
 DomainShape disc() {
   CurvePiece rim;

@@ -27,7 +27,7 @@ contact::Tool<2> tool(const Vec2& low, const Vec2& high, double speed) {
 /// eight times as much.
 ExplicitSolver<2> shearing(double coarse, bool local) {
   const double edge = 4e-3, clearance = 1e-4, thickness = 4e-3, width = 10e-3, speed = 20.0;
-  voronoi::SpacingField spacing;
+  clouds::SpacingField spacing;
   spacing.spacing = coarse;
   spacing.refinements = {{.points = {{edge, 0}, {edge, thickness}}, .spacing = coarse / 8.0, .growth = 0.3}};
   Model<2> model = model_304L(testing::box({0, 0}, {width, thickness}, "side"), spacing);
@@ -70,8 +70,8 @@ double ceiling(const ExplicitSolver<2>& solver, double& finest_share) {
   const State<2>& state = solver.state();
   const auto& elastic = solver.model().materials.front().elasticity;
   const Field modulus(state.point.size(), elastic.lambda() + 2.0 * elastic.mu());
-  const auto each = bound.evaluate_ranges(solver.approximation().mechanics, state.point.deformation, modulus,
-                                          state.node.mass, 1);
+  const auto each =
+      bound.evaluate(solver.approximation().mechanics, state.point.deformation, modulus, state.node.mass, 1);
   double highest = 0.0, updates = 0.0, finest = 0.0;
   for (const auto& point : each) highest = std::max(highest, point.value);
   for (const auto& point : each) {

@@ -1,9 +1,9 @@
 // Rebuild of all operators on a jittered square, phase by phase, one thread: counter per_node (s, printed
 // with its SI prefix). Run: OMP_NUM_THREADS=1 build/benchmark_rebuild
-#include "alternatives/fe_triangle.hpp"
 #include "cnem/quadrature.hpp"
 #include "cnem/scni.hpp"
 #include "cnem/smoothing.hpp"
+#include "methods/fe_triangle.hpp"
 #include "tests/clouds.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/linear_triangles.hpp"
@@ -109,7 +109,7 @@ void whole_cnem(benchmark::State& state) {
 
 void whole_triangles(benchmark::State& state) {
   const auto cloud = benchmark_cloud(state.range(0));
-  alternatives::FeTriangles method;
+  methods::FeTriangles method;
   per_node(state, cloud, [&] { return method.rebuild(cloud); });
 }
 

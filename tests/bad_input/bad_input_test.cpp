@@ -141,11 +141,26 @@ TEST(BadInputFile, begins_with_a_byte_order_mark_that_does_not_matter) {
   expect_message(refusal, ".toml:1:1: key 'spacing': unknown key");
 }
 
+TEST(BadInputSet, is_no_text) {
+  const Refusal refusal = call("check", catalogue / "empty_case.toml", {"title=caf\xe9"});
+  EXPECT_EQ(refusal.exit, 2);
+  expect_message(refusal, "--set title=caf\xe9: found bytes that are no UTF-8, expected a text");
+}
+
 TEST(BadInputFile, holds_zeros) {
   const TemporaryFile file(std::string(100, '\0'));
   const Refusal refusal = call("check", file.path);
   EXPECT_EQ(refusal.exit, 2);
   expect_message(refusal, ".toml:1:1: not TOML");
+}
+
+TEST(BadInputFile, has_keys_without_end) {
+  std::string text;
+  for (int k = 0; k <= 1000000; ++k) text.append("k").append(std::to_string(k)).append("=1\n");
+  const TemporaryFile file(text);
+  const Refusal refusal = call("check", file.path);
+  EXPECT_EQ(refusal.exit, 2);
+  expect_message(refusal, ".toml:1000001:9: not TOML: found more than 1000000 keys, expected fewer");
 }
 
 TEST(BadInputFile, may_not_be_read) {

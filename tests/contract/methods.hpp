@@ -1,7 +1,7 @@
 #pragma once
 // Every discretisation that has to keep the contract. A new one is added here and nowhere else.
-#include "alternatives/fe_triangle.hpp"
 #include "cnem/scni.hpp"
+#include "methods/fe_triangle.hpp"
 
 #include <functional>
 #include <memory>
@@ -19,7 +19,7 @@ struct Method {
 inline void PrintTo(const Method& method, std::ostream* os) { *os << method.name; }
 
 inline std::vector<Method> methods() {
-  std::vector<Method> list{{"fe_triangle", [] { return std::make_unique<alternatives::FeTriangles>(); }}};
+  std::vector<Method> list{{"fe_triangle", [] { return std::make_unique<methods::FeTriangles>(); }}};
   for (const auto functions : {scni::Functions::sibson, scni::Functions::laplace})
     for (int points = 1; points <= 3; ++points) {
       const std::string name = functions == scni::Functions::sibson ? "sibson_" : "laplace_";

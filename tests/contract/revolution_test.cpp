@@ -16,7 +16,7 @@ void PrintTo(const Revolved& method, std::ostream* os) { *os << method.name; }
 
 std::vector<Revolved> revolved_methods() {
   std::vector<Revolved> list{
-      {"fe_triangle", [] { return std::make_unique<alternatives::FeTriangles>(Space::revolution); }}};
+      {"fe_triangle", [] { return std::make_unique<methods::FeTriangles>(Space::revolution); }}};
   for (const auto functions : {scni::Functions::sibson, scni::Functions::laplace})
     for (int points = 1; points <= 3; ++points)
       list.push_back(

@@ -1,8 +1,8 @@
 #include "problems.hpp"
 
-#include "alternatives/fe_triangle.hpp"
+#include "clouds/generate.hpp"
 #include "cnem/scni.hpp"
-#include "voronoi/generate.hpp"
+#include "methods/fe_triangle.hpp"
 
 #include <array>
 #include <cmath>
@@ -24,9 +24,9 @@ CurvePiece arc(const Vec2& from, const Vec2& to, bool clockwise, const std::stri
 }
 
 Cloud<2> generate(std::vector<CurvePiece> pieces, double spacing) {
-  voronoi::DomainShape shape;
+  clouds::DomainShape shape;
   shape.outer.pieces = std::move(pieces);
-  return voronoi::generate_cloud(shape, {spacing, {}}, {}).cloud;
+  return clouds::generate_cloud(shape, {spacing, {}}, {}).cloud;
 }
 
 /// Kirsch: infinite plate under unit tension along x, hole of radius 1.
@@ -194,17 +194,17 @@ Problem affine_patch() {
 }
 
 Cloud<2> cook_cloud(int n) {
-  voronoi::DomainShape shape;
+  clouds::DomainShape shape;
   shape.outer.pieces = {line({0, 0}, {48, 44}, "bottom"), line({48, 44}, {48, 60}, "right"),
                         line({48, 60}, {0, 44}, "top"), line({0, 44}, {0, 0}, "left")};
-  voronoi::CloudOptions options;
-  options.pattern = voronoi::Pattern::list;
+  clouds::CloudOptions options;
+  options.pattern = clouds::Pattern::list;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j) {
       const double s = i / double(n), t = j / double(n);
       options.nodes.emplace_back(48 * s, (1 - t) * 44 * s + t * (44 + 16 * s));
     }
-  return voronoi::generate_cloud(shape, {}, options).cloud;
+  return clouds::generate_cloud(shape, {}, options).cloud;
 }
 
 std::vector<Method> methods() {
@@ -217,7 +217,7 @@ std::vector<Method> methods() {
     list.push_back({"Laplace, 2 points" + suffix,
                     std::make_shared<scni::Cnem>(scni::Options{scni::Functions::laplace, 2}), alpha});
   }
-  list.push_back({"FE triangles", std::make_shared<alternatives::FeTriangles>(), 0.0});
+  list.push_back({"FE triangles", std::make_shared<methods::FeTriangles>(), 0.0});
   return list;
 }
 

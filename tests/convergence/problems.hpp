@@ -2,7 +2,7 @@
 // Linear problems with known solutions, on clouds of any spacing.
 #include "core/cloud.hpp"
 #include "core/discretisation.hpp"
-#include "mechanics/statics.hpp"
+#include "mechanics/statics/statics.hpp"
 
 #include <functional>
 #include <memory>

@@ -1,9 +1,9 @@
 #include "tables.hpp"
 
 #include "app/static_model.hpp"
-#include "io/case_reader.hpp"
-#include "io/output_folder.hpp"
+#include "input/case_reader.hpp"
 #include "problems.hpp"
+#include "results/output_folder.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -112,7 +112,8 @@ Table crack() {
       std::vector<std::string> set = kinds[m].set;
       set.push_back(fmt::format("cloud.spacing={} mm", far));
       set.push_back(fmt::format("cloud.refine.tips.spacing={} mm", near));
-      const io::Case input = io::read_case(CNEM_SOURCE_DIR "/cases/paper/crack_straight/case.toml", set);
+      const input::Case input =
+          input::read_case(CNEM_SOURCE_DIR "/cases/paper/crack_straight/case.toml", set);
       const app::StaticModel model(input);
       const auto tips = app::evaluate_tips(model, solve_statics(model.problem()));
       const double unit = 1e6 * std::sqrt(std::numbers::pi * 1e-4);
@@ -159,7 +160,7 @@ Table compute(const std::string& name) {
 }
 
 Table read_baseline(const std::string& folder, const std::string& name) {
-  std::istringstream file(io::read_file(folder + "/" + name + ".csv"));
+  std::istringstream file(results::read_file(folder + "/" + name + ".csv"));
   Table table;
   table.name = name;
   std::string line;
@@ -189,10 +190,10 @@ void write_baselines(const std::string& folder, const std::vector<Table>& tables
       for (const double value : row.values) text += fmt::format(";{}", number(value, 6));
       text += '\n';
     }
-    io::write_atomically(folder + "/" + table.name + ".csv", text);
+    results::write_atomically(folder + "/" + table.name + ".csv", text);
     page += markdown(table);
   }
-  io::write_atomically(folder + "/tables.md", page);
+  results::write_atomically(folder + "/tables.md", page);
 }
 
 } // namespace cnem::convergence

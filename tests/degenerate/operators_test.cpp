@@ -1,8 +1,8 @@
 // Operators on the adversarial clouds: they must build, reproduce linear fields and keep constant stress off
 // the interior. Errors are measured against what the entries of a row add up to, which grows where nodes
 // crowd.
-#include "alternatives/fe_triangle.hpp"
 #include "cnem/scni.hpp"
+#include "methods/fe_triangle.hpp"
 #include "random_clouds.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST_P(AdversarialOperators, patch_linear_fields_are_exact) {
     const auto laplace = scni::Cnem({Functions::laplace, 1}).rebuild(random.cloud).mechanics;
     expect_linear_fields_reproduced(random.cloud, laplace);
     expect_interior_free_of_force(random.cloud, laplace);
-    const auto triangles = alternatives::FeTriangles().rebuild(random.cloud).mechanics;
+    const auto triangles = methods::FeTriangles().rebuild(random.cloud).mechanics;
     expect_linear_fields_reproduced(random.cloud, triangles);
     expect_interior_free_of_force(random.cloud, triangles);
   }

@@ -18,5 +18,5 @@ function(cnem_fuzz name)
   endif()
 endfunction()
 
-cnem_fuzz(case cnem_io)
+cnem_fuzz(case cnem_input)
 cnem_fuzz(geometry cnem_app)

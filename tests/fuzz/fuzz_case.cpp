@@ -1,7 +1,7 @@
 // Any bytes are a case or are refused with words. The text ends at the first zero byte; what follows, up to
 // each next one, are overrides as after --set.
 #include "core/error.hpp"
-#include "io/case_reader.hpp"
+#include "input/case_reader.hpp"
 
 #include <cstdint>
 #include <cstdio>
@@ -20,12 +20,12 @@ using namespace cnem;
 }
 
 /// The resolved text without its first line, which names the file it came from.
-std::string body(const io::Case& input) { return input.resolved.substr(input.resolved.find('\n')); }
+std::string body(const input::Case& input) { return input.resolved.substr(input.resolved.find('\n')); }
 
 /// What is accepted has to read back from its resolved text, to the same text.
-void check_read_back(const io::Case& input) {
+void check_read_back(const input::Case& input) {
   try {
-    const io::Case again = io::read_case_text(input.resolved, "resolved.toml");
+    const input::Case again = input::read_case_text(input.resolved, "resolved.toml");
     if (body(again) != body(input))
       fail("the resolved case reads back differently:\n" + input.resolved + "\n----\n" + again.resolved);
   } catch (const InputError& error) {
@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const std::vector<std::string> overrides(parts.begin() + 1, parts.end());
   try {
-    check_read_back(io::read_case_text(parts.front(), "fuzz.toml", overrides));
+    check_read_back(input::read_case_text(parts.front(), "fuzz.toml", overrides));
   } catch (const InputError& error) {
     if (std::string_view(error.what()).empty()) fail("refused without a word");
   } catch (const IoError&) {} // a node file that cannot be read

@@ -112,11 +112,11 @@ void check_operators(const Cloud<2>& cloud, const voronoi::Triangulation& mesh, 
 }
 
 /// What the case reader would have made of the shape, as far as the program reads it here.
-io::Case case_of(const fuzz::Shape& shape) {
-  io::Case input;
-  const std::vector<voronoi::Crack>& cracks = shape.domain.cracks;
+input::Case case_of(const fuzz::Shape& shape) {
+  input::Case input;
+  const std::vector<clouds::Crack>& cracks = shape.domain.cracks;
   for (std::size_t k = 0; k < shape.interfaces; ++k) {
-    const voronoi::Crack& face = cracks[cracks.size() - shape.interfaces + k];
+    const clouds::Crack& face = cracks[cracks.size() - shape.interfaces + k];
     input.domain.interfaces.push_back({face.name, face.path, {}});
     if (k % 2 == 1) input.domain.interfaces.back().conductance = 1.0;
   }
@@ -128,7 +128,7 @@ io::Case case_of(const fuzz::Shape& shape) {
 
 /// A region is bounded by loops of its own: they enclose what its cells make up. Its triangles lie in it as a
 /// whole.
-void check_regions(const io::Case& input, const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
+void check_regions(const input::Case& input, const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
   std::vector<std::int32_t> region;
   try {
     region = app::region_of_nodes(input, cloud);
@@ -154,7 +154,7 @@ void check_regions(const io::Case& input, const Cloud<2>& cloud, const voronoi::
 
 /// Each node on either face of an interface is tied to the one opposite, at the same place, and heat crosses
 /// each facet to the one opposite.
-void check_interfaces(const io::Case& input, const Cloud<2>& cloud) {
+void check_interfaces(const input::Case& input, const Cloud<2>& cloud) {
   const app::Pairs pairs = app::tied_pairs(input, cloud);
   for (const auto& [a, b] : pairs.motion)
     if (cloud.position[u(a)] != cloud.position[u(b)])
@@ -162,7 +162,7 @@ void check_interfaces(const io::Case& input, const Cloud<2>& cloud) {
   const Ties<2> ties(pairs.motion, cloud.position);
   const std::vector<ContactConductance<2>> heat = app::conductances(input, cloud);
   std::size_t crossed = 0;
-  for (const io::Interface& face : input.domain.interfaces) {
+  for (const input::Interface& face : input.domain.interfaces) {
     const auto front = app::facets_of(cloud, {face.name + "+"}),
                back = app::facets_of(cloud, {face.name + "-"});
     if (front.empty() || front.size() != back.size())
@@ -277,12 +277,12 @@ private:
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fuzz::Shape shape = fuzz::shape_of(data, size);
   try {
-    const voronoi::GeneratedCloud made = voronoi::generate_cloud(shape.domain, shape.spacing, shape.options);
+    const clouds::GeneratedCloud made = clouds::generate_cloud(shape.domain, shape.spacing, shape.options);
     const voronoi::Triangulation mesh = voronoi::triangulate(made.cloud);
     check_cells(made.cloud, mesh);
     const bool smooth = shape.options.seed % 2 == 0;
     check_operators(made.cloud, mesh, smooth);
-    const io::Case input = case_of(shape);
+    const input::Case input = case_of(shape);
     check_regions(input, made.cloud, mesh);
     check_interfaces(input, made.cloud);
     if (shape.deformations.empty() || !made.cloud.twins.empty()) return 0;

@@ -1,7 +1,7 @@
 #pragma once
 // Bytes as a domain with its spacing and pattern, the parts that interfaces divide it into and what happens
 // to its cloud, so that mutations of bytes are small changes of shape.
-#include "voronoi/generate.hpp"
+#include "clouds/generate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +31,9 @@ struct Deformation {
 };
 
 struct Shape {
-  voronoi::DomainShape domain;
-  voronoi::SpacingField spacing;
-  voronoi::CloudOptions options;
+  clouds::DomainShape domain;
+  clouds::SpacingField spacing;
+  clouds::CloudOptions options;
   std::size_t interfaces = 0; ///< so many of the cracks, the last ones, are bonded
   std::vector<Vec2> regions;  ///< a point of each, m
   std::vector<Deformation> deformations;
@@ -57,12 +57,12 @@ public:
     // What was added later stands at the end of the bytes: old entries of the corpus keep their meaning.
     result.interfaces = static_cast<std::size_t>(below(4));
     for (std::size_t k = 0; k < result.interfaces; ++k) {
-      voronoi::Crack face = interface(result.domain, static_cast<int>(k));
+      clouds::Crack face = interface(result.domain, static_cast<int>(k));
       result.domain.cracks.push_back(std::move(face));
     }
     for (int k = below(4); k > 0; --k) result.regions.push_back(point());
     for (int k = below(4); k > 0; --k) result.deformations.push_back(deformation());
-    if (result.options.pattern == voronoi::Pattern::list) list_corners(result);
+    if (result.options.pattern == clouds::Pattern::list) list_corners(result);
     return result;
   }
 
@@ -116,20 +116,20 @@ private:
     piece.centre = 0.5 * (piece.from + piece.to) + height * side;
   }
 
-  voronoi::Crack crack(int number) {
-    voronoi::Crack result{"crack" + std::to_string(number), {}};
+  clouds::Crack crack(int number) {
+    clouds::Crack result{"crack" + std::to_string(number), {}};
     for (int k = below(4) + 1; k > 0; --k) result.path.push_back(point());
     return result;
   }
 
   /// From a place on the boundary to another.
-  voronoi::Crack interface(const voronoi::DomainShape& domain, int number) {
-    voronoi::Crack result{"interface" + std::to_string(number), {place(domain)}};
+  clouds::Crack interface(const clouds::DomainShape& domain, int number) {
+    clouds::Crack result{"interface" + std::to_string(number), {place(domain)}};
     for (int k = below(3); k > 0; --k) result.path.push_back(point());
     result.path.push_back(place(domain));
     return result;
   }
-  Vec2 place(const voronoi::DomainShape& domain) {
+  Vec2 place(const clouds::DomainShape& domain) {
     const auto curve = static_cast<std::size_t>(below(static_cast<int>(domain.holes.size()) + 1));
     const auto& pieces = (curve == 0 ? domain.outer : domain.holes[curve - 1]).pieces;
     const auto piece = static_cast<std::size_t>(below(static_cast<int>(pieces.size())));
@@ -154,13 +154,13 @@ private:
     return result;
   }
 
-  voronoi::SpacingField spacing() {
-    voronoi::SpacingField field;
+  clouds::SpacingField spacing() {
+    clouds::SpacingField field;
     field.spacing = scale_ / (1 + below(12));
     for (int k = below(3); k > 0; --k) {
-      voronoi::Refinement refinement;
+      clouds::Refinement refinement;
       const bool box = below(2) == 1;
-      refinement.region = box ? voronoi::Refinement::Region::box : voronoi::Refinement::Region::path;
+      refinement.region = box ? clouds::Refinement::Region::box : clouds::Refinement::Region::path;
       for (int n = box ? 2 : below(3) + 1; n > 0; --n) refinement.points.push_back(point());
       refinement.spacing = field.spacing / (1 + below(16));
       refinement.growth = (byte() + 1) / 256.0;
@@ -169,13 +169,13 @@ private:
     return field;
   }
 
-  voronoi::CloudOptions options() {
-    voronoi::CloudOptions result;
-    result.pattern = static_cast<voronoi::Pattern>(below(4));
+  clouds::CloudOptions options() {
+    clouds::CloudOptions result;
+    result.pattern = static_cast<clouds::Pattern>(below(4));
     result.jitter = 0.4 * byte() / 255.0;
     result.seed = static_cast<std::uint64_t>(byte());
     result.nodes_limit = 250.0;
-    if (result.pattern == voronoi::Pattern::list)
+    if (result.pattern == clouds::Pattern::list)
       for (int k = below(32); k > 0; --k) result.nodes.push_back(point());
     return result;
   }
@@ -189,7 +189,7 @@ private:
     for (const CurvePiece& piece : shape.domain.outer.pieces) add(piece.from);
     for (const Curve& hole : shape.domain.holes)
       for (const CurvePiece& piece : hole.pieces) add(piece.from);
-    for (const voronoi::Crack& crack : shape.domain.cracks)
+    for (const clouds::Crack& crack : shape.domain.cracks)
       for (const Vec2& x : crack.path) add(x);
   }
 

@@ -1,8 +1,8 @@
 // The same bits for any number of threads, and after a restart: every case in the repository, its first
 // steps, or whole runs with all threads when CNEM_WHOLE_RUNS is set.
 #include "core/isa.hpp"
-#include "io/case_reader.hpp"
-#include "io/output_folder.hpp"
+#include "input/case_reader.hpp"
+#include "results/output_folder.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
 #include "tests/temporary_folder.hpp"
@@ -31,7 +31,8 @@ const std::vector<fs::path>& all_cases() {
 }
 
 bool is_explicit(const fs::path& input) {
-  return io::read_case((input / "case.toml").string()).analysis.type == io::Analysis::Type::explicit_dynamics;
+  return input::read_case((input / "case.toml").string()).analysis.type ==
+         input::Analysis::Type::explicit_dynamics;
 }
 
 /// Runs a case with 1, 2, 3, 4 and 7 threads.
@@ -74,7 +75,7 @@ TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
                 "output.checkpoint.every_steps=25", "--set", "output.history_every=0 s"});
   ASSERT_EQ(whole.code, 0) << whole.printed;
   fs::copy(folder / "whole", folder / "restarted", fs::copy_options::recursive);
-  fs::remove(folder / "restarted" / io::files::status);
+  fs::remove(folder / "restarted" / results::files::status);
   const Ending rest = run_cnem({"restart", (folder / "restarted").string(), "--threads", "2"});
   EXPECT_EQ(rest.code, 0) << rest.printed;
   EXPECT_NE(rest.printed.find("going on from"), std::string::npos) << rest.printed;

@@ -11,7 +11,7 @@
 namespace cnem::app {
 
 Process::Process(std::vector<std::string> arguments, std::size_t file_limit,
-                 std::vector<std::string> environment)
+                 std::vector<std::string> environment, const std::function<void()>& prepare)
     : log_(memfd_create("log", 0)) {
   arguments.insert(arguments.begin(), CNEM_PROGRAM);
   std::vector<char*> words;
@@ -26,6 +26,7 @@ Process::Process(std::vector<std::string> arguments, std::size_t file_limit,
     const rlimit limit{file_limit, file_limit};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (prepare) prepare();
   execv(words.front(), words.data());
   _exit(127);
 }

@@ -1,5 +1,6 @@
 #pragma once
 // The program as a child process that can be stopped, killed and denied disk space.
+#include <functional>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -15,9 +16,9 @@ struct Ending {
 class Process {
 public:
   /// Starts cnem with these arguments. file_limit: largest file it may write, bytes; 0: any. Environment
-  /// variables as "NAME=value".
+  /// variables as "NAME=value". `prepare` is called in the child before the program.
   explicit Process(std::vector<std::string> arguments, std::size_t file_limit = 0,
-                   std::vector<std::string> environment = {});
+                   std::vector<std::string> environment = {}, const std::function<void()>& prepare = {});
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -35,8 +36,8 @@ private:
 };
 
 inline Ending run_cnem(std::vector<std::string> arguments, std::size_t file_limit = 0,
-                       std::vector<std::string> environment = {}) {
-  return Process(std::move(arguments), file_limit, std::move(environment)).wait();
+                       std::vector<std::string> environment = {}, const std::function<void()>& prepare = {}) {
+  return Process(std::move(arguments), file_limit, std::move(environment), prepare).wait();
 }
 
 } // namespace cnem::app

@@ -1,9 +1,9 @@
 // A run that was killed, stopped or denied disk space, and went on, ends with the bits of one that was not.
-#include "io/checkpoint.hpp"
-#include "io/checkpoint_folder.hpp"
-#include "io/history_writer.hpp"
-#include "io/output_folder.hpp"
-#include "io/status.hpp"
+#include "results/checkpoint.hpp"
+#include "results/checkpoint_folder.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
 #include "tests/temporary_folder.hpp"
@@ -75,12 +75,12 @@ void kill_until_done(const std::string& name, const fs::path& folder, const std:
   std::vector<std::string> command = run;
   for (int k = 0; k < kills; ++k) {
     Process process(command);
-    while (k > 0 && process.running() && !fs::exists(folder / io::files::checkpoint))
+    while (k > 0 && process.running() && !fs::exists(folder / results::files::checkpoint))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::this_thread::sleep_for(Seconds(k == 0 ? early(random) : late(random)));
     process.send(SIGKILL);
     killed += process.wait().signal == SIGKILL;
-    if (fs::exists(folder / io::files::resolved_case))
+    if (fs::exists(folder / results::files::resolved_case))
       command = {"restart", folder.string(), "--threads", "3"};
   }
   EXPECT_GT(killed, 0) << name << ": the kills came too late";
@@ -118,7 +118,7 @@ TEST_F(Restart, sigterm_stops_at_a_checkpoint_with_5_and_goes_on) {
     const Ending ending = process.wait();
     ASSERT_EQ(ending.code, 5) << ending.printed;
     EXPECT_NE(ending.printed.find("cnem restart"), std::string::npos) << ending.printed;
-    const io::RunStatus status = io::read_status(folder / output);
+    const results::RunStatus status = results::read_status(folder / output);
     EXPECT_EQ(status.exit, 5);
     EXPECT_LT(status.time, 12e-6);
     EXPECT_EQ(restart(output).code, 0);
@@ -156,18 +156,19 @@ TEST_F(Restart, a_bad_checkpoint_is_refused_with_the_reason_and_the_one_before_i
                 .code,
             0);
   stopped_run("stopped");
-  const std::string newest = io::read_file(folder / "stopped" / "checkpoint.h5");
+  const std::string newest = results::read_file(folder / "stopped" / "checkpoint.h5");
   std::string flipped = newest, format = newest;
   flipped[newest.size() / 2] = static_cast<char>(flipped[newest.size() / 2] ^ 4);
-  const std::string own = "format " + std::to_string(io::checkpoint_format);
-  const std::string other = "format " + std::to_string(io::checkpoint_format + 1);
+  const std::string own = "format " + std::to_string(results::checkpoint_format);
+  const std::string other = "format " + std::to_string(results::checkpoint_format + 1);
   format.replace(format.find(own), own.size(), other);
   for (const auto& [name, content, reason] :
        {std::tuple("truncated", newest.substr(0, newest.size() / 2), "cut short"),
         std::tuple("empty", std::string(), "empty"), std::tuple("flipped", flipped, "checksum"),
         std::tuple("foreign", newest.substr(512), "HDF5 file, but no checkpoint of cnem"),
         std::tuple("format", format, other.c_str()),
-        std::tuple("case", io::read_file(folder / "other" / "checkpoint.h5"), "belongs to another case")}) {
+        std::tuple("case", results::read_file(folder / "other" / "checkpoint.h5"),
+                   "belongs to another case")}) {
     fs::copy(folder / "stopped", folder / name, fs::copy_options::recursive);
     std::ofstream(folder / name / "checkpoint.h5", std::ios::binary) << content;
     const Ending ending = restart(name);
@@ -175,7 +176,8 @@ TEST_F(Restart, a_bad_checkpoint_is_refused_with_the_reason_and_the_one_before_i
     EXPECT_NE(ending.printed.find(reason), std::string::npos) << name << ":\n" << ending.printed;
     EXPECT_NE(ending.printed.find("checkpoint.1.h5"), std::string::npos) << name << ":\n" << ending.printed;
     expect_reference(name);
-    EXPECT_EQ(io::read_status(folder / name).warnings.size(), 1U) << name;
+    EXPECT_EQ(results::read_status(folder / name).warnings.size(), 1U) << name;
+    EXPECT_TRUE(fs::exists(folder / name / "checkpoint.refused.h5")) << name;
   }
 }
 
@@ -183,30 +185,40 @@ TEST_F(Restart, without_a_good_checkpoint_it_starts_at_step_0) {
   reference("punched");
   stopped_run("stopped");
   fs::copy(folder / "stopped", folder / "none", fs::copy_options::recursive);
-  for (const fs::path& path : io::list_checkpoints(folder / "none")) fs::remove(path);
-  for (const fs::path& path : io::list_checkpoints(folder / "stopped")) fs::resize_file(path, 1000);
+  for (const fs::path& path : results::list_checkpoints(folder / "none")) fs::remove(path);
+  for (const fs::path& path : results::list_checkpoints(folder / "stopped")) fs::resize_file(path, 1000);
   for (const char* name : {"none", "stopped"}) {
     const Ending ending = restart(name);
     EXPECT_EQ(ending.code, 0) << ending.printed;
     EXPECT_NE(ending.printed.find("starting at step 0"), std::string::npos) << ending.printed;
     expect_reference(name);
   }
+  EXPECT_TRUE(results::read_status(folder / "none").warnings.empty()) << "as after a kill in the set-up";
+  // What was refused is told and kept, until the run is replaced.
+  const std::vector<std::string> warnings = results::read_status(folder / "stopped").warnings;
+  ASSERT_EQ(warnings.size(), 4U);
+  EXPECT_NE(warnings[0].find("checkpoint.h5 is refused: it is cut short"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[3].find("no good checkpoint"), std::string::npos) << warnings[3];
+  for (const char* name : {"checkpoint.refused.h5", "checkpoint.refused.1.h5", "checkpoint.refused.2.h5"})
+    EXPECT_TRUE(fs::exists(folder / "stopped" / name)) << name;
+  EXPECT_EQ(run_cnem(run_of("punched", "stopped", {"--force"})).code, 0);
+  EXPECT_FALSE(fs::exists(folder / "stopped" / "checkpoint.refused.h5"));
 }
 
 TEST_F(Restart, results_that_were_lost_after_all_make_an_older_checkpoint_count) {
   reference("punched");
   stopped_run("stopped");
   // As after a power failure on a disk that does not keep its promises.
-  const io::CheckpointInfo newest = [&] {
-    io::CheckpointReader reader(io::read_file(folder / "stopped" / "checkpoint.1.h5"));
-    io::CheckpointInfo info;
+  const results::CheckpointInfo newest = [&] {
+    results::CheckpointReader reader(results::read_file(folder / "stopped" / "checkpoint.1.h5"));
+    results::CheckpointInfo info;
     info.archive(reader);
     return info;
   }();
   const fs::path history = folder / "stopped" / "history.csv";
-  const std::vector<double> time = io::read_history(history).column[0];
-  io::truncate_history(history,
-                       std::count_if(time.begin(), time.end(), [&](double t) { return t <= newest.time; }));
+  const std::vector<double> time = results::read_history(history).column[0];
+  results::truncate_history(
+      history, std::count_if(time.begin(), time.end(), [&](double t) { return t <= newest.time; }));
   const Ending ending = restart("stopped");
   EXPECT_EQ(ending.code, 0) << ending.printed;
   expect_reference("stopped");
@@ -214,7 +226,7 @@ TEST_F(Restart, results_that_were_lost_after_all_make_an_older_checkpoint_count)
 
 TEST_F(Restart, an_edited_case_is_not_gone_on_with) {
   stopped_run("stopped");
-  std::string text = io::read_file(folder / "stopped" / "case.resolved.toml");
+  std::string text = results::read_file(folder / "stopped" / "case.resolved.toml");
   text.replace(text.find("coefficient = 0.2"), 17, "coefficient = 0.3");
   std::ofstream(folder / "stopped" / "case.resolved.toml") << text;
   const Ending ending = restart("stopped");
@@ -244,8 +256,8 @@ TEST_F(Restart, a_static_analysis_is_solved_again) {
   const Ending ending = restart("static");
   EXPECT_EQ(ending.code, 0) << ending.printed;
   EXPECT_NE(ending.printed.find("no checkpoints"), std::string::npos) << ending.printed;
-  EXPECT_EQ(io::read_file(folder / "static" / "history.csv"),
-            io::read_file(folder / "reference" / "history.csv"));
+  EXPECT_EQ(results::read_file(folder / "static" / "history.csv"),
+            results::read_file(folder / "reference" / "history.csv"));
 }
 
 TEST_F(Restart, a_folder_at_work_is_left_alone) {
@@ -253,7 +265,7 @@ TEST_F(Restart, a_folder_at_work_is_left_alone) {
   wait_for(process, folder / "busy" / "checkpoint.h5");
   const Ending ending = restart("busy");
   EXPECT_EQ(ending.code, 2) << ending.printed;
-  EXPECT_NE(ending.printed.find("at work"), std::string::npos) << ending.printed;
+  EXPECT_NE(ending.printed.find("another run is using the folder"), std::string::npos) << ending.printed;
 }
 
 TEST_F(Restart, wrong_geometry_leaves_no_folder) {
@@ -268,8 +280,8 @@ TEST_F(Restart, a_file_that_may_not_grow_stops_the_run_with_4_and_a_valid_checkp
   const Ending ending = run_cnem(run_of("loaded", "limited"), limit);
   EXPECT_EQ(ending.code, 4) << ending.printed;
   EXPECT_NE(ending.printed.find("history.csv"), std::string::npos) << ending.printed;
-  EXPECT_EQ(io::read_status(folder / "limited").exit, 4);
-  EXPECT_NO_THROW(io::CheckpointReader(io::read_file(folder / "limited" / "checkpoint.h5")));
+  EXPECT_EQ(results::read_status(folder / "limited").exit, 4);
+  EXPECT_NO_THROW(results::CheckpointReader(results::read_file(folder / "limited" / "checkpoint.h5")));
   EXPECT_EQ(restart("limited").code, 0);
   expect_reference("limited");
 }
@@ -282,8 +294,8 @@ TEST_F(Restart, a_folder_of_frames_that_goes_away_stops_the_run_with_4_and_a_val
   const Ending ending = process.wait();
   EXPECT_EQ(ending.code, 4) << ending.printed;
   EXPECT_NE(ending.printed.find("fields/cells_0000"), std::string::npos) << ending.printed;
-  EXPECT_EQ(io::read_status(folder / "robbed").exit, 4);
-  EXPECT_NO_THROW(io::CheckpointReader(io::read_file(folder / "robbed" / "checkpoint.h5")));
+  EXPECT_EQ(results::read_status(folder / "robbed").exit, 4);
+  EXPECT_NO_THROW(results::CheckpointReader(results::read_file(folder / "robbed" / "checkpoint.h5")));
   fs::create_directories(folder / "robbed" / "fields");
   EXPECT_EQ(restart("robbed").code, 0);
 }
@@ -303,7 +315,7 @@ TEST_F(Restart, a_full_disk_stops_the_run_with_4_and_a_valid_checkpoint) {
   EXPECT_EQ(ending.code, 4) << ending.printed;
   EXPECT_NE(ending.printed.find("No space left"), std::string::npos) << ending.printed;
   EXPECT_EQ(again.code, 4) << again.printed;
-  EXPECT_NO_THROW(io::CheckpointReader(io::read_file(folder / "saved" / "checkpoint.h5")));
+  EXPECT_NO_THROW(results::CheckpointReader(results::read_file(folder / "saved" / "checkpoint.h5")));
   EXPECT_EQ(restart("saved").code, 0);
   expect_reference("saved");
 }

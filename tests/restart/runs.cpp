@@ -1,7 +1,7 @@
 #include "tests/restart/runs.hpp"
 
-#include "io/output_folder.hpp"
-#include "io/status.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
 #include "tests/steel.hpp"
 
 #include <fmt/format.h>
@@ -337,12 +337,12 @@ std::set<std::string> files_of(const fs::path& folder) {
 
 /// Files that hold when, how fast or where a run was made.
 bool is_result(const std::string& file) {
-  return !file.starts_with("checkpoint") && file != io::files::status && file != io::files::report &&
-         file != io::files::resolved_case;
+  return !file.starts_with("checkpoint") && file != results::files::status &&
+         file != results::files::report && file != results::files::resolved_case;
 }
 
 std::string outcome(const fs::path& folder) {
-  const io::RunStatus status = io::read_status(folder);
+  const results::RunStatus status = results::read_status(folder);
   std::string text =
       fmt::format("exit {} steps {} nodes {} node_steps {} time {} residual {}", status.exit, status.steps,
                   status.nodes, status.node_steps, status.time, status.energy_residual);
@@ -373,7 +373,8 @@ std::string difference(const fs::path& a, const fs::path& b) {
     for (const std::string& file : files_of(from))
       if (is_result(file) && !fs::exists(to / file)) text += fmt::format("{} lacks {}\n", to.string(), file);
   for (const std::string& file : files_of(a))
-    if (is_result(file) && fs::exists(b / file) && io::read_file(a / file) != io::read_file(b / file))
+    if (is_result(file) && fs::exists(b / file) &&
+        results::read_file(a / file) != results::read_file(b / file))
       text += fmt::format("{} differs\n", file);
   if (outcome(a) != outcome(b)) text += fmt::format("{}\n{}\n", outcome(a), outcome(b));
   return text;

@@ -1,5 +1,5 @@
 // A sweep goes on with the runs that were interrupted from their checkpoints, and ends with the same bits.
-#include "io/output_folder.hpp"
+#include "results/output_folder.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
 #include "tests/temporary_folder.hpp"
@@ -33,7 +33,7 @@ protected:
     return {"sweep", folder.string(), "--output", (folder / "results").string()};
   }
   fs::path run_folder() const { return folder / "results" / "one"; }
-  std::string log() const { return io::read_file(folder / "results" / "one.log"); }
+  std::string log() const { return results::read_file(folder / "results" / "one.log"); }
   static bool holds(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
   }
@@ -45,7 +45,7 @@ protected:
   }
   /// Waits for the second checkpoint of the run, then sends the signal to the sweep or to the run itself.
   Ending disturbed_sweep(int signal, bool run_itself) const {
-    Process process(sweep());
+    Process process(sweep(), 0, {}, [] { std::signal(SIGHUP, SIG_DFL); }); // also under nohup
     while (process.running() && !fs::exists(run_folder() / "checkpoint.1.h5"))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (run_itself) {
@@ -63,7 +63,10 @@ protected:
 };
 
 TEST_F(SweepRestart, a_sweep_that_was_stopped_goes_on_from_the_checkpoints_of_its_runs) {
-  const Ending stopped = disturbed_sweep(SIGTERM, false);
+  Ending stopped = disturbed_sweep(SIGTERM, false);
+  ASSERT_EQ(stopped.code, 5) << stopped.printed;
+  fs::remove_all(folder / "results");
+  stopped = disturbed_sweep(SIGHUP, false);
   ASSERT_EQ(stopped.code, 5) << stopped.printed;
   const Ending again = run_cnem(sweep());
   EXPECT_EQ(again.code, 0) << again.printed;
@@ -102,7 +105,7 @@ TEST_F(SweepRestart, a_run_that_diverged_starts_anew) {
   // It would go on to the same end.
   write_study("set = { \"tools.punch.velocity.y.value\" = \"-8000 m/s\" }\n");
   ASSERT_EQ(run_cnem(sweep()).code, 3);
-  ASSERT_TRUE(fs::exists(run_folder() / io::files::checkpoint));
+  ASSERT_TRUE(fs::exists(run_folder() / results::files::checkpoint));
   const Ending again = run_cnem(sweep());
   EXPECT_EQ(again.code, 3) << again.printed;
   EXPECT_FALSE(holds(again.printed, "from the last checkpoint")) << again.printed;

@@ -2,10 +2,10 @@
 // and nothing is lost by it.
 #include "app/registry.hpp"
 #include "app/run.hpp"
-#include "io/case_reader.hpp"
-#include "io/history_writer.hpp"
-#include "io/output_folder.hpp"
-#include "io/status.hpp"
+#include "input/case_reader.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
 #include "tests/steel.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -121,8 +121,8 @@ struct Node {
 
 /// A run to its end, with nothing lost.
 struct Adapted {
-  io::RunStatus status;
-  io::HistoryTable history;
+  results::RunStatus status;
+  results::HistoryTable history;
   std::vector<Node> nodes; ///< at the end
 
   double metric(const std::string& name) const {
@@ -148,7 +148,7 @@ struct Adapted {
 
 std::vector<Node> last_nodes(const std::filesystem::path& folder) {
   std::filesystem::path last;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / io::files::fields_folder))
+  for (const auto& entry : std::filesystem::directory_iterator(folder / results::files::fields_folder))
     if (entry.path().filename().string().starts_with("nodes")) last = std::max(last, entry.path());
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(last.c_str());
@@ -172,11 +172,11 @@ std::vector<Node> last_nodes(const std::filesystem::path& folder) {
 
 Adapted run(const std::string& text, Texts overrides = {}, double residual = 5e-4) {
   overrides.emplace_back("output.pictures=[]");
-  const io::Case input = io::read_case_text(text, "case.toml", overrides);
+  const input::Case input = input::read_case_text(text, "case.toml", overrides);
   const TemporaryFolder folder("adaptation");
-  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), app::Exit::done);
-  Adapted result{io::read_status(folder.path()), io::read_history(folder.path() / io::files::history),
-                 last_nodes(folder.path())};
+  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
+  Adapted result{results::read_status(folder.path()),
+                 results::read_history(folder.path() / results::files::history), last_nodes(folder.path())};
   EXPECT_LT(std::abs(result.metric("mass_drift")), 1e-12);
   EXPECT_LT(result.status.energy_residual, residual);
   EXPECT_GT(result.metric("mass_balance.low"), 0.75);

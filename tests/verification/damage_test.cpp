@@ -1,6 +1,6 @@
 // Material that breaks: what it takes does not depend on the spacing.
 #include "app/simulation.hpp"
-#include "io/case_reader.hpp"
+#include "input/case_reader.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ struct Breaking {
 
 Breaking break_it(const std::string& text, const std::string& spacing, std::vector<std::string> more = {}) {
   more.push_back(fmt::format("cloud.spacing=\"{}\"", spacing));
-  const io::Case input = io::read_case_text(text, "case.toml", more);
+  const input::Case input = input::read_case_text(text, "case.toml", more);
   std::vector<std::string> warnings;
   ExplicitSolver<2> solver = make_solver(input, warnings);
   StepControl control(input.time);
@@ -119,7 +119,7 @@ TEST(Separation, of_a_bar_in_tension_does_not_depend_on_the_spacing) {
 // Dust that flies apart: what does not bear does not hold the step, on this reference or the next. Lengths
 // grow by s, what is left of the moduli falls by s² with the density, and the bulk modulus is gone.
 TEST(Separation, into_dust_leaves_the_step_to_what_bears) {
-  const io::Case input = io::read_case_text(
+  const input::Case input = input::read_case_text(
       steel + R"toml(
 [domain]
 material = "steel"

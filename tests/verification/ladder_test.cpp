@@ -1,10 +1,10 @@
 // The ladder of benchmarks, on coarse clouds, against exact or published results
 // (cases/verification/*/expected.md).
 #include "app/run.hpp"
-#include "io/case_reader.hpp"
-#include "io/history_writer.hpp"
-#include "io/output_folder.hpp"
-#include "io/status.hpp"
+#include "input/case_reader.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <algorithm>
@@ -21,17 +21,17 @@ protected:
   void run(const std::string& name, std::vector<std::string> overrides) {
     const std::filesystem::path& folder = temporary.path();
     for (const char* quiet : {"output.pictures=[]", "output.fields_every=1 s"}) overrides.emplace_back(quiet);
-    const io::Case input =
-        io::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml", overrides);
-    ASSERT_EQ(app::run(input, {.output = folder, .force = true, .version = "test"}), app::Exit::done);
-    history = io::read_history(folder / io::files::history);
-    EXPECT_LT(io::read_status(folder).energy_residual, 1e-4);
+    const input::Case input = input::read_case(
+        std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml", overrides);
+    ASSERT_EQ(app::run(input, {.output = folder, .force = true, .version = "test"}), Exit::done);
+    history = results::read_history(folder / results::files::history);
+    EXPECT_LT(results::read_status(folder).energy_residual, 1e-4);
   }
   const std::vector<double>& column(const std::string& name) const {
     return history.column.at(static_cast<std::size_t>(history.find(name)));
   }
   const TemporaryFolder temporary{"ladder"};
-  io::HistoryTable history;
+  results::HistoryTable history;
 };
 
 void expect_near(double found, double reference, double share, const char* what) {

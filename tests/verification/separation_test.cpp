@@ -3,10 +3,10 @@
 #include "app/adaptation.hpp"
 #include "app/run.hpp"
 #include "app/simulation.hpp"
-#include "io/case_reader.hpp"
-#include "io/history_writer.hpp"
-#include "io/output_folder.hpp"
-#include "io/status.hpp"
+#include "input/case_reader.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
 #include "tests/clouds.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -64,9 +64,9 @@ pictures = []
 
 TEST(Separation, of_a_slug_loses_nothing_and_leaves_faces_that_do_not_cross) {
   const TemporaryFolder folder("separation");
-  const io::Case input = io::read_case_text(blanked, "case.toml", {});
-  ASSERT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), app::Exit::done);
-  const io::RunStatus status = io::read_status(folder.path());
+  const input::Case input = input::read_case_text(blanked, "case.toml", {});
+  ASSERT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
+  const results::RunStatus status = results::read_status(folder.path());
   const auto metric = [&](const std::string& name) {
     for (const auto& [key, value] : status.metrics)
       if (key == name) return value;
@@ -81,7 +81,7 @@ TEST(Separation, of_a_slug_loses_nothing_and_leaves_faces_that_do_not_cross) {
   // the audit of every change of the cloud
   for (const char* kept : {"mass_error", "momentum_error", "heat_error", "energy_error"})
     EXPECT_LT(metric(std::string("adapt.") + kept), 1e-12) << kept;
-  const io::HistoryTable events = io::read_history(folder.path() / io::files::adaptation);
+  const results::HistoryTable events = results::read_history(folder.path() / results::files::adaptation);
   const auto column = [&](const char* name) {
     return events.column[static_cast<std::size_t>(events.find(name))];
   };
@@ -92,7 +92,7 @@ TEST(Separation, of_a_slug_loses_nothing_and_leaves_faces_that_do_not_cross) {
   for (std::size_t e = 1; e < events.rows(); ++e)
     EXPECT_EQ(column("before.nodes")[e], column("after.nodes")[e - 1]);
   // the punch pushes nothing but the slug any more
-  const io::HistoryTable history = io::read_history(folder.path() / io::files::history);
+  const results::HistoryTable history = results::read_history(folder.path() / results::files::history);
   const auto& force = history.column[static_cast<std::size_t>(history.find("punch.force_y"))];
   double last = 0.0, peak = 0.0;
   for (std::size_t r = 0; r < force.size(); ++r) {
@@ -103,7 +103,7 @@ TEST(Separation, of_a_slug_loses_nothing_and_leaves_faces_that_do_not_cross) {
 }
 
 TEST(Separation, makes_two_bodies) {
-  const io::Case input = io::read_case_text(blanked, "case.toml", {});
+  const input::Case input = input::read_case_text(blanked, "case.toml", {});
   const TemporaryFolder folder("separation");
   std::vector<std::string> warnings;
   ExplicitSolver<2> solver = app::make_solver(input, warnings);

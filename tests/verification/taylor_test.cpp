@@ -1,8 +1,8 @@
 // Taylor bars on coarse clouds against independent finite-element solutions (cases/verification/taylor_*).
 #include "app/registry.hpp"
 #include "app/run.hpp"
-#include "io/case_reader.hpp"
-#include "io/status.hpp"
+#include "input/case_reader.hpp"
+#include "results/status.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -21,9 +21,9 @@ struct Shape {
 
 /// Runs a case of cases/verification.
 Shape run(const std::string& name, const std::string& spacing) {
-  const io::Case input =
-      io::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
-                    {"cloud.spacing=\"" + spacing + "\""});
+  const input::Case input =
+      input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
+                       {"cloud.spacing=\"" + spacing + "\""});
   app::Setup setup = app::build(input);
   ExplicitSolver<2> solver(std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature));
   while (solver.state().time < input.time.end) {
@@ -62,11 +62,11 @@ TEST(TaylorBar, copper_with_linear_hardening) {
 TEST(TaylorBar, goes_on_with_the_old_reference_where_nodes_have_passed_each_other) {
   const TemporaryFolder temporary("taylor_renewal");
   const std::filesystem::path& folder = temporary.path();
-  const io::Case input =
-      io::read_case(CNEM_SOURCE_DIR "/cases/verification/taylor_copper/case.toml",
-                    {"cloud.spacing=0.64 mm", "output.pictures=[]", "output.fields_every=80 us"});
-  EXPECT_EQ(app::run(input, {.output = folder, .force = true, .version = "test"}), app::Exit::done);
-  const io::RunStatus status = io::read_status(folder);
+  const input::Case input =
+      input::read_case(CNEM_SOURCE_DIR "/cases/verification/taylor_copper/case.toml",
+                       {"cloud.spacing=0.64 mm", "output.pictures=[]", "output.fields_every=80 us"});
+  EXPECT_EQ(app::run(input, {.output = folder, .force = true, .version = "test"}), Exit::done);
+  const results::RunStatus status = results::read_status(folder);
   ASSERT_EQ(status.warnings.size(), 1U);
   EXPECT_NE(status.warnings[0].find("the reference could not be renewed"), std::string::npos);
   EXPECT_LT(status.energy_residual, 1e-3);

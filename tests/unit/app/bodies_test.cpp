@@ -2,7 +2,7 @@
 #include "app/bodies.hpp"
 #include "app/registry.hpp"
 #include "core/error.hpp"
-#include "io/case_reader.hpp"
+#include "input/case_reader.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ elastic = { young = "50 GPa", poisson = 0.0 }
 heat = { specific_heat = "900 J/(kg K)", conductivity = "200 W/(m K)" }
 )toml";
 
-io::Case read(const std::vector<std::string>& overrides) {
-  return io::read_case_text(blocks, "blocks.toml", overrides);
+input::Case read(const std::vector<std::string>& overrides) {
+  return input::read_case_text(blocks, "blocks.toml", overrides);
 }
 
 ExplicitSolver<2> start(const std::vector<std::string>& overrides) {
@@ -189,7 +189,7 @@ TEST(Regions, mistakes_are_refused) {
 }
 
 TEST(Imperfection, lowers_the_strength_around_a_line) {
-  const io::Case input =
+  const input::Case input =
       read({"initial.imperfections.line={ points = [\"0 1 mm\", \"10 1 mm\"], width = \"0.5 "
             "mm\", reduction = 0.1 }"});
   const app::Setup setup = build(input);

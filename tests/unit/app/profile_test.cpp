@@ -31,7 +31,7 @@ TEST(Stopwatch, parts_count_to_their_phase_and_all_phases_are_listed) {
 }
 
 TEST(Profile, a_line_has_phase_seconds_share_and_time_per_node_and_step) {
-  io::RunStatus status;
+  results::RunStatus status;
   status.node_steps = 1000000;
   status.wall_s = {{"total", 2.0}, {"step", 1.0}, {"step.stress", 0.25}, {"rebuild", 0.0}};
   EXPECT_EQ(profile_table(status), "phase               seconds    share ns/node-step\n"
@@ -41,7 +41,7 @@ TEST(Profile, a_line_has_phase_seconds_share_and_time_per_node_and_step) {
 }
 
 TEST(Profile, without_steps_there_is_no_time_per_step) {
-  io::RunStatus status;
+  results::RunStatus status;
   status.wall_s = {{"total", 2.0}};
   EXPECT_EQ(profile_table(status), "phase               seconds    share ns/node-step\n"
                                    "total                2.0000   100.0%            -\n");

@@ -2,8 +2,8 @@
 #include "app/registry.hpp"
 #include "app/run.hpp"
 #include "core/error.hpp"
-#include "io/case_reader.hpp"
-#include "io/history_writer.hpp"
+#include "input/case_reader.hpp"
+#include "results/history_writer.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <filesystem>
@@ -39,8 +39,8 @@ history_every = "0.1 us"
 class Axisymmetric : public ::testing::Test {
 protected:
   void SetUp() override { std::ofstream(folder / "bar.toml") << bar; }
-  io::Case read(const std::vector<std::string>& overrides) {
-    return io::read_case((folder / "bar.toml").string(), overrides);
+  input::Case read(const std::vector<std::string>& overrides) {
+    return input::read_case((folder / "bar.toml").string(), overrides);
   }
   std::string refusal(const std::vector<std::string>& overrides) {
     try {
@@ -87,7 +87,7 @@ TEST_F(Axisymmetric, history_counts_the_whole_body) {
   RunOptions options;
   options.output = folder / "out";
   ASSERT_EQ(run(read({}), options), Exit::done);
-  const io::HistoryTable history = io::read_history(folder / "out" / "history.csv");
+  const results::HistoryTable history = results::read_history(folder / "out" / "history.csv");
   for (const char* name : {"mass[kg]", "energy.kinetic[J]", "support.wall.force_y[N]"})
     EXPECT_GE(history.find(name), 0) << name;
   std::ifstream report(folder / "out" / "report.html");

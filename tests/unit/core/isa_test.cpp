@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 namespace cnem {
 namespace {
@@ -42,7 +43,12 @@ TEST(isa, environment_variable) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(exit_with_choice("baseline"), ::testing::ExitedWithCode(0), "");
   EXPECT_EXIT(exit_with_choice("sse9"), ::testing::ExitedWithCode(2),
-              "sse9.*expected baseline, avx2 or avx512");
+              "CNEM_ISA = \"sse9\": expected an instruction set that this machine has: baseline");
+  for (const Isa isa : {Isa::avx2, Isa::avx512})
+    if (!isa_supported(isa)) {
+      EXPECT_EXIT(exit_with_choice(std::string(isa_name(isa)).c_str()), ::testing::ExitedWithCode(2),
+                  "this machine has: baseline");
+    }
 }
 
 } // namespace

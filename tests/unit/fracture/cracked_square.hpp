@@ -1,9 +1,9 @@
 #pragma once
 // A square with a central crack, and its tips.
+#include "clouds/generate.hpp"
 #include "cnem/scni.hpp"
 #include "fracture/crack_tip.hpp"
 #include "tests/curves.hpp"
-#include "voronoi/generate.hpp"
 
 #include <array>
 #include <cmath>
@@ -12,8 +12,8 @@
 namespace cnem::testing {
 
 /// The square [−1, 1]² with sides named "side".
-inline voronoi::DomainShape square_shape() {
-  voronoi::DomainShape shape;
+inline clouds::DomainShape square_shape() {
+  clouds::DomainShape shape;
   shape.outer = box({-1, -1}, {1, 1}, "side");
   return shape;
 }
@@ -26,11 +26,11 @@ struct CrackedSquare {
 
 /// Crack of half-length 0.3 about the origin at `angle` from x.
 inline CrackedSquare cracked_square(double spacing, double angle) {
-  voronoi::DomainShape shape = square_shape();
+  clouds::DomainShape shape = square_shape();
   const Vec2 tip(0.3 * std::cos(angle), 0.3 * std::sin(angle));
   shape.cracks.push_back({"crack", {-tip, tip}});
   CrackedSquare result;
-  result.cloud = voronoi::generate_cloud(shape, {spacing, {}}, {}).cloud;
+  result.cloud = clouds::generate_cloud(shape, {spacing, {}}, {}).cloud;
   result.tips = fracture::find_tips(result.cloud, {{"crack", {-tip, tip}, {"first", "last"}}});
   result.approximation = scni::Cnem().rebuild(result.cloud);
   return result;

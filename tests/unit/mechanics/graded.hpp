@@ -1,7 +1,7 @@
 #pragma once
 // Graded bodies for tests of local time steps.
+#include "clouds/generate.hpp"
 #include "tests/unit/mechanics/tools.hpp"
-#include "voronoi/generate.hpp"
 
 namespace cnem::testing {
 
@@ -9,14 +9,14 @@ namespace cnem::testing {
 /// growing to `coarse`.
 inline Cloud<2> graded_rectangle(double a, double b, double coarse, double fine, std::vector<Vec2> along,
                                  double growth = 0.3) {
-  voronoi::DomainShape domain;
+  clouds::DomainShape domain;
   domain.outer = box({0, 0}, {a, b});
   const char* name[4] = {"bottom", "right", "top", "left"};
   for (std::size_t k = 0; k < 4; ++k) domain.outer.pieces[k].name = name[k];
-  voronoi::SpacingField spacing;
+  clouds::SpacingField spacing;
   spacing.spacing = coarse;
   spacing.refinements = {{.points = std::move(along), .spacing = fine, .growth = growth}};
-  return voronoi::generate_cloud(domain, spacing, {}).cloud;
+  return clouds::generate_cloud(domain, spacing, {}).cloud;
 }
 
 /// A half blank between punch and die, refined where it will shear, with friction and heat: spacings differ

@@ -2,7 +2,7 @@
 // The linearised force of a method, from the very functions the explicit step uses: K u = −f for small u.
 #include "core/error.hpp"
 #include "mechanics/kinematics.hpp"
-#include "mechanics/stabilisation.hpp"
+#include "mechanics/terms/edge_defect.hpp"
 #include "tests/unit/mechanics/models.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -47,9 +47,9 @@ inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
       }
       resize_all(force, n);
       ColumnStress<2> stress;
-      take_columns<2>(P, stress);
+      copy_stress_columns<2>(P, stress);
       if (edges.active(approximation.links)) {
-        edges.take(F, 0, n);
+        edges.store_records(F, 0, n);
         edges.apply(approximation.links, op.volume, side_by_side<2>(X), side, stress, force, 0, n);
       }
       subtract_internal_force<2>(op, stress, force, 0, n);

@@ -1,8 +1,8 @@
 #pragma once
 // Bodies for tests of the solver: rectangles of a method and a material.
-#include "alternatives/fe_triangle.hpp"
 #include "cnem/scni.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "methods/fe_triangle.hpp"
 #include "tests/clouds.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ inline void PrintTo(Method method, std::ostream* out) {
 }
 
 inline std::unique_ptr<Discretisation<2>> make(Method method, Space space = Space::plane) {
-  if (method == Method::triangles) return std::make_unique<alternatives::FeTriangles>(space);
+  if (method == Method::triangles) return std::make_unique<methods::FeTriangles>(space);
   return std::make_unique<scni::Cnem>(scni::Options{.space = space});
 }
 

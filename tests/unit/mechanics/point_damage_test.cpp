@@ -1,5 +1,5 @@
 // What broken points leave of the stiffness that limits the step.
-#include "mechanics/point_damage.hpp"
+#include "mechanics/terms/point_damage.hpp"
 #include "tests/unit/plasticity/points.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The exchange of volume between flowing neighbours: what it conserves, what it leaves alone, what it
 // smooths.
-#include "mechanics/pressure_exchange.hpp"
+#include "mechanics/terms/pressure_exchange.hpp"
 #include "models.hpp"
 #include "plasticity/return_map.hpp"
 
@@ -56,7 +56,7 @@ struct Block {
     reference = side_by_side<2>(position);
     update();
     for (std::size_t i = 0; i < n; ++i) point.plastic_rate[i] = 1e4;
-    take_columns<2>(point.piola, stress);
+    copy_stress_columns<2>(point.piola, stress);
   }
   /// Stress and energy anew from F and C_p⁻¹, without flow.
   void update() {

@@ -1,9 +1,9 @@
 // Linear statics: patch tests, a tensile bar, energy, and supports that are missing.
-#include "alternatives/fe_triangle.hpp"
 #include "cnem/scni.hpp"
 #include "core/error.hpp"
-#include "mechanics/rigid_motion.hpp"
-#include "mechanics/statics.hpp"
+#include "mechanics/statics/rigid_motion.hpp"
+#include "mechanics/statics/statics.hpp"
+#include "methods/fe_triangle.hpp"
 #include "tests/clouds.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ struct Body {
 std::vector<std::unique_ptr<Discretisation<2>>> methods() {
   std::vector<std::unique_ptr<Discretisation<2>>> list;
   list.push_back(std::make_unique<scni::Cnem>());
-  list.push_back(std::make_unique<alternatives::FeTriangles>());
+  list.push_back(std::make_unique<methods::FeTriangles>());
   return list;
 }
 
@@ -130,7 +130,7 @@ TEST(Statics, oblique_symmetry_plane_gives_the_turned_solution) {
 TEST(Statics, patch_body_of_revolution_under_constant_stress_is_exact) {
   std::vector<std::unique_ptr<Discretisation<2>>> list;
   list.push_back(std::make_unique<scni::Cnem>(scni::Options{.space = Space::revolution}));
-  list.push_back(std::make_unique<alternatives::FeTriangles>(Space::revolution));
+  list.push_back(std::make_unique<methods::FeTriangles>(Space::revolution));
   for (const auto& method : list)
     for (const double bore : {0.0, 0.5}) {
       SCOPED_TRACE(method->name());

@@ -49,7 +49,7 @@ struct Body {
     return sum;
   }
   void step(double dt, const ThermalBoundaries<2>& boundaries = {}, double time = 0.0,
-            const Touching<2>& touching = {}) {
+            const HeatContacts<2>& touching = {}) {
     std::fill(flow.begin(), flow.end(), 0.0);
     boundaries.add_flow(time, position, temperature, touching, flow);
     conduction.add_flow(side_by_side<2>(position), temperature, flow);
@@ -132,7 +132,7 @@ TEST(Conduction, conductance_to_a_tool_relaxes_as_a_lump) {
   Body body(strip(1e-4, 1e-4, 5e-5));
   std::fill(body.temperature.begin(), body.temperature.end(), 400.0);
   const double conductance = 100.0, tool = 300.0;
-  Touching<2> touch;
+  HeatContacts<2> touch;
   for (const std::int32_t i : nodes_at_x(body.cloud, 0.0))
     touch.tools.push_back({i, conductance, 1e-4 / 3, tool});
   ASSERT_EQ(touch.tools.size(), 3U);
@@ -149,7 +149,7 @@ TEST(Conduction, conductance_to_a_tool_relaxes_as_a_lump) {
 TEST(Conduction, exchange_between_faces_keeps_heat_and_stays_below_its_bound) {
   Field temperature{400.0, 300.0, 320.0, 350.0, 310.0};
   const Field capacity{2.0, 1.0, 3.0, 0.5, 1.5};
-  Touching<2> touching; // nodes 0 and 3 on the facet 1 2, node 1 on the facet 3 0
+  HeatContacts<2> touching; // nodes 0 and 3 on the facet 1 2, node 1 on the facet 3 0
   touching.bodies = {{0, {1, 2}, {0.25, 0.75}, 1e3, 1e-3},
                      {3, {1, 2}, {0.9, 0.1}, 1e3, 2e-3},
                      {1, {3, 0}, {0.5, 0.5}, 1e3, 5e-4}};

@@ -1,0 +1,26 @@
+#pragma once
+// Whether tools are slow enough for their contact to be seen: in one step no further than they are wide, and
+// slower than sound in the workpiece.
+#include "input/case.hpp"
+#include "mechanics/explicit_solver.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cnem::app {
+
+/// How far the tool reaches along a direction, m: the largest step in which it cannot pass a node unseen.
+double width_along(const Curve& outline, const Vec2& direction);
+
+/// Tools that meet the workpiece faster than its dilatational waves, at some time of the run or, where the
+/// workpiece itself flies, at the start. One sentence each.
+std::vector<std::string> supersonic_tools(const input::Case& input, const ExplicitSolver<2>& solver);
+
+/// Throws InputError when a tool moves, at some time of the run, further than it is wide in a step of `dt`
+/// (s), or the workpiece does so past it at the start: nodes would pass through it unseen.
+void check_tool_steps(const input::Case& input, const ExplicitSolver<2>& solver, double dt);
+
+/// The same for what tools do now, in a run. Throws DivergenceError.
+void check_moving_tools(const input::Case& input, const ExplicitSolver<2>& solver, double dt);
+
+} // namespace cnem::app

@@ -1,0 +1,45 @@
+#pragma once
+// Nodes of strongly varying spacing in a hierarchy of hashed grids: near neighbours in constant time.
+#include "core/vec.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace cnem::clouds {
+
+/// Each node lives on the grid whose cells are between two and four times its spacing.
+class NodeHash {
+public:
+  /// h_min: the smallest spacing, h_max: the largest; growth: the Lipschitz constant of the spacing field.
+  NodeHash(double h_min, double h_max, double growth);
+
+  void insert(const Vec2& x, double h);
+  /// Whether a node y lies nearer to x than factor (h(x) + h(y))/2.
+  bool crowded(const Vec2& x, double h, double factor) const;
+
+private:
+  struct Node {
+    Vec2 x;
+    double h;
+    std::int32_t next;
+  };
+  struct Slot {
+    std::uint64_t key = empty;
+    std::int32_t first = -1;
+  };
+  static constexpr std::uint64_t empty = ~std::uint64_t{0};
+
+  int level(double h) const;
+  double cell_size(int level) const;
+  std::size_t slot(std::uint64_t key) const;
+  void enlarge();
+
+  double h_min_;
+  int levels_;
+  double growth_;
+  std::vector<Node> nodes_;
+  std::vector<Slot> slots_;
+  std::size_t used_ = 0;
+};
+
+} // namespace cnem::clouds

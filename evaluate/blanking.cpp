@@ -1,0 +1,343 @@
+#include "evaluate/blanking.hpp"
+
+#include "evaluate/force_stroke.hpp"
+#include "evaluate/sheared_face.hpp"
+#include "mechanics/statics/rigid_motion.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace cnem::evaluate {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// t across the cutting direction, s along it.
+double across(const CutTools& tools, const Vec2& x) { return x.dot(left_normal(tools.direction)); }
+double along(const CutTools& tools, const Vec2& x) { return x.dot(tools.direction); }
+
+/// How much of the line at t lies inside a polygon, m.
+double thickness_at(const CutTools& tools, const std::vector<Vec2>& polygon, double t) {
+  std::vector<double> crossing;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const double ta = across(tools, a) - t, tb = across(tools, b) - t;
+    if ((ta < 0.0) == (tb < 0.0)) continue;
+    const double share = ta / (ta - tb);
+    crossing.push_back((1.0 - share) * along(tools, a) + share * along(tools, b));
+  }
+  if (crossing.empty()) return 0.0;
+  const auto [low, high] = std::minmax_element(crossing.begin(), crossing.end());
+  return *high - *low;
+}
+
+/// The part with the most volume where t is in a band; −1 when there is none.
+std::int32_t part_in(const CutTools& tools, const CutSheet& sheet, double from, double to) {
+  std::map<std::int32_t, double> volume;
+  for (std::size_t i = 0; i < sheet.position.size(); ++i)
+    if (const double t = across(tools, sheet.position[i]); t >= from && t <= to)
+      volume[sheet.part[i]] += sheet.volume[i];
+  std::int32_t most = -1;
+  for (const auto& [part, v] : volume)
+    if (most < 0 || v > volume[most]) most = part;
+  return most;
+}
+
+/// Nodes of the longest boundary of a part, in order, and whether the facet that leaves each is new.
+struct Loop {
+  std::vector<std::int32_t> node;
+  std::vector<char> fracture;
+};
+Loop outline_of(const CutSheet& sheet, std::int32_t part) {
+  std::vector<std::int32_t> leaving(sheet.position.size(), -1);
+  for (std::size_t f = 0; f < sheet.facets.size(); ++f)
+    leaving[u(sheet.facets[f].node[0])] = static_cast<std::int32_t>(f);
+  std::vector<char> seen(sheet.position.size(), 0);
+  Loop longest;
+  double most = -1.0;
+  for (const Facet<2>& first : sheet.facets) {
+    if (seen[u(first.node[0])] || sheet.part[u(first.node[0])] != part) continue;
+    Loop loop;
+    double length = 0.0;
+    for (std::int32_t i = first.node[0]; !seen[u(i)];) {
+      const Facet<2>& facet = sheet.facets[u(leaving[u(i)])];
+      seen[u(i)] = 1;
+      loop.node.push_back(i);
+      loop.fracture.push_back(facet.piece == sheet.fracture_piece);
+      length += (sheet.position[u(facet.node[1])] - sheet.position[u(i)]).norm();
+      i = facet.node[1];
+    }
+    if (length > most) {
+      most = length;
+      longest = std::move(loop);
+    }
+  }
+  return longest;
+}
+
+/// Whether a plane of symmetry holds the body on its side of the cut.
+bool held_by_plane(const Cut& cut, const CutTools& tools, const CutSheet& sheet, bool slug) {
+  for (std::size_t i = 0; i < sheet.part.size(); ++i) {
+    if (!sheet.on_plane[i] || sheet.part[i] != (slug ? cut.slug : cut.skeleton)) continue;
+    const double t = across(tools, sheet.position[i]);
+    if (slug ? cut.side * (t - cut.punch) <= 0.0 : cut.side * (t - cut.die) >= 0.0) return true;
+  }
+  return false;
+}
+
+/// The body of one side of a cut, seen from its drawn-in surface.
+ShearedFace measure_side(const Cut& cut, const CutTools& tools, const CutSheet& sheet, bool slug,
+                         double parallel, double smoothing) {
+  const std::int32_t part = slug ? cut.slug : cut.skeleton;
+  ShearedFace face;
+  if (part < 0) {
+    face.note = "nothing is left there";
+  } else {
+    // The die draws the slug in, the punch the skeleton.
+    const double outwards = slug ? cut.side : -cut.side, into = slug ? -1.0 : 1.0;
+    const Loop loop = outline_of(sheet, part);
+    FaceOutline outline;
+    outline.fracture = loop.fracture;
+    for (const std::int32_t i : loop.node)
+      outline.point.emplace_back(outwards * across(tools, sheet.position[u(i)]),
+                                 into * along(tools, sheet.position[u(i)]));
+    FaceRules rules;
+    rules.thickness = cut.thickness;
+    rules.parallel = parallel;
+    rules.smoothing = smoothing > 0.0 ? smoothing : cut.thickness / 50.0;
+    rules.edge = outwards * (slug ? cut.die : cut.punch);
+    rules.limit = cut.slug == cut.skeleton
+                      ? rules.edge + std::max(0.25 * cut.thickness, 2.0 * std::abs(cut.die - cut.punch))
+                      : std::numeric_limits<double>::infinity(); // it may have moved on since
+    rules.fixed = held_by_plane(cut, tools, sheet, slug) || (slug && cut.slug == cut.skeleton);
+    rules.whole_surface = slug;
+    face = measure_face(outline, rules);
+  }
+  face.cut = cut.name;
+  face.body = slug ? "slug" : "skeleton";
+  face.thickness = cut.thickness;
+  return face;
+}
+
+/// A body's shape by least squares of s over t: slope of a line, or height of an arc.
+struct Shape {
+  double angle = std::numeric_limits<double>::quiet_NaN();
+  double dishing = std::numeric_limits<double>::quiet_NaN();
+};
+struct Sample {
+  double t = 0.0, s = 0.0, weight = 0.0;
+};
+/// plane: t of a plane of symmetry, about which the arc is even.
+Shape shape_of(const std::vector<Sample>& samples, bool arc, std::optional<double> plane) {
+  double mean = 0.0, weight = 0.0, low = INFINITY, high = -INFINITY;
+  for (const Sample& x : samples) {
+    mean += x.weight * x.t;
+    weight += x.weight;
+    low = std::min(low, x.t);
+    high = std::max(high, x.t);
+  }
+  Shape shape;
+  if (samples.size() < 3 || !(high > low)) return shape;
+  mean = plane.value_or(mean / weight);
+  const double half = plane ? std::max(high - mean, mean - low) : 0.5 * (high - low);
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Sample& x : samples) {
+    const double t = (x.t - mean) / half;
+    const Eigen::Vector3d row(1.0, plane ? 0.0 : t, arc ? t * t : 0.0);
+    normal += x.weight * row * row.transpose();
+    right += x.weight * x.s * row;
+  }
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (normal(k, k) == 0.0) normal(k, k) = weight; // what is not asked for stays zero
+  const Eigen::Vector3d fit = normal.ldlt().solve(right);
+  if (!plane) shape.angle = std::atan(fit[1] / half);
+  if (arc) shape.dishing = -fit[2];
+  return shape;
+}
+
+std::vector<Vec2> points_of(const Curve& curve, const Vec2& shift) {
+  constexpr int divisions = 32;
+  std::vector<Vec2> points;
+  for (const CurvePiece& piece : curve.pieces)
+    for (int k = 0; k < (piece.is_arc() ? divisions : 1); ++k)
+      points.push_back(piece.point(k / double(divisions)) + shift);
+  return points;
+}
+
+std::vector<Vec2> positions(const Fields<2>& field) {
+  std::vector<Vec2> list(field[0].size());
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = {field[0][i], field[1][i]};
+  return list;
+}
+
+std::vector<char> nodes_on_planes(const Supports<2>& supports, const Vec2& direction, std::size_t nodes) {
+  std::vector<char> on(nodes, 0);
+  for (const Support<2>& support : supports.list())
+    if (support.kind == Support<2>::Kind::symmetry && std::abs(support.direction.dot(direction)) < 1e-6)
+      for (const std::int32_t i : support.nodes) on[u(i)] = 1;
+  return on;
+}
+
+double largest_of(const Fields<2>& displacement, const std::vector<std::int32_t>& part, std::int32_t wanted) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < part.size(); ++i)
+    if (part[i] == wanted) most = std::max(most, std::hypot(displacement[0][i], displacement[1][i]));
+  return most;
+}
+
+} // namespace
+
+std::vector<Cut> find_cuts(const CutTools& tools, const CutSheet& sheet) {
+  std::vector<Cut> cuts;
+  for (const double side : {-1.0, 1.0}) {
+    Cut cut;
+    cut.side = side;
+    double reach = -INFINITY, edge = INFINITY;
+    for (const Vec2& x : tools.punch) reach = std::max(reach, side * across(tools, x));
+    for (const Vec2& x : tools.die)
+      if (const double t = side * across(tools, x); t >= reach - 1e-9 * std::abs(reach))
+        edge = std::min(edge, t);
+    if (!std::isfinite(edge)) continue; // no die on this side
+    cut.punch = side * reach;
+    cut.die = side * edge;
+    cut.thickness = thickness_at(tools, sheet.initial_outline, 0.5 * (cut.punch + cut.die));
+    if (!(cut.thickness > 0.0)) continue;
+    const double inner = cut.punch - side * cut.thickness, outer = cut.die + side * cut.thickness;
+    cut.slug = part_in(tools, sheet, std::min(inner, cut.punch), std::max(inner, cut.punch));
+    cut.skeleton = part_in(tools, sheet, std::min(outer, cut.die), std::max(outer, cut.die));
+    cuts.push_back(cut);
+  }
+  if (cuts.size() == 2) {
+    cuts[0].name = "left";
+    cuts[1].name = "right";
+  }
+  return cuts;
+}
+
+std::vector<ShearedFace> measure_cut(const Cut& cut, const CutTools& tools, const CutSheet& sheet,
+                                     double parallel, double smoothing) {
+  return {measure_side(cut, tools, sheet, true, parallel, smoothing),
+          measure_side(cut, tools, sheet, false, parallel, smoothing)};
+}
+
+std::vector<BodySpringback> springback_of_bodies(std::span<const Cut> cuts, const CutTools& tools,
+                                                 const CutSheet& sheet, const Fields<2>& displacement,
+                                                 const Field& mass) {
+  std::vector<BodySpringback> bodies;
+  const auto add = [&](const std::string& name, std::int32_t part, bool arc, auto&& inside) {
+    BodySpringback body;
+    body.body = name;
+    std::vector<Sample> before, after;
+    std::optional<double> plane;
+    for (std::size_t i = 0; i < sheet.position.size(); ++i) {
+      const double t = across(tools, sheet.position[i]);
+      if (sheet.part[i] != part || !inside(t)) continue;
+      if (sheet.on_plane[i]) plane = t;
+      const Vec2 move(displacement[0][i], displacement[1][i]);
+      body.largest = std::max(body.largest, move.norm());
+      before.push_back({t, along(tools, sheet.position[i]), mass[i]});
+      after.push_back(
+          {across(tools, sheet.position[i] + move), along(tools, sheet.position[i] + move), mass[i]});
+    }
+    if (before.empty()) return;
+    const Shape a = shape_of(before, arc, plane), b = shape_of(after, arc, plane);
+    body.angle_before = a.angle;
+    body.angle_change = b.angle - a.angle;
+    body.dishing_before = a.dishing;
+    body.dishing_change = b.dishing - a.dishing;
+    bodies.push_back(std::move(body));
+  };
+  if (cuts.empty()) return bodies;
+  add("slug", cuts.front().slug, true, [&](double t) {
+    return std::all_of(cuts.begin(), cuts.end(),
+                       [&](const Cut& cut) { return cut.side * (t - cut.die) <= 0.0; });
+  });
+  for (const Cut& cut : cuts)
+    add(cut.name.empty() ? "skeleton" : fmt::format("skeleton_{}", cut.name), cut.skeleton, false,
+        [&](double t) { return cut.side * (t - cut.punch) >= 0.0; });
+  return bodies;
+}
+
+BlankingResult evaluate_blanking(const input::Case& input, const results::Snapshot& shot,
+                                 const Supports<2>& supports, const Springback* springback,
+                                 const results::HistoryTable& history) {
+  BlankingResult result;
+  result.time = shot.state.time;
+  if (input.analysis.kinematics == input::Analysis::Kinematics::axisymmetric) {
+    result.force_unit = "N";
+    result.work_unit = "J";
+  }
+  const auto each_part = [&] {
+    for (std::int32_t part = 0; springback && part < springback->bodies; ++part) {
+      result.springback.emplace_back().body = fmt::format("body_{}", part + 1);
+      result.springback.back().largest = largest_of(springback->displacement, springback->body, part);
+    }
+  };
+  if (!input.report.blanking) {
+    each_part();
+    return result;
+  }
+  const input::BlankingReport& asked = *input.report.blanking;
+  result.punch = input.tools[asked.punch].name;
+  result.parallel = asked.parallel;
+  const double now = shot.state.time;
+  CutTools tools;
+  Vec2 stroke = shot.contact.displacement(asked.punch, now);
+  tools.punch = points_of(input.tools[asked.punch].outline, stroke);
+  for (const std::size_t die : asked.dies) {
+    result.dies.push_back(input.tools[die].name);
+    const Vec2 moved = shot.contact.displacement(die, now);
+    const std::vector<Vec2> points = points_of(input.tools[die].outline, moved);
+    tools.die.insert(tools.die.end(), points.begin(), points.end());
+    stroke -= moved / static_cast<double>(asked.dies.size());
+  }
+  result.stroke = stroke.norm();
+  if (!(result.stroke > 0.0)) {
+    result.note = fmt::format("{} has not moved", result.punch);
+    each_part();
+    return result;
+  }
+  tools.direction = stroke.normalized();
+  result.direction_x = tools.direction.x();
+  result.direction_y = tools.direction.y();
+  if (history.rows() > 0)
+    for (const input::Tool& tool : input.tools)
+      result.forces.push_back(largest_force(
+          force_curve(history, tool.name, result.punch, result.dies, tools.direction), tool.name));
+
+  const auto& pieces = shot.cloud.piece_names;
+  const auto piece = std::find(pieces.begin(), pieces.end(), input::Adaptation::fracture_piece);
+  CutSheet sheet{positions(shot.state.node.position),
+                 shot.cloud.facets,
+                 piece == pieces.end() ? -1 : static_cast<std::int32_t>(piece - pieces.begin()),
+                 {},
+                 shot.approximation.node_volume,
+                 nodes_on_planes(supports, tools.direction, shot.state.node.size()),
+                 points_of(input.domain.outer, Vec2::Zero())};
+  for (const std::size_t root : parts_of(shot.approximation.mechanics, sheet.position.size()))
+    sheet.part.push_back(static_cast<std::int32_t>(root));
+  const std::vector<Cut> cuts = find_cuts(tools, sheet);
+  if (cuts.empty()) {
+    result.note = fmt::format("no side of {} passes an edge of {} where there was sheet", result.punch,
+                              fmt::join(result.dies, ", "));
+    each_part();
+    return result;
+  }
+  result.smoothing = asked.smoothing.value_or(cuts.front().thickness / 50.0);
+  for (const Cut& cut : cuts)
+    for (ShearedFace& face : measure_cut(cut, tools, sheet, asked.parallel, result.smoothing))
+      result.faces.push_back(std::move(face));
+  if (springback)
+    result.springback =
+        springback_of_bodies(cuts, tools, sheet, springback->displacement, shot.state.node.mass);
+  return result;
+}
+
+} // namespace cnem::evaluate

@@ -1,0 +1,60 @@
+#pragma once
+// What a cut came to: where punch and die have cut, which bodies lie there, their faces and springback.
+#include "evaluate/blanking_result.hpp"
+#include "evaluate/springback.hpp"
+#include "input/case.hpp"
+#include "results/history_writer.hpp"
+#include "results/snapshot.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cnem::evaluate {
+
+/// The workpiece as it is, in parts.
+struct CutSheet {
+  std::vector<Vec2> position; ///< [node] m
+  const std::vector<Facet<2>>& facets;
+  std::int32_t fracture_piece = -1;  ///< index of the boundary piece that separation makes; −1: none
+  std::vector<std::int32_t> part;    ///< [node] connected part
+  const Field& volume;               ///< [node] share of the volume
+  std::vector<char> on_plane;        ///< [node] on a plane of symmetry along the cutting direction
+  std::vector<Vec2> initial_outline; ///< m, closed polygon of the sheet before
+};
+
+/// Tools as they stand, m.
+struct CutTools {
+  Vec2 direction{0, -1};   ///< unit vector of the punch's motion against the die
+  std::vector<Vec2> punch; ///< points of its outline
+  std::vector<Vec2> die;   ///< points of the outlines of all dies
+};
+
+/// One cut: the gap between a side of the punch and the edge of the die that it passes. t counts across the
+/// cutting direction, to the right when the punch goes down.
+struct Cut {
+  std::string name;                      ///< "left" or "right"; empty when there is one
+  double side = 1.0;                     ///< +1: the die lies at larger t than the punch
+  double punch = 0.0, die = 0.0;         ///< m, t
+  double thickness = 0.0;                ///< m, of the sheet before, half-way
+  std::int32_t slug = -1, skeleton = -1; ///< parts on the two sides: equal until they have come apart
+};
+
+/// All cuts where there was sheet.
+std::vector<Cut> find_cuts(const CutTools& tools, const CutSheet& sheet);
+
+/// The faces of slug and skeleton at a cut. smoothing: m, 0: a fiftieth of the thickness.
+std::vector<ShearedFace> measure_cut(const Cut& cut, const CutTools& tools, const CutSheet& sheet,
+                                     double parallel, double smoothing);
+
+/// How far letting go moves and bends slug and skeletons. displacement: [k][node] m.
+std::vector<BodySpringback> springback_of_bodies(std::span<const Cut> cuts, const CutTools& tools,
+                                                 const CutSheet& sheet, const Fields<2>& displacement,
+                                                 const Field& mass);
+
+/// The whole evaluation of a run at its end: what the case asks for. springback: null when it does not.
+BlankingResult evaluate_blanking(const input::Case& input, const results::Snapshot& shot,
+                                 const Supports<2>& supports, const Springback* springback,
+                                 const results::HistoryTable& history);
+
+} // namespace cnem::evaluate

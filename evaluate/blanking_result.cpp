@@ -1,0 +1,207 @@
+#include "evaluate/blanking_result.hpp"
+
+#include "core/error.hpp"
+#include "results/output_folder.hpp"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace cnem::evaluate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 7> zone_names{"surface",        "rollover", "burnish",  "fracture",
+                                                "second_burnish", "burr",     "burr_side"};
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+double as_number(const Json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+/// Carries a record out to JSON or in from it: each member is named once.
+class Writer {
+public:
+  void operator()(const char* name, const std::string& value) { json_[name] = value; }
+  void operator()(const char* name, double value) { json_[name] = number(value); }
+  void operator()(const char* name, bool value) { json_[name] = value; }
+  Json json_ = Json::object();
+};
+
+class Reader {
+public:
+  explicit Reader(const Json& json) : json_(json) {}
+  void operator()(const char* name, std::string& value) { value = json_.at(name).get<std::string>(); }
+  void operator()(const char* name, double& value) { value = as_number(json_.at(name)); }
+  void operator()(const char* name, bool& value) { value = json_.at(name).get<bool>(); }
+  const Json& json_;
+};
+
+template<class Face, class Carry> void carry_face(Face& face, Carry& carry) {
+  carry("cut", face.cut);
+  carry("body", face.body);
+  carry("parted", face.parted);
+  carry("note", face.note);
+  carry("thickness[m]", face.thickness);
+  carry("rollover[m]", face.rollover);
+  carry("rollover_width[m]", face.rollover_width);
+  carry("burnish[m]", face.burnish);
+  carry("fracture[m]", face.fracture);
+  carry("second_burnish[m]", face.second_burnish);
+  carry("burr[m]", face.burr);
+  carry("fracture_angle[rad]", face.fracture_angle);
+  carry("tilt[rad]", face.tilt);
+}
+
+template<class Force, class Carry> void carry_force(Force& force, Carry& carry) {
+  carry("tool", force.tool);
+  carry("largest", force.largest);
+  carry("stroke[m]", force.stroke);
+  carry("largest_sample", force.largest_sample);
+  carry("work", force.work);
+}
+
+template<class Body, class Carry> void carry_body(Body& body, Carry& carry) {
+  carry("body", body.body);
+  carry("largest[m]", body.largest);
+  carry("angle_before[rad]", body.angle_before);
+  carry("angle_change[rad]", body.angle_change);
+  carry("dishing_before[m]", body.dishing_before);
+  carry("dishing_change[m]", body.dishing_change);
+}
+
+template<class Result, class Carry> void carry_result(Result& result, Carry& carry) {
+  carry("punch", result.punch);
+  carry("direction_x", result.direction_x);
+  carry("direction_y", result.direction_y);
+  carry("stroke[m]", result.stroke);
+  carry("time[s]", result.time);
+  carry("smoothing[m]", result.smoothing);
+  carry("parallel[rad]", result.parallel);
+  carry("force_unit", result.force_unit);
+  carry("work_unit", result.work_unit);
+  carry("note", result.note);
+}
+
+template<class Record, class CarryRecord>
+Json list_of(const std::vector<Record>& records, const CarryRecord& carry_record) {
+  Json list = Json::array();
+  for (const Record& record : records) {
+    Writer writer;
+    carry_record(record, writer);
+    list.push_back(std::move(writer.json_));
+  }
+  return list;
+}
+
+template<class Record, class CarryRecord>
+std::vector<Record> records_of(const Json& list, const CarryRecord& carry_record) {
+  std::vector<Record> records;
+  for (const Json& json : list) {
+    Reader reader(json);
+    carry_record(records.emplace_back(), reader);
+  }
+  return records;
+}
+
+constexpr auto face_carrier = [](auto& face, auto& carry) { carry_face(face, carry); };
+constexpr auto force_carrier = [](auto& force, auto& carry) { carry_force(force, carry); };
+constexpr auto body_carrier = [](auto& body, auto& carry) { carry_body(body, carry); };
+
+std::size_t zone_index(const std::string& name) {
+  for (std::size_t k = 0; k < zone_names.size(); ++k)
+    if (name == zone_names[k]) return k;
+  throw IoError(fmt::format("there is no zone '{}'", name));
+}
+
+} // namespace
+
+const char* zone_name(Zone zone) { return zone_names[static_cast<std::size_t>(zone)]; }
+
+std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& result) {
+  std::vector<std::pair<std::string, double>> metrics;
+  metrics.emplace_back("blanking.stroke", result.stroke);
+  for (const ToolForce& force : result.forces) {
+    metrics.emplace_back(fmt::format("blanking.largest_force.{}", force.tool), force.largest);
+    metrics.emplace_back(fmt::format("blanking.stroke_at_largest_force.{}", force.tool), force.stroke);
+    metrics.emplace_back(fmt::format("blanking.work.{}", force.tool), force.work);
+  }
+  for (const ShearedFace& face : result.faces) {
+    const std::string at = face.cut.empty() ? fmt::format("blanking.{}", face.body)
+                                            : fmt::format("blanking.{}.{}", face.cut, face.body);
+    metrics.emplace_back(at + ".parted", face.parted ? 1.0 : 0.0);
+    for (const auto& [name, height] : {std::pair{"rollover", face.rollover},
+                                       {"burnish", face.burnish},
+                                       {"fracture", face.fracture},
+                                       {"second_burnish", face.second_burnish},
+                                       {"burr", face.burr}}) {
+      metrics.emplace_back(fmt::format("{}.{}", at, name), height);
+      metrics.emplace_back(fmt::format("{}.{}_share", at, name), height / face.thickness);
+    }
+    metrics.emplace_back(at + ".rollover_width", face.rollover_width);
+    if (std::isfinite(face.fracture_angle)) metrics.emplace_back(at + ".fracture_angle", face.fracture_angle);
+  }
+  return metrics;
+}
+
+std::vector<std::pair<std::string, double>> metrics_of(const std::vector<BodySpringback>& bodies) {
+  std::vector<std::pair<std::string, double>> metrics;
+  double largest = 0.0;
+  for (const BodySpringback& body : bodies) largest = std::max(largest, body.largest);
+  metrics.emplace_back("springback.largest", largest);
+  for (const BodySpringback& body : bodies) {
+    const std::string at = fmt::format("springback.{}", body.body);
+    metrics.emplace_back(at + ".largest", body.largest);
+    if (std::isfinite(body.angle_change)) metrics.emplace_back(at + ".angle_change", body.angle_change);
+    if (std::isfinite(body.dishing_change)) metrics.emplace_back(at + ".dishing_change", body.dishing_change);
+  }
+  return metrics;
+}
+
+void write_blanking(const std::filesystem::path& folder, const BlankingResult& result) {
+  Writer writer;
+  carry_result(result, writer);
+  Json& json = writer.json_;
+  json["dies"] = result.dies;
+  json["forces"] = list_of(result.forces, force_carrier);
+  json["springback"] = list_of(result.springback, body_carrier);
+  json["faces"] = list_of(result.faces, face_carrier);
+  for (std::size_t k = 0; k < result.faces.size(); ++k) {
+    Json& profile = json["faces"][k]["profile[m]"] = Json::array();
+    for (const Vec2& x : result.faces[k].profile) profile.push_back({x.x(), x.y()});
+    Json& zones = json["faces"][k]["zone"] = Json::array();
+    for (const Zone zone : result.faces[k].zone) zones.push_back(zone_name(zone));
+  }
+  results::write_atomically(folder / results::files::blanking, json.dump(1) + "\n");
+}
+
+std::optional<BlankingResult> read_blanking(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / results::files::blanking;
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const std::string text = results::read_file(path);
+  try {
+    const Json json = Json::parse(text);
+    BlankingResult result;
+    Reader reader(json);
+    carry_result(result, reader);
+    result.dies = json.at("dies").get<std::vector<std::string>>();
+    result.forces = records_of<ToolForce>(json.at("forces"), force_carrier);
+    result.springback = records_of<BodySpringback>(json.at("springback"), body_carrier);
+    result.faces = records_of<ShearedFace>(json.at("faces"), face_carrier);
+    for (std::size_t k = 0; k < result.faces.size(); ++k) {
+      const Json& face = json.at("faces")[k];
+      for (const Json& x : face.at("profile[m]"))
+        result.faces[k].profile.emplace_back(x.at(0).get<double>(), x.at(1).get<double>());
+      for (const Json& zone : face.at("zone"))
+        result.faces[k].zone.push_back(static_cast<Zone>(zone_index(zone.get<std::string>())));
+    }
+    return result;
+  } catch (const Json::exception& error) {
+    throw IoError(fmt::format("{} is not the evaluation of a cut: {}", path.string(), error.what()));
+  }
+}
+
+} // namespace cnem::evaluate

@@ -1,0 +1,99 @@
+#include "input/case.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace cnem::input {
+
+std::vector<std::string> Domain::piece_names() const {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const CurvePiece& piece : outer.pieces) add(piece.name);
+  for (const Hole& hole : holes)
+    for (const CurvePiece& piece : hole.outline.pieces) add(piece.name);
+  for (const Crack& crack : cracks) {
+    add(crack.name + "+");
+    add(crack.name + "-");
+  }
+  return names;
+}
+
+const std::vector<FieldDescription>& field_descriptions() {
+  static const std::vector<FieldDescription> fields{
+      {"temperature", "K", "Temperature"},
+      {"plastic_strain", "1", "Equivalent plastic strain"},
+      {"plastic_rate", "1/s", "Rate of the equivalent plastic strain"},
+      {"equivalent_stress", "Pa", "Von Mises equivalent of the Cauchy stress"},
+      {"pressure", "Pa", "Pressure of the Cauchy stress, positive in compression"},
+      {"stress_xx", "Pa", "Cauchy stress, component xx"},
+      {"stress_yy", "Pa", "Cauchy stress, component yy"},
+      {"stress_zz", "Pa", "Cauchy stress, out of plane"},
+      {"stress_xy", "Pa", "Cauchy stress, component xy"},
+      {"damage", "1", "Share of the fracture strain used up; at 1 softening begins"},
+      {"softening", "1", "Share of flow stress and tension lost; 1: broken"},
+      {"initiation_strain", "1", "Equivalent plastic strain at which softening began"},
+      {"displacement_x", "m", "Displacement along x"},
+      {"displacement_y", "m", "Displacement along y"},
+      {"velocity_x", "m/s", "Velocity along x"},
+      {"velocity_y", "m/s", "Velocity along y"},
+      {"volume_ratio", "1", "Present over stress-free volume"},
+      {"level", "1",
+       "Level of refinement: log2 of `cloud.spacing` over the wanted spacing (pictures, with "
+       "`adapt.resample`)",
+       true},
+      {"indicator", "1",
+       "Error indicator of the cell at the last new reference (pictures, with `adapt.resample`)", true},
+      {"age", "s", "Time since the node was inserted (pictures, with `adapt.resample`)", true}};
+  return fields;
+}
+
+std::vector<std::string> field_names(bool adaptive) {
+  std::vector<std::string> names;
+  for (const FieldDescription& field : field_descriptions())
+    if (adaptive || !field.adaptive) names.push_back(field.name);
+  return names;
+}
+
+const Material& Case::material(const std::string& wanted) const {
+  const auto found = std::find_if(materials.begin(), materials.end(),
+                                  [&](const Material& candidate) { return candidate.name == wanted; });
+  if (found == materials.end())
+    throw error("materials", fmt::format("found no material '{}', expected one that is defined", wanted));
+  return *found;
+}
+
+InputError Case::error(const std::string& key, const std::string& message) const {
+  std::string written = key;
+  while (!written.empty() && !location.contains(written)) {
+    const auto cut = written.find_last_of(".[");
+    written.resize(cut == std::string::npos ? 0 : cut);
+  }
+  return InputError(
+      fmt::format("{}: key '{}': {}", written.empty() ? path : location.at(written), key, placed(message)));
+}
+
+namespace {
+
+/// Whether a point such as "(0.01, -2e-3)" stands in a text.
+bool names_a_place(const std::string& text) {
+  constexpr const char* number = "-+.e0123456789";
+  for (std::size_t open = text.find('('); open != std::string::npos; open = text.find('(', open + 1)) {
+    const std::size_t comma = text.find_first_not_of(number, open + 1);
+    if (comma == std::string::npos || comma == open + 1 || text.compare(comma, 2, ", ") != 0) continue;
+    const std::size_t close = text.find_first_not_of(number, comma + 2);
+    if (close != std::string::npos && close > comma + 2 && text[close] == ')') return true;
+  }
+  return false;
+}
+
+} // namespace
+
+std::string Case::placed(const std::string& message) const {
+  if (origin == Vec2(0, 0)) return message;
+  if (!names_a_place(message)) return message;
+  return fmt::format("{}; places are counted from ({}, {}) m", message, origin.x(), origin.y());
+}
+
+} // namespace cnem::input

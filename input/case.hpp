@@ -1,0 +1,369 @@
+#pragma once
+// A case as read: everything a user can write in case.toml, checked, with defaults filled in, in SI units.
+// Plain data on core types; input/case_reader.hpp makes it, app/ turns it into solver objects. The meaning of
+// each key is in docs/case_reference.md, which is generated from input/schema/schema.cpp.
+#include "core/curve.hpp"
+#include "core/error.hpp"
+#include "core/revolution.hpp"
+#include "core/time_table.hpp"
+#include "core/vec.hpp"
+#include "input/case_output.hpp"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace cnem::input {
+
+/// Prescribed histories of the components x and y; an absent component is not prescribed.
+using VectorFunction = std::array<std::optional<TimeTable>, 2>;
+
+struct Analysis {
+  enum class Type { explicit_dynamics, statics };
+  enum class Kinematics { plane_strain, plane_stress, axisymmetric };
+  Type type = Type::explicit_dynamics;
+  Kinematics kinematics = Kinematics::plane_strain;
+  Space space() const { return kinematics == Kinematics::axisymmetric ? Space::revolution : Space::plane; }
+  bool mechanical = true; ///< false: nothing moves, heat alone
+  bool thermal = false;   ///< solve for temperatures: plastic and friction heating, conduction
+};
+
+/// Inertia beyond the mass: of all nodes, or of those that limit the step at the start.
+struct MassScaling {
+  std::optional<double> factor; ///< –
+  std::optional<double> step;   ///< s
+};
+
+struct TimeControl {
+  double end = 0.0;               ///< s; of statics the time at which loads are taken
+  double safety = 0.9;            ///< – factor on the stable step
+  std::optional<double> max_step; ///< s  upper bound of the step
+  std::optional<double> fixed;    ///< s  step used as it is, without an estimate
+  int check_every = 10;           ///< steps between estimates of the stable step
+  std::optional<double>
+      min_step; ///< s  a smaller stable step means divergence; absent: 1e-3 of the first one
+  std::optional<std::int64_t> max_steps; ///< – the run ends after so many
+  bool local = false;                    ///< steps differ from node to node
+  int levels = 5;                        ///< – with local steps: at most so many different ones
+  std::optional<MassScaling> mass_scaling;
+};
+
+/// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are
+/// the boundary pieces NAME+ (material on the left of the path, seen along it) and NAME-.
+struct Crack {
+  std::string name;
+  std::vector<Vec2> points;        ///< m, at least two
+  std::array<std::string, 2> tips; ///< names of the first and the last end, for results
+};
+
+struct Hole {
+  std::string name;
+  Curve outline; ///< clockwise
+};
+
+/// A polyline from boundary to boundary that divides the workpiece. Its faces are bonded.
+struct Interface {
+  std::string name;
+  std::vector<Vec2> points;          ///< m, at least two
+  std::optional<double> conductance; ///< W/(m² K); absent: both faces have one temperature
+};
+
+/// The part of the workpiece, bounded by interfaces and cracks, that holds a point.
+struct Region {
+  std::string name;
+  Vec2 at{0, 0}; ///< m
+  std::string material;
+  double temperature = 293.15; ///< K, at t = 0
+  Vec2 velocity{0, 0};         ///< m/s, at t = 0
+};
+
+struct Domain {
+  std::string material; ///< where no region says otherwise
+  Curve outer;          ///< counter-clockwise
+  std::vector<Hole> holes;
+  std::vector<Crack> cracks;
+  std::vector<Interface> interfaces;
+  std::vector<Region> regions;
+
+  /// Names of the boundary pieces of outline, holes and cracks, each once, in order of appearance.
+  std::vector<std::string> piece_names() const;
+};
+
+/// Spacing wanted near a box or a polyline: h(d) = spacing + growth · d, d the distance to it.
+struct Refinement {
+  std::string name;
+  std::optional<std::array<Vec2, 2>> box; ///< lower left, upper right, m; else `points`
+  std::vector<Vec2> points;               ///< m; one: a point, more: a polyline
+  std::vector<Vec2> tips;                 ///< m; ends of cracks, each on its own
+  double spacing = 0.0;                   ///< m
+  double growth = 0.3;                    ///< –
+};
+
+struct CloudSpec {
+  enum class Pattern { hexagonal, regular, jittered, list };
+  Pattern pattern = Pattern::hexagonal;
+  double spacing = 0.0;   ///< m
+  double jitter = 0.2;    ///< – fraction of the spacing (pattern jittered)
+  std::uint64_t seed = 1; ///< of the jitter
+  std::vector<Refinement> refine;
+  std::vector<Vec2> nodes; ///< m, interior and boundary nodes (pattern list)
+};
+
+struct PerfectPlasticity {
+  double yield = 0.0; ///< Pa
+};
+
+struct LinearHardening {
+  double yield = 0.0;     ///< Pa
+  double hardening = 0.0; ///< Pa  dσ_y/dε̄p
+};
+
+/// σ_y = (A + B ε̄pⁿ)(1 + C ln(ε̄̇p/rate0))(1 − T*ᵐ), T* = (T − T0)/(Tmelt − T0). An infinite Tmelt: no thermal
+/// softening.
+struct JohnsonCook {
+  double A = 0.0;                                         ///< Pa
+  double B = 0.0;                                         ///< Pa
+  double n = 0.0;                                         ///< –
+  double C = 0.0;                                         ///< –
+  double m = 1.0;                                         ///< –
+  double rate0 = 1.0;                                     ///< 1/s
+  double T0 = 0.0;                                        ///< K
+  double Tmelt = std::numeric_limits<double>::infinity(); ///< K
+};
+
+/// σ_y = yield + hardening ε̄p + (saturation − yield)(1 − exp(−exponent ε̄p)).
+struct Voce {
+  double yield = 0.0;      ///< Pa
+  double saturation = 0.0; ///< Pa, ≥ yield
+  double exponent = 0.0;   ///< –
+  double hardening = 0.0;  ///< Pa
+};
+
+/// Fracture strain [D1 + D2 exp(D3 σ_m/σ_eq)] [1 + D4 ln(ε̄̇p/rate0)] [1 + D5 T*], then softening that takes
+/// fracture_energy per area. An infinite Tmelt: no influence of temperature.
+struct JohnsonCookDamage {
+  double D1 = 0.0, D2 = 0.0, D3 = 0.0, D4 = 0.0, D5 = 0.0;   ///< –
+  double rate0 = 1.0;                                        ///< 1/s
+  double T0 = 0.0;                                           ///< K
+  double Tmelt = std::numeric_limits<double>::infinity();    ///< K
+  double fracture_energy = 0.0;                              ///< J/m²
+  double band = 2.5;                                         ///< – cell sizes across the broken band
+  double cut_off = -std::numeric_limits<double>::infinity(); ///< – no damage at σ_m/σ_eq ≤ this
+  double residual_strength = 0.0;                            ///< – of the flow stress, when broken
+};
+
+struct HeatProperties {
+  double specific_heat = 0.0;            ///< J/(kg K)
+  double conductivity = 0.0;             ///< W/(m K)
+  double taylor_quinney = 0.9;           ///< – share of plastic work that becomes heat
+  double expansion = 0.0;                ///< 1/K, linear
+  double reference_temperature = 293.15; ///< K, free of thermal strain
+};
+
+struct Material {
+  std::string name;
+  double density = 0.0; ///< kg/m³
+  double young = 0.0;   ///< Pa
+  double poisson = 0.0; ///< –
+  std::variant<std::monostate, PerfectPlasticity, LinearHardening, JohnsonCook, Voce>
+      plastic;                             ///< monostate: elastic
+  std::optional<JohnsonCookDamage> damage; ///< absent: never breaks
+  std::optional<HeatProperties> heat;      ///< always there when analysis.thermal
+};
+
+struct Convection {
+  double coefficient = 0.0; ///< W/(m² K)
+  TimeTable ambient;        ///< K
+};
+
+/// Conditions on boundary pieces; what is absent is free (mechanics) or insulated (heat). The reader has
+/// checked that pieces exist, that symmetry pieces are straight and that no two conditions fight over one
+/// piece.
+struct BoundaryCondition {
+  std::string name;
+  std::vector<std::string> pieces;      ///< names; "all" is spelt out
+  std::vector<Vec2> points;             ///< m; the nodes nearest to them are held too
+  bool symmetry = false;                ///< zero normal velocity, free tangentially
+  VectorFunction velocity;              ///< m/s
+  VectorFunction displacement;          ///< m, from the initial position
+  VectorFunction traction;              ///< Pa, force on the initial area
+  std::optional<TimeTable> pressure;    ///< Pa, pushes against the body, on the present area and normal
+  std::optional<TimeTable> temperature; ///< K
+  std::optional<TimeTable> heat_flux;   ///< W/m², into the body
+  std::optional<Convection> convection;
+};
+
+struct Spin {
+  double rate = 0.0; ///< rad/s, counter-clockwise
+  Vec2 centre{0, 0}; ///< m
+};
+
+struct VelocityGradient {
+  Mat2 rate = Mat2::Zero(); ///< 1/s, ∂v_i/∂X_j
+  Vec2 centre{0, 0};        ///< m
+};
+
+/// The yield stress is lower by `reduction` exp(−(d/width)²) of itself, d the distance to the polyline.
+struct Imperfection {
+  std::string name;
+  std::vector<Vec2> points; ///< m; one: a point
+  double width = 0.0;       ///< m
+  double reduction = 0.0;   ///< –
+};
+
+struct InitialState {
+  double temperature = 293.15;              ///< K
+  Vec2 velocity{0, 0};                      ///< m/s
+  std::optional<Spin> spin;                 ///< adds rate × (X − centre) to the velocity
+  std::optional<VelocityGradient> gradient; ///< adds rate (X − centre)
+  std::vector<Imperfection> imperfections;
+};
+
+/// Two boundary pieces, one a shifted copy of the other, whose nodes move alike and have the same
+/// temperature.
+struct Periodicity {
+  std::string name;
+  std::array<std::string, 2> pieces;
+};
+
+struct Loads {
+  VectorFunction body_force; ///< m/s², force per unit mass; absent: zero
+};
+
+struct Friction {
+  enum class Law { none, coulomb, tresca_limited };
+  Law law = Law::none;
+  double coefficient = 0.0;  ///< – Coulomb's μ (coulomb, tresca_limited)
+  double shear_factor = 1.0; ///< – m_f: |τ| ≤ m_f σ_y/√3 (tresca_limited)
+};
+
+struct ToolHeat {
+  double conductance = 0.0;         ///< W/(m² K) of the closed contact
+  double temperature = 0.0;         ///< K, of the tool
+  std::optional<double> effusivity; ///< W s½/(m² K), √(kρc); absent: all friction heat goes to the workpiece
+};
+
+/// What moves a tool that has a mass instead of a prescribed velocity.
+struct Drive {
+  double mass = 0.0;              ///< kg/m; kg of revolution
+  std::array<TimeTable, 2> force; ///< N/m; N of revolution
+  Vec2 initial_velocity{0, 0};    ///< m/s
+  std::optional<Vec2> direction;  ///< unit vector; absent: it moves in the whole plane
+};
+
+/// A rigid tool: solid inside its outline.
+struct Tool {
+  std::string name;
+  Curve outline;                     ///< counter-clockwise, at t = 0, m
+  std::array<TimeTable, 2> velocity; ///< m/s, when there is no drive
+  std::optional<Drive> drive;
+  Friction friction;
+  std::optional<ToolHeat> heat;
+};
+
+/// Contact of the workpiece with itself.
+struct BodyContact {
+  bool deformable = false;
+  Friction friction;
+  double conductance = 0.0; ///< W/(m² K)
+};
+
+struct Method {
+  enum class Name { cnem, fe_triangles };
+  enum class Functions { sibson, laplace };
+  enum class Lagrangian { total, periodic, updated };
+  Name name = Name::cnem;
+  Functions functions = Functions::sibson;
+  int gauss_points = 2;           ///< per cell edge, 1 to 3
+  double stabilisation = 0.05;    ///< – α of the edge defect; 0: off
+  double pressure_exchange = 0.0; ///< – α of the exchange of volume between flowing nodes; 0: off
+  Lagrangian lagrangian = Lagrangian::periodic;
+  int rereference_every = 0;        ///< steps (periodic); 0: never by count
+  double rereference_strain = 0.25; ///< – max‖f − 1‖ since the last reference (periodic); 0: never by strain
+  double viscosity_linear = 0.06;   ///< – c₂ of the bulk viscosity
+  double viscosity_quadratic = 1.2; ///< – c₁ of the bulk viscosity
+  double energy_tolerance = 0.05; ///< – |residual|/(work + initial energy) beyond which a run has diverged
+};
+
+/// How the cloud follows the deformation.
+struct Adaptation {
+  enum class Placement { between_nodes, voronoi_vertices };
+  enum class Indicator { none, plastic_strain, plastic_power, temperature, damage };
+  /// The boundary piece that separation makes.
+  static constexpr const char* fracture_piece = "fracture";
+  bool resample = false;
+  bool separate = false; ///< broken matter is opened along edges between nodes
+  Placement placement = Placement::between_nodes;
+  double growth = 0.3;                ///< – of the wanted spacing per distance
+  std::optional<double> tool_spacing; ///< m, at corners and arcs of tools
+  Indicator indicator = Indicator::none;
+  double tolerance = 0.1;          ///< – of the norm of the field, shared out among the cells
+  double coarsen = 0.05;           ///< – of the limit; 0: never
+  double h_min = 0.0, h_max = 0.0; ///< m
+  std::int64_t max_nodes = 100000;
+};
+
+/// Evaluation of crack tips.
+struct Fracture {
+  bool enrichment = true;                  ///< branch functions near tips (statics, cnem)
+  std::optional<double> enrichment_radius; ///< m
+  std::optional<double> integral_inner;    ///< m, the weight of the domain integral is 1 within
+  std::optional<double> integral_outer;    ///< m, and 0 beyond
+};
+
+/// A field that probes and pictures know.
+struct FieldDescription {
+  std::string name;      ///< "plastic_strain"
+  std::string unit;      ///< SI; "1" for plain numbers
+  std::string meaning;   ///< one line for people
+  bool adaptive = false; ///< for pictures of adapted clouds only
+};
+const std::vector<FieldDescription>& field_descriptions();
+/// All of them, or those that probes and lines know.
+std::vector<std::string> field_names(bool adaptive = true);
+
+struct Case {
+  std::string path;  ///< file it was read from
+  std::string name;  ///< folder of a case.toml, else the file name without extension
+  std::string title; ///< free text
+  Analysis analysis;
+  TimeControl time;
+  Domain domain;
+  CloudSpec cloud;
+  std::vector<Material> materials;
+  std::vector<BoundaryCondition> boundary;
+  std::vector<Periodicity> periodic;
+  InitialState initial;
+  Loads loads;
+  std::vector<Tool> tools;
+  BodyContact contact;
+  Method method;
+  Adaptation adapt;
+  Fracture fracture;
+  Output output;
+  Report report;
+
+  Vec2 origin{0, 0}; ///< m, from which all places above are counted (input/local_origin.hpp)
+
+  std::string resolved;                        ///< the whole case in SI, defaults included, as TOML
+  std::map<std::string, std::string> location; ///< key → "file:line:column", or the --set that gave it
+  std::vector<std::string> warnings;           ///< what is allowed and hardly meant, one sentence each
+
+  /// The material of that name; the reader has checked that domain.material exists.
+  const Material& material(const std::string& name) const;
+
+  /// An error about a key found later than reading, e.g. when geometry is built:
+  /// "file:line:column: key 'a.b': message". Falls back to the nearest enclosing table that was written.
+  /// Places in the message are counted from `origin`, and it says so.
+  InputError error(const std::string& key, const std::string& message) const;
+
+  /// A message that may name places, with the point they are counted from when that is not (0, 0).
+  std::string placed(const std::string& message) const;
+};
+
+} // namespace cnem::input

@@ -1,0 +1,109 @@
+// Adaptation, and what it cannot be combined with.
+#include "input/case_parts.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace cnem::input {
+
+void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
+  if (result.cloud.spacing > 0.0) {
+    root.set_default("adapt.indicator.h_min", 0.25 * result.cloud.spacing);
+    root.set_default("adapt.indicator.h_max", result.cloud.spacing);
+  }
+  const Setting& table = *root.find("adapt");
+  Adaptation& adapt = result.adapt;
+  adapt.resample = table.get<bool>("resample");
+  adapt.separate = table.get<bool>("separate");
+  adapt.placement = table.choice<Adaptation::Placement>("placement");
+  adapt.growth = table.get<double>("growth");
+  adapt.tool_spacing = table.maybe<double>("tool_spacing");
+  adapt.indicator = table.choice<Adaptation::Indicator>("indicator.field");
+  adapt.tolerance = table.get<double>("indicator.tolerance");
+  adapt.coarsen = table.get<double>("indicator.coarsen");
+  adapt.h_min = table.maybe<double>("indicator.h_min").value_or(0.0);
+  adapt.h_max = table.maybe<double>("indicator.h_max").value_or(0.0);
+  adapt.max_nodes = table.get<std::int64_t>("indicator.max_nodes");
+
+  const bool refines = adapt.indicator != Adaptation::Indicator::none;
+  const auto conflict = [&](std::string_view path, const std::string& why) {
+    const Setting* key = root.find(path);
+    if (key) diagnostics.add(Mistake::conflict, key->where, key->path, why);
+  };
+  const bool damage = std::any_of(result.materials.begin(), result.materials.end(),
+                                  [](const Material& material) { return material.damage.has_value(); });
+  if (adapt.indicator == Adaptation::Indicator::damage && !damage)
+    conflict("adapt.indicator.field",
+             "found \"damage\" where no material has a damage law, expected materials.NAME.damage");
+  if (adapt.separate && !damage)
+    conflict("adapt.separate",
+             "found true where no material has a damage law, expected materials.NAME.damage: nothing "
+             "would ever break");
+  if (adapt.separate && !result.contact.deformable)
+    conflict("adapt.separate",
+             "found true without contact.deformable, expected contact.deformable = true: the new faces would "
+             "go through each other");
+  const std::vector<std::string> pieces = result.domain.piece_names();
+  if (adapt.separate && std::find(pieces.begin(), pieces.end(), Adaptation::fracture_piece) != pieces.end())
+    conflict("adapt.separate",
+             fmt::format("found true in a domain with a piece \"{0}\", expected another name for it: the "
+                         "faces that separation makes are the piece \"{0}\"",
+                         Adaptation::fracture_piece));
+  if (!adapt.resample) {
+    if (adapt.separate)
+      conflict("adapt.separate",
+               "found true where adapt.resample is false, expected true: the cloud is cut at new "
+               "references alone");
+    if (refines)
+      conflict("adapt.indicator.field",
+               "found an indicator where adapt.resample is false, expected true: without "
+               "resampling no node is added");
+    if (adapt.tool_spacing)
+      conflict(
+          "adapt.tool_spacing",
+          "found a spacing at tools where adapt.resample is false, expected true: without resampling no node "
+          "is added");
+    for (const FieldDescription& field : field_descriptions())
+      if (field.adaptive &&
+          std::find(result.output.picture_fields.begin(), result.output.picture_fields.end(), field.name) !=
+              result.output.picture_fields.end())
+        conflict("output.picture_fields",
+                 fmt::format(
+                     "found \"{}\" where adapt.resample is false, expected fields of the material: the cloud "
+                     "is not adapted",
+                     field.name));
+    return;
+  }
+  if (const Setting* least = table.find("indicator.h_min"); refines && least && !(adapt.h_min < adapt.h_max))
+    diagnostics.add(Mistake::range, least->where, least->path,
+                    fmt::format("found {:g} m, expected less than adapt.indicator.h_max = {:g} m",
+                                adapt.h_min, adapt.h_max));
+  if (adapt.indicator == Adaptation::Indicator::temperature && !result.analysis.thermal)
+    conflict("adapt.indicator.field",
+             "found \"temperature\" in an analysis without heat, expected it with analysis.thermal = true");
+  if (result.time.mass_scaling && result.time.mass_scaling->step && (refines || adapt.tool_spacing))
+    conflict("time.mass_scaling.step",
+             "found a step for a cloud that is refined, expected time.mass_scaling.factor: the factors of "
+             "the first cloud do not bring finer cells to that step");
+  const std::string path = "adapt.resample";
+  if (result.analysis.type == Analysis::Type::statics)
+    conflict(path, "found true in a static analysis, expected it with analysis.type = \"explicit\" only");
+  else if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
+    conflict(path, "found true in an axisymmetric analysis, expected it with \"plane strain\" only");
+  if (result.method.name != Method::Name::cnem)
+    conflict(
+        path,
+        "found true for finite-element triangles, expected method.name = \"cnem\": triangles carry their "
+        "history in elements");
+  else if (result.method.lagrangian == Method::Lagrangian::total)
+    conflict(path,
+             "found true with method.lagrangian = \"total\", expected \"periodic\": nodes are changed at a "
+             "new reference");
+  for (const char* other : {"domain.cracks", "domain.interfaces", "periodic", "output.lines"})
+    if (const Setting* found = root.find(other); found && found->given)
+      conflict(other,
+               "found with adapt.resample = true, expected one or the other: nodes of faces that belong "
+               "together, or of the initial configuration, cannot be followed");
+}
+
+} // namespace cnem::input

@@ -1,0 +1,207 @@
+// The nodes of a case: spacing, refinements, node lists; and the windows of its pictures.
+#include "input/case_parts.hpp"
+#include "input/case_walls.hpp"
+#include "input/curve_checks.hpp"
+#include "input/schema/nearest.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+
+namespace cnem::input {
+namespace {
+
+/// Opposite corners of a box, the lower left one first.
+std::array<Vec2, 2> box(const Setting& setting, Diagnostics& diagnostics) {
+  const auto& corners = std::get<std::vector<Vec2>>(setting.value);
+  if (corners.size() != 2) {
+    diagnostics.add(Mistake::type, setting.where, setting.path,
+                    fmt::format("found {} points, expected two opposite corners such as {}", corners.size(),
+                                setting.key->example_text()));
+    return {Vec2(0, 0), Vec2(0, 0)};
+  }
+  const Vec2 low = corners[0].cwiseMin(corners[1]), high = corners[0].cwiseMax(corners[1]);
+  if (!((high - low).minCoeff() > 0.0))
+    diagnostics.add(Mistake::geometry, setting.where, setting.path,
+                    fmt::format("a box from {} to {} has no area, expected two opposite corners such as {}",
+                                show(corners[0]), show(corners[1]), setting.key->example_text()));
+  return {low, high};
+}
+
+/// Ends of the cracks named, or of all.
+std::vector<Vec2> crack_ends(const Setting& names, const Setting& cracks, Diagnostics& diagnostics) {
+  std::vector<Vec2> ends;
+  std::vector<std::string> known;
+  for (const Setting& crack : cracks.members) known.push_back(crack.name);
+  const auto& wanted = std::get<std::vector<std::string>>(names.value);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const std::string& name = wanted[i];
+    bool found = name == "all" && !known.empty();
+    for (const Setting& crack : cracks.members)
+      if (name == "all" || name == crack.name) {
+        const std::vector<Vec2> path = crack_path(crack);
+        if (!path.empty()) ends.insert(ends.end(), {path.front(), path.back()});
+        found = true;
+      }
+    if (!found)
+      diagnostics.add(
+          Mistake::reference, names.where_of(i), names.path,
+          known.empty() ? fmt::format("found {} in a domain without cracks, expected box or points",
+                                      toml_quoted(shortened(name)))
+                        : fmt::format("found {}, expected a crack: {} or all{}", toml_quoted(shortened(name)),
+                                      fmt::join(known, ", "), did_you_mean(name, known)));
+  }
+  return ends;
+}
+
+Refinement read_refinement(const Setting& root, const Setting& table, double cloud_spacing,
+                           Diagnostics& diagnostics) {
+  Refinement refinement;
+  refinement.name = table.name;
+  refinement.growth = table.get<double>("growth");
+  const Setting *region = table.find("box"), *points = table.find("points");
+  const Setting *spacing = table.find("spacing"), *factor = table.find("factor");
+  const Setting* tips = table.find("tips");
+  if (const int given = int(region != nullptr) + int(points != nullptr) + int(tips != nullptr); given != 1)
+    diagnostics.add(
+        given ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+        fmt::format("found {} of box, points and tips, expected one", given ? "several" : "none"));
+  if (!spacing == !factor)
+    diagnostics.add(spacing ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+                    fmt::format("found {} of spacing and factor, expected one", spacing ? "both" : "none"));
+  if (region) refinement.box = box(*region, diagnostics);
+  if (points) {
+    refinement.points = std::get<std::vector<Vec2>>(points->value);
+    if (refinement.points.empty())
+      diagnostics.add(Mistake::type, points->where, points->path, "found no points, expected at least one");
+  }
+  if (tips) {
+    const Setting* cracks = root.find("domain.cracks");
+    refinement.tips = crack_ends(*tips, cracks ? *cracks : Setting{}, diagnostics);
+  }
+  refinement.spacing = spacing ? std::get<double>(spacing->value)
+                               : table.maybe<double>("factor").value_or(1.0) * cloud_spacing;
+  return refinement;
+}
+
+/// Distance between the domain and a refinement outside it, m; 0 where they touch.
+double gap(const Refinement& refinement, const Domain& domain) {
+  std::vector<Vec2> corners = refinement.points;
+  if (refinement.box) {
+    const auto& [low, high] = *refinement.box;
+    corners = {low, {high.x(), low.y()}, high, {low.x(), high.y()}, low};
+  }
+  Curve region;
+  for (std::size_t k = 1; k < corners.size(); ++k)
+    region.pieces.push_back({corners[k - 1], corners[k], {0, 0}, 0.0, false, ""});
+  for (const Vec2& x : corners)
+    if (outside_reason(domain, x).empty()) return 0.0;
+  if (refinement.box && inside(region, domain.outer.pieces.front().from)) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [key, curve] : curves_of(domain)) {
+    if (common_point(region, *curve)) return 0.0;
+    for (const Vec2& x : corners) least = std::min(least, distance(*curve, x));
+    for (const CurvePiece& piece : curve->pieces) {
+      const int samples = piece.is_arc() ? 64 : 1; // two segments are nearest at an end of one
+      for (int k = 0; k < samples; ++k)
+        least = std::min(least, distance(region, piece.point(double(k) / samples)));
+    }
+  }
+  return least;
+}
+
+/// A refinement that lies so far outside that nothing of the domain becomes finer was not meant.
+void check_reach(const Setting& table, const Refinement& refinement, const CloudSpec& cloud,
+                 const Domain& domain, Diagnostics& diagnostics) {
+  if (domain.outer.pieces.empty() || (refinement.points.empty() && !refinement.box)) return; // told already
+  const double away = gap(refinement, domain), there = refinement.spacing + refinement.growth * away;
+  if (away == 0.0 || there < cloud.spacing) return;
+  const Setting& region = *table.find(refinement.box ? "box" : "points");
+  diagnostics.add(
+      Mistake::geometry, region.where, region.path,
+      fmt::format(
+          "lies {:.3g} m outside the domain, where its spacing has grown to {:.3g} m, expected a place "
+          "that makes the cloud finer than cloud.spacing = {:.3g} m somewhere",
+          away, there, cloud.spacing));
+}
+
+/// A spacing that makes neighbours of nodes on opposite sides is a slip of the unit.
+void check_spacing(const Setting& spacing, const Domain& domain, Diagnostics& diagnostics) {
+  const double size = extent(domain.outer), given = std::get<double>(spacing.value);
+  if (size > 0.0 && given > size)
+    diagnostics.add(
+        Mistake::range, spacing.where, spacing.path,
+        fmt::format("found {:g} m, expected less than the size of the domain, {:.3g} m", given, size));
+}
+
+void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, const Domain& domain,
+                  Diagnostics& diagnostics) {
+  if (domain.outer.pieces.empty()) return;
+  const auto [low, high] = bounds(domain.outer);
+  if ((corners[0].array() > high.array()).any() || (corners[1].array() < low.array()).any())
+    diagnostics.add(
+        Mistake::geometry, setting.where, setting.path,
+        fmt::format(
+            "the window from {} to {} shows nothing of the domain, expected one that meets its {} to {}",
+            show(corners[0]), show(corners[1]), show(low), show(high)));
+}
+
+} // namespace
+
+void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
+  Setting& table = *root.find("cloud");
+  CloudSpec& cloud = result.cloud;
+  cloud.pattern = table.choice<CloudSpec::Pattern>("pattern");
+  cloud.jitter = table.get<double>("jitter");
+  cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
+  cloud.spacing = table.maybe<double>("spacing").value_or(0.0);
+  const bool list = cloud.pattern == CloudSpec::Pattern::list;
+  if (!list && !table.find("spacing"))
+    diagnostics.add(Mistake::missing_key, table.where, "cloud.spacing",
+                    "missing, expected " + find_key("cloud.spacing")->expectation());
+  if (const Setting* spacing = table.find("spacing")) check_spacing(*spacing, result.domain, diagnostics);
+  const Setting *nodes = table.find("nodes"), *file = table.find("nodes_file");
+  for (const Setting* given : {nodes, file})
+    if (given && !list)
+      diagnostics.add(Mistake::conflict, given->where, given->path,
+                      fmt::format("goes with pattern = \"list\", expected none with pattern = \"{}\"",
+                                  table.get<std::string>("pattern")));
+  if (list && !nodes == !file)
+    diagnostics.add(nodes ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+                    fmt::format("found {} of nodes and nodes_file, expected one with pattern = \"list\"",
+                                nodes ? "both" : "none"));
+  else if (list && file) {
+    const std::filesystem::path folder = std::filesystem::path(result.path).parent_path();
+    try {
+      cloud.nodes = read_points((folder / std::get<std::string>(file->value)).string());
+    } catch (const InputError& error) {
+      diagnostics.add(Mistake::reference, file->where, file->path, error.what());
+    }
+    result.location["cloud.nodes"] = file->where.text();
+    table.erase("nodes_file");
+    table.set_default("nodes", cloud.nodes);
+  } else if (list) {
+    cloud.nodes = std::get<std::vector<Vec2>>(nodes->value);
+  }
+  for (const Setting& refinement : table.entries("refine")) {
+    cloud.refine.push_back(read_refinement(root, refinement, cloud.spacing, diagnostics));
+    if (cloud.spacing > 0.0 && !list)
+      check_reach(refinement, cloud.refine.back(), cloud, result.domain, diagnostics);
+    if (list || (cloud.pattern == CloudSpec::Pattern::regular && cloud.refine.back().spacing < cloud.spacing))
+      diagnostics.add(
+          Mistake::conflict, refinement.where, refinement.path,
+          fmt::format("found a refinement with pattern = \"{}\", expected it with \"hexagonal\" or "
+                      "\"jittered\"",
+                      table.get<std::string>("pattern")));
+  }
+  for (const Setting& window : root.entries("output.windows")) {
+    const Setting& setting = *window.find("box");
+    const std::array<Vec2, 2> corners = box(setting, diagnostics);
+    if (corners[0] != corners[1]) check_window(setting, corners, result.domain, diagnostics);
+    result.output.windows.push_back({window.name, corners[0], corners[1]});
+  }
+}
+
+} // namespace cnem::input

@@ -1,0 +1,310 @@
+// Materials and boundary conditions of the case reader.
+#include "input/case_parts.hpp"
+#include "input/schema/nearest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+
+namespace cnem::input {
+namespace {
+
+/// A fracture strain that is nowhere positive between shear (σ* = 0) and uniaxial tension (1/3), or in the
+/// same span above the cut-off, is a slip: metal would break with its first flow.
+void check_ductility(const JohnsonCookDamage& law, const Setting& table, Diagnostics& diagnostics) {
+  const auto strain = [&](double triaxiality) {
+    return law.D1 + law.D2 * std::exp(std::clamp(law.D3 * triaxiality, -700.0, 700.0));
+  };
+  const double low = std::max(0.0, law.cut_off), high = low + 1.0 / 3.0;
+  if (strain(low) > 0.0 || strain(high) > 0.0) return;
+  const Setting& first = *table.find("D1");
+  diagnostics.add(
+      Mistake::range, first.where, first.path,
+      fmt::format("found D1 = {:g}, D2 = {:g}, D3 = {:g}, with which the fracture strain D1 + D2 exp(D3 σ*) "
+                  "is {:.3g} at σ* = {:.3g} and {:.3g} at σ* = {:.3g}, expected more than 0",
+                  law.D1, law.D2, law.D3, strain(low), low, strain(high), high));
+}
+
+/// Factors of the fracture strain that turn it negative within what metal sees in a cut.
+void warn_of_brittleness(const JohnsonCookDamage& law, const Setting& table,
+                         std::vector<std::string>& warnings) {
+  constexpr double fast = 1e6; // 1/s
+  const double share = 1.0 + law.D4 * std::log(std::max(1.0, fast / law.rate0));
+  if (!(share > 0.0))
+    warnings.push_back(
+        fmt::format("{}.D4 = {:g} makes the fracture strain {:.3g} times that at rate0 at {:g} "
+                    "1/s: metal breaks there with its first flow",
+                    table.path, law.D4, share, fast));
+  if (law.D5 <= -1.0)
+    warnings.push_back(
+        fmt::format("{}.D5 = {:g} makes the fracture strain {:.3g} times the cold one at Tmelt: "
+                    "metal breaks there with its first flow",
+                    table.path, law.D5, 1.0 + law.D5));
+}
+
+JohnsonCookDamage read_damage(const Setting& table, const Setting& material,
+                              std::vector<std::string>& warnings, Diagnostics& diagnostics) {
+  const auto number = [&](std::string_view key) { return table.get<double>(key); };
+  JohnsonCookDamage law{.D1 = number("D1"),
+                        .D2 = number("D2"),
+                        .D3 = number("D3"),
+                        .D4 = number("D4"),
+                        .D5 = number("D5"),
+                        .rate0 = number("rate0"),
+                        .T0 = number("T0"),
+                        .fracture_energy = number("fracture_energy"),
+                        .band = number("band")};
+  law.residual_strength = number("residual_strength");
+  if (const auto cut_off = table.maybe<double>("cut_off")) law.cut_off = *cut_off;
+  const Setting* melt = table.find("Tmelt");
+  if (melt) law.Tmelt = std::get<double>(melt->value);
+  if (!(law.Tmelt > law.T0))
+    diagnostics.add(Mistake::range, melt->where, melt->path,
+                    fmt::format("found {:g} K, expected more than T0 = {:g} K", law.Tmelt, law.T0));
+  if (const Setting& share = *table.find("D5"); law.D5 != 0.0 && !melt)
+    diagnostics.add(Mistake::missing_key, share.where, share.path,
+                    fmt::format("found {:g} without a melting temperature, expected damage.Tmelt or "
+                                "plastic.Tmelt beside it",
+                                law.D5));
+  if (!material.find("plastic"))
+    diagnostics.add(Mistake::missing_key, table.where, table.path,
+                    "found in an elastic material, expected a plastic law beside it: damage grows with "
+                    "plastic strain");
+  check_ductility(law, table, diagnostics);
+  warn_of_brittleness(law, table, warnings);
+  return law;
+}
+
+Material read_material(const Setting& table, std::vector<std::string>& warnings, Diagnostics& diagnostics) {
+  Material material;
+  material.name = table.name;
+  material.density = table.get<double>("density");
+  material.young = table.get<double>("elastic.young");
+  material.poisson = table.get<double>("elastic.poisson");
+  if (const Setting* plastic = table.find("plastic")) {
+    const auto number = [&](std::string_view key) { return plastic->get<double>(key); };
+    const std::string law = plastic->get<std::string>("law");
+    if (law == "perfect") material.plastic = PerfectPlasticity{number("yield")};
+    if (law == "linear") material.plastic = LinearHardening{number("yield"), number("hardening")};
+    if (law == "voce") {
+      const Voce voce{number("yield"), number("saturation"), number("exponent"), number("hardening")};
+      if (!(voce.saturation >= voce.yield)) {
+        const Setting& saturation = *plastic->find("saturation");
+        diagnostics.add(
+            Mistake::range, saturation.where, saturation.path,
+            fmt::format("found {:g} Pa, expected at least yield = {:g} Pa", voce.saturation, voce.yield));
+      }
+      material.plastic = voce;
+    }
+    if (law == "johnson-cook") {
+      JohnsonCook jc{number("A"), number("B"),     number("n"), number("C"),
+                     number("m"), number("rate0"), number("T0")};
+      if (const Setting* melt = plastic->find("Tmelt")) {
+        jc.Tmelt = std::get<double>(melt->value);
+        if (!(jc.Tmelt > jc.T0))
+          diagnostics.add(Mistake::range, melt->where, melt->path,
+                          fmt::format("found {:g} K, expected more than T0 = {:g} K", jc.Tmelt, jc.T0));
+      }
+      if (!(jc.A + jc.B > 0.0))
+        diagnostics.add(Mistake::range, plastic->where, plastic->path,
+                        "found A = B = 0, expected some strength");
+      material.plastic = jc;
+    }
+  }
+  if (const Setting* damage = table.find("damage"))
+    material.damage = read_damage(*damage, table, warnings, diagnostics);
+  if (const Setting* heat = table.find("heat"))
+    material.heat = HeatProperties{heat->get<double>("specific_heat"), heat->get<double>("conductivity"),
+                                   heat->get<double>("taylor_quinney"), heat->get<double>("expansion"),
+                                   heat->get<double>("reference_temperature")};
+  return material;
+}
+
+/// Whether the pieces of that name are segments of one direction; cracks and arcs are not.
+bool is_straight(const Domain& domain, const std::string& name) {
+  std::optional<Vec2> direction;
+  const auto fits = [&](const Curve& curve) {
+    for (const CurvePiece& piece : curve.pieces) {
+      if (piece.name != name) continue;
+      if (piece.is_arc()) return false;
+      const Vec2 d = piece.tangent(0.0);
+      if (direction && std::abs(cross(*direction, d)) > 1e-9) return false;
+      direction = d;
+    }
+    return true;
+  };
+  return fits(domain.outer) &&
+         std::all_of(domain.holes.begin(), domain.holes.end(),
+                     [&](const Hole& h) { return fits(h.outline); }) &&
+         direction.has_value();
+}
+
+/// Pieces a user named: "all" and names of cracks stand for several.
+std::vector<std::string> chosen_pieces(const Setting& pieces, const Domain& domain,
+                                       Diagnostics& diagnostics) {
+  const std::vector<std::string> known = domain.piece_names();
+  std::vector<std::string> chosen;
+  const auto add = [&](const std::string& name) {
+    if (std::find(chosen.begin(), chosen.end(), name) == chosen.end()) chosen.push_back(name);
+  };
+  const auto& names = std::get<std::vector<std::string>>(pieces.value);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
+    const bool is_crack = std::any_of(domain.cracks.begin(), domain.cracks.end(),
+                                      [&](const Crack& crack) { return crack.name == name; });
+    if (name == "all") {
+      std::for_each(known.begin(), known.end(), add);
+    } else if (std::find(known.begin(), known.end(), name) != known.end()) {
+      add(name);
+    } else if (is_crack) {
+      add(name + "+");
+      add(name + "-");
+    } else {
+      diagnostics.add(Mistake::reference, pieces.where_of(i), pieces.path,
+                      fmt::format("found {}, expected a boundary piece: {} or all{}",
+                                  toml_quoted(shortened(name)), fmt::join(known, ", "),
+                                  did_you_mean(name, known)));
+    }
+  }
+  return chosen;
+}
+
+/// What is prescribed on pieces, to find conditions that fight over one.
+class Claims {
+public:
+  explicit Claims(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  /// Records that `setting` prescribes `quantity` on the pieces of its condition.
+  void claim(const std::vector<std::string>& pieces, const std::string& quantity, const Setting& setting) {
+    for (const std::string& piece : pieces) {
+      for (const auto& [other, owner] : claims_[piece]) {
+        if (!fight(quantity, other)) continue;
+        diagnostics_.add(Mistake::conflict, setting.where, setting.path,
+                         fmt::format("sets {} on piece '{}', where {} sets {} already, expected one of them",
+                                     quantity, piece, owner, other));
+        return;
+      }
+      claims_[piece].emplace_back(quantity, setting.path);
+    }
+  }
+
+private:
+  static bool fight(const std::string& a, const std::string& b) {
+    static const std::vector<std::pair<std::string, std::string>> rivals{
+        {"symmetry", "motion along x"},         {"symmetry", "motion along y"},
+        {"motion along x", "traction along x"}, {"motion along y", "traction along y"},
+        {"temperature", "heat flux"},           {"temperature", "convection"}};
+    return a == b || std::any_of(rivals.begin(), rivals.end(), [&](const auto& pair) {
+             return pair == std::pair(a, b) || pair == std::pair(b, a);
+           });
+  }
+
+  Diagnostics& diagnostics_;
+  std::map<std::string, std::vector<std::pair<std::string, std::string>>> claims_;
+};
+
+void claim_all(const Setting& table, const BoundaryCondition& condition, Claims& claims) {
+  const auto components = [&](const char* key, const std::string& what, const VectorFunction& function) {
+    const char* axis[] = {"x", "y"};
+    for (std::size_t k = 0; k < 2; ++k)
+      if (function[k])
+        claims.claim(condition.pieces, fmt::format("{} along {}", what, axis[k]), *table.find(key));
+  };
+  if (condition.symmetry) claims.claim(condition.pieces, "symmetry", *table.find("symmetry"));
+  components("velocity", "motion", condition.velocity);
+  components("displacement", "motion", condition.displacement);
+  components("traction", "traction", condition.traction);
+  if (condition.pressure) claims.claim(condition.pieces, "pressure", *table.find("pressure"));
+  if (condition.temperature) claims.claim(condition.pieces, "temperature", *table.find("temperature"));
+  if (condition.heat_flux) claims.claim(condition.pieces, "heat flux", *table.find("heat_flux"));
+  if (condition.convection) claims.claim(condition.pieces, "convection", *table.find("convection"));
+}
+
+} // namespace
+
+void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const Setting& table : root.entries("materials")) {
+    result.materials.push_back(read_material(table, result.warnings, diagnostics));
+    names.push_back(table.name);
+  }
+  const auto check = [&](const Setting& wanted) {
+    const auto& name = std::get<std::string>(wanted.value);
+    const Setting* table =
+        std::find(names.begin(), names.end(), name) == names.end() ? nullptr : root.find("materials." + name);
+    if (!table) {
+      diagnostics.add(Mistake::reference, wanted.where, wanted.path,
+                      fmt::format("found {}, expected one of the materials {}{}",
+                                  toml_quoted(shortened(name)), fmt::join(names, ", "),
+                                  did_you_mean(name, names)));
+    } else if (result.analysis.thermal && !table->find("heat")) {
+      diagnostics.add(
+          Mistake::missing_key, table->where, table->path + ".heat",
+          "missing, expected a table with specific_heat and conductivity because analysis.thermal is "
+          "true");
+    }
+  };
+  const Setting& everywhere = *root.find("domain.material");
+  check(everywhere);
+  for (const Setting& region : root.entries("domain.regions"))
+    if (const Setting& own = *region.find("material"); own.given) check(own);
+}
+
+void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  Claims claims(diagnostics);
+  for (const Setting& table : root.entries("boundary")) {
+    BoundaryCondition condition;
+    condition.name = table.name;
+    const Setting* pieces = table.find("pieces");
+    if (pieces) condition.pieces = chosen_pieces(*pieces, result.domain, diagnostics);
+    const Setting* points = table.find("points");
+    if (points) condition.points = std::get<std::vector<Vec2>>(points->value);
+    if (!pieces && !points)
+      diagnostics.add(Mistake::missing_key, table.where, table.path + ".pieces",
+                      "missing, expected " + find_key("boundary.*.pieces")->expectation() +
+                          ", or points that name single nodes");
+    condition.symmetry = table.get<bool>("symmetry");
+    const auto goes_with_points = [&](const Setting& member) {
+      return member.name == "pieces" || member.name == "points" || member.name == "velocity" ||
+             member.name == "displacement" || (member.name == "symmetry" && !condition.symmetry);
+    };
+    if (points)
+      for (const Setting& member : table.members)
+        if (member.given && !goes_with_points(member))
+          diagnostics.add(Mistake::conflict, member.where, member.path,
+                          "found in a condition with points, expected velocity or displacement there");
+    condition.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
+    condition.displacement = table.maybe<VectorFunction>("displacement").value_or(VectorFunction{});
+    condition.traction = table.maybe<VectorFunction>("traction").value_or(VectorFunction{});
+    condition.pressure = table.maybe<TimeTable>("pressure");
+    condition.temperature = table.maybe<TimeTable>("temperature");
+    condition.heat_flux = table.maybe<TimeTable>("heat_flux");
+    if (const Setting* convection = table.find("convection"))
+      condition.convection =
+          Convection{convection->get<double>("coefficient"), convection->get<TimeTable>("ambient")};
+
+    const bool nothing = std::all_of(table.members.begin(), table.members.end(), [](const Setting& member) {
+      return member.name == "pieces" || member.name == "points" || member.name == "symmetry";
+    });
+    if (nothing && !condition.symmetry)
+      diagnostics.add(Mistake::missing_key, table.where, table.path,
+                      "sets nothing, expected symmetry = true, velocity, displacement, traction, pressure, "
+                      "temperature, heat_flux or convection");
+    for (const char* key : {"temperature", "heat_flux", "convection"})
+      if (const Setting* thermal = table.find(key); thermal && !result.analysis.thermal)
+        diagnostics.add(Mistake::conflict, thermal->where, thermal->path,
+                        "found a thermal condition, expected it with analysis.thermal = true only");
+    if (condition.symmetry)
+      for (const std::string& piece : condition.pieces)
+        if (!is_straight(result.domain, piece))
+          diagnostics.add(
+              Mistake::geometry, table.find("symmetry")->where, table.find("symmetry")->path,
+              fmt::format("found piece '{}', which is not straight, expected straight pieces", piece));
+    claim_all(table, condition, claims);
+    result.boundary.push_back(std::move(condition));
+  }
+}
+
+} // namespace cnem::input

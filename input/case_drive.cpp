@@ -1,0 +1,79 @@
+// Tools with a mass of their own, and mass scaling, of the case reader.
+#include "input/case_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::input {
+namespace {
+
+const char* axis_name(std::size_t k) { return k == 0 ? "x" : "y"; }
+
+} // namespace
+
+void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics) {
+  const Setting* mass = table.find("mass");
+  if (!mass) {
+    for (const char* key : {"force", "initial_velocity", "direction"})
+      if (const Setting* found = table.find(key))
+        diagnostics.add(
+            Mistake::missing_key, found->where, found->path,
+            fmt::format("found {} of a tool without mass, expected {}.mass = \"50 kg/m\" beside it, or "
+                        "a velocity alone",
+                        key, table.path));
+    return;
+  }
+  if (const Setting* velocity = table.find("velocity"))
+    return diagnostics.add(Mistake::conflict, velocity->where, velocity->path,
+                           "found a prescribed velocity and a mass, expected one of them: a tool with a mass "
+                           "moves by force and initial_velocity");
+  Drive& drive = tool.drive.emplace();
+  drive.mass = std::get<double>(mass->value);
+  if (const auto force = table.maybe<VectorFunction>("force"))
+    for (std::size_t k = 0; k < 2; ++k) drive.force[k] = (*force)[k].value_or(TimeTable());
+  drive.initial_velocity = table.maybe<Vec2>("initial_velocity").value_or(Vec2::Zero());
+  const Setting* direction = table.find("direction");
+  if (!direction) return;
+  const Vec2 line = std::get<Vec2>(direction->value);
+  if (!(line.norm() > 0.0))
+    return diagnostics.add(Mistake::range, direction->where, direction->path,
+                           "found \"0 0\", expected a direction such as \"0 1\"");
+  if (input.analysis.kinematics == Analysis::Kinematics::axisymmetric && line.x() != 0.0)
+    return diagnostics.add(
+        Mistake::conflict, direction->where, direction->path,
+        "found a radial direction, expected \"0 1\": a rigid body of revolution moves along its "
+        "axis alone");
+  drive.direction = line.normalized();
+  // What a guide would take without a trace was not meant.
+  const Vec2 across(-drive.direction->y(), drive.direction->x());
+  if (std::abs(across.dot(drive.initial_velocity)) > 1e-9 * drive.initial_velocity.norm())
+    diagnostics.add(Mistake::conflict, table.find("initial_velocity")->where,
+                    table.find("initial_velocity")->path,
+                    "found a velocity across the direction of the tool, expected one along it");
+  if (const Setting* force = table.find("force"))
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::vector<double>& values = drive.force[k].values();
+      if (drive.direction->cwiseAbs()[static_cast<int>(k)] < 1e-9 &&
+          std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; }))
+        diagnostics.add(
+            Mistake::conflict, force->where, force->path,
+            fmt::format("found a force along {}, where the direction of the tool does not let it move, "
+                        "expected 0 there",
+                        axis_name(k)));
+    }
+}
+
+void read_mass_scaling(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting* table = root.find("time.mass_scaling");
+  if (!table) return;
+  MassScaling& scaling = result.time.mass_scaling.emplace();
+  scaling.factor = table->maybe<double>("factor");
+  scaling.step = table->maybe<double>("step");
+  if (scaling.factor.has_value() == scaling.step.has_value())
+    diagnostics.add(Mistake::conflict, table->where, table->path,
+                    scaling.factor ? "found both factor and step, expected one of them"
+                                   : "found neither factor nor step, expected one of them");
+}
+
+} // namespace cnem::input

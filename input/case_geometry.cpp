@@ -1,0 +1,213 @@
+// The geometric part of the case reader: domain, tools, cloud.
+#include "input/case_parts.hpp"
+#include "input/case_walls.hpp"
+#include "input/curve_checks.hpp"
+#include "input/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::input {
+namespace {
+
+/// The curve of a table; nothing, and a mistake recorded, when it cannot be made.
+std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Diagnostics& diagnostics) {
+  try {
+    return make_outline(table, names);
+  } catch (const OutlineError& error) {
+    const std::string key = error.key.empty() ? table.path : table.path + "." + error.key;
+    // Elements of a list are "path[2]" in keys and two steps in the tree.
+    std::string steps = error.key;
+    if (const auto bracket = steps.find('['); bracket != std::string::npos) steps.insert(bracket, 1, '.');
+    const Setting* culprit = table.find(steps);
+    diagnostics.add(Mistake::geometry, culprit && culprit->given ? culprit->where : table.where, key,
+                    error.what());
+    return std::nullopt;
+  }
+}
+
+void check_holes(const Setting& holes, const Domain& domain, Diagnostics& diagnostics) {
+  const auto fail = [&](std::size_t i, const std::string& message) {
+    const Setting& setting = *holes.find(domain.holes[i].name);
+    diagnostics.add(Mistake::geometry, setting.where, setting.path, message);
+  };
+  for (std::size_t i = 0; i < domain.holes.size(); ++i) {
+    const Curve& hole = domain.holes[i].outline;
+    if (const auto point = common_point(hole, domain.outer)) {
+      fail(i, fmt::format("the hole meets domain.outer at {}, expected it to lie inside", show(*point)));
+      continue;
+    }
+    if (!inside(domain.outer, hole.pieces.front().from))
+      fail(i, fmt::format("the hole lies outside domain.outer at {}, expected it to lie inside",
+                          show(hole.pieces.front().from)));
+    for (std::size_t j = 0; j < i; ++j) {
+      const Curve& other = domain.holes[j].outline;
+      if (const auto point = common_point(hole, other))
+        fail(i, fmt::format("the hole meets domain.holes.{} at {}, expected holes apart",
+                            domain.holes[j].name, show(*point)));
+      else if (inside(other, hole.pieces.front().from) || inside(hole, other.pieces.front().from))
+        fail(i, fmt::format("one of the holes {} and {} lies in the other, expected holes apart",
+                            domain.holes[i].name, domain.holes[j].name));
+    }
+  }
+}
+
+/// A body of revolution lies on one side of its axis.
+void check_axis(const Setting& outer, const Domain& domain, Diagnostics& diagnostics) {
+  double least = 0.0;
+  for (const CurvePiece& piece : domain.outer.pieces)
+    for (int k = 0; k < 16; ++k) least = std::min(least, piece.point(k / 16.0).x());
+  if (least < -1e-9 * extent(domain.outer))
+    diagnostics.add(Mistake::geometry, outer.where, outer.path,
+                    fmt::format("found an outline that reaches to x = {:g} m, expected x >= 0: an "
+                                "axisymmetric body turns about x = 0",
+                                least));
+}
+
+/// How deep a point lies in the domain, m; 0 outside.
+double depth_in(const Domain& domain, const Vec2& x) {
+  if (!inside(domain.outer, x)) return 0.0;
+  double depth = distance(domain.outer, x);
+  for (const Hole& hole : domain.holes) {
+    if (inside(hole.outline, x)) return 0.0;
+    depth = std::min(depth, distance(hole.outline, x));
+  }
+  return depth;
+}
+
+/// The workpiece has no place where a tool is. Overlaps of less than half a spacing are left to contact,
+/// which pushes the nodes out.
+void check_overlap(const Setting& table, const Tool& tool, const Case& input, Diagnostics& diagnostics) {
+  constexpr int samples = 16; // of each piece
+  double deepest = 0.0;
+  Vec2 where{0, 0};
+  const auto look = [&](const Curve& curve, const auto& depth_at) {
+    for (const CurvePiece& piece : curve.pieces)
+      for (int k = 0; k < samples; ++k) {
+        const Vec2 x = piece.point(double(k) / samples);
+        const double depth = depth_at(x);
+        if (depth > deepest) deepest = depth, where = x;
+      }
+  };
+  look(tool.outline, [&](const Vec2& x) { return depth_in(input.domain, x); });
+  for (const auto& [name, curve] : curves_of(input.domain))
+    look(*curve, [&](const Vec2& x) { return inside(tool.outline, x) ? distance(tool.outline, x) : 0.0; });
+  const double size = extent(input.domain.outer);
+  const double rounding = 1e-9 * size;
+  const double allowed =
+      input.cloud.spacing > 0.0 ? std::max(0.5 * input.cloud.spacing, rounding) : 0.01 * size;
+  if (deepest > allowed)
+    diagnostics.add(
+        Mistake::geometry, table.where, table.path,
+        fmt::format("the tool lies {:.3g} m deep in the workpiece at {}, expected it outside at the "
+                    "start",
+                    deepest, show(where)));
+}
+
+} // namespace
+
+void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting& table = *root.find("domain");
+  Domain& domain = result.domain;
+  domain.material = table.get<std::string>("material");
+  const auto outer = outline(*table.find("outer"), {"outer", true}, diagnostics);
+  bool complete = outer.has_value();
+  if (outer) domain.outer = *outer;
+  for (const Setting& hole : table.entries("holes")) {
+    const auto curve = outline(hole, {hole.name, false}, diagnostics);
+    complete = complete && curve;
+    if (curve) domain.holes.push_back({hole.name, curve->reversed()});
+  }
+  read_walls(table, domain, diagnostics);
+  if (!complete) return;
+  if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
+    check_axis(*table.find("outer"), domain, diagnostics);
+  if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);
+  check_walls(table, domain, diagnostics);
+  for (const Setting& line : root.entries("output.lines")) {
+    for (const char* end : {"from", "to"}) {
+      const Setting& at = *line.find(end);
+      if (const std::string reason = outside_reason(domain, std::get<Vec2>(at.value)); !reason.empty())
+        diagnostics.add(Mistake::geometry, at.where, at.path,
+                        fmt::format("the point {} is {}, expected a material point",
+                                    show(std::get<Vec2>(at.value)), reason));
+    }
+    const Setting& to = *line.find("to");
+    if (line.get<Vec2>("from") == line.get<Vec2>("to"))
+      diagnostics.add(
+          Mistake::geometry, to.where, to.path,
+          fmt::format("the line has no length, it begins and ends at {}, expected two different points",
+                      show(line.get<Vec2>("to"))));
+  }
+  for (const Setting& probe : root.entries("output.probes")) {
+    const Setting& at = *probe.find("at");
+    const auto& point = std::get<Vec2>(at.value);
+    if (const std::string reason = outside_reason(domain, point); !reason.empty())
+      diagnostics.add(Mistake::geometry, at.where, at.path,
+                      fmt::format("the probe at {} is {}, expected a material point", show(point), reason));
+  }
+}
+
+namespace {
+
+Friction read_friction(const Setting& table) {
+  return {table.choice<Friction::Law>("law"), table.maybe<double>("coefficient").value_or(0.0),
+          table.maybe<double>("shear_factor").value_or(1.0)};
+}
+
+} // namespace
+
+void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting& table = *root.find("contact");
+  result.contact = {table.get<bool>("deformable"), read_friction(*table.find("friction")),
+                    table.get<double>("conductance")};
+  const Setting& conductance = *table.find("conductance");
+  if (result.contact.conductance > 0.0 && !result.contact.deformable)
+    diagnostics.add(Mistake::conflict, conductance.where, conductance.path,
+                    "found a conductance between parts that pass through each other, expected it with "
+                    "contact.deformable = true only");
+  else if (result.contact.conductance > 0.0 && !result.analysis.thermal)
+    diagnostics.add(Mistake::conflict, conductance.where, conductance.path,
+                    "found a conductance in an analysis without heat, expected it with "
+                    "analysis.thermal = true only");
+  const Setting& law = *table.find("friction.law");
+  if (!result.contact.deformable && result.contact.friction.law != Friction::Law::none)
+    diagnostics.add(Mistake::conflict, law.where, law.path,
+                    "found friction between parts that pass through each other, expected it with "
+                    "contact.deformable = true only");
+}
+
+void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  for (const Setting& table : root.entries("tools")) {
+    Tool tool;
+    tool.name = table.name;
+    tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
+    if (!result.domain.outer.pieces.empty() && !tool.outline.pieces.empty())
+      check_overlap(table, tool, result, diagnostics);
+    const auto velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
+    for (std::size_t k = 0; k < 2; ++k) tool.velocity[k] = velocity[k].value_or(TimeTable(0.0));
+    read_drive(table, result, tool, diagnostics);
+    tool.friction = read_friction(*table.find("friction"));
+    if (const Setting* heat = table.find("heat")) {
+      if (!result.analysis.thermal)
+        diagnostics.add(Mistake::conflict, heat->where, heat->path,
+                        "found the thermal side of a tool, expected it with analysis.thermal = true only");
+      ToolHeat& tool_heat = tool.heat.emplace();
+      tool_heat.conductance = heat->get<double>("conductance");
+      tool_heat.temperature = heat->get<double>("temperature");
+      tool_heat.effusivity = heat->maybe<double>("effusivity");
+      const auto k = heat->maybe<double>("conductivity"), density = heat->maybe<double>("density"),
+                 c = heat->maybe<double>("specific_heat");
+      const int parts = int(k.has_value()) + int(density.has_value()) + int(c.has_value());
+      if (parts > 0 && (parts < 3 || tool_heat.effusivity))
+        diagnostics.add(Mistake::conflict, heat->where, heat->path,
+                        "expected either effusivity, or conductivity, density and specific_heat together");
+      else if (parts == 3)
+        tool_heat.effusivity = std::sqrt(*k * *density * *c);
+    }
+    result.tools.push_back(std::move(tool));
+  }
+}
+
+} // namespace cnem::input

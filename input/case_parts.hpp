@@ -1,0 +1,55 @@
+#pragma once
+// The steps of the case reader, between its translation units.
+#include "input/case.hpp"
+#include "input/schema/settings.hpp"
+
+#include <string>
+
+namespace cnem::input {
+
+/// Domain and tools: outlines, holes and cracks, and whether they fit into one another.
+void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
+void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics);
+void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// The mass of a tool and what moves it. Expects the kinematics.
+void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics);
+
+void read_mass_scaling(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Parts of the workpiece with a state of their own. Expects the domain.
+void read_regions(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Initial state and body loads.
+void read_initial_and_loads(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Pieces that continue at others. Expects the domain.
+void read_periodic(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Spacing, refinements, node lists and windows. A node file is read and its nodes are put into the settings,
+/// so that the resolved case stands alone. Expects the domain, which may lack its outline.
+void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Materials, and whether the domain's exists and has what is needed.
+void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Boundary conditions: pieces exist, conditions do not fight over them. Expects the domain.
+void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// How the cloud is adapted, with defaults from its spacing. Expects everything but crack tips.
+void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// What is evaluated at the end, with defaults from the tools. Expects tools, domain and periodic pieces.
+void read_report(Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Crack tips: enrichment and domain of the interaction integral.
+void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// What the kind of analysis does not allow; defaults of such keys are dropped. Expects everything else.
+void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics);
+
+/// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file, line and column for
+/// a file that is absent or malformed, IoError when it cannot be read.
+std::vector<Vec2> read_points(const std::string& path);
+
+} // namespace cnem::input

@@ -1,0 +1,210 @@
+#include "input/case_reader.hpp"
+
+#include "input/case_parts.hpp"
+#include "input/local_origin.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace cnem::input {
+namespace {
+
+std::string case_name(const std::string& path) {
+  const std::filesystem::path file = std::filesystem::absolute(path).lexically_normal();
+  if (file.filename().string().starts_with("case.")) return file.parent_path().filename().string();
+  return file.stem().string();
+}
+
+/// Defaults that depend on other keys.
+void compute_defaults(Setting& root) {
+  const bool statics = root.get<std::string>("analysis.type") == "static";
+  if (statics) root.set_default("time.end", 1.0);
+  const double end = root.get<double>("time.end"), temperature = root.get<double>("initial.temperature");
+  const Setting* materials = root.find("materials");
+  const Setting* material = materials->find(root.get<std::string>("domain.material"));
+  root.set_default("analysis.thermal", material && material->find("heat") && !statics);
+  const bool round = root.get<std::string>("analysis.kinematics") == "axisymmetric";
+  root.set_default("method.stabilisation",
+                   round ? 0.2 : 0.05); // the axis has a weak mode of its own: docs/theory.md
+  root.set_default("output.history_every", end / 400.0);
+  root.set_default("output.fields_every", end / 24.0);
+  root.set_default("output.pictures", std::vector<double>{end});
+  for (const Setting& entry : root.entries("materials")) {
+    if (!entry.find("damage")) continue;
+    const auto from_plastic = [&](const char* key) {
+      return entry.maybe<double>(fmt::format("plastic.{}", key));
+    };
+    const std::string damage = entry.path + ".damage.";
+    const std::optional<double> melting = from_plastic("Tmelt");
+    const double rate = from_plastic("rate0").value_or(1.0), cold = from_plastic("T0").value_or(293.15);
+    root.set_default(damage + "rate0", rate);
+    root.set_default(damage + "T0", cold);
+    if (melting) root.set_default(damage + "Tmelt", *melting);
+  }
+  for (const Setting& entry : root.entries("materials"))
+    if (entry.find("heat")) root.set_default(entry.path + ".heat.reference_temperature", temperature);
+  for (const Setting& entry : root.entries("domain.regions")) {
+    root.set_default(entry.path + ".material", root.get<std::string>("domain.material"));
+    root.set_default(entry.path + ".temperature", temperature);
+    root.set_default(entry.path + ".velocity", root.get<Vec2>("initial.velocity"));
+  }
+  for (const Setting& entry : root.entries("tools")) {
+    if (entry.find("heat")) root.set_default(entry.path + ".heat.temperature", temperature);
+    if (!entry.find("mass"))
+      root.set_default(entry.path + ".velocity", VectorFunction{TimeTable(0.0), TimeTable(0.0)});
+    else if (round)
+      root.set_default(entry.path + ".direction", Vec2(0.0, 1.0));
+  }
+}
+
+void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting& step = *root.find("time.step");
+  result.time = {root.get<double>("time.end"),
+                 step.get<double>("safety"),
+                 step.maybe<double>("max"),
+                 step.maybe<double>("fixed"),
+                 static_cast<int>(step.get<std::int64_t>("check_every")),
+                 step.maybe<double>("min"),
+                 root.maybe<std::int64_t>("time.max_steps"),
+                 step.get<bool>("local"),
+                 static_cast<int>(step.get<std::int64_t>("levels")),
+                 {}};
+  read_mass_scaling(root, result, diagnostics);
+  if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
+    diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
+                    "found a fixed step and a largest step, expected one of them");
+  if (const Setting* least = step.find("min"); least && result.time.fixed)
+    diagnostics.add(Mistake::conflict, least->where, least->path,
+                    "found a fixed step and a least step, expected one of them");
+}
+
+void read_method(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting& table = *root.find("method");
+  Method& method = result.method;
+  method.name = table.choice<Method::Name>("name");
+  method.functions = table.choice<Method::Functions>("functions");
+  method.gauss_points = static_cast<int>(table.get<std::int64_t>("gauss_points"));
+  method.stabilisation = table.get<double>("stabilisation");
+  method.pressure_exchange = table.get<double>("pressure_exchange");
+  if (const Setting& exchange = *table.find("pressure_exchange");
+      method.pressure_exchange > 0.0 && method.name != Method::Name::cnem)
+    diagnostics.add(Mistake::conflict, exchange.where, exchange.path,
+                    "found a pressure exchange between nodes, expected it with method.name = \"cnem\" only");
+  method.lagrangian = table.choice<Method::Lagrangian>("lagrangian");
+  method.rereference_every = static_cast<int>(table.get<std::int64_t>("rereference.every"));
+  method.rereference_strain = table.get<double>("rereference.strain");
+  method.viscosity_linear = table.get<double>("bulk_viscosity.linear");
+  method.viscosity_quadratic = table.get<double>("bulk_viscosity.quadratic");
+  method.energy_tolerance = table.get<double>("energy_tolerance");
+}
+
+PictureNote read_note(const Setting& table, const Output& output) {
+  PictureNote note{table.get<double>("at"), table.maybe<std::string>("field").value_or(""),
+                   table.get<std::string>("text")};
+  if (note.field.empty() && !output.picture_fields.empty()) note.field = output.picture_fields.front();
+  return note;
+}
+
+void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting& table = *root.find("output");
+  constexpr double most_rows = 1e7;
+  for (const char* name : {"history_every", "fields_every"}) {
+    const Setting& every = *table.find(name);
+    const double interval = std::get<double>(every.value);
+    if (interval > 0.0 && interval < result.time.end / most_rows)
+      diagnostics.add(
+          Mistake::range, every.where, every.path,
+          fmt::format("found {:g} s, expected 0 s or at least {:g} s, a ten-millionth of time.end", interval,
+                      result.time.end / most_rows));
+  }
+  Output& output = result.output;
+  output.history_every = table.get<double>("history_every");
+  output.fields_every = table.get<double>("fields_every");
+  output.pictures = table.get<std::vector<double>>("pictures");
+  std::sort(output.pictures.begin(), output.pictures.end());
+  output.pictures.erase(std::unique(output.pictures.begin(), output.pictures.end()), output.pictures.end());
+  output.picture_fields = table.get<std::vector<std::string>>("picture_fields");
+  if (const Setting& drawn = *table.find("picture_fields"); output.picture_fields.empty())
+    diagnostics.add(Mistake::type, drawn.where, drawn.path,
+                    "found an empty array, expected fields such as [\"plastic_strain\"]; for a run without "
+                    "pictures write output.pictures = []");
+  const Setting& checkpoint = *table.find("checkpoint");
+  output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
+                       checkpoint.get<double>("every_wall"),
+                       static_cast<int>(checkpoint.get<std::int64_t>("keep"))};
+  for (const Setting& note : table.entries("notes")) output.notes.push_back(read_note(note, output));
+  for (const Setting& probe : table.entries("probes"))
+    output.probes.push_back(
+        {probe.name, probe.get<Vec2>("at"), probe.get<std::vector<std::string>>("fields")});
+  for (const Setting& line : table.entries("lines"))
+    output.lines.push_back({line.name, line.get<Vec2>("from"), line.get<Vec2>("to"),
+                            static_cast<int>(line.get<std::int64_t>("samples")),
+                            line.get<std::vector<std::string>>("fields")});
+}
+
+void collect_locations(const Setting& setting, std::map<std::string, std::string>& location) {
+  if (setting.given) location[setting.path] = setting.where.text();
+  for (const Setting& member : setting.members) collect_locations(member, location);
+}
+
+template<class Changes> Case read(Value document, const std::string& path, const Changes& changes) {
+  for (const auto& change : changes) apply_override(document, change);
+  Diagnostics diagnostics;
+  Setting root = apply_schema(document, diagnostics);
+  const Member* time = document.find("time");
+  const bool ended = time && time->value.find("end");
+  if (const Setting* type = root.find("analysis.type");
+      !ended && type && std::get<std::string>(type->value) != "static")
+    diagnostics.add(Mistake::missing_key, time ? time->value.where : document.where, "time.end",
+                    "missing, expected " + find_key("time.end")->expectation());
+  diagnostics.throw_if_any();
+  compute_defaults(root);
+
+  Case result;
+  result.path = path;
+  result.name = case_name(path);
+  result.title = root.get<std::string>("title");
+  result.analysis = {root.choice<Analysis::Type>("analysis.type"),
+                     root.choice<Analysis::Kinematics>("analysis.kinematics"),
+                     root.get<bool>("analysis.mechanical"), root.get<bool>("analysis.thermal")};
+  collect_locations(root, result.location);
+  read_time(root, result, diagnostics);
+  read_materials(root, result, diagnostics);
+  read_output(root, result, diagnostics);
+  read_domain(root, result, diagnostics);
+  read_cloud(root, result, diagnostics);
+  read_tools(root, result, diagnostics);
+  read_contact(root, result, diagnostics);
+  diagnostics.throw_if_any();
+  read_regions(root, result, diagnostics);
+  read_boundary(root, result, diagnostics);
+  read_periodic(root, result, diagnostics);
+  read_initial_and_loads(root, result, diagnostics);
+  read_method(root, result, diagnostics);
+  read_adaptation(root, result, diagnostics);
+  read_fracture(root, result, diagnostics);
+  read_report(root, result, diagnostics);
+  check_analysis(root, result, diagnostics);
+  diagnostics.throw_if_any();
+  result.resolved = write_resolved(root, fmt::format("Resolved from {}: SI units, defaults included.", path));
+  use_local_origin(result);
+  return result;
+}
+
+} // namespace
+
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  return read(read_document(path), path, overrides);
+}
+
+Case read_case_with(const std::string& path, const std::vector<Override>& changes) {
+  return read(read_document(path), path, changes);
+}
+
+Case read_case_text(std::string_view text, const std::string& source,
+                    const std::vector<std::string>& overrides) {
+  return read(parse_document(text, source), source, overrides);
+}
+
+} // namespace cnem::input

@@ -1,0 +1,104 @@
+// What a run is evaluated for: tools that cut, springback.
+#include "input/case_parts.hpp"
+#include "input/schema/nearest.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace cnem::input {
+namespace {
+
+bool moves(const Tool& tool) {
+  if (tool.drive) return true;
+  return std::any_of(tool.velocity.begin(), tool.velocity.end(), [](const TimeTable& component) {
+    return std::any_of(component.values().begin(), component.values().end(),
+                       [](double v) { return v != 0.0; });
+  });
+}
+
+std::vector<std::string> names_of(const std::vector<Tool>& tools) {
+  std::vector<std::string> names;
+  names.reserve(tools.size());
+  for (const Tool& tool : tools) names.push_back(tool.name);
+  return names;
+}
+
+/// The tool named `punch`, else the only one that moves; none when that is not one.
+std::optional<std::string> usual_punch(const std::vector<Tool>& tools) {
+  std::vector<std::string> moving;
+  for (const Tool& tool : tools) {
+    if (tool.name == "punch") return tool.name;
+    if (moves(tool)) moving.push_back(tool.name);
+  }
+  return moving.size() == 1 ? std::optional(moving.front()) : std::nullopt;
+}
+
+std::vector<std::string> usual_dies(const std::vector<Tool>& tools, const std::string& punch) {
+  std::vector<std::string> named, resting;
+  for (const Tool& tool : tools) {
+    if (tool.name == punch) continue;
+    if (tool.name.starts_with("die")) named.push_back(tool.name);
+    if (!moves(tool)) resting.push_back(tool.name);
+  }
+  return named.empty() ? resting : named;
+}
+
+std::string tie_of(const Case& input) {
+  return !input.domain.interfaces.empty() ? "domain.interfaces" : !input.periodic.empty() ? "periodic" : "";
+}
+
+} // namespace
+
+void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
+  const std::string ties = tie_of(result);
+  root.set_default("report.springback", root.find("report.blanking") != nullptr && ties.empty());
+  result.report.springback = root.get<bool>("report.springback");
+  if (const Setting& key = *root.find("report.springback"); result.report.springback && !ties.empty())
+    diagnostics.add(Mistake::conflict, key.where, key.path,
+                    fmt::format("found true with {}, expected one of them: tied nodes are not let go", ties));
+  const Setting* blanking = root.find("report.blanking");
+  if (!blanking) return;
+
+  const std::vector<std::string> names = names_of(result.tools);
+  if (names.empty())
+    return diagnostics.add(Mistake::conflict, blanking->where, blanking->path,
+                           "found without tools, expected [tools.NAME] that cut");
+  if (const auto punch = usual_punch(result.tools)) root.set_default("report.blanking.punch", *punch);
+  const Setting* punch = root.find("report.blanking.punch");
+  if (!punch)
+    return diagnostics.add(Mistake::missing_key, blanking->where, "report.blanking.punch",
+                           fmt::format("missing, expected one of the tools \"{}\": not one alone moves",
+                                       fmt::join(names, "\", \"")));
+  const auto index_of = [&](const Setting& key, const std::string& name) -> std::optional<std::size_t> {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    diagnostics.add(
+        Mistake::reference, key.where, key.path,
+        fmt::format("found '{}', expected the name of a tool{}", name, did_you_mean(name, names)));
+    return std::nullopt;
+  };
+  const std::string punch_name = std::get<std::string>(punch->value);
+  const auto punch_index = index_of(*punch, punch_name);
+  if (!punch_index) return;
+  if (const auto usual = usual_dies(result.tools, punch_name); !usual.empty())
+    root.set_default("report.blanking.die", usual);
+  else if (!root.find("report.blanking.die"))
+    return diagnostics.add(
+        Mistake::missing_key, root.find("report.blanking")->where, "report.blanking.die",
+        "missing, expected the names of the tools that the punch cuts against: no other one is at rest");
+  const Setting& dies = *root.find("report.blanking.die");
+  BlankingReport report;
+  report.punch = *punch_index;
+  for (const std::string& name : std::get<std::vector<std::string>>(dies.value)) {
+    if (name == punch_name)
+      diagnostics.add(Mistake::conflict, dies.where, dies.path,
+                      fmt::format("found the punch '{}', expected another tool", name));
+    else if (const auto index = index_of(dies, name))
+      report.dies.push_back(*index);
+  }
+  report.parallel = root.get<double>("report.blanking.parallel");
+  report.smoothing = root.find("report.blanking")->maybe<double>("smoothing");
+  result.report.blanking = std::move(report);
+}
+
+} // namespace cnem::input

@@ -1,0 +1,62 @@
+#pragma once
+// How keys are written down in schema_keys.cpp and schema_geometry.cpp: k.add("a.b", quantity, "…").unit(…)…
+#include "input/schema/schema.hpp"
+
+#include <initializer_list>
+#include <utility>
+
+namespace cnem::input {
+
+/// The key just added, to be completed in a chain of calls.
+class KeyDraft {
+public:
+  explicit KeyDraft(Key& key) : key_(key) {}
+
+  KeyDraft& unit(const Dimension& dimension) { return key_.dimension = dimension, *this; }
+  /// Dimension in axisymmetric analyses, which count whole bodies.
+  KeyDraft& of_revolution(const Dimension& dimension) { return key_.revolution = dimension, *this; }
+  KeyDraft& in(const Range& range) { return key_.range = range, *this; }
+  KeyDraft& one_of(std::vector<std::string> choices) { return key_.choices = std::move(choices), *this; }
+  KeyDraft& required() { return key_.presence = Presence::required, *this; }
+  /// Of a table: the defaults of its members hold without it.
+  KeyDraft& always() { return key_.presence = Presence::fallback, *this; }
+  KeyDraft& fallback(std::string toml) { return key_.fallback = std::move(toml), always(); }
+  KeyDraft& when(std::string sibling, std::vector<std::string> values) {
+    return key_.when = {std::move(sibling), std::move(values)}, *this;
+  }
+  KeyDraft& example(std::string toml) { return key_.example = std::move(toml), *this; }
+  KeyDraft& computed(std::string words) { return key_.computed = std::move(words), *this; }
+
+private:
+  Key& key_;
+};
+
+class Keys {
+public:
+  KeyDraft add(std::string path, Type type, std::string doc) {
+    Key& key = all.emplace_back();
+    key.path = std::move(path);
+    key.type = type;
+    key.doc = std::move(doc);
+    return KeyDraft(key);
+  }
+  std::vector<Key> all;
+};
+
+inline constexpr Range temperature_range{.low = 0.0};
+inline constexpr Range fraction{.low = 0.0, .high = 1.0};
+
+/// The closed curve of a domain, a hole or a tool: members of the table `at`.
+void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
+void add_domain(Keys& k);
+void add_parts(Keys& k);
+void add_cloud(Keys& k);
+void add_materials(Keys& k);
+void add_adaptation(Keys& k);
+void add_report(Keys& k);
+
+/// Members of the table of a tool, "tools.*.", that let it move as a body.
+void add_drive(Keys& k, const std::string& tool);
+void add_mass_scaling(Keys& k);
+
+} // namespace cnem::input

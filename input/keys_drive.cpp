@@ -1,0 +1,52 @@
+// Keys of tools with a mass of their own, and of mass scaling.
+#include "input/keys.hpp"
+
+namespace cnem::input {
+
+namespace d = dimension;
+using enum Type;
+
+void add_drive(Keys& k, const std::string& tool) {
+  k.add(tool + "mass", quantity,
+        "Instead of `velocity`: the tool is a rigid body of this mass that does not turn, moved by `force`, "
+        "`initial_velocity` and the workpiece. Of what is modelled: half of it in a symmetric half.")
+      .unit(d::mass_per_length)
+      .of_revolution(d::mass)
+      .in(positive)
+      .example("\"50 kg/m\"");
+  k.add(tool + "force", vector_function,
+        "On a tool with a mass, its weight included; per unit thickness, or of the whole body of revolution.")
+      .unit(d::force_per_length)
+      .of_revolution(d::force)
+      .example("{ value = \"0 -2 MN/m\", ramp = \"1 ms\", smooth = true }");
+  k.add(tool + "initial_velocity", vector, "Of a tool with a mass, at time 0.")
+      .unit(d::velocity)
+      .example("\"0 -5 m/s\"");
+  k.add(tool + "direction", vector,
+        "A tool with a mass moves along this line alone, of any length and either sense; guides take what "
+        "pushes "
+        "it aside. Without, it moves freely; in axisymmetric analyses it can only be \"0 1\".")
+      .example("\"0 1\"")
+      .computed("none; \"0 1\" in axisymmetric analyses");
+}
+
+void add_mass_scaling(Keys& k) {
+  k.add(
+      "time.mass_scaling", table,
+      "More inertia, for longer steps in processes that are slow enough: `energy.kinetic` must stay a small "
+      "part "
+      "of the deformation energy (`kinetic_share` in `history.csv`). Heat capacity, body forces and reported "
+      "masses stay as they are. Either `factor` or `step`.");
+  k.add("time.mass_scaling.factor", quantity, "On the inertia of all nodes; the step grows by its root.")
+      .in({.low = 1.0})
+      .example("100");
+  k.add("time.mass_scaling.step", quantity,
+        "Nodes with a shorter stable step at the start get as much inertia as this step asks for, the others "
+        "keep "
+        "theirs.")
+      .unit(d::time)
+      .in(positive)
+      .example("\"20 ns\"");
+}
+
+} // namespace cnem::input

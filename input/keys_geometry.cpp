@@ -1,0 +1,158 @@
+// Keys that describe geometry and nodes: outlines, domain, cloud.
+#include "input/keys.hpp"
+
+namespace cnem::input {
+
+namespace d = dimension;
+using enum Type;
+
+void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names) {
+  k.add(at + ".start", vector, "First corner of a `path`.").unit(d::length).example("\"0 0 mm\"");
+  k.add(at + ".path", table_list,
+        "Straight pieces and arcs from corner to corner, in either sense. Closes by itself with a straight "
+        "piece when the last `to` is not `start`.");
+  k.add(at + ".path[].to", vector, "End of the piece; it begins where the one before ends.")
+      .unit(d::length)
+      .required()
+      .example("\"20 0 mm\"");
+  k.add(at + ".path[].name", text, "Name of the boundary piece; pieces may share one.")
+      .example("\"bottom\"")
+      .computed("the name of the curve (`outer` for the domain)");
+  k.add(at + ".path[].centre", vector, "Makes the piece an arc about this point.").unit(d::length);
+  k.add(at + ".path[].radius", quantity,
+        "Makes the piece an arc of this radius, the shorter of the two; for longer ones give `centre`.")
+      .unit(d::length)
+      .in(positive);
+  k.add(at + ".path[].clockwise", boolean, "Sense of travel of an arc.").fallback("false");
+  k.add(at + ".path[].fillet", quantity,
+        "Rounds the corner at `to`, between two straight pieces, by a tangent arc of this radius.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"0.5 mm\"");
+  k.add(at + ".path[].fillet_name", text, "Name of the arc made by `fillet`.")
+      .computed("the name of the piece before it");
+  k.add(at + ".close", text, "Name of the straight piece that closes the `path`.")
+      .example("\"left\"")
+      .computed("the name of the curve");
+  k.add(at + ".rectangle", table, "A rectangle parallel to the axes, instead of `start` and `path`.");
+  k.add(at + ".rectangle.from", vector, "A corner.").unit(d::length).required().example("\"0 0 mm\"");
+  k.add(at + ".rectangle.to", vector, "The opposite corner.")
+      .unit(d::length)
+      .required()
+      .example("\"20 10 mm\"");
+  k.add(at + ".rectangle.fillet", quantity, "Radius of all four corners.").unit(d::length).in(positive);
+  k.add(at + ".rectangle.names", table, "Names of the sides.");
+  for (const char* side : {"bottom", "right", "top", "left"})
+    k.add(at + ".rectangle.names." + side, text, std::string("Name of the ") + side + " side.")
+        .computed(rectangle_names.empty() ? std::string("`") + side + "`" : rectangle_names);
+  k.add(at + ".circle", table, "A circle, instead of `start` and `path`.");
+  k.add(at + ".circle.centre", vector, "Its centre.").unit(d::length).required().example("\"10 5 mm\"");
+  k.add(at + ".circle.radius", quantity, "Its radius.").unit(d::length).in(positive).required();
+  k.add(at + ".circle.name", text, "Name of the boundary piece.").computed("the name of the curve");
+  k.add(at + ".rotate", table, "Turns the whole curve.");
+  k.add(at + ".rotate.angle", quantity, "Counter-clockwise.").unit(d::angle).required();
+  k.add(at + ".rotate.centre", vector, "Centre of the turn.").unit(d::length).fallback("\"0 0 m\"");
+}
+
+void add_domain(Keys& k) {
+  k.add("domain", table, "The workpiece at the start.").required();
+  k.add("domain.material", text, "Name of one of `materials`.").required().example("\"304L\"");
+  k.add("domain.outer", table,
+        "Outline: either `start` and `path`, or `rectangle`, or `circle`. Names of its pieces are for "
+        "`boundary`.")
+      .required();
+  add_outline(k, "domain.outer", "");
+  k.add("domain.holes", named_tables, "Holes.");
+  k.add("domain.holes.*", table, "A hole: either `start` and `path`, or `rectangle`, or `circle`.");
+  add_outline(k, "domain.holes.*", "the name of the hole");
+  k.add("domain.cracks", named_tables, "Cracks.");
+  k.add("domain.cracks.*", table,
+        "A crack with two faces: the boundary pieces `NAME+` (material on the left of the path) and `NAME-`; "
+        "`NAME` stands for both.");
+  k.add("domain.cracks.*.points", vectors,
+        "Polyline inside the domain; its first or last point may lie on the boundary, then it is open there.")
+      .unit(d::length)
+      .required()
+      .example("[\"8 5 mm\", \"12 5 mm\"]");
+  k.add("domain.cracks.*.tips", texts, "Names of the first and the last end, for results.")
+      .example("[\"left\", \"right\"]")
+      .computed("`left` and `right`, or `bottom` and `top`, from their positions; with several cracks "
+                "`CRACK_left` and so on");
+  k.add("domain.cracks.*.rotate", table, "Turns the crack.");
+  k.add("domain.cracks.*.rotate.angle", quantity, "Counter-clockwise.").unit(d::angle).required();
+  k.add("domain.cracks.*.rotate.centre", vector, "Centre of the turn.").unit(d::length).fallback("\"0 0 m\"");
+}
+
+void add_parts(Keys& k) {
+  k.add("domain.interfaces", named_tables, "Interfaces between parts of different material (explicit only).");
+  k.add("domain.interfaces.*", table,
+        "A bonded interface: its two faces move as one. It divides the domain into parts for `regions`.");
+  k.add("domain.interfaces.*.points", vectors, "Polyline whose two ends lie on the boundary.")
+      .unit(d::length)
+      .required()
+      .example("[\"5 0 mm\", \"5 10 mm\"]");
+  k.add("domain.interfaces.*.conductance", quantity,
+        "Heat crosses in proportion to the jump of temperature; without it both faces have one temperature.")
+      .unit(d::heat_transfer)
+      .in(not_negative)
+      .example("\"1e5 W/(m2 K)\"");
+  k.add("domain.regions", named_tables, "Parts with a material or an initial state of their own.");
+  k.add(
+      "domain.regions.*", table,
+      "The part of the domain that holds a point; interfaces and cracks from boundary to boundary bound it.");
+  k.add("domain.regions.*.at", vector, "A point inside.").unit(d::length).required().example("\"8 5 mm\"");
+  k.add("domain.regions.*.material", text, "Name of one of `materials`.").computed("`domain.material`");
+  k.add("domain.regions.*.temperature", quantity, "At time 0.")
+      .unit(d::temperature)
+      .in({.low = 0.0})
+      .computed("`initial.temperature`");
+  k.add("domain.regions.*.velocity", vector, "At time 0.").unit(d::velocity).computed("`initial.velocity`");
+}
+
+void add_cloud(Keys& k) {
+  k.add("cloud", table, "The nodes.").required();
+  k.add("cloud.pattern", choice,
+        "`hexagonal`: near-equilateral; `regular`: square grid, uniform spacing only; `jittered`: hexagonal "
+        "with random offsets; `list`: the nodes given in `nodes` or `nodes_file`.")
+      .one_of({"hexagonal", "regular", "jittered", "list"})
+      .fallback("\"hexagonal\"");
+  k.add("cloud.spacing", quantity,
+        "Distance of neighbouring nodes away from refinements. Required except for pattern `list`.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"0.2 mm\"");
+  k.add("cloud.jitter", quantity, "Largest random offset over the spacing (pattern `jittered`).")
+      .in({.low = 0.0, .high = 0.4})
+      .fallback("0.2");
+  k.add("cloud.seed", integer, "Seed of the random offsets.").in({.low = 0, .high = 9e15}).fallback("1");
+  k.add("cloud.nodes", vectors,
+        "Pattern `list`: every node once, interior and boundary, with all corners of the domain among them.")
+      .unit(d::length)
+      .example("[\"0 0 mm\", \"1 0 mm\", \"0 1 mm\"]");
+  k.add("cloud.nodes_file", text,
+        "Pattern `list`: CSV file with a header such as `x[mm],y[mm]`, relative to the case file.")
+      .example("\"cloud.csv\"");
+  k.add("cloud.refine", named_tables, "Regions with a finer spacing.");
+  k.add("cloud.refine.*", table,
+        "A region given by `box`, `points` or `tips`, with its `spacing` or `factor`; the finest one wins.");
+  k.add("cloud.refine.*.box", vectors, "Two opposite corners.")
+      .unit(d::length)
+      .example("[\"4 0 mm\", \"6 10 mm\"]");
+  k.add("cloud.refine.*.points", vectors, "A point, or the corners of a polyline.")
+      .unit(d::length)
+      .example("[\"5 0 mm\", \"5 10 mm\"]");
+  k.add("cloud.refine.*.tips", texts, "Names of cracks, whose ends are refined, or `all`.")
+      .example("[\"all\"]");
+  k.add("cloud.refine.*.spacing", quantity, "Spacing in the region.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"0.05 mm\"");
+  k.add("cloud.refine.*.factor", quantity, "Spacing in the region over `cloud.spacing`.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true})
+      .example("0.25");
+  k.add("cloud.refine.*.growth", quantity, "Growth of the spacing per unit of distance outside.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true})
+      .fallback("0.3");
+}
+
+} // namespace cnem::input

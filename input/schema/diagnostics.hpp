@@ -1,0 +1,32 @@
+#pragma once
+// Collects what is wrong with a case, so that a user sees several mistakes at once.
+#include "input/schema/document.hpp"
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cnem::input {
+
+/// Kinds of mistakes; each is reported up to three times, then counted.
+enum class Mistake { unknown_key, missing_key, type, unit, range, reference, conflict, geometry };
+
+class Diagnostics {
+public:
+  /// Records "location: key 'key': message".
+  void add(Mistake kind, const Location& where, const std::string& key, const std::string& message);
+  /// Whether another mistake of this kind is told in words; else `count` does for it.
+  bool tells(Mistake kind) const;
+  /// Records a mistake without words.
+  void count(Mistake kind) { ++counts_[kind]; }
+  bool empty() const { return counts_.empty(); }
+  /// Throws InputError with all that was recorded, if anything was.
+  void throw_if_any() const;
+
+private:
+  std::vector<std::string> told_;
+  std::map<Mistake, std::size_t> counts_;
+};
+
+} // namespace cnem::input

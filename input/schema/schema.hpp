@@ -1,0 +1,100 @@
+#pragma once
+// The one description of what a case file may hold. Checks, JSON Schema, the case reference and the resolved
+// case all come from it.
+#include "input/schema/units.hpp"
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cnem::input {
+
+enum class Type {
+  table,           ///< [a]
+  named_tables,    ///< [a.NAME], any number of them
+  table_list,      ///< a = [{…}, {…}]
+  quantity,        ///< "11 m/s"; a plain number when dimensionless
+  integer,         ///< 3
+  boolean,         ///< true
+  text,            ///< "…"
+  choice,          ///< one of `choices`
+  texts,           ///< "…" or ["…", "…"]
+  choices,         ///< one or several of `choices`
+  vector,          ///< "x y unit" or ["x unit", "y unit"]
+  vectors,         ///< array of vectors
+  quantities,      ///< "2 4 us" or ["2 us", "4 us"]
+  function,        ///< quantity, { value, ramp, from } or { times, values }
+  vector_function, ///< vector, the same tables with vectors, or { x = function, y = function }
+};
+
+/// Whether a key has to be written. For a table, `fallback` means that its own defaults hold without it.
+enum class Presence { required, fallback, optional };
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false, high_open = false;
+
+  bool contains(double value) const;
+  bool bounded() const;
+  /// "> 0 m", "in [0, 1]", "≥ 1".
+  std::string text(std::string_view unit) const;
+};
+
+inline constexpr Range anything{};
+inline constexpr Range positive{.low = 0.0, .low_open = true};
+inline constexpr Range not_negative{.low = 0.0};
+
+/// A key only makes sense when a sibling has one of these values.
+struct Condition {
+  std::string sibling;
+  std::vector<std::string> values;
+};
+
+struct Key {
+  std::string path; ///< '*' stands for a name and '[]' for an element: "tools.*.path[].to"
+  Type type = Type::table;
+  std::string doc;
+  Presence presence = Presence::optional;
+  std::string fallback = {}; ///< TOML text of the default; for computed ones `computed` says how
+  Dimension dimension = {};
+  std::optional<Dimension> revolution = {}; ///< dimension in axisymmetric analyses, where that is another one
+  Range range = anything;
+  std::vector<std::string> choices = {};
+  Condition when = {};
+  std::string example = {};  ///< TOML text
+  std::string computed = {}; ///< words for a default that depends on other keys
+
+  std::string name() const;   ///< last part of the path
+  std::string parent() const; ///< path of the table it belongs to; "" at the top
+  /// What a value of this key looks like, for messages and documents: `a velocity such as "11 m/s"`.
+  std::string expectation() const;
+  /// TOML text of a value.
+  std::string example_text() const;
+};
+
+/// All keys, tables before their members, in the order of documents.
+const std::vector<Key>& schema();
+
+/// The key with this pattern; nullptr when there is none.
+const Key* find_key(std::string_view pattern);
+
+/// The key as it is in axisymmetric analyses.
+const Key& in_revolution(const Key& key);
+
+/// A pattern for people: "tools.NAME.velocity".
+std::string readable(std::string pattern);
+
+/// Members of the table with this pattern, in order.
+const std::vector<const Key*>& members_of(const std::string& pattern);
+
+/// JSON Schema (draft 2020-12) of a case, for editors: `cnem schema`.
+std::string json_schema();
+
+/// The case reference in Markdown: docs/case_reference.md.
+std::string case_reference();
+
+} // namespace cnem::input

@@ -1,0 +1,137 @@
+// JSON Schema of a case, for editors that complete and check TOML.
+#include "input/schema/schema.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace cnem::input {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json text_type() { return {{"type", "string"}}; }
+
+Json one_of(std::vector<Json> options) { return {{"anyOf", std::move(options)}}; }
+
+Json array_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
+
+Json pair_of(const Json& item) {
+  Json pair = array_of(item);
+  pair["minItems"] = pair["maxItems"] = 2;
+  return pair;
+}
+
+/// A number with a unit; dimensionless ones may be bare.
+Json quantity(const Key& key) {
+  if (!key.dimension.dimensionless()) return text_type();
+  Json number{{"type", "number"}};
+  if (key.range.low != anything.low)
+    number[key.range.low_open ? "exclusiveMinimum" : "minimum"] = key.range.low;
+  if (key.range.high != anything.high)
+    number[key.range.high_open ? "exclusiveMaximum" : "maximum"] = key.range.high;
+  return one_of({number, text_type()});
+}
+
+Json time_tables(const Json& value) {
+  const auto closed = [](Json properties, Json required) {
+    return Json{{"type", "object"},
+                {"properties", std::move(properties)},
+                {"required", std::move(required)},
+                {"additionalProperties", false}};
+  };
+  const Json list = one_of({text_type(), array_of(text_type())});
+  return one_of(
+      {value,
+       closed({{"value", value}, {"ramp", text_type()}, {"from", value}, {"smooth", {{"type", "boolean"}}}},
+              {"value"}),
+       closed({{"times", list}, {"values", one_of({text_type(), array_of(value)})}}, {"times", "values"})});
+}
+
+Json object_schema(const std::string& pattern);
+
+Json value_schema(const Key& key) {
+  Json scalar = quantity(key);
+  Json vector = one_of({text_type(), pair_of(scalar)});
+  switch (key.type) {
+  case Type::table:
+    return object_schema(key.path);
+  case Type::named_tables:
+    return {{"type", "object"},
+            {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,100}$"}}},
+            {"additionalProperties", object_schema(key.path + ".*")}};
+  case Type::table_list:
+    return array_of(object_schema(key.path + "[]"));
+  case Type::quantity:
+    return scalar;
+  case Type::integer:
+    return {{"type", "integer"},
+            {"minimum", static_cast<std::int64_t>(key.range.low)},
+            {"maximum", static_cast<std::int64_t>(key.range.high)}};
+  case Type::boolean:
+    return {{"type", "boolean"}};
+  case Type::text:
+    return text_type();
+  case Type::choice:
+    return {{"enum", key.choices}};
+  case Type::texts:
+    return one_of({text_type(), array_of(text_type())});
+  case Type::choices:
+    return one_of({{{"enum", key.choices}}, array_of({{"enum", key.choices}})});
+  case Type::vector:
+    return vector;
+  case Type::vectors:
+    return array_of(vector);
+  case Type::quantities:
+    return one_of({scalar, array_of(scalar)});
+  case Type::function:
+    return time_tables(scalar);
+  case Type::vector_function: {
+    Json components{{"type", "object"},
+                    {"properties", {{"x", time_tables(scalar)}, {"y", time_tables(scalar)}}},
+                    {"minProperties", 1},
+                    {"additionalProperties", false}};
+    return one_of({time_tables(vector), std::move(components)});
+  }
+  }
+  return {};
+}
+
+Json parsed_toml(const std::string& text) {
+  // Defaults and examples are scalars and arrays, on which TOML and JSON agree; inline tables are left out.
+  return Json::parse(text, nullptr, false);
+}
+
+Json object_schema(const std::string& pattern) {
+  Json properties = Json::object(), required = Json::array();
+  for (const Key* key : members_of(pattern)) {
+    Json schema = value_schema(*key);
+    std::string description = key->doc;
+    if (!key->when.sibling.empty()) {
+      description += " Goes with " + key->when.sibling + " = ";
+      for (const std::string& value : key->when.values)
+        description += (value == key->when.values.front() ? "\"" : " or \"") + value + "\"";
+      description += '.';
+    }
+    if (!description.empty()) schema["description"] = description;
+    if (!key->dimension.dimensionless()) schema["x-si-unit"] = describe(key->dimension).si_unit;
+    if (key->revolution) schema["x-si-unit-axisymmetric"] = describe(*key->revolution).si_unit;
+    if (!key->fallback.empty()) schema["default"] = parsed_toml(key->fallback);
+    if (!key->example.empty())
+      if (Json example = parsed_toml(key->example); !example.is_discarded())
+        schema["examples"] = Json::array({std::move(example)});
+    if (key->presence == Presence::required && key->when.sibling.empty()) required.push_back(key->name());
+    properties[key->name()] = std::move(schema);
+  }
+  Json object{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+  if (!required.empty()) object["required"] = std::move(required);
+  return object;
+}
+
+} // namespace
+
+std::string json_schema() {
+  Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "cnem case"}};
+  schema.update(object_schema(""));
+  return schema.dump(2) + "\n";
+}
+
+} // namespace cnem::input

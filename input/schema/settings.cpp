@@ -1,0 +1,244 @@
+#include "input/schema/settings.hpp"
+
+#include "input/schema/conversion.hpp"
+#include "input/schema/nearest.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace cnem::input {
+namespace {
+
+std::string join(const std::string& table, const std::string& name) {
+  return table.empty() ? name : table + "." + name;
+}
+
+/// A key as messages write it.
+std::string shown(const std::string& key) { return valid_name(key) ? key : toml_quoted(shortened(key)); }
+
+std::size_t common_prefix(std::string_view a, std::string_view b) {
+  std::size_t n = 0;
+  while (n < std::min(a.size(), b.size()) && a[n] == b[n]) ++n;
+  return n;
+}
+
+/// What an unknown key may have meant: a sibling, else the same word in another table.
+std::string suggestion(const std::string& name, const std::string& pattern, const std::string& path) {
+  std::vector<std::string> siblings;
+  for (const Key* key : members_of(pattern)) siblings.push_back(key->name());
+  if (const auto sibling = nearest(name, siblings))
+    return fmt::format(" (did you mean '{}'?)", join(path, *sibling));
+  const Key* best = nullptr;
+  for (const Key& key : schema())
+    if (key.name() == name &&
+        (!best || common_prefix(key.path, pattern) > common_prefix(best->path, pattern)))
+      best = &key;
+  return best ? fmt::format(" (did you mean '{}'?)", readable(best->path)) : "";
+}
+
+class Resolver {
+public:
+  Resolver(Diagnostics& diagnostics, bool revolution) : diagnostics_(diagnostics), revolution_(revolution) {}
+
+  /// Fills the members of a table from what was written (nullptr: nothing).
+  void table(Setting& setting, const Value* written, const std::string& pattern) {
+    if (written) report_unknown(*written, pattern, setting.path);
+    for (const Key* plane : members_of(pattern)) {
+      const Key* key = revolution_ ? &in_revolution(*plane) : plane;
+      const Member* found = written ? written->find(key->name()) : nullptr;
+      const std::string path = join(setting.path, key->name());
+      if (!key->when.sibling.empty() && !applies(*key, setting, found, path)) continue;
+      if (!found && key->presence != Presence::fallback) {
+        if (key->presence == Presence::required) report_missing(*key, setting.where, path);
+        continue;
+      }
+      Setting member{key, key->name(), path, found ? found->where : setting.where, found != nullptr,
+                     {},  {},          {}};
+      if (fill(member, found ? &found->value : nullptr)) setting.members.push_back(std::move(member));
+    }
+  }
+
+private:
+  void report_missing(const Key& key, const Location& where, const std::string& path) {
+    diagnostics_.add(Mistake::missing_key, where, path, "missing, expected " + key.expectation());
+  }
+
+  void report_unknown(const Value& written, const std::string& pattern, const std::string& path) {
+    std::vector<std::string> known;
+    for (const Key* key : members_of(pattern)) known.push_back(key->name());
+    for (const Member& member : written.members) {
+      if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
+      if (diagnostics_.tells(Mistake::unknown_key))
+        diagnostics_.add(Mistake::unknown_key, member.where, join(path, shown(member.key)),
+                         fmt::format("unknown key, expected one of {}{}", fmt::join(known, ", "),
+                                     suggestion(member.key, pattern, path)));
+      else
+        diagnostics_.count(Mistake::unknown_key);
+    }
+  }
+
+  /// Whether the key goes with its sibling's value; if not, it must not have been written.
+  bool applies(const Key& key, const Setting& table, const Member* found, const std::string& path) {
+    const Setting* sibling = table.find(key.when.sibling);
+    if (!sibling) return false;
+    const std::string& value = std::get<std::string>(sibling->value);
+    const std::vector<std::string>& values = key.when.values;
+    if (std::find(values.begin(), values.end(), value) != values.end()) return true;
+    if (found)
+      diagnostics_.add(Mistake::conflict, found->where, path,
+                       fmt::format("goes with {0} = \"{1}\", expected none with {0} = \"{2}\"",
+                                   key.when.sibling, fmt::join(values, "\" or \""), value));
+    return false;
+  }
+
+  /// False when the value is wrong; that has been reported.
+  bool fill(Setting& setting, const Value* written) {
+    const Key& key = *setting.key;
+    try {
+      switch (key.type) {
+      case Type::table:
+        if (written && written->kind != Value::Kind::table) (void)convert_value(*written, key);
+        table(setting, written, key.path);
+        break;
+      case Type::named_tables:
+        if (!written) break; // no entries
+        if (written->kind != Value::Kind::table) (void)convert_value(*written, key);
+        named(setting, *written);
+        break;
+      case Type::table_list:
+        if (!written) break;
+        if (written->kind != Value::Kind::array) (void)convert_value(*written, key);
+        list(setting, *written);
+        break;
+      default:
+        setting.value = written ? convert_value(*written, key) : fallback(key);
+        if (written)
+          for (const Value& element : written->elements) setting.element_where.push_back(element.where);
+      }
+    } catch (const ConversionError& error) {
+      diagnostics_.add(error.kind, error.where, setting.path, error.what());
+      return false;
+    }
+    return true;
+  }
+
+  static SettingValue fallback(const Key& key) {
+    const Value document = parse_document("value = " + key.fallback, "default of " + key.path);
+    return convert_value(document.find("value")->value, key);
+  }
+
+  void named(Setting& setting, const Value& written) {
+    const std::string pattern = setting.key->path + ".*";
+    for (const Member& member : written.members) {
+      const std::string path = join(setting.path, shown(member.key));
+      if (!valid_name(member.key))
+        diagnostics_.add(Mistake::type, member.where, path,
+                         fmt::format("found the name {}, expected at most {} letters, digits, '_' and '-'",
+                                     toml_quoted(shortened(member.key)), longest_name));
+      else
+        entry(setting, member.key, path, member.where, member.value, pattern);
+    }
+    if (setting.key->presence == Presence::required && written.members.empty())
+      diagnostics_.add(Mistake::missing_key, setting.where, setting.path,
+                       "is empty, expected " + setting.key->expectation());
+  }
+
+  void list(Setting& setting, const Value& written) {
+    const std::string pattern = setting.key->path + "[]";
+    for (std::size_t i = 0; i < written.elements.size(); ++i) {
+      const std::string name = fmt::format("[{}]", i);
+      entry(setting, name, setting.path + name, written.elements[i].where, written.elements[i], pattern);
+    }
+  }
+
+  void entry(Setting& parent, const std::string& name, const std::string& path, const Location& where,
+             const Value& value, const std::string& pattern) {
+    if (value.kind != Value::Kind::table) {
+      diagnostics_.add(Mistake::type, value.where, path,
+                       fmt::format("found {}, expected a table", value.show()));
+      return;
+    }
+    Setting member{find_key(pattern), name, path, where, true, {}, {}, {}};
+    table(member, &value, pattern);
+    parent.members.push_back(std::move(member));
+  }
+
+  Diagnostics& diagnostics_;
+  bool revolution_;
+};
+
+bool is_of_revolution(const Value& document) {
+  const Member* analysis = document.find("analysis");
+  const Member* kinematics = analysis ? analysis->value.find("kinematics") : nullptr;
+  return kinematics && kinematics->value.kind == Value::Kind::text &&
+         kinematics->value.text == "axisymmetric";
+}
+
+} // namespace
+
+bool valid_name(std::string_view name) {
+  return !name.empty() && name.size() <= longest_name && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+const Setting* Setting::find(std::string_view relative) const {
+  const Setting* setting = this;
+  while (setting && !relative.empty()) {
+    const auto dot = relative.find('.');
+    const std::string_view step = relative.substr(0, dot);
+    const auto found = std::find_if(setting->members.begin(), setting->members.end(),
+                                    [&](const Setting& member) { return member.name == step; });
+    setting = found == setting->members.end() ? nullptr : &*found;
+    relative = dot == std::string_view::npos ? std::string_view{} : relative.substr(dot + 1);
+  }
+  return setting;
+}
+
+Setting* Setting::find(std::string_view relative) {
+  return const_cast<Setting*>(static_cast<const Setting*>(this)->find(relative));
+}
+
+const std::vector<Setting>& Setting::entries(std::string_view relative) const {
+  static const std::vector<Setting> none;
+  const Setting* setting = find(relative);
+  return setting ? setting->members : none;
+}
+
+int Setting::choice_index(const Setting& setting) {
+  const std::vector<std::string>& choices = setting.key->choices;
+  const auto found = std::find(choices.begin(), choices.end(), std::get<std::string>(setting.value));
+  return static_cast<int>(found - choices.begin());
+}
+
+void Setting::set_default(std::string_view relative, SettingValue computed) {
+  if (find(relative)) return;
+  const auto dot = relative.rfind('.');
+  Setting* table = dot == std::string_view::npos ? this : find(relative.substr(0, dot));
+  if (!table) return;
+  const std::string member(dot == std::string_view::npos ? relative : relative.substr(dot + 1));
+  const std::string pattern = table->key ? join(table->key->path, member) : member;
+  const Key* spec = find_key(pattern);
+  // The schema is one array, so its order is that of addresses in it.
+  const auto place = std::find_if(table->members.begin(), table->members.end(),
+                                  [&](const Setting& other) { return find_key(other.key->path) > spec; });
+  table->members.insert(
+      place, {spec, member, join(table->path, member), table->where, false, std::move(computed), {}, {}});
+}
+
+void Setting::erase(std::string_view relative) {
+  const auto dot = relative.rfind('.');
+  Setting* table = dot == std::string_view::npos ? this : find(relative.substr(0, dot));
+  const std::string_view member = dot == std::string_view::npos ? relative : relative.substr(dot + 1);
+  if (table) std::erase_if(table->members, [&](const Setting& setting) { return setting.name == member; });
+}
+
+Setting apply_schema(const Value& document, Diagnostics& diagnostics) {
+  Setting root;
+  root.where = document.where;
+  Resolver(diagnostics, is_of_revolution(document)).table(root, &document, "");
+  return root;
+}
+
+} // namespace cnem::input

@@ -1,0 +1,60 @@
+#pragma once
+// Linear statics: small-strain isotropic elasticity on the same operators as the explicit solver.
+#include "core/cloud.hpp"
+#include "core/discretisation.hpp"
+#include "core/state.hpp"
+#include "mechanics/supports.hpp"
+#include "plasticity/material.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cnem {
+
+/// What is zero out of the plane: strain, or stress. Operators of revolution carry a hoop strain of their own
+/// and take strain_free.
+enum class OutOfPlane { strain_free, stress_free };
+
+/// K u = f with K = Σ_p V_p Bᵀ D B + the edge-defect stabilisation. Of revolution, forces and energies are
+/// those of the whole body: N and J in place of N/m and J/m.
+///
+/// The columns of `operators` are scalar functions ψ_a, u(x) = Σ_a ψ_a(x) u_a: the shape functions of the
+/// nodes, which may be followed by enrichment functions that vanish at the nodes (fracture/enrichment.hpp).
+struct StaticProblem {
+  const DiscreteOperators<2>& operators;
+  const std::vector<Vec<2>>& position;     ///< [node] m; operators.nodes − position.size() functions enrich
+  const StabilisationLinks<2>& links;      ///< between nodal stress points
+  const DiscreteOperators<2>& link_points; ///< rows of the gradients at the nodes that `links` join
+  plasticity::Elasticity elasticity;
+  std::span<const plasticity::Elasticity> elasticity_of_point =
+      {}; ///< [point]; empty: `elasticity` everywhere
+  OutOfPlane out_of_plane = OutOfPlane::strain_free;
+  double stabilisation = 0.05; ///< α of the edge defect, on μ (the mean of both ends)
+  const Supports<2>& supports;
+  double time = 0.0;      ///< s, at which prescribed displacements are taken
+  const Fields<2>& force; ///< [k][function] N/m, external forces; functions beyond its length are not loaded
+
+  const plasticity::Elasticity& at_point(std::size_t p) const {
+    return elasticity_of_point.empty() ? elasticity : elasticity_of_point[p];
+  }
+};
+
+struct StaticSolution {
+  Fields<2> displacement;     ///< [k][function] m; of nodes first
+  Fields<5> gradient;         ///< [·][point] ∇u, with the strain out of the plane in the place of zz
+  Fields<4> stress;           ///< [·][point] Pa
+  Fields<2> reaction;         ///< [k][node] K u − f at held nodes, N/m; 0 elsewhere
+  double strain_energy = 0.0; ///< J/m ½ Σ V σ:ε
+  double stabilisation_energy = 0.0; ///< J/m
+  double external_work = 0.0;        ///< J/m ½ f·u + ½ reactions · prescribed displacements
+  double residual = 0.0;  ///< – ‖K u − f‖ of the free unknowns over the largest nodal force norm
+  double condition = 0.0; ///< – of the stiffness scaled to a unit diagonal, estimated
+};
+
+/// Solves with a sparse Cholesky factorisation (supernodal where CHOLMOD was found).
+/// Throws InputError that names the motion nothing holds when supports leave a rigid body motion free, and
+/// DivergenceError that names field and place when what comes out is not a number.
+StaticSolution solve_statics(const StaticProblem& problem);
+
+} // namespace cnem

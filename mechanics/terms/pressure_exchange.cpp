@@ -1,0 +1,154 @@
+#include "mechanics/terms/pressure_exchange.hpp"
+
+#include "core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem {
+namespace {
+
+template<int dim> std::vector<char> boundary_nodes(const std::vector<Facet<dim>>& facets, std::size_t nodes) {
+  std::vector<char> on_boundary(nodes, 0);
+  for (const Facet<dim>& facet : facets)
+    for (const std::int32_t node : facet.node) on_boundary[static_cast<std::size_t>(node)] = 1;
+  return on_boundary;
+}
+
+/// F⁻ᵀ as PointState lays tensors.
+void inverse_transposed(const Fields<5>& f, std::size_t p, double (&result)[5]) {
+  const double plane = f[0][p] * f[3][p] - f[1][p] * f[2][p];
+  result[0] = f[3][p] / plane;
+  result[1] = -f[2][p] / plane;
+  result[2] = -f[1][p] / plane;
+  result[3] = f[0][p] / plane;
+  result[4] = 1.0 / f[4][p];
+}
+
+/// Adds δθ to the logarithmic elastic volume of point p, with all that follows from it.
+void swell(PointState<2>& point, ColumnStress<2>& stress, std::size_t p, double kappa, double dtheta) {
+  const double root = std::exp(-dtheta / 3.0), scale = 1.0 / (root * root), shrink = root * root * root;
+  const double tension = -point.pressure[p];
+  double change[5];
+  inverse_transposed(point.deformation, p, change);
+  for (std::size_t c = 0; c < 5; ++c) {
+    const double before = point.piola[c][p];
+    point.piola[c][p] = shrink * (before + kappa * dtheta * point.stress_free[p] * change[c]);
+    change[c] = point.piola[c][p] - before;
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t k = 0; k < 2; ++k) stress.columns[(p * 2 + k) * 2 + i] += change[i * 2 + k];
+  stress.out_of_plane[p] += change[4];
+  for (Field& component : point.elastic) component[p] *= scale;
+  point.stored_energy[p] += dtheta * (tension + 0.5 * kappa * dtheta);
+  point.pressure[p] -= kappa * dtheta;
+  point.stress_free[p] *= shrink;
+}
+
+} // namespace
+
+template<int dim>
+void PressureExchange<dim>::reset(const std::vector<Facet<dim>>& facets, Field bulk_modulus) {
+  bulk_modulus_ = std::move(bulk_modulus);
+  boundary_ = boundary_nodes(facets, bulk_modulus_.size());
+  record_.assign((dim + 4) * bulk_modulus_.size(), 0.0);
+  drift_.resize(bulk_modulus_.size(), 0.0);
+}
+
+template<int dim>
+typename PressureExchange<dim>::Energy
+PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
+                             const Field& reference, double dt, PointState<dim>& point,
+                             ColumnStress<dim>& stress) {
+  constexpr std::size_t stride = dim + 4, increment = dim + 1, strength = dim + 2, room = dim + 3;
+  const std::size_t n = point.size();
+  const std::int32_t *row = operators.row_begin.data(), *node = operators.node.data();
+  const std::int32_t *first = links.begin.data(), *neighbour = links.neighbour.data();
+  const double *pressure = point.pressure.data(), *weight = links.weight.data();
+  const auto gradient = pointers(operators.gradient);
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double* own = record_.data() + stride * i;
+      own[increment] = 0.0;
+      if (boundary_[i] || !(point.plastic_rate[i] > 0.0)) continue;
+      double g[dim] = {};
+      for (std::int32_t e = row[i]; e < row[i + 1]; ++e) {
+        const double jump = pressure[node[e]] - pressure[i];
+        for (std::size_t k = 0; k < dim; ++k) g[k] += gradient[k][e] * jump;
+      }
+      for (std::size_t k = 0; k < dim; ++k) own[1 + k] = g[k];
+      own[0] = pressure[i];
+      own[increment] = point.plastic_rate[i] * dt;
+      own[strength] = point.equivalent_stress[i];
+      own[room] = operators.volume[i] / (first[i + 1] - first[i]);
+    }
+  });
+  std::vector<Energy> energy(blocks(n));
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    Energy& sum = energy[begin / block_size];
+    for (std::size_t i = begin; i < end; ++i) {
+      const double* own = record_.data() + stride * i;
+      if (own[increment] == 0.0) continue;
+      const double kappa = bulk_modulus_[i];
+      double flow = 0.0;
+      for (std::int32_t e = first[i]; e < first[i + 1]; ++e) {
+        const auto j = static_cast<std::size_t>(neighbour[e]);
+        const double* other = record_.data() + stride * j;
+        if (other[increment] == 0.0 || bulk_modulus_[j] != kappa) continue;
+        double linear = 0.0, distance2 = 0.0;
+        for (std::size_t k = 0; k < dim; ++k) {
+          const double X = reference[dim * j + k] - reference[dim * i + k];
+          linear += (own[1 + k] + other[1 + k]) * X;
+          distance2 += X * X;
+        }
+        const double jump = other[0] - own[0] - 0.5 * linear;
+        const double plastic = alpha_ * weight[e] * distance2 * 3.0 *
+                               std::min(own[increment], other[increment]) / (own[strength] + other[strength]);
+        flow += std::min(plastic, 0.5 * std::min(own[room], other[room]) / kappa) * jump;
+      }
+      if (flow == 0.0) continue;
+      const double volume = operators.volume[i], dtheta = -flow / volume, stress_free = point.stress_free[i];
+      swell(point, stress, i, kappa, dtheta);
+      const double traded = volume * (stress_free - point.stress_free[i]);
+      sum.dissipated += volume * stress_free * 0.5 * (before_[i] + point.pressure[i]) * dtheta +
+                        traded * point.stored_energy[i];
+      sum.plastic += traded * point.plastic_work[i];
+      drift_[i] += dtheta;
+    }
+  });
+  Energy total;
+  for (const Energy& part : energy) {
+    total.dissipated += part.dissipated;
+    total.plastic += part.plastic;
+  }
+  return total;
+}
+
+template<int dim> void PressureExchange<dim>::archive(Archive& archive) {
+  if (alpha_ > 0.0) archive.field("solver/node/volume_drift", "1", drift_);
+}
+
+template<int dim>
+double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Facet<dim>>& facets,
+                      const PointState<dim>& point) {
+  if (links.neighbour.empty()) return 0.0;
+  const std::vector<char> on_boundary = boundary_nodes(facets, point.size());
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    if (on_boundary[i] || !(point.plastic_rate[i] > 0.0)) continue;
+    double mean = 0.0;
+    for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e)
+      mean += point.pressure[static_cast<std::size_t>(links.neighbour[static_cast<std::size_t>(e)])];
+    mean /= links.begin[i + 1] - links.begin[i];
+    sum += std::pow((point.pressure[i] - mean) / point.equivalent_stress[i], 2);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+}
+
+template class PressureExchange<2>;
+template double pressure_noise<2>(const StabilisationLinks<2>&, const std::vector<Facet<2>>&,
+                                  const PointState<2>&);
+
+} // namespace cnem

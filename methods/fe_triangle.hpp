@@ -1,0 +1,23 @@
+#pragma once
+// Linear finite-element triangles behind the same contract as C-NEM: the method it is compared with.
+#include "core/discretisation.hpp"
+#include "core/revolution.hpp"
+
+namespace cnem::methods {
+
+/// Constant-strain triangles on the constrained Delaunay triangulation of the cloud. Stress points are
+/// triangles (V = area, N = 1/3 at each corner); there are no stabilisation links, conduction uses the same
+/// operators.
+class FeTriangles final : public Discretisation<2> {
+public:
+  explicit FeTriangles(Space space = Space::plane) : space_(space) {}
+
+  /// Throws GeometryError as voronoi::triangulate and voronoi::linear_triangles do.
+  Approximation<2> rebuild(const Cloud<2>& cloud) override;
+  std::string name() const override { return "fe_triangle"; }
+
+private:
+  Space space_;
+};
+
+} // namespace cnem::methods

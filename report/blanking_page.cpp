@@ -1,0 +1,218 @@
+#include "report/blanking_page.hpp"
+
+#include "evaluate/force_stroke.hpp"
+#include "report/html.hpp"
+#include "results/si_format.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace cnem::report {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+std::string words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string degrees(double angle) { return fmt::format("{:.2f}°", angle / degree + 0.0); }
+
+struct Height {
+  evaluate::Zone zone;
+  double size, from, to; ///< m
+};
+
+/// Zones with a height, in their order into the sheet.
+std::vector<Height> heights(const evaluate::ShearedFace& face) {
+  std::vector<Height> list;
+  double at = 0.0;
+  const auto add = [&](evaluate::Zone zone, double size) {
+    if (size > 0.0) list.push_back({zone, size, at, at + size});
+    at += size;
+  };
+  add(evaluate::Zone::rollover, face.rollover);
+  add(evaluate::Zone::burnish, face.burnish);
+  add(evaluate::Zone::fracture, face.fracture);
+  add(evaluate::Zone::second_burnish, face.second_burnish);
+  add(evaluate::Zone::burr, face.burr);
+  return list;
+}
+
+std::string title_of(const evaluate::ShearedFace& face) {
+  return face.cut.empty() ? face.body : fmt::format("{}, {}", face.body, face.cut);
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_escape(name),
+                     html_escape(value));
+}
+
+std::string table_of(const evaluate::ShearedFace& face) {
+  std::string html = "<table>\n";
+  const auto add = [&](const char* name, double size) {
+    html += row(name,
+                fmt::format("{}  ({:.1f} %)", results::si_format(size, "m"), 100.0 * size / face.thickness));
+  };
+  add("Rollover height", face.rollover);
+  add("Burnish height", face.burnish);
+  add("Fracture height", face.fracture);
+  if (face.second_burnish > 0.0) add("Second burnish", face.second_burnish);
+  add("Burr height", face.burr);
+  add("Rollover width", face.rollover_width);
+  if (std::isfinite(face.fracture_angle)) html += row("Fracture angle", degrees(face.fracture_angle));
+  html += row("Tilt of the body", degrees(face.tilt));
+  html += row("Thickness of the sheet before", results::si_format(face.thickness, "m"));
+  return html + "</table>\n";
+}
+
+std::string faces(const evaluate::BlankingResult& result) {
+  std::string html;
+  for (const evaluate::ShearedFace& face : result.faces) {
+    html +=
+        fmt::format("<figure class=\"face\"><h3>Face of the {}</h3>\n{}{}", html_escape(title_of(face)),
+                    face.profile.size() > 1 ? face_drawing(face) : "", face.found() ? table_of(face) : "");
+    if (!face.note.empty()) html += fmt::format("<figcaption>{}</figcaption>", html_escape(face.note));
+    html += "</figure>\n";
+  }
+  return html;
+}
+
+std::string force_table(const evaluate::BlankingResult& result) {
+  if (result.forces.empty()) return "";
+  std::string html = "<div><h3>Forces along the cut, work</h3>\n<table>\n";
+  for (const evaluate::ToolForce& force : result.forces) {
+    html += row(fmt::format("Largest force of {}", force.tool),
+                fmt::format("{} at a stroke of {}", results::si_format(force.largest, result.force_unit),
+                            results::si_format(force.stroke, "m")));
+    if (force.work != 0.0)
+      html += row(fmt::format("Work of {}", force.tool), results::si_format(force.work, result.work_unit));
+  }
+  html += row("Stroke at the end", results::si_format(result.stroke, "m"));
+  return html + "</table>\n</div>\n";
+}
+
+std::string springback_table(const evaluate::BlankingResult& result) {
+  if (result.springback.empty()) return "";
+  std::string html = "<div><h3>Springback</h3>\n<table>\n";
+  for (const evaluate::BodySpringback& body : result.springback) {
+    const std::string name = words(body.body);
+    html += row(fmt::format("Largest displacement of {}", name), results::si_format(body.largest, "m"));
+    if (std::isfinite(body.angle_change))
+      html += row(fmt::format("Angle of {}", name),
+                  fmt::format("{} before, {:+.4f}° by letting go", degrees(body.angle_before),
+                              body.angle_change / degree));
+    if (std::isfinite(body.dishing_change))
+      html += row(fmt::format("Dishing of {}", name),
+                  fmt::format("{} before, {} by letting go", results::si_format(body.dishing_before, "m"),
+                              results::si_format(body.dishing_change, "m")));
+  }
+  return html + "</table>\n</div>\n";
+}
+
+} // namespace
+
+std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
+                                        const results::HistoryTable& history) {
+  if (result.forces.empty() || history.rows() < 2) return std::nullopt;
+  Chart chart;
+  chart.title = "Force along the cut against stroke";
+  chart.x_label = fmt::format("stroke of {}", result.punch);
+  chart.x_unit = std::string("m");
+  chart.y_label = "force along the cut";
+  chart.y_unit = result.force_unit;
+  for (std::size_t k = 0; k < result.forces.size(); ++k) {
+    const evaluate::ToolForce& force = result.forces[k];
+    if (!(force.largest > 0.0)) continue;
+    const evaluate::ForceCurve curve = evaluate::force_curve(history, force.tool, result.punch, result.dies,
+                                                             Vec2(result.direction_x, result.direction_y));
+    ChartSeries raw, smooth, mark;
+    raw.x = curve.stroke;
+    raw.y = curve.force;
+    raw.faint = true;
+    smooth.label = force.tool;
+    smooth.x = curve.even_stroke;
+    smooth.y = curve.smooth;
+    raw.colour = smooth.colour = mark.colour = static_cast<int>(k);
+    const double most = curve.smooth[curve.largest];
+    mark.x = {0.0, force.stroke, force.stroke};
+    mark.y = {most, most, 0.0};
+    mark.dashed = true;
+    chart.series.insert(chart.series.end(), {raw, smooth, mark});
+  }
+  if (chart.series.empty()) return std::nullopt;
+  chart.note = fmt::format(
+      "Of the tools on the workpiece, positive with the motion of the punch. Pale: every recorded "
+      "value; full: Gaussian low-pass in time, σ = {}; dashed: the largest of it.",
+      results::si_format(evaluate::force_filter(history.column.front()), "s", 3));
+  return chart;
+}
+
+std::string face_drawing(const evaluate::ShearedFace& face) {
+  constexpr double high = 320.0, wide = 360.0, width = 640.0, top = 40.0, left = 20.0, font = 13.0,
+                   line = 17.0;
+  double low_u = 0.0, high_u = 0.0, deep = face.parted ? face.thickness : 0.0;
+  for (const Vec2& x : face.profile) {
+    low_u = std::min(low_u, x.x());
+    high_u = std::max(high_u, x.x());
+    deep = std::max(deep, x.y());
+  }
+  deep *= 1.02;
+  const double scale = std::min(high / deep, wide / (high_u - low_u));
+  const auto px = [&](double v) { return left + (v - low_u) * scale; };
+  const auto py = [&](double w) { return top + w * scale; };
+  const double right = px(high_u) + 30.0;
+
+  std::string svg =
+      fmt::format("<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" font-size=\"{:.0f}\">\n"
+                  "<title>Sheared face of the {}</title>\n",
+                  width, py(deep) + 30.0, font, html_escape(title_of(face)));
+  std::string body;
+  for (std::size_t k = 0; k < face.profile.size(); ++k)
+    body += fmt::format("{}{:.1f} {:.1f}", k ? "L" : "M", px(face.profile[k].x()), py(face.profile[k].y()));
+  if (!face.parted) body += fmt::format("V{:.1f}", py(deep)); // the sheet goes on below
+  svg += fmt::format("<path class=\"body\" d=\"{}H{:.1f}V{:.1f}Z\"/>\n", body, px(low_u),
+                     py(face.profile.front().y()));
+  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">surface on the side of the {}</text>\n", px(low_u),
+                     top - 12.0, face.body == "slug" ? "die" : "punch");
+  const double edge = px(0.0);
+  double text = top - line;
+  for (const Height& height : heights(face)) {
+    const double from = py(height.from), to = py(height.to);
+    text = std::max(text + line, 0.5 * (from + to) + 4.0);
+    svg += fmt::format(
+        "<path class=\"line {0}\" d=\"M{1:.1f} {2:.1f}V{3:.1f}\"/><path class=\"grid\" d=\"M{4:.1f} "
+        "{2:.1f}H{1:.1f}M{4:.1f} {3:.1f}H{1:.1f}\"/><text class=\"key\" x=\"{5:.1f}\" "
+        "y=\"{6:.1f}\">{7} {8} ({9:.1f} %)</text>\n",
+        evaluate::zone_name(height.zone), right, from, to, edge, right + 10.0, text,
+        html_escape(words(evaluate::zone_name(height.zone))), results::si_format(height.size, "m", 3),
+        100.0 * height.size / face.thickness);
+  }
+  // One path for each stretch of a zone.
+  for (std::size_t k = 0; k < face.zone.size();) {
+    std::string path = fmt::format("M{:.1f} {:.1f}", px(face.profile[k].x()), py(face.profile[k].y()));
+    const evaluate::Zone zone = face.zone[k];
+    for (; k < face.zone.size() && face.zone[k] == zone; ++k)
+      path += fmt::format("L{:.1f} {:.1f}", px(face.profile[k + 1].x()), py(face.profile[k + 1].y()));
+    svg += fmt::format("<path class=\"line {}\" d=\"{}\"/>\n", evaluate::zone_name(zone), path);
+  }
+  return svg + "</svg>\n";
+}
+
+std::string render_blanking(const evaluate::BlankingResult& result, const std::optional<Chart>& forces) {
+  std::string html;
+  if (!result.note.empty()) html += fmt::format("<p>{}</p>\n", html_escape(result.note));
+  std::string figures = faces(result);
+  if (forces)
+    figures += fmt::format("<figure><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
+                           html_escape(forces->title), svg_chart(*forces), html_escape(forces->note));
+  if (!figures.empty()) html += fmt::format("<div class=\"charts\">\n{}</div>\n", figures);
+  const std::string tables = force_table(result) + springback_table(result);
+  if (!tables.empty()) html += fmt::format("<div class=\"tables\">\n{}</div>\n", tables);
+  return html;
+}
+
+} // namespace cnem::report

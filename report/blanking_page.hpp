@@ -1,0 +1,22 @@
+#pragma once
+// The part of report.html on a cut: faces as drawings, forces over stroke, what letting go does.
+#include "evaluate/blanking_result.hpp"
+#include "report/chart.hpp"
+
+#include <optional>
+#include <string>
+
+namespace cnem::report {
+
+/// Force of punch and dies along the cutting direction over the stroke, with the largest force marked; none
+/// when the history lacks them.
+std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
+                                        const results::HistoryTable& history);
+
+/// One face as an <svg> element: the body beside the cut, its zones in colours, heights at the side.
+std::string face_drawing(const evaluate::ShearedFace& face);
+
+/// Drawings, chart and tables as HTML; empty when there is nothing to show.
+std::string render_blanking(const evaluate::BlankingResult& result, const std::optional<Chart>& forces);
+
+} // namespace cnem::report

@@ -1,0 +1,234 @@
+#include "evaluate/force_stroke.hpp"
+#include "report/chart.hpp"
+#include "results/si_format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+namespace cnem::report {
+namespace {
+
+std::string words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+double largest(const std::vector<double>& values) {
+  double size = 0.0;
+  for (const double value : values)
+    if (std::isfinite(value)) size = std::max(size, std::abs(value));
+  return size;
+}
+
+// Sorts the columns of a history into charts; each column is drawn once.
+class Charts {
+public:
+  explicit Charts(const results::HistoryTable& history) : history_(history), time_(history.column.front()) {
+    for (const char* name : {"time", "step"}) use(history_.find(name));
+  }
+
+  std::vector<Chart> all() {
+    forces();
+    energies();
+    groups("max.", [](const std::string& field) { return fmt::format("Largest {}", field); });
+    groups("probe.", [](const std::string& field) { return fmt::format("Probes: {}", field); });
+    step_size();
+    conservation();
+    groups("", [](const std::string& field) { return field; });
+    return std::move(charts_);
+  }
+
+private:
+  void use(int column) {
+    if (column >= 0) used_.insert(column);
+  }
+  const std::vector<double>& column(int k) const { return history_.column[static_cast<std::size_t>(k)]; }
+  results::ColumnName name(int k) const {
+    return results::split_column_name(history_.names[static_cast<std::size_t>(k)]);
+  }
+  int columns() const { return static_cast<int>(history_.names.size()); }
+
+  Chart against_time(std::string title, std::string label, std::string unit) const {
+    Chart chart;
+    chart.title = std::move(title);
+    chart.y_label = std::move(label);
+    chart.y_unit = std::move(unit);
+    return chart;
+  }
+
+  ChartSeries series(std::string label, int k, std::size_t colour) const {
+    ChartSeries line;
+    line.label = std::move(label);
+    line.x = time_;
+    line.y = column(k);
+    line.colour = static_cast<int>(colour);
+    return line;
+  }
+
+  void forces() {
+    std::vector<std::string> tools;
+    std::string moving;
+    double longest = 0.0;
+    for (int k = 0; k < columns(); ++k) {
+      const std::string full = name(k).name;
+      if (!full.ends_with(".force_x")) continue;
+      const std::string tool = full.substr(0, full.size() - 8);
+      tools.push_back(tool);
+      const int stroke = history_.find(tool + ".stroke");
+      use(stroke);
+      for (const char* motion : {".displacement_x", ".displacement_y", ".velocity_x", ".velocity_y"})
+        if (const int at = history_.find(tool + motion); at >= 0 && largest(column(at)) == 0.0) use(at);
+      if (stroke >= 0 && largest(column(stroke)) > longest) {
+        longest = largest(column(stroke));
+        moving = tool;
+      }
+    }
+    for (const char* component : {"y", "x"}) force_chart(tools, moving, component);
+  }
+
+  void force_chart(const std::vector<std::string>& tools, const std::string& moving, const char* component) {
+    Chart chart =
+        against_time(fmt::format("Tool forces in {}", component), fmt::format("force in {}", component), "");
+    const std::vector<double>* stroke = nullptr;
+    if (!moving.empty()) {
+      stroke = &column(history_.find(moving + ".stroke"));
+      chart.title += " against stroke";
+      chart.x_label = "stroke of " + moving;
+      chart.x_unit = name(history_.find(moving + ".stroke")).unit;
+    }
+    const double sigma = evaluate::force_filter(time_);
+    const std::vector<double> even = evaluate::even_times(time_);
+    double most = 0.0;
+    for (std::size_t n = 0; n < tools.size(); ++n) {
+      const int k = history_.find(fmt::format("{}.force_{}", tools[n], component));
+      if (k < 0) continue;
+      use(k);
+      chart.y_unit = name(k).unit;
+      most = std::max(most, largest(column(k)));
+      ChartSeries raw = series("", k, n);
+      if (stroke) raw.x = *stroke;
+      raw.faint = true;
+      ChartSeries smooth = series(tools[n], k, n);
+      if (sigma > 0.0) {
+        smooth.x = stroke ? evaluate::interpolated(time_, *stroke, even) : even;
+        smooth.y = evaluate::gaussian_filter(time_, column(k), sigma, even);
+      }
+      chart.series.push_back(std::move(raw));
+      chart.series.push_back(std::move(smooth));
+    }
+    if (!(most > 0.0)) return;
+    const double cutoff = std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * sigma);
+    chart.note =
+        fmt::format("Force of the tool on the workpiece, {}. "
+                    "Pale: every recorded value; full: Gaussian low-pass in time, σ = {} (−3 dB at {}).",
+                    chart.y_unit == "N" ? "of the whole body of revolution"
+                                        : "per unit thickness, of the part that is modelled",
+                    results::si_format(sigma, "s", 3), results::si_format(cutoff, "Hz", 3));
+    charts_.push_back(std::move(chart));
+  }
+
+  void energies() {
+    Chart chart = against_time("Energies", "energy", "");
+    for (int k = 0; k < columns(); ++k) {
+      const results::ColumnName full = name(k);
+      if (!full.name.starts_with("energy.") || full.name == "energy.residual") continue;
+      use(k);
+      if (!(largest(column(k)) > 0.0)) continue;
+      chart.y_unit = full.unit;
+      chart.series.push_back(series(words(full.name.substr(7)), k, chart.series.size()));
+    }
+    if (!chart.series.empty()) charts_.push_back(chart);
+    const int residual = history_.find("energy.residual");
+    if (residual < 0) return;
+    use(residual);
+    chart = against_time("Residual of the energy balance", "residual", name(residual).unit);
+    chart.series.push_back(series("", residual, 0));
+    charts_.push_back(std::move(chart));
+  }
+
+  void step_size() {
+    const int dt = history_.find("dt");
+    if (dt < 0) return;
+    use(dt);
+    Chart chart = against_time("Time step", "step", "s");
+    ChartSeries line = series("", dt, 0);
+    double least = 0.0;
+    for (double& value : line.y) {
+      if (!(value > 0.0))
+        value = std::nan(""); // the row at time 0 has no step behind it
+      else
+        least = least > 0.0 ? std::min(least, value) : value;
+    }
+    chart.log_y = least > 0.0 && largest(line.y) > 50.0 * least;
+    chart.series.push_back(std::move(line));
+    charts_.push_back(std::move(chart));
+  }
+
+  void conservation() {
+    Chart chart = against_time("Mass and area", "change", "%");
+    for (const char* quantity : {"mass", "area"}) {
+      const int k = history_.find(quantity);
+      if (k < 0) continue;
+      use(k);
+      ChartSeries line = series(quantity, k, chart.series.size());
+      const double initial = line.y.front();
+      for (double& value : line.y) value = 100.0 * (value / initial - 1.0);
+      chart.series.push_back(std::move(line));
+    }
+    if (!chart.series.empty()) charts_.push_back(std::move(chart));
+    const int nodes = history_.find("nodes");
+    if (nodes < 0) return;
+    use(nodes);
+    const auto [low, high] = std::minmax_element(column(nodes).begin(), column(nodes).end());
+    if (*low == *high) return;
+    chart = against_time("Nodes", "number of nodes", "");
+    chart.series.push_back(series("", nodes, 0));
+    charts_.push_back(std::move(chart));
+  }
+
+  // One chart per field and unit of the columns <prefix>[<who>.]<field>.
+  template<class Title> void groups(const std::string& prefix, Title&& title) {
+    std::map<std::pair<std::string, std::string>, std::vector<int>> group;
+    for (int k = 0; k < columns(); ++k) {
+      const results::ColumnName full = name(k);
+      if (used_.contains(k) || !full.name.starts_with(prefix)) continue;
+      const std::size_t dot = full.name.rfind('.');
+      const std::string field = dot == std::string::npos ? full.name : full.name.substr(dot + 1);
+      group[{field, full.unit}].push_back(k);
+      use(k);
+    }
+    for (const auto& [key, members] : group) {
+      const std::string field = words(key.first);
+      Chart chart = against_time(title(field), field, key.second);
+      for (const int k : members) {
+        const std::string full = name(k).name;
+        const std::size_t tail = key.first.size() + 1;
+        std::string who;
+        if (full.size() > prefix.size() + tail)
+          who = full.substr(prefix.size(), full.size() - prefix.size() - tail);
+        chart.series.push_back(series(words(std::move(who)), k, chart.series.size()));
+      }
+      charts_.push_back(std::move(chart));
+    }
+  }
+
+  const results::HistoryTable& history_;
+  const std::vector<double>& time_;
+  std::set<int> used_;
+  std::vector<Chart> charts_;
+};
+
+} // namespace
+
+std::vector<Chart> history_charts(const results::HistoryTable& history) {
+  if (history.rows() < 2) return {};
+  return Charts(history).all();
+}
+
+} // namespace cnem::report

@@ -1,0 +1,39 @@
+#pragma once
+// PNG files of drawings with few colours, a byte a pixel: a third of true colour's.
+#include "report/colour_map.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cnem::report {
+
+/// Pixels as 0x00RRGGBB (the upper byte is ignored), rows of `width` one `stride` after the other.
+struct PixelView {
+  const std::uint32_t* first = nullptr;
+  int width = 0, height = 0;
+  std::size_t stride = 0; ///< pixels
+
+  std::span<const std::uint32_t> row(int y) const {
+    return {first + static_cast<std::size_t>(y) * stride, static_cast<std::size_t>(width)};
+  }
+};
+
+/// Colours of a drawing that are its colour map's, at equal distances from 0 to 1.
+inline constexpr int drawing_levels = 144;
+
+/// What a picture of a field is drawn with: `drawing_levels` of the colour map, fewer darkened by `shade`
+/// (lines between cells) and by half of it, greys from black to white, and the colour of invalid values. 256
+/// colours as 0x00RRGGBB.
+std::vector<std::uint32_t> drawing_palette(ColourMap map, double shade);
+
+/// For each pixel the number of the palette's colour nearest to its own, the first of equals; [y · width +
+/// x]. `palette` has 1 to 256 colours.
+std::vector<std::uint8_t> nearest_colours(const PixelView& pixels, std::span<const std::uint32_t> palette);
+
+/// The picture as a PNG file with the palette's colours, each pixel with the nearest. Throws IoError.
+std::string palette_png(const PixelView& pixels, std::span<const std::uint32_t> palette);
+
+} // namespace cnem::report

@@ -1,0 +1,193 @@
+#include "report/picture.hpp"
+
+#include "core/error.hpp"
+#include "report/palette_png.hpp"
+#include "report/picture_parts.hpp"
+#include "results/si_format.hpp"
+#include "results/vtk_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cnem::report {
+namespace {
+
+// Sizes in px of a picture 1400 px wide; everything scales with the width.
+constexpr double design_width = 1400.0, title_height = 66.0, footer_height = 62.0, bar_space = 190.0,
+                 left_margin = 20.0, font = 26.0;
+
+void check(const Picture& picture) {
+  if (!picture.cells) throw InputError("picture: no cells");
+  const std::size_t cells = picture.cells->begin.empty() ? 0 : picture.cells->begin.size() - 1;
+  if (picture.value.size() != cells)
+    throw InputError(
+        fmt::format("picture of {}: {} values for {} cells", picture.label, picture.value.size(), cells));
+  if (picture.width < 200) throw InputError("picture: the width must be at least 200 px");
+}
+
+struct Bounds {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
+
+  void add(const Vec2& x) {
+    if (!x.allFinite()) return; // a run that diverged is worth a picture too
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+};
+
+// The body with a narrow margin, a wider one where a tool stands.
+PictureWindow body_window(const Picture& picture, const std::vector<Vec2>& vertices) {
+  Bounds body;
+  for (const Vec2& x : vertices) body.add(x);
+  if (!(body.low.x() <= body.high.x())) return {Vec2(0, 0), Vec2(1, 1)};
+  const double size = std::max((body.high - body.low).maxCoeff(), 1e-12);
+  PictureWindow window{body.low.array() - 0.025 * size, body.high.array() + 0.025 * size};
+  Bounds tools;
+  for (const PictureTool& tool : picture.tools)
+    for (const CurvePiece& piece : tool.curve->pieces)
+      for (const double s : {0.0, 0.25, 0.5, 0.75}) tools.add(piece.point(s) + tool.displacement);
+  for (int k = 0; k < 2; ++k) {
+    window.low[k] = std::max(std::min(window.low[k], tools.low[k] - 0.025 * size), body.low[k] - 0.12 * size);
+    window.high[k] =
+        std::min(std::max(window.high[k], tools.high[k] + 0.025 * size), body.high[k] + 0.12 * size);
+  }
+  return window;
+}
+
+PictureLayout layout_of(const Picture& picture, const std::vector<Vec2>& vertices) {
+  PictureWindow window = picture.window ? *picture.window : body_window(picture, vertices);
+  if (!((window.high - window.low).minCoeff() > 0.0))
+    throw InputError("picture: the window must have a positive width and height");
+  const double unit = picture.width / design_width;
+  PictureLayout layout;
+  layout.width = picture.width;
+  layout.plot_left = std::round(left_margin * unit);
+  layout.plot_top = std::round(title_height * unit);
+  layout.plot_width = std::round(picture.width - (left_margin + bar_space) * unit);
+  // Neither a strip nor a tower: the window grows in the other direction.
+  const double aspect = (window.high.y() - window.low.y()) / (window.high.x() - window.low.x());
+  layout.plot_height = std::round(layout.plot_width * std::clamp(aspect, 0.3, 1.0));
+  layout.scale = std::min(layout.plot_width / (window.high.x() - window.low.x()),
+                          layout.plot_height / (window.high.y() - window.low.y()));
+  layout.height = static_cast<int>(std::round(layout.plot_top + layout.plot_height + footer_height * unit));
+  const Vec2 shown = Vec2(layout.plot_width, layout.plot_height) / layout.scale;
+  layout.origin = 0.5 * (window.low + window.high) - 0.5 * shown;
+  return layout;
+}
+
+void trace(cairo_t* cr, const PictureLayout& layout, const PictureTool& tool) {
+  bool first = true;
+  for (const CurvePiece& piece : tool.curve->pieces) {
+    const int parts =
+        piece.is_arc() ? std::max(8, static_cast<int>(std::ceil(std::abs(piece.sweep()) * 24))) : 1;
+    for (int k = first ? 0 : 1; k <= parts; ++k) {
+      const Vec2 p = layout.pixel(piece.point(static_cast<double>(k) / parts) + tool.displacement);
+      // Cairo works in 24.8 fixed point: far ends of a tool must not overflow.
+      const Vec2 q = p.cwiseMax(Vec2::Constant(-2e5)).cwiseMin(Vec2::Constant(2e5));
+      cairo_line_to(cr, q.x(), q.y());
+    }
+    first = false;
+  }
+  cairo_close_path(cr);
+}
+
+void draw_tool_name(cairo_t* cr, const PictureLayout& layout, const PictureTool& tool, double size) {
+  Bounds bounds;
+  for (const CurvePiece& piece : tool.curve->pieces)
+    for (const double s : {0.0, 0.25, 0.5, 0.75})
+      bounds.add(layout.pixel(piece.point(s) + tool.displacement));
+  const Vec2 corner(layout.plot_left, layout.plot_top);
+  const Vec2 low = bounds.low.cwiseMax(corner);
+  const Vec2 high = bounds.high.cwiseMin(corner + Vec2(layout.plot_width, layout.plot_height));
+  const Vec2 room = high - low;
+  const double width = text_width(cr, tool.name, size);
+  if (room.x() < width + 0.6 * size || room.y() < 1.3 * size) return;
+  cairo_set_source_rgb(cr, 0.20, 0.23, 0.28);
+  draw_text(cr, tool.name, 0.5 * (low.x() + high.x()) - 0.5 * width, 0.5 * (low.y() + high.y()) + 0.36 * size,
+            size);
+}
+
+// Mean distance of neighbouring nodes on the picture, px.
+double cell_size(const PictureLayout& layout, const CellGeometry<2>& cells,
+                 const std::vector<Vec2>& vertices) {
+  double area = 0.0;
+  for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c)
+    for (auto b = cells.begin[c], e = cells.begin[c + 1], k = b; k < e; ++k)
+      area += 0.5 * cross(vertices[static_cast<std::size_t>(cells.index[static_cast<std::size_t>(k)])],
+                          vertices[static_cast<std::size_t>(
+                              cells.index[static_cast<std::size_t>(k + 1 < e ? k + 1 : b)])]);
+  const auto count = static_cast<double>(std::max<std::size_t>(cells.begin.size(), 2) - 1);
+  return std::sqrt(std::abs(area) / count) * layout.scale;
+}
+
+} // namespace
+
+PictureLayout layout_picture(const Picture& picture) {
+  check(picture);
+  return layout_of(picture, results::moved_vertices(*picture.cells, picture.position));
+}
+
+std::string draw_png(const Picture& picture) {
+  check(picture);
+  const std::vector<Vec2> vertices = results::moved_vertices(*picture.cells, picture.position);
+  const PictureLayout layout = layout_of(picture, vertices);
+  const double unit = picture.width / design_width, size = font * unit;
+  const ColourRange range = picture.range                         ? *picture.range
+                            : picture.map == ColourMap::diverging ? symmetric_range(picture.value)
+                                                                  : quantile_range(picture.value);
+
+  const Surface surface = make_surface(CAIRO_FORMAT_RGB24, layout.width, layout.height);
+  const Context context = make_context(surface);
+  cairo_t* cr = context.get();
+  cairo_set_source_rgb(cr, 1, 1, 1);
+  cairo_paint(cr);
+
+  cairo_save(cr);
+  cairo_rectangle(cr, layout.plot_left, layout.plot_top, layout.plot_width, layout.plot_height);
+  cairo_clip(cr);
+  cairo_set_source_rgb(cr, 0.965, 0.970, 0.977);
+  cairo_paint(cr);
+  for (const PictureTool& tool : picture.tools) {
+    trace(cr, layout, tool);
+    cairo_set_source_rgb(cr, 0.775, 0.798, 0.832);
+    cairo_fill(cr);
+  }
+  const bool lines = picture.edges.value_or(cell_size(layout, *picture.cells, vertices) > 7.0 * unit);
+  paint_cells(cr, layout, picture, vertices, range, lines ? 0.7 * unit : 0.0);
+  for (const PictureTool& tool : picture.tools) {
+    trace(cr, layout, tool);
+    cairo_set_source_rgb(cr, 0.30, 0.34, 0.40);
+    cairo_set_line_width(cr, 2.0 * unit);
+    cairo_stroke(cr);
+    draw_tool_name(cr, layout, tool, 0.85 * size);
+  }
+  cairo_restore(cr);
+
+  const double title_y = layout.plot_top - 0.85 * size, right = layout.plot_left + layout.plot_width;
+  cairo_set_source_rgb(cr, 0.09, 0.11, 0.15);
+  const std::string heading = picture.label;
+  draw_text(cr, heading, layout.plot_left, title_y, 1.1 * size, true);
+  const std::string time = "t = " + results::si_format(picture.time, "s", 4);
+  draw_text(cr, time, right - text_width(cr, time, 1.1 * size), title_y, 1.1 * size);
+  cairo_set_source_rgb(cr, 0.42, 0.46, 0.53);
+  const double after = layout.plot_left + text_width(cr, heading, 1.1 * size, true) + size;
+  if (after + text_width(cr, picture.title, size) + text_width(cr, time, 1.1 * size) + 2 * size < right)
+    draw_text(cr, picture.title, after, title_y, size);
+
+  draw_colour_bar(cr, layout, picture, range, unit, size);
+  draw_scale_bar(cr, layout, unit, size);
+  draw_extremes(cr, layout, picture, size);
+  cairo_surface_flush(surface.get());
+  cairo_surface_t* image = surface.get();
+  return palette_png(
+      {reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(image)), layout.width,
+       layout.height,
+       static_cast<std::size_t>(cairo_image_surface_get_stride(image)) / sizeof(std::uint32_t)},
+      drawing_palette(picture.map, cell_line_shade));
+}
+
+} // namespace cnem::report

@@ -1,0 +1,72 @@
+#include "report/picture_album.hpp"
+
+#include "core/error.hpp"
+#include "results/output_folder.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <system_error>
+
+namespace cnem::report {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* index_name = "index.json";
+
+}
+
+PictureAlbum::PictureAlbum(const fs::path& output_folder)
+    : folder_(output_folder / results::files::pictures_folder) {
+  const fs::path index = folder_ / index_name;
+  std::error_code error;
+  if (!fs::exists(index, error)) return;
+  try {
+    for (const nlohmann::json& entry : nlohmann::json::parse(results::read_file(index)))
+      entries_.push_back(
+          {entry.at("file"), entry.at("field"), entry.at("time"), entry.at("caption"), entry.at("note")});
+  } catch (const nlohmann::json::exception& problem) {
+    throw IoError(fmt::format("{} is not an index of pictures: {}", index.string(), problem.what()));
+  }
+}
+
+std::string PictureAlbum::add(results::FileQueue& queue, const std::string& key, AlbumEntry entry,
+                              results::FileQueue::Maker png, std::size_t bytes) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw IoError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
+  int number = 0;
+  const auto name = [&] { return fmt::format("{}_{:03}.png", key, number); };
+  const auto taken = [&] {
+    for (const AlbumEntry& known : entries_)
+      if (known.file == name()) return true;
+    return false;
+  };
+  while (taken()) ++number;
+  queue.put(folder_ / name(), std::move(png), bytes);
+  entry.file = name();
+  entries_.push_back(std::move(entry));
+  queue.put(folder_ / index_name, index());
+  return entries_.back().file;
+}
+
+void PictureAlbum::truncate(double time) {
+  std::error_code ignored;
+  const auto later = [&](const AlbumEntry& entry) { return entry.time > time; };
+  for (const AlbumEntry& entry : entries_)
+    if (later(entry)) fs::remove(path(entry), ignored);
+  if (std::erase_if(entries_, later) > 0) results::write_atomically(folder_ / index_name, index());
+}
+
+std::string PictureAlbum::index() const {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const AlbumEntry& entry : entries_)
+    json.push_back({{"file", entry.file},
+                    {"field", entry.field},
+                    {"time", entry.time},
+                    {"caption", entry.caption},
+                    {"note", entry.note}});
+  return json.dump(2) + "\n";
+}
+
+} // namespace cnem::report

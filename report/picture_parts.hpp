@@ -1,0 +1,41 @@
+#pragma once
+// The parts a picture is put together from. Private to picture.cpp.
+#include "report/picture.hpp"
+
+#include <cairo.h>
+
+#include <memory>
+#include <string>
+
+namespace cnem::report {
+
+struct CairoDelete {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, CairoDelete>;
+using Context = std::unique_ptr<cairo_t, CairoDelete>;
+
+/// Throw IoError when there is no memory for them.
+Surface make_surface(cairo_format_t format, int width, int height);
+Context make_context(const Surface& surface);
+
+double text_width(cairo_t* cr, const std::string& text, double size, bool bold = false);
+void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, bool bold = false);
+
+/// How much darker lines between cells are than the cells.
+inline constexpr double cell_line_shade = 0.4;
+
+/// Cells filled with the colours of their values, seamless, lines of `line` px between them unless it is 0,
+/// and a thin dark rim around the body.
+void paint_cells(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                 const std::vector<Vec2>& vertices, const ColourRange& range, double line);
+
+// `unit` is the size of a design pixel, `size` that of the font, both in px.
+void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                     const ColourRange& range, double unit, double size);
+void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, double size);
+/// Least and greatest value of the whole field, in the lower right corner.
+void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture, double size);
+
+} // namespace cnem::report

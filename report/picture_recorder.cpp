@@ -1,0 +1,105 @@
+#include "report/picture_recorder.hpp"
+
+#include "results/fields.hpp"
+
+#include <cmath>
+#include <deque>
+#include <utility>
+#include <vector>
+
+namespace cnem::report {
+
+namespace {
+
+std::array<std::span<const double>, 2> spans(const Fields<2>& field) { return {field[0], field[1]}; }
+
+} // namespace
+
+/// What the pictures of one time are drawn from, while the run goes on.
+struct PictureRecorder::Kept {
+  CellGeometry<2> cells;
+  Fields<2> position;
+  std::deque<Field> values;
+
+  std::size_t bytes() const {
+    return sizeof(double) * (4 * cells.vertex.size() + 2 * cells.vertex_weight.size() +
+                             (2 + values.size()) * position[0].size());
+  }
+};
+
+Picture PictureRecorder::picture_of(const results::Snapshot& shot, const std::string& field, Kept& kept,
+                                    Field values) const {
+  const results::FieldInfo& info = results::field_info(field);
+  Picture picture;
+  picture.cells = &kept.cells;
+  picture.position = spans(kept.position);
+  picture.value = kept.values.emplace_back(std::move(values));
+  picture.label = info.label;
+  picture.unit = info.shown_unit;
+  picture.unit_factor = info.shown_factor;
+  picture.map = info.map;
+  if (info.map == ColourMap::diverging) picture.range = symmetric_range(picture.value, 0.999);
+  picture.title = case_->title;
+  picture.time = shot.state.time;
+  const auto& contact = shot.contact;
+  for (std::size_t t = 0; t < contact.tools().size(); ++t)
+    picture.tools.push_back(
+        {&case_->tools[t].outline, contact.displacement(t, shot.state.time), case_->tools[t].name});
+  return picture;
+}
+
+std::string PictureRecorder::draw(results::FileQueue& files, const std::shared_ptr<const Kept>& kept,
+                                  const Picture& picture, const std::string& key, const std::string& caption,
+                                  const std::string& note) {
+  return album_.add(
+      files, key, {.field = picture.label, .time = picture.time, .caption = caption, .note = note},
+      [kept, picture] { return draw_png(picture); },
+      kept->bytes() / 2); // shared with the others of its time
+}
+
+std::string PictureRecorder::note_of(double time, const std::string& field) const {
+  for (const input::PictureNote& note : case_->output.notes)
+    if (note.field == field && std::abs(note.at - time) <= 1e-9 * case_->time.end) return note.text;
+  return "";
+}
+
+void PictureRecorder::record(results::FileQueue& files, const results::Snapshot& shot) {
+  const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, shot.state.node.position, {}});
+  Fields<2>& drawn = kept->position;
+  if (shot.displacement_scale != 1.0)
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t i = 0; i < drawn[k].size(); ++i) {
+        const double start = shot.initial_position[k][i];
+        drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
+      }
+  std::vector<Picture> pictures;
+  for (const std::string& name : case_->output.picture_fields)
+    pictures.push_back(picture_of(shot, name, *kept, results::values_at_points(shot, name)));
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    const std::string& name = case_->output.picture_fields[k];
+    const std::string note = note_of(shot.state.time, name);
+    draw(files, kept, pictures[k], name, "", note);
+    for (const input::Window& window : case_->output.windows) {
+      pictures[k].window = PictureWindow{window.lower, window.upper};
+      draw(files, kept, pictures[k], name + "_" + window.name, window.name, note);
+    }
+  }
+}
+
+std::string PictureRecorder::record_place(results::FileQueue& files, const results::Snapshot& shot,
+                                          const Vec2& centre, double radius) {
+  const NodeState<2>& node = shot.state.node;
+  const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, node.position, {}});
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < node.size(); ++i)
+      if (!std::isfinite(kept->position[k][i])) kept->position[k][i] = node.reference[k][i];
+  Field values = results::values_at_points(shot, "plastic_strain");
+  for (double& value : values)
+    if (!std::isfinite(value)) value = 0.0;
+  Picture picture = picture_of(shot, "plastic_strain", *kept, std::move(values));
+  picture.window = PictureWindow{centre.array() - radius, centre.array() + radius};
+  picture.edges = true;
+  return draw(files, kept, picture, "post_mortem", "where it went wrong");
+}
+
+} // namespace cnem::report

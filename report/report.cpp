@@ -1,0 +1,182 @@
+#include "report/report.hpp"
+
+#include "input/schema/document.hpp"
+#include "report/blanking_page.hpp"
+#include "report/picture_album.hpp"
+#include "results/output_folder.hpp"
+#include "results/si_format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem::report {
+namespace fs = std::filesystem;
+namespace {
+
+std::string words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string grouped(std::int64_t count) {
+  std::string digits = std::to_string(count);
+  for (auto at = std::ssize(digits) - 3; at > (count < 0 ? 1 : 0); at -= 3)
+    digits.insert(static_cast<std::size_t>(at), "\u202f"); // narrow no-break space
+  return digits;
+}
+
+double wall(const results::RunStatus& status, std::string_view phase) {
+  for (const auto& [name, seconds] : status.wall_s)
+    if (name == phase) return seconds;
+  return 0.0;
+}
+
+std::string verdict(const results::RunStatus& status) {
+  const char* how = status.exit == 0   ? "Finished"
+                    : status.exit == 3 ? "Diverged"
+                    : status.exit == 5 ? "Stopped, can be resumed"
+                                       : "Failed";
+  return status.reason.empty() ? how : fmt::format("{}: {}", how, status.reason);
+}
+
+double largest(const results::HistoryTable& history, int column) {
+  double most = -INFINITY;
+  for (const double value : history.column[static_cast<std::size_t>(column)])
+    if (std::isfinite(value)) most = std::max(most, value);
+  return most;
+}
+
+void collect_figures(ReportData& report, const results::RunStatus& status,
+                     const results::HistoryTable* history) {
+  auto& figures = report.figures;
+  if (std::isfinite(status.time)) figures.emplace_back("Simulated", results::si_format(status.time, "s"));
+  figures.emplace_back("Nodes", grouped(status.nodes));
+  figures.emplace_back("Steps", grouped(status.steps));
+  if (wall(status, "total") > 0.0)
+    figures.emplace_back("Wall time", results::duration_format(wall(status, "total")));
+  if (std::isfinite(status.energy_residual))
+    figures.emplace_back("Energy residual", results::number_format(100.0 * status.energy_residual, 2) + " %");
+  if (!history || history->rows() == 0) return;
+  for (int k = 0; k < static_cast<int>(history->names.size()); ++k) {
+    const results::ColumnName column =
+        results::split_column_name(history->names[static_cast<std::size_t>(k)]);
+    if (!column.name.starts_with("max.") || !std::isfinite(largest(*history, k))) continue;
+    figures.emplace_back("Largest " + words(column.name.substr(4)),
+                         results::si_format(largest(*history, k), column.unit));
+  }
+}
+
+ReportTable run_table(const results::RunStatus& status) {
+  ReportTable table{"Run", {}};
+  auto& rows = table.rows;
+  rows.emplace_back("Version", status.version);
+  rows.emplace_back("Exit code", std::to_string(status.exit));
+  rows.emplace_back("Threads", std::to_string(status.threads));
+  rows.emplace_back("Nodes", grouped(status.nodes));
+  rows.emplace_back("Steps", grouped(status.steps));
+  rows.emplace_back("Node-steps", grouped(status.node_steps));
+  if (wall(status, "step") > 0.0)
+    rows.emplace_back("Node-steps per second of stepping",
+                      grouped(std::llround(static_cast<double>(status.node_steps) / wall(status, "step"))));
+  rows.emplace_back("Peak memory", results::bytes_format(static_cast<double>(status.peak_rss_bytes)));
+  return table;
+}
+
+/// Where the constants of damage laws come from, read from the resolved case.
+std::optional<ReportTable> damage_table(const std::string& case_text) {
+  const input::Value root = input::parse_document(case_text, "case.resolved.toml");
+  const input::Member* materials = root.find("materials");
+  if (!materials) return {};
+  ReportTable table{"Constants of damage", {}};
+  for (const input::Member& material : materials->value.members)
+    if (const input::Member* damage = material.value.find("damage")) {
+      const input::Member* source = damage->value.find("source");
+      table.rows.emplace_back(material.key,
+                              source ? source->value.text : "generic: the case names no source for them");
+    }
+  if (table.rows.empty()) return {};
+  return table;
+}
+
+ReportTable wall_table(const results::RunStatus& status) {
+  ReportTable table{"Wall time", {}};
+  const double total = wall(status, "total");
+  for (const auto& [phase, seconds] : status.wall_s)
+    if (seconds > 0.0)
+      table.rows.emplace_back(
+          words(phase),
+          phase == "total" || !(total > 0.0)
+              ? results::duration_format(seconds)
+              : fmt::format("{}  ({:.1f} %)", results::duration_format(seconds), 100.0 * seconds / total));
+  return table;
+}
+
+} // namespace
+
+ReportData collect_report(const fs::path& folder) {
+  return collect_report(folder, results::read_status(folder));
+}
+
+ReportData collect_report(const fs::path& folder, const results::RunStatus& status) {
+  ReportData report;
+  report.title = status.case_name.empty() ? fs::absolute(folder).lexically_normal().filename().string()
+                                          : status.case_name;
+  report.subtitle = "cnem " + status.version;
+  report.failed = status.exit != 0 && status.exit != 5;
+  report.verdict = verdict(status);
+  report.warnings = status.warnings;
+  report.post_mortem = status.post_mortem;
+
+  std::optional<results::HistoryTable> history;
+  if (fs::exists(folder / results::files::history))
+    history = results::read_history(folder / results::files::history);
+  collect_figures(report, status, history ? &*history : nullptr);
+  if (history) report.charts = history_charts(*history);
+  if (history && history->find("mass[kg]") >= 0)
+    report.subtitle += " · axisymmetric: x is the radius, totals of the whole body";
+
+  report.blanking = evaluate::read_blanking(folder);
+  if (report.blanking && history) report.blanking_forces = force_stroke_chart(*report.blanking, *history);
+
+  const PictureAlbum album(folder);
+  for (const AlbumEntry& entry : album.entries()) {
+    ReportPicture picture{results::read_file(album.path(entry)), entry.field, entry.time, entry.caption,
+                          entry.note};
+    if (status.post_mortem && entry.file == status.post_mortem->picture)
+      report.place = std::move(picture);
+    else
+      report.pictures.push_back(std::move(picture));
+  }
+
+  if (!status.metrics.empty()) {
+    ReportTable metrics{"Results", {}};
+    for (const auto& [name, value] : status.metrics)
+      metrics.rows.emplace_back(words(name), results::number_format(value, 6));
+    report.tables.push_back(std::move(metrics));
+  }
+  report.tables.push_back(run_table(status));
+  if (!status.wall_s.empty()) report.tables.push_back(wall_table(status));
+  if (!status.step_limits.empty()) {
+    ReportTable limits{"What limited the step", {}};
+    for (const auto& [what, share] : status.step_limits)
+      limits.rows.emplace_back(words(what), fmt::format("{:.1f} % of the steps", 100.0 * share));
+    report.tables.push_back(std::move(limits));
+  }
+  if (fs::exists(folder / results::files::resolved_case)) {
+    report.case_text = results::read_file(folder / results::files::resolved_case);
+    if (auto table = damage_table(report.case_text)) report.tables.push_back(std::move(*table));
+  }
+  return report;
+}
+
+fs::path write_report(const fs::path& folder) { return write_report(folder, results::read_status(folder)); }
+
+fs::path write_report(const fs::path& folder, const results::RunStatus& status) {
+  fs::path path = folder / results::files::report;
+  results::write_atomically(path, render_report(collect_report(folder, status)));
+  return path;
+}
+
+} // namespace cnem::report

@@ -1,0 +1,58 @@
+#pragma once
+// report.html: one file that needs nothing else, neither network nor the folder it came from.
+#include "evaluate/blanking_result.hpp"
+#include "report/chart.hpp"
+#include "results/status.hpp"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cnem::report {
+
+struct ReportPicture {
+  std::string png; ///< the file itself
+  std::string field;
+  double time = 0.0; ///< s
+  std::string caption;
+  std::string note{}; ///< what the case says of it
+};
+
+struct ReportTable {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> rows; ///< name, value with unit
+};
+
+struct ReportData {
+  std::string title;                                        ///< the case
+  std::string subtitle;                                     ///< code and version
+  bool failed = false;                                      ///< colours the verdict
+  std::string verdict;                                      ///< one line: how the run ended
+  std::vector<std::pair<std::string, std::string>> figures; ///< the few numbers to see first
+  std::vector<std::string> warnings;
+  std::optional<results::PostMortem> post_mortem;
+  std::optional<ReportPicture> place;  ///< where it went wrong
+  std::vector<ReportPicture> pictures; ///< shown by field, in order of time
+  std::vector<Chart> charts;
+  std::optional<evaluate::BlankingResult> blanking;
+  std::optional<Chart> blanking_forces;
+  std::vector<ReportTable> tables;
+  std::string case_text; ///< resolved case, shown verbatim
+};
+
+/// The report as HTML text.
+std::string render_report(const ReportData& data);
+
+/// What the files of an output folder (status.json, history.csv, case.resolved.toml, pictures/) say; history,
+/// case and pictures may be absent. Throws IoError when the status cannot be read.
+ReportData collect_report(const std::filesystem::path& folder);
+/// The same with a status that is not in the folder yet.
+ReportData collect_report(const std::filesystem::path& folder, const results::RunStatus& status);
+
+/// Writes `folder`/report.html from the other files of the folder. Returns its path. Throws IoError.
+std::filesystem::path write_report(const std::filesystem::path& folder);
+/// The same with a status that is not in the folder yet.
+std::filesystem::path write_report(const std::filesystem::path& folder, const results::RunStatus& status);
+
+} // namespace cnem::report

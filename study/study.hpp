@@ -1,0 +1,61 @@
+#pragma once
+// A parameter study: one case, run with several values of its keys; the format is described in
+// docs/user_guide.md.
+#include "input/schema/document.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cnem::study {
+
+struct StudyRun {
+  std::string name;                    ///< of its folder
+  input::Location where;               ///< of what sets its name
+  std::vector<input::Override> common; ///< from [set]
+  std::vector<input::Override> own;    ///< what sets it apart from the others
+
+  std::vector<input::Override> changes() const;
+  /// The own value of a case key, or none.
+  const input::Value* find(const std::string& key) const;
+};
+
+/// Results against a parameter or another result.
+struct StudyChart {
+  std::string x; ///< a key of the grid or a column
+  std::vector<std::string> y;
+  input::Location where;
+};
+
+struct Study {
+  std::string name; ///< of the file, or of the folder of a study.toml
+  std::string title;
+  std::string text;                ///< of the file
+  std::filesystem::path case_file; ///< TOML
+  std::vector<std::string> keys;   ///< case keys in which the runs differ, the slowest first
+  std::vector<StudyRun> runs;
+  int processes = 0;                ///< 0: as many as there are cores for
+  int threads = 1;                  ///< of each run
+  std::vector<std::string> columns; ///< of the table; empty: the default ones
+  std::vector<StudyChart> charts;
+  std::vector<std::string> history; ///< columns of history.csv to overlay
+};
+
+/// Reads a study and makes its list of runs: the Cartesian product of [grid], whose first key varies slowest,
+/// or the [[run]] entries. Throws InputError "file:line:column: key '…': …" for whatever is wrong in it,
+/// IoError when it cannot be read. The keys and values of the case are not looked at.
+Study read_study(const std::filesystem::path& path);
+
+/// The same for text; `path` is what messages call it, and its folder is where the case is looked for.
+Study read_study_text(std::string_view text, const std::filesystem::path& path);
+
+/// The text of a value as people write it: 30 deg, 0.5, [1, 2].
+std::string plain_text(const input::Value& value);
+
+/// The text with what is awkward in names of files replaced: "0.1 mm" → "0.1_mm".
+std::string file_name(std::string_view text);
+
+/// A value that begins with a number, such as 3 or "30 deg", and the text after it. False for others.
+bool split_number(const input::Value& value, double& number, std::string& unit);
+
+} // namespace cnem::study

@@ -1,0 +1,195 @@
+// Forces of analytic histories, the file of a cut and its page, and keys of [report].
+#include "evaluate/force_stroke.hpp"
+#include "report/blanking_page.hpp"
+#include "results/output_folder.hpp"
+#include "tests/unit/input/case_text.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <unistd.h>
+
+namespace cnem::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// F = 2 MN/m sin(π t/T) on a punch that goes down at 3 m/s, against a die that gives way at 1 m/s; the
+/// punch's own work is ∫F ds. Uneven times.
+results::HistoryTable sine() {
+  constexpr double duration = 1e-3, force = 2e6;
+  results::HistoryTable table;
+  table.names = {"time[s]",
+                 "punch.force_x[N/m]",
+                 "punch.force_y[N/m]",
+                 "punch.displacement_x[m]",
+                 "punch.displacement_y[m]",
+                 "punch.work[J/m]",
+                 "die.force_x[N/m]",
+                 "die.force_y[N/m]",
+                 "die.displacement_x[m]",
+                 "die.displacement_y[m]",
+                 "die.work[J/m]"};
+  table.column.resize(table.names.size());
+  const int rows = 2000;
+  for (int k = 0; k <= rows; ++k) {
+    const double s = k / double(rows),
+                 t = duration * (s + 0.1 * std::sin(std::numbers::pi * s) / std::numbers::pi);
+    const double f = force * std::sin(std::numbers::pi * t / duration),
+                 work =
+                     force * duration / std::numbers::pi * (1.0 - std::cos(std::numbers::pi * t / duration));
+    const double row[] = {t, 0.1 * f, -f, 0.0, -3.0 * t, 3.0 * work, 0.0, f, 0.0, -1.0 * t, -1.0 * work};
+    for (std::size_t c = 0; c < table.column.size(); ++c) table.column[c].push_back(row[c]);
+  }
+  return table;
+}
+
+TEST(ForceStroke, largest_force_stroke_and_work_of_a_sine) {
+  const ForceCurve curve = force_curve(sine(), "punch", "punch", {"die"}, Vec2(0, -1));
+  const ToolForce force = largest_force(curve, "punch");
+  // The Gaussian of σ = T/100 takes exp(−(π/100)²/2) of a sine.
+  const double passed = std::exp(-0.5 * std::pow(std::numbers::pi / 100.0, 2));
+  EXPECT_NEAR(force.largest / (2e6 * passed), 1.0, 1e-5);
+  EXPECT_NEAR(force.largest_sample, 2e6, 2.0);
+  EXPECT_NEAR(force.stroke, 2.0 * 0.5e-3, 5e-6); // punch against die: 3 − 1 m/s; one in 600 times
+  EXPECT_NEAR(force.work, 3.0 * 2e6 * 2e-3 / std::numbers::pi, 1e-6);
+  const ToolForce die = largest_force(force_curve(sine(), "die", "punch", {"die"}, Vec2(0, -1)), "die");
+  EXPECT_NEAR(die.largest, force.largest, 1e-6 * force.largest);
+  EXPECT_NEAR(die.work, -force.work / 3.0, 1e-9);
+}
+
+TEST(ForceStroke, one_row_is_enough_and_a_missing_column_is_named) {
+  results::HistoryTable table = sine();
+  for (auto& column : table.column) column.resize(1);
+  EXPECT_EQ(largest_force(force_curve(table, "punch", "punch", {}, Vec2(0, -1)), "punch").largest, 0.0);
+  try {
+    force_curve(table, "ram", "punch", {}, Vec2(0, -1));
+    FAIL();
+  } catch (const IoError& error) { EXPECT_STREQ(error.what(), "the history has no column 'ram.force_x'"); }
+}
+
+BlankingResult example() {
+  BlankingResult result;
+  result.punch = "punch";
+  result.dies = {"die"};
+  result.direction_y = -1.0;
+  result.stroke = 2e-3;
+  result.time = 1e-3;
+  result.forces = {{"punch", 1.9e6, 1e-3, 2e6, 4e3}, {"die", 1.9e6, 1e-3, 2e6, 0.0}};
+  result.springback = {{"slug", 3e-6, NAN, NAN, 2e-5, -1e-6}, {"skeleton", 8e-6, 0.01, -0.001, NAN, NAN}};
+  ShearedFace face;
+  face.body = "slug";
+  face.parted = true;
+  face.thickness = 1e-3;
+  face.rollover = 0.1e-3;
+  face.burnish = 0.3e-3;
+  face.fracture = 0.6e-3;
+  face.burr = 0.05e-3;
+  face.fracture_angle = 0.1;
+  face.profile = {{-1e-3, 0}, {-0.2e-3, 0}, {0, 0.1e-3}, {0, 0.4e-3}, {-0.05e-3, 1.05e-3}, {-1e-3, 1e-3}};
+  face.zone = {Zone::surface, Zone::rollover, Zone::burnish, Zone::fracture, Zone::burr_side};
+  result.faces = {face};
+  return result;
+}
+
+class BlankingFile : public ::testing::Test {
+protected:
+  void SetUp() override {
+    folder = fs::temp_directory_path() / ("cnem_blanking_io_" + std::to_string(::getpid()));
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  fs::path folder;
+};
+
+TEST_F(BlankingFile, comes_back_as_it_was_written) {
+  EXPECT_FALSE(read_blanking(folder));
+  write_blanking(folder, example());
+  const std::string text = results::read_file(folder / results::files::blanking);
+  const auto back = read_blanking(folder);
+  ASSERT_TRUE(back);
+  write_blanking(folder, *back);
+  EXPECT_EQ(results::read_file(folder / results::files::blanking), text);
+  EXPECT_EQ(back->faces[0].profile, example().faces[0].profile);
+  EXPECT_EQ(back->faces[0].zone, example().faces[0].zone);
+  EXPECT_TRUE(std::isnan(back->springback[0].angle_change));
+  EXPECT_EQ(back->forces[0].stroke, 1e-3);
+  EXPECT_EQ(back->dies, example().dies);
+}
+
+TEST_F(BlankingFile, a_foreign_file_is_refused) {
+  for (const char* text : {"{}", "no json", R"({"punch": 3})"}) {
+    std::ofstream(folder / results::files::blanking) << text;
+    EXPECT_THROW(read_blanking(folder), IoError) << text;
+  }
+}
+
+TEST(BlankingPage, drawing_names_zones_with_their_heights) {
+  const std::string svg = report::face_drawing(example().faces[0]);
+  for (const char* part : {"rollover 100 µm (10.0 %)", "burnish 300 µm (30.0 %)", "fracture 600 µm (60.0 %)",
+                           "burr 50 µm (5.0 %)", "class=\"line fracture\"", "surface on the side of the die"})
+    EXPECT_NE(svg.find(part), std::string::npos) << "no '" << part << "' in:\n" << svg;
+}
+
+TEST(BlankingPage, marks_the_largest_force_and_shows_tables) {
+  const results::HistoryTable table = sine();
+  const BlankingResult result = example();
+  const auto chart = report::force_stroke_chart(result, table);
+  ASSERT_TRUE(chart);
+  ASSERT_EQ(chart->series.size(), 6U);
+  EXPECT_TRUE(chart->series[2].dashed);
+  EXPECT_EQ(chart->series[2].x[1], 1e-3);
+  EXPECT_NEAR(chart->series[2].y[1], 2e6, 2e3);
+  const std::string html = report::render_blanking(result, chart);
+  for (const char* part : {"Face of the slug", "Fracture angle", "5.73°", "Largest force of punch",
+                           "at a stroke of 1 mm", "Work of punch", "Dishing of slug", "Angle of skeleton"})
+    EXPECT_NE(html.find(part), std::string::npos) << "no '" << part << "' in:\n" << html;
+  EXPECT_EQ(report::render_blanking({}, {}), "");
+}
+
+TEST(BlankingPage, metrics_have_heights_and_shares) {
+  const auto metrics = metrics_of(example());
+  const auto value = [&](const std::string& name) {
+    for (const auto& [known, number] : metrics)
+      if (known == name) return number;
+    return std::nan("");
+  };
+  EXPECT_EQ(value("blanking.slug.burnish"), 0.3e-3);
+  EXPECT_NEAR(value("blanking.slug.burnish_share"), 0.3, 1e-15);
+  EXPECT_EQ(value("blanking.largest_force.punch"), 1.9e6);
+  EXPECT_EQ(value("blanking.work.punch"), 4e3);
+  EXPECT_EQ(metrics_of(example().springback).front().second, 8e-6);
+}
+
+const std::string tools =
+    "[tools.ram]\nrectangle = { from = \"-1 5 mm\", to = \"5 7 mm\" }\nvelocity = \"0 -1 m/s\"\n"
+    "[tools.die]\nrectangle = { from = \"5.1 -2 mm\", to = \"12 0 mm\" }\n"
+    "[tools.holder]\nrectangle = { from = \"5.1 5 mm\", to = \"12 7 mm\" }\n";
+
+TEST(ReportKeys, tools_that_cut_are_found_by_name_and_motion) {
+  const input::Case plain = input::read_small(tools);
+  EXPECT_FALSE(plain.report.blanking);
+  EXPECT_FALSE(plain.report.springback);
+  const input::Case cut = input::read_small(tools + "[report.blanking]\n");
+  ASSERT_TRUE(cut.report.blanking);
+  EXPECT_TRUE(cut.report.springback);
+  EXPECT_EQ(cut.tools[cut.report.blanking->punch].name, "ram");
+  EXPECT_EQ(cut.report.blanking->dies, std::vector<std::size_t>{1});
+  EXPECT_NEAR(cut.report.blanking->parallel, 10.0 * std::numbers::pi / 180.0, 1e-15);
+  EXPECT_FALSE(cut.report.blanking->smoothing);
+  const input::Case named = input::read_small(
+      tools + "[report]\nspringback = false\n[report.blanking]\npunch = \"die\"\ndie = [\"ram\", "
+              "\"holder\"]\nsmoothing = \"0.1 mm\"\nparallel = \"5 deg\"\n");
+  EXPECT_EQ(named.report.blanking->punch, 1U);
+  EXPECT_EQ(named.report.blanking->dies, (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(named.report.blanking->smoothing, 1e-4);
+  EXPECT_FALSE(named.report.springback);
+  // What was found stands in the resolved case, below its first line.
+  const std::string again = input::read_case_text(cut.resolved, "resolved.toml").resolved;
+  EXPECT_EQ(again.substr(again.find('\n')), cut.resolved.substr(cut.resolved.find('\n')));
+}
+
+} // namespace
+} // namespace cnem::evaluate

@@ -1,0 +1,340 @@
+// Where cuts are and whose faces lie there: a hand-made cloud of slug and skeletons, in every position.
+#include "evaluate/blanking.hpp"
+
+#include "app/command_line.hpp"
+#include "evaluate/blanking_result.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
+#include "tests/clouds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <unistd.h>
+
+namespace cnem::evaluate {
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// A full blank, 1 thick, cut on both sides by a punch from x = −2 to 2 and dies from |x| = 2.1 on. The punch
+/// has come down by 1.3; the slug hangs below.
+struct Blank {
+  Cloud<2> cloud;
+  std::vector<std::int32_t> part;
+  Field volume;
+  CutTools tools;
+  std::vector<Vec2> outline{{-6, 0}, {6, 0}, {6, 1}, {-6, 1}};
+  double spacing = 0.02;
+
+  /// Corners counter-clockwise; facets between the two given heights near |x| = 2 are fracture.
+  void add(const std::vector<Vec2>& corner, const std::vector<std::size_t>& broken) {
+    const auto number = static_cast<std::int32_t>(part.empty() ? 0 : part.back() + 1);
+    const std::int32_t first = cloud.nodes();
+    testing::add_loop(cloud, corner, spacing);
+    std::size_t side = 0;
+    for (Facet<2>& facet : cloud.facets) {
+      if (facet.node[0] < first) continue;
+      const Vec2& x = cloud.position[u(facet.node[0])];
+      while (side + 1 < corner.size() && (x - corner[side + 1]).norm() < 1e-12) ++side;
+      facet.piece = std::find(broken.begin(), broken.end(), side) != broken.end() ? 1 : 0;
+    }
+    Vec2 low = corner.front(), high = low;
+    for (const Vec2& x : corner) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    for (double x = low.x() + 0.2; x < high.x() - 0.15; x += 0.1) // some inner nodes
+      cloud.position.emplace_back(x, 0.5 * (low.y() + high.y()));
+    part.resize(cloud.position.size(), number);
+    volume.resize(cloud.position.size(), 0.01);
+  }
+
+  Blank() {
+    cloud.piece_names = {"boundary", "fracture"};
+    const double drop = -1.3;
+    // slug: drawn in below (0.12), smooth (0.28), fractured, burr of 0.05 above
+    add({{-1.8, drop},
+         {1.8, drop},
+         {2.1, drop + 0.12},
+         {2.1, drop + 0.4},
+         {2.05, drop + 1.05},
+         {1.98, drop + 1.0},
+         {-1.98, drop + 1.0},
+         {-2.05, drop + 1.05},
+         {-2.1, drop + 0.4},
+         {-2.1, drop + 0.12}},
+        {3, 7});
+    // right skeleton: drawn in above (0.2), smooth (0.3), fractured, burr of 0.03 below
+    add({{6.0, 0.0}, {6.0, 1.0}, {2.4, 1.0}, {2.0, 0.8}, {2.0, 0.5}, {2.08, -0.03}, {2.12, 0.0}}, {4});
+    // left one: drawn in 0.1, smooth 0.2, no burr
+    add({{-6.0, 0.0}, {-2.1, 0.0}, {-2.0, 0.7}, {-2.0, 0.9}, {-2.2, 1.0}, {-6.0, 1.0}}, {1});
+    tools.punch = {{-2, 1 - 1.3}, {2, 1 - 1.3}, {2, 4}, {-2, 4}};
+    tools.die = {{2.1, 0}, {2.1, -4}, {7, -4}, {7, 0}, {-2.1, 0}, {-7, 0}, {-7, -4}, {-2.1, -4}};
+  }
+
+  /// Everything turned about the origin and mirrored at its new vertical axis.
+  void move(double angle, bool mirrored) {
+    const auto moved = [&](Vec2& x) {
+      x = Vec2(std::cos(angle) * x.x() - std::sin(angle) * x.y(),
+               std::sin(angle) * x.x() + std::cos(angle) * x.y());
+      if (mirrored) x.x() = -x.x();
+    };
+    for (auto* list : {&cloud.position, &tools.punch, &tools.die, &outline})
+      for (Vec2& x : *list) moved(x);
+    moved(tools.direction);
+    if (mirrored) // the domain stays on the left of its facets
+      for (Facet<2>& facet : cloud.facets) std::swap(facet.node[0], facet.node[1]);
+  }
+
+  CutSheet sheet() const {
+    return {cloud.position, cloud.facets, 1, part, volume, std::vector<char>(part.size(), 0), outline};
+  }
+  std::vector<ShearedFace> faces() const {
+    std::vector<ShearedFace> all;
+    const CutSheet cut_sheet = sheet();
+    for (const Cut& cut : find_cuts(tools, cut_sheet))
+      for (ShearedFace& face : measure_cut(cut, tools, cut_sheet, 10.0 * degree, 0.0))
+        all.push_back(std::move(face));
+    return all;
+  }
+};
+
+const ShearedFace& face_of(const std::vector<ShearedFace>& faces, const std::string& cut,
+                           const std::string& body) {
+  for (const ShearedFace& face : faces)
+    if (face.cut == cut && face.body == body) return face;
+  ADD_FAILURE() << "no face of " << body << ' ' << cut;
+  return faces.front();
+}
+
+void expect_face(const ShearedFace& face, double rollover, double burnish, double burr, double angle) {
+  EXPECT_TRUE(face.parted);
+  EXPECT_NEAR(face.rollover, rollover, 0.006);
+  EXPECT_NEAR(face.burnish, burnish, 0.006);
+  EXPECT_NEAR(face.fracture, 1.0 - rollover - burnish, 0.006);
+  EXPECT_NEAR(face.burr, burr, 1e-6);
+  EXPECT_NEAR(face.fracture_angle, angle, 1e-6);
+  EXPECT_NEAR(face.thickness, 1.0, 1e-12);
+}
+
+TEST(Blanking, faces_of_a_separated_blank_in_any_position) {
+  for (const double angle : {0.0, 90.0, 37.0, 180.0, -110.0})
+    for (const bool mirrored : {false, true}) {
+      SCOPED_TRACE(::testing::Message() << angle << (mirrored ? " mirrored" : ""));
+      Blank blank;
+      blank.move(angle * degree, mirrored);
+      const std::vector<ShearedFace> faces = blank.faces();
+      ASSERT_EQ(faces.size(), 4U);
+      // "right" is that of a punch that goes down
+      const std::string right = mirrored ? "left" : "right", left = mirrored ? "right" : "left";
+      for (const std::string& side : {left, right})
+        expect_face(face_of(faces, side, "slug"), 0.12, 0.28, 0.05, std::atan(0.05 / 0.65));
+      expect_face(face_of(faces, right, "skeleton"), 0.2, 0.3, 0.03, std::atan(0.08 / 0.53));
+      expect_face(face_of(faces, left, "skeleton"), 0.1, 0.2, 0.0, std::atan(0.1 / 0.7));
+    }
+}
+
+TEST(Blanking, clearance_thickness_and_parts_of_a_cut) {
+  const Blank blank;
+  const CutSheet sheet = blank.sheet();
+  const std::vector<Cut> cuts = find_cuts(blank.tools, sheet);
+  ASSERT_EQ(cuts.size(), 2U);
+  EXPECT_EQ(cuts[1].name, "right");
+  EXPECT_DOUBLE_EQ(cuts[1].die - cuts[1].punch, 2.1 - 2.0);
+  EXPECT_EQ(cuts[1].slug, 0);
+  EXPECT_EQ(cuts[1].skeleton, 1);
+  EXPECT_EQ(cuts[0].skeleton, 2);
+}
+
+TEST(Blanking, one_die_makes_one_cut_and_no_sheet_makes_none) {
+  Blank blank;
+  blank.tools.die = {{2.1, 0}, {2.1, -4}, {7, -4}, {7, 0}};
+  std::vector<Cut> cuts = find_cuts(blank.tools, blank.sheet());
+  ASSERT_EQ(cuts.size(), 1U);
+  EXPECT_EQ(cuts[0].name, "");
+  blank.outline = {{-1, 0}, {1, 0}, {1, 1}, {-1, 1}};
+  EXPECT_TRUE(find_cuts(blank.tools, blank.sheet()).empty());
+}
+
+TEST(Blanking, letting_go_turns_skeletons_and_flattens_the_slug) {
+  for (const double angle : {0.0, 37.0}) {
+    Blank blank;
+    const Cloud<2> straight = blank.cloud;
+    blank.move(angle * degree, false);
+    const CutSheet sheet = blank.sheet();
+    Fields<2> displacement;
+    resize_all(displacement, sheet.position.size());
+    const Vec2 down = blank.tools.direction;
+    for (std::size_t i = 0; i < sheet.position.size(); ++i) {
+      const double x = straight.position[i].x();
+      // the slug's middle rises by 0.002 against its ends at |x| = 2.1; the right skeleton's far end goes
+      // down
+      const double s = sheet.part[i] == 0   ? -0.002 * (1.0 - x * x / (2.1 * 2.1))
+                       : sheet.part[i] == 1 ? 0.001 * (x - 2.0)
+                                            : 0.0;
+      for (std::size_t k = 0; k < 2; ++k) displacement[k][i] = s * down[static_cast<Eigen::Index>(k)];
+    }
+    const auto bodies = springback_of_bodies(find_cuts(blank.tools, sheet), blank.tools, sheet, displacement,
+                                             Field(sheet.position.size(), 1.0));
+    ASSERT_EQ(bodies.size(), 3U);
+    EXPECT_EQ(bodies[0].body, "slug");
+    EXPECT_NEAR(bodies[0].dishing_change, -0.002, 1e-9);
+    EXPECT_NEAR(bodies[0].angle_change, 0.0, 1e-9);
+    EXPECT_NEAR(bodies[0].largest, 0.002, 1e-4);
+    EXPECT_EQ(bodies[1].body, "skeleton_left");
+    EXPECT_NEAR(bodies[1].angle_change, 0.0, 1e-12);
+    EXPECT_EQ(bodies[2].body, "skeleton_right");
+    EXPECT_NEAR(bodies[2].angle_change, 0.001, 1e-6);
+    EXPECT_NEAR(bodies[2].largest, 0.004, 1e-12);
+  }
+}
+
+constexpr const char* small_cut = R"toml(
+title = "small cut"
+[analysis]
+thermal = false
+[time]
+end = "4 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "6 2 mm" }
+[cloud]
+spacing = "0.25 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "400 MPa" }
+[boundary.symmetry]
+pieces = "left"
+symmetry = true
+[tools.punch]
+rectangle = { from = "-1 2 mm", to = "2 4 mm" }
+velocity = { value = "0 -40 m/s", ramp = "1 us" }
+[tools.die]
+rectangle = { from = "2.1 -2 mm", to = "8 0 mm" }
+[report.blanking]
+[output]
+history_every = "0 s"
+fields_every = "2 us"
+)toml";
+
+class BlankingRun : public ::testing::Test {
+protected:
+  void SetUp() override {
+    folder = std::filesystem::temp_directory_path() / ("cnem_blanking_" + std::to_string(::getpid()));
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+  void run(const std::string& text, std::vector<std::string> more = {}) {
+    std::ofstream(folder / "case.toml") << text;
+    std::vector<std::string> words{"cnem",
+                                   "run",
+                                   (folder / "case.toml").string(),
+                                   "--output",
+                                   (folder / "results").string(),
+                                   "--force",
+                                   "--threads",
+                                   "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    const int code = app::command_line(static_cast<int>(argv.size()), argv.data());
+    ::testing::internal::GetCapturedStdout();
+    const std::string message = ::testing::internal::GetCapturedStderr();
+    ASSERT_EQ(code, 0) << message;
+    status = results::read_status(folder / "results");
+  }
+  double metric(const std::string& name) const {
+    for (const auto& [known, value] : status.metrics)
+      if (known == name) return value;
+    ADD_FAILURE() << "no metric " << name;
+    return std::nan("");
+  }
+  bool has_metric(const std::string& name) const {
+    return std::any_of(status.metrics.begin(), status.metrics.end(),
+                       [&](const auto& entry) { return entry.first.starts_with(name); });
+  }
+  results::HistoryTable history() const { return results::read_history(folder / "results" / "history.csv"); }
+
+  std::filesystem::path folder;
+  results::RunStatus status;
+};
+
+TEST_F(BlankingRun, work_is_force_over_stroke_and_what_the_ledger_received) {
+  run(small_cut);
+  const results::HistoryTable table = history();
+  const auto column = [&](const std::string& name) { return table.column[u(table.find(name))]; };
+  const std::vector<double> work = column("punch.work"), force = column("punch.force_y"),
+                            at = column("punch.displacement_y"), books = column("energy.tool_work");
+  EXPECT_EQ(metric("blanking.work.punch"), work.back());
+  EXPECT_EQ(metric("blanking.work.die"), 0.0);
+  EXPECT_NEAR(work.back(), books.back(), 1e-12 * books.back());
+  double sum = 0.0;
+  for (std::size_t k = 1; k < at.size(); ++k)
+    sum += force[k] * (at[k] - at[k - 1]); // force of the step that led there
+  EXPECT_NEAR(sum / work.back(), 1.0, 0.01);
+  EXPECT_GT(metric("blanking.largest_force.punch"), 0.0);
+  EXPECT_LE(metric("blanking.largest_force.punch"), metric("peak_force.punch"));
+  EXPECT_LE(metric("blanking.stroke_at_largest_force.punch"), metric("blanking.stroke"));
+  EXPECT_NEAR(metric("blanking.stroke"), 40.0 * 3.5e-6, 1e-9);
+}
+
+TEST_F(BlankingRun, whole_sheet_is_reported_as_such_and_lets_go) {
+  run(small_cut);
+  const auto blanking = read_blanking(folder / "results");
+  ASSERT_TRUE(blanking);
+  ASSERT_EQ(blanking->faces.size(), 2U);
+  EXPECT_FALSE(blanking->faces[0].parted);
+  EXPECT_EQ(metric("blanking.slug.parted"), 0.0);
+  EXPECT_GT(metric("blanking.skeleton.rollover") + metric("blanking.skeleton.burnish"), 0.02e-3);
+  EXPECT_LT(metric("blanking.skeleton.rollover") + metric("blanking.skeleton.burnish"), 0.2e-3);
+  EXPECT_EQ(metric("blanking.skeleton.fracture"), 0.0);
+  // Elastic strains of about 400 MPa/210 GPa over millimetres.
+  EXPECT_GT(metric("springback.largest"), 0.1e-6);
+  EXPECT_LT(metric("springback.largest"), 50e-6);
+  EXPECT_GE(metric("springback.largest"), metric("springback.slug.largest"));
+  const std::string last = results::read_file(folder / "results" / "fields" / "nodes_00002.vtu");
+  EXPECT_NE(last.find("springback [m]"), std::string::npos);
+  EXPECT_EQ(results::read_file(folder / "results" / "fields" / "nodes_00001.vtu").find("springback"),
+            std::string::npos);
+  const std::string report = results::read_file(folder / "results" / "report.html");
+  for (const char* part : {"id=\"blanking\"", "Face of the slug", "Face of the skeleton",
+                           "Force along the cut against stroke", "drawn in only", "Dishing of slug"})
+    EXPECT_NE(report.find(part), std::string::npos) << part;
+}
+
+TEST_F(BlankingRun, springback_alone_and_nothing_at_all) {
+  const std::string text(small_cut);
+  const std::string without =
+      text.substr(0, text.find("[report.blanking]")) + text.substr(text.find("[output]"));
+  run(without);
+  EXPECT_FALSE(has_metric("blanking"));
+  EXPECT_FALSE(has_metric("springback"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "results" / results::files::blanking));
+  run(without, {"--set", "report.springback=true", "--set", "time.max_steps=20"});
+  EXPECT_GT(metric("springback.body_1.largest"), 0.0);
+  EXPECT_FALSE(has_metric("blanking"));
+  run(text, {"--set", "report.springback=false"});
+  EXPECT_FALSE(has_metric("springback"));
+  EXPECT_TRUE(has_metric("blanking.slug"));
+}
+
+TEST_F(BlankingRun, a_punch_that_has_not_moved_is_said) {
+  run(small_cut, {"--set", "tools.punch.velocity=0 0 m/s", "--set", "time.max_steps=5"});
+  const auto blanking = read_blanking(folder / "results");
+  ASSERT_TRUE(blanking);
+  EXPECT_EQ(blanking->note, "punch has not moved");
+  EXPECT_TRUE(blanking->faces.empty());
+}
+
+} // namespace
+} // namespace cnem::evaluate

@@ -1,0 +1,278 @@
+// What bodies do when they are let go: bars, beams and rings with known answers.
+#include "evaluate/springback.hpp"
+
+#include "tests/unit/mechanics/models.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace cnem {
+namespace {
+
+using testing::Method;
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+/// A cloud whose points have a stretch and a Cauchy stress of our choice.
+struct Loaded {
+  Cloud<2> cloud;
+  Approximation<2> approximation;
+  PointState<2> point;
+  Fields<2> position;
+  Field mass;
+  std::vector<plasticity::Material> materials{testing::steel()};
+  Supports<2> supports;
+  double stabilisation = 0.05;
+
+  Loaded(Cloud<2> given, Method method, Space space = Space::plane)
+      : cloud(std::move(given)), approximation(testing::make(method, space)->rebuild(cloud)),
+        supports({}, u(cloud.nodes())) {
+    const auto points = u(approximation.mechanics.points);
+    resize_all(point.deformation, points, 0.0);
+    for (const std::size_t k : {0U, 3U, 4U}) point.deformation[k].assign(points, 1.0);
+    resize_all(point.piola, points, 0.0);
+    point.material.assign(points, 0);
+    resize_all(position, u(cloud.nodes()));
+    for (std::size_t i = 0; i < position[0].size(); ++i)
+      for (std::size_t k = 0; k < 2; ++k) position[k][i] = cloud.position[i][static_cast<Eigen::Index>(k)];
+    mass = approximation.node_volume;
+  }
+
+  /// The same deformation everywhere.
+  void deform(const Mat2& F, double out_of_plane = 1.0) {
+    for (std::size_t p = 0; p < point.material.size(); ++p) {
+      for (std::size_t k = 0; k < 4; ++k)
+        point.deformation[k][p] = F(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2));
+      point.deformation[4][p] = out_of_plane;
+    }
+    for (std::size_t i = 0; i < position[0].size(); ++i) {
+      const Vec2 x = F * cloud.position[i];
+      position[0][i] = x.x();
+      position[1][i] = x.y();
+    }
+  }
+  /// P = J σ F⁻ᵀ.
+  void stress(std::size_t p, const Mat2& sigma, double hoop = 0.0) {
+    Mat2 F;
+    for (std::size_t k = 0; k < 4; ++k)
+      F(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2)) = point.deformation[k][p];
+    const double J = F.determinant() * point.deformation[4][p];
+    const Mat2 P = J * sigma * F.inverse().transpose();
+    for (std::size_t k = 0; k < 4; ++k)
+      point.piola[k][p] = P(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2));
+    point.piola[4][p] = J * hoop / point.deformation[4][p];
+  }
+  void stress_everywhere(const Mat2& sigma) {
+    for (std::size_t p = 0; p < point.material.size(); ++p) stress(p, sigma);
+  }
+  Vec2 centroid_of_point(std::size_t p) const { // with F = 1
+    Vec2 x = Vec2::Zero();
+    const DiscreteOperators<2>& op = approximation.mechanics;
+    if (op.nodal) return cloud.position[p];
+    double count = 0.0;
+    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e, count += 1.0)
+      x += cloud.position[u(op.node[e])];
+    return x / count;
+  }
+  Springback unload() const {
+    return springback({approximation, point, position, mass, materials, supports, stabilisation});
+  }
+  Vec2 at(const Springback& s, std::size_t i) const { return {s.displacement[0][i], s.displacement[1][i]}; }
+  Vec2 present(std::size_t i) const { return {position[0][i], position[1][i]}; }
+};
+
+double largest(const Fields<2>& f) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < f[0].size(); ++i) most = std::max(most, std::hypot(f[0][i], f[1][i]));
+  return most;
+}
+
+/// Every pair of nodes of a body moves as the strain says, up to the turn of the body.
+void expect_strain(const Loaded& loaded, const Springback& s, const Mat2& strain, std::int32_t body = 0) {
+  const auto first = static_cast<std::size_t>(std::find(s.body.begin(), s.body.end(), body) - s.body.begin());
+  for (std::size_t i = first + 1; i < loaded.mass.size(); ++i) {
+    if (s.body[i] != body) continue;
+    const Vec2 x = loaded.present(i) - loaded.present(first);
+    EXPECT_NEAR(x.dot(loaded.at(s, i) - loaded.at(s, first)), x.dot(strain * x), 1e-12 * x.squaredNorm());
+  }
+}
+
+/// Linear and angular momentum of the displacement, weighted with mass.
+void expect_no_mean_motion(const Loaded& loaded, const Springback& s) {
+  for (std::int32_t body = 0; body < s.bodies; ++body) {
+    Vec2 linear = Vec2::Zero();
+    double angular = 0.0, scale = 0.0;
+    for (std::size_t i = 0; i < loaded.mass.size(); ++i) {
+      if (s.body[i] != body) continue;
+      linear += loaded.mass[i] * loaded.at(s, i);
+      angular += loaded.mass[i] * cross(loaded.present(i), loaded.at(s, i));
+      scale += loaded.mass[i] * loaded.at(s, i).norm();
+    }
+    EXPECT_LT(linear.norm(), 1e-12 * scale);
+    EXPECT_LT(std::abs(angular), 1e-11 * scale);
+  }
+}
+
+class SpringbackOf : public ::testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Methods, SpringbackOf, ::testing::Values(Method::cnem, Method::triangles),
+                         [](const auto& each) {
+                           return std::string(each.param == Method::cnem ? "cnem" : "triangles");
+                         });
+
+// The bar returns by the strain of its stress, in plane strain (1 − ν²)σ/E along and −ν(1 + ν)σ/E across,
+// about its centre, however it was stretched and turned before.
+TEST_P(SpringbackOf, bar_returns_by_stress_over_modulus) {
+  Loaded bar(testing::rectangle(4.0, 1.0, 0.2), GetParam());
+  const double angle = 0.5, sigma = 300e6;
+  const Mat2 turn = Eigen::Rotation2D<double>(angle).toRotationMatrix();
+  bar.deform(turn * Mat2(Vec2(1.3, 0.8).asDiagonal()));
+  bar.stress_everywhere(turn * Mat2(Vec2(sigma, 0.0).asDiagonal()) * turn.transpose());
+  const Springback s = bar.unload();
+  const plasticity::Elasticity& e = bar.materials[0].elasticity;
+  const double along = -(1.0 - e.poisson * e.poisson) * sigma / e.young,
+               across = e.poisson * (1.0 + e.poisson) * sigma / e.young;
+  const Mat2 strain = turn * Mat2(Vec2(along, across).asDiagonal()) * turn.transpose();
+  expect_strain(bar, s, strain);
+  expect_no_mean_motion(bar, s);
+  EXPECT_EQ(s.bodies, 1);
+  EXPECT_LT(s.residual, 1e-9);
+  // ½ σ ε per present volume
+  EXPECT_NEAR(s.energy / (0.5 * sigma * -along * 4.0 * 1.3 * 0.8), 1.0, 1e-9);
+}
+
+TEST_P(SpringbackOf, planes_of_symmetry_stay_and_other_supports_let_go) {
+  Loaded bar(testing::rectangle(4.0, 1.0, 0.2), GetParam());
+  bar.supports = Supports<2>(
+      {{"symmetry", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3)},
+       {"grip", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(2.0), testing::nodes_on(bar.cloud, 1)}},
+      u(bar.cloud.nodes()));
+  bar.stress_everywhere(Vec2(300e6, 0.0).asDiagonal());
+  const Springback s = bar.unload();
+  const plasticity::Elasticity& e = bar.materials[0].elasticity;
+  const double along = -(1.0 - e.poisson * e.poisson) * 300e6 / e.young;
+  for (std::size_t i = 0; i < bar.mass.size(); ++i)
+    EXPECT_NEAR(s.displacement[0][i], along * bar.present(i).x(), 1e-9 * std::abs(along) * 4.0);
+}
+
+TEST_P(SpringbackOf, uniform_pressure_and_shear_are_linear_too) {
+  Loaded block(testing::rectangle(2.0, 1.0, 0.2), GetParam());
+  Mat2 sigma;
+  sigma << -120e6, 40e6, 40e6, 70e6;
+  block.stress_everywhere(sigma);
+  const Springback s = block.unload();
+  const plasticity::Elasticity& e = block.materials[0].elasticity;
+  const Mat2 strain = -(sigma - e.poisson * sigma.trace() * Mat2::Identity()) * (1.0 + e.poisson) / e.young;
+  expect_strain(block, s, strain);
+}
+
+// A beam bent past its yield moment: σ = −clamp(E'κy, ±σy). Let go, its curvature changes by M/(E'I), E' =
+// E/(1 − ν²).
+TEST(Springback, bent_beam_opens_by_its_moment) {
+  const double length = 8.0, height = 0.5, yield = 250e6;
+  Loaded beam(testing::rectangle(length, height, 0.04), Method::cnem);
+  const plasticity::Elasticity& e = beam.materials[0].elasticity;
+  const double modulus = e.young / (1.0 - e.poisson * e.poisson);
+  const double curvature = 3.0 * yield / modulus / (0.5 * height); // yields where |y| > h/6
+  double moment = 0.0;                                             // of what the points carry, per length
+  for (std::size_t p = 0; p < beam.point.material.size(); ++p) {
+    const double y = beam.cloud.position[p].y() - 0.5 * height;
+    const double sigma = std::clamp(modulus * curvature * y, -yield, yield);
+    beam.stress(p, Vec2(sigma, 0.0).asDiagonal());
+    moment += sigma * y * beam.approximation.mechanics.volume[p] / length;
+  }
+  const double exact = yield * height * height / 4.0 * (1.0 - 1.0 / 27.0); // M_p (1 − (1/3)²/3)
+  EXPECT_NEAR(moment / exact, 1.0, 0.01);
+  const Springback s = beam.unload();
+  // least-squares parabola through the deflections of the middle half
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < beam.mass.size(); ++i) {
+    const double x = beam.present(i).x() - 0.5 * length;
+    if (std::abs(x) > 0.25 * length || std::abs(beam.present(i).y() - 0.5 * height) > 0.1) continue;
+    const Eigen::Vector3d row(1.0, x, x * x);
+    normal += row * row.transpose();
+    right += row * s.displacement[1][i];
+  }
+  const double opened = 2.0 * normal.ldlt().solve(right)[2]; // d²v/dx²
+  // fibres at y > 0 were in tension: v'' = −κ while it was bent, and opening adds +M/(E'I)
+  EXPECT_NEAR(opened / (exact / (modulus * height * height * height / 12.0)), 1.0, 0.01);
+  EXPECT_LT(s.residual, 1e-8);
+}
+
+// What a body keeps after it was let go is in equilibrium with itself: letting go once more moves nothing.
+TEST_P(SpringbackOf, stress_in_equilibrium_with_itself_gives_zero) {
+  Loaded block(testing::rectangle(2.0, 1.0, 0.1), GetParam());
+  block.stabilisation = 0.0; // its forces are no stress
+  for (std::size_t p = 0; p < block.point.material.size(); ++p) {
+    const Vec2 x = block.centroid_of_point(p);
+    Mat2 sigma;
+    sigma << std::sin(5.0 * x.y()), 0.3 * x.x(), 0.3 * x.x(), std::cos(3.0 * x.x());
+    block.stress(p, 200e6 * sigma);
+  }
+  const Springback first = block.unload();
+  const DiscreteOperators<2>& op = block.approximation.mechanics;
+  const plasticity::Elasticity& e = block.materials[0].elasticity;
+  double left = 0.0;
+  for (std::size_t p = 0; p < block.point.material.size(); ++p) {
+    Mat2 g = Mat2::Zero();
+    for (auto k = u(op.row_begin[p]); k < u(op.row_begin[p + 1]); ++k)
+      g += block.at(first, u(op.node[k])) * Vec2(op.gradient[0][k], op.gradient[1][k]).transpose();
+    const Mat2 strain = 0.5 * (g + g.transpose());
+    const Mat2 added = e.lambda() * strain.trace() * Mat2::Identity() + 2.0 * e.mu() * strain;
+    for (Eigen::Index a = 0; a < 2; ++a)
+      for (Eigen::Index b = 0; b < 2; ++b)
+        block.point.piola[u(static_cast<std::int32_t>(2 * a + b))][p] += added(a, b);
+    left = std::max(left, std::abs(block.point.piola[0][p]));
+  }
+  EXPECT_GT(left, 10e6); // a residual stress is there
+  EXPECT_LT(largest(block.unload().displacement), 1e-9 * largest(first.displacement));
+}
+
+TEST(Springback, each_body_returns_for_itself) {
+  Cloud<2> cloud = testing::rectangle(2.0, 1.0, 0.1);
+  const Cloud<2> other = testing::rectangle(1.0, 1.0, 0.1, testing::Lattice::hexagonal, 0.1, 7);
+  const auto first = cloud.nodes();
+  for (const Vec2& x : other.position) cloud.position.push_back(x + Vec2(2.5, 0.0));
+  for (Facet<2> facet : other.facets) {
+    for (std::int32_t& node : facet.node) node += first;
+    cloud.facets.push_back(facet);
+  }
+  Loaded two(std::move(cloud), Method::cnem);
+  two.materials.push_back(testing::steel());
+  two.materials.back().elasticity = {70e9, 0.3};
+  for (std::size_t p = 0; p < two.point.material.size(); ++p) {
+    const bool second = two.cloud.position[p].x() > 2.2;
+    two.point.material[p] = second;
+    two.stress(p, Vec2(0.0, second ? 70e6 : 210e6).asDiagonal());
+  }
+  const Springback s = two.unload();
+  EXPECT_EQ(s.bodies, 2);
+  EXPECT_LT(s.residual, 1e-9);
+  for (std::size_t i = 0; i < two.mass.size(); ++i) {
+    const bool second = two.cloud.position[i].x() > 2.2;
+    EXPECT_EQ(s.body[i], second ? 1 : 0);
+  }
+  for (std::int32_t body = 0; body < 2; ++body) {
+    const double nu = two.materials[u(body)].elasticity.poisson;
+    expect_strain(two, s, 1e-3 * Mat2(Vec2(nu * (1.0 + nu), -(1.0 - nu * nu)).asDiagonal()), body);
+  }
+  expect_no_mean_motion(two, s);
+}
+
+TEST(Springback, round_bar_returns_along_its_axis_and_grows_in_radius) {
+  Loaded bar(testing::rectangle(0.5, 2.0, 0.1), Method::cnem, Space::revolution);
+  bar.supports =
+      Supports<2>({{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3)}},
+                  u(bar.cloud.nodes()));
+  bar.deform(Vec2(0.9, 1.2).asDiagonal(), 0.9);
+  bar.stress_everywhere(Vec2(0.0, 210e6).asDiagonal());
+  const Springback s = bar.unload();
+  for (std::size_t i = 0; i < bar.mass.size(); ++i) {
+    EXPECT_NEAR(s.displacement[0][i], 0.33e-3 * bar.present(i).x(), 1e-9);
+    EXPECT_NEAR(s.displacement[1][i], -1e-3 * (bar.present(i).y() - 1.2), 1e-6);
+  }
+}
+
+} // namespace
+} // namespace cnem

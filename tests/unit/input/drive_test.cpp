@@ -1,0 +1,74 @@
+// Tools with a velocity or a mass, and mass scaling, as read from a case.
+#include "tests/unit/input/case_text.hpp"
+
+#include <cmath>
+
+namespace cnem::input {
+namespace {
+
+/// The least case with a table of tools.
+std::string with_press(const std::string& press, const std::string& analysis = "") {
+  return analysis + R"toml(
+[time]
+end = "10 us"
+[domain]
+material = "m"
+outer.rectangle = { from = "0 0 mm", to = "10 5 mm" }
+[cloud]
+spacing = "1 mm"
+[materials.m]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+[tools.press]
+rectangle = { from = "0 5 mm", to = "12 8 mm" }
+)toml" + press;
+}
+
+TEST(Tools, VelocityMayRampSmoothly) {
+  const Case plain = read_case_text(with_press(""), "x");
+  EXPECT_EQ(plain.tools.front().velocity[1](1.0), 0.0);
+  const Case input = read_case_text(
+      with_press("velocity = { y = { value = \"-4 m/s\", ramp = \"2 us\", smooth = true } }"), "x");
+  const TimeTable& velocity = input.tools.front().velocity[1];
+  EXPECT_EQ(velocity(0.0), 0.0);
+  EXPECT_NEAR(velocity(1e-6), -2.0, 1e-12);
+  EXPECT_NEAR(velocity(0.25e-6), -4.0 * (std::pow(0.125, 3) * (10.0 + 0.125 * (6.0 * 0.125 - 15.0))), 1e-12);
+  EXPECT_EQ(velocity(5e-6), -4.0);
+  EXPECT_FALSE(input.tools.front().drive);
+  EXPECT_EQ(input.tools.front().velocity[0](1.0), 0.0);
+}
+
+TEST(Tools, MassAndForceArePerThicknessOrOfTheWholeBody) {
+  const Case plane =
+      read_case_text(with_press("mass = \"2 t/m\"\nforce = { y = { value = \"-5 kN/mm\", ramp = "
+                                "\"1 us\" } }\ndirection = \"0 -3\"\n"
+                                "initial_velocity = \"0 -2 m/s\""),
+                     "x");
+  ASSERT_TRUE(plane.tools.front().drive);
+  const Drive& drive = *plane.tools.front().drive;
+  EXPECT_EQ(drive.mass, 2000.0);
+  EXPECT_NEAR(drive.force[1](0.5e-6), -2.5e6, 1e-6);
+  EXPECT_EQ(drive.force[0](1.0), 0.0);
+  EXPECT_EQ(*drive.direction, Vec2(0, -1));
+  EXPECT_EQ(drive.initial_velocity, Vec2(0, -2));
+  const std::string round = "[analysis]\nkinematics = \"axisymmetric\"\n";
+  const Case body = read_case_text(with_press("mass = \"2 kg\"\nforce = \"0 -5 kN\"", round), "x");
+  EXPECT_EQ(body.tools.front().drive->mass, 2.0);
+  EXPECT_EQ(body.tools.front().drive->force[1](1.0), -5000.0);
+  EXPECT_EQ(*body.tools.front().drive->direction, Vec2(0, 1));
+  const Case again = read_case_text(body.resolved, "x"); // the resolved case has its units, and no velocity
+  EXPECT_EQ(again.tools.front().drive->mass, 2.0);
+  EXPECT_EQ(again.resolved.substr(again.resolved.find('\n')), body.resolved.substr(body.resolved.find('\n')));
+}
+
+TEST(MassScaling, IsAFactorOrAStep) {
+  EXPECT_FALSE(read_case_text(with_press(""), "x").time.mass_scaling);
+  const Case factor = read_case_text(with_press(""), "x", {"time.mass_scaling.factor=25"});
+  EXPECT_EQ(*factor.time.mass_scaling->factor, 25.0);
+  EXPECT_FALSE(factor.time.mass_scaling->step);
+  const Case step = read_case_text(with_press(""), "x", {"time.mass_scaling.step=\"20 ns\""});
+  EXPECT_NEAR(*step.time.mass_scaling->step, 20e-9, 1e-20);
+}
+
+} // namespace
+} // namespace cnem::input
