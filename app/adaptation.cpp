@@ -60,7 +60,7 @@ Adaptation::Adaptation(const input::Case& input, const ExplicitSolver<2>& solver
   if (input.adapt.tool_spacing)
     for (const input::Tool& tool : input.tools)
       tips_.push_back(features(tool.outline, *input.adapt.tool_spacing));
-  const Cloud<2>& cloud = solver.model().cloud;
+  const Cloud<2>& cloud = solver.conditions().cloud;
   wanted_ = size_ = adapt::spacing_of(cloud, adapt::build_structure(cloud));
   birth_.assign(size_.size(), 0.0);
   corner_ = corners(cloud);
@@ -99,7 +99,7 @@ adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Fi
 double Adaptation::tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < tips_.size(); ++t) {
-    const Vec2& shift = solver.model().contact.results()[t].displacement;
+    const Vec2& shift = solver.conditions().contact.results()[t].displacement;
     for (const Vec2& tip : tips_[t]) nearest = std::min(nearest, (tip + shift - x).norm());
   }
   return *input_->adapt.tool_spacing + input_->adapt.growth * nearest;

@@ -39,16 +39,16 @@ void check(const input::Case& input, const RunOptions& options) {
   fmt::print("\nsteps       about {:.12g} to t = {:.4g} s\n", std::ceil(input.time.end / control.limit()),
              input.time.end);
   fmt::print("memory      {:.0f} MB\n", static_cast<double>(results::peak_rss_bytes()) / 1e6);
-  const auto overlaps = solver.model().contact.overlaps(state.node.position, 0.0);
+  const auto overlaps = solver.conditions().contact.overlaps(state.node.position, 0.0);
   if (overlaps.empty()) {
-    fmt::print("tools       {} without overlap\n", solver.model().contact.tools().size());
+    fmt::print("tools       {} without overlap\n", solver.conditions().contact.tools().size());
   } else {
     fmt::print("tools       {} places where a tool overlaps the workpiece, the deepest:\n", overlaps.size());
     for (std::size_t k = 0; k < std::min<std::size_t>(overlaps.size(), 3); ++k)
       fmt::print("            {}\n",
                  input.placed(fmt::format(
                      "{} by {:.3g} m at ({:.4g}, {:.4g}) m",
-                     solver.model().contact.tools()[static_cast<std::size_t>(overlaps[k].tool)].name,
+                     solver.conditions().contact.tools()[static_cast<std::size_t>(overlaps[k].tool)].name,
                      overlaps[k].depth, overlaps[k].position.x(), overlaps[k].position.y())));
   }
   const std::filesystem::path folder = options.output / "initial";

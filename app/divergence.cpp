@@ -62,7 +62,7 @@ void blame_place(const input::Case& input, const ExplicitSolver<2>& solver, std:
   const auto point = static_cast<std::size_t>(op.point[static_cast<std::size_t>(op.col_begin[node])]);
   const Place place = place_of(solver, node);
   const double spacing = spacing_at(solver, node);
-  const auto& contact = solver.model().contact;
+  const auto& contact = solver.conditions().contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t) {
     const auto& tool = contact.tools()[t];
     const Vec2 seen = place.centre - contact.displacement(t, state.time);
@@ -73,7 +73,7 @@ void blame_place(const input::Case& input, const ExplicitSolver<2>& solver, std:
                       "there, or move the tool more slowly.",
                       tool.name));
   }
-  const auto& facets = solver.model().cloud.facets;
+  const auto& facets = solver.conditions().cloud.facets;
   if (std::any_of(facets.begin(), facets.end(), [&](const Facet<2>& facet) {
         return facet.node[0] == static_cast<int>(node) || facet.node[1] == static_cast<int>(node);
       }))
@@ -121,7 +121,8 @@ DivergenceError step_collapse(const ExplicitSolver<2>& solver, std::size_t point
 
 void check_finite(const State<2>& state) {
   const NodeState<2>& node = state.node;
-  for (const auto& [name, values] : {std::pair("temperature", &node.temperature),
+  using Named = std::pair<const char*, const Field*>;
+  for (const auto& [name, values] : {Named{"temperature", &node.temperature},
                                      {"velocity", &node.velocity[0]},
                                      {"velocity", &node.velocity[1]},
                                      {"position", &node.position[0]},

@@ -116,7 +116,7 @@ plasticity::Material make_material(const input::Material& spec) {
 }
 
 /// The materials in use and which node is of which. region: as region_of_nodes gives it.
-void set_materials(const input::Case& input, const std::vector<std::int32_t>& region, Model<2>& model) {
+void set_materials(const input::Case& input, const std::vector<std::int32_t>& region, Problem<2>& model) {
   std::vector<std::string> names;
   const auto index_of = [&](const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -304,7 +304,7 @@ Setup build(const input::Case& input) {
   Setup setup;
   setup.warnings = input.warnings;
   setup.warnings.insert(setup.warnings.end(), generated.warnings.begin(), generated.warnings.end());
-  Model<2>& model = setup.model;
+  Problem<2>& model = setup.problem;
   const Space space = input.analysis.space();
   model.contact = contact::RigidContact<2>(
       std::move(tools), space,

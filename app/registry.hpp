@@ -11,7 +11,7 @@ namespace cnem::app {
 
 /// A case made ready to run.
 struct Setup {
-  Model<2> model;
+  Problem<2> problem;
   Fields<2> velocity; ///< [component][node] m/s at t = 0
   Field temperature;  ///< [node] K at t = 0
   std::vector<std::string> warnings;

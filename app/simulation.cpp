@@ -32,7 +32,7 @@ ExplicitSolver<2> make_solver(const input::Case& input, std::vector<std::string>
   Setup setup = build(input);
   warnings = std::move(setup.warnings);
   try {
-    return {std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature)};
+    return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
   } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
 }
 
@@ -229,7 +229,7 @@ void Simulation::unload() {
   check_finite(state);
   try {
     springback_ = springback({solver_.approximation(), state.point, state.node.position, state.node.mass,
-                              model.materials, model.supports, model.stabilisation});
+                              model.materials, solver_.conditions().supports, model.stabilisation});
   } catch (const InputError& error) {
     warn(input_.placed(fmt::format("there is no springback: {}", error.what())));
   }
@@ -237,7 +237,7 @@ void Simulation::unload() {
 
 void Simulation::evaluate() {
   if (exit_ != Exit::done || !(input_.report.blanking || springback_)) return;
-  blanking_ = evaluate::evaluate_blanking(input_, shot(), solver_.model().supports,
+  blanking_ = evaluate::evaluate_blanking(input_, shot(), solver_.conditions().supports,
                                           springback_ ? &*springback_ : nullptr,
                                           results::read_history(options_.output / results::files::history));
   evaluate::write_blanking(options_.output, *blanking_);

@@ -57,7 +57,7 @@ bool plane_stress(const input::Case& input) {
 } // namespace
 
 StaticModel::StaticModel(const input::Case& in) : input(in), setup(build(in)) {
-  Model<2>& model = setup.model;
+  Problem<2>& model = setup.problem;
   const Cloud<2>& cloud = model.cloud;
   try {
     approximation = model.method->rebuild(cloud);
@@ -86,13 +86,13 @@ StaticModel::StaticModel(const input::Case& in) : input(in), setup(build(in)) {
 
 StaticProblem StaticModel::problem() const {
   return {.operators = enriched.operators,
-          .position = setup.model.cloud.position,
+          .position = setup.problem.cloud.position,
           .links = enriched.links,
           .link_points = approximation.mechanics,
-          .elasticity = setup.model.materials.front().elasticity,
+          .elasticity = setup.problem.materials.front().elasticity,
           .out_of_plane = plane_stress(input) ? OutOfPlane::stress_free : OutOfPlane::strain_free,
-          .stabilisation = setup.model.stabilisation,
-          .supports = setup.model.supports,
+          .stabilisation = setup.problem.stabilisation,
+          .supports = setup.problem.supports,
           .time = input.time.end,
           .force = force};
 }
@@ -113,11 +113,11 @@ std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::C
 }
 
 std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolution& solution) {
-  const auto& elastic = model.setup.model.materials.front().elasticity;
+  const auto& elastic = model.setup.problem.materials.front().elasticity;
   const fracture::PlaneElasticity plane =
       plane_stress(model.input) ? fracture::PlaneElasticity::plane_stress(elastic.young, elastic.poisson)
                                 : fracture::PlaneElasticity::plane_strain(elastic.young, elastic.poisson);
-  const fracture::ElasticField field{model.enriched.operators, model.setup.model.cloud.position,
+  const fracture::ElasticField field{model.enriched.operators, model.setup.problem.cloud.position,
                                      model.enriched.position, solution.gradient, solution.stress};
   std::vector<TipResult> results;
   for (std::size_t t = 0; t < model.tips.size(); ++t) {
@@ -165,7 +165,7 @@ std::string doubt(const TipResult& tip) {
 }
 
 std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution& solution) {
-  const Cloud<2>& cloud = model.setup.model.cloud;
+  const Cloud<2>& cloud = model.setup.problem.cloud;
   std::vector<std::string> warnings;
   for (const input::Crack& crack : model.input.domain.cracks) {
     std::map<std::int32_t, Vec2> normal; // of nodes on the left face, out of the right one
@@ -220,7 +220,7 @@ State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
   node.force = model.force;
   for (Field& component : node.force) component.resize(nodes);
   node.mass = op.node_volume();
-  for (double& m : node.mass) m *= model.setup.model.materials.front().density;
+  for (double& m : node.mass) m *= model.setup.problem.materials.front().density;
   node.temperature = model.setup.temperature;
 
   PointState<2>& point = state.point;
@@ -238,7 +238,7 @@ State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
   for (const std::size_t k : {0U, 3U, 4U})
     for (double& f : point.deformation[k]) f += 1.0;
   resize_all(point.piola, points);
-  resize_all(point.elastic, points);
+  resize_all(point.inverse_plastic_cauchy_green, points);
   for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress, &point.pressure,
                        &point.stored_energy, &point.plastic_work, &point.dissipation, &point.temperature})
     field->assign(points, 0.0);

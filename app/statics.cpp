@@ -47,7 +47,7 @@ void write_history(const StaticModel& model, const StaticSolution& solution, con
                                                   {"step", 0.0},
                                                   {"dt[s]", 0.0},
                                                   {"nodes", static_cast<double>(model.position[0].size())}};
-  const auto& supports = model.setup.model.supports;
+  const auto& supports = model.setup.problem.supports;
   for (std::size_t s = 0; s < supports.list().size(); ++s) {
     const std::string& name = supports.list()[s].name;
     if (s > 0 && supports.list()[s - 1].name == name) continue;
@@ -130,7 +130,7 @@ Exit give_up(const StaticModel& model, const DivergenceError& error, const RunOp
       "their units.");
   dead.last_good = "nothing was solved";
   if (error.node >= 0) {
-    const Vec2 at = input.origin + model.setup.model.cloud.position[static_cast<std::size_t>(error.node)];
+    const Vec2 at = input.origin + model.setup.problem.cloud.position[static_cast<std::size_t>(error.node)];
     dead.x = at.x();
     dead.y = at.y();
   }
@@ -159,8 +159,8 @@ Exit solve(const StaticModel& model, const RunOptions& options, Stopwatch& watch
   const results::Snapshot shot{state,
                                model.approximation,
                                model.position,
-                               model.setup.model.cloud,
-                               model.setup.model.contact,
+                               model.setup.problem.cloud,
+                               model.setup.problem.contact,
                                nullptr,
                                drawing_scale(model, solution)};
   watch.time("output", [&] {
@@ -218,7 +218,7 @@ void check_static(const input::Case& input, const RunOptions& options) {
         model.enrichment_radius[t], ring.inner, ring.outer);
   }
   const std::string motion =
-      missing_support(model.enriched.operators, model.setup.model.cloud.position, model.setup.model.supports);
+      missing_support(model.enriched.operators, model.setup.problem.cloud.position, model.setup.problem.supports);
   if (motion.empty()) fmt::print("supports    hold all rigid motions\n");
   StaticSolution nothing;
   resize_all(nothing.displacement, static_cast<std::size_t>(model.enriched.operators.nodes));
@@ -229,8 +229,8 @@ void check_static(const input::Case& input, const RunOptions& options) {
   results::prepare_output_folder(folder, true);
   results::FileQueue files;
   results::FieldRecorder(folder, input.origin)
-      .record(files, {state, model.approximation, model.position, model.setup.model.cloud,
-                      model.setup.model.contact});
+      .record(files, {state, model.approximation, model.position, model.setup.problem.cloud,
+                      model.setup.problem.contact});
   files.wait();
   fmt::print("fields      {}\n", (folder / results::files::fields).string());
   if (!motion.empty()) throw input.error("boundary", motion);

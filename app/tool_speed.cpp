@@ -78,7 +78,7 @@ std::vector<std::string> supersonic_tools(const input::Case& input, const Explic
   std::vector<std::string> warnings;
   std::string material;
   const double sound = slowest_waves(input, solver.model(), material);
-  for (const contact::Tool<2>& tool : solver.model().contact.tools()) {
+  for (const contact::Tool<2>& tool : solver.conditions().contact.tools()) {
     double fastest = 0.0;
     for (const Vec2& velocity : approaches_of(input, solver.state(), tool))
       fastest = std::max(fastest, velocity.norm());
@@ -95,7 +95,7 @@ std::vector<std::string> supersonic_tools(const input::Case& input, const Explic
 
 void check_tool_steps(const input::Case& input, const ExplicitSolver<2>& solver, double dt) {
   dt = std::min(dt, input.time.end);
-  const auto& tools = solver.model().contact.tools();
+  const auto& tools = solver.conditions().contact.tools();
   for (std::size_t t = 0; t < tools.size(); ++t)
     for (const Vec2& velocity : approaches_of(input, solver.state(), tools[t]))
       if (const std::string problem = too_far(input.tools[t].outline, velocity, dt); !problem.empty())
@@ -106,7 +106,7 @@ void check_tool_steps(const input::Case& input, const ExplicitSolver<2>& solver,
 
 void check_moving_tools(const input::Case& input, const ExplicitSolver<2>& solver, double dt) {
   dt = std::min(dt, input.time.end);
-  const auto& contact = solver.model().contact;
+  const auto& contact = solver.conditions().contact;
   const State<2>& state = solver.state();
   for (std::size_t t = 0; t < contact.tools().size(); ++t) {
     const std::string problem = too_far(input.tools[t].outline, contact.velocity(t, state.time), dt);

@@ -11,8 +11,8 @@
 namespace cnem::benchmarks {
 
 /// Free of supports and loads, C-NEM.
-inline Model<2> model_304L(const Curve& outline, const clouds::SpacingField& spacing) {
-  Model<2> model;
+inline Problem<2> model_304L(const Curve& outline, const clouds::SpacingField& spacing) {
+  Problem<2> model;
   model.cloud = clouds::generate_cloud({outline, {}, {}}, spacing, {}).cloud;
   model.method = std::make_unique<scni::Cnem>();
   model.materials = {
@@ -29,7 +29,7 @@ inline Model<2> model_304L(const Curve& outline, const clouds::SpacingField& spa
 }
 
 /// With the given velocities, [component][node] m/s, at 296 K.
-inline ExplicitSolver<2> start(Model<2> model, Fields<2> velocity) {
+inline ExplicitSolver<2> start(Problem<2> model, Fields<2> velocity) {
   Field temperature(velocity[0].size(), 296.0);
   return ExplicitSolver<2>(std::move(model), std::move(velocity), std::move(temperature));
 }

@@ -13,7 +13,7 @@ inline ExplicitSolver<2> sheared_block(int nodes) {
   const double size = 1e-2;
   clouds::SpacingField spacing;
   spacing.spacing = size / std::sqrt(nodes * std::sqrt(0.75));
-  Model<2> model = model_304L(testing::box({0, 0}, {size, size}, "side"), spacing);
+  Problem<2> model = model_304L(testing::box({0, 0}, {size, size}, "side"), spacing);
   const auto n = static_cast<std::size_t>(model.cloud.nodes());
   const double rate = 1e5;
   std::vector<Support<2>> supports;

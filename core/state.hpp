@@ -1,8 +1,10 @@
 #pragma once
-// Everything that evolves in a run, one line per field: unit, meaning, where it lives.
-#include "core/aligned.hpp"
+// Everything that evolves in a run: one line per field says its name, unit, how it goes over to a resampled
+// cloud, whether checkpoints hold it, its value at rest and how users see it.
+#include "core/field_table.hpp"
 
 #include <cstdint>
+#include <limits>
 
 namespace cnem {
 
@@ -13,40 +15,126 @@ template<int dim> inline constexpr int symmetric_size = dim == 2 ? 4 : 6;
 /// Components of a general tensor: 2D keeps the out-of-plane one: xx, xy, yx, yy, zz; 3D row by row.
 template<int dim> inline constexpr int tensor_size = dim == 2 ? 5 : 9;
 
-/// Fields at nodes. Index: [node], vectors [component][node].
+/// Fields at nodes. Index: [node], vectors [component][node]. Per metre of thickness in the plane, of the
+/// whole body in 3D and of revolution.
 template<int dim> struct NodeState {
-  Fields<dim> reference; ///< m      X, position in the reference configuration
-  Fields<dim> position;  ///< m      x, position at t_n
-  Fields<dim> velocity;  ///< m/s    v at t_{n−½}
-  Fields<dim> force;   ///< N/m^(3−dim)   internal and applied forces at t_n, contact and supports excluded
-  Field mass;          ///< kg/m^(3−dim)  carried with the node, never recomputed
-  Field temperature;   ///< K
-  Field heat_capacity; ///< J/(K m^(3−dim))
+  FieldTable table{"solver/node"};
+  /// X, position in the reference configuration
+  TensorField<dim> reference{table, {"reference", "m", Carry::renewed, Checkpoint::holds}};
+  /// x, position at t_n
+  TensorField<dim> position{table, {"position", "m", Carry::renewed, Checkpoint::holds}};
+  /// v at t_{n−½}
+  TensorField<dim> velocity{table, {"velocity", "m/s", Carry::inertia_mean, Checkpoint::holds}};
+  /// internal and applied forces at t_n, contact and supports excluded
+  TensorField<dim> force{table, {"force", "N/m", Carry::renewed, Checkpoint::holds}};
+  /// carried with the node, never recomputed
+  ScalarField mass{table, {"mass", "kg/m", Carry::sum, Checkpoint::holds}};
+  ScalarField temperature{table,
+                          {"temperature", "K", Carry::capacity_mean, Checkpoint::holds, rest_zero,
+                           Shown{"temperature", "Temperature", "K", 1.0, ColourMap::heat}}};
+  ScalarField heat_capacity{table, {"heat_capacity", "J/(K m)", Carry::sum, Checkpoint::holds}};
+  TensorField<dim> initial_position{table, {"initial_position", "m", Carry::label, Checkpoint::holds}};
+  ScalarField initial_temperature{table,
+                                  {"initial_temperature", "K", Carry::capacity_mean, Checkpoint::holds}};
+  LabelField material{table, "material"}; ///< index of the material
+  /// factor on the flow stress at the start (InitialValues of mechanics/model.hpp)
+  ScalarField strength{table, {"strength", "1", Carry::renewed, Checkpoint::omits, rest_one}};
+  /// v_{n−½} while v_{n+½} is made
+  TensorField<dim> velocity_before{table, {"velocity_before", "m/s"}};
+  ScalarField heat_flow{table, {"heat_flow", "W/m"}};
+  ScalarField contact_heat{table, {"contact_heat", "J/m"}}; ///< friction heat of the last step
+
+  FieldTable scaling{"solver/node", false}; ///< on with mass scaling
+  ScalarField mass_scale{scaling, {"mass_scale", "1", Carry::mass_mean, Checkpoint::holds}};
+  ScalarField scaled_mass{scaling, {"scaled_mass", "kg/m"}};
+
+  NodeState() = default;
+  NodeState(const NodeState& other) : NodeState() { *this = other; }
+  ~NodeState() = default;
+  NodeState& operator=(const NodeState&) = default;
 
   std::size_t size() const { return mass.size(); }
+  /// What resists acceleration: the mass, or more with mass scaling.
+  const Field& inertia() const { return scaling.on() ? scaled_mass : mass; }
 };
 
-/// Fields at stress points. Index: [point], tensors [component][point]. Stresses in Pa.
+/// Fields at stress points. Index: [point], tensors [component][point].
 template<int dim> struct PointState {
-  Fields<tensor_size<dim>> deformation; ///< –     F, from the reference configuration
-  Fields<symmetric_size<dim>>
-      elastic; ///< –     C_p⁻¹ = F⁻¹ b_e F⁻ᵀ: elastic left Cauchy-Green, pulled back to the reference
-  Fields<tensor_size<dim>> piola; ///< Pa    P, first Piola-Kirchhoff stress on the reference (P_iK)
-  Field plastic_strain;           ///< –     ε̄p, equivalent plastic strain
-  Field plastic_rate;             ///< 1/s   dε̄p/dt of the last step
-  Field equivalent_stress;        ///< Pa    σ_eq, von Mises stress in Kirchhoff measure
-  Field pressure;                 ///< Pa    −tr τ/3, Kirchhoff pressure
-  Field stored_energy;            ///< J/m³  ψ per unit stress-free volume
-  Field plastic_work;             ///< J/m³  ∫ σ_eq dε̄p per unit stress-free volume, since the start
-  Field dissipation; ///< J/m³  plastic work of the last step per unit stress-free volume; χ of it is heat
-  Field stress_free; ///< –     V_stress-free / V_reference = 1/√det C_p⁻¹, constant between re-references
-  Field temperature;                  ///< K     N·T, temperature the material sees
-  Field strength;                     ///< –     factor on the flow stress: 1, but for initial imperfections
-  std::vector<std::int32_t> material; ///< index of the material
-  // Empty unless a material has a damage law:
-  Field damage;            ///< –     D, share of the fracture strain used up; 1: softening has begun
-  Field softening;         ///< –     ω, share of flow stress and tension lost; 1: broken
-  Field initiation_strain; ///< –     ε̄p at which D reached 1, 0 before
+  FieldTable table{"solver/point"};
+  /// F, from the reference configuration
+  TensorField<tensor_size<dim>> deformation{
+      table, {"deformation", "1", Carry::renewed, Checkpoint::holds, rest_unit_general<dim>}};
+  /// C_p⁻¹ = F⁻¹ b_e F⁻ᵀ: elastic left Cauchy-Green tensor, pulled back to the reference
+  TensorField<symmetric_size<dim>> inverse_plastic_cauchy_green{
+      table,
+      {"inverse_plastic_cauchy_green", "1", Carry::logarithmic_mean, Checkpoint::holds, rest_unit_symmetric}};
+  /// P, first Piola-Kirchhoff stress on the reference (P_iK)
+  TensorField<tensor_size<dim>> piola{table, {"piola", "Pa", Carry::renewed, Checkpoint::holds}};
+  ScalarField plastic_strain{
+      table,
+      {"plastic_strain", "1", Carry::mass_mean, Checkpoint::holds, rest_zero,
+       Shown{"equivalent plastic strain", "Equivalent plastic strain", "", 1.0, ColourMap::strain}}};
+  ScalarField plastic_rate{
+      table,
+      {"plastic_rate", "1/s", Carry::mass_mean, Checkpoint::holds, rest_zero,
+       Shown{"equivalent plastic strain rate", "Rate of the equivalent plastic strain in the last step",
+             "1/s", 1.0, ColourMap::heat}}};
+  /// σ_eq, von Mises stress in Kirchhoff measure
+  ScalarField equivalent_stress{table, {"equivalent_stress", "Pa", Carry::renewed, Checkpoint::holds}};
+  /// −tr τ/3, Kirchhoff pressure
+  ScalarField pressure{table, {"pressure", "Pa", Carry::renewed, Checkpoint::holds}};
+  /// ψ per unit stress-free volume
+  ScalarField stored_energy{table, {"stored_energy", "J/m^3", Carry::renewed, Checkpoint::holds}};
+  /// ∫ σ_eq dε̄p per unit stress-free volume, since the start
+  ScalarField plastic_work{table, {"plastic_work", "J/m^3", Carry::mass_mean, Checkpoint::holds}};
+  /// plastic work of the last step per unit stress-free volume; χ of it is heat
+  ScalarField dissipation{table, {"dissipation", "J/m^3", Carry::mass_mean, Checkpoint::holds}};
+  /// V_stress-free / V_reference = 1/√det C_p⁻¹, constant between re-references
+  ScalarField stress_free{table, {"stress_free", "1", Carry::mass_mean, Checkpoint::holds, rest_one}};
+  /// N·T, temperature the material sees
+  ScalarField temperature{table, {"temperature", "K", Carry::renewed, Checkpoint::holds}};
+  /// factor on the flow stress: 1, but for initial imperfections
+  ScalarField strength{table, {"strength", "1", Carry::mass_mean, Checkpoint::holds, rest_one}};
+  LabelField material{table, "material"}; ///< index of the material
+  /// σ_y where and when the point last flowed
+  ScalarField flow_stress{table,
+                          {"flow_stress", "Pa", Carry::mass_mean, Checkpoint::holds,
+                           Rest{std::numeric_limits<double>::infinity()}}};
+  ScalarField shear_modulus{table, {"shear_modulus", "Pa", Carry::renewed, Checkpoint::holds}}; ///< μ
+  /// λ + 2μ, less where broken (mechanics/terms/point_damage.hpp)
+  ScalarField wave_modulus{table, {"wave_modulus", "Pa", Carry::renewed, Checkpoint::holds}};
+  ScalarField density{table, {"density", "kg/m^3", Carry::renewed, Checkpoint::holds}}; ///< ρ at F = 1
+  /// det F of the last step
+  ScalarField jacobian{table, {"jacobian", "1", Carry::renewed, Checkpoint::holds, rest_one}};
+  /// q of the bulk viscosity in the last step
+  ScalarField viscous_pressure{table, {"viscous_pressure", "Pa", Carry::mass_mean, Checkpoint::holds}};
+
+  FieldTable damaged{"solver/point", false}; ///< on where a material has a damage law
+  ScalarField damage{damaged,
+                     {"damage", "1", Carry::mass_mean, Checkpoint::holds, rest_zero,
+                      Shown{"damage D", "Share of the fracture strain used up; at 1 softening begins", "",
+                            1.0, ColourMap::strain}}};
+  ScalarField softening{
+      damaged,
+      {"softening", "1", Carry::mass_mean, Checkpoint::holds, rest_zero,
+       Shown{"softening", "Share of flow stress and tension lost; 1: broken", "", 1.0, ColourMap::strain}}};
+  /// ε̄p at which D reached 1, 0 before
+  ScalarField initiation_strain{
+      damaged,
+      {"initiation_strain", "1", Carry::mass_mean, Checkpoint::holds, rest_zero,
+       Shown{"plastic strain at initiation", "Equivalent plastic strain at which softening began", "", 1.0,
+             ColourMap::strain}}};
+  /// the dilatation that the gaps of broken matter in a point take without tension; 0 but for points that
+  /// resampling mixed of broken and sound ones
+  ScalarField opening{damaged, {"opening", "1", Carry::mass_mean, Checkpoint::holds}};
+
+  /// on the flow stress: strength and what softening leaves of it
+  ScalarField flow_factor{damaged, {"flow_factor", "1"}};
+
+  PointState() = default;
+  PointState(const PointState& other) : PointState() { *this = other; }
+  ~PointState() = default;
+  PointState& operator=(const PointState&) = default;
 
   std::size_t size() const { return plastic_strain.size(); }
 };

@@ -1,53 +1,56 @@
 #pragma once
 // Where the energy of a run is, term by term; what does not add up is reported as the residual.
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace cnem {
 
-/// All terms in J/m^(3−dim), at t_n, counted from the start of the run.
-struct EnergyLedger {
-  // held by the body
-  double kinetic = 0.0;       ///< ½ m v_{n−½}² carried to t_n by the known forces
-  double elastic = 0.0;       ///< stored, (31)
-  double stabilisation = 0.0; ///< held by the edge-defect penalty
-  double tool_kinetic = 0.0;  ///< of tools with a mass of their own
-  // dissipated
-  double plastic = 0.0;         ///< ∫ σ_eq dε̄p
-  double damage = 0.0;          ///< elastic energy of tension let go by breaking points
-  double viscosity = 0.0;       ///< bulk viscosity
-  double friction = 0.0;        ///< sliding on tools
-  double impact = 0.0;          ///< lost where nodes meet tools
-  double penalty_release = 0.0; ///< let go by the penalty as moduli fall and at re-references
-  double rereference =
-      0.0; ///< stored energy lost (gained when negative) as stress-free volumes are re-measured
-  double resampling = 0.0; ///< kinetic energy lost where matter of several nodes took one velocity and the
-                           ///< forces of a changed cloud replaced those before
-  double pressure_exchange = 0.0; ///< given up as flowing neighbours trade volume
-  // received
-  double tools = 0.0;    ///< work of the tools' forces along the tools' prescribed motion
-  double drives = 0.0;   ///< work of the forces on tools with a mass of their own
-  double supports = 0.0; ///< work of prescribed boundary motion
-  double recovery = 0.0; ///< work of pushing nodes out of tools they were found in
-  double loads = 0.0;    ///< work of tractions, pressures and body forces
-  // heat: a balance of its own, fed by dissipation
-  double heat_content = 0.0;   ///< Σ C (T − T_start)
-  double heat_generated = 0.0; ///< from plastic work and friction
-  double heat_exchanged = 0.0; ///< received through the boundary
+/// On which side of the balance an energy stands.
+enum class EnergyKind {
+  held,          ///< by the body or its tools
+  dissipated,    ///< for good
+  received,      ///< work of what acts from outside
+  heat_held,     ///< heat has a balance of its own, fed by dissipation
+  heat_received, ///< generated, or through the boundary
+  noted,         ///< no part of a balance, and in no history
+};
 
-  double inertial = 0.0; ///< Σ ½ m v_{n−½}² of the body: kinetic energy without what known forces add to it
-  double initial = 0.0; ///< energy at the start of the run
+/// One entry of the ledger, declared by the object that computes it; J/m^(3−dim) at t_n, counted from the
+/// start of the run.
+struct Energy {
+  const char* name; ///< in histories "energy.<name>"
+  EnergyKind kind;
+  double value = 0.0;
+};
 
-  double external() const { return tools + drives + recovery + supports + loads; }
-  double total() const {
-    return kinetic + tool_kinetic + elastic + stabilisation + plastic + damage + viscosity + friction +
-           impact + penalty_release + rereference + resampling + pressure_exchange;
-  }
+/// The entries of a run at one time.
+class EnergyLedger {
+public:
+  EnergyLedger() = default;
+  EnergyLedger(std::vector<Energy> entries, double initial)
+      : entries_(std::move(entries)), initial_(initial) {}
+
+  const std::vector<Energy>& entries() const { return entries_; }
+  /// The value of an entry. Throws std::out_of_range for a name that no object declared.
+  double operator[](std::string_view name) const;
+
+  double external() const { return sum(EnergyKind::received, 0.0); }
+  double total() const { return sum(EnergyKind::dissipated, sum(EnergyKind::held, 0.0)); }
+  double initial() const { return initial_; } ///< total at the start of the run
   /// Taken by the deformation of the body.
-  double deformation() const { return elastic + stabilisation + plastic + penalty_release; }
+  double deformation() const;
   /// Kinetic energy over that of deformation: small in slow processes; 0 while nothing is deformed.
-  double kinetic_share() const { return deformation() > 0.0 ? inertial / deformation() : 0.0; }
+  double kinetic_share() const;
   /// What the scheme made or lost: zero up to the order of central differences.
-  double residual() const { return total() - initial - external(); }
-  double heat_residual() const { return heat_content - heat_generated - heat_exchanged; }
+  double residual() const { return total() - initial_ - external(); }
+  double heat_residual() const;
+
+private:
+  double sum(EnergyKind kind, double from) const;
+
+  std::vector<Energy> entries_;
+  double initial_ = 0.0;
 };
 
 /// What an energy residual is compared with.

@@ -3,6 +3,7 @@
 #include "mechanics/explicit_solver.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace cnem {
 
@@ -31,28 +32,30 @@ template<int dim> int ExplicitSolver<dim>::sub_steps() const {
   return 1 << *std::max_element(next_levels_.begin(), next_levels_.end());
 }
 
-template<int dim> double ExplicitSolver<dim>::updates() const { return local_.updates(); }
-
-template<int dim> double ExplicitSolver<dim>::load_weight(std::size_t node) const {
-  return start_load_weight_.empty() ? local_.weight(node) : start_load_weight_[node / LocalSteps<dim>::block];
+/// Stresses and forces of a range as impulses over its own step, in units of the finest one.
+template<int dim> void ExplicitSolver<dim>::scale_to_impulses(const LevelRange& range) {
+  const double steps = 1 << range.level;
+  for (std::size_t c = dim * dim * range.begin; c < dim * dim * range.end; ++c) stress_.columns[c] *= steps;
+  if constexpr (dim == 2)
+    for (std::size_t p = range.begin; p < range.end; ++p) stress_.out_of_plane[p] *= steps;
+  for (Field& component : state_.node.force)
+    for (std::size_t i = range.begin; i < range.end; ++i) component[i] *= steps;
 }
 
 template<int dim> void ExplicitSolver<dim>::set_levels(typename LocalSteps<dim>::Levels level) {
-  if (!local_.on()) return local_.set_one_level(state_.point.size(), state_.node.size());
-  std::vector<bool> finest(state_.node.size(), false);
-  if (model_.contact.active() || !model_.loads.empty())
-    for (const Facet<dim>& facet : model_.cloud.facets)
-      for (const std::int32_t i : facet.node) finest[static_cast<std::size_t>(i)] = true;
-  for (const auto& held : model_.supports.prescribed()) finest[static_cast<std::size_t>(held.node)] = true;
-  for (const std::int32_t i : model_.ties.nodes()) finest[static_cast<std::size_t>(i)] = true;
-  local_.set_levels(std::move(level), approximation_.mechanics, approximation_.links, finest);
-  window_.clear();
-  if (!model_.contact.flow_stress_needed()) return;
-  for (int a = 0; a <= local_.highest(); ++a) {
-    std::vector<double>& window = window_.emplace_back();
-    for (const std::int32_t i : model_.contact.boundary_nodes())
-      window.push_back(local_.window(approximation_.mechanics, static_cast<std::size_t>(i), a));
+  if (local_.on()) {
+    std::vector<bool> finest(state_.node.size(), false);
+    if (conditions_.contact.active() || !conditions_.loads.empty())
+      for (const Facet<dim>& facet : conditions_.cloud.facets)
+        for (const std::int32_t i : facet.node) finest[static_cast<std::size_t>(i)] = true;
+    for (const auto& held : conditions_.supports.prescribed())
+      finest[static_cast<std::size_t>(held.node)] = true;
+    for (const std::int32_t i : conditions_.ties.nodes()) finest[static_cast<std::size_t>(i)] = true;
+    local_.set_levels(std::move(level), approximation_.mechanics, approximation_.links, finest);
+  } else {
+    local_.set_one_level(state_.point.size(), state_.node.size());
   }
+  each([&](Term<dim>& term) { term.set_levels(body()); });
 }
 
 /// The levels in use on new operators, with the impulses they make there; what the new neighbourhoods ask for
@@ -60,7 +63,11 @@ template<int dim> void ExplicitSolver<dim>::set_levels(typename LocalSteps<dim>:
 template<int dim> void ExplicitSolver<dim>::rebuild_levels() {
   if (local_.on() && !approximation_.mechanics.nodal)
     throw InputError("local time steps need stress points at nodes");
-  if (local_.on() && damage_.active()) throw InputError("local time steps do not take damage laws");
+  if (local_.on())
+    each([](Term<dim>& term) {
+      if (const char* what = term.needs_one_level())
+        throw InputError(fmt::format("local time steps do not take {}", what));
+    });
   set_levels(local_.level());
   next_levels_.clear();
   if (local_.on()) {
@@ -80,7 +87,7 @@ template<int dim> void ExplicitSolver<dim>::restore_columns() {
   copy_stress_columns<dim>(point.piola, stress_);
   if (!on_new_reference_) {
     for (std::size_t p = 0; p < point.size(); ++p) {
-      const double q = viscous_pressure_[p];
+      const double q = point.viscous_pressure[p];
       const auto cofactor = cofactors<dim>(f, p);
       for (std::size_t k = 0; k < dim; ++k)
         for (std::size_t i = 0; i < dim; ++i)
@@ -88,15 +95,17 @@ template<int dim> void ExplicitSolver<dim>::restore_columns() {
       if constexpr (dim == 2) stress_.out_of_plane[p] -= q * cofactor[4];
     }
   }
-  if (edge_defect_.active(approximation_.links))
-    edge_defect_.store_records(point.deformation, 0, point.size());
+  each([&](Term<dim>& term) { term.restore(body()); });
 }
 
 /// Between two macro steps each point gives half its impulse with the step it made and half with the one it
 /// is about to make: `finest` (s) is the finest of those.
 template<int dim> void ExplicitSolver<dim>::change_levels(double finest) {
   NodeState<dim>& node = state_.node;
-  const double stored = running_.stabilisation, released = running_.penalty_release;
+  std::vector<double> booked; // by the forces that were made
+  each([&](Term<dim>& term) {
+    for (const Energy* energy : term.energies()) booked.push_back(energy->value);
+  });
   const Fields<dim> made = node.force;
   const std::size_t blocks = next_levels_.size();
   std::vector<double> weight(blocks);
@@ -105,43 +114,21 @@ template<int dim> void ExplicitSolver<dim>::change_levels(double finest) {
   set_levels(std::move(next_levels_));
   next_levels_.clear();
   assemble_forces(local_.highest());
-  running_.stabilisation = stored;
-  running_.penalty_release = released;
+  auto value = booked.begin();
+  each([&](Term<dim>& term) {
+    for (Energy* energy : term.energies()) energy->value = *value++;
+  });
   if (finest_before_ == 0.0) return;
   const double was = finest_before_ / (finest_before_ + finest), is = finest / (finest_before_ + finest);
   for (std::size_t k = 0; k < dim; ++k)
     for (std::size_t i = 0; i < node.size(); ++i) node.force[k][i] = was * made[k][i] + is * node.force[k][i];
   for (std::size_t b = 0; b < blocks; ++b)
     weight[b] = was * weight[b] + is * local_.weight(b * LocalSteps<dim>::block);
-  start_load_weight_ = std::move(weight);
+  start_weight_ = std::move(weight);
 }
 
-/// Reactions of supports over a macro step: means over its sub-steps.
-template<int dim>
-ExplicitSolver<dim>::Reactions::Reactions(ExplicitSolver& solver, double duration, int count)
-    : solver_(solver), duration_(duration), count_(count), mean_(solver.model_.supports.reactions()) {
-  if (several()) solver_.model_.contact.begin_sub_steps();
-  for (auto& reaction : mean_) reaction.setZero();
-}
-
-template<int dim> bool ExplicitSolver<dim>::Reactions::several() const {
-  return count_ > 1 && solver_.model_.contact.active();
-}
-
-template<int dim> void ExplicitSolver<dim>::Reactions::add(double dt_mean) {
-  for (std::size_t i = 0; i < mean_.size(); ++i)
-    mean_[i] += dt_mean / duration_ * solver_.model_.supports.reactions()[i];
-}
-
-template<int dim> void ExplicitSolver<dim>::Reactions::report() {
-  if (several()) solver_.model_.contact.end_sub_steps(duration_);
-  if (count_ > 1) solver_.model_.supports.report(std::move(mean_));
-}
-
-template class ExplicitSolver<2>::Reactions;
 template int ExplicitSolver<2>::sub_steps() const;
-template double ExplicitSolver<2>::updates() const;
-template double ExplicitSolver<2>::load_weight(std::size_t) const;
+template void ExplicitSolver<2>::scale_to_impulses(const LevelRange&);
 template void ExplicitSolver<2>::set_levels(LocalSteps<2>::Levels);
 template void ExplicitSolver<2>::rebuild_levels();
 template void ExplicitSolver<2>::restore_columns();

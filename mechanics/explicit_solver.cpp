@@ -3,11 +3,12 @@
 #include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "mechanics/explicit_reactions.hpp"
+#include "plasticity/return_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <utility>
 
 namespace cnem {
@@ -24,8 +25,8 @@ template<int dim> void ExplicitSolver<dim>::advance(double dt) {
   if (!next_levels_.empty()) change_levels(step);
   const int count = local_.sub_steps();
   const double first = 0.5 * (finest_before_ + step);
-  Reactions reactions(*this, first + (count - 1) * step, count);
-  viscosity_ratio_ = 0.0;
+  MeanReactions<dim> reactions(conditions_, first + (count - 1) * step, count);
+  each([&](Term<dim>& term) { term.begin_step(body()); });
   int activity = local_.highest();
   for (int s = 1; s <= count; ++s) {
     const double dt_mean = s == 1 ? first : step;
@@ -46,31 +47,104 @@ template<int dim> void ExplicitSolver<dim>::advance(double dt) {
   state_.step_before = dt;
   finest_before_ = step;
   on_new_reference_ = false;
-  if (model_.thermal) {
-    collect_contact_heat();
-    heat_plastically();
-    conduct(dt); // (58), staggered
-  }
+  each([&](Term<dim>& term) { term.end_step(body(), dt); }); // (58), staggered
   book(times_.heat);
+}
+
+/// The nodes that are due at an activity move by their own step; `dt` is the finest one.
+template<int dim> void ExplicitSolver<dim>::move(int activity, double dt, double dt_mean) {
+  NodeState<dim>& node = state_.node;
+  const Field& inertia = node.inertia();
+  const std::vector<LevelRange>& due = local_.moved(activity);
+  conditions_.contact.remember(node.velocity);
+  for_each_range(due, [&](const LevelRange& range) {
+    for (std::size_t k = 0; k < dim; ++k)
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        const double before = node.velocity_before[k][i] = node.velocity[k][i];
+        if (range.marked) node.velocity[k][i] = before + dt_mean * node.force[k][i] / inertia[i];
+      }
+  });
+  each([&](Term<dim>& term) { term.guide(body(), dt, dt_mean); });
+  for_each_range(due, [&](const LevelRange& range) {
+    const double own = dt * (1 << range.level);
+    for (std::size_t k = 0; k < dim; ++k)
+      for (std::size_t i = range.begin; i < range.end; ++i) node.position[k][i] += own * node.velocity[k][i];
+  });
+  const double start = wall_time();
+  each([&](Term<dim>& term) { term.correct(body(), activity, dt, dt_mean); });
+  const double contact = wall_time() - start;
+  times_.contact += contact;
+  times_.motion -= contact; // whoever times the whole motion counts it too
+  for_each_range(due, [&](const LevelRange& range) {
+    place_side_by_side<dim>(node.position, position_, range.begin, range.end);
+  });
+  each([&](Term<dim>& term) { term.moved(body(), activity, dt_mean); });
+  start_weight_.clear();
+}
+
+/// Stresses of the points that are due, each over its own step; `dt` is the finest one, `before` the activity
+/// that the last stresses were made at.
+template<int dim> void ExplicitSolver<dim>::update_stress(int activity, int before, double dt) {
+  PointState<dim>& point = state_.point;
+  const DuePoints due{local_.points(activity), activity == local_.highest(), dt};
+  const Body<dim> body = this->body();
+  edge_ = {};
+  each([&](Term<dim>& term) { term.begin_stress(body, due); });
+  if (!due.whole)
+    for_each_range(local_.silenced(before), [&](const LevelRange& range) {
+      fill_records(stress_.columns, dim * dim, range, 0.0);
+      fill_records(stress_.out_of_plane, 1, range, 0.0);
+    });
+  const auto points = plasticity::stress_points(point);
+  std::vector<std::ptrdiff_t> bad(due.ranges.size(), -1);
+  for_each_range(due.ranges, [&](const LevelRange& range) {
+    const std::size_t begin = range.begin, end = range.end;
+    deformation_gradient<dim>(body.operators(), position_, point.deformation, begin, end);
+    interpolate<dim>(body.operators(), state_.node.temperature, point.temperature, begin, end);
+    each([&](Term<dim>& term) { term.before_stress(body, range); });
+    bad[due.index(range)] =
+        plasticity::update_stress(model_.materials, point.material, points,
+                                  static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end),
+                                  due.own(range));
+    each([&](Term<dim>& term) { term.after_stress(body, due, range); });
+  });
+  for (const std::ptrdiff_t p : bad)
+    if (p >= 0) diverged(static_cast<std::size_t>(p), "deformation gradient");
+  each([&](Term<dim>& term) { term.end_stress(body, due); });
+}
+
+/// What points and loads give to the nodes that are kicked at an activity: each its force times the number of
+/// finest steps in its own.
+template<int dim> void ExplicitSolver<dim>::assemble_forces(int activity) {
+  const Body<dim> body = this->body();
+  Fields<dim>& force = state_.node.force;
+  each([&](Term<dim>& term) { term.begin_forces(body, activity); });
+  if (body.operators().nodal)
+    for_each_range(local_.points(activity), [&](const LevelRange& range) {
+      for (Field& component : force) fill_records(component, 1, range, 0.0);
+      each([&](Term<dim>& term) { term.add_forces(body, activity, range); });
+      if (range.level > 0) scale_to_impulses(range);
+    });
+  each([&](Term<dim>& term) { term.end_forces(body, activity); });
+  for_each_range(local_.kicked(activity), [&](const LevelRange& range) {
+    if (!range.marked) // its own points are not due
+      for (Field& component : force) fill_records(component, 1, range, 0.0);
+    each([&](Term<dim>& term) { term.add_loads(body, range); });
+    subtract_internal_force<dim>(body.operators(), stress_, force, range.begin, range.end);
+  });
 }
 
 /// The stable step of each block of points, and from these the levels of the next macro step.
 template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable_step() {
+  StepLimit limit;
+  each([&](Term<dim>& term) { term.limit(body(), limit); });
+  if (!model_.mechanical) return {model_.safety * limit.heat, 0, "conduction"};
   const PointState<dim>& point = state_.point;
-  constexpr double far =
-      100.0; // so much longer than a step that no deformation makes it matter before a renewal
-  if (conduction_step_ < far * state_.step_before) conduction_step_ = 0.0; // measured anew
-  if (!model_.mechanical) {
-    measure_conduction_step();
-    return {model_.safety * conduction_step_, 0, "conduction"};
-  }
-  damage_.wave_moduli(model_.materials, point, jacobian_, wave_modulus_);
-  const double stabilisation = edge_defect_.active(approximation_.links) ? model_.stabilisation : 0.0;
-  const auto bounds = bound_.evaluate(approximation_.mechanics, point.deformation, wave_modulus_, inertia(),
-                                      local_.on() ? LocalSteps<dim>::block : block_size);
+  const auto bounds = bound_.evaluate(approximation_.mechanics, point.deformation, point.wave_modulus,
+                                      state_.node.inertia(), local_.on() ? LocalSteps<dim>::block : block_size);
   Field stable(bounds.size());
   for (std::size_t b = 0; b < bounds.size(); ++b) {
-    stable[b] = stable_wave_step(bounds[b].value, stabilisation, viscosity_ratio_);
+    stable[b] = stable_wave_step(bounds[b].value, limit.stabilisation, limit.critical_damping);
     if (!(stable[b] > 0.0)) diverged(bounds[b].point, "stable step");
   }
   auto choice = local_.choose(approximation_.mechanics, approximation_.links, stable);
@@ -79,7 +153,17 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   return {model_.safety * sub_steps() * choice.finest, bounds[choice.limit].point, "elastic waves"};
 }
 
-template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
+template<int dim> Body<dim> ExplicitSolver<dim>::body() {
+  return {model_,    conditions_, state_, approximation_,  local_,                reference_,
+          position_, stress_,     edge_,  plastic_offset_, 0.5 * finest_before_, start_weight_};
+}
+template<int dim> BodyView<dim> ExplicitSolver<dim>::body() const {
+  return {model_,    conditions_, state_, approximation_,  local_,                reference_,
+          position_, stress_,     edge_,  plastic_offset_, 0.5 * finest_before_, start_weight_};
+}
+
+template<int dim>
+void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   const std::size_t node = op.first_node(point);
   throw DivergenceError(

@@ -6,6 +6,7 @@
 #include "core/parallel.hpp"
 #include "core/resampling.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -129,6 +130,12 @@ private:
 
 extern template class LocalSteps<2>;
 extern template class LocalSteps<3>;
+
+/// Fills the part of a field of records of `stride` numbers that belongs to a range.
+inline void fill_records(Field& field, std::size_t stride, const LevelRange& range, double value) {
+  std::fill(field.begin() + static_cast<std::ptrdiff_t>(stride * range.begin),
+            field.begin() + static_cast<std::ptrdiff_t>(stride * range.end), value);
+}
 
 /// body(range) for all ranges, shared out to the threads. body must write only to its range.
 template<class Body> void for_each_range(const std::vector<LevelRange>& ranges, Body&& body) {

@@ -23,7 +23,7 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   // (i) total deformation gradient
   T f[general], elastic[symmetric];
   for (int c = 0; c < general; ++c) f[c] = load<T>(points.deformation[c] + i);
-  for (int c = 0; c < symmetric; ++c) elastic[c] = load<T>(points.elastic[c] + i);
+  for (int c = 0; c < symmetric; ++c) elastic[c] = load<T>(points.inverse_plastic_cauchy_green[c] + i);
   const T temperature = load<T>(points.temperature + i);
   const T plastic_strain = load<T>(points.plastic_strain + i);
   const T last_rate = load<T>(points.plastic_rate + i);
@@ -88,7 +88,7 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
       deformation.pull_back(tensor, inverse[0], delta);
       for (int c = 0; c < symmetric; ++c) {
         const T updated = elastic[c] + delta[c];
-        store(points.elastic[c] + i, select(yielding & !bad, updated, elastic[c]));
+        store(points.inverse_plastic_cauchy_green[c] + i, select(yielding & !bad, updated, elastic[c]));
       }
     }
     store(points.plastic_rate + i, select(bad, last_rate, increment * T(law.by_dt)));

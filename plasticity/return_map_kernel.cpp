@@ -33,7 +33,7 @@ template<int dim, class Visit> void for_each_input(StressPoints<dim>& points, Vi
 }
 
 template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, Visit visit) {
-  for (double*& field : points.elastic) visit(field);
+  for (double*& field : points.inverse_plastic_cauchy_green) visit(field);
   for (double*& field : points.piola) visit(field);
   double** const scalars[] = {&points.plastic_strain, &points.plastic_rate, &points.equivalent_stress,
                               &points.plastic_work,   &points.pressure,     &points.stored_energy,

@@ -36,7 +36,7 @@ double relative(double change, double scale) { return scale > 0.0 ? std::abs(cha
 Audit audit(const ExplicitSolver<2>& solver) {
   const State<2>& state = solver.state();
   const NodeState<2>& node = state.node;
-  const Field& inertia = solver.inertia();
+  const Field& inertia = solver.state().node.inertia();
   Audit sums;
   sums.nodes = static_cast<double>(node.size());
   sums.area = enclosed_area(solver.present_cloud());
@@ -51,7 +51,7 @@ Audit audit(const ExplicitSolver<2>& solver) {
   }
   const EnergyLedger energy = solver.ledger();
   sums.energy = energy.total();
-  sums.lost = energy.resampling + energy.rereference + energy.penalty_release;
+  sums.lost = energy["resampling"] + energy["rereference"] + energy["penalty_release"];
   return sums;
 }
 

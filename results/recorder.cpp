@@ -48,16 +48,6 @@ std::vector<ProbeWeights> probe_weights(const input::Case& input, const Cloud<2>
   return probes;
 }
 
-/// Root mean square and largest size.
-std::pair<double, double> drift_of(const Field& drift) {
-  double sum = 0.0, most = 0.0;
-  for (const double theta : drift) {
-    sum += theta * theta;
-    most = std::max(most, std::abs(theta));
-  }
-  return {drift.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift.size())), most};
-}
-
 bool expands(const std::vector<plasticity::Material>& materials) {
   return std::any_of(materials.begin(), materials.end(),
                      [](const plasticity::Material& material) { return material.expansion != 0.0; });
@@ -77,7 +67,7 @@ HistoryUnits history_units(const input::Case& input) {
 
 HistoryRecorder::HistoryRecorder(const input::Case& input, const ExplicitSolver<2>& solver,
                                  const std::filesystem::path& folder)
-    : units_(history_units(input)), probes_(probe_weights(input, solver.model().cloud)), folder_(folder),
+    : units_(history_units(input)), probes_(probe_weights(input, solver.conditions().cloud)), folder_(folder),
       initial_area_(boundary_area(snapshot(solver))), initial_mass_(total_mass(solver)) {}
 
 std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitSolver<2>& solver) const {
@@ -86,7 +76,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
                                                   {"step", static_cast<double>(state.step)},
                                                   {"dt[s]", state.step_before},
                                                   {"nodes", static_cast<double>(state.node.size())}};
-  const auto& contact = solver.model().contact;
+  const auto& contact = solver.conditions().contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t) {
     const std::string& name = contact.tools()[t].name;
     const auto& result = contact.results()[t];
@@ -102,7 +92,7 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
   }
   if (contact.bodies_touch())
     row.emplace_back("body_contact.pressing" + units_.force, contact.body_result().pressing);
-  const auto& supports = solver.model().supports;
+  const auto& supports = solver.conditions().supports;
   for (std::size_t s = 0; s < supports.list().size(); ++s) {
     if (s > 0 && supports.list()[s].name == supports.list()[s - 1].name) continue;
     Vec2 force = Vec2::Zero();
@@ -112,36 +102,12 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
     row.emplace_back("support." + supports.list()[s].name + ".force_y" + units_.force, force.y());
   }
   const EnergyLedger e = solver.ledger();
-  for (const auto& [name, value] :
-       std::initializer_list<std::pair<const char*, double>>{{"kinetic", e.kinetic},
-                                                             {"tool_kinetic", e.tool_kinetic},
-                                                             {"elastic", e.elastic},
-                                                             {"plastic", e.plastic},
-                                                             {"stabilisation", e.stabilisation},
-                                                             {"damage", e.damage},
-                                                             {"viscosity", e.viscosity},
-                                                             {"friction", e.friction},
-                                                             {"contact_impact", e.impact},
-                                                             {"penalty_release", e.penalty_release},
-                                                             {"rereference", e.rereference},
-                                                             {"resampling", e.resampling},
-                                                             {"pressure_exchange", e.pressure_exchange},
-                                                             {"tool_work", e.tools},
-                                                             {"drive_work", e.drives},
-                                                             {"contact_recovery", e.recovery},
-                                                             {"support_work", e.supports},
-                                                             {"load_work", e.loads},
-                                                             {"heat_content", e.heat_content},
-                                                             {"heat_generated", e.heat_generated},
-                                                             {"heat_exchanged", e.heat_exchanged},
-                                                             {"residual", e.residual()}})
-    row.emplace_back(fmt::format("energy.{}{}", name, units_.energy), value);
+  for (const Energy& entry : e.entries())
+    if (entry.kind != EnergyKind::noted)
+      row.emplace_back(fmt::format("energy.{}{}", entry.name, units_.energy), entry.value);
+  row.emplace_back("energy.residual" + units_.energy, e.residual());
   row.emplace_back("kinetic_share", e.kinetic_share());
-  row.emplace_back("pressure_noise",
-                   pressure_noise(solver.approximation().links, solver.model().cloud.facets, state.point));
-  const auto [mean_drift, largest_drift] = drift_of(solver.volume_drift());
-  row.emplace_back("volume_drift", mean_drift);
-  row.emplace_back("max.volume_drift", largest_drift);
+  for (Metric& metric : solver.metrics()) row.emplace_back(std::move(metric.name), metric.value);
   for (const char* name : {"plastic_strain", "temperature"}) {
     const FieldInfo& info = field_info(name);
     row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
@@ -181,16 +147,16 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   const EnergyLedger e = solver.ledger();
   last_residual_ = e.residual();
   worst_residual_ = std::max(worst_residual_, std::abs(last_residual_));
-  scale_ = std::max(scale_, std::abs(e.external()) + e.initial);
-  if (expands(solver.model().materials)) heat_ = std::max(heat_, std::abs(e.heat_content));
+  scale_ = std::max(scale_, std::abs(e.external()) + e.initial());
+  if (expands(solver.model().materials)) heat_ = std::max(heat_, std::abs(e["heat_content"]));
 
   const double now = solver.state().time;
-  kinetic_ += e.inertial * (now - last_time_);
+  kinetic_ += e["inertial"] * (now - last_time_);
   deformation_ += e.deformation() * (now - last_time_);
   last_time_ = now;
   keep_metric("kinetic_share", kinetic_share(), false);
 
-  const auto& contact = solver.model().contact;
+  const auto& contact = solver.conditions().contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t)
     keep_metric("peak_force." + contact.tools()[t].name, contact.results()[t].force.norm(), true);
   for (const auto& [name, value] : named) {
@@ -209,7 +175,7 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
 
 void HistoryRecorder::resample(const Resampling<2>& change, const ExplicitSolver<2>& solver) {
   if (probes_.empty()) return;
-  const Cloud<2>& cloud = solver.model().cloud;
+  const Cloud<2>& cloud = solver.conditions().cloud;
   const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
   const voronoi::Circumcircles circles = voronoi::circumcircles(cloud, mesh);
   voronoi::NaturalNeighbours functions(cloud, mesh, circles);

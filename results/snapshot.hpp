@@ -26,8 +26,8 @@ struct Snapshot {
 };
 
 inline Snapshot snapshot(const ExplicitSolver<2>& solver, const AdaptationFields* adaptation = nullptr) {
-  return {solver.state(),       solver.approximation(), solver.initial_position(),
-          solver.model().cloud, solver.model().contact, adaptation};
+  return {solver.state(),       solver.approximation(), solver.state().node.initial_position,
+          solver.conditions().cloud, solver.conditions().contact, adaptation};
 }
 
 } // namespace cnem::results

@@ -30,7 +30,7 @@ ExplicitSolver<2> shearing(double coarse, bool local) {
   clouds::SpacingField spacing;
   spacing.spacing = coarse;
   spacing.refinements = {{.points = {{edge, 0}, {edge, thickness}}, .spacing = coarse / 8.0, .growth = 0.3}};
-  Model<2> model = model_304L(testing::box({0, 0}, {width, thickness}, "side"), spacing);
+  Problem<2> model = model_304L(testing::box({0, 0}, {width, thickness}, "side"), spacing);
   model.contact =
       contact::RigidContact<2>({tool({-1e-3, thickness}, {edge - clearance, 2 * thickness}, speed),
                                 tool({edge + clearance, -thickness}, {12e-3, 0}, 0.0),

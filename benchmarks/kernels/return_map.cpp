@@ -26,14 +26,14 @@ Material steel() {
 template<int dim> PointState<dim> points(std::size_t n) {
   PointState<dim> s;
   resize_all(s.deformation, n);
-  resize_all(s.elastic, n);
+  resize_all(s.inverse_plastic_cauchy_green, n);
   resize_all(s.piola, n);
   for (Field* f : {&s.plastic_strain, &s.plastic_rate, &s.equivalent_stress, &s.pressure, &s.stored_energy,
                    &s.plastic_work, &s.dissipation, &s.stress_free})
     f->assign(n, 0.0);
   s.temperature.assign(n, 350.0);
   s.strength.assign(n, 1.0);
-  for (std::size_t c : {0, 1, 2}) s.elastic[c].assign(n, 1.0);
+  for (std::size_t c : {0, 1, 2}) s.inverse_plastic_cauchy_green[c].assign(n, 1.0);
   return s;
 }
 

@@ -1,6 +1,9 @@
 #include "mechanics/terms/bulk_viscosity.hpp"
 
 #include "core/isa.hpp"
+#include "mechanics/terms/list.hpp"
+
+#include <algorithm>
 
 namespace cnem {
 
@@ -16,37 +19,68 @@ ViscousSums viscous(const ViscousPoints<dim>& points, const BulkViscosity& visco
 
 template<int dim>
 ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
-                               const PointState<dim>& point, const Field& density, const Field& wave_modulus,
-                               double dt, Field& jacobian, Field& pressure, Field& flow_stress,
-                               const EdgePoints& edge, ColumnStress<dim>& total, std::size_t begin,
-                               std::size_t end) {
+                               PointState<dim>& point, double dt, const EdgePoints& edge,
+                               ColumnStress<dim>& total, std::size_t begin, std::size_t end) {
   ViscousPoints<dim> points{};
   for (std::size_t c = 0; c < point.piola.size(); ++c) {
     points.deformation[c] = point.deformation[c].data();
     points.piola[c] = point.piola[c].data();
   }
-  points.density = density.data();
-  points.wave_modulus = wave_modulus.data();
+  points.density = point.density.data();
+  points.wave_modulus = point.wave_modulus.data();
   points.volume = operators.volume.data();
   points.radius = operators.of_revolution() ? operators.radius.data() : nullptr;
-  points.jacobian = jacobian.data();
-  points.pressure = pressure.data();
+  points.jacobian = point.jacobian.data();
+  points.pressure = point.viscous_pressure.data();
   points.columns = total.columns.data();
   points.out_of_plane = total.out_of_plane.data();
   points.plastic_rate = point.plastic_rate.data();
   points.equivalent_stress = point.equivalent_stress.data();
-  points.flow_stress = flow_stress.data();
+  points.flow_stress = point.flow_stress.data();
   points.edge = edge;
   return viscous(points, viscosity, dt, static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
 }
 
-#define CNEM_INSTANTIATE(dim)                                                                                \
-  template ViscousSums add_bulk_viscosity<dim>(const BulkViscosity&, const DiscreteOperators<dim>&,          \
-                                               const PointState<dim>&, const Field&, const Field&, double,   \
-                                               Field&, Field&, Field&, const EdgePoints&,                    \
-                                               ColumnStress<dim>&, std::size_t, std::size_t);
-CNEM_INSTANTIATE(2)
-CNEM_INSTANTIATE(3)
-#undef CNEM_INSTANTIATE
+namespace {
+
+template<int dim> class ViscousTerm : public Term<dim> {
+public:
+  std::vector<Energy*> energies() override { return {&dissipated_}; }
+  void limit(const Body<dim>&, StepLimit& limit) override { limit.critical_damping += damping_; }
+  void archive(Archive& archive) override { archive.number("solver/viscosity_ratio", "1", damping_); }
+  void begin_step(const Body<dim>&) override { damping_ = 0.0; }
+  void begin_stress(const Body<dim>&, const DuePoints& due) override {
+    sums_.assign(due.ranges.size(), {0.0, 0.0});
+  }
+  void after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) override {
+    sums_[due.index(range)] =
+        add_bulk_viscosity<dim>(body.model.viscosity, body.operators(), body.state.point, due.own(range),
+                                body.edge, body.stress, range.begin, range.end);
+  }
+  void end_stress(const Body<dim>&, const DuePoints&) override {
+    double dissipated = 0.0;
+    for (const ViscousSums& sum : sums_) {
+      dissipated += sum.dissipated;
+      damping_ = std::max(damping_, sum.damping);
+    }
+    dissipated_.value += dissipated;
+  }
+
+private:
+  Energy dissipated_{"viscosity", EnergyKind::dissipated};
+  double damping_ = 0.0; ///< largest share of critical damping in the macro step
+  std::vector<ViscousSums> sums_;
+};
+
+} // namespace
+
+template<int dim> std::unique_ptr<Term<dim>> bulk_viscosity(const Model<dim>&) {
+  return std::make_unique<ViscousTerm<dim>>();
+}
+
+template std::unique_ptr<Term<2>> bulk_viscosity(const Model<2>&);
+template ViscousSums add_bulk_viscosity<3>(const BulkViscosity&, const DiscreteOperators<3>&, PointState<3>&,
+                                           double, const EdgePoints&, ColumnStress<3>&, std::size_t,
+                                           std::size_t);
 
 } // namespace cnem

@@ -17,13 +17,11 @@ struct BulkViscosity {
 
 /// Writes P − q J F⁻ᵀ of the points [begin, end) to `total`, P from the stress in `point`, and returns what q
 /// dissipated in the step, J/m^(3−dim), and the largest share of critical damping ξ = c₂ + c₁ l |tr D|/c_d,
-/// which shortens the stable step. `jacobian` and `pressure` [point] hold det F and q of the step before and
-/// are brought up to date. `density` is ρ at det F = 1 of each point, `wave_modulus` λ + 2μ.
+/// which shortens the stable step. The point's `jacobian` and `viscous_pressure` hold det F and q of the step
+/// before and are brought up to date, as are its flow stress and the `edge` records.
 template<int dim>
 ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
-                               const PointState<dim>& point, const Field& density, const Field& wave_modulus,
-                               double dt, Field& jacobian, Field& pressure, Field& flow_stress,
-                               const EdgePoints& edge, ColumnStress<dim>& total, std::size_t begin,
-                               std::size_t end);
+                               PointState<dim>& point, double dt, const EdgePoints& edge,
+                               ColumnStress<dim>& total, std::size_t begin, std::size_t end);
 
 } // namespace cnem

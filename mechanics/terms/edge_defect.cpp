@@ -1,13 +1,9 @@
 #include "mechanics/terms/edge_defect.hpp"
 
 #include "core/isa.hpp"
+#include "mechanics/terms/list.hpp"
 
 namespace cnem {
-
-template<int dim> void EdgeDefect<dim>::reset(const Field& shear_modulus) {
-  if (modulus_.size() != shear_modulus.size()) modulus_ = shear_modulus;
-  modulus_before_ = modulus_;
-}
 
 template<int dim>
 void EdgeDefect<dim>::store_records(const Fields<tensor_size<dim>>& deformation, std::size_t begin,
@@ -51,11 +47,64 @@ EdgeEnergy EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const Fi
                      reference, position, record_, stress.columns, pointers(force).data(), begin, end);
 }
 
-template<int dim> void EdgeDefect<dim>::archive(Archive& archive) {
-  archive.field("solver/point/penalty_modulus", "Pa", modulus_);
-  archive.field("solver/point/penalty_modulus_before", "Pa", modulus_before_);
+template<int dim> void EdgeDefect<dim>::limit(const Body<dim>& body, StepLimit& limit) {
+  if (active(body.approximation.links)) limit.stabilisation += alpha_;
 }
 
+template<int dim> void EdgeDefect<dim>::leave(const Body<dim>&) { released_.value += stored_.value; }
+
+template<int dim> void EdgeDefect<dim>::renew(const Body<dim>&) {
+  modulus_before_ = modulus_;
+  stored_.value = 0.0;
+}
+
+template<int dim> void EdgeDefect<dim>::begin_stress(const Body<dim>& body, const DuePoints&) {
+  if (active(body.approximation.links)) body.edge = points(body.state.point);
+}
+
+template<int dim>
+void EdgeDefect<dim>::after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) {
+  if (!due.whole && active(body.approximation.links)) hold_moduli(range.begin, range.end);
+}
+
+template<int dim> void EdgeDefect<dim>::begin_forces(const Body<dim>& body, int activity) {
+  energy_.assign(body.levels.points(activity).size(), {0.0, 0.0});
+}
+
+template<int dim>
+void EdgeDefect<dim>::add_forces(const Body<dim>& body, int activity, const LevelRange& range) {
+  const StabilisationLinks<dim>& links = body.approximation.links;
+  if (!active(links)) return;
+  const auto from = [&](const StabilisationLinks<dim>& part) {
+    return apply(part, body.operators().volume, body.reference, body.position, body.stress,
+                 body.state.node.force, range.begin, range.end);
+  };
+  EdgeEnergy& sum = energy_[static_cast<std::size_t>(&range - body.levels.points(activity).data())];
+  sum = from(body.levels.own_links(links));
+  if (!range.marked || activity <= range.level) return; // twice as heavy as seen from the other end
+  const EdgeEnergy coarse = from(body.levels.coarse_links());
+  sum = {sum.stored + 0.5 * coarse.stored, sum.released + 0.5 * coarse.released};
+}
+
+template<int dim> void EdgeDefect<dim>::end_forces(const Body<dim>& body, int activity) {
+  if (activity != body.levels.highest() || !active(body.approximation.links)) return;
+  stored_.value = 0.0;
+  for (const EdgeEnergy& e : energy_) {
+    stored_.value += e.stored;
+    released_.value += e.released;
+  }
+}
+
+template<int dim> void EdgeDefect<dim>::restore(const Body<dim>& body) {
+  if (active(body.approximation.links))
+    store_records(body.state.point.deformation, 0, body.state.point.size());
+}
+
+template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model) {
+  return std::make_unique<EdgeDefect<dim>>(model.stabilisation);
+}
+
+template std::unique_ptr<Term<2>> edge_defect(const Model<2>&);
 template class EdgeDefect<2>;
 template class EdgeDefect<3>;
 

@@ -2,12 +2,7 @@
 // Edge-defect stabilisation of nodal integration: a penalty on what the smoothed gradients of two neighbours
 // do not explain of their relative motion. Objective, zero on linear fields, and without λ, so that it does
 // not lock (docs/theory.md, "Weak modes").
-#include "core/archive.hpp"
-#include "core/discretisation.hpp"
-#include "core/resampling.hpp"
-#include "core/state.hpp"
-#include "mechanics/kinematics.hpp"
-#include "mechanics/step_kernels.hpp"
+#include "mechanics/terms/term.hpp"
 
 namespace cnem {
 
@@ -15,23 +10,15 @@ namespace cnem {
 ///
 /// μ̃ is the secant shear modulus μ e/(e + ε̄p), e = σ_y/3μ: with the elastic one the penalty would carry
 /// stress that the flowing metal cannot. Energy released when k falls is reported, so that the ledger closes.
-template<int dim> class EdgeDefect {
+template<int dim> class EdgeDefect : public Term<dim> {
 public:
   /// alpha: dimensionless factor, 0.05 restores the free-plate frequencies. 0 switches the stabilisation off.
   explicit EdgeDefect(double alpha) : alpha_(alpha) {}
 
   bool active(const StabilisationLinks<dim>& links) const { return alpha_ > 0.0 && !links.neighbour.empty(); }
 
-  /// Links of a new reference: its penalty starts from zero defect with the moduli as they stand. [node]
-  /// shear_modulus in Pa.
-  void reset(const Field& shear_modulus);
-
-  /// What each step renews beside the stresses (mechanics/terms/bulk_viscosity.hpp): secant moduli and
-  /// records.
-  EdgePoints points(const Field& shear_modulus, const Field& plastic_strain) {
-    return {shear_modulus.data(), plastic_strain.data(), modulus_.data(), modulus_before_.data(),
-            record_.data()};
-  }
+  /// The moduli at the start, [node] Pa.
+  void reset(const Field& shear_modulus) { modulus_before_ = modulus_ = shear_modulus; }
 
   /// Stores what `apply` reads of the nodes [begin, end), F and moduli, of a state that no step has made.
   void store_records(const Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end);
@@ -47,17 +34,37 @@ public:
                    const Field& position, ColumnStress<dim>& stress, Fields<dim>& force, std::size_t begin,
                    std::size_t end) const;
 
-  /// The moduli go with the matter of a resampled cloud; `mass` [old node].
-  void carry_over(const NodeRows& parcels, const Field& mass) { carry_mean(parcels, mass, modulus_); }
-
-  /// Carries the moduli out or in.
-  void archive(Archive& archive);
+  FieldTable* fields() override { return &table_; }
+  std::vector<Energy*> energies() override { return {&stored_, &released_}; }
+  void limit(const Body<dim>& body, StepLimit& limit) override;
+  void start(const Body<dim>& body) override { reset(body.state.point.shear_modulus); }
+  void leave(const Body<dim>& body) override;
+  void renew(const Body<dim>& body) override;
+  void begin_stress(const Body<dim>& body, const DuePoints& due) override;
+  void after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) override;
+  void begin_forces(const Body<dim>& body, int activity) override;
+  void add_forces(const Body<dim>& body, int activity, const LevelRange& range) override;
+  void end_forces(const Body<dim>& body, int activity) override;
+  void attach(const Body<dim>& body) override { restore(body); }
+  void restore(const Body<dim>& body) override;
 
 private:
+  /// What each step renews beside the stresses (mechanics/terms/bulk_viscosity.hpp): secant moduli and
+  /// records.
+  EdgePoints points(const PointState<dim>& point) {
+    return {point.shear_modulus.data(), point.plastic_strain.data(), modulus_.data(), modulus_before_.data(),
+            record_.data()};
+  }
+
   double alpha_;
-  Field modulus_;        ///< [node] μ̃ of this step, Pa
-  Field modulus_before_; ///< [node] μ̃ of the step before, Pa
-  Field record_;         ///< [node] as edge_defect of mechanics/step_kernels.hpp reads them
+  FieldTable table_{"solver/point"};
+  /// μ̃ of this step and of the step before
+  ScalarField modulus_{table_, {"penalty_modulus", "Pa", Carry::mass_mean, Checkpoint::holds}};
+  ScalarField modulus_before_{table_, {"penalty_modulus_before", "Pa", Carry::renewed, Checkpoint::holds}};
+  Field record_;                   ///< [node] as edge_defect of mechanics/step_kernels.hpp reads them
+  std::vector<EdgeEnergy> energy_; ///< [range]
+  Energy stored_{"stabilisation", EnergyKind::held};
+  Energy released_{"penalty_release", EnergyKind::dissipated};
 };
 
 extern template class EdgeDefect<2>;

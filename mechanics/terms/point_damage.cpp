@@ -1,6 +1,7 @@
 #include "mechanics/terms/point_damage.hpp"
 
 #include "core/parallel.hpp"
+#include "mechanics/terms/list.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,23 +12,16 @@ namespace cnem {
 template<int dim>
 PointDamage<dim>::PointDamage(const std::vector<plasticity::Material>& materials)
     : active_(std::any_of(materials.begin(), materials.end(),
-                          [](const plasticity::Material& material) { return material.damage.has_value(); })) {
+                          [](const plasticity::Material& material) { return material.damage.has_value(); })),
+      table_("solver/point", active_) {
   for (const plasticity::Material& material : materials)
     law_.push_back(material.damage.value_or(plasticity::JohnsonCookDamage{}));
-}
-
-template<int dim> void PointDamage<dim>::start(PointState<dim>& point) {
-  if (!active_) return;
-  opening_.assign(point.size(), 0.0);
-  for (Field* field : {&point.damage, &point.softening, &point.initiation_strain})
-    field->assign(point.size(), 0.0);
 }
 
 template<int dim>
 void PointDamage<dim>::measure(const DiscreteOperators<dim>& operators,
                                const std::vector<plasticity::Material>& materials,
                                const PointState<dim>& point) {
-  if (!active_) return;
   const std::size_t n = point.size();
   length_.assign(n, 0.0);
   for (std::size_t p = 0; p < n; ++p) {
@@ -39,16 +33,10 @@ void PointDamage<dim>::measure(const DiscreteOperators<dim>& operators,
   }
 }
 
-template<int dim> void PointDamage<dim>::weaken(const PointState<dim>& point) {
-  if (!active_) return;
-  flow_factor_.resize(point.size());
-  weaken(point, 0, point.size());
-}
-
 template<int dim>
-void PointDamage<dim>::weaken(const PointState<dim>& point, std::size_t begin, std::size_t end) {
+void PointDamage<dim>::weaken(PointState<dim>& point, std::size_t begin, std::size_t end) const {
   for (std::size_t p = begin; p < end; ++p)
-    flow_factor_[p] =
+    point.flow_factor[p] =
         point.strength[p] * law_[static_cast<std::size_t>(point.material[p])].flow_share(point.softening[p]);
 }
 
@@ -57,41 +45,73 @@ double PointDamage<dim>::update(const DiscreteOperators<dim>& operators,
                                 const std::vector<plasticity::Material>& materials, PointState<dim>& point,
                                 std::size_t begin, std::size_t end, double dt) const {
   return plasticity::update_damage(materials, point.material,
-                                   plasticity::damage_points(point, length_, operators.volume, opening_),
+                                   plasticity::damage_points(point, length_, operators.volume, point.opening),
                                    static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end), dt)
       .released;
 }
 
 template<int dim>
 void PointDamage<dim>::wave_moduli(const std::vector<plasticity::Material>& materials,
-                                   const PointState<dim>& point, const Field& jacobian,
-                                   Field& wave_modulus) const {
+                                   PointState<dim>& point) const {
   constexpr double open = 0.1; // more than closes between two measurements of the step
-  if (!active_) return;
   for_each_block(point.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const double softening = point.softening[p];
       if (softening == 0.0) continue;
       const plasticity::Material& material = materials[static_cast<std::size_t>(point.material[p])];
       const plasticity::Elasticity& elasticity = material.elasticity;
-      const double opened = jacobian[p] / point.stress_free[p];
+      const double opened = point.jacobian[p] / point.stress_free[p];
       const double expansion =
           3.0 * material.expansion * (point.temperature[p] - material.expansion_reference);
       const double bulk = std::log(opened) - expansion > open ? 1.0 - softening : 1.0;
-      wave_modulus[p] = (bulk * elasticity.kappa() + 4.0 / 3.0 * elasticity.mu()) / std::max(opened, 1.0);
+      point.wave_modulus[p] = (bulk * elasticity.kappa() + 4.0 / 3.0 * elasticity.mu()) / std::max(opened, 1.0);
     }
   });
 }
 
-template<int dim> void PointDamage<dim>::archive(Archive& archive, std::size_t points) {
+template<int dim> void PointDamage<dim>::limit(const Body<dim>& body, StepLimit&) {
   if (!active_) return;
-  length_.resize(points);
-  flow_factor_.resize(points);
-  opening_.resize(points);
-  archive.field("solver/point/damage_opening", "1", opening_);
-  archive.field("solver/point/damage_length", "m", length_);
+  wave_moduli(body.model.materials, body.state.point);
 }
 
+template<int dim> void PointDamage<dim>::carried(const Body<dim>& body) {
+  if (!active_) return;
+  PointState<dim>& point = body.state.point;
+  for (std::size_t p = 0; p < point.damage.size(); ++p)
+    if (point.damage[p] < 1.0) point.initiation_strain[p] = 0.0; // a mixed point is yet to initiate
+}
+
+template<int dim> void PointDamage<dim>::renew(const Body<dim>& body) {
+  if (!active_) return;
+  PointState<dim>& point = body.state.point;
+  measure(body.operators(), body.model.materials, point);
+  update(body.operators(), body.model.materials, point, 0, point.size(), 0.0);
+}
+
+template<int dim> void PointDamage<dim>::begin_stress(const Body<dim>&, const DuePoints& due) {
+  sums_.assign(due.ranges.size(), 0.0);
+}
+
+template<int dim> void PointDamage<dim>::before_stress(const Body<dim>& body, const LevelRange& range) {
+  if (active_) weaken(body.state.point, range.begin, range.end);
+}
+
+template<int dim>
+void PointDamage<dim>::after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) {
+  if (!active_) return;
+  sums_[due.index(range)] = update(body.operators(), body.model.materials, body.state.point, range.begin,
+                                   range.end, due.own(range));
+}
+
+template<int dim> void PointDamage<dim>::end_stress(const Body<dim>&, const DuePoints&) {
+  for (const double energy : sums_) released_.value += energy;
+}
+
+template<int dim> std::unique_ptr<Term<dim>> point_damage(const Model<dim>& model) {
+  return std::make_unique<PointDamage<dim>>(model.materials);
+}
+
+template std::unique_ptr<Term<2>> point_damage(const Model<2>&);
 template class PointDamage<2>;
 
 } // namespace cnem

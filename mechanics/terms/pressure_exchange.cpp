@@ -1,6 +1,7 @@
 #include "mechanics/terms/pressure_exchange.hpp"
 
 #include "core/parallel.hpp"
+#include "mechanics/terms/list.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,7 @@ void swell(PointState<2>& point, ColumnStress<2>& stress, std::size_t p, double 
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t k = 0; k < 2; ++k) stress.columns[(p * 2 + k) * 2 + i] += change[i * 2 + k];
   stress.out_of_plane[p] += change[4];
-  for (Field& component : point.elastic) component[p] *= scale;
+  for (Field& component : point.inverse_plastic_cauchy_green) component[p] *= scale;
   point.stored_energy[p] += dtheta * (tension + 0.5 * kappa * dtheta);
   point.pressure[p] -= kappa * dtheta;
   point.stress_free[p] *= shrink;
@@ -56,7 +57,7 @@ void PressureExchange<dim>::reset(const std::vector<Facet<dim>>& facets, Field b
 }
 
 template<int dim>
-typename PressureExchange<dim>::Energy
+typename PressureExchange<dim>::Change
 PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
                              const Field& reference, double dt, PointState<dim>& point,
                              ColumnStress<dim>& stress) {
@@ -83,9 +84,9 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       own[room] = operators.volume[i] / (first[i + 1] - first[i]);
     }
   });
-  std::vector<Energy> energy(blocks(n));
+  std::vector<Change> energy(blocks(n));
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    Energy& sum = energy[begin / block_size];
+    Change& sum = energy[begin / block_size];
     for (std::size_t i = begin; i < end; ++i) {
       const double* own = record_.data() + stride * i;
       if (own[increment] == 0.0) continue;
@@ -116,18 +117,52 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       drift_[i] += dtheta;
     }
   });
-  Energy total;
-  for (const Energy& part : energy) {
+  Change total;
+  for (const Change& part : energy) {
     total.dissipated += part.dissipated;
     total.plastic += part.plastic;
   }
   return total;
 }
 
-template<int dim> void PressureExchange<dim>::archive(Archive& archive) {
-  if (alpha_ > 0.0) archive.field("solver/node/volume_drift", "1", drift_);
+template<int dim> void PressureExchange<dim>::attach(const Body<dim>& body) {
+  if (!active(body.approximation.links)) return;
+  Field bulk_modulus(body.state.point.size());
+  for (std::size_t p = 0; p < bulk_modulus.size(); ++p)
+    bulk_modulus[p] = body.material_of(p).elasticity.kappa();
+  reset(body.conditions.cloud.facets, std::move(bulk_modulus));
 }
 
+template<int dim> void PressureExchange<dim>::begin_stress(const Body<dim>& body, const DuePoints&) {
+  if (active(body.approximation.links)) remember(body.state.point.pressure);
+}
+
+template<int dim>
+void PressureExchange<dim>::end_stress(const Body<dim>& body, const DuePoints& due) {
+  if (!active(body.approximation.links)) return;
+  const Change change = apply(body.operators(), body.approximation.links, body.reference, due.dt,
+                              body.state.point, body.stress);
+  dissipated_.value += change.dissipated;
+  body.plastic_offset += change.plastic;
+}
+
+template<int dim> std::vector<Metric> PressureExchange<dim>::metrics(const BodyView<dim>& body) const {
+  double sum = 0.0, most = 0.0;
+  for (const double theta : drift_) {
+    sum += theta * theta;
+    most = std::max(most, std::abs(theta));
+  }
+  return {{"pressure_noise",
+           pressure_noise<dim>(body.approximation.links, body.conditions.cloud.facets, body.state.point)},
+          {"volume_drift", drift_.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift_.size()))},
+          {"max.volume_drift", most}};
+}
+
+template<int dim> std::unique_ptr<Term<dim>> pressure_exchange(const Model<dim>& model) {
+  return std::make_unique<PressureExchange<dim>>(model.pressure_exchange);
+}
+
+template std::unique_ptr<Term<2>> pressure_exchange(const Model<2>&);
 template<int dim>
 double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Facet<dim>>& facets,
                       const PointState<dim>& point) {

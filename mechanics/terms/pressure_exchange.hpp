@@ -1,11 +1,6 @@
 #pragma once
 // Smooths the oscillating pressure of nodal integration where the metal flows: neighbours trade volume.
-#include "core/archive.hpp"
-#include "core/cloud.hpp"
-#include "core/discretisation.hpp"
-#include "core/resampling.hpp"
-#include "core/state.hpp"
-#include "mechanics/kinematics.hpp"
+#include "mechanics/terms/term.hpp"
 
 #include <vector>
 
@@ -21,10 +16,9 @@ namespace cnem {
 /// i.) w_ij Δp_ij changes its sign alone when i and j are exchanged, so that Σ V δθ = 0; nodes do not move
 /// and momenta are untouched, as are constant and linear pressures and elastic zones. What b_e's J and the
 /// geometric one part by is Σ δθ of each node.
-template<int dim> class PressureExchange {
+template<int dim> class PressureExchange : public Term<dim> {
 public:
-  PressureExchange() = default;
-  explicit PressureExchange(double alpha) : alpha_(alpha) {}
+  explicit PressureExchange(double alpha) : alpha_(alpha), table_("solver/point", alpha > 0.0) {}
 
   bool active(const StabilisationLinks<dim>& links) const { return alpha_ > 0.0 && !links.neighbour.empty(); }
 
@@ -34,34 +28,35 @@ public:
   void remember(const Field& pressure) { before_ = pressure; }
 
   /// What an exchange has done to the energies of the body, J/m^(3−dim).
-  struct Energy {
+  struct Change {
     double dissipated =
         0.0; ///< −Σ V ½(τⁿ + τⁿ⁺¹) δθ, τ = −p, and stored energy of the volume that was traded
     double plastic = 0.0; ///< plastic work of the past counted in that volume, to be given back
   };
   /// One exchange, for a nodal method. `reference` [node · dim + component]; `stress` gets the change of P.
-  Energy apply(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
+  Change apply(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
                const Field& reference, double dt, PointState<dim>& point, ColumnStress<dim>& stress);
 
   /// Σ δθ since the start, [node]: log of b_e's J over the geometric one, up to what re-references add. Empty
   /// when there was no exchange.
   const Field& drift() const { return drift_; }
 
-  /// The drift goes with the matter of a resampled cloud; `mass` [old node].
-  void carry_over(const NodeRows& parcels, const Field& mass) {
-    if (!drift_.empty()) carry_mean(parcels, mass, drift_);
-  }
-
-  /// Before a checkpoint fills the drift of a resampled cloud.
-  void resize(std::size_t nodes) { drift_.resize(nodes); }
-
-  void archive(Archive& archive);
+  FieldTable* fields() override { return &table_; }
+  std::vector<Energy*> energies() override { return {&dissipated_}; }
+  std::vector<Metric> metrics(const BodyView<dim>& body) const override;
+  void attach(const Body<dim>& body) override;
+  void begin_stress(const Body<dim>& body, const DuePoints& due) override;
+  void end_stress(const Body<dim>& body, const DuePoints& due) override;
 
 private:
-  double alpha_ = 0.0;
-  Field bulk_modulus_, before_, drift_;
+  double alpha_;
+  FieldTable table_;
+  ScalarField drift_{table_, {"volume_drift", "1", Carry::mass_mean, Checkpoint::holds}};
+  ScalarField bulk_modulus_{table_, {"bulk_modulus", "Pa"}};
+  ScalarField before_{table_, {"pressure_before", "Pa"}};
   std::vector<char> boundary_; ///< [node]
   Field record_;               ///< [node] p, g, Δγ (0: no part in it), σ, V/n
+  Energy dissipated_{"pressure_exchange", EnergyKind::dissipated};
 };
 
 /// Root mean square of (p − mean of the neighbours' p)/σ_eq over interior nodes that flow; 0 when there is

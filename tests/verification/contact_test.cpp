@@ -23,15 +23,15 @@ TEST_P(Bar, against_a_rigid_wall_has_force_rho_c_v_and_duration_2_l_over_c) {
   const double length = 2e-2, width = 1e-3, h = 1.25e-4, speed = 5.0;
   plasticity::Material material = steel();
   material.elasticity.poisson = 0.0; // one-dimensional: c = √(E/ρ) exactly
-  Model<2> model = model_of(rectangle(length, width, h, Lattice::square, 0.0), GetParam(), material);
+  Problem<2> model = model_of(rectangle(length, width, h, Lattice::square, 0.0), GetParam(), material);
   model.contact = contact::RigidContact<2>(
       {polygon_tool({{-1e-2, -1e-2}, {0.0, -1e-2}, {0.0, 1e-2}, {-1e-2, 1e-2}}, {0, 0}, 0.0)});
   ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2&) -> Vec2 { return {-speed, 0}; });
   const double c = material.elasticity.bar_speed(material.density), duration = 2.0 * length / c;
   const double momentum = momenta(solver).linear.x();
   expect_bar_impact(solver, 0.0, duration, material.density * c * speed * width,
-                    [&] { return solver.model().contact.results()[0].force.x(); });
-  const double impulse = solver.model().contact.results()[0].impulse.x();
+                    [&] { return solver.conditions().contact.results()[0].force.x(); });
+  const double impulse = solver.conditions().contact.results()[0].impulse.x();
   EXPECT_NEAR(impulse, momenta(solver).linear.x() - momentum, 1e-12 * total_mass(solver) * speed);
   EXPECT_NEAR(momenta(solver).linear.x(), -momentum, 0.02 * std::abs(momentum))
       << "it leaves as fast as it came";
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(methods, Bar, ::testing::Values(Method::cnem, Method::t
 
 /// Tangential velocity of an elastic block on a plane with gravity inclined by `angle`, after `time`.
 double slide(double angle, double friction, double gravity, double time) {
-  Model<2> model = model_of(rectangle(2e-3, 1e-3, 2.5e-4, Lattice::square, 0.0), Method::cnem, steel());
+  Problem<2> model = model_of(rectangle(2e-3, 1e-3, 2.5e-4, Lattice::square, 0.0), Method::cnem, steel());
   model.contact = contact::RigidContact<2>(
       {polygon_tool({{-2e-2, -1e-2}, {2e-2, -1e-2}, {2e-2, 0.0}, {-2e-2, 0.0}}, {0, 0}, friction)});
   model.loads =
@@ -51,7 +51,7 @@ double slide(double angle, double friction, double gravity, double time) {
   const double dt = solver.stable_step().dt;
   while (solver.state().time < time) solver.advance(dt);
   EXPECT_LT(std::abs(solver.ledger().residual()),
-            1e-3 * (solver.ledger().external() + solver.ledger().friction));
+            1e-3 * (solver.ledger().external() + solver.ledger()["friction"]));
   return momenta(solver).linear.x() / total_mass(solver);
 }
 
@@ -75,7 +75,7 @@ std::vector<Vec2> indent(double angle) {
       {"base n", Support<2>::Kind::velocity, R * Vec2(0, 1), TimeTable(0.0), nodes_on(cloud, 0)},
       {"base t", Support<2>::Kind::velocity, R * Vec2(1, 0), TimeTable(0.0), nodes_on(cloud, 0)}};
   for (Vec2& x : cloud.position) x = R * x;
-  Model<2> model = model_of(std::move(cloud), Method::cnem, steel_304L());
+  Problem<2> model = model_of(std::move(cloud), Method::cnem, steel_304L());
   model.supports = Supports<2>(std::move(base), static_cast<std::size_t>(model.cloud.nodes()));
   std::vector<Vec2> corners{{1.13e-3, 2.0e-3}, {3.2e-3, 2.3e-3}, {3.2e-3, 4e-3}, {1.13e-3, 4e-3}};
   for (Vec2& x : corners) x = R * x;
@@ -83,8 +83,8 @@ std::vector<Vec2> indent(double angle) {
   ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
   const double dt = 1.2e-8;
   for (int n = 0; n < 600; ++n) solver.advance(dt);
-  EXPECT_GT(solver.ledger().friction, 0.0);
-  EXPECT_GT(solver.ledger().plastic, 0.0);
+  EXPECT_GT(solver.ledger()["friction"], 0.0);
+  EXPECT_GT(solver.ledger()["plastic"], 0.0);
   std::vector<Vec2> nodes;
   for (std::size_t i = 0; i < solver.state().node.size(); ++i)
     nodes.push_back(R.transpose() *
@@ -105,7 +105,7 @@ TEST(RotatedTool, gives_rotated_results) {
 
 TEST(Corner, between_two_nodes_does_not_pass_through) {
   Cloud<2> cloud = rectangle(4e-3, 2e-3, 4e-4, Lattice::square, 0.0);
-  Model<2> model = model_of(cloud, Method::cnem, steel_304L());
+  Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   std::vector<Support<2>> base{{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(cloud, 0)}};
   model.supports = Supports<2>(std::move(base), static_cast<std::size_t>(cloud.nodes()));
   // A wedge whose only corner comes down in the middle between two nodes.
@@ -118,13 +118,13 @@ TEST(Corner, between_two_nodes_does_not_pass_through) {
   }
   const double tip = 2.0e-3 - 20.0 * solver.state().time;
   const NodeState<2>& node = solver.state().node;
-  for (const Facet<2>& facet : solver.model().cloud.facets) {
+  for (const Facet<2>& facet : solver.conditions().cloud.facets) {
     const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
     if (facet.piece != 2 || (node.position[0][a] - 1.8e-3) * (node.position[0][b] - 1.8e-3) > 0.0) continue;
     const double s = (1.8e-3 - node.position[0][a]) / (node.position[0][b] - node.position[0][a]);
     EXPECT_LT((1.0 - s) * node.position[1][a] + s * node.position[1][b], tip + 1e-7);
   }
-  EXPECT_GT(-solver.model().contact.results()[0].force.y(), 0.0);
+  EXPECT_GT(-solver.conditions().contact.results()[0].force.y(), 0.0);
 }
 
 } // namespace

@@ -82,11 +82,11 @@ Breaking break_it(const std::string& text, const std::string& spacing, std::vect
       if (renewed || solver.state().step % 10 == 0) control.refresh(solver);
       solver.advance(control.choose(solver.state().time, until));
     }
-    result.work.push_back(solver.ledger().supports);
+    result.work.push_back(solver.ledger()["support_work"]);
   }
-  result.plastic = solver.ledger().plastic;
+  result.plastic = solver.ledger()["plastic"];
   EXPECT_LT(std::abs(solver.ledger().residual()),
-            0.003 * (solver.ledger().external() + solver.ledger().initial));
+            0.003 * (solver.ledger().external() + solver.ledger().initial()));
   const Field& softening = solver.state().point.softening;
   EXPECT_EQ(*std::max_element(softening.begin(), softening.end()), 1.0);
   return result;

@@ -33,7 +33,7 @@ Shape run(const std::string& name, const std::string& spacing) {
   const State<2>& state = solver.state();
   Shape shape{};
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    const double X = solver.initial_position()[0][i], Y = solver.initial_position()[1][i];
+    const double X = solver.state().node.initial_position[0][i], Y = solver.state().node.initial_position[1][i];
     shape.length = std::max(shape.length, state.node.position[1][i]);
     if (Y == 0.0) shape.radius = std::max(shape.radius, state.node.position[0][i]);
     shape.plastic_strain = std::max(shape.plastic_strain, state.point.plastic_strain[i]);
@@ -43,7 +43,7 @@ Shape run(const std::string& name, const std::string& spacing) {
     }
     if (X == 0.0) { EXPECT_EQ(state.node.position[0][i], 0.0); }
   }
-  shape.residual = std::abs(solver.ledger().residual()) / solver.ledger().initial;
+  shape.residual = std::abs(solver.ledger().residual()) / solver.ledger().initial();
   return shape;
 }
 

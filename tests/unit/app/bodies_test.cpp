@@ -54,8 +54,8 @@ TEST(Regions, nodes_take_the_material_of_their_side) {
   double mass = 0.0;
   for (std::size_t i = 0; i < node.size(); ++i) {
     mass += node.mass[i];
-    if (node.position[0][i] < 3.9e-3) { EXPECT_EQ(solver.model().node_material[i], 0); }
-    if (node.position[0][i] > 4.1e-3) { EXPECT_EQ(solver.model().node_material[i], 1); }
+    if (node.position[0][i] < 3.9e-3) { EXPECT_EQ(node.material[i], 0); }
+    if (node.position[0][i] > 4.1e-3) { EXPECT_EQ(node.material[i], 1); }
   }
   EXPECT_NEAR(mass, 8000 * 8e-6 + 2000 * 12e-6, 1e-14);
 }
@@ -72,11 +72,11 @@ TEST(Interface, faces_stay_together_to_the_last_bit_and_pass_the_patch_test) {
     for (int n = 0; n < 100; ++n) solver.advance(2e-8);
     const auto& node = solver.state().node;
     for (std::size_t i = 0; i < node.size(); ++i) {
-      EXPECT_NEAR(node.velocity[0][i], 1e3 * solver.initial_position()[0][i], 1e-8);
+      EXPECT_NEAR(node.velocity[0][i], 1e3 * solver.state().node.initial_position[0][i], 1e-8);
       EXPECT_NEAR(node.velocity[1][i], 0.0, 1e-8);
     }
-    ASSERT_FALSE(solver.model().cloud.twins.empty());
-    for (const auto& [a, b] : solver.model().cloud.twins)
+    ASSERT_FALSE(solver.conditions().cloud.twins.empty());
+    for (const auto& [a, b] : solver.conditions().cloud.twins)
       for (std::size_t k = 0; k < 2; ++k)
         EXPECT_EQ(node.position[k][static_cast<std::size_t>(a)],
                   node.position[k][static_cast<std::size_t>(b)]);
@@ -118,25 +118,25 @@ TEST(Interface, conductance_makes_the_temperature_jump) {
   while (solver.state().time < 8.0) solver.advance(solver.stable_step().dt);
   const double flux = 200.0 / (4e-3 / 50.0 + 1.0 / 2e4 + 6e-3 / 200.0);
   const auto& node = solver.state().node;
-  ASSERT_FALSE(solver.model().cloud.twins.empty());
-  for (const auto& [a, b] : solver.model().cloud.twins)
+  ASSERT_FALSE(solver.conditions().cloud.twins.empty());
+  for (const auto& [a, b] : solver.conditions().cloud.twins)
     EXPECT_NEAR(std::abs(node.temperature[static_cast<std::size_t>(a)] -
                          node.temperature[static_cast<std::size_t>(b)]),
                 flux / 2e4, 1e-6 * flux / 2e4);
-  EXPECT_LT(std::abs(solver.ledger().heat_residual()), 1e-9 * std::abs(solver.ledger().heat_exchanged));
+  EXPECT_LT(std::abs(solver.ledger().heat_residual()), 1e-9 * std::abs(solver.ledger()["heat_exchanged"]));
 }
 
 TEST(Interface, without_conductance_both_faces_have_one_temperature) {
   ExplicitSolver<2> solver =
       start({"analysis.mechanical=false", "domain.regions.right.temperature=\"600 K\""});
-  const double before = solver.ledger().heat_content;
+  const double before = solver.ledger()["heat_content"];
   for (int n = 0; n < 20; ++n) solver.advance(solver.stable_step().dt);
-  for (const auto& [a, b] : solver.model().cloud.twins)
+  for (const auto& [a, b] : solver.conditions().cloud.twins)
     EXPECT_EQ(solver.state().node.temperature[static_cast<std::size_t>(a)],
               solver.state().node.temperature[static_cast<std::size_t>(b)]);
   double scale = 0.0;
   for (const double c : solver.state().node.heat_capacity) scale += 300.0 * c;
-  EXPECT_NEAR(solver.ledger().heat_content, before, 1e-13 * scale);
+  EXPECT_NEAR(solver.ledger()["heat_content"], before, 1e-13 * scale);
 }
 
 /// Both sides of a periodic strip move alike though only one of them is pushed.
@@ -147,7 +147,7 @@ TEST(Periodic, sides_move_alike) {
   for (int n = 0; n < 50; ++n) solver.advance(solver.stable_step().dt);
   const Pairs pairs = tied_pairs(read({"domain.interfaces={}", "domain.regions={}", "cloud.pattern=hexagonal",
                                        "periodic.strip.pieces=[\"left\", \"right\"]"}),
-                                 solver.model().cloud);
+                                 solver.conditions().cloud);
   ASSERT_EQ(pairs.motion.size(), 5U);
   const auto& node = solver.state().node;
   for (const auto& [a, b] : pairs.motion) {

@@ -98,7 +98,7 @@ TEST(StableStep, bound_is_below_the_exact_step_and_not_far) {
           const Linear linear = linearise(approximation, cloud, material, alpha);
           const Eigen::VectorXd omega2 = squared_frequencies(linear);
           const double exact = 2.0 / std::sqrt(omega2[omega2.size() - 1]);
-          Model<2> model = model_of(cloud, method, material);
+          Problem<2> model = model_of(cloud, method, material);
           model.stabilisation = alpha;
           model.safety = 1.0;
           ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });

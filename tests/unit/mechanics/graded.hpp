@@ -21,11 +21,11 @@ inline Cloud<2> graded_rectangle(double a, double b, double coarse, double fine,
 
 /// A half blank between punch and die, refined where it will shear, with friction and heat: spacings differ
 /// by a factor of 8.
-inline Model<2> graded_shearing(double speed, double coarse = 4e-4) {
+inline Problem<2> graded_shearing(double speed, double coarse = 4e-4) {
   const double fine = coarse / 8.0, clearance = 1e-4, edge = 4e-3;
   Cloud<2> cloud = graded_rectangle(10e-3, 4e-3, coarse, fine, {{edge, 0}, {edge, 4e-3}});
   std::vector<Support<2>> axis{{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}};
-  Model<2> model = model_of(cloud, Method::cnem, steel_304L());
+  Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.supports = Supports<2>(std::move(axis), static_cast<std::size_t>(cloud.nodes()));
   const contact::Friction friction{.coulomb = 0.1, .shear_factor = 0.5};
   model.contact = contact::RigidContact<2>(

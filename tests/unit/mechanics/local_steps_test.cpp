@@ -8,7 +8,7 @@
 namespace cnem::testing {
 namespace {
 
-ExplicitSolver<2> at_rest(Model<2> model) {
+ExplicitSolver<2> at_rest(Problem<2> model) {
   return start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
 }
 
@@ -38,8 +38,8 @@ Field all_of(const ExplicitSolver<2>& solver) {
 }
 
 /// A square whose middle is twelve times as fine as its sides, in four levels.
-Model<2> graded_square() {
-  Model<2> model = model_of(graded_rectangle(1e-2, 1e-2, 3e-4, 2.5e-5, {{4.9e-3, 5e-3}, {5.1e-3, 5e-3}}),
+Problem<2> graded_square() {
+  Problem<2> model = model_of(graded_rectangle(1e-2, 1e-2, 3e-4, 2.5e-5, {{4.9e-3, 5e-3}, {5.1e-3, 5e-3}}),
                             Method::cnem, steel());
   model.local = {.on = true, .least_gain = 0.0};
   return model;
@@ -85,7 +85,7 @@ TEST(LocalSteps, levels_keep_to_stable_steps_and_to_their_neighbours) {
 }
 
 TEST(LocalSteps, where_they_save_little_all_take_the_finest_step) {
-  Model<2> model = model_of(rectangle(4e-3, 4e-3, 4e-4), Method::cnem, steel());
+  Problem<2> model = model_of(rectangle(4e-3, 4e-3, 4e-4), Method::cnem, steel());
   model.local.on = true;
   ExplicitSolver<2> solver = at_rest(std::move(model));
   const double dt = solver.stable_step().dt;
@@ -94,7 +94,7 @@ TEST(LocalSteps, where_they_save_little_all_take_the_finest_step) {
 }
 
 TEST(LocalSteps, one_level_gives_the_bits_of_the_global_step) {
-  Model<2> global = graded_shearing(40.0), local = graded_shearing(40.0);
+  Problem<2> global = graded_shearing(40.0), local = graded_shearing(40.0);
   local.local = {.on = true, .levels = 1, .least_gain = 0.0};
   ExplicitSolver<2> a = at_rest(std::move(global)), b = at_rest(std::move(local));
   advance(a, 5e-7, 30);
@@ -103,7 +103,7 @@ TEST(LocalSteps, one_level_gives_the_bits_of_the_global_step) {
   EXPECT_EQ(all_of(a), all_of(b));
   EXPECT_EQ(a.ledger().total(), b.ledger().total());
   EXPECT_EQ(a.ledger().external(), b.ledger().external());
-  EXPECT_EQ(a.model().contact.results()[0].force, b.model().contact.results()[0].force);
+  EXPECT_EQ(a.conditions().contact.results()[0].force, b.conditions().contact.results()[0].force);
 }
 
 TEST(LocalSteps, momenta_are_exact) {
@@ -115,7 +115,7 @@ TEST(LocalSteps, momenta_are_exact) {
   solver.advance(dt);
   ASSERT_EQ(solver.sub_steps(), 8);
   const Momenta before = momenta(solver);
-  const double energy = solver.ledger().initial;
+  const double energy = solver.ledger().initial();
   double worst = 0.0, mass = 0.0;
   while (solver.state().time < std::numbers::pi / omega) {
     solver.advance(dt);
@@ -132,7 +132,7 @@ TEST(LocalSteps, momenta_are_exact) {
 /// A body that falls freely stays without stress, to rounding, whatever the levels: before they are chosen,
 /// as they change, on new references, and with steps of another length.
 TEST(LocalSteps, free_fall_makes_no_stress) {
-  Model<2> model = graded_square();
+  Problem<2> model = graded_square();
   const Vec2 g(3e6, -1e7);
   model.loads = Loads<2>({}, {}, {TimeTable(g.x()), TimeTable(g.y())}, model.cloud.position);
   const double young = 210e9;
@@ -150,11 +150,11 @@ TEST(LocalSteps, free_fall_makes_no_stress) {
   const double t = solver.state().time;
   for (std::size_t i = 0; i < solver.state().node.size(); ++i)
     for (std::size_t k = 0; k < 2; ++k)
-      ASSERT_NEAR(solver.state().node.position[k][i] - solver.initial_position()[k][i],
+      ASSERT_NEAR(solver.state().node.position[k][i] - solver.state().node.initial_position[k][i],
                   0.5 * g[static_cast<Eigen::Index>(k)] * t * t, 1e-15);
   for (const Field& component : solver.state().point.piola)
     for (const double stress : component) ASSERT_LT(std::abs(stress), 1e-9 * young);
-  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-9 * solver.ledger().loads);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-9 * solver.ledger()["load_work"]);
 }
 
 /// Every node with a random velocity, all frequencies there are: 10⁵ finest steps.
@@ -171,7 +171,7 @@ TEST(LocalSteps, energy_stays_bounded) {
     if (n % 5 != 0) continue;
     const EnergyLedger ledger = solver.ledger();
     double& most = worst[n < count / 2 ? 0 : 1];
-    most = std::max(most, std::abs(ledger.residual()) / ledger.initial);
+    most = std::max(most, std::abs(ledger.residual()) / ledger.initial());
   }
   EXPECT_EQ(solver.sub_steps(), 8);
   EXPECT_LT(worst[0], 0.01);
@@ -192,7 +192,7 @@ PulseError pulse_error(double h, bool local) {
   const Cloud<2> cloud = graded_rectangle(length, width, h, h / 4.0, {{1.8e-2, 1.5e-3}, {2.2e-2, 1.5e-3}});
   std::vector<std::int32_t> all(static_cast<std::size_t>(cloud.nodes()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
-  Model<2> model = model_of(cloud, Method::cnem, steel());
+  Problem<2> model = model_of(cloud, Method::cnem, steel());
   model.supports = Supports<2>({{"lateral", Support<2>::Kind::symmetry, Vec2(0, 1), {}, all}}, all.size());
   model.local = {.on = local, .least_gain = 0.0};
   const plasticity::Material material = model.materials.front();
@@ -205,7 +205,7 @@ PulseError pulse_error(double h, bool local) {
   const double half = 0.5 * state.step_before / solver.sub_steps();
   double errors[2] = {0.0, 0.0}, norms[2] = {0.0, 0.0};
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    const double X = solver.initial_position()[0][i];
+    const double X = solver.state().node.initial_position[0][i];
     double v = 0.0, u = 0.0; // both waves, and what the free ends reflect
     for (const double image : {centre, -centre, 2.0 * length - centre})
       for (const double sign : {-1.0, 1.0}) {
@@ -223,7 +223,7 @@ PulseError pulse_error(double h, bool local) {
   }
   const EnergyLedger ledger = solver.ledger();
   return {std::sqrt(errors[0] / norms[0]), std::sqrt(errors[1] / norms[1]),
-          std::abs(ledger.residual()) / ledger.initial, solver.sub_steps()};
+          std::abs(ledger.residual()) / ledger.initial(), solver.sub_steps()};
 }
 
 TEST(LocalSteps, pulse_crosses_levels_as_with_the_global_step) {
@@ -255,7 +255,7 @@ TEST(LocalSteps, loads_supports_and_ties_act_as_with_the_global_step) {
       if (facet.piece == 1) right.push_back(facet);
       if (facet.piece == 2) top.push_back(facet);
     }
-    Model<2> model = model_of(cloud, Method::cnem, steel());
+    Problem<2> model = model_of(cloud, Method::cnem, steel());
     model.supports =
         Supports<2>({{"base", Support<2>::Kind::velocity, Vec2(0, 1), ramp(2.0), nodes_on(cloud, 0)},
                      {"side", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}},
@@ -278,15 +278,15 @@ TEST(LocalSteps, loads_supports_and_ties_act_as_with_the_global_step) {
     const ExplicitSolver<2> local = loaded(true, safety);
     EXPECT_GE(local.sub_steps(), 4);
     const EnergyLedger b = local.ledger();
-    EXPECT_NEAR(b.loads, a.loads, 3e-3 * a.external());
-    EXPECT_NEAR(b.supports, a.supports, 6e-3 * a.supports);
+    EXPECT_NEAR(b["load_work"], a["load_work"], 3e-3 * a.external());
+    EXPECT_NEAR(b["support_work"], a["support_work"], 6e-3 * a["support_work"]);
     EXPECT_LT(std::abs(b.residual()), 2e-3 * b.external());
-    energy[k] = std::abs(b.elastic / a.elastic - 1.0);
+    energy[k] = std::abs(b["elastic"] / a["elastic"] - 1.0);
     double difference = 0.0, displacement = 0.0;
     for (std::size_t c = 0; c < 2; ++c)
       for (std::size_t i = 0; i < local.state().node.size(); ++i) {
-        const double u = global.state().node.position[c][i] - global.initial_position()[c][i];
-        const double w = local.state().node.position[c][i] - local.initial_position()[c][i];
+        const double u = global.state().node.position[c][i] - global.state().node.initial_position[c][i];
+        const double w = local.state().node.position[c][i] - local.state().node.initial_position[c][i];
         difference = std::max(difference, std::abs(u - w));
         displacement = std::max(displacement, std::abs(u));
       }
@@ -302,7 +302,7 @@ TEST(LocalSteps, loads_supports_and_ties_act_as_with_the_global_step) {
 TEST(LocalSteps, bodies_of_revolution_follow_the_global_step) {
   const auto struck = [](bool local) {
     Cloud<2> cloud = graded_rectangle(2e-3, 4e-3, 2e-4, 2.5e-5, {{1.8e-3, 0}, {2e-3, 0}});
-    Model<2> model = model_of(cloud, Method::cnem, steel_304L());
+    Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
     model.method = make(Method::cnem, Space::revolution);
     model.supports = Supports<2>({{"wall", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(cloud, 0)},
                                   {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}},
@@ -317,14 +317,14 @@ TEST(LocalSteps, bodies_of_revolution_follow_the_global_step) {
   const ExplicitSolver<2> global = struck(false), local = struck(true);
   EXPECT_GE(local.sub_steps(), 4);
   const EnergyLedger a = global.ledger(), b = local.ledger();
-  EXPECT_NEAR(b.plastic, a.plastic, 5e-3 * a.plastic);
-  EXPECT_NEAR(b.kinetic, a.kinetic, 5e-3 * a.kinetic);
-  EXPECT_LT(std::abs(b.residual()), 1e-3 * b.initial);
+  EXPECT_NEAR(b["plastic"], a["plastic"], 5e-3 * a["plastic"]);
+  EXPECT_NEAR(b["kinetic"], a["kinetic"], 5e-3 * a["kinetic"]);
+  EXPECT_LT(std::abs(b.residual()), 1e-3 * b.initial());
 }
 
 TEST(LocalSteps, graded_shearing_follows_the_global_step) {
   const double coarse = 0.72e-4, end = 2e-6;
-  Model<2> model = graded_shearing(20.0, coarse);
+  Problem<2> model = graded_shearing(20.0, coarse);
   model.local.on = true;
   ExplicitSolver<2> local = at_rest(std::move(model)), global = at_rest(graded_shearing(20.0, coarse));
   double impulse[2] = {0.0, 0.0};
@@ -334,7 +334,7 @@ TEST(LocalSteps, graded_shearing_follows_the_global_step) {
     int i = 0;
     for (ExplicitSolver<2>* solver : {&global, &local}) {
       advance(*solver, end * w / windows);
-      const double now = -solver->model().contact.results()[0].impulse.y();
+      const double now = -solver->conditions().contact.results()[0].impulse.y();
       force[i] = (now - impulse[i]) / (end / windows);
       impulse[i] = now;
       ++i;
@@ -347,12 +347,12 @@ TEST(LocalSteps, graded_shearing_follows_the_global_step) {
   EXPECT_LT(static_cast<double>(std::count(levels.begin(), levels.end(), 0)),
             0.2 * static_cast<double>(levels.size()));
   const EnergyLedger a = global.ledger(), b = local.ledger();
-  EXPECT_NEAR(b.plastic, a.plastic, 2e-3 * a.plastic);
+  EXPECT_NEAR(b["plastic"], a["plastic"], 2e-3 * a["plastic"]);
   EXPECT_NEAR(b.external(), a.external(), 2e-3 * a.external());
-  EXPECT_NEAR(b.friction, a.friction, 0.02 * a.friction);
-  EXPECT_NEAR(b.heat_generated, a.heat_generated, 2e-3 * a.heat_generated);
+  EXPECT_NEAR(b["friction"], a["friction"], 0.02 * a["friction"]);
+  EXPECT_NEAR(b["heat_generated"], a["heat_generated"], 2e-3 * a["heat_generated"]);
   EXPECT_LT(std::abs(b.residual()), 1e-3 * b.external());
-  EXPECT_LT(std::abs(b.heat_residual()), 1e-9 * b.heat_generated);
+  EXPECT_LT(std::abs(b.heat_residual()), 1e-9 * b["heat_generated"]);
   const Field &ea = global.state().point.plastic_strain, &eb = local.state().point.plastic_strain;
   EXPECT_NEAR(*std::max_element(eb.begin(), eb.end()), *std::max_element(ea.begin(), ea.end()),
               0.03 * *std::max_element(ea.begin(), ea.end()));
@@ -362,7 +362,7 @@ TEST(LocalSteps, same_bits_for_any_number_of_threads) {
   std::vector<Field> seen;
   for (const int threads : {1, 2, 3}) {
     omp_set_num_threads(threads);
-    Model<2> model = graded_shearing(40.0, 1.6e-4);
+    Problem<2> model = graded_shearing(40.0, 1.6e-4);
     model.local = {.on = true, .least_gain = 0.0};
     ExplicitSolver<2> solver = at_rest(std::move(model));
     advance(solver, 4e-7, 10);

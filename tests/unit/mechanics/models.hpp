@@ -70,8 +70,8 @@ inline std::vector<std::int32_t> nodes_on(const Cloud<2>& cloud, std::int32_t pi
   return nodes;
 }
 
-inline Model<2> model_of(Cloud<2> cloud, Method method, plasticity::Material material) {
-  Model<2> model;
+inline Problem<2> model_of(Cloud<2> cloud, Method method, plasticity::Material material) {
+  Problem<2> model;
   model.method = make(method);
   model.supports = Supports<2>({}, static_cast<std::size_t>(cloud.nodes()));
   model.loads = Loads<2>({}, {}, {}, cloud.position);
@@ -81,7 +81,7 @@ inline Model<2> model_of(Cloud<2> cloud, Method method, plasticity::Material mat
   return model;
 }
 
-inline ExplicitSolver<2> start(Model<2> model, const std::function<Vec2(const Vec2&)>& velocity,
+inline ExplicitSolver<2> start(Problem<2> model, const std::function<Vec2(const Vec2&)>& velocity,
                                double temperature = 296.0) {
   Fields<2> v;
   resize_all(v, static_cast<std::size_t>(model.cloud.nodes()));
@@ -99,6 +99,13 @@ inline double total_mass(const ExplicitSolver<2>& solver) {
   double mass = 0.0;
   for (const double m : solver.state().node.mass) mass += m;
   return mass;
+}
+
+/// What a term tells of the present state; NaN when none does under this name.
+inline double metric_of(const ExplicitSolver<2>& solver, const std::string& name) {
+  for (const Metric& metric : solver.metrics())
+    if (metric.name == name) return metric.value;
+  return std::nan("");
 }
 
 /// Linear and angular momentum of the nodes about the origin, at t_n.

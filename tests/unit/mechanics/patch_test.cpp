@@ -19,7 +19,7 @@ ExplicitSolver<2> driven(Method method, const Mat2& H, double end, plasticity::M
       supports.push_back(
           {"side", Support<2>::Kind::velocity, k == 0 ? Vec2(1, 0) : Vec2(0, 1), TimeTable(speed), {i}});
     }
-  Model<2> model = model_of(cloud, method, std::move(material));
+  Problem<2> model = model_of(cloud, method, std::move(material));
   model.supports = Supports<2>(std::move(supports), static_cast<std::size_t>(cloud.nodes()));
   return start(std::move(model), [&](const Vec2& x) -> Vec2 { return H * x / end; });
 }
@@ -27,7 +27,7 @@ ExplicitSolver<2> driven(Method method, const Mat2& H, double end, plasticity::M
 void expect_affine(const ExplicitSolver<2>& solver, const Mat2& F) {
   const State<2>& state = solver.state();
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    const Vec2 X(solver.initial_position()[0][i], solver.initial_position()[1][i]);
+    const Vec2 X(solver.state().node.initial_position[0][i], solver.state().node.initial_position[1][i]);
     const Vec2 x(state.node.position[0][i], state.node.position[1][i]);
     EXPECT_LT((x - F * X).norm(), 1e-13) << "node " << i;
   }
@@ -69,7 +69,7 @@ TEST(PatchRereferenced, affine_through_new_references) {
   }
   const State<2>& state = solver.state();
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    const Vec2 X(solver.initial_position()[0][i], solver.initial_position()[1][i]);
+    const Vec2 X(solver.state().node.initial_position[0][i], solver.state().node.initial_position[1][i]);
     const Vec2 x(state.node.position[0][i], state.node.position[1][i]);
     EXPECT_LT((x - X - H * X).norm(), 1e-12) << "node " << i;
   }

@@ -30,7 +30,7 @@ struct Block {
     for (const Facet<2>& facet : cloud.facets)
       for (const std::int32_t node : facet.node) on_boundary[std::size_t(node)] = 1;
     resize_all(point.deformation, n, 0.0);
-    resize_all(point.elastic, n, 0.0);
+    resize_all(point.inverse_plastic_cauchy_green, n, 0.0);
     resize_all(point.piola, n, 0.0);
     for (Field* field : {&point.plastic_strain, &point.plastic_rate, &point.equivalent_stress,
                          &point.pressure, &point.stored_energy, &point.plastic_work, &point.dissipation,
@@ -45,10 +45,10 @@ struct Block {
       const double det = F[0] * F[3] - F[1] * F[2];
       const double G[4] = {F[3] / det, -F[1] / det, -F[2] / det, F[0] / det};
       const double shear = 1e-3, b[3] = {s * std::exp(shear), s * std::exp(-shear), s};
-      point.elastic[0][i] = G[0] * G[0] * b[0] + G[1] * G[1] * b[1];
-      point.elastic[1][i] = G[2] * G[2] * b[0] + G[3] * G[3] * b[1];
-      point.elastic[3][i] = G[0] * G[2] * b[0] + G[1] * G[3] * b[1];
-      point.elastic[2][i] = b[2];
+      point.inverse_plastic_cauchy_green[0][i] = G[0] * G[0] * b[0] + G[1] * G[1] * b[1];
+      point.inverse_plastic_cauchy_green[1][i] = G[2] * G[2] * b[0] + G[3] * G[3] * b[1];
+      point.inverse_plastic_cauchy_green[3][i] = G[0] * G[2] * b[0] + G[1] * G[3] * b[1];
+      point.inverse_plastic_cauchy_green[2][i] = b[2];
       point.temperature[i] = 296.0;
       point.strength[i] = 1.0;
       point.plastic_work[i] = 3e7;
@@ -69,7 +69,7 @@ struct Block {
     made.reset(cloud.facets, Field(point.size(), kappa));
     return made;
   }
-  PressureExchange<2>::Energy apply(PressureExchange<2>& exchange, double dt = 1e-8) {
+  PressureExchange<2>::Change apply(PressureExchange<2>& exchange, double dt = 1e-8) {
     exchange.remember(point.pressure);
     return exchange.apply(approximation.mechanics, approximation.links, reference, dt, point, stress);
   }
@@ -154,7 +154,7 @@ TEST(PressureExchange, leaves_elastic_zones_and_boundaries_alone) {
     touched += block.point.pressure[i] != before.pressure[i];
     if (!out) continue;
     EXPECT_EQ(block.point.pressure[i], before.pressure[i]);
-    EXPECT_EQ(block.point.elastic[0][i], before.elastic[0][i]);
+    EXPECT_EQ(block.point.inverse_plastic_cauchy_green[0][i], before.inverse_plastic_cauchy_green[0][i]);
     EXPECT_EQ(block.point.piola[3][i], before.piola[3][i]);
     EXPECT_EQ(exchange.drift()[i], 0.0);
   }
@@ -187,14 +187,14 @@ TEST(PressureExchange, damps_a_checkerboard_faster_the_more_flows_and_never_beyo
 
 TEST(PressureExchange, keeps_momentum_and_the_energy_balance_of_a_run) {
   for (const double alpha : {0.0, 0.3}) {
-    Model<2> model = model_of(rectangle(2e-3, 1e-3, 1e-4), Method::cnem, steel_304L());
+    Problem<2> model = model_of(rectangle(2e-3, 1e-3, 1e-4), Method::cnem, steel_304L());
     model.pressure_exchange = alpha;
     model.viscosity = {1.2, 0.06};
     ExplicitSolver<2> solver = start(std::move(model), [](const Vec2& x) -> Vec2 {
       return {60.0 * std::sin(2000.0 * x.y()), -80.0 * std::sin(1500.0 * x.x())};
     });
     const Momenta before = momenta(solver);
-    const double dt = 0.8 * solver.stable_step().dt, initial = solver.ledger().initial;
+    const double dt = 0.8 * solver.stable_step().dt, initial = solver.ledger().initial();
     for (int n = 0; n < 600; ++n) {
       if (n % 100 == 99) solver.prepare();
       solver.advance(dt);
@@ -204,10 +204,10 @@ TEST(PressureExchange, keeps_momentum_and_the_energy_balance_of_a_run) {
     EXPECT_LT((after.linear - before.linear).norm(), 1e-12 * scale) << alpha;
     EXPECT_LT(std::abs(after.angular - before.angular), 1e-12 * scale * 1e-3) << alpha;
     const EnergyLedger ledger = solver.ledger();
-    EXPECT_GT(ledger.plastic, 0.1 * initial);
+    EXPECT_GT(ledger["plastic"], 0.1 * initial);
     EXPECT_LT(std::abs(ledger.residual()), 1e-3 * initial) << alpha;
-    EXPECT_EQ(ledger.pressure_exchange > 0.0, alpha > 0.0);
-    EXPECT_EQ(solver.volume_drift().empty(), alpha == 0.0);
+    EXPECT_EQ(ledger["pressure_exchange"] > 0.0, alpha > 0.0);
+    EXPECT_EQ(metric_of(solver, "volume_drift") > 0.0, alpha > 0.0);
   }
 }
 

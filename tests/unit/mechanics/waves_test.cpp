@@ -15,7 +15,7 @@ double pulse_error(Method method, double h, double& residual) {
   Cloud<2> cloud = rectangle(length, width, h, Lattice::hexagonal, 0.1);
   std::vector<std::int32_t> all(static_cast<std::size_t>(cloud.nodes()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
-  Model<2> model = model_of(cloud, method, steel());
+  Problem<2> model = model_of(cloud, method, steel());
   model.supports = Supports<2>({{"lateral", Support<2>::Kind::symmetry, Vec2(0, 1), {}, all}}, all.size());
   const plasticity::Material material = model.materials.front();
   ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
@@ -29,7 +29,7 @@ double pulse_error(Method method, double h, double& residual) {
   const double t = state.time - 0.5 * dt; // velocities live half a step back
   double error = 0.0, norm = 0.0;
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    const double X = solver.initial_position()[0][i];
+    const double X = solver.state().node.initial_position[0][i];
     const double exact =
         0.5 * v0 * (pulse((X - c * t - centre) / half_width) + pulse((X + c * t - centre) / half_width));
     const double d = state.node.velocity[0][i] - exact;
@@ -37,7 +37,7 @@ double pulse_error(Method method, double h, double& residual) {
     norm += state.node.mass[i] * exact * exact;
   }
   const EnergyLedger ledger = solver.ledger();
-  residual = std::abs(ledger.residual()) / ledger.initial;
+  residual = std::abs(ledger.residual()) / ledger.initial();
   return std::sqrt(error / norm);
 }
 

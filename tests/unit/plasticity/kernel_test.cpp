@@ -46,7 +46,7 @@ template<int dim> void deform(PointState<dim>& s, int k) {
 template<int dim> std::vector<const Field*> results(const PointState<dim>& s) {
   std::vector<const Field*> fields{&s.plastic_strain, &s.plastic_rate,  &s.equivalent_stress, &s.plastic_work,
                                    &s.pressure,       &s.stored_energy, &s.dissipation,       &s.stress_free};
-  for (const Field& f : s.elastic) fields.push_back(&f);
+  for (const Field& f : s.inverse_plastic_cauchy_green) fields.push_back(&f);
   for (const Field& f : s.piola) fields.push_back(&f);
   return fields;
 }
@@ -143,9 +143,9 @@ template<int dim> void meaningless_points() {
       [&](auto& s, auto i) {
         for (Field& f : s.deformation) f[i] = 0.0;
       },
-      [&](auto& s, auto i) { s.elastic[0][i] = -1.0; },
-      [&](auto& s, auto i) { s.elastic[2][i] = nan; },
-      [&](auto& s, auto i) { s.elastic[3][i] = 5.0; },
+      [&](auto& s, auto i) { s.inverse_plastic_cauchy_green[0][i] = -1.0; },
+      [&](auto& s, auto i) { s.inverse_plastic_cauchy_green[2][i] = nan; },
+      [&](auto& s, auto i) { s.inverse_plastic_cauchy_green[3][i] = 5.0; },
       [&](auto& s, auto i) { s.temperature[i] = nan; },
       [&](auto& s, auto i) { s.temperature[i] = -1.0; },
       [&](auto& s, auto i) { s.plastic_strain[i] = nan; },

@@ -12,7 +12,7 @@ using Mat3 = Eigen::Matrix3d;
 template<int dim> PointState<dim> points_at_rest(std::size_t n, double temperature) {
   PointState<dim> s;
   resize_all(s.deformation, n);
-  resize_all(s.elastic, n);
+  resize_all(s.inverse_plastic_cauchy_green, n);
   resize_all(s.piola, n);
   for (Field* f : {&s.plastic_strain, &s.plastic_rate, &s.equivalent_stress, &s.pressure, &s.stored_energy,
                    &s.plastic_work, &s.dissipation})
@@ -21,7 +21,7 @@ template<int dim> PointState<dim> points_at_rest(std::size_t n, double temperatu
   s.strength.assign(n, 1.0);
   s.temperature.assign(n, temperature);
   s.material.assign(n, 0);
-  for (int c : {0, 1, 2}) s.elastic[static_cast<std::size_t>(c)].assign(n, 1.0);
+  for (int c : {0, 1, 2}) s.inverse_plastic_cauchy_green[static_cast<std::size_t>(c)].assign(n, 1.0);
   for (std::size_t c = 0; c < s.deformation.size(); ++c)
     if (dim == 2 ? (c == 0 || c == 3 || c == 4) : c % 4 == 0) s.deformation[c].assign(n, 1.0);
   return s;

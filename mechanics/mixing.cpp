@@ -1,0 +1,86 @@
+#include "mechanics/mixing.hpp"
+
+#include "plasticity/log_strain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem {
+
+namespace {
+
+/// What ln b_e has of volume change beside thermal expansion: pressure is −κ times it.
+template<int dim>
+double dilatation(const plasticity::Symmetric<dim>& log_elastic, const plasticity::Material& material,
+                  double temperature) {
+  return 0.5 * log_elastic.template head<3>().sum() -
+         3.0 * material.expansion * (temperature - material.expansion_reference);
+}
+
+} // namespace
+
+template<int dim>
+Field held_tension(const std::vector<plasticity::Material>& materials, const PointState<dim>& point) {
+  if (!point.damaged.on()) return {};
+  Field held(point.size());
+  for (std::size_t p = 0; p < held.size(); ++p) {
+    const auto log_elastic = plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, p));
+    const double tension =
+        dilatation<dim>(log_elastic, materials[static_cast<std::size_t>(point.material[p])], point.temperature[p]) - point.opening[p];
+    held[p] = tension > 0.0 ? (1.0 - point.softening[p]) * tension * tension : 0.0;
+  }
+  return held;
+}
+
+template<int dim>
+void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& tension,
+                 const std::vector<plasticity::Material>& materials, PointState<dim>& point) {
+  Fields<symmetric_size<dim>> mixed;
+  for (std::size_t k = 0; k < mixed.size(); ++k) mixed[k].resize(change.parcels.size());
+  for (std::size_t p = 0; p < change.parcels.size(); ++p) {
+    const auto first = static_cast<std::size_t>(change.parcels.begin[p]),
+               last = static_cast<std::size_t>(change.parcels.begin[p + 1]);
+    auto elastic =
+        plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, static_cast<std::size_t>(change.parcels.node[first]));
+    if (last - first > 1) {
+      elastic.setZero();
+      double total = 0.0, volume = 0.0;
+      for (std::size_t e = first; e < last; ++e) {
+        const auto k = static_cast<std::size_t>(change.parcels.node[e]);
+        const double share = change.parcels.weight[e] * mass[k];
+        const auto part = plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, k));
+        elastic += share * part;
+        volume += share * std::exp(0.5 * part.template head<3>().sum());
+        total += share;
+      }
+      elastic /= total;
+      const plasticity::Material& material = materials[static_cast<std::size_t>(point.material[p])];
+      const double softening = material.damage ? point.softening[p] : 0.0;
+      if (softening > 0.0) // gaps are volumes, which add
+        elastic.template head<3>().array() +=
+            2.0 / 3.0 * (std::log(volume / total) - 0.5 * elastic.template head<3>().sum());
+      if (softening > 0.0 && softening < 1.0) {
+        double& opening = point.opening[p];
+        opening = std::max(opening, dilatation<dim>(elastic, material, point.temperature[p]) -
+                                        std::sqrt(tension[p] / (1.0 - softening)));
+      }
+      const double strength =
+          point.strength[p] * (material.damage ? material.damage->flow_share(softening) : 1.0);
+      if (material.hardening)
+        elastic = plasticity::limited_to<dim>(
+            elastic,
+            strength * material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],
+                                                       point.temperature[p]),
+            material.elasticity.mu());
+      elastic = plasticity::exponential<dim>(elastic);
+    }
+    for (std::size_t k = 0; k < mixed.size(); ++k) mixed[k][p] = elastic[static_cast<Eigen::Index>(k)];
+  }
+  point.inverse_plastic_cauchy_green = std::move(mixed);
+}
+
+template Field held_tension<2>(const std::vector<plasticity::Material>&, const PointState<2>&);
+template void mix_elastic<2>(const Resampling<2>&, const Field&, const Field&,
+                             const std::vector<plasticity::Material>&, PointState<2>&);
+
+} // namespace cnem

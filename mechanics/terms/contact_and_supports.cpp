@@ -1,0 +1,119 @@
+// What holds, ties and guides nodes: supports, ties, and contact with tools and other bodies.
+#include "mechanics/kinematics.hpp"
+#include "mechanics/terms/list.hpp"
+
+#include <cmath>
+
+namespace cnem {
+
+namespace {
+
+template<int dim> class ContactAndSupports : public Term<dim> {
+public:
+  std::vector<Energy*> energies() override {
+    return {&tool_kinetic_, &friction_, &impact_, &tools_, &drives_, &recovery_, &supports_};
+  }
+  void archive(Archive& archive) override { archive.number("solver/energy/tie_loss", "J/m", tie_loss_); }
+
+  void audit(const BodyView<dim>& body) override {
+    const contact::DriveEnergy drives = body.conditions.contact.drive_energy();
+    tool_kinetic_.value = drives.kinetic;
+    drives_.value = drives.work;
+  }
+
+  void renew(const Body<dim>& body) override {
+    body.conditions.contact.set_boundary(body.conditions.cloud.facets, body.state.node.size(),
+                                         body.conditions.supports.constraints(),
+                                         body.conditions.ties.group());
+  }
+
+  void set_levels(const Body<dim>& body) override {
+    const contact::RigidContact<dim>& contact = body.conditions.contact;
+    window_.clear();
+    if (!body.levels.on() || !contact.flow_stress_needed()) return;
+    for (int a = 0; a <= body.levels.highest(); ++a) {
+      std::vector<double>& window = window_.emplace_back();
+      for (const std::int32_t i : contact.boundary_nodes())
+        window.push_back(body.levels.window(body.operators(), static_cast<std::size_t>(i), a));
+    }
+  }
+
+  void guide(const Body<dim>& body, double dt, double dt_mean) override {
+    NodeState<dim>& node = body.state.node;
+    if (!body.conditions.ties.empty())
+      for (Field& component : node.velocity) body.conditions.ties.share(node.inertia(), component);
+    body.conditions.supports.apply(body.state.time, dt, dt_mean, node.inertia(), node.velocity_before,
+                                   node.velocity);
+    supports_.value = body.conditions.supports.work();
+  }
+
+  void correct(const Body<dim>& body, int activity, double dt, double dt_mean) override {
+    NodeState<dim>& node = body.state.node;
+    if (body.conditions.contact.active())
+      touch(body, window_.empty() ? std::span<const double>() : window_[static_cast<std::size_t>(activity)],
+            dt, dt_mean);
+    if (!body.conditions.ties.empty())
+      tie_loss_ += body.conditions.ties.share_motion(node.inertia(), dt, node.velocity, node.position);
+  }
+
+private:
+  void touch(const Body<dim>& body, std::span<const double> window, double dt, double dt_mean) {
+    contact::RigidContact<dim>& contact = body.conditions.contact;
+    NodeState<dim>& node = body.state.node;
+    const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
+    std::vector<double> flow_stress;
+    if (contact.flow_stress_needed()) {
+      flow_stress.reserve(boundary.size());
+      for (const std::int32_t i : boundary)
+        flow_stress.push_back(average_at_node<dim>(body.operators(), body.state.point.flow_stress,
+                                                   static_cast<std::size_t>(i)));
+    }
+    std::vector<double> effusivity;
+    if (body.model.thermal)
+      for (const std::int32_t i : boundary) {
+        const plasticity::Material& material = body.material_of_node(static_cast<std::size_t>(i));
+        effusivity.push_back(std::sqrt(material.conductivity * material.density * material.specific_heat));
+      }
+    contact.correct({.time = body.state.time,
+                     .dt = dt,
+                     .dt_mean = dt_mean,
+                     .position = node.position,
+                     .velocity = node.velocity,
+                     .mass = node.inertia(),
+                     .flow_stress = flow_stress,
+                     .effusivity = effusivity,
+                     .window = window});
+    const contact::ContactWork& bodies = contact.body_result().total;
+    tools_.value = 0.0;
+    recovery_.value = bodies.recovery;
+    friction_.value = bodies.friction;
+    impact_.value = tie_loss_ + bodies.impact;
+    for (std::size_t t = 0; t < contact.tools().size(); ++t) {
+      const contact::ToolResult<dim>& tool = contact.results()[t];
+      if (!contact.tools()[t].drive) tools_.value += tool.total.tool;
+      recovery_.value += tool.total.recovery;
+      friction_.value += tool.total.friction;
+      impact_.value += tool.total.impact;
+    }
+  }
+
+  Energy tool_kinetic_{"tool_kinetic", EnergyKind::held};     ///< of tools with a mass of their own
+  Energy friction_{"friction", EnergyKind::dissipated};       ///< sliding on tools and bodies
+  Energy impact_{"contact_impact", EnergyKind::dissipated};   ///< lost where nodes meet tools
+  Energy tools_{"tool_work", EnergyKind::received};           ///< along the tools' prescribed motion
+  Energy drives_{"drive_work", EnergyKind::received};         ///< on tools with a mass of their own
+  Energy recovery_{"contact_recovery", EnergyKind::received}; ///< pushing nodes out of tools
+  Energy supports_{"support_work", EnergyKind::received};     ///< of prescribed boundary motion
+  double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
+  std::vector<std::vector<double>> window_; ///< [activity][boundary node], as contact takes it
+};
+
+} // namespace
+
+template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<dim>&) {
+  return std::make_unique<ContactAndSupports<dim>>();
+}
+
+template std::unique_ptr<Term<2>> contact_and_supports(const Model<2>&);
+
+} // namespace cnem

@@ -1,0 +1,179 @@
+// The thermal half of a step: plastic and friction heat, conduction and what boundaries exchange, staggered
+// behind the mechanics (paper 004, 5.1.4).
+#include "core/parallel.hpp"
+#include "mechanics/terms/list.hpp"
+#include "thermal/conduction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cnem {
+
+namespace {
+
+template<int dim> class Heat : public Term<dim> {
+public:
+  std::vector<Energy*> energies() override { return {&content_, &generated_, &exchanged_}; }
+  void archive(Archive& archive) override { archive.number("solver/conduction_step", "s", stable_); }
+
+  void audit(const BodyView<dim>& body) override {
+    const NodeState<dim>& node = body.state.node;
+    content_.value = 0.0;
+    for (std::size_t i = 0; i < node.size(); ++i)
+      content_.value += node.heat_capacity[i] * (node.temperature[i] - node.initial_temperature[i]);
+  }
+
+  void limit(const Body<dim>& body, StepLimit& limit) override {
+    constexpr double far = 100.0; // so much longer than a step that no deformation makes it matter
+    if (stable_ < far * body.state.step_before) stable_ = 0.0; // measured anew
+    if (body.model.mechanical) return;
+    measure_stable_step(body);
+    limit.heat = stable_;
+  }
+
+  void carried(const Body<dim>&) override { contacts_.clear(); }
+
+  void renew(const Body<dim>&) override { stable_ = 0.0; }
+
+  void attach(const Body<dim>& body) override {
+    if (!body.model.thermal) return;
+    const DiscreteOperators<dim>& op = body.approximation.conduction;
+    Field conductivity(static_cast<std::size_t>(op.points));
+    for (std::size_t p = 0; p < conductivity.size(); ++p)
+      conductivity[p] = body.material_of_node(op.first_node(p)).conductivity;
+    conduction_.set_operators(op, std::move(conductivity));
+  }
+
+  // With local time steps dissipation is that of each point's own step, and is heat at once.
+  void begin_stress(const Body<dim>&, const DuePoints& due) override { sums_.assign(due.ranges.size(), 0.0); }
+  void after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) override {
+    if (!body.model.thermal || due.whole) return;
+    NodeState<dim>& node = body.state.node;
+    double& sum = sums_[due.index(range)];
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const double q = plastic_heat_of_node(body, i);
+      node.temperature[i] += q / node.heat_capacity[i];
+      sum += q;
+    }
+  }
+  void end_stress(const Body<dim>&, const DuePoints&) override {
+    for (const double heat : sums_) generated_.value += heat;
+  }
+
+  void end_step(const Body<dim>& body, double dt) override {
+    if (!body.model.thermal) return;
+    collect_from_contact(body);
+    generate(body);
+    conduct(body, dt);
+  }
+
+private:
+  /// J/m^(3−dim) of the last step, for points at nodes.
+  static double plastic_heat_of_node(const Body<dim>& body, std::size_t i) {
+    const plasticity::Material& material = body.material_of(i);
+    return material.taylor_quinney * body.state.point.dissipation[i] * body.state.node.mass[i] /
+           material.density;
+  }
+
+  void measure_stable_step(const Body<dim>& body) {
+    const NodeState<dim>& node = body.state.node;
+    const double decay =
+        conduction_.fastest_decay(body.position, node.heat_capacity) +
+        body.conditions.heat_boundaries.fastest_decay(body.state.time, node.position, node.heat_capacity);
+    stable_ = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
+  }
+
+  /// Friction heat and conductance of the contacts of the step.
+  void collect_from_contact(const Body<dim>& body) {
+    const contact::RigidContact<dim>& contact = body.conditions.contact;
+    if (!contact.active()) return;
+    const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
+    for (std::size_t b = 0; b < boundary.size(); ++b)
+      body.state.node.contact_heat[static_cast<std::size_t>(boundary[b])] = contact.friction_heat()[b];
+    contacts_.clear();
+    for (const contact::ContactPoint<dim>& touch : contact.points()) {
+      const contact::ToolThermal& thermal = contact.tools()[static_cast<std::size_t>(touch.tool)].thermal;
+      if (thermal.conductance > 0.0)
+        contacts_.tools.push_back({touch.node, thermal.conductance, touch.area, thermal.temperature});
+    }
+    if (const double conductance = contact.body_law().conductance; conductance > 0.0)
+      for (const contact::BodyTouch<dim>& touch : contact.touches())
+        contacts_.bodies.push_back({touch.node, touch.facet, touch.weight, conductance, touch.area});
+  }
+
+  /// Plastic and friction heat. Plastic heat is local, per unit mass (nodal), or shared out with the shape
+  /// functions.
+  void generate(const Body<dim>& body) {
+    NodeState<dim>& node = body.state.node;
+    const PointState<dim>& point = body.state.point;
+    const DiscreteOperators<dim>& op = body.operators();
+    generated_.value += sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0.0;
+      for (std::size_t i = begin; i < end; ++i) {
+        double heat = node.contact_heat[i];
+        if (op.nodal) {
+          heat += plastic_heat_of_node(body, i);
+        } else {
+          for (auto e = static_cast<std::size_t>(op.col_begin[i]);
+               e < static_cast<std::size_t>(op.col_begin[i + 1]); ++e) {
+            const auto p = static_cast<std::size_t>(op.point[e]);
+            heat += body.material_of(p).taylor_quinney * point.dissipation[p] * point.stress_free[p] *
+                    op.weighted_value[e];
+          }
+        }
+        node.temperature[i] += heat / node.heat_capacity[i];
+        sum += heat;
+      }
+      return sum;
+    });
+  }
+
+  /// Explicit conduction (58), in as many sub-steps as are stable.
+  void conduct(const Body<dim>& body, double dt) {
+    NodeState<dim>& node = body.state.node;
+    const Ties<dim>& ties = body.conditions.heat_ties;
+    ThermalBoundaries<dim>& boundaries = body.conditions.heat_boundaries;
+    const std::size_t n = node.size();
+    if (!ties.empty()) ties.share(node.heat_capacity, node.temperature);
+    if (stable_ == 0.0) measure_stable_step(body);
+    const double decay = 2.0 / stable_ + contacts_.fastest_decay(node.heat_capacity);
+    const int substeps = std::max(1, static_cast<int>(std::ceil(dt * decay / 1.8)));
+    const double h = dt / substeps;
+    for (int s = 0; s < substeps; ++s) {
+      std::fill(node.heat_flow.begin(), node.heat_flow.end(), 0.0);
+      boundaries.add_flow(body.state.time, node.position, node.temperature, contacts_, node.heat_flow);
+      double received = h * sum_blocks(n, [&](std::size_t begin, std::size_t end) {
+                          double sum = 0.0;
+                          for (std::size_t i = begin; i < end; ++i) sum += node.heat_flow[i];
+                          return sum;
+                        });
+      conduction_.add_flow(body.position, node.temperature, node.heat_flow);
+      for_each_block(n, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          node.temperature[i] += h * node.heat_flow[i] / node.heat_capacity[i];
+      });
+      if (!ties.empty()) ties.share(node.heat_capacity, node.temperature);
+      received += boundaries.hold(body.state.time, node.heat_capacity, node.temperature);
+      exchanged_.value += received;
+    }
+  }
+
+  Conduction<dim> conduction_;
+  HeatContacts<dim> contacts_; ///< of this step
+  double stable_ = 0.0;        ///< s, stable for heat when it was measured last; 0: to be measured
+  std::vector<double> sums_;   ///< [range] J/m^(3−dim)
+  Energy content_{"heat_content", EnergyKind::heat_held};        ///< Σ C (T − T_start)
+  Energy generated_{"heat_generated", EnergyKind::heat_received}; ///< from plastic work and friction
+  Energy exchanged_{"heat_exchanged", EnergyKind::heat_received}; ///< received through the boundary
+};
+
+} // namespace
+
+template<int dim> std::unique_ptr<Term<dim>> heat(const Model<dim>&) {
+  return std::make_unique<Heat<dim>>();
+}
+
+template std::unique_ptr<Term<2>> heat(const Model<2>&);
+
+} // namespace cnem

@@ -1,0 +1,154 @@
+#pragma once
+// What acts in a step: each term gives its stress or force, its share in the stable step, its energies to the
+// ledger, and keeps its own state. The solver calls it once per range of points (mechanics/explicit_*.cpp).
+#include "mechanics/energy_ledger.hpp"
+#include "mechanics/kinematics.hpp"
+#include "mechanics/local_steps.hpp"
+#include "mechanics/model.hpp"
+#include "mechanics/step_kernels.hpp"
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace cnem {
+
+/// The body as terms see it; `constant`: to look at alone.
+template<int dim, bool constant> struct BodyOf {
+  template<class T> using Seen = std::conditional_t<constant, const T, T>;
+
+  const Model<dim>& model;
+  Seen<Conditions<dim>>& conditions;
+  Seen<State<dim>>& state;
+  const Approximation<dim>& approximation;
+  const LocalSteps<dim>& levels;
+  const Field& reference;          ///< [node] m, side by side (core/side_by_side.hpp)
+  const Field& position;           ///< [node] m, side by side
+  Seen<ColumnStress<dim>>& stress; ///< P with viscosity and penalty: what forces are made from
+  Seen<EdgePoints>& edge;          ///< what the edge defect has renewed with each stress
+  Seen<double>& plastic_offset;    ///< J/m^(3−dim), keeps plastic work continuous as volumes are measured anew
+  double half_step;                ///< s, half the finest step that led to t_n
+  const std::vector<double>& start_weight; ///< [block] of loads after a change of levels, else empty
+
+  operator BodyOf<dim, true>() const
+    requires(!constant)
+  {
+    return {model,    conditions, state,  approximation, levels,         reference,
+            position, stress,     edge,   plastic_offset, half_step, start_weight};
+  }
+
+  const DiscreteOperators<dim>& operators() const { return approximation.mechanics; }
+  const plasticity::Material& material_of(std::size_t point) const {
+    return model.materials[static_cast<std::size_t>(state.point.material[point])];
+  }
+  const plasticity::Material& material_of_node(std::size_t node) const {
+    return model.materials[static_cast<std::size_t>(state.node.material[node])];
+  }
+  /// Finest steps over which the loads on a node act.
+  double load_weight(std::size_t node) const {
+    return start_weight.empty() ? levels.weight(node) : start_weight[node / LocalSteps<dim>::block];
+  }
+};
+template<int dim> using Body = BodyOf<dim, false>;
+template<int dim> using BodyView = BodyOf<dim, true>;
+
+/// Σ_p V_p s_p w_p: an energy per stress-free volume, J/m³, over the body, J/m^(3−dim).
+template<int dim> double integral(const BodyView<dim>& body, const Field& density);
+/// Of v_n = v_{n−½} + ½ Δt f_n/m, to first order in Δt, J/m^(3−dim).
+template<int dim> double kinetic_energy(const BodyView<dim>& body);
+
+/// The points that are due.
+struct DuePoints {
+  const std::vector<LevelRange>& ranges;
+  bool whole; ///< all points of the body are due
+  double dt;  ///< s, the finest step
+
+  /// s, of a range.
+  double own(const LevelRange& range) const { return dt * (1 << range.level); }
+  std::size_t index(const LevelRange& range) const {
+    return static_cast<std::size_t>(&range - ranges.data());
+  }
+};
+
+/// What limits the step beside the elastic waves of the cells.
+struct StepLimit {
+  double stabilisation = 0.0;    ///< α of the penalties: they raise the highest frequency by √(1 + α)
+  double critical_damping = 0.0; ///< share ξ of it: the step shortens by √(1 + ξ²) − ξ
+  double heat = 0.0;             ///< s, of heat where nothing moves
+};
+
+/// A number that a term tells of the present state, a column of histories.
+struct Metric {
+  std::string name;
+  double value;
+};
+
+/// Nothing, but for what a term overrides. Hooks that get a range may write to its points and nodes alone;
+/// sums over ranges are added up in their order, so that they do not depend on the threads.
+template<int dim> class Term {
+public:
+  virtual ~Term() = default;
+
+  /// Fields of its own; null: none. The solver sizes, carries and archives them.
+  virtual FieldTable* fields() { return nullptr; }
+  /// Its entries of the ledger; checkpoints hold them.
+  virtual std::vector<Energy*> energies() { return {}; }
+  /// Brings entries up to date that are of this instant.
+  virtual void audit(const BodyView<dim>&) {}
+  /// Its columns of histories.
+  virtual std::vector<Metric> metrics(const BodyView<dim>&) const { return {}; }
+  /// What it is called where it takes no local time steps; null: it does.
+  virtual const char* needs_one_level() const { return nullptr; }
+  /// Its part in the limit of the step; it may change the wave moduli of points.
+  virtual void limit(const Body<dim>&, StepLimit&) {}
+  /// Whatever else a checkpoint holds.
+  virtual void archive(Archive&) {}
+
+  // References
+  /// Points are at rest, and fields have their size.
+  virtual void start(const Body<dim>&) {}
+  /// The old reference is about to be left.
+  virtual void leave(const Body<dim>&) {}
+  /// Fields went over to the nodes of a resampled cloud.
+  virtual void carried(const Body<dim>&) {}
+  /// Operators and stresses are those of a new reference.
+  virtual void renew(const Body<dim>&) {}
+  /// The same, or a checkpoint has been read.
+  virtual void attach(const Body<dim>&) {}
+  /// The levels of points are set.
+  virtual void set_levels(const Body<dim>&) {}
+  /// The new reference is complete with its forces.
+  virtual void settle(const Body<dim>&, bool /*resampled*/) {}
+  /// Stresses are about to be taken back to what they were before impulses were made of them.
+  virtual void restore(const Body<dim>&) {}
+
+  /// A macro step begins.
+  virtual void begin_step(const Body<dim>&) {}
+
+  // (i) motion in a finest step of dt; dt_mean is the time over which velocities changed, s
+  /// Nodes have their new velocities.
+  virtual void guide(const Body<dim>&, double /*dt*/, double /*dt_mean*/) {}
+  /// Nodes are where these took them.
+  virtual void correct(const Body<dim>&, int /*activity*/, double /*dt*/, double /*dt_mean*/) {}
+  /// Motion is final.
+  virtual void moved(const Body<dim>&, int /*activity*/, double /*dt_mean*/) {}
+
+  // (ii) stresses at t_{n+1}
+  virtual void begin_stress(const Body<dim>&, const DuePoints&) {}
+  virtual void before_stress(const Body<dim>&, const LevelRange&) {}
+  virtual void after_stress(const Body<dim>&, const DuePoints&, const LevelRange&) {}
+  virtual void end_stress(const Body<dim>&, const DuePoints&) {}
+
+  // (iii) forces at t_{n+1}
+  virtual void begin_forces(const Body<dim>&, int /*activity*/) {}
+  /// Adds to the forces of the nodes of a range of due points, and to their stresses.
+  virtual void add_forces(const Body<dim>&, int /*activity*/, const LevelRange&) {}
+  virtual void end_forces(const Body<dim>&, int /*activity*/) {}
+  /// Adds to the forces of the nodes that are kicked, times the finest steps in their own.
+  virtual void add_loads(const Body<dim>&, const LevelRange&) {}
+
+  /// The macro step of dt (s) is made: what is staggered behind it.
+  virtual void end_step(const Body<dim>&, double /*dt*/) {}
+};
+
+} // namespace cnem
