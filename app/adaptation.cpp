@@ -199,8 +199,8 @@ void Adaptation::fit_to_tools(ExplicitSolver<2>& solver, const Follow& follow) {
   }
 }
 
-results::AdaptationFields Adaptation::fields(double time) const {
-  results::AdaptationFields fields;
+AdaptationFields Adaptation::fields(double time) const {
+  AdaptationFields fields;
   fields.level.resize(size_.size());
   fields.age.resize(size_.size());
   for (std::size_t i = 0; i < size_.size(); ++i) {

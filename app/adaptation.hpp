@@ -36,7 +36,7 @@ public:
   void renew(ExplicitSolver<2>& solver, const Follow& follow);
 
   /// For pictures and files at a time, s.
-  results::AdaptationFields fields(double time) const;
+  AdaptationFields fields(double time) const;
   /// Sums over the run, for status.json.
   std::vector<std::pair<std::string, double>> metrics() const;
   void archive(Archive& archive);

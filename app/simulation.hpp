@@ -84,7 +84,7 @@ private:
   ReferenceRenewal renewal_;
   MeltingWatch melting_;
   Adaptation adaptation_;
-  results::AdaptationFields adaptation_fields_;
+  AdaptationFields adaptation_fields_;
   std::optional<Springback> springback_; ///< of the state at the end
   std::optional<evaluate::BlankingResult>
       blanking_; ///< where the case asks for it and the run has ended well

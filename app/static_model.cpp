@@ -213,7 +213,7 @@ State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
   state.time = model.input.time.end;
   const auto nodes = u(op.nodes), points = u(op.points);
   NodeState<2>& node = state.node;
-  node.reference = node.position = model.position;
+  node.reference = node.position = node.initial_position = model.position;
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t i = 0; i < nodes; ++i) node.position[k][i] += solution.displacement[k][i];
   resize_all(node.velocity, nodes);

@@ -156,13 +156,9 @@ Exit solve(const StaticModel& model, const RunOptions& options, Stopwatch& watch
     tips = evaluate_tips(model, solution);
   } catch (const DivergenceError& error) { return give_up(model, error, options, watch); }
   const State<2> state = as_state(model, solution);
-  const results::Snapshot shot{state,
-                               model.approximation,
-                               model.position,
-                               model.setup.problem.cloud,
-                               model.setup.problem.contact,
-                               nullptr,
-                               drawing_scale(model, solution)};
+  const results::Snapshot shot{
+      state,   model.approximation,           model.setup.problem.cloud, model.setup.problem.contact,
+      nullptr, drawing_scale(model, solution)};
   watch.time("output", [&] {
     results::FileQueue files;
     watch.time("output.history", [&] { write_history(model, solution, shot, options.output); });
@@ -217,8 +213,8 @@ void check_static(const input::Case& input, const RunOptions& options) {
         tip.name, input.origin.x() + tip.position.x(), input.origin.y() + tip.position.y(), tip.spacing,
         model.enrichment_radius[t], ring.inner, ring.outer);
   }
-  const std::string motion =
-      missing_support(model.enriched.operators, model.setup.problem.cloud.position, model.setup.problem.supports);
+  const std::string motion = missing_support(model.enriched.operators, model.setup.problem.cloud.position,
+                                             model.setup.problem.supports);
   if (motion.empty()) fmt::print("supports    hold all rigid motions\n");
   StaticSolution nothing;
   resize_all(nothing.displacement, static_cast<std::size_t>(model.enriched.operators.nodes));
@@ -229,8 +225,7 @@ void check_static(const input::Case& input, const RunOptions& options) {
   results::prepare_output_folder(folder, true);
   results::FileQueue files;
   results::FieldRecorder(folder, input.origin)
-      .record(files, {state, model.approximation, model.position, model.setup.problem.cloud,
-                      model.setup.problem.contact});
+      .record(files, {state, model.approximation, model.setup.problem.cloud, model.setup.problem.contact});
   files.wait();
   fmt::print("fields      {}\n", (folder / results::files::fields).string());
   if (!motion.empty()) throw input.error("boundary", motion);

@@ -139,6 +139,33 @@ template<int dim> struct PointState {
   std::size_t size() const { return plastic_strain.size(); }
 };
 
+/// What adaptation says of the nodes; each list is [node].
+struct AdaptationFields {
+  FieldTable table{"adaptation"};
+  ScalarField level{table,
+                    {"level", "1", Carry::renewed, Checkpoint::omits, rest_zero,
+                     Shown{"level of refinement",
+                           "Level of refinement: log2 of `cloud.spacing` over the wanted spacing (pictures, "
+                           "with `adapt.resample`)",
+                           "", 1.0, ColourMap::strain}}};
+  ScalarField indicator{
+      table,
+      {"indicator", "1", Carry::renewed, Checkpoint::omits, rest_zero,
+       Shown{"error indicator",
+             "Error indicator of the cell at the last new reference (pictures, with `adapt.resample`)", "",
+             1.0, ColourMap::heat}}};
+  ScalarField age{
+      table,
+      {"age", "s", Carry::renewed, Checkpoint::omits, rest_zero,
+       Shown{"age of the node", "Time since the node was inserted (pictures, with `adapt.resample`)", "µs",
+             1e-6, ColourMap::heat}}};
+
+  AdaptationFields() = default;
+  AdaptationFields(const AdaptationFields& other) : AdaptationFields() { *this = other; }
+  ~AdaptationFields() = default;
+  AdaptationFields& operator=(const AdaptationFields&) = default;
+};
+
 template<int dim> struct State {
   NodeState<dim> node;
   PointState<dim> point;

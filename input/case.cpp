@@ -1,5 +1,7 @@
 #include "input/case.hpp"
 
+#include "mechanics/field_catalogue.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -20,38 +22,9 @@ std::vector<std::string> Domain::piece_names() const {
   return names;
 }
 
-const std::vector<FieldDescription>& field_descriptions() {
-  static const std::vector<FieldDescription> fields{
-      {"temperature", "K", "Temperature"},
-      {"plastic_strain", "1", "Equivalent plastic strain"},
-      {"plastic_rate", "1/s", "Rate of the equivalent plastic strain"},
-      {"equivalent_stress", "Pa", "Von Mises equivalent of the Cauchy stress"},
-      {"pressure", "Pa", "Pressure of the Cauchy stress, positive in compression"},
-      {"stress_xx", "Pa", "Cauchy stress, component xx"},
-      {"stress_yy", "Pa", "Cauchy stress, component yy"},
-      {"stress_zz", "Pa", "Cauchy stress, out of plane"},
-      {"stress_xy", "Pa", "Cauchy stress, component xy"},
-      {"damage", "1", "Share of the fracture strain used up; at 1 softening begins"},
-      {"softening", "1", "Share of flow stress and tension lost; 1: broken"},
-      {"initiation_strain", "1", "Equivalent plastic strain at which softening began"},
-      {"displacement_x", "m", "Displacement along x"},
-      {"displacement_y", "m", "Displacement along y"},
-      {"velocity_x", "m/s", "Velocity along x"},
-      {"velocity_y", "m/s", "Velocity along y"},
-      {"volume_ratio", "1", "Present over stress-free volume"},
-      {"level", "1",
-       "Level of refinement: log2 of `cloud.spacing` over the wanted spacing (pictures, with "
-       "`adapt.resample`)",
-       true},
-      {"indicator", "1",
-       "Error indicator of the cell at the last new reference (pictures, with `adapt.resample`)", true},
-      {"age", "s", "Time since the node was inserted (pictures, with `adapt.resample`)", true}};
-  return fields;
-}
-
 std::vector<std::string> field_names(bool adaptive) {
   std::vector<std::string> names;
-  for (const FieldDescription& field : field_descriptions())
+  for (const FieldInfo& field : field_catalogue())
     if (adaptive || !field.adaptive) names.push_back(field.name);
   return names;
 }

@@ -316,15 +316,8 @@ struct Fracture {
   std::optional<double> integral_outer;    ///< m, and 0 beyond
 };
 
-/// A field that probes and pictures know.
-struct FieldDescription {
-  std::string name;      ///< "plastic_strain"
-  std::string unit;      ///< SI; "1" for plain numbers
-  std::string meaning;   ///< one line for people
-  bool adaptive = false; ///< for pictures of adapted clouds only
-};
-const std::vector<FieldDescription>& field_descriptions();
-/// All of them, or those that probes and lines know.
+/// Names of the fields of the catalogue (mechanics/field_catalogue.hpp): all of them, or those that probes
+/// and lines know.
 std::vector<std::string> field_names(bool adaptive = true);
 
 struct Case {

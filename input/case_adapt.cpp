@@ -1,5 +1,6 @@
 // Adaptation, and what it cannot be combined with.
 #include "input/case_parts.hpp"
+#include "mechanics/field_catalogue.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -63,7 +64,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
           "adapt.tool_spacing",
           "found a spacing at tools where adapt.resample is false, expected true: without resampling no node "
           "is added");
-    for (const FieldDescription& field : field_descriptions())
+    for (const FieldInfo& field : field_catalogue())
       if (field.adaptive &&
           std::find(result.output.picture_fields.begin(), result.output.picture_fields.end(), field.name) !=
               result.output.picture_fields.end())

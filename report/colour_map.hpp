@@ -11,8 +11,6 @@ struct Colour {
   double red = 0, green = 0, blue = 0;
 };
 
-using results::ColourMap;
-
 /// Colour at the fraction s in [0, 1] (clamped). Not-a-number is drawn in `invalid_colour`.
 Colour map_colour(ColourMap map, double s);
 inline constexpr Colour invalid_colour{1.0, 0.0, 1.0};

@@ -29,16 +29,16 @@ struct PictureRecorder::Kept {
 
 Picture PictureRecorder::picture_of(const results::Snapshot& shot, const std::string& field, Kept& kept,
                                     Field values) const {
-  const results::FieldInfo& info = results::field_info(field);
+  const FieldInfo& info = field_info(field);
   Picture picture;
   picture.cells = &kept.cells;
   picture.position = spans(kept.position);
   picture.value = kept.values.emplace_back(std::move(values));
-  picture.label = info.label;
-  picture.unit = info.shown_unit;
-  picture.unit_factor = info.shown_factor;
-  picture.map = info.map;
-  if (info.map == ColourMap::diverging) picture.range = symmetric_range(picture.value, 0.999);
+  picture.label = info.shown.label;
+  picture.unit = info.shown.unit;
+  picture.unit_factor = info.shown.factor;
+  picture.map = info.shown.map;
+  if (info.shown.map == ColourMap::diverging) picture.range = symmetric_range(picture.value, 0.999);
   picture.title = case_->title;
   picture.time = shot.state.time;
   const auto& contact = shot.contact;
@@ -69,7 +69,7 @@ void PictureRecorder::record(results::FileQueue& files, const results::Snapshot&
   if (shot.displacement_scale != 1.0)
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < drawn[k].size(); ++i) {
-        const double start = shot.initial_position[k][i];
+        const double start = shot.state.node.initial_position[k][i];
         drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
       }
   std::vector<Picture> pictures;

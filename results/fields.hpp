@@ -1,5 +1,6 @@
 #pragma once
-// The fields a user can ask for by name: in pictures, probes and files.
+// Values of the fields of the catalogue (mechanics/field_catalogue.hpp), at points and at nodes.
+#include "mechanics/field_catalogue.hpp"
 #include "results/snapshot.hpp"
 
 #include <cstdint>
@@ -8,32 +9,6 @@
 #include <vector>
 
 namespace cnem::results {
-
-/// How a field is coloured in pictures (report/colour_map.hpp).
-enum class ColourMap {
-  strain,    ///< sequential: dark violet, blue, green, yellow
-  heat,      ///< sequential: black, purple, orange, pale yellow
-  diverging, ///< blue, near white, red: for fields with a sign, zero in the middle
-};
-
-/// A field by its case-file name, with the unit it is shown in.
-struct FieldInfo {
-  std::string name;          ///< "plastic_strain", as in case files and history columns
-  std::string label;         ///< "equivalent plastic strain"
-  std::string unit;          ///< SI unit, "" when dimensionless
-  std::string shown_unit;    ///< unit in pictures
-  double shown_factor = 1.0; ///< SI value of one shown unit
-  ColourMap map = ColourMap::strain;
-  bool at_nodes = false;  ///< lives at nodes (else at stress points)
-  bool adaptive = false;  ///< only where the cloud is adapted
-  bool of_damage = false; ///< zero unless a material has a damage law: then left out of files
-};
-
-/// All fields, in the order files list them.
-const std::vector<FieldInfo>& field_catalogue();
-
-/// Throws InputError for an unknown name.
-const FieldInfo& field_info(const std::string& name);
 
 /// Values at stress points [point]; fields of nodes are interpolated with N.
 Field values_at_points(const Snapshot& shot, const std::string& name);

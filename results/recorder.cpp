@@ -250,7 +250,7 @@ void write_lines(const input::Case& input, const Snapshot& shot, const std::file
   if (input.output.lines.empty()) return;
   Cloud<2> initial = shot.cloud;
   for (std::size_t i = 0; i < initial.position.size(); ++i)
-    initial.position[i] = {shot.initial_position[0][i], shot.initial_position[1][i]};
+    initial.position[i] = {shot.state.node.initial_position[0][i], shot.state.node.initial_position[1][i]};
   const voronoi::Triangulation mesh = voronoi::triangulate(initial);
   const voronoi::Circumcircles circles = voronoi::circumcircles(initial, mesh);
   voronoi::NaturalNeighbours functions(initial, mesh, circles);
@@ -302,7 +302,8 @@ void FieldRecorder::record(FileQueue& files, const Snapshot& shot) {
   for (const FieldInfo& info : field_catalogue()) {
     if (info.of_damage && shot.state.point.damage.empty()) continue;
     if (info.adaptive && !shot.adaptation) continue;
-    const std::string name = info.unit.empty() ? info.label : fmt::format("{} [{}]", info.label, info.unit);
+    const std::string name =
+        info.unit.empty() ? info.shown.label : fmt::format("{} [{}]", info.shown.label, info.unit);
     const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
     frame.cell_scalars.push_back({name, at_points});
     if (shot.approximation.mechanics.nodal)

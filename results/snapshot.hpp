@@ -6,18 +6,10 @@
 
 namespace cnem::results {
 
-/// What adaptation says of the nodes; each list is [node].
-struct AdaptationFields {
-  Field level;     ///< – log2 of the spacing of the case over the wanted one
-  Field indicator; ///< of the last new reference
-  Field age;       ///< s, since the node was inserted
-};
-
 /// A state with the approximation it lives on. References must outlive it.
 struct Snapshot {
   const State<2>& state;
   const Approximation<2>& approximation;
-  const Fields<2>& initial_position; ///< [k][node] m
   const Cloud<2>& cloud;
   const contact::RigidContact<2>& contact;
   const AdaptationFields* adaptation = nullptr; ///< null: the cloud is not adapted
@@ -26,8 +18,8 @@ struct Snapshot {
 };
 
 inline Snapshot snapshot(const ExplicitSolver<2>& solver, const AdaptationFields* adaptation = nullptr) {
-  return {solver.state(),       solver.approximation(), solver.state().node.initial_position,
-          solver.conditions().cloud, solver.conditions().contact, adaptation};
+  return {solver.state(), solver.approximation(), solver.conditions().cloud, solver.conditions().contact,
+          adaptation};
 }
 
 } // namespace cnem::results

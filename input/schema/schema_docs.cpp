@@ -1,6 +1,7 @@
 // The case reference in Markdown.
 #include "input/case.hpp"
 #include "input/schema/schema.hpp"
+#include "mechanics/field_catalogue.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -156,8 +157,9 @@ std::string case_reference() {
     if (!rows.empty()) text += "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n" + rows;
   }
   text += "\n## Fields\n\n| name | unit | meaning |\n| --- | --- | --- |\n";
-  for (const FieldDescription& field : field_descriptions())
-    text += fmt::format("| `{}` | {} | {} |\n", field.name, field.unit, field.meaning);
+  for (const FieldInfo& field : field_catalogue())
+    text += fmt::format("| `{}` | {} | {} |\n", field.name, field.unit.empty() ? "1" : field.unit,
+                        field.shown.meaning);
   std::string top;
   for (const Key* key : members_of(""))
     if (key->type == Type::text) top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);

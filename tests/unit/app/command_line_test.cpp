@@ -282,7 +282,7 @@ TEST_F(CommandLine, check_says_what_a_run_would_be) {
 
 TEST(FieldCatalogue, is_the_one_the_case_reader_knows) {
   std::vector<std::string> names;
-  for (const results::FieldInfo& info : results::field_catalogue()) names.push_back(info.name);
+  for (const FieldInfo& info : field_catalogue()) names.push_back(info.name);
   std::vector<std::string> known = input::field_names();
   std::sort(names.begin(), names.end());
   std::sort(known.begin(), known.end());
