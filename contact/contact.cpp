@@ -20,6 +20,8 @@ constexpr int sweeps = 100; ///< of Gauss-Seidel in a pass
 template<int dim>
 RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space, BodyContactLaw bodies)
     : tools_(std::move(tools)), motions_(tools_), space_(space), law_(bodies) {
+  if (dim == 3 && law_.active)
+    throw InputError("contact between parts of the workpiece is known in the plane alone");
   for (const Tool<dim>& tool : tools_) {
     if (!tool.shape) throw InputError(fmt::format("tool '{}' has no shape", tool.name));
     if (!(tool.friction.coulomb >= 0.0) || !(tool.friction.shear_factor >= 0.0))
@@ -41,7 +43,8 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
                                      const std::vector<NodeConstraint<dim>>& constraints,
                                      std::span<const std::int32_t> group) {
   surface_ = Surface<dim>(facets, nodes);
-  if (law_.active) bodies_.set_boundary(surface_, group);
+  if constexpr (dim == 2)
+    if (law_.active) bodies_.set_boundary(surface_, group);
   const std::size_t n = surface_.node.size();
   free_.assign(n, Mat<dim>::Identity());
   for (const NodeConstraint<dim>& constraint : constraints) {
@@ -80,10 +83,11 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
   gather(step);
   std::vector<Pose<dim>> poses = motions_.predict(tools_, step.time, step.dt, step.dt_mean);
   tool_reactions_ = motions_.reactions(tools_, poses);
-  if (law_.active) {
-    bodies_.look(surface_, start_, end_);
-    size_ = std::max(size_, bodies_.size());
-  }
+  if constexpr (dim == 2)
+    if (law_.active) {
+      bodies_.look(surface_, start_, end_);
+      size_ = std::max(size_, bodies_.size());
+    }
   for (int pass = 0; pass < passes; ++pass) {
     from_earlier_passes_ = contacts_.size();
     const bool faces = find_on_faces(poses, step), ridges = find_on_ridges(poses, step),
@@ -195,7 +199,7 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose<dim>>& poses, cons
   std::vector<RidgeHit<dim>> hits;
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     hits.clear();
-    ridge_hits(surface_, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
+    ridge_hits<dim>(surface_, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
     for (const RidgeHit<dim>& hit : hits) {
       Contact<dim> contact;
       contact.tool = static_cast<std::int32_t>(t);
@@ -227,7 +231,7 @@ bool RigidContact<dim>::find_on_bodies(const std::vector<Pose<dim>>& poses, cons
   Pose<dim> rest;
   for (const Pose<dim>& pose : poses) rest.recovery = pose.recovery; // all have the same
   std::vector<FacetHit<dim>> hits;
-  bodies_.find(surface_, start_, end_, hits);
+  if constexpr (dim == 2) bodies_.find(surface_, start_, end_, hits);
   for (const FacetHit<dim>& hit : hits) {
     const auto& ends = surface_.facets[static_cast<std::size_t>(hit.facet)];
     Contact<dim> contact;
@@ -279,5 +283,6 @@ template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) 
 }
 
 template class RigidContact<2>;
+template class RigidContact<3>;
 
 } // namespace cnem::contact

@@ -216,5 +216,6 @@ private:
 };
 
 extern template class RigidContact<2>;
+extern template class RigidContact<3>;
 
 } // namespace cnem::contact

@@ -169,7 +169,7 @@ std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& positio
       if (entry.at.distance < -rounding)
         found.push_back({static_cast<std::int32_t>(t), surface_.node[b], -entry.at.distance, all[b], false});
     }
-    for (const RidgeDepth<dim>& ridge : ridges_inside(surface_, *tools_[t].shape, all, shift))
+    for (const RidgeDepth<dim>& ridge : ridges_inside<dim>(surface_, *tools_[t].shape, all, shift))
       if (ridge.depth > rounding)
         found.push_back({static_cast<std::int32_t>(t), surface_.node[static_cast<std::size_t>(ridge.node)],
                          ridge.depth, ridge.position, true});
@@ -195,7 +195,7 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
     if (tools_[t].drive) motions_.archive(archive, t);
   }
   if (!law_.active) return;
-  bodies_.archive(archive, surface_);
+  if constexpr (dim == 2) bodies_.archive(archive, surface_);
   archive.number("solver/body_contact/size", "m", size_);
   archive.number("solver/body_contact/pressing", "N/m", body_result_.pressing);
   archive.number("solver/body_contact/energy/workpiece", "J/m", body_result_.total.workpiece);
@@ -210,5 +210,11 @@ template void RigidContact<2>::list_touches();
 template void RigidContact<2>::list_points(const std::vector<Pose<2>>&, const ContactStep<2>&);
 template std::vector<Overlap<2>> RigidContact<2>::overlaps(const Fields<2>&, double) const;
 template void RigidContact<2>::archive(Archive&);
+template void RigidContact<3>::book(const std::vector<Pose<3>>&, const ContactStep<3>&);
+template void RigidContact<3>::share_heat(const Contact<3>&, double, const ContactStep<3>&);
+template void RigidContact<3>::list_touches();
+template void RigidContact<3>::list_points(const std::vector<Pose<3>>&, const ContactStep<3>&);
+template std::vector<Overlap<3>> RigidContact<3>::overlaps(const Fields<3>&, double) const;
+template void RigidContact<3>::archive(Archive&);
 
 } // namespace cnem::contact

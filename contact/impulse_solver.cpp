@@ -152,5 +152,7 @@ void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<di
 
 template void solve_impulses<2>(std::vector<Contact<2>>&, std::vector<Reaction<2>>&,
                                 std::vector<Reaction<2>>&, double, double, int);
+template void solve_impulses<3>(std::vector<Contact<3>>&, std::vector<Reaction<3>>&,
+                                std::vector<Reaction<3>>&, double, double, int);
 
 } // namespace cnem::contact

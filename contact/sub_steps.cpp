@@ -85,5 +85,9 @@ template void RigidContact<2>::merge_points();
 template void RigidContact<2>::begin_sub_steps();
 template void RigidContact<2>::add_sub_step(double);
 template void RigidContact<2>::end_sub_steps(double);
+template void RigidContact<3>::merge_points();
+template void RigidContact<3>::begin_sub_steps();
+template void RigidContact<3>::add_sub_step(double);
+template void RigidContact<3>::end_sub_steps(double);
 
 } // namespace cnem::contact

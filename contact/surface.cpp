@@ -1,5 +1,7 @@
 #include "contact/surface.hpp"
 
+#include "core/facets.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -7,51 +9,78 @@
 
 namespace cnem::contact {
 
-template<> Surface<2>::Surface(const std::vector<Facet<2>>& boundary, std::size_t nodes) {
+template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes) {
   std::vector<std::int32_t> number(nodes, -1);
-  for (const Facet<2>& facet : boundary)
+  for (const Facet<dim>& facet : boundary)
     for (const std::int32_t i : facet.node) number[static_cast<std::size_t>(i)] = 0;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (number[i] < 0) continue;
     number[i] = static_cast<std::int32_t>(node.size());
     node.push_back(static_cast<std::int32_t>(i));
   }
-  leaving.assign(node.size(), -1);
-  entering.assign(node.size(), -1);
-  for (const Facet<2>& facet : boundary) {
-    const std::int32_t a = number[static_cast<std::size_t>(facet.node[0])],
-                       b = number[static_cast<std::size_t>(facet.node[1])];
-    leaving[static_cast<std::size_t>(a)] = entering[static_cast<std::size_t>(b)] =
-        static_cast<std::int32_t>(facets.size());
-    facets.push_back({a, b});
+  if constexpr (dim == 2) {
+    leaving.assign(node.size(), -1);
+    entering.assign(node.size(), -1);
+  } else {
+    around.resize(node.size());
+  }
+  for (const Facet<dim>& facet : boundary) {
+    const auto f = static_cast<std::int32_t>(facets.size());
+    auto& corner = facets.emplace_back();
+    for (std::size_t a = 0; a < dim; ++a) corner[a] = number[static_cast<std::size_t>(facet.node[a])];
+    if constexpr (dim == 2)
+      leaving[static_cast<std::size_t>(corner[0])] = entering[static_cast<std::size_t>(corner[1])] = f;
+    else
+      for (const std::int32_t a : corner) around[static_cast<std::size_t>(a)].push_back(f);
   }
 }
 
-template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position, Space space) const {
+namespace {
+
+template<int dim>
+std::array<Vec<dim>, dim> corners(const std::array<std::int32_t, dim>& facet,
+                                  std::span<const Vec<dim>> position) {
+  std::array<Vec<dim>, dim> corner;
+  for (std::size_t a = 0; a < dim; ++a) corner[a] = position[static_cast<std::size_t>(facet[a])];
+  return corner;
+}
+
+} // namespace
+
+template<int dim>
+std::vector<double> Surface<dim>::areas(std::span<const Vec<dim>> position, Space space) const {
   std::vector<double> area(node.size(), 0.0);
   for (const auto& facet : facets) {
-    const auto a = static_cast<std::size_t>(facet[0]), b = static_cast<std::size_t>(facet[1]);
-    const std::array<double, 2> share = end_areas(space, position[a], position[b]);
-    area[a] += share[0];
-    area[b] += share[1];
+    const auto share = corner_areas<dim>(space, corners<dim>(facet, position));
+    for (std::size_t a = 0; a < dim; ++a) area[static_cast<std::size_t>(facet[a])] += share[a];
   }
   return area;
 }
 
-template<>
-double Surface<2>::area_against(std::size_t at, const Vec2& normal, std::span<const Vec2> position,
-                                Space space) const {
+template<int dim>
+double Surface<dim>::area_against(std::size_t at, const Vec<dim>& normal, std::span<const Vec<dim>> position,
+                                  Space space) const {
   double area = 0.0;
-  for (const std::int32_t f : {entering[at], leaving[at]}) {
-    if (f < 0) continue;
+  const auto add = [&](std::int32_t f) {
+    if (f < 0) return;
     const auto& facet = facets[static_cast<std::size_t>(f)];
-    const auto a = static_cast<std::size_t>(facet[0]), b = static_cast<std::size_t>(facet[1]);
-    const Vec2 d = position[b] - position[a], outwards(d.y(), -d.x());
-    if (outwards.dot(normal) < -0.5 * d.norm())
-      area += end_areas(space, position[a], position[b])[f == entering[at] ? 1 : 0];
+    const auto corner = corners<dim>(facet, position);
+    const Vec<dim> outwards = area_normal<dim>(corner);
+    if (!(outwards.dot(normal) < -0.5 * outwards.norm())) return;
+    const auto own = std::find(facet.begin(), facet.end(), static_cast<std::int32_t>(at)) - facet.begin();
+    area += corner_areas<dim>(space, corner)[static_cast<std::size_t>(own)];
+  };
+  if constexpr (dim == 2) {
+    add(entering[at]);
+    add(leaving[at]);
+  } else {
+    for (const std::int32_t f : around[at]) add(f);
   }
   return area;
 }
+
+template struct Surface<2>;
+template struct Surface<3>;
 
 bool encloses(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x) {
   bool inside = false;
@@ -132,9 +161,10 @@ void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
 
 } // namespace
 
-void ridge_hits(const Surface<2>& surface, const ToolShape<2>& shape, std::span<const Vec2> start,
-                std::span<const Vec2> end, const Vec2& shift_start, const Vec2& shift_end,
-                std::vector<RidgeHit<2>>& hits) {
+template<>
+void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, std::span<const Vec2> start,
+                   std::span<const Vec2> end, const Vec2& shift_start, const Vec2& shift_end,
+                   std::vector<RidgeHit<2>>& hits) {
   const std::vector<Ridge<2>>& ridges = shape.ridges();
   const Box<2> box = shape.bounds();
   const Vec2 low = box.low + shift_end, high = box.high + shift_end;
@@ -183,8 +213,9 @@ void ridge_hits(const Surface<2>& surface, const ToolShape<2>& shape, std::span<
   }
 }
 
-std::vector<RidgeDepth<2>> ridges_inside(const Surface<2>& surface, const ToolShape<2>& shape,
-                                         std::span<const Vec2> position, const Vec2& shift) {
+template<>
+std::vector<RidgeDepth<2>> ridges_inside<2>(const Surface<2>& surface, const ToolShape<2>& shape,
+                                            std::span<const Vec2> position, const Vec2& shift) {
   std::vector<RidgeDepth<2>> found;
   for (const Ridge<2>& ridge : shape.ridges()) {
     const Vec2 middle = Eigen::Rotation2Dd(0.5 * ridge.angle) * ridge.first;
@@ -204,6 +235,16 @@ std::vector<RidgeDepth<2>> ridges_inside(const Surface<2>& surface, const ToolSh
     found.push_back(inside);
   }
   return found;
+}
+
+template<>
+void ridge_hits<3>(const Surface<3>&, const ToolShape<3>&, std::span<const Vec<3>>, std::span<const Vec<3>>,
+                   const Vec<3>&, const Vec<3>&, std::vector<RidgeHit<3>>&) {}
+
+template<>
+std::vector<RidgeDepth<3>> ridges_inside<3>(const Surface<3>&, const ToolShape<3>&, std::span<const Vec<3>>,
+                                            const Vec<3>&) {
+  return {};
 }
 
 } // namespace cnem::contact

@@ -15,6 +15,7 @@ template<int dim> struct Surface {
   std::vector<std::int32_t> node;                    ///< [boundary node] node of the cloud, increasing
   std::vector<std::array<std::int32_t, dim>> facets; ///< boundary nodes
   std::vector<std::int32_t> leaving, entering;       ///< 2D: [boundary node] facet, −1 where there is none
+  std::vector<std::vector<std::int32_t>> around;     ///< 3D: [boundary node] facets
 
   Surface() = default;
   Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes);
@@ -26,11 +27,8 @@ template<int dim> struct Surface {
                       Space space) const;
 };
 
-template<> Surface<2>::Surface(const std::vector<Facet<2>>& boundary, std::size_t nodes);
-template<> std::vector<double> Surface<2>::areas(std::span<const Vec2> position, Space space) const;
-template<>
-double Surface<2>::area_against(std::size_t node, const Vec2& normal, std::span<const Vec2> position,
-                                Space space) const;
+extern template struct Surface<2>;
+extern template struct Surface<3>;
 
 /// A ridge that has gone through a facet.
 template<int dim> struct RidgeHit {
@@ -45,10 +43,11 @@ template<int dim> struct RidgeHit {
 /// Ridges of a tool against facets of the surface that face them, over one step in which the nodes go
 /// start → end and the tool's displacement `shift_start` → `shift_end`. Facets through which the ridge came
 /// in this step, or (start < 0) shallowly penetrated ones. At convex nodes of the workpiece only the facet
-/// passed last counts.
-void ridge_hits(const Surface<2>& surface, const ToolShape<2>& shape, std::span<const Vec2> start,
-                std::span<const Vec2> end, const Vec2& shift_start, const Vec2& shift_end,
-                std::vector<RidgeHit<2>>& hits);
+/// passed last counts. Tools in space have no ridges yet (contact/tool_shape.hpp).
+template<int dim>
+void ridge_hits(const Surface<dim>& surface, const ToolShape<dim>& shape, std::span<const Vec<dim>> start,
+                std::span<const Vec<dim>> end, const Vec<dim>& shift_start, const Vec<dim>& shift_end,
+                std::vector<RidgeHit<dim>>& hits);
 
 /// The middle of a ridge that is inside the workpiece.
 template<int dim> struct RidgeDepth {
@@ -57,8 +56,9 @@ template<int dim> struct RidgeDepth {
   Vec<dim> position = Vec<dim>::Zero();
 };
 
-std::vector<RidgeDepth<2>> ridges_inside(const Surface<2>& surface, const ToolShape<2>& shape,
-                                         std::span<const Vec2> position, const Vec2& shift);
+template<int dim>
+std::vector<RidgeDepth<dim>> ridges_inside(const Surface<dim>& surface, const ToolShape<dim>& shape,
+                                           std::span<const Vec<dim>> position, const Vec<dim>& shift);
 
 /// Is x inside the region that the facets enclose?
 bool encloses(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x);

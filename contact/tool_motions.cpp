@@ -105,5 +105,6 @@ template<int dim> void ToolMotions<dim>::archive(Archive& archive, std::size_t t
 }
 
 template class ToolMotions<2>;
+template class ToolMotions<3>;
 
 } // namespace cnem::contact

@@ -56,5 +56,6 @@ private:
 };
 
 extern template class ToolMotions<2>;
+extern template class ToolMotions<3>;
 
 } // namespace cnem::contact

@@ -42,6 +42,9 @@ template<> struct Ridge<2> {
   double sagitta(double l) const;
 };
 
+/// In space only smooth tools are known (contact/plane_shape.hpp): none has a ridge.
+template<> struct Ridge<3> {};
+
 template<int dim> struct Box {
   Vec<dim> low, high; ///< m
   bool contains(const Vec<dim>& x) const {

@@ -95,7 +95,10 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
 }
 
 template void ExplicitSolver<2>::archive_cloud(Archive&);
+template void ExplicitSolver<3>::archive_cloud(Archive&);
 template void ExplicitSolver<2>::archive_energies(Archive&);
+template void ExplicitSolver<3>::archive_energies(Archive&);
 template void ExplicitSolver<2>::archive(Archive&);
+template void ExplicitSolver<3>::archive(Archive&);
 
 } // namespace cnem

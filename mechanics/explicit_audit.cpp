@@ -58,8 +58,12 @@ template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() cons
 }
 
 template double ExplicitSolver<2>::strain_since_reference() const;
+template double ExplicitSolver<3>::strain_since_reference() const;
 template EnergyLedger ExplicitSolver<2>::ledger() const;
+template EnergyLedger ExplicitSolver<3>::ledger() const;
 template std::vector<Metric> ExplicitSolver<2>::metrics() const;
+template std::vector<Metric> ExplicitSolver<3>::metrics() const;
 template std::array<double, 2> ExplicitSolver<2>::mass_balance() const;
+template std::array<double, 2> ExplicitSolver<3>::mass_balance() const;
 
 } // namespace cnem

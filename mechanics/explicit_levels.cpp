@@ -7,26 +7,6 @@
 
 namespace cnem {
 
-namespace {
-
-/// Components of det F · F⁻ᵀ at a point, as in PointState.
-template<int dim>
-std::array<double, tensor_size<dim>> cofactors(const Fields<tensor_size<dim>>& f, std::size_t p) {
-  std::array<double, tensor_size<dim>> c{};
-  if constexpr (dim == 2) {
-    c = {f[3][p] * f[4][p], -f[2][p] * f[4][p], -f[1][p] * f[4][p], f[0][p] * f[4][p],
-         f[0][p] * f[3][p] - f[1][p] * f[2][p]};
-  } else {
-    const auto at = [&](std::size_t i, std::size_t k) { return f[i % 3 * 3 + k % 3][p]; };
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        c[i * 3 + k] = at(i + 1, k + 1) * at(i + 2, k + 2) - at(i + 1, k + 2) * at(i + 2, k + 1);
-  }
-  return c;
-}
-
-} // namespace
-
 template<int dim> int ExplicitSolver<dim>::sub_steps() const {
   if (next_levels_.empty()) return local_.sub_steps();
   return 1 << *std::max_element(next_levels_.begin(), next_levels_.end());
@@ -128,10 +108,16 @@ template<int dim> void ExplicitSolver<dim>::change_levels(double finest) {
 }
 
 template int ExplicitSolver<2>::sub_steps() const;
+template int ExplicitSolver<3>::sub_steps() const;
 template void ExplicitSolver<2>::scale_to_impulses(const LevelRange&);
+template void ExplicitSolver<3>::scale_to_impulses(const LevelRange&);
 template void ExplicitSolver<2>::set_levels(LocalSteps<2>::Levels);
+template void ExplicitSolver<3>::set_levels(LocalSteps<3>::Levels);
 template void ExplicitSolver<2>::rebuild_levels();
+template void ExplicitSolver<3>::rebuild_levels();
 template void ExplicitSolver<2>::restore_columns();
+template void ExplicitSolver<3>::restore_columns();
 template void ExplicitSolver<2>::change_levels(double);
+template void ExplicitSolver<3>::change_levels(double);
 
 } // namespace cnem

@@ -156,15 +156,26 @@ template<int dim> void ExplicitSolver<dim>::set_moduli() {
 }
 
 template ExplicitSolver<2>::ExplicitSolver(Problem<2>, Fields<2>, Field);
+template ExplicitSolver<3>::ExplicitSolver(Problem<3>, Fields<3>, Field);
 template Cloud<2> ExplicitSolver<2>::present_cloud() const;
+template Cloud<3> ExplicitSolver<3>::present_cloud() const;
 template void ExplicitSolver<2>::prepare();
+template void ExplicitSolver<3>::prepare();
 template void ExplicitSolver<2>::prepare(const Resampling<2>&);
+template void ExplicitSolver<3>::prepare(const Resampling<3>&);
 template void ExplicitSolver<2>::renew(Cloud<2>, const Resampling<2>*);
+template void ExplicitSolver<3>::renew(Cloud<3>, const Resampling<3>*);
 template std::vector<FieldTable*> ExplicitSolver<2>::node_tables();
+template std::vector<FieldTable*> ExplicitSolver<3>::node_tables();
 template std::vector<FieldTable*> ExplicitSolver<2>::point_tables();
+template std::vector<FieldTable*> ExplicitSolver<3>::point_tables();
 template void ExplicitSolver<2>::place_reference();
+template void ExplicitSolver<3>::place_reference();
 template void ExplicitSolver<2>::scale_masses();
+template void ExplicitSolver<3>::scale_masses();
 template void ExplicitSolver<2>::start_points();
+template void ExplicitSolver<3>::start_points();
 template void ExplicitSolver<2>::set_moduli();
+template void ExplicitSolver<3>::set_moduli();
 
 } // namespace cnem

@@ -39,5 +39,6 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
 }
 
 template void ExplicitSolver<2>::carry_over(const Resampling<2>&);
+template void ExplicitSolver<3>::carry_over(const Resampling<3>&);
 
 } // namespace cnem

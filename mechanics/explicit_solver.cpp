@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <utility>
 
 namespace cnem {
@@ -165,14 +166,17 @@ template<int dim> BodyView<dim> ExplicitSolver<dim>::body() const {
 template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   const std::size_t node = op.first_node(point);
+  std::array<double, dim> place;
+  for (std::size_t k = 0; k < dim; ++k) place[k] = state_.node.position[k][node];
   throw DivergenceError(
       fmt::format("the {} of {} {} means nothing any more at step {}, t = {:.6g} s: node {} stood at "
-                  "({:.6g}, {:.6g}) m",
+                  "({:.6g}) m",
                   field, op.nodal ? "node" : "stress point", point, state_.step, state_.time, node,
-                  state_.node.position[0][node], state_.node.position[1][node]),
+                  fmt::join(place, ", ")),
       static_cast<int>(node), field);
 }
 
 template class ExplicitSolver<2>;
+template class ExplicitSolver<3>;
 
 } // namespace cnem

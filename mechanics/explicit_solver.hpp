@@ -134,5 +134,6 @@ private:
 };
 
 extern template class ExplicitSolver<2>;
+extern template class ExplicitSolver<3>;
 
 } // namespace cnem

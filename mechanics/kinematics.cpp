@@ -118,6 +118,37 @@ template<> void push_forward<2>(PointState<2>& point) {
   }
 }
 
+template<> void push_forward<3>(PointState<3>& point) {
+  constexpr int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}; // of components of a symmetric tensor
+  for (std::size_t p = 0; p < point.size(); ++p) {
+    Mat<3> f, c;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        f(i, k) = point.deformation[static_cast<std::size_t>(3 * i + k)][p];
+        c(i, k) = point.inverse_plastic_cauchy_green[static_cast<std::size_t>(place[i][k])][p];
+      }
+    const Mat<3> pushed = f * c * f.transpose();
+    for (int i = 0; i < 3; ++i)
+      for (int k = i; k < 3; ++k)
+        point.inverse_plastic_cauchy_green[static_cast<std::size_t>(place[i][k])][p] = pushed(i, k);
+  }
+}
+
+template<int dim>
+std::array<double, tensor_size<dim>> cofactors(const Fields<tensor_size<dim>>& f, std::size_t p) {
+  std::array<double, tensor_size<dim>> c{};
+  if constexpr (dim == 2) {
+    c = {f[3][p] * f[4][p], -f[2][p] * f[4][p], -f[1][p] * f[4][p], f[0][p] * f[4][p],
+         f[0][p] * f[3][p] - f[1][p] * f[2][p]};
+  } else {
+    const auto at = [&](std::size_t i, std::size_t k) { return f[i % 3 * 3 + k % 3][p]; };
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        c[i * 3 + k] = at(i + 1, k + 1) * at(i + 2, k + 2) - at(i + 1, k + 2) * at(i + 2, k + 1);
+  }
+  return c;
+}
+
 template<> double jacobian<2>(const Fields<5>& f, std::size_t p) {
   return (f[0][p] * f[3][p] - f[1][p] * f[2][p]) * f[4][p];
 }
@@ -129,6 +160,8 @@ template<> double jacobian<3>(const Fields<9>& f, std::size_t p) {
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \
+  template std::array<double, tensor_size<dim>> cofactors<dim>(const Fields<tensor_size<dim>>&,              \
+                                                               std::size_t);                                 \
   template void deformation_gradient<dim>(const DiscreteOperators<dim>&, const Field&,                       \
                                           Fields<tensor_size<dim>>&, std::size_t, std::size_t);              \
   template void interpolate<dim>(const DiscreteOperators<dim>&, const Field&, Field&, std::size_t,           \

@@ -40,8 +40,11 @@ void subtract_internal_force(const DiscreteOperators<dim>& operators, const Colu
                              Fields<dim>& force, std::size_t begin, std::size_t end);
 
 /// b_e = F C_p⁻¹ Fᵀ in place of C_p⁻¹: the elastic state on a reference that is the present configuration.
-/// In the plane; the 3D one comes with 3D cells.
 template<int dim> void push_forward(PointState<dim>& point);
+
+/// Components of det F · F⁻ᵀ at a point, laid as in PointState.
+template<int dim>
+std::array<double, tensor_size<dim>> cofactors(const Fields<tensor_size<dim>>& deformation, std::size_t p);
 
 /// det F of one point.
 template<int dim> double jacobian(const Fields<tensor_size<dim>>& deformation, std::size_t p);

@@ -45,5 +45,6 @@ Field scales_for_frequency(const DiscreteOperators<dim>& operators, const Field&
 }
 
 template Field scales_for_frequency<2>(const DiscreteOperators<2>&, const Field&, const Field&, double);
+template Field scales_for_frequency<3>(const DiscreteOperators<3>&, const Field&, const Field&, double);
 
 } // namespace cnem

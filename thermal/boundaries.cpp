@@ -1,5 +1,7 @@
 #include "thermal/boundaries.hpp"
 
+#include "core/facets.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
@@ -8,9 +10,9 @@ namespace cnem {
 
 namespace {
 
-std::array<double, 2> areas(Space space, const Facet<2>& facet, const Fields<2>& position) {
-  const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
-  return end_areas(space, {position[0][a], position[1][a]}, {position[0][b], position[1][b]});
+template<int dim>
+std::array<double, dim> areas(Space space, const Facet<dim>& facet, const Fields<dim>& position) {
+  return corner_areas<dim>(space, corners_of<dim>(facet, position));
 }
 
 } // namespace
@@ -38,7 +40,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
   for (const HeatFlux<dim>& flux : fluxes_) {
     const double value = flux.value(time);
     for (const Facet<dim>& facet : flux.facets) {
-      const auto area = areas(space_, facet, position);
+      const auto area = areas<dim>(space_, facet, position);
       for (std::size_t end = 0; end < dim; ++end)
         flow[static_cast<std::size_t>(facet.node[end])] += value * area[end];
     }
@@ -46,7 +48,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
   for (const Convection<dim>& convection : convections_) {
     const double h = convection.coefficient(time), ambient = convection.ambient(time);
     for (const Facet<dim>& facet : convection.facets) {
-      const auto area = areas(space_, facet, position);
+      const auto area = areas<dim>(space_, facet, position);
       for (std::size_t end = 0; end < dim; ++end) {
         const auto i = static_cast<std::size_t>(facet.node[end]);
         flow[i] += h * (ambient - temperature[i]) * area[end];
@@ -55,7 +57,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
   }
   for (const ContactConductance<dim>& interface : interfaces_)
     for (std::size_t f = 0; f < interface.facets.size(); ++f) {
-      const auto area = areas(space_, interface.facets[f], position);
+      const auto area = areas<dim>(space_, interface.facets[f], position);
       for (std::size_t end = 0; end < dim; ++end) {
         const auto i = static_cast<std::size_t>(interface.facets[f].node[end]);
         const auto j = static_cast<std::size_t>(interface.opposite[f][end]);
@@ -115,14 +117,14 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
   double worst = 0.0;
   for (const Convection<dim>& convection : convections_)
     for (const Facet<dim>& facet : convection.facets) {
-      const auto area = areas(space_, facet, position);
+      const auto area = areas<dim>(space_, facet, position);
       for (std::size_t end = 0; end < dim; ++end)
         worst = std::max(worst, 2.0 * convection.coefficient(time) * area[end] /
                                     heat_capacity[static_cast<std::size_t>(facet.node[end])]);
     }
   for (const ContactConductance<dim>& interface : interfaces_)
     for (std::size_t f = 0; f < interface.facets.size(); ++f) {
-      const auto area = areas(space_, interface.facets[f], position);
+      const auto area = areas<dim>(space_, interface.facets[f], position);
       for (std::size_t end = 0; end < dim; ++end)
         for (const std::int32_t node : {interface.facets[f].node[end], interface.opposite[f][end]})
           worst = std::max(worst, 4.0 * interface.conductance * area[end] /
@@ -132,6 +134,8 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
 }
 
 template struct HeatContacts<2>;
+template struct HeatContacts<3>;
 template class ThermalBoundaries<2>;
+template class ThermalBoundaries<3>;
 
 } // namespace cnem

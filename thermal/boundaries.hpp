@@ -109,6 +109,8 @@ private:
 };
 
 extern template struct HeatContacts<2>;
+extern template struct HeatContacts<3>;
 extern template class ThermalBoundaries<2>;
+extern template class ThermalBoundaries<3>;
 
 } // namespace cnem

@@ -62,5 +62,6 @@ template<int dim> std::unique_ptr<Term<dim>> applied_loads(const Model<dim>&) {
 }
 
 template std::unique_ptr<Term<2>> applied_loads(const Model<2>&);
+template std::unique_ptr<Term<3>> applied_loads(const Model<3>&);
 
 } // namespace cnem

@@ -92,8 +92,12 @@ template<int dim> std::unique_ptr<Term<dim>> reference_energy(const Model<dim>&)
 }
 
 template std::unique_ptr<Term<2>> body_energy(const Model<2>&);
+template std::unique_ptr<Term<3>> body_energy(const Model<3>&);
 template std::unique_ptr<Term<2>> reference_energy(const Model<2>&);
+template std::unique_ptr<Term<3>> reference_energy(const Model<3>&);
 template double integral<2>(const BodyView<2>&, const Field&);
+template double integral<3>(const BodyView<3>&, const Field&);
 template double kinetic_energy<2>(const BodyView<2>&);
+template double kinetic_energy<3>(const BodyView<3>&);
 
 } // namespace cnem

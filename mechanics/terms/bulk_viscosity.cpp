@@ -79,6 +79,7 @@ template<int dim> std::unique_ptr<Term<dim>> bulk_viscosity(const Model<dim>&) {
 }
 
 template std::unique_ptr<Term<2>> bulk_viscosity(const Model<2>&);
+template std::unique_ptr<Term<3>> bulk_viscosity(const Model<3>&);
 template ViscousSums add_bulk_viscosity<3>(const BulkViscosity&, const DiscreteOperators<3>&, PointState<3>&,
                                            double, const EdgePoints&, ColumnStress<3>&, std::size_t,
                                            std::size_t);

@@ -115,5 +115,6 @@ template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<di
 }
 
 template std::unique_ptr<Term<2>> contact_and_supports(const Model<2>&);
+template std::unique_ptr<Term<3>> contact_and_supports(const Model<3>&);
 
 } // namespace cnem

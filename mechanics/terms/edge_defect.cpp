@@ -105,6 +105,7 @@ template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model
 }
 
 template std::unique_ptr<Term<2>> edge_defect(const Model<2>&);
+template std::unique_ptr<Term<3>> edge_defect(const Model<3>&);
 template class EdgeDefect<2>;
 template class EdgeDefect<3>;
 

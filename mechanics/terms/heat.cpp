@@ -173,5 +173,6 @@ private:
 template<int dim> std::unique_ptr<Term<dim>> heat(const Model<dim>&) { return std::make_unique<Heat<dim>>(); }
 
 template std::unique_ptr<Term<2>> heat(const Model<2>&);
+template std::unique_ptr<Term<3>> heat(const Model<3>&);
 
 } // namespace cnem

@@ -12,5 +12,6 @@ template<int dim> std::vector<std::unique_ptr<Term<dim>>> make_terms(const Model
 }
 
 template std::vector<std::unique_ptr<Term<2>>> make_terms(const Model<2>&);
+template std::vector<std::unique_ptr<Term<3>>> make_terms(const Model<3>&);
 
 } // namespace cnem

@@ -1,5 +1,7 @@
 #include "mechanics/terms/loads.hpp"
 
+#include "core/facets.hpp"
+
 namespace cnem {
 
 template<int dim>
@@ -25,9 +27,9 @@ template<int dim> void Loads<dim>::share_out(const std::vector<Vec<dim>>& initia
   for (const Traction<dim>& traction : tractions_) {
     std::vector<std::array<double, dim>>& share = traction_share_.emplace_back();
     for (const Facet<dim>& facet : traction.facets) {
-      const Vec<dim>& a = initial[static_cast<std::size_t>(facet.node[0])];
-      const Vec<dim>& b = initial[static_cast<std::size_t>(facet.node[1])];
-      share.push_back(end_areas(space_, a, b));
+      std::array<Vec<dim>, dim> corner;
+      for (std::size_t a = 0; a < dim; ++a) corner[a] = initial[static_cast<std::size_t>(facet.node[a])];
+      share.push_back(corner_areas<dim>(space_, corner));
     }
   }
   resize_all(force_, initial.size());
@@ -50,14 +52,12 @@ template<int dim> void Loads<dim>::evaluate(double time, const Fields<dim>& posi
   for (const Pressure<dim>& pressure : pressures_) {
     const double value = pressure.value(time);
     for (const Facet<dim>& facet : pressure.facets) {
-      const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
-      const Vec2 start(position[0][a], position[1][a]), end(position[0][b], position[1][b]);
-      const std::array<double, 2> area = end_areas(space_, start, end);
-      const Vec2 push = -value * right_normal(end - start).normalized();
-      for (std::size_t k = 0; k < dim; ++k) {
-        force_[k][a] += area[0] * push[static_cast<Eigen::Index>(k)];
-        force_[k][b] += area[1] * push[static_cast<Eigen::Index>(k)];
-      }
+      const auto corner = corners_of<dim>(facet, position);
+      const std::array<double, dim> area = corner_areas<dim>(space_, corner);
+      const Vec<dim> push = -value * area_normal<dim>(corner).normalized();
+      for (std::size_t k = 0; k < dim; ++k)
+        for (std::size_t a = 0; a < dim; ++a)
+          force_[k][static_cast<std::size_t>(facet.node[a])] += area[a] * push[static_cast<Eigen::Index>(k)];
     }
   }
 }
@@ -73,13 +73,13 @@ Loads<dim>::facet_tractions(double time, const Fields<dim>& position) const {
   }
   for (const Pressure<dim>& pressure : pressures_)
     for (const Facet<dim>& facet : pressure.facets) {
-      const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
-      const Vec2 edge(position[0][b] - position[0][a], position[1][b] - position[1][a]);
-      list.push_back({facet, -pressure.value(time) * right_normal(edge).normalized()});
+      const Vec<dim> outwards = area_normal<dim>(corners_of<dim>(facet, position)).normalized();
+      list.push_back({facet, -pressure.value(time) * outwards});
     }
   return list;
 }
 
 template class Loads<2>;
+template class Loads<3>;
 
 } // namespace cnem

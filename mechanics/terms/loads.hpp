@@ -64,5 +64,6 @@ private:
 };
 
 extern template class Loads<2>;
+extern template class Loads<3>;
 
 } // namespace cnem

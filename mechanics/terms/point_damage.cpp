@@ -113,6 +113,8 @@ template<int dim> std::unique_ptr<Term<dim>> point_damage(const Model<dim>& mode
 }
 
 template std::unique_ptr<Term<2>> point_damage(const Model<2>&);
+template std::unique_ptr<Term<3>> point_damage(const Model<3>&);
 template class PointDamage<2>;
+template class PointDamage<3>;
 
 } // namespace cnem

@@ -50,5 +50,6 @@ private:
 };
 
 extern template class PointDamage<2>;
+extern template class PointDamage<3>;
 
 } // namespace cnem

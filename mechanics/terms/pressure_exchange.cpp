@@ -17,29 +17,33 @@ template<int dim> std::vector<char> boundary_nodes(const std::vector<Facet<dim>>
 }
 
 /// F⁻ᵀ as PointState lays tensors.
-void inverse_transposed(const Fields<5>& f, std::size_t p, double (&result)[5]) {
-  const double plane = f[0][p] * f[3][p] - f[1][p] * f[2][p];
-  result[0] = f[3][p] / plane;
-  result[1] = -f[2][p] / plane;
-  result[2] = -f[1][p] / plane;
-  result[3] = f[0][p] / plane;
-  result[4] = 1.0 / f[4][p];
+template<int dim>
+std::array<double, tensor_size<dim>> inverse_transposed(const Fields<tensor_size<dim>>& f, std::size_t p) {
+  if constexpr (dim == 2) {
+    const double plane = f[0][p] * f[3][p] - f[1][p] * f[2][p];
+    return {f[3][p] / plane, -f[2][p] / plane, -f[1][p] / plane, f[0][p] / plane, 1.0 / f[4][p]};
+  } else {
+    std::array<double, 9> result = cofactors<3>(f, p);
+    const double determinant = jacobian<3>(f, p);
+    for (double& component : result) component /= determinant;
+    return result;
+  }
 }
 
 /// Adds δθ to the logarithmic elastic volume of point p, with all that follows from it.
-void swell(PointState<2>& point, ColumnStress<2>& stress, std::size_t p, double kappa, double dtheta) {
+template<int dim>
+void swell(PointState<dim>& point, ColumnStress<dim>& stress, std::size_t p, double kappa, double dtheta) {
   const double root = std::exp(-dtheta / 3.0), scale = 1.0 / (root * root), shrink = root * root * root;
   const double tension = -point.pressure[p];
-  double change[5];
-  inverse_transposed(point.deformation, p, change);
-  for (std::size_t c = 0; c < 5; ++c) {
+  std::array<double, tensor_size<dim>> change = inverse_transposed<dim>(point.deformation, p);
+  for (std::size_t c = 0; c < change.size(); ++c) {
     const double before = point.piola[c][p];
     point.piola[c][p] = shrink * (before + kappa * dtheta * point.stress_free[p] * change[c]);
     change[c] = point.piola[c][p] - before;
   }
-  for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t k = 0; k < 2; ++k) stress.columns[(p * 2 + k) * 2 + i] += change[i * 2 + k];
-  stress.out_of_plane[p] += change[4];
+  for (std::size_t i = 0; i < dim; ++i)
+    for (std::size_t k = 0; k < dim; ++k) stress.columns[(p * dim + k) * dim + i] += change[i * dim + k];
+  if constexpr (dim == 2) stress.out_of_plane[p] += change[4];
   for (Field& component : point.inverse_plastic_cauchy_green) component[p] *= scale;
   point.stored_energy[p] += dtheta * (tension + 0.5 * kappa * dtheta);
   point.pressure[p] -= kappa * dtheta;
@@ -109,7 +113,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       }
       if (flow == 0.0) continue;
       const double volume = operators.volume[i], dtheta = -flow / volume, stress_free = point.stress_free[i];
-      swell(point, stress, i, kappa, dtheta);
+      swell<dim>(point, stress, i, kappa, dtheta);
       const double traded = volume * (stress_free - point.stress_free[i]);
       sum.dissipated += volume * stress_free * 0.5 * (before_[i] + point.pressure[i]) * dtheta +
                         traded * point.stored_energy[i];
@@ -162,6 +166,7 @@ template<int dim> std::unique_ptr<Term<dim>> pressure_exchange(const Model<dim>&
 }
 
 template std::unique_ptr<Term<2>> pressure_exchange(const Model<2>&);
+template std::unique_ptr<Term<3>> pressure_exchange(const Model<3>&);
 template<int dim>
 double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Facet<dim>>& facets,
                       const PointState<dim>& point) {
@@ -182,7 +187,10 @@ double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Fa
 }
 
 template class PressureExchange<2>;
+template class PressureExchange<3>;
 template double pressure_noise<2>(const StabilisationLinks<2>&, const std::vector<Facet<2>>&,
                                   const PointState<2>&);
+template double pressure_noise<3>(const StabilisationLinks<3>&, const std::vector<Facet<3>>&,
+                                  const PointState<3>&);
 
 } // namespace cnem

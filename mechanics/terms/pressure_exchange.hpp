@@ -66,6 +66,7 @@ double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Fa
                       const PointState<dim>& point);
 
 extern template class PressureExchange<2>;
+extern template class PressureExchange<3>;
 extern template double pressure_noise<2>(const StabilisationLinks<2>&, const std::vector<Facet<2>>&,
                                          const PointState<2>&);
 
