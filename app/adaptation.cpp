@@ -160,7 +160,7 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
       adapt::limit_growth(cloud, *structure, input_->adapt.growth, wanted);
     }
     adapt::ResampleRules rules;
-    rules.placement = static_cast<adapt::Placement>(input_->adapt.placement);
+    rules.placement = input_->adapt.placement;
     if (input_->adapt.separate) rules.split.piece = fracture_piece(cloud);
     const Resampling<2> change =
         adapt::resample(cloud, std::move(structure), properties(solver, wanted), rules, report);

@@ -18,8 +18,7 @@ std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::vector<fracture::CrackTip> tips_of(const input::Case& input, const Cloud<2>& cloud) {
   std::vector<fracture::CrackPath> paths;
-  for (const input::Crack& crack : input.domain.cracks)
-    paths.push_back({crack.name, crack.points, crack.tips});
+  for (const input::Crack& crack : input.domain.cracks) paths.push_back({crack.name, crack.path, crack.tips});
   return fracture::find_tips(cloud, paths);
 }
 

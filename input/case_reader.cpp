@@ -60,16 +60,16 @@ void compute_defaults(Setting& root) {
 
 void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& step = *root.find("time.step");
-  result.time = {root.get<double>("time.end"),
-                 step.get<double>("safety"),
-                 step.maybe<double>("max"),
-                 step.maybe<double>("fixed"),
-                 static_cast<int>(step.get<std::int64_t>("check_every")),
-                 step.maybe<double>("min"),
-                 root.maybe<std::int64_t>("time.max_steps"),
-                 step.get<bool>("local"),
-                 static_cast<int>(step.get<std::int64_t>("levels")),
-                 {}};
+  result.time = {
+      root.get<double>("time.end"),
+      step.get<double>("safety"),
+      step.maybe<double>("max"),
+      step.maybe<double>("fixed"),
+      static_cast<int>(step.get<std::int64_t>("check_every")),
+      step.maybe<double>("min"),
+      root.maybe<std::int64_t>("time.max_steps"),
+      {.on = step.get<bool>("local"), .levels = static_cast<int>(step.get<std::int64_t>("levels"))},
+      {}};
   read_mass_scaling(root, result, diagnostics);
   if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
     diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
