@@ -12,8 +12,7 @@ namespace cnem {
 template<int dim> class MeanReactions {
 public:
   MeanReactions(Conditions<dim>& conditions, double duration, int count)
-      : conditions_(conditions), duration_(duration), count_(count),
-        mean_(conditions.supports.reactions()) {
+      : conditions_(conditions), duration_(duration), count_(count), mean_(conditions.supports.reactions()) {
     if (several()) conditions_.contact.begin_sub_steps();
     for (auto& reaction : mean_) reaction.setZero();
   }

@@ -102,10 +102,9 @@ template<int dim> void ExplicitSolver<dim>::update_stress(int activity, int befo
     deformation_gradient<dim>(body.operators(), position_, point.deformation, begin, end);
     interpolate<dim>(body.operators(), state_.node.temperature, point.temperature, begin, end);
     each([&](Term<dim>& term) { term.before_stress(body, range); });
-    bad[due.index(range)] =
-        plasticity::update_stress(model_.materials, point.material, points,
-                                  static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end),
-                                  due.own(range));
+    bad[due.index(range)] = plasticity::update_stress(model_.materials, point.material, points,
+                                                      static_cast<std::ptrdiff_t>(begin),
+                                                      static_cast<std::ptrdiff_t>(end), due.own(range));
     each([&](Term<dim>& term) { term.after_stress(body, due, range); });
   });
   for (const std::ptrdiff_t p : bad)
@@ -140,8 +139,9 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   each([&](Term<dim>& term) { term.limit(body(), limit); });
   if (!model_.mechanical) return {model_.safety * limit.heat, 0, "conduction"};
   const PointState<dim>& point = state_.point;
-  const auto bounds = bound_.evaluate(approximation_.mechanics, point.deformation, point.wave_modulus,
-                                      state_.node.inertia(), local_.on() ? LocalSteps<dim>::block : block_size);
+  const auto bounds =
+      bound_.evaluate(approximation_.mechanics, point.deformation, point.wave_modulus, state_.node.inertia(),
+                      local_.on() ? LocalSteps<dim>::block : block_size);
   Field stable(bounds.size());
   for (std::size_t b = 0; b < bounds.size(); ++b) {
     stable[b] = stable_wave_step(bounds[b].value, limit.stabilisation, limit.critical_damping);
@@ -154,16 +154,15 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
 }
 
 template<int dim> Body<dim> ExplicitSolver<dim>::body() {
-  return {model_,    conditions_, state_, approximation_,  local_,                reference_,
-          position_, stress_,     edge_,  plastic_offset_, 0.5 * finest_before_, start_weight_};
+  return {model_,  conditions_, state_,          approximation_,       local_,       reference_, position_,
+          stress_, edge_,       plastic_offset_, 0.5 * finest_before_, start_weight_};
 }
 template<int dim> BodyView<dim> ExplicitSolver<dim>::body() const {
-  return {model_,    conditions_, state_, approximation_,  local_,                reference_,
-          position_, stress_,     edge_,  plastic_offset_, 0.5 * finest_before_, start_weight_};
+  return {model_,  conditions_, state_,          approximation_,       local_,       reference_, position_,
+          stress_, edge_,       plastic_offset_, 0.5 * finest_before_, start_weight_};
 }
 
-template<int dim>
-void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
+template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   const std::size_t node = op.first_node(point);
   throw DivergenceError(

@@ -123,11 +123,11 @@ private:
   bool on_new_reference_ = false;                ///< no step has been made on it
   std::vector<double> start_weight_; ///< [block] of loads in the first sub-step after a change of levels
 
-  Field reference_, position_;       ///< [node] m, side by side
-  ColumnStress<dim> stress_; ///< P with viscosity and penalty: what forces are made from
+  Field reference_, position_; ///< [node] m, side by side
+  ColumnStress<dim> stress_;   ///< P with viscosity and penalty: what forces are made from
   EdgePoints edge_{};
   double plastic_offset_ = 0.0; ///< J/m^(3−dim), keeps plastic work continuous over references
-  double initial_energy_ = 0.0;         ///< J/m^(3−dim)
+  double initial_energy_ = 0.0; ///< J/m^(3−dim)
   int references_ = 0;
   int resamplings_ = 0;
   StepTimes times_;

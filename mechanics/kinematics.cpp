@@ -107,10 +107,13 @@ template<> void push_forward<2>(PointState<2>& point) {
   for (std::size_t p = 0; p < point.size(); ++p) {
     const double f11 = point.deformation[0][p], f12 = point.deformation[1][p], f21 = point.deformation[2][p],
                  f22 = point.deformation[3][p], f33 = point.deformation[4][p];
-    const double c11 = point.inverse_plastic_cauchy_green[xx][p], c22 = point.inverse_plastic_cauchy_green[yy][p], c12 = point.inverse_plastic_cauchy_green[xy][p];
+    const double c11 = point.inverse_plastic_cauchy_green[xx][p],
+                 c22 = point.inverse_plastic_cauchy_green[yy][p],
+                 c12 = point.inverse_plastic_cauchy_green[xy][p];
     point.inverse_plastic_cauchy_green[xx][p] = f11 * f11 * c11 + 2.0 * f11 * f12 * c12 + f12 * f12 * c22;
     point.inverse_plastic_cauchy_green[yy][p] = f21 * f21 * c11 + 2.0 * f21 * f22 * c12 + f22 * f22 * c22;
-    point.inverse_plastic_cauchy_green[xy][p] = f11 * f21 * c11 + (f11 * f22 + f12 * f21) * c12 + f12 * f22 * c22;
+    point.inverse_plastic_cauchy_green[xy][p] =
+        f11 * f21 * c11 + (f11 * f22 + f12 * f21) * c12 + f12 * f22 * c22;
     point.inverse_plastic_cauchy_green[zz][p] *= f33 * f33;
   }
 }

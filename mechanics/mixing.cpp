@@ -24,9 +24,12 @@ Field held_tension(const std::vector<plasticity::Material>& materials, const Poi
   if (!point.damaged.on()) return {};
   Field held(point.size());
   for (std::size_t p = 0; p < held.size(); ++p) {
-    const auto log_elastic = plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, p));
+    const auto log_elastic =
+        plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, p));
     const double tension =
-        dilatation<dim>(log_elastic, materials[static_cast<std::size_t>(point.material[p])], point.temperature[p]) - point.opening[p];
+        dilatation<dim>(log_elastic, materials[static_cast<std::size_t>(point.material[p])],
+                        point.temperature[p]) -
+        point.opening[p];
     held[p] = tension > 0.0 ? (1.0 - point.softening[p]) * tension * tension : 0.0;
   }
   return held;
@@ -40,15 +43,16 @@ void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& 
   for (std::size_t p = 0; p < change.parcels.size(); ++p) {
     const auto first = static_cast<std::size_t>(change.parcels.begin[p]),
                last = static_cast<std::size_t>(change.parcels.begin[p + 1]);
-    auto elastic =
-        plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, static_cast<std::size_t>(change.parcels.node[first]));
+    auto elastic = plasticity::at_point<dim>(point.inverse_plastic_cauchy_green,
+                                             static_cast<std::size_t>(change.parcels.node[first]));
     if (last - first > 1) {
       elastic.setZero();
       double total = 0.0, volume = 0.0;
       for (std::size_t e = first; e < last; ++e) {
         const auto k = static_cast<std::size_t>(change.parcels.node[e]);
         const double share = change.parcels.weight[e] * mass[k];
-        const auto part = plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, k));
+        const auto part =
+            plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, k));
         elastic += share * part;
         volume += share * std::exp(0.5 * part.template head<3>().sum());
         total += share;

@@ -35,9 +35,9 @@ template<int dim> struct Model {
 /// What acts on the body from outside or ties it, and the cloud it is known by: all of it follows the cloud
 /// when that is resampled.
 template<int dim> struct Conditions {
-  Cloud<dim> cloud;     ///< boundary; its positions follow the reference
-  Ties<dim> ties;       ///< nodes that move as one
-  Ties<dim> heat_ties;  ///< nodes that have one temperature
+  Cloud<dim> cloud;    ///< boundary; its positions follow the reference
+  Ties<dim> ties;      ///< nodes that move as one
+  Ties<dim> heat_ties; ///< nodes that have one temperature
   Supports<dim> supports;
   Loads<dim> loads;
   ThermalBoundaries<dim> heat_boundaries;

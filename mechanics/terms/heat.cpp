@@ -163,16 +163,14 @@ private:
   HeatContacts<dim> contacts_; ///< of this step
   double stable_ = 0.0;        ///< s, stable for heat when it was measured last; 0: to be measured
   std::vector<double> sums_;   ///< [range] J/m^(3−dim)
-  Energy content_{"heat_content", EnergyKind::heat_held};        ///< Σ C (T − T_start)
+  Energy content_{"heat_content", EnergyKind::heat_held};         ///< Σ C (T − T_start)
   Energy generated_{"heat_generated", EnergyKind::heat_received}; ///< from plastic work and friction
   Energy exchanged_{"heat_exchanged", EnergyKind::heat_received}; ///< received through the boundary
 };
 
 } // namespace
 
-template<int dim> std::unique_ptr<Term<dim>> heat(const Model<dim>&) {
-  return std::make_unique<Heat<dim>>();
-}
+template<int dim> std::unique_ptr<Term<dim>> heat(const Model<dim>&) { return std::make_unique<Heat<dim>>(); }
 
 template std::unique_ptr<Term<2>> heat(const Model<2>&);
 

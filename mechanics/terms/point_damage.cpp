@@ -64,7 +64,8 @@ void PointDamage<dim>::wave_moduli(const std::vector<plasticity::Material>& mate
       const double expansion =
           3.0 * material.expansion * (point.temperature[p] - material.expansion_reference);
       const double bulk = std::log(opened) - expansion > open ? 1.0 - softening : 1.0;
-      point.wave_modulus[p] = (bulk * elasticity.kappa() + 4.0 / 3.0 * elasticity.mu()) / std::max(opened, 1.0);
+      point.wave_modulus[p] =
+          (bulk * elasticity.kappa() + 4.0 / 3.0 * elasticity.mu()) / std::max(opened, 1.0);
     }
   });
 }

@@ -41,7 +41,7 @@ public:
   void end_stress(const Body<dim>& body, const DuePoints& due) override;
 
 private:
-  bool active_; ///< whether any material has a damage law
+  bool active_;                                    ///< whether any material has a damage law
   std::vector<plasticity::JohnsonCookDamage> law_; ///< [material]; none: never softens
   FieldTable table_;
   ScalarField length_{table_, {"damage_length", "m", Carry::renewed, Checkpoint::holds}}; ///< ℓ

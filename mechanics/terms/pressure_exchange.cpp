@@ -137,8 +137,7 @@ template<int dim> void PressureExchange<dim>::begin_stress(const Body<dim>& body
   if (active(body.approximation.links)) remember(body.state.point.pressure);
 }
 
-template<int dim>
-void PressureExchange<dim>::end_stress(const Body<dim>& body, const DuePoints& due) {
+template<int dim> void PressureExchange<dim>::end_stress(const Body<dim>& body, const DuePoints& due) {
   if (!active(body.approximation.links)) return;
   const Change change = apply(body.operators(), body.approximation.links, body.reference, due.dt,
                               body.state.point, body.stress);

@@ -26,15 +26,13 @@ template<int dim, bool constant> struct BodyOf {
   const Field& position;           ///< [node] m, side by side
   Seen<ColumnStress<dim>>& stress; ///< P with viscosity and penalty: what forces are made from
   Seen<EdgePoints>& edge;          ///< what the edge defect has renewed with each stress
-  Seen<double>& plastic_offset;    ///< J/m^(3−dim), keeps plastic work continuous as volumes are measured anew
-  double half_step;                ///< s, half the finest step that led to t_n
+  Seen<double>& plastic_offset; ///< J/m^(3−dim), keeps plastic work continuous as volumes are measured anew
+  double half_step;             ///< s, half the finest step that led to t_n
   const std::vector<double>& start_weight; ///< [block] of loads after a change of levels, else empty
 
-  operator BodyOf<dim, true>() const
-    requires(!constant)
-  {
-    return {model,    conditions, state,  approximation, levels,         reference,
-            position, stress,     edge,   plastic_offset, half_step, start_weight};
+  operator BodyOf<dim, true>() const requires(!constant) {
+    return {model,    conditions, state, approximation,  levels,    reference,
+            position, stress,     edge,  plastic_offset, half_step, start_weight};
   }
 
   const DiscreteOperators<dim>& operators() const { return approximation.mechanics; }

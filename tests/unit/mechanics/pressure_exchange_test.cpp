@@ -64,9 +64,9 @@ struct Block {
                                         std::ptrdiff_t(point.size()), 0.0),
               -1);
   }
-  PressureExchange<2> exchange(double alpha) const {
-    PressureExchange<2> made(alpha);
-    made.reset(cloud.facets, Field(point.size(), kappa));
+  std::unique_ptr<PressureExchange<2>> exchange(double alpha) const {
+    auto made = std::make_unique<PressureExchange<2>>(alpha);
+    made->reset(cloud.facets, Field(point.size(), kappa));
     return made;
   }
   PressureExchange<2>::Change apply(PressureExchange<2>& exchange, double dt = 1e-8) {
@@ -87,7 +87,8 @@ class Exchange : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Exchange, conserves_volume_and_books_its_energy) {
   Block block(noise, GetParam());
-  PressureExchange<2> exchange = block.exchange(0.3);
+  const auto made_exchange = block.exchange(0.3);
+  PressureExchange<2>& exchange = *made_exchange;
   const Field before = block.point.pressure, stress_free = block.point.stress_free;
   const double stored = block.total(block.point.stored_energy),
                plastic = block.total(block.point.plastic_work);
@@ -125,13 +126,16 @@ INSTANTIATE_TEST_SUITE_P(Of, Exchange, ::testing::Bool(),
 
 TEST(PressureExchange, is_nothing_on_constant_and_linear_pressures) {
   Block constant([](const Vec2&, std::size_t) { return 3e8; });
-  PressureExchange<2> exchange = constant.exchange(0.3);
+  const auto made_exchange = constant.exchange(0.3);
+  PressureExchange<2>& exchange = *made_exchange;
   constant.apply(exchange);
   Block linear([](const Vec2& x, std::size_t) { return 1e8 + 2e11 * x.x() - 1e11 * x.y(); });
-  PressureExchange<2> other = linear.exchange(0.3);
+  const auto made_other = linear.exchange(0.3);
+  PressureExchange<2>& other = *made_other;
   linear.apply(other);
   Block noisy(noise);
-  PressureExchange<2> third = noisy.exchange(0.3);
+  const auto made_third = noisy.exchange(0.3);
+  PressureExchange<2>& third = *made_third;
   noisy.apply(third);
   double typical = 0.0;
   for (const double theta : third.drift()) typical = std::max(typical, std::abs(theta));
@@ -145,7 +149,8 @@ TEST(PressureExchange, leaves_elastic_zones_and_boundaries_alone) {
   Block block(noise);
   for (std::size_t i = 0; i < block.point.size(); ++i)
     if (block.cloud.position[i].x() > 1e-3) block.point.plastic_rate[i] = 0.0;
-  PressureExchange<2> exchange = block.exchange(0.3);
+  const auto made_exchange = block.exchange(0.3);
+  PressureExchange<2>& exchange = *made_exchange;
   const PointState<2> before = block.point;
   block.apply(exchange);
   int touched = 0;
@@ -169,7 +174,8 @@ TEST(PressureExchange, damps_a_checkerboard_faster_the_more_flows_and_never_beyo
   double last = 1.0;
   for (const double dt : {1e-10, 1e-9, 1e-8, 1e-5}) { // the last at the limit of w
     Block block(checkerboard);
-    PressureExchange<2> exchange = block.exchange(0.3);
+    const auto made_exchange = block.exchange(0.3);
+    PressureExchange<2>& exchange = *made_exchange;
     const double before = pressure_noise<2>(block.approximation.links, block.cloud.facets, block.point);
     const double energy = block.total(block.point.stored_energy);
     double dissipated = block.apply(exchange, dt).dissipated;

@@ -38,8 +38,9 @@ TEST(Determinism, same_bits_for_any_number_of_threads) {
     advance(solver, 200, 60);
     const State<2>& s = solver.state();
     Field all;
-    for (const Field* f : {&s.node.position[0], &s.node.velocity[1], &s.node.temperature,
-                           &s.point.plastic_strain, &s.point.inverse_plastic_cauchy_green[3]})
+    for (const Field* f : std::initializer_list<const Field*>{&s.node.position[0], &s.node.velocity[1],
+                                                              &s.node.temperature, &s.point.plastic_strain,
+                                                              &s.point.inverse_plastic_cauchy_green[3]})
       all.insert(all.end(), f->begin(), f->end());
     all.push_back(solver.ledger().residual());
     all.push_back(solver.conditions().contact.results()[0].force.y());
