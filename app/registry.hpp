@@ -22,9 +22,4 @@ struct Setup {
 /// contradict each other.
 Setup build(const input::Case& input);
 
-/// The names of the methods a case can ask for, as in the schema.
-std::unique_ptr<Discretisation<2>> make_method(const input::Method& method, Space space = Space::plane);
-
-/// What the plane of a case stands for.
-
 } // namespace cnem::app

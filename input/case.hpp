@@ -1,13 +1,15 @@
 #pragma once
 // A case as read: everything a user can write in case.toml, checked, with defaults filled in, in SI units.
-// Plain data on core types; input/case_reader.hpp makes it, app/ turns it into solver objects. The meaning of
-// each key is in docs/case_reference.md, which is generated from input/schema/schema.cpp.
+// Plain data on core types and the options of methods; input/case_reader.hpp makes it, app/ turns it into
+// solver objects. The meaning of each key is in docs/case_reference.md, which is generated from
+// input/schema/schema.cpp.
 #include "core/curve.hpp"
 #include "core/error.hpp"
 #include "core/revolution.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
 #include "input/case_output.hpp"
+#include "methods/registry.hpp"
 
 #include <array>
 #include <cstdint>
@@ -274,12 +276,9 @@ struct BodyContact {
 };
 
 struct Method {
-  enum class Name { cnem, fe_triangles };
-  enum class Functions { sibson, laplace };
   enum class Lagrangian { total, periodic, updated };
-  Name name = Name::cnem;
-  Functions functions = Functions::sibson;
-  int gauss_points = 2;           ///< per cell edge, 1 to 3
+  std::string name = "cnem"; ///< as in the registry of methods
+  methods::Options options;
   double stabilisation = 0.05;    ///< – α of the edge defect; 0: off
   double pressure_exchange = 0.0; ///< – α of the exchange of volume between flowing nodes; 0: off
   Lagrangian lagrangian = Lagrangian::periodic;
