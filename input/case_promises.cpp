@@ -43,6 +43,9 @@ constexpr std::array needs{
          "resampling", "history goes with the nodes that stay", "false"},
     Need{Promise::tiling_cells, "adapt.resample", [](const Case& c) { return c.adapt.resample; },
          "resampling", "new nodes take their mass from what their cells take of others", "false"},
+    Need{Promise::balanced_constant_stress, "adapt.resample", [](const Case& c) { return c.adapt.resample; },
+         "resampling", "nodes that come and go would disturb stress that was in balance, and call for more",
+         "false"},
     Need{Promise::hoop_rows, "analysis.kinematics",
          [](const Case& c) { return c.analysis.space() == Space::revolution; }, "an axisymmetric analysis",
          "the hoop strain u/r has no value on the axis without them"},
@@ -62,11 +65,9 @@ constexpr std::array needs{
 };
 
 std::string expectation(const Need& need) {
-  const std::vector<std::string> methods = methods::names_that_keep(need.promise);
-  std::string text = need.instead;
-  if (!methods.empty())
-    text += fmt::format("{}method.name = \"{}\"", text.empty() ? "" : " or ", fmt::join(methods, "\" or \""));
-  return text;
+  const std::string instead(need.instead);
+  return fmt::format("{}{}method.name = \"{}\"", instead, instead.empty() ? "" : " or ",
+                     fmt::join(methods::names_that_keep(need.promise), "\" or \""));
 }
 
 } // namespace

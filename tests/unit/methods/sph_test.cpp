@@ -48,22 +48,26 @@ TEST_P(Kernels, hardly_need_correction_inside_a_lattice) {
   }
 }
 
+/// Below the tip: around it kernels reach as far as the way is hardly longer than the straight line.
 TEST_P(Kernels, do_not_reach_across_a_slit) {
   Cloud<2> cloud;
   add_loop(cloud, {{0, 0}, {0.5, 0}, {0.5, 0.5}, {0.5, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.1);
   declare_twins(cloud);
   fill(cloud, Lattice::hexagonal, 0.1, 0.1, 0.05, 1);
-  const auto approximation = Sph(GetParam(), 2.4).rebuild(cloud);
-  const auto& op = approximation.mechanics;
-  std::size_t left = 0;
+  const auto op = Sph(GetParam(), 2.4).rebuild(cloud).mechanics;
+  int rows = 0;
   for (std::size_t i = 0; i < u(op.points); ++i) {
     const Vec2& x = cloud.position[i];
-    if (x.x() > 0.45 || x.y() > 0.4) continue;
-    ++left;
-    for (auto e = u(op.row_begin[i]); e < u(op.row_begin[i + 1]); ++e)
-      EXPECT_LE(cloud.position[u(op.node[e])].x(), 0.5) << "node " << i;
+    if (x.y() > 0.3 || std::abs(x.x() - 0.5) > 0.2) continue;
+    double left = x.x(), right = x.x();
+    for (auto e = u(op.row_begin[i]); e < u(op.row_begin[i + 1]); ++e) {
+      left = std::min(left, cloud.position[u(op.node[e])].x());
+      right = std::max(right, cloud.position[u(op.node[e])].x());
+    }
+    EXPECT_TRUE(left >= 0.5 || right <= 0.5) << "node at " << x.transpose();
+    ++rows;
   }
-  EXPECT_GT(left, 10U);
+  EXPECT_GT(rows, 15);
 }
 
 INSTANTIATE_TEST_SUITE_P(sph, Kernels, ::testing::Values(Kernel::cubic_spline, Kernel::wendland_c2));
@@ -88,9 +92,7 @@ TEST(Sph, constant_stress_is_in_balance_deep_inside_a_lattice_and_only_nearly_el
   EXPECT_LT(inner_force(rectangle(1, 1, 0.05, Lattice::square, 0.0), 0.05, 0.26), 1e-12);
   const double jittered = inner_force(rectangle(1, 1, 0.05, Lattice::hexagonal, 0.1), 0.05, 0.26);
   EXPECT_GT(jittered, 1e-3) << "then it could be promised";
-  EXPECT_LT(jittered, 0.2);
-  std::printf("inner force %g near boundary %g\n", jittered,
-              inner_force(rectangle(1, 1, 0.05, Lattice::square, 0.0), 0.05, 0.01));
+  EXPECT_LT(jittered, 0.25);
 }
 
 TEST(Sph, refuses_supports_without_neighbours_and_nodes_in_one_line) {
@@ -101,13 +103,12 @@ TEST(Sph, refuses_supports_without_neighbours_and_nodes_in_one_line) {
   EXPECT_THROW(Sph().rebuild(needle), GeometryError);
 }
 
-/// The affine patch test, which balanced constant stress would pass exactly: a boundary moved by x = A X
-/// carries the interior along, up to forces of the scatter of the nodes.
-TEST(Sph, patch_follows_its_boundary_through_new_references) {
+/// Largest deviation of the interior from x = (1 + H) X, over |H X|, after the boundary has been moved by it.
+double patch_error(double spacing, int rereference_every) {
   Mat2 H;
-  H << 0.2, 0.5, -0.1, -0.2;
-  const double end = 2e-5;
-  Cloud<2> cloud = rectangle(1e-2, 0.8e-2, 1e-3, Lattice::hexagonal, 0.1);
+  H << 2e-3, 5e-3, -1e-3, -2e-3;
+  const double end = 2e-5, width = 1e-2;
+  Cloud<2> cloud = rectangle(width, 0.8 * width, spacing, Lattice::hexagonal, 0.1);
   std::vector<Support<2>> supports;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(cloud.facets.size()); ++i)
     for (int k = 0; k < 2; ++k)
@@ -116,13 +117,13 @@ TEST(Sph, patch_follows_its_boundary_through_new_references) {
                           k == 0 ? Vec2(1, 0) : Vec2(0, 1),
                           TimeTable(H.row(k).dot(cloud.position[u(i)]) / end),
                           {i}});
-  Model<2> model = model_of(cloud, Method::sph, steel_304L());
+  Model<2> model = model_of(cloud, Method::sph, steel());
   model.supports = Supports<2>(std::move(supports), u(cloud.nodes()));
   ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 { return H * x / end; });
-  const int steps = 400;
-  for (int n = 0; n < steps; ++n) {
-    if (n % 50 == 49) solver.prepare();
+  const int steps = static_cast<int>(0.4 / spacing);
+  for (int n = 1; n <= steps; ++n) {
     solver.advance(end / steps);
+    if (rereference_every > 0 && n % rereference_every == 0) solver.prepare();
   }
   double worst = 0.0;
   for (std::size_t i = 0; i < solver.state().node.size(); ++i) {
@@ -130,12 +131,22 @@ TEST(Sph, patch_follows_its_boundary_through_new_references) {
     const Vec2 x(solver.state().node.position[0][i], solver.state().node.position[1][i]);
     worst = std::max(worst, (x - X - H * X).norm());
   }
-  std::printf("patch deviates by %g spacings\n", worst / 1e-3);
-  EXPECT_LT(worst, 0.05e-3);
+  return worst / (H.norm() * width);
 }
 
-/// Free plastic block that is struck: what is in no promise of balance, forces still sum to nothing.
-TEST(Sph, struck_block_keeps_both_momenta_with_stabilisation_and_viscosity) {
+/// Without balanced constant stress the affine patch test is passed in the limit only: layers of the width of
+/// the kernel along the boundary are not in balance.
+TEST(Sph, patch_test_is_passed_in_the_limit_to_first_order) {
+  const double coarse = patch_error(1e-3, 0), fine = patch_error(0.5e-3, 0);
+  EXPECT_GT(coarse, 1e-3) << "then balance could be promised";
+  EXPECT_LT(coarse, 0.07);
+  EXPECT_LT(fine, 0.65 * coarse);
+}
+
+TEST(Sph, patch_goes_through_new_references) { EXPECT_LT(patch_error(1e-3, 50), 0.15); }
+
+/// Forces sum to nothing, whether or not they are balanced at each node.
+TEST(Sph, struck_block_keeps_both_momenta_through_flow_and_a_new_reference) {
   const Cloud<2> cloud = rectangle(8e-3, 4e-3, 4e-4, Lattice::hexagonal, 0.2);
   Model<2> model = model_of(cloud, Method::sph, steel_304L());
   model.viscosity = {1.2, 0.06};
@@ -150,7 +161,8 @@ TEST(Sph, struck_block_keeps_both_momenta_with_stabilisation_and_viscosity) {
   const Momenta after = momenta(solver);
   EXPECT_GT(solver.ledger().plastic, 0.0);
   EXPECT_LT((after.linear - before.linear).norm(), 1e-12 * before.linear.norm());
-  EXPECT_LT(std::abs(solver.ledger().residual()), 2e-3 * solver.ledger().initial);
+  EXPECT_NEAR(after.angular, before.angular, 1e-12 * before.linear.norm() * 8e-3);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 5e-3 * solver.ledger().initial);
 }
 
 } // namespace
