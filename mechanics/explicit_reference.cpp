@@ -62,6 +62,8 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
   const bool start = references_ == 0;
+  if (!start)
+    require(model_.method->promises(), Promise::one_point_per_node, model_.method->name(), "a new reference");
   Approximation<dim> rebuilt = model_.method->rebuild(cloud);
 
   double elastic_before = 0.0, plastic_before = 0.0;
