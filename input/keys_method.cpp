@@ -29,7 +29,6 @@ void add_method(Keys& k) {
         "neighbours as its spacing.")
       .in({.low = 1.5, .high = 5.0})
       .fallback("2.4")
-      .example("2.4")
       .when("name", {"sph"});
   k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem, sph).")
       .in(not_negative)
