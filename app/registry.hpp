@@ -1,5 +1,6 @@
 #pragma once
-// From a case to solver objects: the only place that knows every method, material and tool.
+// From a case to solver objects: the only place that knows every material and tool; methods have a registry
+// of their own.
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 
