@@ -2,9 +2,8 @@
 
 #include "app/bodies.hpp"
 #include "clouds/generate.hpp"
-#include "cnem/scni.hpp"
 #include "contact/curve_shape.hpp"
-#include "methods/fe_triangle.hpp"
+#include "methods/registry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -159,16 +158,6 @@ contact::Tool<2> make_tool(const input::Case& input, const input::Tool& spec) {
 
 } // namespace
 
-std::unique_ptr<Discretisation<2>> make_method(const input::Method& method, Space space) {
-  if (method.name == input::Method::Name::fe_triangles) return std::make_unique<methods::FeTriangles>(space);
-  scni::Options options;
-  options.functions = method.functions == input::Method::Functions::laplace ? scni::Functions::laplace
-                                                                            : scni::Functions::sibson;
-  options.gauss_points = method.gauss_points;
-  options.space = space;
-  return std::make_unique<scni::Cnem>(options);
-}
-
 Setup build(const input::Case& input) {
   clouds::GeneratedCloud generated;
   try {
@@ -179,12 +168,6 @@ Setup build(const input::Case& input) {
     const bool list = input.cloud.pattern == clouds::Pattern::list;
     throw input.error(list ? "cloud.nodes" : "domain", error.what());
   }
-  if (input.method.name == input::Method::Name::fe_triangles &&
-      input.method.lagrangian != input::Method::Lagrangian::total)
-    throw input.error("method.lagrangian",
-                      "finite-element triangles carry their history in the elements and run total "
-                      "Lagrangian only; expected \"total\"");
-
   std::vector<contact::Tool<2>> tools;
   for (const input::Tool& tool : input.tools) tools.push_back(make_tool(input, tool));
   Setup setup;
@@ -194,7 +177,7 @@ Setup build(const input::Case& input) {
   const Space space = input.analysis.space();
   model.contact = contact::RigidContact<2>(std::move(tools), space, input.contact);
   model.cloud = std::move(generated.cloud);
-  model.method = make_method(input.method, space);
+  model.method = methods::make(input.method.name, input.method.options);
   const std::vector<std::int32_t> region = region_of_nodes(input, model.cloud);
   set_materials(input, region, model);
   model.strength = strength(input, model.cloud);

@@ -1,8 +1,8 @@
 #pragma once
 // A case as read: everything a user can write in case.toml, checked, with defaults filled in, in SI units.
 // The structs of the libraries themselves, where they have one for it; input/case_reader.hpp fills them, app/
-// makes solver objects of them. The meaning of
-// each key is in docs/case_reference.md, which is generated from input/schema/schema.cpp.
+// makes solver objects of them. The meaning of each key is in docs/case_reference.md, which is generated from
+// input/schema/schema.cpp.
 #include "adapt/resample.hpp"
 #include "clouds/generate.hpp"
 #include "contact/body_contact.hpp"
@@ -14,6 +14,7 @@
 #include "input/case_output.hpp"
 #include "mechanics/local_steps.hpp"
 #include "mechanics/mass_scaling.hpp"
+#include "methods/registry.hpp"
 #include "plasticity/material.hpp"
 #include "thermal/boundaries.hpp"
 
@@ -154,12 +155,9 @@ struct Tool : contact::Tool<2> {
 };
 
 struct Method {
-  enum class Name { cnem, fe_triangles };
-  enum class Functions { sibson, laplace };
   enum class Lagrangian { total, periodic, updated };
-  Name name = Name::cnem;
-  Functions functions = Functions::sibson;
-  int gauss_points = 2;           ///< per cell edge, 1 to 3
+  std::string name = "cnem"; ///< as in the registry of methods
+  methods::Options options;
   double stabilisation = 0.05;    ///< – α of the edge defect; 0: off
   double pressure_exchange = 0.0; ///< – α of the exchange of volume between flowing nodes; 0: off
   Lagrangian lagrangian = Lagrangian::periodic;

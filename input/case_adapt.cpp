@@ -92,12 +92,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict(path, "found true in a static analysis, expected it with analysis.type = \"explicit\" only");
   else if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
     conflict(path, "found true in an axisymmetric analysis, expected it with \"plane strain\" only");
-  if (result.method.name != Method::Name::cnem)
-    conflict(
-        path,
-        "found true for finite-element triangles, expected method.name = \"cnem\": triangles carry their "
-        "history in elements");
-  else if (result.method.lagrangian == Method::Lagrangian::total)
+  if (result.method.lagrangian == Method::Lagrangian::total)
     conflict(path,
              "found true with method.lagrangian = \"total\", expected \"periodic\": nodes are changed at a "
              "new reference");

@@ -40,8 +40,6 @@ void check_local_steps(Setting& root, const Case& result, Diagnostics& diagnosti
   if (result.time.fixed) clash("and a fixed one", one);
   if (!result.analysis.mechanical)
     clash("in an analysis without motion", "them with analysis.mechanical = true");
-  if (result.method.name == Method::Name::fe_triangles)
-    clash("with finite-element triangles, whose stress points are not nodes", "method.name = \"cnem\"");
 }
 
 } // namespace

@@ -56,6 +56,12 @@ keep = 3
 )toml" + base_and_punch("2", "2") +
                             steel_304l;
 
+/// The same with particles for natural elements.
+std::string with_particles(std::string text) {
+  const std::string table = "[method]\n";
+  return text.insert(text.find(table) + table.size(), "name = \"sph\"\nkernel = \"wendland_c2\"\n");
+}
+
 // Local time steps in a block that is fine where a punch's corner goes in.
 const std::string levels = R"toml(
 [time]
@@ -354,10 +360,11 @@ std::string outcome(const fs::path& folder) {
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
-  static const std::vector<SmallCase> cases{
-      {"punched", punched},     {"levels", levels},       {"loaded", loaded},
-      {"round_bar", round_bar}, {"triangles", triangles}, {"breaking", breaking},
-      {"adapted", adapted},     {"separated", separated}, {"touching", touching}};
+  static const std::vector<SmallCase> cases{{"punched", punched},     {"levels", levels},
+                                            {"loaded", loaded},       {"round_bar", round_bar},
+                                            {"triangles", triangles}, {"breaking", breaking},
+                                            {"adapted", adapted},     {"separated", separated},
+                                            {"touching", touching},   {"particles", with_particles(punched)}};
   return cases;
 }
 
