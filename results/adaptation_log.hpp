@@ -1,0 +1,49 @@
+#pragma once
+// The audit of each change of the cloud: what there is before and after.
+#include "adapt/resample.hpp"
+#include "core/archive.hpp"
+#include "mechanics/explicit_solver.hpp"
+#include "results/history_writer.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cnem::results {
+
+/// What a change of the cloud keeps, or books. Of revolution in kg, N s, J; else per thickness.
+struct Audit {
+  double nodes = 0.0, area = 0.0; ///< –, m²
+  double mass = 0.0;
+  Vec2 momentum = Vec2::Zero();                     ///< of v_{n−½}
+  double angular_momentum = 0.0;                    ///< about the origin
+  double momentum_scale = 0.0, angular_scale = 0.0; ///< Σ m|v|, Σ m|x||v|: what errors are relative to
+  double heat = 0.0;                                ///< Σ C T
+  double energy = 0.0;                              ///< all terms of the ledger
+  double lost = 0.0;                                ///< of these, booked to new references and to resampling
+};
+Audit audit(const ExplicitSolver<2>& solver);
+
+/// adaptation.csv: a row for each change, and the largest errors for status.json.
+class AdaptationLog {
+public:
+  /// Starts the file of a new run. Throws IoError.
+  void start(const std::filesystem::path& folder);
+  /// Goes on behind the rows that the checkpoint counts. Throws IoError when some are missing.
+  void resume(const std::filesystem::path& folder);
+  void record(const State<2>& state, const adapt::PassReport& report, const Audit& before,
+              const Audit& after);
+  /// Largest relative errors of what must be kept, the largest relative change of the angular momentum, which
+  /// is not (matter moves to the nodes that take it).
+  std::vector<std::pair<std::string, double>> metrics() const;
+  void archive(Archive& archive);
+
+private:
+  std::optional<HistoryWriter> writer_;
+  std::int64_t rows_ = 0;
+  double mass_ = 0.0, momentum_ = 0.0, heat_ = 0.0, energy_ = 0.0, angular_ = 0.0;
+};
+
+} // namespace cnem::results

@@ -1,0 +1,77 @@
+#pragma once
+// The folder a run writes to, and how its files are written: never half.
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cnem::results {
+
+namespace files {
+inline constexpr const char* resolved_case = "case.resolved.toml";
+inline constexpr const char* history = "history.csv";
+inline constexpr const char* adaptation = "adaptation.csv"; ///< a row for every change of the cloud
+inline constexpr const char* fields = "fields.pvd";
+inline constexpr const char* fields_folder = "fields";     ///< .vtu files
+inline constexpr const char* pictures_folder = "pictures"; ///< .png files and their index.json
+inline constexpr const char* lines_folder = "lines";       ///< fields along lines, .csv
+inline constexpr const char* checkpoint = "checkpoint.h5";
+inline constexpr const char* refused_checkpoint = "checkpoint.refused"; ///< how names of such files begin
+inline constexpr const char* blanking = "blanking.json";
+inline constexpr const char* status = "status.json";
+inline constexpr const char* report = "report.html";
+} // namespace files
+
+/// Writes `content` beside `path`, flushes it to the disk and renames it over `path`: readers, and whoever
+/// looks after a crash, see the old file or the new one. Throws IoError with the path and the system's
+/// reason.
+void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+struct FileContent {
+  std::filesystem::path path;
+  std::string content;
+};
+
+/// The same for several files, which wait for the disk together and appear in their order. Throws IoError;
+/// the files before the one that failed may have appeared then.
+void write_atomically(std::span<const FileContent> files);
+
+/// The two halves of write_atomically, for whoever has something to do between them: the constructor writes
+/// beside the target and flushes, commit() renames. Without commit() nothing is left. Both throw IoError.
+class AtomicFile {
+public:
+  AtomicFile(std::filesystem::path target, std::string_view content);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void commit();
+
+private:
+  void discard();
+  std::filesystem::path target_, temporary_;
+  bool committed_ = false;
+};
+
+/// Waits until what was appended to a file is on the disk. Throws IoError.
+void flush_file(const std::filesystem::path& path);
+
+/// The whole file. Throws IoError.
+std::string read_file(const std::filesystem::path& path);
+
+/// Whether `folder` holds files of a run.
+bool holds_run(const std::filesystem::path& folder);
+
+/// Removes the files that a run makes, and no others, but for the resolved case and checkpoints that were set
+/// aside. Throws IoError.
+void clear_results(const std::filesystem::path& folder);
+
+/// Removes what a killed run left half-written.
+void clear_leftovers(const std::filesystem::path& folder);
+
+/// Makes `folder` ready for a new run: creates it with its parents and checks that files can be written.
+/// Throws InputError when it holds a run and `force` is false; with `force` the files that a run makes are
+/// removed, and no others. Throws IoError when it cannot be created or written.
+void prepare_output_folder(const std::filesystem::path& folder, bool force);
+
+} // namespace cnem::results

@@ -1,0 +1,98 @@
+#pragma once
+// What a run leaves behind: rows of history, fields, pictures.
+#include "input/case.hpp"
+#include "mechanics/explicit_solver.hpp"
+#include "results/history_writer.hpp"
+#include "results/snapshot.hpp"
+#include "results/vtk_writer.hpp"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cnem::results {
+
+/// A material point as a weighted mean of nodes: natural-neighbour weights of its initial position.
+struct ProbeWeights {
+  std::string name;
+  std::vector<std::string> fields;
+  std::vector<std::int32_t> node;
+  std::vector<double> weight;
+};
+
+/// Units in the headers of histories: per metre of thickness, or of the whole body of revolution.
+struct HistoryUnits {
+  std::string force = "[N/m]", energy = "[J/m]", mass = "[kg/m]";
+};
+HistoryUnits history_units(const input::Case& input);
+
+/// Names and values of history.csv.
+class HistoryRecorder {
+public:
+  /// Throws InputError for probes outside the domain.
+  HistoryRecorder(const input::Case& input, const ExplicitSolver<2>& solver,
+                  const std::filesystem::path& folder);
+
+  void record(const ExplicitSolver<2>& solver);
+  /// Probes stay where they are in the matter of a changed cloud.
+  void resample(const Resampling<2>& change, const ExplicitSolver<2>& solver);
+
+  /// What a checkpoint keeps of it.
+  void archive(Archive& archive);
+  /// Goes on with the history that is there: rows later than the checkpoint are dropped. Throws IoError when
+  /// earlier ones are missing.
+  void resume(const ExplicitSolver<2>& solver);
+
+  /// Largest |residual| seen over energy_scale().
+  double energy_residual() const;
+  double last_residual() const { return last_residual_; } ///< J/m, J of revolution
+  /// Kinetic energy over that of deformation, both averaged over the run so far; 0 while nothing deforms.
+  double kinetic_share() const { return deformation_ > 0.0 ? kinetic_ / deformation_ : 0.0; }
+  /// Why the inertia of a scaled run is not small; empty when it is, or nothing is scaled.
+  std::string kinetic_warning(const input::Case& input) const;
+  /// What residuals are compared with, J/m, J of revolution: the largest (external work + initial energy)
+  /// seen. Where nothing has done work: what expands takes its energy from heat, and a body at rest has the
+  /// rounding of its forces, no more than if it moved at 1e-7 m/s.
+  EnergyScale energy_scale() const;
+  /// Named results for status.json.
+  std::vector<std::pair<std::string, double>> metrics() const { return metrics_; }
+
+private:
+  std::vector<std::pair<std::string, double>> row(const ExplicitSolver<2>& solver) const;
+  void keep_metric(const std::string& name, double value, bool largest);
+
+  HistoryUnits units_;
+  std::vector<ProbeWeights> probes_;
+  std::vector<HistoryWriter> writer_; ///< one; made with the first row, when the columns are known
+  std::filesystem::path folder_;
+  double initial_area_ = 0.0, initial_mass_ = 0.0;
+  std::int64_t rows_ = 0;
+  double worst_residual_ = 0.0, last_residual_ = 0.0, scale_ = 0.0;
+  double heat_ = 0.0;      ///< J/m, largest heat taken up or given off by a body that expands
+  double last_time_ = 0.0; ///< s, of the last row
+  double kinetic_ = 0.0, deformation_ = 0.0; ///< J s/m, their time integrals
+  std::vector<std::pair<std::string, double>> metrics_;
+};
+
+/// Writes lines/NAME.csv for every line of the case: distance and initial position, then the fields, from
+/// natural-neighbour interpolation of nodal values.
+void write_lines(const input::Case& input, const Snapshot& shot, const std::filesystem::path& folder);
+
+/// Writes fields.pvd frames with every field of the catalogue, through a queue that must outlive the frames.
+class FieldRecorder {
+public:
+  /// origin: from which positions are counted, m.
+  FieldRecorder(const std::filesystem::path& folder, const Vec2& origin) : writer_(folder), origin_(origin) {}
+  /// Goes on with the series that is there: frames later than `time` (s) are dropped. Throws IoError.
+  FieldRecorder(const std::filesystem::path& folder, const Vec2& origin, double time)
+      : writer_(FieldWriter::resume(folder, time)), origin_(origin) {}
+  void record(FileQueue& files, const Snapshot& shot);
+  int frames() const { return writer_.frames(); }
+
+private:
+  FieldWriter writer_;
+  Vec2 origin_;
+};
+
+} // namespace cnem::results

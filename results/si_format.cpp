@@ -1,0 +1,114 @@
+#include "results/si_format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cnem::results {
+namespace {
+
+struct Prefix {
+  int exponent;
+  const char* symbol;
+};
+constexpr std::array<Prefix, 9> prefixes{
+    {{-12, "p"}, {-9, "n"}, {-6, "µ"}, {-3, "m"}, {0, ""}, {3, "k"}, {6, "M"}, {9, "G"}, {12, "T"}}};
+
+bool takes_prefix(std::string_view unit) {
+  for (const char* base : {"m", "s", "N", "J", "W", "Pa", "N/m", "J/m", "W/m", "m/s", "Hz", "J/m^3"})
+    if (unit == base) return true;
+  return false;
+}
+
+} // namespace
+
+DisplayUnit display_unit(double magnitude, std::string_view unit) {
+  const std::string base(unit);
+  const double size = std::abs(magnitude);
+  if (!takes_prefix(unit) || !(size > 0.0) || !std::isfinite(size)) return {1.0, base};
+  // Slightly generous, so that 0.99999 of a unit does not fall to the prefix below.
+  const int exponent = 3 * static_cast<int>(std::floor(std::log10(size * (1.0 + 1e-6)) / 3.0));
+  const int clamped = std::clamp(exponent, prefixes.front().exponent, prefixes.back().exponent);
+  for (const Prefix& prefix : prefixes)
+    if (prefix.exponent == clamped) return {std::pow(10.0, prefix.exponent), prefix.symbol + base};
+  return {1.0, base};
+}
+
+std::string number_format(double value, int digits) {
+  if (std::isnan(value)) return "not a number";
+  if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+  std::string text = fmt::format("{:.{}g}", value, digits);
+  const std::size_t e = text.find('e');
+  if (e != std::string::npos) {
+    const int exponent = std::stoi(text.substr(e + 1));
+    std::string power = std::to_string(exponent);
+    for (const auto& [digit, raised] : std::array<std::pair<char, const char*>, 11>{{{'-', "⁻"},
+                                                                                     {'0', "⁰"},
+                                                                                     {'1', "¹"},
+                                                                                     {'2', "²"},
+                                                                                     {'3', "³"},
+                                                                                     {'4', "⁴"},
+                                                                                     {'5', "⁵"},
+                                                                                     {'6', "⁶"},
+                                                                                     {'7', "⁷"},
+                                                                                     {'8', "⁸"},
+                                                                                     {'9', "⁹"}}})
+      for (std::size_t at = power.find(digit); at != std::string::npos; at = power.find(digit))
+        power.replace(at, 1, raised);
+    const std::string mantissa = text.substr(0, e);
+    text = mantissa == "1" ? "10" + power : mantissa == "-1" ? "-10" + power : mantissa + "·10" + power;
+  }
+  if (text.front() == '-') text.replace(0, 1, "−");
+  return text;
+}
+
+std::string si_format(double value, std::string_view unit, int digits) {
+  const DisplayUnit display = display_unit(value, unit);
+  const std::string number = number_format(value / display.factor, digits);
+  return display.unit.empty() ? number : number + " " + display.unit;
+}
+
+std::string duration_format(double seconds) {
+  if (!std::isfinite(seconds)) return "unknown";
+  seconds = std::max(seconds, 0.0);
+  if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string bytes_format(double bytes) {
+  constexpr std::array<const char*, 5> units{"B", "KiB", "MiB", "GiB", "TiB"};
+  std::size_t k = 0;
+  while (bytes >= 1024.0 && k + 1 < units.size()) {
+    bytes /= 1024.0;
+    ++k;
+  }
+  return number_format(bytes, bytes >= 100.0 ? 4 : 3) + " " + units[k];
+}
+
+Ticks round_ticks(double low, double high, int count) {
+  Ticks ticks;
+  if (!(low < high) || !std::isfinite(low) || !std::isfinite(high) || count < 1) return ticks;
+  const double raw = (high - low) / count;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double mantissa = raw / power;
+  const double step = power * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
+  const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
+  const double largest = std::max(std::abs(low), std::abs(high));
+  const bool scientific = largest >= 1e6 || step < 1e-5;
+  const double slack = 1e-9 * step;
+  for (double n = std::ceil((low - slack) / step); n * step <= high + slack; n += 1.0) {
+    const double value = n == 0.0 ? 0.0 : n * step;
+    ticks.value.push_back(value);
+    std::string label = scientific ? number_format(value, 6) : fmt::format("{:.{}f}", value, decimals);
+    if (label.front() == '-') label.replace(0, 1, "−");
+    ticks.label.push_back(std::move(label));
+  }
+  return ticks;
+}
+
+} // namespace cnem::results

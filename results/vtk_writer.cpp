@@ -1,0 +1,229 @@
+#include "results/vtk_writer.hpp"
+
+#include "core/error.hpp"
+#include "results/output_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <SMP/Common/vtkSMPToolsAPI.h> // vtkSMPTools.h of VTK 9.1 is no C++20
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+#include <vtkXMLUtilities.h>
+
+#include <mutex>
+#include <string>
+#include <system_error>
+#include <tuple>
+
+namespace cnem::results {
+namespace fs = std::filesystem;
+namespace {
+
+void add_time(vtkUnstructuredGrid& grid, double time) {
+  vtkNew<vtkDoubleArray> value;
+  value->SetName("TimeValue"); // the name ParaView looks for
+  value->InsertNextValue(time);
+  grid.GetFieldData()->AddArray(value);
+}
+
+void check_lengths(const std::vector<ScalarField>& scalars, const std::vector<VectorField>& vectors,
+                   std::size_t expected) {
+  const auto check = [&](const std::string& name, std::size_t length) {
+    if (length != expected)
+      throw InputError(fmt::format("output field \"{}\" has {} values, expected {}", name, length, expected));
+  };
+  for (const ScalarField& field : scalars) check(field.name, field.values.size());
+  for (const VectorField& field : vectors)
+    for (const std::span<const double>& component : field.component)
+      if (!component.empty()) check(field.name, component.size());
+}
+
+std::size_t cell_count(const FieldFrame& frame) {
+  return frame.cells->begin.empty() ? 0 : frame.cells->begin.size() - 1;
+}
+
+std::size_t bytes_of(const FieldFrame& frame) {
+  const std::size_t nodes = frame.position[0].size(), cells = cell_count(frame);
+  const CellGeometry<2>& geometry = *frame.cells;
+  return sizeof(double) * (nodes * (2 + frame.node_scalars.size() + 3 * frame.node_vectors.size()) +
+                           cells * (frame.cell_scalars.size() + 3 * frame.cell_vectors.size()) +
+                           2 * geometry.vertex.size() + 2 * geometry.vertex_weight.size());
+}
+
+void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField>& scalars,
+                const std::vector<VectorField>& vectors) {
+  for (const ScalarField& field : scalars) {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(field.name.c_str());
+    array->SetArray(const_cast<double*>(field.values.data()), count,
+                    1); // 1: VTK reads it, and does not own it
+    to.AddArray(array);
+  }
+  for (const VectorField& field : vectors) {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(field.name.c_str());
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(count);
+    array->Fill(0.0);
+    for (int k = 0; k < 3; ++k) {
+      const std::span<const double> component = field.component[static_cast<std::size_t>(k)];
+      if (component.empty()) continue;
+      for (vtkIdType i = 0; i < count; ++i)
+        array->SetTypedComponent(i, k, component[static_cast<std::size_t>(i)]);
+    }
+    to.AddArray(array);
+  }
+}
+
+// The grid as the text of a .vtu file.
+std::string text_of(vtkUnstructuredGrid& grid) {
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputData(&grid);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToLZ4(); // much faster than zlib, for files a fifth larger
+  writer->SetHeaderTypeToUInt64();
+  writer->WriteToOutputStringOn(); // the file itself is written where a full disk is noticed
+  if (writer->Write() == 0) throw IoError("VTK cannot write a grid of fields");
+  return writer->GetOutputString();
+}
+
+std::string cells_text(const FieldFrame& frame) {
+  const CellGeometry<2>& cells = *frame.cells;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const std::vector<Vec2> vertices = moved_vertices(cells, frame.position);
+  points->SetNumberOfPoints(static_cast<vtkIdType>(vertices.size()));
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    points->SetPoint(static_cast<vtkIdType>(v), frame.origin.x() + vertices[v].x(),
+                     frame.origin.y() + vertices[v].y(), 0.0);
+
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  const auto count = static_cast<vtkIdType>(cell_count(frame));
+  grid->AllocateEstimate(count, 7);
+  std::vector<vtkIdType> polygon;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
+    polygon.assign(cells.index.begin() + cells.begin[c], cells.index.begin() + cells.begin[c + 1]);
+    grid->InsertNextCell(VTK_POLYGON, static_cast<vtkIdType>(polygon.size()), polygon.data());
+  }
+  add_fields(*grid->GetCellData(), count, frame.cell_scalars, frame.cell_vectors);
+  add_time(*grid, frame.time);
+  return text_of(*grid);
+}
+
+std::string nodes_text(const FieldFrame& frame) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const auto count = static_cast<vtkIdType>(frame.position[0].size());
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  grid->AllocateEstimate(count, 1);
+  for (vtkIdType i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    points->SetPoint(i, frame.origin.x() + frame.position[0][at], frame.origin.y() + frame.position[1][at],
+                     0.0);
+    grid->InsertNextCell(VTK_VERTEX, 1, &i);
+  }
+  add_fields(*grid->GetPointData(), count, frame.node_scalars, frame.node_vectors);
+  add_time(*grid, frame.time);
+  return text_of(*grid);
+}
+
+// Makers run side by side; what VTK sets up once per process does not.
+void set_up_vtk() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend(
+        "Sequential"); // no threads of its own beside those of a run
+    vtkNew<vtkUnstructuredGrid> grid;
+    text_of(*grid);
+  });
+}
+
+} // namespace
+
+std::vector<Vec2> moved_vertices(const CellGeometry<2>& cells,
+                                 const std::array<std::span<const double>, 2>& position) {
+  std::vector<Vec2> moved(cells.vertex.size(), Vec2::Zero());
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    for (auto k = static_cast<std::size_t>(cells.vertex_begin[v]);
+         k < static_cast<std::size_t>(cells.vertex_begin[v + 1]); ++k) {
+      const auto node = static_cast<std::size_t>(cells.vertex_node[k]);
+      moved[v] += cells.vertex_weight[k] * Vec2(position[0][node], position[1][node]);
+    }
+  return moved;
+}
+
+FieldWriter::FieldWriter(fs::path folder) : folder_(std::move(folder)) {
+  std::error_code error;
+  fs::create_directories(folder_ / files::fields_folder, error);
+  if (error)
+    throw IoError(
+        fmt::format("cannot create {}: {}", (folder_ / files::fields_folder).string(), error.message()));
+  write_atomically(folder_ / files::fields, collection());
+}
+
+FieldWriter FieldWriter::resume(fs::path folder, double time) {
+  const fs::path path = folder / files::fields;
+  const std::string text = read_file(path);
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str()));
+  vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  if (!collection) throw IoError(fmt::format("{} is not a collection of VTK files", path.string()));
+  FieldWriter writer;
+  writer.folder_ = std::move(folder);
+  const auto attribute = [&](int element, const char* name) -> std::string {
+    const char* value = collection->GetNestedElement(element)->GetAttribute(name);
+    if (!value) throw IoError(fmt::format("{}: a DataSet without \"{}\"", path.string(), name));
+    return value;
+  };
+  for (int k = 0; k + 1 < collection->GetNumberOfNestedElements(); k += 2) {
+    Entry entry{std::stod(attribute(k, "timestep")), attribute(k, "file"), attribute(k + 1, "file")};
+    if (entry.time <= time)
+      writer.entries_.push_back(std::move(entry));
+    else
+      for (const std::string& file : {entry.cells, entry.nodes}) fs::remove(writer.folder_ / file);
+  }
+  write_atomically(writer.folder_ / files::fields, writer.collection());
+  return writer;
+}
+
+void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame> frame) {
+  check_lengths(frame->cell_scalars, frame->cell_vectors, cell_count(*frame));
+  check_lengths(frame->node_scalars, frame->node_vectors, frame->position[0].size());
+  set_up_vtk();
+  const auto name = [&](const char* part) {
+    return fmt::format("{}/{}_{:05}.vtu", files::fields_folder, part, entries_.size());
+  };
+  Entry entry{frame->time, name("cells"), name("nodes")};
+  const std::size_t bytes = bytes_of(*frame) / 2; // kept by both
+  queue.put(
+      folder_ / entry.cells, [frame] { return cells_text(*frame); }, bytes);
+  queue.put(
+      folder_ / entry.nodes, [frame = std::move(frame)] { return nodes_text(*frame); }, bytes);
+  entries_.push_back(std::move(entry));
+  queue.put(folder_ / files::fields, collection());
+}
+
+std::string FieldWriter::collection() const {
+  std::string xml = "<?xml version=\"1.0\"?>\n"
+                    "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+                    "  <Collection>\n";
+  for (const Entry& entry : entries_)
+    for (const auto& [part, name, file] :
+         {std::tuple(0, "cells", &entry.cells), std::tuple(1, "nodes", &entry.nodes)})
+      xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+                         entry.time, part, name, *file);
+  return xml + "  </Collection>\n</VTKFile>\n";
+}
+
+} // namespace cnem::results
