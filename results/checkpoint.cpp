@@ -1,6 +1,7 @@
 #include "results/checkpoint.hpp"
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 
 #include <fmt/format.h>
 
@@ -94,8 +95,11 @@ void check(herr_t result, const std::string& what) {
   if (result < 0) fail(fmt::format("HDF5 failed at {}", what));
 }
 
-/// Properties of a file that lives in memory alone.
+/// Properties of a file that lives in memory alone. HDF5 itself does not outlive a lack of memory for the
+/// caches that it makes with each file.
 hid_t in_memory() {
+  constexpr std::size_t caches = std::size_t{6} << 20;
+  try_memory(caches);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are ours to tell
   const hid_t properties = H5Pcreate(H5P_FILE_ACCESS);
   check(H5Pset_fapl_core(properties, std::size_t{1} << 20, false), "its memory");

@@ -1,6 +1,7 @@
 #include "results/file_queue.hpp"
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,16 +17,8 @@ namespace cnem::results {
 // A step on all cores waits for its slowest thread: where cores are scarce, files can wait instead.
 constexpr int lower_priority = 10;
 
-namespace {
-
-/// Libraries that make fields, pictures and their letters do not outlive a lack of memory; so whether there
-/// is enough is tried before, and is std::bad_alloc where there is not.
-void try_memory(std::size_t bytes) {
-  constexpr std::size_t copies = 4, least = std::size_t{16} << 20; // their work; fonts, an image
-  ::operator delete(::operator new(copies* bytes + least));
-}
-
-} // namespace
+// What the makers of fields, pictures and their letters take beside a copy of the content: fonts, an image.
+constexpr std::size_t work_copies = 4, work_memory = std::size_t{16} << 20;
 
 FileQueue::~FileQueue() {
   {
@@ -114,7 +107,7 @@ bool FileQueue::make_one(Lock& lock) {
   lock.unlock();
   std::exception_ptr failure;
   try {
-    try_memory(job->bytes);
+    try_memory(work_copies * job->bytes + work_memory);
     job->file.content = job->maker();
   } catch (...) { failure = std::current_exception(); }
   job->maker = nullptr; // and what it holds
