@@ -86,8 +86,7 @@ bool Simulation::go_back(const DivergenceError& error) {
   std::vector<std::string> told;
   solver_ = make_solver(input_, told); // a restart begins with the same one
   int frames = 0;
-  retries_.go_back(failed, input_.placed(error.what()),
-                   [&](Archive& archive) { frames = archive_course(archive, 0); });
+  retries_.go_back(failed, error.what(), [&](Archive& archive) { frames = archive_course(archive, 0); });
   progress_.message(fmt::format("{}\nback to {}: the reference is renewed at {:g} of the strain from there",
                                 input_.placed(error.what()), step_and_time(solver_.state()),
                                 retries_.strain_share()));
