@@ -244,12 +244,13 @@ void Simulation::adapt_and_step() {
 }
 
 bool Simulation::new_reference() {
-  return renewal_.renew(solver_, retries_.strain_share(), [&] {
+  const auto prepare = [&] {
     if (adaptation_.active())
       adaptation_.renew(solver_, [&](const Resampling<2>& change) { history_.resample(change, solver_); });
     else
       solver_.prepare();
-  });
+  };
+  return renewal_.renew(solver_, prepare, retries_.strain_share());
 }
 
 void Simulation::look_at_step() {

@@ -122,8 +122,8 @@ bool ReferenceRenewal::due(const ExplicitSolver<2>& solver, double share) const 
          solver.strain_since_reference() > share * method_->rereference_strain;
 }
 
-bool ReferenceRenewal::renew(const ExplicitSolver<2>& solver, double share,
-                             const std::function<void()>& prepare) {
+bool ReferenceRenewal::renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare,
+                             double share) {
   last_ = solver.state().step;
   try {
     prepare();
