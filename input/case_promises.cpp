@@ -37,7 +37,7 @@ constexpr std::array needs{
          [](const Case& c) { return c.method.pressure_exchange > 0.0; },
          "an exchange of volume between nodes", "the volume of a node is that of its own stress point", "0"},
     Need{Promise::one_point_per_node, "time.step.local",
-         [](const Case& c) { return dynamic(c) && c.time.local; }, "local steps",
+         [](const Case& c) { return dynamic(c) && c.time.local.on; }, "local steps",
          "a point steps with its node", "false"},
     Need{Promise::one_point_per_node, "adapt.resample", [](const Case& c) { return c.adapt.resample; },
          "resampling", "history goes with the nodes that stay", "false"},
