@@ -17,6 +17,7 @@ struct Gap {
   std::array<std::int32_t, 2> node;     ///< between these; −1, −1: at a Voronoi vertex
   std::array<std::int32_t, 2> triangle; ///< that the new node lies in or between
   Vec2 x;
+  bool of_film = false; ///< an edge so long that the nodes of the other face are no hindrance
 };
 
 /// The triangles that a new node at x does away with, and their nodes.
@@ -44,7 +45,8 @@ public:
         const std::int32_t i = structure_.mesh.node[u(t)][k];
         const double h = work_.node().size[u(i)];
         const Vec2& x = work_.cloud().position[u(i)];
-        if ((x - gap.x).norm() < limit.clear_node * h) return false;
+        const bool across = gap.of_film && work_.on_boundary(i); // a film is as thin as it is
+        if (!across && (x - gap.x).norm() < limit.clear_node * h) return false;
         if (on_boundary || structure_.mesh.facet[u(t)][k] < 0) continue;
         const Vec2 &a = work_.cloud().position[u(structure_.mesh.node[u(t)][(k + 1) % 3])],
                    &b = work_.cloud().position[u(structure_.mesh.node[u(t)][(k + 2) % 3])];
@@ -94,7 +96,11 @@ private:
         if (squared <= limit * limit) continue;
         // boundary edges first
         const double length = std::sqrt(squared) / limit;
-        gaps_.push_back({across < 0 ? 1e3 * length : length, {a, b}, {t, across}, 0.5 * (at(a) + at(b))});
+        gaps_.push_back({across < 0 ? 1e3 * length : length,
+                         {a, b},
+                         {t, across},
+                         0.5 * (at(a) + at(b)),
+                         across < 0 && length * limit_.split_edge > limit_.film_edge});
       }
   }
 
@@ -121,7 +127,8 @@ private:
   std::vector<Gap> gaps_;
 };
 
-/// What the old cells lost goes to the new cells at them.
+} // namespace
+
 std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
                            const std::vector<char>& made) {
   std::vector<Contribution> list = contributions(cloud, after.cells, made);
@@ -136,8 +143,6 @@ std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const
   }
   return parcels;
 }
-
-} // namespace
 
 bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, Placement placement,
           PassReport& report) {

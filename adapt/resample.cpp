@@ -13,7 +13,7 @@ std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 PassReport& PassReport::operator+=(const PassReport& other) {
   for (int PassReport::*count :
-       {&PassReport::cuts, &PassReport::opened, &PassReport::folded, &PassReport::outside,
+       {&PassReport::cuts, &PassReport::opened, &PassReport::films, &PassReport::folded, &PassReport::outside,
         &PassReport::removed, &PassReport::removed_boundary, &PassReport::promoted, &PassReport::inserted,
         &PassReport::inserted_boundary, &PassReport::balanced, &PassReport::undone})
     this->*count += other.*count;
@@ -69,7 +69,10 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
     drop_outside(work, report);
     structure = build_structure(work.cloud());
   }
-  if (!work.node().broken.empty()) split(work, *structure, rules.split, report);
+  if (!work.node().broken.empty()) {
+    split(work, *structure, rules.split, report);
+    cut_films(work, *structure, rules.split, report);
+  }
   const Thresholds& thresholds = rules.thresholds;
   for (int round = 0; round < thresholds.rounds; ++round)
     if (!thin(work, *structure, thresholds, report)) break;

@@ -23,6 +23,7 @@ struct Thresholds {
   double sliver = 0.05;   ///< (in h²) the least cell at the boundary
   double gives_way = 0.05;  ///< as far what touches the boundary moves where it is straightened
   double split_edge = 1.5;  ///< longer boundary edges are split
+  double film_edge = 2.0;   ///< still longer ones also where the other face of a film is near
   double long_edge = 1.6;   ///< longer Delaunay edges get a node
   double clear_node = 0.55; ///< least distance of a new node from others
   double clear_edge = 0.5;  ///< and from the boundary, unless it is on it
@@ -42,6 +43,7 @@ struct SplitRules {
   double least_angle = 30.0; ///< degrees between a cut and the boundary at its ends
   int least_loop = 8;        ///< least boundary nodes of a part, besides those of the cut
   double smoothed = 0.3;     ///< how far nodes may be moved to straighten a cut
+  double film = 0.15;        ///< broken matter thinner than this between two faces is cut at its waist
 };
 
 struct ResampleRules {
@@ -54,6 +56,7 @@ struct ResampleRules {
 struct PassReport {
   int cuts = 0;    ///< paths through broken matter that were opened
   int opened = 0;  ///< edges of these
+  int films = 0;   ///< cuts among them at the waists of films
   int folded = 0;  ///< boundary nodes at which the boundary turned back on itself or crossed
   int outside = 0; ///< interior nodes found outside the boundary
   int removed = 0, removed_boundary = 0;
@@ -88,6 +91,9 @@ void drop_outside(WorkingCloud& work, PassReport& report);
 /// through the most broken matter. Nodes are doubled, nothing is deleted; the matter of a doubled node is
 /// shared out by the volumes of its two cells. Matter that is broken but does not part the body stays whole.
 void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
+/// Cuts films of broken matter, between two parts of the boundary that no interior node keeps apart, at their
+/// waists. Matter is shared out as by split().
+void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// One round; false when there was nothing to do, or it was undone because the cloud would have had no valid
 /// structure.
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report);
@@ -95,6 +101,11 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
           PassReport& report);
 void balance(WorkingCloud& work, const Structure& structure, const Thresholds& thresholds,
              PassReport& report);
+
+/// Parcels for nodes that were `made` without matter: what the cells beside them lost in volume since
+/// `before` goes to the new cells at them.
+std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
+                           const std::vector<char>& made);
 
 /// r_i = ρ₀ V_i/(m_i J_i) of one node.
 double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node);

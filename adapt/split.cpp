@@ -1,4 +1,5 @@
 // Separation: where broken matter goes through the body, the cloud is opened along Delaunay edges.
+#include "adapt/cut.hpp"
 #include "adapt/resample.hpp"
 
 #include <algorithm>
@@ -22,10 +23,9 @@ using Path = std::vector<std::int32_t>;
 class Cutting {
 public:
   Cutting(const WorkingCloud& work, const Structure& structure, const SplitRules& rules)
-      : work_(work), structure_(structure), broken_(work.node().broken), rules_(rules),
+      : work_(work), structure_(structure), broken_(work.node().broken), rules_(rules), loops_(work),
         steepest_(std::cos(rules.least_angle * std::numbers::pi / 180.0)) {
     number_chains();
-    measure_loops();
   }
 
   /// The cut of least cost, the integral of 1/broken along it. Empty when there is none.
@@ -65,36 +65,6 @@ private:
     longest_ = static_cast<std::int32_t>(std::max_element(length.begin(), length.end()) - length.begin());
   }
 
-  /// Where each boundary node is along its loop.
-  void measure_loops() {
-    loop_.assign(work_.size(), -1);
-    along_.assign(work_.size(), 0.0);
-    order_.assign(work_.size(), 0);
-    for (std::int32_t i = 0; i < count(); ++i) {
-      if (!work_.on_boundary(i) || loop_[u(i)] >= 0) continue;
-      double length = 0.0;
-      int nodes = 0;
-      for (std::int32_t k = i; loop_[u(k)] < 0; k = work_.next(k)) {
-        loop_[u(k)] = static_cast<std::int32_t>(length_.size());
-        along_[u(k)] = length;
-        order_[u(k)] = nodes++;
-        length += (at(work_.next(k)) - at(k)).norm();
-      }
-      length_.push_back(length);
-      nodes_.push_back(nodes);
-    }
-  }
-
-  /// Whether what comes off is a part and no crumb or skin; between two loops nothing comes off.
-  bool parts(std::int32_t from, std::int32_t to, double length) const {
-    if (loop_[u(from)] != loop_[u(to)]) return true;
-    const auto loop = u(loop_[u(from)]);
-    const double one = std::abs(along_[u(from)] - along_[u(to)]);
-    const int some = std::abs(order_[u(from)] - order_[u(to)]);
-    return std::min(one, length_[loop] - one) >= rules_.part * length &&
-           std::min(some, nodes_[loop] - some) > rules_.least_loop;
-  }
-
   /// The edge leaves a boundary node nearly along one of its facets.
   bool shaves(std::int32_t from, std::int32_t to) const {
     const Vec2 along = at(to) - at(from);
@@ -126,7 +96,7 @@ private:
       if (known > cost[u(i)]) continue;
       if (known >= limit) break;
       if (i != from && work_.on_boundary(i)) {
-        if (!parts(from, i, length[u(i)])) continue;
+        if (!loops_.parts(from, i, rules_.part * length[u(i)], rules_.least_loop)) continue;
         Path path;
         for (std::int32_t k = i; k >= 0; k = came[u(k)]) path.push_back(k);
         std::reverse(path.begin(), path.end());
@@ -153,48 +123,11 @@ private:
   const Structure& structure_;
   const Field& broken_;
   const SplitRules& rules_;
+  BoundaryLoops loops_;
   double steepest_;
   std::vector<std::int32_t> chain_; ///< [node] −1: none
   std::int32_t longest_ = -1;
-  std::vector<std::int32_t> loop_; ///< [node] −1: inside
-  Field along_;                    ///< [node] m
-  std::vector<int> order_;         ///< [node] number along its loop
-  Field length_;                   ///< [loop] m
-  std::vector<int> nodes_;         ///< [loop]
 };
-
-/// Moves the inner nodes of a cut towards a smooth line, so that its two faces do not interlock.
-void straighten(WorkingCloud& work, const Path& path, double most) {
-  constexpr int sweeps = 10;
-  std::vector<Vec2> place;
-  for (const std::int32_t i : path) place.push_back(work.cloud().position[u(i)]);
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (std::size_t k = 1; k + 1 < path.size(); ++k) {
-      const Vec2& start = work.cloud().position[u(path[k])];
-      const Vec2 moved = 0.5 * place[k] + 0.25 * (place[k - 1] + place[k + 1]) - start;
-      const double limit = most * work.node().size[u(path[k])];
-      place[k] = start + moved * std::min(1.0, limit / std::max(moved.norm(), 1e-300));
-    }
-  for (std::size_t k = 1; k + 1 < path.size(); ++k) work.place(path[k], place[k]);
-}
-
-bool open(WorkingCloud& work, Structure& structure, const Path& path, const SplitRules& rules,
-          double smoothed) {
-  WorkingCloud opened = work;
-  straighten(opened, path, smoothed);
-  const double gap = rules.gap * work.size_between(path.front(), path.back());
-  const std::vector<std::array<std::int32_t, 2>> doubled = opened.open(path, rules.piece, gap);
-  opened.refresh_facets();
-  std::optional<Structure> after = structure_if_valid(opened.cloud());
-  if (!after) return false;
-  for (const auto& [old, made] : doubled) {
-    const double mine = after->cells.volume[u(old)], other = after->cells.volume[u(made)];
-    opened.move_now(old, made, other / (mine + other));
-  }
-  work = std::move(opened);
-  structure = std::move(*after);
-  return true;
-}
 
 } // namespace
 
@@ -203,7 +136,8 @@ void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, Pa
   for (int k = 0; k < most; ++k) {
     const Path path = Cutting(work, structure, rules).best();
     if (path.empty()) return;
-    if (!open(work, structure, path, rules, rules.smoothed) && !open(work, structure, path, rules, 0.0)) {
+    if (!open_cut(work, structure, path, rules, rules.smoothed) &&
+        !open_cut(work, structure, path, rules, 0.0)) {
       ++report.undone;
       return;
     }

@@ -97,9 +97,9 @@ std::int32_t WorkingCloud::append(const Vec2& x,
   return made;
 }
 
-std::int32_t WorkingCloud::insert_between(std::int32_t a, std::int32_t b, bool on_boundary) {
-  const Vec2 x = 0.5 * (cloud_.position[index(a)] + cloud_.position[index(b)]);
-  const std::int32_t made = append(x, {{a, 0.5}, {b, 0.5}});
+std::int32_t WorkingCloud::insert_between(std::int32_t a, std::int32_t b, bool on_boundary, double place) {
+  const Vec2 x = (1.0 - place) * cloud_.position[index(a)] + place * cloud_.position[index(b)];
+  const std::int32_t made = append(x, {{a, 1.0 - place}, {b, place}});
   if (on_boundary) {
     next_[index(a)] = made;
     next_[index(made)] = b;

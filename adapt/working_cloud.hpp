@@ -51,9 +51,9 @@ public:
     return 0.5 * (node_.size[index(a)] + node_.size[index(b)]);
   }
 
-  /// Adds a node without matter half-way between two others, or on the facet a → b of the boundary. Returns
-  /// its number.
-  std::int32_t insert_between(std::int32_t a, std::int32_t b, bool on_boundary);
+  /// Adds a node without matter between two others, or on the facet a → b of the boundary: half-way, or at
+  /// `place`, 0 at a and 1 at b. Returns its number.
+  std::int32_t insert_between(std::int32_t a, std::int32_t b, bool on_boundary, double place = 0.5);
   /// Adds an interior node without matter at x, the mean of a triangle's nodes with these weights.
   std::int32_t insert_at(const Vec2& x, const std::array<std::int32_t, 3>& corner,
                          const std::array<double, 3>& weight);

@@ -160,7 +160,7 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
       adapt::limit_growth(cloud, *structure, input_->adapt.growth, wanted);
     }
     adapt::ResampleRules rules;
-    rules.placement = static_cast<adapt::Placement>(input_->adapt.placement);
+    rules.placement = input_->adapt.placement;
     if (input_->adapt.separate) rules.split.piece = fracture_piece(cloud);
     const Resampling<2> change =
         adapt::resample(cloud, std::move(structure), properties(solver, wanted), rules, report);
@@ -218,6 +218,7 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
            {"adapt.passes", static_cast<double>(passes_)},
            {"adapt.cuts", total_.cuts},
            {"adapt.opened", total_.opened},
+           {"adapt.films", total_.films},
            {"adapt.folded", total_.folded},
            {"adapt.outside", total_.outside},
            {"adapt.removed", total_.removed},
@@ -258,6 +259,7 @@ void Adaptation::archive(Archive& archive) {
   log_.archive(archive);
   for (auto& [name, count] : {std::pair{"cuts", &total_.cuts},
                               {"opened", &total_.opened},
+                              {"films", &total_.films},
                               {"folded", &total_.folded},
                               {"outside", &total_.outside},
                               {"removed", &total_.removed},

@@ -43,7 +43,8 @@ void blame_settings(const input::Case& input, const std::string& field, std::vec
     causes.push_back(fmt::format("time.step.safety = {:.3g} leaves no room between two looks at the stable "
                                  "step: take 0.9 or less.",
                                  input.time.safety));
-  if (input.method.name == input::Method::Name::cnem && input.method.stabilisation == 0.0)
+  if (methods::entry(input.method.name).promises.keep(Promise::one_point_per_node) &&
+      input.method.stabilisation == 0.0)
     causes.push_back(
         "method.stabilisation = 0 leaves the zigzag modes of nodal integration free: take 0.05.");
   if (field == "tool velocity")

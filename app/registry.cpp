@@ -2,9 +2,8 @@
 
 #include "app/bodies.hpp"
 #include "clouds/generate.hpp"
-#include "cnem/scni.hpp"
 #include "contact/curve_shape.hpp"
-#include "methods/fe_triangle.hpp"
+#include "methods/registry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,101 +17,9 @@ clouds::DomainShape domain_shape(const input::Domain& domain) {
   clouds::DomainShape shape;
   shape.outer = domain.outer;
   for (const input::Hole& hole : domain.holes) shape.holes.push_back(hole.outline);
-  for (const input::Crack& crack : domain.cracks) shape.cracks.push_back({crack.name, crack.points});
-  for (const input::Interface& face : domain.interfaces) shape.cracks.push_back({face.name, face.points});
+  shape.cracks.insert(shape.cracks.end(), domain.cracks.begin(), domain.cracks.end());
+  shape.cracks.insert(shape.cracks.end(), domain.interfaces.begin(), domain.interfaces.end());
   return shape;
-}
-
-clouds::SpacingField spacing_field(const input::CloudSpec& spec) {
-  clouds::SpacingField field;
-  field.spacing = spec.spacing;
-  for (const input::Refinement& refine : spec.refine) {
-    clouds::Refinement region;
-    region.spacing = refine.spacing;
-    region.growth = refine.growth;
-    for (const Vec2& tip : refine.tips) {
-      region.points = {tip};
-      field.refinements.push_back(region);
-    }
-    if (!refine.tips.empty()) continue;
-    if (refine.box) {
-      region.region = clouds::Refinement::Region::box;
-      region.points = {(*refine.box)[0], (*refine.box)[1]};
-    } else {
-      region.points = refine.points;
-    }
-    field.refinements.push_back(std::move(region));
-  }
-  return field;
-}
-
-clouds::CloudOptions cloud_options(const input::CloudSpec& spec) {
-  clouds::CloudOptions options;
-  switch (spec.pattern) {
-  case input::CloudSpec::Pattern::hexagonal:
-    options.pattern = clouds::Pattern::hexagonal;
-    break;
-  case input::CloudSpec::Pattern::regular:
-    options.pattern = clouds::Pattern::regular;
-    break;
-  case input::CloudSpec::Pattern::jittered:
-    options.pattern = clouds::Pattern::jittered;
-    break;
-  case input::CloudSpec::Pattern::list:
-    options.pattern = clouds::Pattern::list;
-    break;
-  }
-  options.jitter = spec.jitter;
-  options.seed = spec.seed;
-  options.nodes = spec.nodes;
-  return options;
-}
-
-plasticity::Material make_material(const input::Material& spec) {
-  plasticity::Material material;
-  material.name = spec.name;
-  material.density = spec.density;
-  material.elasticity = {spec.young, spec.poisson};
-  if (const auto* perfect = std::get_if<input::PerfectPlasticity>(&spec.plastic)) {
-    material.hardening = plasticity::JohnsonCook{.A = perfect->yield};
-  } else if (const auto* linear = std::get_if<input::LinearHardening>(&spec.plastic)) {
-    material.hardening = plasticity::JohnsonCook{.A = linear->yield, .B = linear->hardening};
-  } else if (const auto* voce = std::get_if<input::Voce>(&spec.plastic)) {
-    material.hardening = plasticity::JohnsonCook{.A = voce->yield,
-                                                 .B = voce->hardening,
-                                                 .saturation = voce->saturation - voce->yield,
-                                                 .saturation_exponent = voce->exponent};
-  } else if (const auto* jc = std::get_if<input::JohnsonCook>(&spec.plastic)) {
-    material.hardening = plasticity::JohnsonCook{.A = jc->A,
-                                                 .B = jc->B,
-                                                 .n = jc->n,
-                                                 .C = jc->C,
-                                                 .rate0 = jc->rate0,
-                                                 .m = jc->m,
-                                                 .T0 = jc->T0,
-                                                 .Tmelt = jc->Tmelt};
-  }
-  if (spec.damage)
-    material.damage = plasticity::JohnsonCookDamage{.D1 = spec.damage->D1,
-                                                    .D2 = spec.damage->D2,
-                                                    .D3 = spec.damage->D3,
-                                                    .D4 = spec.damage->D4,
-                                                    .D5 = spec.damage->D5,
-                                                    .rate0 = spec.damage->rate0,
-                                                    .T0 = spec.damage->T0,
-                                                    .Tmelt = spec.damage->Tmelt,
-                                                    .cut_off = spec.damage->cut_off,
-                                                    .fracture_energy = spec.damage->fracture_energy,
-                                                    .band = spec.damage->band,
-                                                    .residual_strength = spec.damage->residual_strength};
-  if (spec.heat) {
-    material.specific_heat = spec.heat->specific_heat;
-    material.conductivity = spec.heat->conductivity;
-    material.taylor_quinney = spec.heat->taylor_quinney;
-    material.expansion = spec.heat->expansion;
-    material.expansion_reference = spec.heat->reference_temperature;
-  }
-  return material;
 }
 
 /// The materials in use and which node is of which. region: as region_of_nodes gives it.
@@ -122,7 +29,7 @@ void set_materials(const input::Case& input, const std::vector<std::int32_t>& re
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       names.push_back(name);
-      model.materials.push_back(make_material(input.material(name)));
+      model.materials.push_back(input.material(name));
     }
     return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
@@ -203,9 +110,10 @@ void add_condition(const input::Case& input, const input::BoundaryCondition& spe
   if (spec.pressure) all.pressures.push_back({spec.name, *spec.pressure, facets});
   if (spec.temperature) all.temperatures.push_back({spec.name, *spec.temperature, nodes, pieces});
   if (spec.heat_flux) all.fluxes.push_back({spec.name, *spec.heat_flux, facets});
-  if (spec.convection)
-    all.convections.push_back(
-        {spec.name, TimeTable(spec.convection->coefficient), spec.convection->ambient, facets});
+  if (spec.convection) {
+    all.convections.push_back(*spec.convection);
+    all.convections.back().facets = facets;
+  }
 }
 
 /// Nodes on the axis of revolution stay on it. Throws InputError when the workpiece reaches beyond the axis.
@@ -240,65 +148,26 @@ void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>
                     {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis), {}});
 }
 
-contact::Friction make_friction(const input::Friction& spec) {
-  contact::Friction friction;
-  if (spec.law != input::Friction::Law::none) friction.coulomb = spec.coefficient;
-  if (spec.law == input::Friction::Law::tresca_limited) friction.shear_factor = spec.shear_factor;
-  return friction;
-}
-
 contact::Tool<2> make_tool(const input::Case& input, const input::Tool& spec) {
-  contact::Tool<2> tool;
-  tool.name = spec.name;
+  contact::Tool<2> tool = spec;
   try {
     tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
   } catch (const InputError& error) { throw input.error("tools." + spec.name, error.what()); }
-  tool.motion.velocity = spec.velocity;
-  tool.friction = make_friction(spec.friction);
-  if (spec.drive) {
-    contact::ToolDrive<2>& drive = tool.drive.emplace();
-    drive.mass = spec.drive->mass;
-    drive.force = spec.drive->force;
-    drive.initial_velocity = spec.drive->initial_velocity;
-    if (spec.drive->direction) drive.free = *spec.drive->direction * spec.drive->direction->transpose();
-  }
-  if (spec.heat) {
-    tool.thermal.conductance = spec.heat->conductance;
-    tool.thermal.temperature = spec.heat->temperature;
-    tool.thermal.effusivity = spec.heat->effusivity.value_or(0.0);
-  }
   return tool;
 }
 
 } // namespace
 
-std::unique_ptr<Discretisation<2>> make_method(const input::Method& method, Space space) {
-  if (method.name == input::Method::Name::fe_triangles) return std::make_unique<methods::FeTriangles>(space);
-  scni::Options options;
-  options.functions = method.functions == input::Method::Functions::laplace ? scni::Functions::laplace
-                                                                            : scni::Functions::sibson;
-  options.gauss_points = method.gauss_points;
-  options.space = space;
-  return std::make_unique<scni::Cnem>(options);
-}
-
 Setup build(const input::Case& input) {
   clouds::GeneratedCloud generated;
   try {
-    generated = clouds::generate_cloud(domain_shape(input.domain), spacing_field(input.cloud),
-                                       cloud_options(input.cloud));
+    generated = clouds::generate_cloud(domain_shape(input.domain), input.cloud, input.cloud);
   } catch (const clouds::SpacingError& error) {
     throw input.error("cloud.spacing", error.what());
   } catch (const GeometryError& error) {
-    const bool list = input.cloud.pattern == input::CloudSpec::Pattern::list;
+    const bool list = input.cloud.pattern == clouds::Pattern::list;
     throw input.error(list ? "cloud.nodes" : "domain", error.what());
   }
-  if (input.method.name == input::Method::Name::fe_triangles &&
-      input.method.lagrangian != input::Method::Lagrangian::total)
-    throw input.error("method.lagrangian",
-                      "finite-element triangles carry their history in the elements and run total "
-                      "Lagrangian only; expected \"total\"");
-
   std::vector<contact::Tool<2>> tools;
   for (const input::Tool& tool : input.tools) tools.push_back(make_tool(input, tool));
   Setup setup;
@@ -306,11 +175,9 @@ Setup build(const input::Case& input) {
   setup.warnings.insert(setup.warnings.end(), generated.warnings.begin(), generated.warnings.end());
   Problem<2>& model = setup.problem;
   const Space space = input.analysis.space();
-  model.contact = contact::RigidContact<2>(
-      std::move(tools), space,
-      {input.contact.deformable, make_friction(input.contact.friction), input.contact.conductance});
+  model.contact = contact::RigidContact<2>(std::move(tools), space, input.contact);
   model.cloud = std::move(generated.cloud);
-  model.method = make_method(input.method, space);
+  model.method = methods::make(input.method.name, input.method.options);
   const std::vector<std::int32_t> region = region_of_nodes(input, model.cloud);
   set_materials(input, region, model);
   model.strength = strength(input, model.cloud);
@@ -323,10 +190,8 @@ Setup build(const input::Case& input) {
   model.thermal = input.analysis.thermal;
   model.mechanical = input.analysis.mechanical;
   model.safety = input.time.safety;
-  model.local.on = input.time.local;
-  model.local.levels = input.time.levels;
-  if (const auto& scaling = input.time.mass_scaling)
-    model.mass_scaling = {scaling->factor.value_or(1.0), scaling->step.value_or(0.0)};
+  model.local = input.time.local;
+  model.mass_scaling = input.time.mass_scaling.value_or(MassScaling{});
 
   Conditions all;
   for (const input::BoundaryCondition& condition : input.boundary)

@@ -1,5 +1,6 @@
 #pragma once
-// From a case to solver objects: the only place that knows every method, material and tool.
+// From a case to solver objects: the only place that knows every material and tool; methods have a registry
+// of their own.
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 
@@ -21,10 +22,5 @@ struct Setup {
 /// and key for what only geometry can tell: impossible clouds, pieces without nodes, conditions that
 /// contradict each other.
 Setup build(const input::Case& input);
-
-/// The names of the methods a case can ask for, as in the schema.
-std::unique_ptr<Discretisation<2>> make_method(const input::Method& method, Space space = Space::plane);
-
-/// What the plane of a case stands for.
 
 } // namespace cnem::app

@@ -44,7 +44,8 @@ Simulation::Simulation(const input::Case& input, const RunOptions& options)
       fields_due_(every(input.output.fields_every, input.time.end,
                         Schedule::at({0.0, input.time.end}, input.time.end))),
       pictures_due_(Schedule::at(input.output.pictures, input.time.end)), control_(input.time),
-      renewal_(input.method), adaptation_(input, solver_), checkpoints_(input.output.checkpoint) {
+      renewal_(input.method), retries_(renewal_.by_strain()), adaptation_(input, solver_),
+      checkpoints_(input.output.checkpoint) {
   for (std::string& warning : supersonic_tools(input, solver_)) warn(std::move(warning));
 }
 
@@ -67,50 +68,14 @@ void Simulation::start() {
   pictures_.emplace(input_, options_.output);
 }
 
-void Simulation::resume(results::CheckpointReader& checkpoint) {
-  archive(checkpoint);
-  const double now = solver_.state().time;
-  int frames = 0;
-  checkpoint.integer("run/frames", frames);
-  fields_.emplace(options_.output, input_.origin, now);
-  if (fields_->frames() != frames)
-    throw IoError(fmt::format("{} has {} of the {} frames written until then",
-                              (options_.output / results::files::fields).string(), fields_->frames(),
-                              frames));
-  history_.resume(solver_);
-  adaptation_.resume_log(options_.output);
-  pictures_.emplace(input_, options_.output);
-  pictures_->truncate(now);
-  checkpoints_.written(solver_.state());
-  last_checkpoint_ = fmt::format("step {}, t = {:.6g} s", solver_.state().step, now);
-}
-
-void Simulation::archive(Archive& archive) {
-  solver_.archive(archive);
-  history_due_.archive(archive, "run/due/history");
-  fields_due_.archive(archive, "run/due/fields");
-  pictures_due_.archive(archive, "run/due/pictures");
-  control_.archive(archive);
-  renewal_.archive(archive);
-  melting_.archive(archive);
-  adaptation_.archive(archive);
-  history_.archive(archive);
-  archive.integer("run/last_check", last_check_);
-  archive.number("run/node_steps", "1", node_steps_);
-  for (auto [phase, seconds] : wall()) {
-    archive.number(fmt::format("run/wall/{}", phase), "s", seconds);
-    if (archive.loading()) watch_.add(phase, seconds);
-  }
-}
-
 Exit Simulation::run() {
   for (const std::string& warning : warnings_) progress_.message("warning: " + warning);
   try {
-    try {
-      loop();
-    } catch (const DivergenceError& error) { diverge(error); } catch (const GeometryError& error) {
-      diverge(lost_reference(solver_, error));
-    }
+    while (const std::optional<DivergenceError> failure = run_on())
+      if (!go_back(*failure)) {
+        diverge(*failure);
+        break;
+      }
     watch_.time("output", [&] {
       if (exit_ != Exit::interrupted)
         results::write_lines(input_, results::snapshot(solver_), options_.output);
@@ -146,6 +111,15 @@ Exit Simulation::run() {
   }
 }
 
+std::optional<DivergenceError> Simulation::run_on() {
+  try {
+    loop();
+    return std::nullopt;
+  } catch (const DivergenceError& error) { return error; } catch (const GeometryError& error) {
+    return lost_reference(solver_, error);
+  }
+}
+
 void Simulation::loop() {
   if (control_.limit() == 0.0) watch_.time("step", [&] { refresh_step(); });
   while (true) {
@@ -165,7 +139,7 @@ void Simulation::loop() {
       check_finite(state);
       watch_.time("output", [&] {
         watch_.time("output.disk", [&] { files_.wait(); }); // a checkpoint counts on the frames before it
-        watch_.time("output.checkpoint", [&] { write_checkpoint(); });
+        watch_.time("output.checkpoint", [&] { write_checkpoint(fields_->frames()); });
       });
     }
     if (signal)
@@ -250,24 +224,33 @@ void Simulation::record(bool history, bool fields, bool pictures) {
 }
 
 void Simulation::adapt_and_step() {
-  const bool rereference = watch_.time("step", [&] { return renewal_.due(solver_); });
-  if (rereference) watch_.time("rebuild", [&] { new_reference(); });
+  const State<2>& state = solver_.state();
+  retries_.look(state.time);
+  const bool rereference =
+      watch_.time("step", [&] { return renewal_.due(solver_, retries_.strain_share()); });
+  bool good = retries_.lacks_state();
+  if (rereference || good)
+    watch_.time("rebuild", [&] {
+      retries_.take(state.time, [&](Archive& archive) { archive_course(archive, fields_->frames()); });
+      if (rereference) good = new_reference();
+    });
   watch_.time("step", [&] {
-    const State<2>& state = solver_.state();
     if (rereference || (state.step - last_check_) * solver_.sub_steps() >= input_.time.check_every)
       watch_.time("step.stable", [&] { look_at_step(); });
+    if (good) retries_.keep();
     solver_.advance(
         control_.choose(state.time, std::min({input_.time.end, fields_due_.next(), pictures_due_.next()})));
   });
 }
 
-void Simulation::new_reference() {
-  renewal_.renew(solver_, [&] {
+bool Simulation::new_reference() {
+  const auto prepare = [&] {
     if (adaptation_.active())
       adaptation_.renew(solver_, [&](const Resampling<2>& change) { history_.resample(change, solver_); });
     else
       solver_.prepare();
-  });
+  };
+  return renewal_.renew(solver_, prepare, retries_.strain_share());
 }
 
 void Simulation::look_at_step() {
@@ -280,24 +263,6 @@ void Simulation::look_at_step() {
 void Simulation::refresh_step() {
   control_.refresh(solver_);
   check_moving_tools(input_, solver_, control_.limit() / solver_.sub_steps());
-}
-
-void Simulation::write_checkpoint() {
-  const State<2>& state = solver_.state();
-  results::flush_file(options_.output /
-                      results::files::history); // what the checkpoint counts on must not be lost before it
-  results::CheckpointWriter writer;
-  results::CheckpointInfo info{options_.version, std::string(isa_name(active_isa())),
-                               input_.name,      results::hash_of_inputs(input_.resolved),
-                               state.step,       state.time};
-  info.archive(writer);
-  archive(writer);
-  int frames = fields_->frames();
-  writer.integer("run/frames", frames);
-  results::add_checkpoint(options_.output, writer.content(), input_.output.checkpoint.keep);
-  checkpoints_.written(state);
-  last_checkpoint_ = fmt::format("step {}, t = {:.6g} s", state.step, state.time);
-  set_last_words(options_.output, status(), how_to_go_on());
 }
 
 void Simulation::stop(Exit exit, std::string reason) {
@@ -316,17 +281,6 @@ void Simulation::diverge(const DivergenceError& error) {
   dead_->picture = pictures_->record_place(files_, shot(), place.centre, place.radius);
 }
 
-std::string Simulation::how_to_go_on() const {
-  const std::string folder = options_.output.string();
-  return last_checkpoint_.empty()
-             ? fmt::format(
-                   "there is no checkpoint yet: once this is mended, `cnem restart {}` begins at step 0",
-                   folder)
-             : fmt::format(
-                   "the last checkpoint is of {}: once this is mended, `cnem restart {}` goes on from it",
-                   last_checkpoint_, folder);
-}
-
 Exit Simulation::fail(const std::string& message) {
   forget_last_words();
   progress_.finish();
@@ -339,20 +293,25 @@ Exit Simulation::fail(const std::string& message) {
 }
 
 std::vector<std::string> Simulation::late_warnings() const {
-  std::vector<std::string> list{melting_.warning(), renewal_.warning(), history_.kinetic_warning(input_)};
+  std::vector<std::string> list{melting_.warning(), retries_.warning(), renewal_.warning(),
+                                history_.kinetic_warning(input_)};
   std::erase(list, "");
   for (std::string& warning : list) warning = input_.placed(warning);
   return list;
 }
 
-std::vector<std::pair<std::string, double>> Simulation::wall() const {
-  Stopwatch watch = watch_;
+void Simulation::add_step_times(Stopwatch& watch) const {
   const StepTimes& step = solver_.times();
   watch.add("step.motion", step.motion);
   watch.add("step.contact", step.contact);
   watch.add("step.stress", step.stress);
   watch.add("step.forces", step.forces);
   watch.add("step.heat", step.heat);
+}
+
+std::vector<std::pair<std::string, double>> Simulation::wall() const {
+  Stopwatch watch = watch_;
+  add_step_times(watch);
   return watch.spent();
 }
 
@@ -372,6 +331,7 @@ results::RunStatus Simulation::status() {
   status.energy_residual = history_.energy_residual();
   status.metrics = history_.metrics();
   status.metrics.emplace_back("references", solver_.references());
+  status.metrics.emplace_back("retries", retries_.count());
   for (const auto& metric : adaptation_.metrics()) status.metrics.push_back(metric);
   if (blanking_) {
     if (!blanking_->punch.empty())

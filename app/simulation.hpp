@@ -4,6 +4,7 @@
 #include "app/adaptation.hpp"
 #include "app/divergence.hpp"
 #include "app/melting.hpp"
+#include "app/retries.hpp"
 #include "app/run.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
@@ -44,8 +45,17 @@ public:
   Exit run();
 
 private:
-  void archive(Archive& archive);
+  /// What a checkpoint keeps: the course, what is remembered to go back to, and wall times.
+  int archive(Archive& archive, int frames);
+  /// What evolves, and the `frames` of fields.pvd until then. Both return what they carried of these.
+  int archive_course(Archive& archive, int frames);
+  /// Goes on with the files behind the present state, of which fields.pvd has `frames` frames.
+  void take_up_files(int frames);
+  /// Runs until it ends or fails.
+  std::optional<DivergenceError> run_on();
   void loop();
+  /// Back to the last pass, to renew the reference sooner from there; false when the failure is final.
+  bool go_back(const DivergenceError& error);
   bool finished();
   void record_due();
   void record_last();
@@ -57,10 +67,11 @@ private:
   results::Snapshot shot();
   void record(bool history, bool fields, bool pictures);
   void adapt_and_step();
-  void new_reference();
+  /// Whether there is a new one.
+  bool new_reference();
   void look_at_step();
   void refresh_step();
-  void write_checkpoint();
+  void write_checkpoint(int frames);
   void stop(Exit exit, std::string reason);
   void diverge(const DivergenceError& error);
   Exit fail(const std::string& message);
@@ -68,6 +79,7 @@ private:
   results::RunStatus status();
   /// Those that come up on the way.
   std::vector<std::string> late_warnings() const;
+  void add_step_times(Stopwatch& watch) const;
   std::vector<std::pair<std::string, double>> wall() const;
 
   const input::Case& input_;
@@ -82,6 +94,7 @@ private:
   Schedule history_due_, fields_due_, pictures_due_;
   StepControl control_;
   ReferenceRenewal renewal_;
+  Retries retries_;
   MeltingWatch melting_;
   Adaptation adaptation_;
   AdaptationFields adaptation_fields_;

@@ -18,21 +18,15 @@ std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::vector<fracture::CrackTip> tips_of(const input::Case& input, const Cloud<2>& cloud) {
   std::vector<fracture::CrackPath> paths;
-  for (const input::Crack& crack : input.domain.cracks)
-    paths.push_back({crack.name, crack.points, crack.tips});
+  for (const input::Crack& crack : input.domain.cracks) paths.push_back({crack.name, crack.path, crack.tips});
   return fracture::find_tips(cloud, paths);
 }
 
 double enrichment_radius(const input::Case& input, const fracture::CrackTip& tip) {
-  if (!input.fracture.enrichment || input.method.name != input::Method::Name::cnem) return 0.0;
+  if (!input.fracture.enrichment || input.method.name != "cnem") return 0.0;
   const double room = 0.9 * std::min({tip.straight, tip.clearance});
   return std::min(
       room, input.fracture.enrichment_radius.value_or(std::max(0.3 * tip.half_length, 2.5 * tip.spacing)));
-}
-
-voronoi::Functions functions_of(const input::Method& method) {
-  return method.functions == input::Method::Functions::laplace ? voronoi::Functions::laplace
-                                                               : voronoi::Functions::sibson;
 }
 
 /// Doubted beyond it: spread of K, and spacing over length of a crack that is not enriched.
@@ -65,7 +59,8 @@ StaticModel::StaticModel(const input::Case& in) : input(in), setup(build(in)) {
   tips = tips_of(input, cloud);
   for (const fracture::CrackTip& tip : tips) enrichment_radius.push_back(app::enrichment_radius(input, tip));
   try {
-    enriched = fracture::enrich(cloud, approximation, tips, enrichment_radius, functions_of(input.method));
+    enriched =
+        fracture::enrich(cloud, approximation, tips, enrichment_radius, input.method.options.functions);
   } catch (const GeometryError& error) { throw input.error("fracture.enrichment", error.what()); }
   resize_all(position, u(cloud.nodes()));
   Field mass = approximation.mechanics.node_volume();

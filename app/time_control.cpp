@@ -98,10 +98,15 @@ void StepControl::archive(Archive& archive) {
   std::vector<std::string> names;
   for (const auto& [name, count] : count_) names.push_back(name);
   archive.texts("run/step/limits", names);
+  if (archive.loading()) count_.clear();
   for (const std::string& name : names) archive.integer(fmt::format("run/step/count/{}", name), count_[name]);
 }
 
-bool ReferenceRenewal::due(const ExplicitSolver<2>& solver) const {
+bool ReferenceRenewal::by_strain() const {
+  return method_->lagrangian == input::Method::Lagrangian::periodic && method_->rereference_strain > 0.0;
+}
+
+bool ReferenceRenewal::due(const ExplicitSolver<2>& solver, double share) const {
   const std::int64_t steps = solver.state().step - last_;
   switch (method_->lagrangian) {
   case input::Method::Lagrangian::total:
@@ -112,23 +117,26 @@ bool ReferenceRenewal::due(const ExplicitSolver<2>& solver) const {
     break;
   }
   if (method_->rereference_every > 0 && steps >= method_->rereference_every) return true;
-  constexpr std::int64_t look_every = 5;
-  return method_->rereference_strain > 0.0 && steps > 0 && steps % look_every == 0 &&
-         solver.strain_since_reference() > method_->rereference_strain;
+  const std::int64_t look_every = share < 1.0 ? 1 : 5;
+  return by_strain() && steps > 0 && steps % look_every == 0 &&
+         solver.strain_since_reference() > share * method_->rereference_strain;
 }
 
-void ReferenceRenewal::renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare) {
+bool ReferenceRenewal::renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare,
+                             double share) {
   last_ = solver.state().step;
   try {
     prepare();
+    return true;
   } catch (const GeometryError& error) {
     constexpr double too_far = 4.0;
     if (solver.strain_since_reference() > too_far) throw;
-    constexpr std::int64_t wait = 100;
-    last_ += wait;
+    constexpr double wait = 100.0; // steps
+    last_ += static_cast<std::int64_t>(share * wait);
     if (postponed_++ == 0)
       first_ =
           fmt::format("step {}, t = {:.4g} s ({})", solver.state().step, solver.state().time, error.what());
+    return false;
   }
 }
 

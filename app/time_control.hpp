@@ -70,9 +70,13 @@ class ReferenceRenewal {
 public:
   explicit ReferenceRenewal(const input::Method& method) : method_(&method) {}
 
-  bool due(const ExplicitSolver<2>& solver) const;
-  /// Throws GeometryError. `prepare` renews the reference and leaves the solver as it is when it throws one.
-  void renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare);
+  /// Whether a strain of the case calls for renewals; nothing could come sooner otherwise.
+  bool by_strain() const;
+  /// With a `share` below 1 of the strain of the case, which is looked at every step then.
+  bool due(const ExplicitSolver<2>& solver, double share = 1.0) const;
+  /// Whether the reference is a new one. Throws GeometryError. `prepare` renews the reference and leaves the
+  /// solver as it is when it throws one; it is tried again after so much less the smaller the share is.
+  bool renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare, double share = 1.0);
   /// What to tell about it; empty when every renewal succeeded.
   std::string warning() const;
   void archive(Archive& archive);

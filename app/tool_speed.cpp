@@ -44,7 +44,7 @@ double slowest_waves(const input::Case& input, const Model<2>& model, std::strin
       material = own.name;
     }
   const auto& scaling = input.time.mass_scaling;
-  return slowest / std::sqrt(scaling ? scaling->factor.value_or(1.0) : 1.0);
+  return slowest / std::sqrt(scaling ? scaling->factor : 1.0);
 }
 
 /// What is wrong with a tool at a velocity relative to what it meets; empty when nothing is. A velocity that
@@ -88,7 +88,7 @@ std::vector<std::string> supersonic_tools(const input::Case& input, const Explic
           "are "
           "smeared over a few nodes, and elasticity linear in logarithmic strain is no equation of state",
           tool.name, fastest, material, sound,
-          input.time.mass_scaling && input.time.mass_scaling->factor ? " with its scaled mass" : ""));
+          input.time.mass_scaling && input.time.mass_scaling->factor > 1.0 ? " with its scaled mass" : ""));
   }
   return warnings;
 }

@@ -25,6 +25,10 @@ struct Options {
 /// Links are the Delaunay edges; heat conducts with the linear operators of the Delaunay triangles.
 class Cnem final : public Discretisation<2> {
 public:
+  static constexpr Promises promised{Promise::identity_values, Promise::non_negative_values,
+                                     Promise::tiling_cells, Promise::balanced_constant_stress,
+                                     Promise::hoop_rows};
+
   /// Throws InputError when gauss_points is not 1, 2 or 3.
   explicit Cnem(Options options = {});
 
@@ -32,6 +36,7 @@ public:
   /// N).
   Approximation<2> rebuild(const Cloud<2>& cloud) override;
   std::string name() const override;
+  Promises promises() const override { return promised; }
 
 private:
   Options options_;

@@ -46,6 +46,10 @@ public:
     carry(name, std::span<std::int64_t>(wide));
     values.assign(wide.begin(), wide.end());
   }
+  void integers(const std::string& name, std::vector<std::int64_t>& values) {
+    if (loading()) values.resize(extent(name));
+    carry(name, std::span<std::int64_t>(values));
+  }
   template<class Integer> void integer(const std::string& name, Integer& value) {
     auto wide = static_cast<std::int64_t>(value);
     carry(name, {&wide, 1});

@@ -3,6 +3,7 @@
 // nodes.
 #include "core/cloud.hpp"
 #include "core/operators.hpp"
+#include "core/promises.hpp"
 
 #include <memory>
 #include <string>
@@ -52,6 +53,10 @@ public:
   virtual Approximation<dim> rebuild(const Cloud<dim>& cloud) = 0;
 
   virtual std::string name() const = 0;
+
+  /// What `Approximation::mechanics` keeps beyond the invariants of core/operators.hpp. The operators of
+  /// conduction have non-negative values, tile the domain and balance constant fluxes, whatever the method.
+  virtual Promises promises() const = 0;
 };
 
 } // namespace cnem

@@ -12,8 +12,8 @@ namespace cnem {
 /// Sparse gradient G and value N operators in CSR form, and their transpose for gather-only assembly.
 ///
 /// Row p holds b_pJ = ∇φ_J averaged over the volume V_p of stress point p (paper 004, (75)–(79)) and N_pJ, on
-/// the same pattern. Invariants (tests/contract): Σ_J b_pJ = 0; Σ_J x_J ⊗ b_pJ = 1; Σ_J N_pJ = 1; Σ_p V_p =
-/// |Ω|.
+/// the same pattern. Invariants (tests/contract): Σ_J b_pJ = 0; Σ_J x_J ⊗ b_pJ = 1; Σ_J N_pJ = 1. What else
+/// holds a method promises (core/promises.hpp).
 ///
 /// Bodies of revolution add the hoop rows h_pJ = N_pJ/r̄_p, N_pJ = φ_J at the centroid of the cell: Σ_J h_pJ
 /// r_J = r/R. There V_p = 2π r̄_p A_p, and b_pJ is weighted with the radius: V_p b_pJ = 2π (∮ r φ_J n dΓ − e_r

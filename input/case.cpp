@@ -29,9 +29,10 @@ std::vector<std::string> field_names(bool adaptive) {
   return names;
 }
 
-const Material& Case::material(const std::string& wanted) const {
-  const auto found = std::find_if(materials.begin(), materials.end(),
-                                  [&](const Material& candidate) { return candidate.name == wanted; });
+const plasticity::Material& Case::material(const std::string& wanted) const {
+  const auto found =
+      std::find_if(materials.begin(), materials.end(),
+                   [&](const plasticity::Material& candidate) { return candidate.name == wanted; });
   if (found == materials.end())
     throw error("materials", fmt::format("found no material '{}', expected one that is defined", wanted));
   return *found;

@@ -1,13 +1,22 @@
 #pragma once
 // A case as read: everything a user can write in case.toml, checked, with defaults filled in, in SI units.
-// Plain data on core types; input/case_reader.hpp makes it, app/ turns it into solver objects. The meaning of
-// each key is in docs/case_reference.md, which is generated from input/schema/schema.cpp.
+// The structs of the libraries themselves, where they have one for it; input/case_reader.hpp fills them, app/
+// makes solver objects of them. The meaning of each key is in docs/case_reference.md, which is generated from
+// input/schema/schema.cpp.
+#include "adapt/resample.hpp"
+#include "clouds/generate.hpp"
+#include "contact/body_contact.hpp"
 #include "core/curve.hpp"
 #include "core/error.hpp"
 #include "core/revolution.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
 #include "input/case_output.hpp"
+#include "mechanics/local_steps.hpp"
+#include "mechanics/mass_scaling.hpp"
+#include "methods/registry.hpp"
+#include "plasticity/material.hpp"
+#include "thermal/boundaries.hpp"
 
 #include <array>
 #include <cstdint>
@@ -33,12 +42,6 @@ struct Analysis {
   bool thermal = false;   ///< solve for temperatures: plastic and friction heating, conduction
 };
 
-/// Inertia beyond the mass: of all nodes, or of those that limit the step at the start.
-struct MassScaling {
-  std::optional<double> factor; ///< –
-  std::optional<double> step;   ///< s
-};
-
 struct TimeControl {
   double end = 0.0;               ///< s; of statics the time at which loads are taken
   double safety = 0.9;            ///< – factor on the stable step
@@ -48,16 +51,13 @@ struct TimeControl {
   std::optional<double>
       min_step; ///< s  a smaller stable step means divergence; absent: 1e-3 of the first one
   std::optional<std::int64_t> max_steps; ///< – the run ends after so many
-  bool local = false;                    ///< steps differ from node to node
-  int levels = 5;                        ///< – with local steps: at most so many different ones
+  LocalStepControl local;                ///< steps differ from node to node
   std::optional<MassScaling> mass_scaling;
 };
 
 /// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are
 /// the boundary pieces NAME+ (material on the left of the path, seen along it) and NAME-.
-struct Crack {
-  std::string name;
-  std::vector<Vec2> points;        ///< m, at least two
+struct Crack : clouds::Crack {
   std::array<std::string, 2> tips; ///< names of the first and the last end, for results
 };
 
@@ -67,9 +67,7 @@ struct Hole {
 };
 
 /// A polyline from boundary to boundary that divides the workpiece. Its faces are bonded.
-struct Interface {
-  std::string name;
-  std::vector<Vec2> points;          ///< m, at least two
+struct Interface : clouds::Crack {
   std::optional<double> conductance; ///< W/(m² K); absent: both faces have one temperature
 };
 
@@ -94,108 +92,24 @@ struct Domain {
   std::vector<std::string> piece_names() const;
 };
 
-/// Spacing wanted near a box or a polyline: h(d) = spacing + growth · d, d the distance to it.
-struct Refinement {
-  std::string name;
-  std::optional<std::array<Vec2, 2>> box; ///< lower left, upper right, m; else `points`
-  std::vector<Vec2> points;               ///< m; one: a point, more: a polyline
-  std::vector<Vec2> tips;                 ///< m; ends of cracks, each on its own
-  double spacing = 0.0;                   ///< m
-  double growth = 0.3;                    ///< –
-};
-
-struct CloudSpec {
-  enum class Pattern { hexagonal, regular, jittered, list };
-  Pattern pattern = Pattern::hexagonal;
-  double spacing = 0.0;   ///< m
-  double jitter = 0.2;    ///< – fraction of the spacing (pattern jittered)
-  std::uint64_t seed = 1; ///< of the jitter
-  std::vector<Refinement> refine;
-  std::vector<Vec2> nodes; ///< m, interior and boundary nodes (pattern list)
-};
-
-struct PerfectPlasticity {
-  double yield = 0.0; ///< Pa
-};
-
-struct LinearHardening {
-  double yield = 0.0;     ///< Pa
-  double hardening = 0.0; ///< Pa  dσ_y/dε̄p
-};
-
-/// σ_y = (A + B ε̄pⁿ)(1 + C ln(ε̄̇p/rate0))(1 − T*ᵐ), T* = (T − T0)/(Tmelt − T0). An infinite Tmelt: no thermal
-/// softening.
-struct JohnsonCook {
-  double A = 0.0;                                         ///< Pa
-  double B = 0.0;                                         ///< Pa
-  double n = 0.0;                                         ///< –
-  double C = 0.0;                                         ///< –
-  double m = 1.0;                                         ///< –
-  double rate0 = 1.0;                                     ///< 1/s
-  double T0 = 0.0;                                        ///< K
-  double Tmelt = std::numeric_limits<double>::infinity(); ///< K
-};
-
-/// σ_y = yield + hardening ε̄p + (saturation − yield)(1 − exp(−exponent ε̄p)).
-struct Voce {
-  double yield = 0.0;      ///< Pa
-  double saturation = 0.0; ///< Pa, ≥ yield
-  double exponent = 0.0;   ///< –
-  double hardening = 0.0;  ///< Pa
-};
-
-/// Fracture strain [D1 + D2 exp(D3 σ_m/σ_eq)] [1 + D4 ln(ε̄̇p/rate0)] [1 + D5 T*], then softening that takes
-/// fracture_energy per area. An infinite Tmelt: no influence of temperature.
-struct JohnsonCookDamage {
-  double D1 = 0.0, D2 = 0.0, D3 = 0.0, D4 = 0.0, D5 = 0.0;   ///< –
-  double rate0 = 1.0;                                        ///< 1/s
-  double T0 = 0.0;                                           ///< K
-  double Tmelt = std::numeric_limits<double>::infinity();    ///< K
-  double fracture_energy = 0.0;                              ///< J/m²
-  double band = 2.5;                                         ///< – cell sizes across the broken band
-  double cut_off = -std::numeric_limits<double>::infinity(); ///< – no damage at σ_m/σ_eq ≤ this
-  double residual_strength = 0.0;                            ///< – of the flow stress, when broken
-};
-
-struct HeatProperties {
-  double specific_heat = 0.0;            ///< J/(kg K)
-  double conductivity = 0.0;             ///< W/(m K)
-  double taylor_quinney = 0.9;           ///< – share of plastic work that becomes heat
-  double expansion = 0.0;                ///< 1/K, linear
-  double reference_temperature = 293.15; ///< K, free of thermal strain
-};
-
-struct Material {
-  std::string name;
-  double density = 0.0; ///< kg/m³
-  double young = 0.0;   ///< Pa
-  double poisson = 0.0; ///< –
-  std::variant<std::monostate, PerfectPlasticity, LinearHardening, JohnsonCook, Voce>
-      plastic;                             ///< monostate: elastic
-  std::optional<JohnsonCookDamage> damage; ///< absent: never breaks
-  std::optional<HeatProperties> heat;      ///< always there when analysis.thermal
-};
-
-struct Convection {
-  double coefficient = 0.0; ///< W/(m² K)
-  TimeTable ambient;        ///< K
-};
+/// The nodes: the spacing that is wanted, and how they are laid out.
+struct CloudSpec : clouds::SpacingField, clouds::CloudOptions {};
 
 /// Conditions on boundary pieces; what is absent is free (mechanics) or insulated (heat). The reader has
 /// checked that pieces exist, that symmetry pieces are straight and that no two conditions fight over one
 /// piece.
 struct BoundaryCondition {
   std::string name;
-  std::vector<std::string> pieces;      ///< names; "all" is spelt out
-  std::vector<Vec2> points;             ///< m; the nodes nearest to them are held too
-  bool symmetry = false;                ///< zero normal velocity, free tangentially
-  VectorFunction velocity;              ///< m/s
-  VectorFunction displacement;          ///< m, from the initial position
-  VectorFunction traction;              ///< Pa, force on the initial area
-  std::optional<TimeTable> pressure;    ///< Pa, pushes against the body, on the present area and normal
-  std::optional<TimeTable> temperature; ///< K
-  std::optional<TimeTable> heat_flux;   ///< W/m², into the body
-  std::optional<Convection> convection;
+  std::vector<std::string> pieces;         ///< names; "all" is spelt out
+  std::vector<Vec2> points;                ///< m; the nodes nearest to them are held too
+  bool symmetry = false;                   ///< zero normal velocity, free tangentially
+  VectorFunction velocity;                 ///< m/s
+  VectorFunction displacement;             ///< m, from the initial position
+  VectorFunction traction;                 ///< Pa, force on the initial area
+  std::optional<TimeTable> pressure;       ///< Pa, pushes against the body, on the present area and normal
+  std::optional<TimeTable> temperature;    ///< K
+  std::optional<TimeTable> heat_flux;      ///< W/m², into the body
+  std::optional<Convection<2>> convection; ///< without facets
 };
 
 struct Spin {
@@ -235,51 +149,15 @@ struct Loads {
   VectorFunction body_force; ///< m/s², force per unit mass; absent: zero
 };
 
-struct Friction {
-  enum class Law { none, coulomb, tresca_limited };
-  Law law = Law::none;
-  double coefficient = 0.0;  ///< – Coulomb's μ (coulomb, tresca_limited)
-  double shear_factor = 1.0; ///< – m_f: |τ| ≤ m_f σ_y/√3 (tresca_limited)
-};
-
-struct ToolHeat {
-  double conductance = 0.0;         ///< W/(m² K) of the closed contact
-  double temperature = 0.0;         ///< K, of the tool
-  std::optional<double> effusivity; ///< W s½/(m² K), √(kρc); absent: all friction heat goes to the workpiece
-};
-
-/// What moves a tool that has a mass instead of a prescribed velocity.
-struct Drive {
-  double mass = 0.0;              ///< kg/m; kg of revolution
-  std::array<TimeTable, 2> force; ///< N/m; N of revolution
-  Vec2 initial_velocity{0, 0};    ///< m/s
-  std::optional<Vec2> direction;  ///< unit vector; absent: it moves in the whole plane
-};
-
-/// A rigid tool: solid inside its outline.
-struct Tool {
-  std::string name;
-  Curve outline;                     ///< counter-clockwise, at t = 0, m
-  std::array<TimeTable, 2> velocity; ///< m/s, when there is no drive
-  std::optional<Drive> drive;
-  Friction friction;
-  std::optional<ToolHeat> heat;
-};
-
-/// Contact of the workpiece with itself.
-struct BodyContact {
-  bool deformable = false;
-  Friction friction;
-  double conductance = 0.0; ///< W/(m² K)
+/// A rigid tool: solid inside its outline. Its shape is made of that by app/registry.
+struct Tool : contact::Tool<2> {
+  Curve outline; ///< counter-clockwise, at t = 0, m
 };
 
 struct Method {
-  enum class Name { cnem, fe_triangles };
-  enum class Functions { sibson, laplace };
   enum class Lagrangian { total, periodic, updated };
-  Name name = Name::cnem;
-  Functions functions = Functions::sibson;
-  int gauss_points = 2;           ///< per cell edge, 1 to 3
+  std::string name = "cnem"; ///< as in the registry of methods
+  methods::Options options;
   double stabilisation = 0.05;    ///< – α of the edge defect; 0: off
   double pressure_exchange = 0.0; ///< – α of the exchange of volume between flowing nodes; 0: off
   Lagrangian lagrangian = Lagrangian::periodic;
@@ -292,13 +170,12 @@ struct Method {
 
 /// How the cloud follows the deformation.
 struct Adaptation {
-  enum class Placement { between_nodes, voronoi_vertices };
   enum class Indicator { none, plastic_strain, plastic_power, temperature, damage };
   /// The boundary piece that separation makes.
   static constexpr const char* fracture_piece = "fracture";
   bool resample = false;
   bool separate = false; ///< broken matter is opened along edges between nodes
-  Placement placement = Placement::between_nodes;
+  adapt::Placement placement = adapt::Placement::between_nodes;
   double growth = 0.3;                ///< – of the wanted spacing per distance
   std::optional<double> tool_spacing; ///< m, at corners and arcs of tools
   Indicator indicator = Indicator::none;
@@ -328,13 +205,13 @@ struct Case {
   TimeControl time;
   Domain domain;
   CloudSpec cloud;
-  std::vector<Material> materials;
+  std::vector<plasticity::Material> materials;
   std::vector<BoundaryCondition> boundary;
   std::vector<Periodicity> periodic;
   InitialState initial;
   Loads loads;
   std::vector<Tool> tools;
-  BodyContact contact;
+  contact::BodyContactLaw contact; ///< of the workpiece with itself
   Method method;
   Adaptation adapt;
   Fracture fracture;
@@ -348,7 +225,7 @@ struct Case {
   std::vector<std::string> warnings;           ///< what is allowed and hardly meant, one sentence each
 
   /// The material of that name; the reader has checked that domain.material exists.
-  const Material& material(const std::string& name) const;
+  const plasticity::Material& material(const std::string& name) const;
 
   /// An error about a key found later than reading, e.g. when geometry is built:
   /// "file:line:column: key 'a.b': message". Falls back to the nearest enclosing table that was written.

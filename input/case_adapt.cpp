@@ -13,45 +13,46 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     root.set_default("adapt.indicator.h_max", result.cloud.spacing);
   }
   const Setting& table = *root.find("adapt");
-  Adaptation& adapt = result.adapt;
-  adapt.resample = table.get<bool>("resample");
-  adapt.separate = table.get<bool>("separate");
-  adapt.placement = table.choice<Adaptation::Placement>("placement");
-  adapt.growth = table.get<double>("growth");
-  adapt.tool_spacing = table.maybe<double>("tool_spacing");
-  adapt.indicator = table.choice<Adaptation::Indicator>("indicator.field");
-  adapt.tolerance = table.get<double>("indicator.tolerance");
-  adapt.coarsen = table.get<double>("indicator.coarsen");
-  adapt.h_min = table.maybe<double>("indicator.h_min").value_or(0.0);
-  adapt.h_max = table.maybe<double>("indicator.h_max").value_or(0.0);
-  adapt.max_nodes = table.get<std::int64_t>("indicator.max_nodes");
+  Adaptation& rules = result.adapt;
+  rules.resample = table.get<bool>("resample");
+  rules.separate = table.get<bool>("separate");
+  rules.placement = table.choice<adapt::Placement>("placement");
+  rules.growth = table.get<double>("growth");
+  rules.tool_spacing = table.maybe<double>("tool_spacing");
+  rules.indicator = table.choice<Adaptation::Indicator>("indicator.field");
+  rules.tolerance = table.get<double>("indicator.tolerance");
+  rules.coarsen = table.get<double>("indicator.coarsen");
+  rules.h_min = table.maybe<double>("indicator.h_min").value_or(0.0);
+  rules.h_max = table.maybe<double>("indicator.h_max").value_or(0.0);
+  rules.max_nodes = table.get<std::int64_t>("indicator.max_nodes");
 
-  const bool refines = adapt.indicator != Adaptation::Indicator::none;
+  const bool refines = rules.indicator != Adaptation::Indicator::none;
   const auto conflict = [&](std::string_view path, const std::string& why) {
     const Setting* key = root.find(path);
     if (key) diagnostics.add(Mistake::conflict, key->where, key->path, why);
   };
-  const bool damage = std::any_of(result.materials.begin(), result.materials.end(),
-                                  [](const Material& material) { return material.damage.has_value(); });
-  if (adapt.indicator == Adaptation::Indicator::damage && !damage)
+  const bool damage =
+      std::any_of(result.materials.begin(), result.materials.end(),
+                  [](const plasticity::Material& material) { return material.damage.has_value(); });
+  if (rules.indicator == Adaptation::Indicator::damage && !damage)
     conflict("adapt.indicator.field",
              "found \"damage\" where no material has a damage law, expected materials.NAME.damage");
-  if (adapt.separate && !damage)
+  if (rules.separate && !damage)
     conflict("adapt.separate",
              "found true where no material has a damage law, expected materials.NAME.damage: nothing "
              "would ever break");
-  if (adapt.separate && !result.contact.deformable)
+  if (rules.separate && !result.contact.active)
     conflict("adapt.separate",
              "found true without contact.deformable, expected contact.deformable = true: the new faces would "
              "go through each other");
   const std::vector<std::string> pieces = result.domain.piece_names();
-  if (adapt.separate && std::find(pieces.begin(), pieces.end(), Adaptation::fracture_piece) != pieces.end())
+  if (rules.separate && std::find(pieces.begin(), pieces.end(), Adaptation::fracture_piece) != pieces.end())
     conflict("adapt.separate",
              fmt::format("found true in a domain with a piece \"{0}\", expected another name for it: the "
                          "faces that separation makes are the piece \"{0}\"",
                          Adaptation::fracture_piece));
-  if (!adapt.resample) {
-    if (adapt.separate)
+  if (!rules.resample) {
+    if (rules.separate)
       conflict("adapt.separate",
                "found true where adapt.resample is false, expected true: the cloud is cut at new "
                "references alone");
@@ -59,7 +60,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
       conflict("adapt.indicator.field",
                "found an indicator where adapt.resample is false, expected true: without "
                "resampling no node is added");
-    if (adapt.tool_spacing)
+    if (rules.tool_spacing)
       conflict(
           "adapt.tool_spacing",
           "found a spacing at tools where adapt.resample is false, expected true: without resampling no node "
@@ -75,14 +76,14 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
                      field.name));
     return;
   }
-  if (const Setting* least = table.find("indicator.h_min"); refines && least && !(adapt.h_min < adapt.h_max))
+  if (const Setting* least = table.find("indicator.h_min"); refines && least && !(rules.h_min < rules.h_max))
     diagnostics.add(Mistake::range, least->where, least->path,
                     fmt::format("found {:g} m, expected less than adapt.indicator.h_max = {:g} m",
-                                adapt.h_min, adapt.h_max));
-  if (adapt.indicator == Adaptation::Indicator::temperature && !result.analysis.thermal)
+                                rules.h_min, rules.h_max));
+  if (rules.indicator == Adaptation::Indicator::temperature && !result.analysis.thermal)
     conflict("adapt.indicator.field",
              "found \"temperature\" in an analysis without heat, expected it with analysis.thermal = true");
-  if (result.time.mass_scaling && result.time.mass_scaling->step && (refines || adapt.tool_spacing))
+  if (result.time.mass_scaling && result.time.mass_scaling->step > 0.0 && (refines || rules.tool_spacing))
     conflict("time.mass_scaling.step",
              "found a step for a cloud that is refined, expected time.mass_scaling.factor: the factors of "
              "the first cloud do not bring finer cells to that step");
@@ -91,12 +92,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict(path, "found true in a static analysis, expected it with analysis.type = \"explicit\" only");
   else if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
     conflict(path, "found true in an axisymmetric analysis, expected it with \"plane strain\" only");
-  if (result.method.name != Method::Name::cnem)
-    conflict(
-        path,
-        "found true for finite-element triangles, expected method.name = \"cnem\": triangles carry their "
-        "history in elements");
-  else if (result.method.lagrangian == Method::Lagrangian::total)
+  if (result.method.lagrangian == Method::Lagrangian::total)
     conflict(path,
              "found true with method.lagrangian = \"total\", expected \"periodic\": nodes are changed at a "
              "new reference");

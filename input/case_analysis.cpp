@@ -31,17 +31,15 @@ void check_local_steps(Setting& root, const Case& result, Diagnostics& diagnosti
   const std::string one = "one of them";
   if (result.time.mass_scaling) clash("with time.mass_scaling", one);
   if (result.method.pressure_exchange > 0.0) clash("with method.pressure_exchange", one);
-  for (const Material& material : result.materials)
+  for (const plasticity::Material& material : result.materials)
     if (material.damage) clash(fmt::format("with material '{}', which has a damage law", material.name), one);
-  if (result.contact.deformable) clash("with contact.deformable", one);
+  if (result.contact.active) clash("with contact.deformable", one);
   for (const Tool& tool : result.tools)
     if (tool.drive)
       clash(fmt::format("with tool '{}', which has a mass", tool.name), "tools of given velocity");
   if (result.time.fixed) clash("and a fixed one", one);
   if (!result.analysis.mechanical)
     clash("in an analysis without motion", "them with analysis.mechanical = true");
-  if (result.method.name == Method::Name::fe_triangles)
-    clash("with finite-element triangles, whose stress points are not nodes", "method.name = \"cnem\"");
 }
 
 } // namespace
@@ -72,9 +70,9 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
                                "initial.velocity_gradient", "report"})
         refuse(root, path, "found in an analysis without motion, expected it with analysis.mechanical = true",
                diagnostics);
-    if (result.time.local) check_local_steps(root, result, diagnostics);
+    if (result.time.local.on) check_local_steps(root, result, diagnostics);
     if (result.method.pressure_exchange > 0.0)
-      for (const Material& material : result.materials)
+      for (const plasticity::Material& material : result.materials)
         if (material.damage)
           refuse(root, "method.pressure_exchange",
                  fmt::format(

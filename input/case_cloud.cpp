@@ -56,11 +56,10 @@ std::vector<Vec2> crack_ends(const Setting& names, const Setting& cracks, Diagno
   return ends;
 }
 
-Refinement read_refinement(const Setting& root, const Setting& table, double cloud_spacing,
-                           Diagnostics& diagnostics) {
-  Refinement refinement;
-  refinement.name = table.name;
-  refinement.growth = table.get<double>("growth");
+/// A region of its own, or one at each end of cracks; none where the place is missing.
+std::vector<clouds::Refinement> read_refinement(const Setting& root, const Setting& table,
+                                                double cloud_spacing, Diagnostics& diagnostics) {
+  using Region = clouds::Refinement::Region;
   const Setting *region = table.find("box"), *points = table.find("points");
   const Setting *spacing = table.find("spacing"), *factor = table.find("factor");
   const Setting* tips = table.find("tips");
@@ -71,26 +70,34 @@ Refinement read_refinement(const Setting& root, const Setting& table, double clo
   if (!spacing == !factor)
     diagnostics.add(spacing ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
                     fmt::format("found {} of spacing and factor, expected one", spacing ? "both" : "none"));
-  if (region) refinement.box = box(*region, diagnostics);
-  if (points) {
-    refinement.points = std::get<std::vector<Vec2>>(points->value);
-    if (refinement.points.empty())
+  const double wanted = spacing ? std::get<double>(spacing->value)
+                                : table.maybe<double>("factor").value_or(1.0) * cloud_spacing;
+  std::vector<clouds::Refinement> list;
+  const auto add = [&](Region kind, std::vector<Vec2> places) {
+    list.push_back({kind, std::move(places), wanted, table.get<double>("growth")});
+  };
+  if (region) {
+    const auto [low, high] = box(*region, diagnostics);
+    add(Region::box, {low, high});
+  } else if (points) {
+    add(Region::path, std::get<std::vector<Vec2>>(points->value));
+    if (list.back().points.empty())
       diagnostics.add(Mistake::type, points->where, points->path, "found no points, expected at least one");
   }
   if (tips) {
     const Setting* cracks = root.find("domain.cracks");
-    refinement.tips = crack_ends(*tips, cracks ? *cracks : Setting{}, diagnostics);
+    for (const Vec2& tip : crack_ends(*tips, cracks ? *cracks : Setting{}, diagnostics))
+      add(Region::path, {tip});
   }
-  refinement.spacing = spacing ? std::get<double>(spacing->value)
-                               : table.maybe<double>("factor").value_or(1.0) * cloud_spacing;
-  return refinement;
+  return list;
 }
 
 /// Distance between the domain and a refinement outside it, m; 0 where they touch.
-double gap(const Refinement& refinement, const Domain& domain) {
+double gap(const clouds::Refinement& refinement, const Domain& domain) {
   std::vector<Vec2> corners = refinement.points;
-  if (refinement.box) {
-    const auto& [low, high] = *refinement.box;
+  const bool is_box = refinement.region == clouds::Refinement::Region::box;
+  if (is_box) {
+    const Vec2 low = corners[0], high = corners[1];
     corners = {low, {high.x(), low.y()}, high, {low.x(), high.y()}, low};
   }
   Curve region;
@@ -98,7 +105,7 @@ double gap(const Refinement& refinement, const Domain& domain) {
     region.pieces.push_back({corners[k - 1], corners[k], {0, 0}, 0.0, false, ""});
   for (const Vec2& x : corners)
     if (outside_reason(domain, x).empty()) return 0.0;
-  if (refinement.box && inside(region, domain.outer.pieces.front().from)) return 0.0;
+  if (is_box && inside(region, domain.outer.pieces.front().from)) return 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [key, curve] : curves_of(domain)) {
     if (common_point(region, *curve)) return 0.0;
@@ -113,12 +120,12 @@ double gap(const Refinement& refinement, const Domain& domain) {
 }
 
 /// A refinement that lies so far outside that nothing of the domain becomes finer was not meant.
-void check_reach(const Setting& table, const Refinement& refinement, const CloudSpec& cloud,
+void check_reach(const Setting& table, const clouds::Refinement& refinement, const CloudSpec& cloud,
                  const Domain& domain, Diagnostics& diagnostics) {
-  if (domain.outer.pieces.empty() || (refinement.points.empty() && !refinement.box)) return; // told already
+  if (domain.outer.pieces.empty() || refinement.points.empty()) return; // told already
   const double away = gap(refinement, domain), there = refinement.spacing + refinement.growth * away;
   if (away == 0.0 || there < cloud.spacing) return;
-  const Setting& region = *table.find(refinement.box ? "box" : "points");
+  const Setting& region = *table.find(table.find("box") ? "box" : "points");
   diagnostics.add(
       Mistake::geometry, region.where, region.path,
       fmt::format(
@@ -153,11 +160,11 @@ void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, co
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
   Setting& table = *root.find("cloud");
   CloudSpec& cloud = result.cloud;
-  cloud.pattern = table.choice<CloudSpec::Pattern>("pattern");
+  cloud.pattern = table.choice<clouds::Pattern>("pattern");
   cloud.jitter = table.get<double>("jitter");
   cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
   cloud.spacing = table.maybe<double>("spacing").value_or(0.0);
-  const bool list = cloud.pattern == CloudSpec::Pattern::list;
+  const bool list = cloud.pattern == clouds::Pattern::list;
   if (!list && !table.find("spacing"))
     diagnostics.add(Mistake::missing_key, table.where, "cloud.spacing",
                     "missing, expected " + find_key("cloud.spacing")->expectation());
@@ -186,10 +193,15 @@ void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
     cloud.nodes = std::get<std::vector<Vec2>>(nodes->value);
   }
   for (const Setting& refinement : table.entries("refine")) {
-    cloud.refine.push_back(read_refinement(root, refinement, cloud.spacing, diagnostics));
-    if (cloud.spacing > 0.0 && !list)
-      check_reach(refinement, cloud.refine.back(), cloud, result.domain, diagnostics);
-    if (list || (cloud.pattern == CloudSpec::Pattern::regular && cloud.refine.back().spacing < cloud.spacing))
+    const auto regions = read_refinement(root, refinement, cloud.spacing, diagnostics);
+    if (cloud.spacing > 0.0 && !list && !refinement.find("tips"))
+      for (const clouds::Refinement& region : regions)
+        check_reach(refinement, region, cloud, result.domain, diagnostics);
+    const bool finer = std::any_of(regions.begin(), regions.end(), [&](const clouds::Refinement& region) {
+      return region.spacing < cloud.spacing;
+    });
+    cloud.refinements.insert(cloud.refinements.end(), regions.begin(), regions.end());
+    if (list || (cloud.pattern == clouds::Pattern::regular && finer))
       diagnostics.add(
           Mistake::conflict, refinement.where, refinement.path,
           fmt::format("found a refinement with pattern = \"{}\", expected it with \"hexagonal\" or "

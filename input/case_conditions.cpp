@@ -13,7 +13,8 @@ namespace {
 
 /// A fracture strain that is nowhere positive between shear (σ* = 0) and uniaxial tension (1/3), or in the
 /// same span above the cut-off, is a slip: metal would break with its first flow.
-void check_ductility(const JohnsonCookDamage& law, const Setting& table, Diagnostics& diagnostics) {
+void check_ductility(const plasticity::JohnsonCookDamage& law, const Setting& table,
+                     Diagnostics& diagnostics) {
   const auto strain = [&](double triaxiality) {
     return law.D1 + law.D2 * std::exp(std::clamp(law.D3 * triaxiality, -700.0, 700.0));
   };
@@ -28,7 +29,7 @@ void check_ductility(const JohnsonCookDamage& law, const Setting& table, Diagnos
 }
 
 /// Factors of the fracture strain that turn it negative within what metal sees in a cut.
-void warn_of_brittleness(const JohnsonCookDamage& law, const Setting& table,
+void warn_of_brittleness(const plasticity::JohnsonCookDamage& law, const Setting& table,
                          std::vector<std::string>& warnings) {
   constexpr double fast = 1e6; // 1/s
   const double share = 1.0 + law.D4 * std::log(std::max(1.0, fast / law.rate0));
@@ -44,18 +45,18 @@ void warn_of_brittleness(const JohnsonCookDamage& law, const Setting& table,
                     table.path, law.D5, 1.0 + law.D5));
 }
 
-JohnsonCookDamage read_damage(const Setting& table, const Setting& material,
-                              std::vector<std::string>& warnings, Diagnostics& diagnostics) {
+plasticity::JohnsonCookDamage read_damage(const Setting& table, const Setting& material,
+                                          std::vector<std::string>& warnings, Diagnostics& diagnostics) {
   const auto number = [&](std::string_view key) { return table.get<double>(key); };
-  JohnsonCookDamage law{.D1 = number("D1"),
-                        .D2 = number("D2"),
-                        .D3 = number("D3"),
-                        .D4 = number("D4"),
-                        .D5 = number("D5"),
-                        .rate0 = number("rate0"),
-                        .T0 = number("T0"),
-                        .fracture_energy = number("fracture_energy"),
-                        .band = number("band")};
+  plasticity::JohnsonCookDamage law{.D1 = number("D1"),
+                                    .D2 = number("D2"),
+                                    .D3 = number("D3"),
+                                    .D4 = number("D4"),
+                                    .D5 = number("D5"),
+                                    .rate0 = number("rate0"),
+                                    .T0 = number("T0"),
+                                    .fracture_energy = number("fracture_energy"),
+                                    .band = number("band")};
   law.residual_strength = number("residual_strength");
   if (const auto cut_off = table.maybe<double>("cut_off")) law.cut_off = *cut_off;
   const Setting* melt = table.find("Tmelt");
@@ -77,48 +78,58 @@ JohnsonCookDamage read_damage(const Setting& table, const Setting& material,
   return law;
 }
 
-Material read_material(const Setting& table, std::vector<std::string>& warnings, Diagnostics& diagnostics) {
-  Material material;
+plasticity::JohnsonCook read_hardening(const Setting& table, Diagnostics& diagnostics) {
+  const auto number = [&](std::string_view key) { return table.get<double>(key); };
+  const std::string law = table.get<std::string>("law");
+  if (law == "perfect") return {.A = number("yield")};
+  if (law == "linear") return {.A = number("yield"), .B = number("hardening")};
+  if (law == "voce") {
+    const double yield = number("yield"), saturation = number("saturation");
+    if (!(saturation >= yield)) {
+      const Setting& setting = *table.find("saturation");
+      diagnostics.add(Mistake::range, setting.where, setting.path,
+                      fmt::format("found {:g} Pa, expected at least yield = {:g} Pa", saturation, yield));
+    }
+    return {.A = yield,
+            .B = number("hardening"),
+            .saturation = saturation - yield,
+            .saturation_exponent = number("exponent")};
+  }
+  plasticity::JohnsonCook jc{.A = number("A"),
+                             .B = number("B"),
+                             .n = number("n"),
+                             .C = number("C"),
+                             .rate0 = number("rate0"),
+                             .m = number("m"),
+                             .T0 = number("T0")};
+  if (const Setting* melt = table.find("Tmelt")) {
+    jc.Tmelt = std::get<double>(melt->value);
+    if (!(jc.Tmelt > jc.T0))
+      diagnostics.add(Mistake::range, melt->where, melt->path,
+                      fmt::format("found {:g} K, expected more than T0 = {:g} K", jc.Tmelt, jc.T0));
+  }
+  if (!(jc.A + jc.B > 0.0))
+    diagnostics.add(Mistake::range, table.where, table.path, "found A = B = 0, expected some strength");
+  return jc;
+}
+
+plasticity::Material read_material(const Setting& table, std::vector<std::string>& warnings,
+                                   Diagnostics& diagnostics) {
+  plasticity::Material material;
   material.name = table.name;
   material.density = table.get<double>("density");
-  material.young = table.get<double>("elastic.young");
-  material.poisson = table.get<double>("elastic.poisson");
-  if (const Setting* plastic = table.find("plastic")) {
-    const auto number = [&](std::string_view key) { return plastic->get<double>(key); };
-    const std::string law = plastic->get<std::string>("law");
-    if (law == "perfect") material.plastic = PerfectPlasticity{number("yield")};
-    if (law == "linear") material.plastic = LinearHardening{number("yield"), number("hardening")};
-    if (law == "voce") {
-      const Voce voce{number("yield"), number("saturation"), number("exponent"), number("hardening")};
-      if (!(voce.saturation >= voce.yield)) {
-        const Setting& saturation = *plastic->find("saturation");
-        diagnostics.add(
-            Mistake::range, saturation.where, saturation.path,
-            fmt::format("found {:g} Pa, expected at least yield = {:g} Pa", voce.saturation, voce.yield));
-      }
-      material.plastic = voce;
-    }
-    if (law == "johnson-cook") {
-      JohnsonCook jc{number("A"), number("B"),     number("n"), number("C"),
-                     number("m"), number("rate0"), number("T0")};
-      if (const Setting* melt = plastic->find("Tmelt")) {
-        jc.Tmelt = std::get<double>(melt->value);
-        if (!(jc.Tmelt > jc.T0))
-          diagnostics.add(Mistake::range, melt->where, melt->path,
-                          fmt::format("found {:g} K, expected more than T0 = {:g} K", jc.Tmelt, jc.T0));
-      }
-      if (!(jc.A + jc.B > 0.0))
-        diagnostics.add(Mistake::range, plastic->where, plastic->path,
-                        "found A = B = 0, expected some strength");
-      material.plastic = jc;
-    }
-  }
+  material.elasticity = {table.get<double>("elastic.young"), table.get<double>("elastic.poisson")};
+  if (const Setting* plastic = table.find("plastic"))
+    material.hardening = read_hardening(*plastic, diagnostics);
   if (const Setting* damage = table.find("damage"))
     material.damage = read_damage(*damage, table, warnings, diagnostics);
-  if (const Setting* heat = table.find("heat"))
-    material.heat = HeatProperties{heat->get<double>("specific_heat"), heat->get<double>("conductivity"),
-                                   heat->get<double>("taylor_quinney"), heat->get<double>("expansion"),
-                                   heat->get<double>("reference_temperature")};
+  if (const Setting* heat = table.find("heat")) {
+    material.specific_heat = heat->get<double>("specific_heat");
+    material.conductivity = heat->get<double>("conductivity");
+    material.taylor_quinney = heat->get<double>("taylor_quinney");
+    material.expansion = heat->get<double>("expansion");
+    material.expansion_reference = heat->get<double>("reference_temperature");
+  }
   return material;
 }
 
@@ -282,8 +293,10 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
     condition.temperature = table.maybe<TimeTable>("temperature");
     condition.heat_flux = table.maybe<TimeTable>("heat_flux");
     if (const Setting* convection = table.find("convection"))
-      condition.convection =
-          Convection{convection->get<double>("coefficient"), convection->get<TimeTable>("ambient")};
+      condition.convection = Convection<2>{condition.name,
+                                           TimeTable(convection->get<double>("coefficient")),
+                                           convection->get<TimeTable>("ambient"),
+                                           {}};
 
     const bool nothing = std::all_of(table.members.begin(), table.members.end(), [](const Setting& member) {
       return member.name == "pieces" || member.name == "points" || member.name == "symmetry";

@@ -28,14 +28,14 @@ void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics
     return diagnostics.add(Mistake::conflict, velocity->where, velocity->path,
                            "found a prescribed velocity and a mass, expected one of them: a tool with a mass "
                            "moves by force and initial_velocity");
-  Drive& drive = tool.drive.emplace();
+  contact::ToolDrive<2>& drive = tool.drive.emplace();
   drive.mass = std::get<double>(mass->value);
   if (const auto force = table.maybe<VectorFunction>("force"))
     for (std::size_t k = 0; k < 2; ++k) drive.force[k] = (*force)[k].value_or(TimeTable());
   drive.initial_velocity = table.maybe<Vec2>("initial_velocity").value_or(Vec2::Zero());
   const Setting* direction = table.find("direction");
   if (!direction) return;
-  const Vec2 line = std::get<Vec2>(direction->value);
+  Vec2 line = std::get<Vec2>(direction->value);
   if (!(line.norm() > 0.0))
     return diagnostics.add(Mistake::range, direction->where, direction->path,
                            "found \"0 0\", expected a direction such as \"0 1\"");
@@ -44,9 +44,10 @@ void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics
         Mistake::conflict, direction->where, direction->path,
         "found a radial direction, expected \"0 1\": a rigid body of revolution moves along its "
         "axis alone");
-  drive.direction = line.normalized();
+  line.normalize();
+  drive.free = line * line.transpose();
   // What a guide would take without a trace was not meant.
-  const Vec2 across(-drive.direction->y(), drive.direction->x());
+  const Vec2 across(-line.y(), line.x());
   if (std::abs(across.dot(drive.initial_velocity)) > 1e-9 * drive.initial_velocity.norm())
     diagnostics.add(Mistake::conflict, table.find("initial_velocity")->where,
                     table.find("initial_velocity")->path,
@@ -54,7 +55,7 @@ void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics
   if (const Setting* force = table.find("force"))
     for (std::size_t k = 0; k < 2; ++k) {
       const std::vector<double>& values = drive.force[k].values();
-      if (drive.direction->cwiseAbs()[static_cast<int>(k)] < 1e-9 &&
+      if (line.cwiseAbs()[static_cast<int>(k)] < 1e-9 &&
           std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; }))
         diagnostics.add(
             Mistake::conflict, force->where, force->path,
@@ -68,12 +69,12 @@ void read_mass_scaling(const Setting& root, Case& result, Diagnostics& diagnosti
   const Setting* table = root.find("time.mass_scaling");
   if (!table) return;
   MassScaling& scaling = result.time.mass_scaling.emplace();
-  scaling.factor = table->maybe<double>("factor");
-  scaling.step = table->maybe<double>("step");
-  if (scaling.factor.has_value() == scaling.step.has_value())
+  const auto factor = table->maybe<double>("factor"), step = table->maybe<double>("step");
+  scaling = {factor.value_or(1.0), step.value_or(0.0)};
+  if (factor.has_value() == step.has_value())
     diagnostics.add(Mistake::conflict, table->where, table->path,
-                    scaling.factor ? "found both factor and step, expected one of them"
-                                   : "found neither factor nor step, expected one of them");
+                    factor ? "found both factor and step, expected one of them"
+                           : "found neither factor nor step, expected one of them");
 }
 
 } // namespace cnem::input

@@ -151,9 +151,12 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
 
 namespace {
 
-Friction read_friction(const Setting& table) {
-  return {table.choice<Friction::Law>("law"), table.maybe<double>("coefficient").value_or(0.0),
-          table.maybe<double>("shear_factor").value_or(1.0)};
+contact::Friction read_friction(const Setting& table) {
+  contact::Friction friction; // none
+  const std::string law = table.get<std::string>("law");
+  if (law != "none") friction.coulomb = table.maybe<double>("coefficient").value_or(0.0);
+  if (law == "tresca-limited") friction.shear_factor = table.maybe<double>("shear_factor").value_or(1.0);
+  return friction;
 }
 
 } // namespace
@@ -163,7 +166,7 @@ void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
   result.contact = {table.get<bool>("deformable"), read_friction(*table.find("friction")),
                     table.get<double>("conductance")};
   const Setting& conductance = *table.find("conductance");
-  if (result.contact.conductance > 0.0 && !result.contact.deformable)
+  if (result.contact.conductance > 0.0 && !result.contact.active)
     diagnostics.add(Mistake::conflict, conductance.where, conductance.path,
                     "found a conductance between parts that pass through each other, expected it with "
                     "contact.deformable = true only");
@@ -172,7 +175,7 @@ void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
                     "found a conductance in an analysis without heat, expected it with "
                     "analysis.thermal = true only");
   const Setting& law = *table.find("friction.law");
-  if (!result.contact.deformable && result.contact.friction.law != Friction::Law::none)
+  if (!result.contact.active && std::get<std::string>(law.value) != "none")
     diagnostics.add(Mistake::conflict, law.where, law.path,
                     "found friction between parts that pass through each other, expected it with "
                     "contact.deformable = true only");
@@ -186,25 +189,25 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     if (!result.domain.outer.pieces.empty() && !tool.outline.pieces.empty())
       check_overlap(table, tool, result, diagnostics);
     const auto velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
-    for (std::size_t k = 0; k < 2; ++k) tool.velocity[k] = velocity[k].value_or(TimeTable(0.0));
+    for (std::size_t k = 0; k < 2; ++k) tool.motion.velocity[k] = velocity[k].value_or(TimeTable(0.0));
     read_drive(table, result, tool, diagnostics);
     tool.friction = read_friction(*table.find("friction"));
     if (const Setting* heat = table.find("heat")) {
       if (!result.analysis.thermal)
         diagnostics.add(Mistake::conflict, heat->where, heat->path,
                         "found the thermal side of a tool, expected it with analysis.thermal = true only");
-      ToolHeat& tool_heat = tool.heat.emplace();
-      tool_heat.conductance = heat->get<double>("conductance");
-      tool_heat.temperature = heat->get<double>("temperature");
-      tool_heat.effusivity = heat->maybe<double>("effusivity");
+      tool.thermal.conductance = heat->get<double>("conductance");
+      tool.thermal.temperature = heat->get<double>("temperature");
+      const auto effusivity = heat->maybe<double>("effusivity");
+      tool.thermal.effusivity = effusivity.value_or(0.0);
       const auto k = heat->maybe<double>("conductivity"), density = heat->maybe<double>("density"),
                  c = heat->maybe<double>("specific_heat");
       const int parts = int(k.has_value()) + int(density.has_value()) + int(c.has_value());
-      if (parts > 0 && (parts < 3 || tool_heat.effusivity))
+      if (parts > 0 && (parts < 3 || effusivity))
         diagnostics.add(Mistake::conflict, heat->where, heat->path,
                         "expected either effusivity, or conductivity, density and specific_heat together");
       else if (parts == 3)
-        tool_heat.effusivity = std::sqrt(*k * *density * *c);
+        tool.thermal.effusivity = std::sqrt(*k * *density * *c);
     }
     result.tools.push_back(std::move(tool));
   }

@@ -45,6 +45,18 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics);
 /// Crack tips: enrichment and domain of the interaction integral.
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// What a case asks for at a key and a method that promises no more than `promises` cannot give, in words for
+/// users.
+struct Unmet {
+  std::string path;
+  Promise promise;
+  std::string message;
+};
+std::vector<Unmet> unmet_needs(const Case& input, const Promises& promises);
+
+/// What the case asks for and its method does not promise (core/promises.hpp). Expects everything else.
+void check_promises(const Setting& root, const Case& result, Diagnostics& diagnostics);
+
 /// What the kind of analysis does not allow; defaults of such keys are dropped. Expects everything else.
 void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics);
 

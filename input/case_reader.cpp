@@ -60,16 +60,16 @@ void compute_defaults(Setting& root) {
 
 void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& step = *root.find("time.step");
-  result.time = {root.get<double>("time.end"),
-                 step.get<double>("safety"),
-                 step.maybe<double>("max"),
-                 step.maybe<double>("fixed"),
-                 static_cast<int>(step.get<std::int64_t>("check_every")),
-                 step.maybe<double>("min"),
-                 root.maybe<std::int64_t>("time.max_steps"),
-                 step.get<bool>("local"),
-                 static_cast<int>(step.get<std::int64_t>("levels")),
-                 {}};
+  result.time = {
+      root.get<double>("time.end"),
+      step.get<double>("safety"),
+      step.maybe<double>("max"),
+      step.maybe<double>("fixed"),
+      static_cast<int>(step.get<std::int64_t>("check_every")),
+      step.maybe<double>("min"),
+      root.maybe<std::int64_t>("time.max_steps"),
+      {.on = step.get<bool>("local"), .levels = static_cast<int>(step.get<std::int64_t>("levels"))},
+      {}};
   read_mass_scaling(root, result, diagnostics);
   if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
     diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
@@ -79,18 +79,19 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
                     "found a fixed step and a least step, expected one of them");
 }
 
-void read_method(const Setting& root, Case& result, Diagnostics& diagnostics) {
+void read_method(const Setting& root, Case& result) {
   const Setting& table = *root.find("method");
   Method& method = result.method;
-  method.name = table.choice<Method::Name>("name");
-  method.functions = table.choice<Method::Functions>("functions");
-  method.gauss_points = static_cast<int>(table.get<std::int64_t>("gauss_points"));
+  method.name = table.get<std::string>("name");
+  method.options.functions = table.choice<scni::Functions>("functions");
+  method.options.gauss_points = static_cast<int>(table.get<std::int64_t>("gauss_points"));
+  if (table.find("kernel")) {
+    method.options.kernel = table.choice<methods::Kernel>("kernel");
+    method.options.smoothing = table.get<double>("smoothing");
+  }
+  method.options.space = result.analysis.space();
   method.stabilisation = table.get<double>("stabilisation");
   method.pressure_exchange = table.get<double>("pressure_exchange");
-  if (const Setting& exchange = *table.find("pressure_exchange");
-      method.pressure_exchange > 0.0 && method.name != Method::Name::cnem)
-    diagnostics.add(Mistake::conflict, exchange.where, exchange.path,
-                    "found a pressure exchange between nodes, expected it with method.name = \"cnem\" only");
   method.lagrangian = table.choice<Method::Lagrangian>("lagrangian");
   method.rereference_every = static_cast<int>(table.get<std::int64_t>("rereference.every"));
   method.rereference_strain = table.get<double>("rereference.strain");
@@ -181,10 +182,11 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_boundary(root, result, diagnostics);
   read_periodic(root, result, diagnostics);
   read_initial_and_loads(root, result, diagnostics);
-  read_method(root, result, diagnostics);
+  read_method(root, result);
   read_adaptation(root, result, diagnostics);
   read_fracture(root, result, diagnostics);
   read_report(root, result, diagnostics);
+  check_promises(root, result, diagnostics);
   check_analysis(root, result, diagnostics);
   diagnostics.throw_if_any();
   result.resolved = write_resolved(root, fmt::format("Resolved from {}: SI units, defaults included.", path));

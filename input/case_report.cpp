@@ -10,10 +10,11 @@ namespace {
 
 bool moves(const Tool& tool) {
   if (tool.drive) return true;
-  return std::any_of(tool.velocity.begin(), tool.velocity.end(), [](const TimeTable& component) {
-    return std::any_of(component.values().begin(), component.values().end(),
-                       [](double v) { return v != 0.0; });
-  });
+  return std::any_of(tool.motion.velocity.begin(), tool.motion.velocity.end(),
+                     [](const TimeTable& component) {
+                       return std::any_of(component.values().begin(), component.values().end(),
+                                          [](double v) { return v != 0.0; });
+                     });
 }
 
 std::vector<std::string> names_of(const std::vector<Tool>& tools) {

@@ -23,11 +23,11 @@ struct Wall {
 std::vector<Wall> walls_of(const Setting& table, const Domain& domain) {
   std::vector<Wall> walls;
   for (std::size_t i = 0; i < domain.cracks.size(); ++i)
-    walls.push_back({"crack", "domain.cracks." + domain.cracks[i].name, domain.cracks[i].points, false,
+    walls.push_back({"crack", "domain.cracks." + domain.cracks[i].name, domain.cracks[i].path, false,
                      table.entries("cracks")[i].find("points")});
   for (std::size_t i = 0; i < domain.interfaces.size(); ++i)
-    walls.push_back({"interface", "domain.interfaces." + domain.interfaces[i].name,
-                     domain.interfaces[i].points, true, table.entries("interfaces")[i].find("points")});
+    walls.push_back({"interface", "domain.interfaces." + domain.interfaces[i].name, domain.interfaces[i].path,
+                     true, table.entries("interfaces")[i].find("points")});
   return walls;
 }
 
@@ -170,7 +170,7 @@ std::vector<Vec2> crack_path(const Setting& table) {
 
 void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics) {
   for (const Setting& crack : table.entries("cracks"))
-    domain.cracks.push_back({crack.name, crack_path(crack), tip_names(crack, table, diagnostics)});
+    domain.cracks.push_back({{crack.name, crack_path(crack)}, tip_names(crack, table, diagnostics)});
   check_crack_names(table, domain, diagnostics);
   for (const Setting& interface : table.entries("interfaces")) {
     for (const Crack& crack : domain.cracks)

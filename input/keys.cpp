@@ -1,4 +1,4 @@
-// Every key of a case file, in the order of the case reference; geometry is in schema_geometry.cpp.
+// Every key of a case file, in the order of the case reference; those of larger tables are in keys_*.cpp.
 #include "input/keys.hpp"
 #include "input/case.hpp"
 
@@ -197,54 +197,6 @@ void add_tools(Keys& k) {
   k.add(at + "heat.specific_heat", quantity, "Of the tool.").unit(d::specific_heat).in(positive);
 }
 
-void add_method(Keys& k) {
-  k.add("method", table, "How it is solved.").always();
-  k.add("method.name", choice, "Constrained natural elements or linear triangles.")
-      .one_of({"cnem", "fe-triangles"})
-      .fallback("\"cnem\"");
-  k.add("method.functions", choice, "Natural neighbour functions (cnem).")
-      .one_of({"sibson", "laplace"})
-      .fallback("\"sibson\"");
-  k.add("method.gauss_points", integer,
-        "Per edge of a Voronoi cell (cnem); axisymmetric analyses take at least 2.")
-      .in({.low = 1, .high = 3})
-      .fallback("2");
-  k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem).")
-      .in(not_negative)
-      .example("0.1")
-      .computed("0.05; in axisymmetric analyses 0.2");
-  k.add("method.pressure_exchange", quantity,
-        "Factor of the exchange of volume between flowing neighbours, which smooths their pressure; 0: off "
-        "(cnem). 0.3 "
-        "where pressures matter: docs/pressure_exchange.md.")
-      .in(not_negative)
-      .fallback("0.0");
-  k.add("method.lagrangian", choice,
-        "Reference configuration: `total`: the initial one; `periodic`: renewed as `rereference` says; "
-        "`updated`: renewed every step.")
-      .one_of({"total", "periodic", "updated"})
-      .fallback("\"periodic\"");
-  k.add("method.rereference", table, "When `periodic` takes a new reference: whichever comes first.")
-      .always();
-  k.add("method.rereference.every", integer, "Steps; 0: not by count.")
-      .in({.low = 0, .high = 1e9})
-      .fallback("0");
-  k.add("method.rereference.strain", quantity,
-        "Largest ‖f − 1‖ of a cell since the last reference; 0: not by strain.")
-      .in(not_negative)
-      .fallback("0.25");
-  k.add("method.bulk_viscosity", table, "Smears shocks over a few nodes.").always();
-  k.add("method.bulk_viscosity.linear", quantity, "Linear coefficient.").in(not_negative).fallback("0.06");
-  k.add("method.bulk_viscosity.quadratic", quantity, "Quadratic coefficient.")
-      .in(not_negative)
-      .fallback("1.2");
-  k.add("method.energy_tolerance", quantity,
-        "The run has diverged when, from step 10 on, the energy residual exceeds this part of work done and "
-        "initial energy; where there is neither, of the energy of a body at rest.")
-      .in(positive)
-      .fallback("0.05");
-}
-
 void add_contact(Keys& k) {
   k.add("contact", table, "Contact of parts of the workpiece with each other.").always();
   k.add("contact.deformable", boolean,
@@ -363,6 +315,38 @@ void add_output(Keys& k) {
       .one_of(fields)
       .required()
       .example("[\"temperature\", \"plastic_strain\"]");
+}
+
+void add_report(Keys& k) {
+  k.add("report", table, "What is evaluated at the end of an explicit run (docs/blanking.md).").always();
+  k.add("report.springback", boolean,
+        "The bodies are let go: field `springback` in the last frame of `fields.pvd`, largest displacement "
+        "and "
+        "change of shape of each body in `status.json`. Planes of symmetry stay, tools, loads and other "
+        "supports are taken away.")
+      .computed("true where `report.blanking` is given and no nodes are tied");
+  k.add("report.blanking", table,
+        "Sheared faces of slug and skeleton (rollover, burnish, fracture, burr), largest forces, work. The "
+        "cuts "
+        "are where a side of the punch passes an edge of the die; the cutting direction is that of the punch "
+        "against the die.");
+  k.add("report.blanking.punch", text, "A tool.")
+      .example("\"punch\"")
+      .computed("the tool named `punch`, else the only one that moves");
+  k.add("report.blanking.die", texts, "One or several tools.")
+      .example("\"die\"")
+      .computed("the tools whose names begin with `die`, else those at rest");
+  k.add("report.blanking.parallel", quantity,
+        "The drawn-in edge ends where the face is parallel to the cutting direction within this angle.")
+      .unit(d::angle)
+      .in({.low = 0.0, .high = 0.7853981633974483, .low_open = true})
+      .fallback("\"10 deg\"");
+  k.add("report.blanking.smoothing", quantity,
+        "Length of the chords that directions of the face are taken from; what is smaller is roughness.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"0.05 mm\"")
+      .computed("a fiftieth of the thickness");
 }
 
 } // namespace

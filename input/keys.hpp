@@ -1,5 +1,5 @@
 #pragma once
-// How keys are written down in schema_keys.cpp and schema_geometry.cpp: k.add("a.b", quantity, "…").unit(…)…
+// How keys are written down in keys.cpp and its neighbours: k.add("a.b", quantity, "…").unit(…)…
 #include "input/schema/schema.hpp"
 
 #include <initializer_list>
@@ -53,7 +53,7 @@ void add_parts(Keys& k);
 void add_cloud(Keys& k);
 void add_materials(Keys& k);
 void add_adaptation(Keys& k);
-void add_report(Keys& k);
+void add_method(Keys& k);
 
 /// Members of the table of a tool, "tools.*.", that let it move as a body.
 void add_drive(Keys& k, const std::string& tool);

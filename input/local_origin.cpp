@@ -47,16 +47,11 @@ void use_local_origin(Case& input) {
   Domain& domain = input.domain;
   shift(domain.outer);
   for (Hole& hole : domain.holes) shift(hole.outline);
-  for (Crack& crack : domain.cracks) shift(crack.points);
-  for (Interface& interface : domain.interfaces) shift(interface.points);
+  for (Crack& crack : domain.cracks) shift(crack.path);
+  for (Interface& interface : domain.interfaces) shift(interface.path);
   for (Region& region : domain.regions) shift(region.at);
   shift(input.cloud.nodes);
-  for (Refinement& refinement : input.cloud.refine) {
-    if (refinement.box)
-      for (Vec2& corner : *refinement.box) shift(corner);
-    shift(refinement.points);
-    shift(refinement.tips);
-  }
+  for (clouds::Refinement& refinement : input.cloud.refinements) shift(refinement.points);
   for (BoundaryCondition& condition : input.boundary) shift(condition.points);
   if (input.initial.spin) shift(input.initial.spin->centre);
   if (input.initial.gradient) shift(input.initial.gradient->centre);

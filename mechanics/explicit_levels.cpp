@@ -41,13 +41,14 @@ template<int dim> void ExplicitSolver<dim>::set_levels(typename LocalSteps<dim>:
 /// The levels in use on new operators, with the impulses they make there; what the new neighbourhoods ask for
 /// comes with the next step.
 template<int dim> void ExplicitSolver<dim>::rebuild_levels() {
-  if (local_.on() && !approximation_.mechanics.nodal)
-    throw InputError("local time steps need stress points at nodes");
-  if (local_.on())
+  if (local_.on()) {
+    require(model_.method->promises(), Promise::one_point_per_node, model_.method->name(),
+            "local time steps");
     each([](Term<dim>& term) {
       if (const char* what = term.needs_one_level())
         throw InputError(fmt::format("local time steps do not take {}", what));
     });
+  }
   set_levels(local_.level());
   next_levels_.clear();
   if (local_.on()) {

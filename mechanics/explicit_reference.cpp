@@ -51,6 +51,8 @@ template<int dim> void ExplicitSolver<dim>::prepare(const Resampling<dim>& chang
 template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resampling<dim>* change) {
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
+  if (references_ > 0)
+    require(model_.method->promises(), Promise::one_point_per_node, model_.method->name(), "a new reference");
   Approximation<dim> rebuilt = model_.method->rebuild(cloud);
   if (references_ > 0) {
     each([&](Term<dim>& term) { term.leave(body()); });

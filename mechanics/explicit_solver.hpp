@@ -38,13 +38,13 @@ public:
 
   /// Makes the present configuration the reference: cells and functions are rebuilt, b_e is pushed forward,
   /// nodes keep mass, velocity and temperature, and what this changes in energy is booked. Start-up comes
-  /// through here too. Throws GeometryError, with everything left as it was, when the cloud has no valid
-  /// structure.
+  /// through here too. Throws, with everything left as it was, GeometryError when the cloud has no valid
+  /// structure, InputError at a renewal of a method that does not promise one point per node.
   void prepare();
 
   /// prepare() on a resampled cloud: nodes keep mass, momentum and heat in parcels, b_e is averaged as its
-  /// logarithm, and the kinetic energy that averaging loses is booked. Only for nodal methods. Throws
-  /// GeometryError, with everything left as it was.
+  /// logarithm, and the kinetic energy that averaging loses is booked. Throws as the other, with everything
+  /// left as it was.
   void prepare(const Resampling<dim>& change);
 
   /// Stable step for the present configuration with the safety factor, and what limits it. With local time

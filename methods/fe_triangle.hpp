@@ -10,11 +10,16 @@ namespace cnem::methods {
 /// operators.
 class FeTriangles final : public Discretisation<2> {
 public:
+  static constexpr Promises promised{Promise::interpolating_values, Promise::non_negative_values,
+                                     Promise::tiling_cells, Promise::balanced_constant_stress,
+                                     Promise::hoop_rows};
+
   explicit FeTriangles(Space space = Space::plane) : space_(space) {}
 
   /// Throws GeometryError as voronoi::triangulate and voronoi::linear_triangles do.
   Approximation<2> rebuild(const Cloud<2>& cloud) override;
   std::string name() const override { return "fe_triangle"; }
+  Promises promises() const override { return promised; }
 
 private:
   Space space_;

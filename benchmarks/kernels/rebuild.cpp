@@ -4,6 +4,7 @@
 #include "cnem/scni.hpp"
 #include "cnem/smoothing.hpp"
 #include "methods/fe_triangle.hpp"
+#include "methods/sph.hpp"
 #include "tests/clouds.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/linear_triangles.hpp"
@@ -113,6 +114,12 @@ void whole_triangles(benchmark::State& state) {
   per_node(state, cloud, [&] { return method.rebuild(cloud); });
 }
 
+void whole_particles(benchmark::State& state) {
+  const auto cloud = benchmark_cloud(state.range(0));
+  methods::Sph method;
+  per_node(state, cloud, [&] { return method.rebuild(cloud); });
+}
+
 void by_nodes(benchmark::internal::Benchmark* b) {
   b->ArgNames({"nodes"})->Arg(20'000)->Arg(200'000)->Unit(benchmark::kMillisecond);
 }
@@ -133,4 +140,5 @@ BENCHMARK(functions_on_facets)->Apply(by_nodes_and_rule);
 BENCHMARK(smoothing)->Apply(by_nodes_and_rule);
 BENCHMARK(whole_cnem)->Apply(by_nodes_and_rule);
 BENCHMARK(whole_triangles)->Apply(by_nodes);
+BENCHMARK(whole_particles)->Apply(by_nodes);
 BENCHMARK_MAIN();

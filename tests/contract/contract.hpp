@@ -25,8 +25,14 @@ template<class Body> void for_each_entry(const DiscreteOperators<2>& op, Body&& 
     for (auto e = index(op.row_begin[p]); e < index(op.row_begin[p + 1]); ++e) body(p, e, index(op.node[e]));
 }
 
+/// What conduction operators keep, whatever the method (core/discretisation.hpp).
+inline constexpr Promises conduction_promises{Promise::non_negative_values, Promise::tiling_cells,
+                                              Promise::balanced_constant_stress};
+
 class Contract : public ::testing::TestWithParam<Method> {
 protected:
+  static bool promised(Promise promise) { return GetParam().make()->promises().keep(promise); }
+
   /// Rebuilds on every domain and calls check(domain, approximation).
   template<class Check> void on_every_domain(Check&& check) const {
     for (const NamedCloud& domain : domains()) {
@@ -44,6 +50,20 @@ protected:
       }
       SCOPED_TRACE("conduction");
       check(domain, approximation.conduction);
+    });
+  }
+
+  /// The same for those of both that keep a promise.
+  template<class Check> void on_operators_that_keep(Promise promise, Check&& check) const {
+    on_every_domain([&](const NamedCloud& domain, const Approximation<2>& approximation) {
+      if (promised(promise)) {
+        SCOPED_TRACE("mechanics");
+        check(domain, approximation.mechanics);
+      }
+      if (conduction_promises.keep(promise)) {
+        SCOPED_TRACE("conduction");
+        check(domain, approximation.conduction);
+      }
     });
   }
 };

@@ -1,5 +1,6 @@
-// What every discretisation promises (core/operators.hpp, core/discretisation.hpp), to rounding, on convex
-// and non-convex domains. Gradients are compared after multiplication with the spacing.
+// What every discretisation keeps (core/operators.hpp, core/discretisation.hpp) and what each promises beyond
+// (core/promises.hpp), to rounding, on convex and non-convex domains. Gradients are compared after
+// multiplication with the spacing.
 #include "contract.hpp"
 
 namespace cnem::testing {
@@ -82,20 +83,45 @@ TEST_P(Contract, patch_linear_displacement_gives_constant_deformation) {
   });
 }
 
-TEST_P(Contract, values_are_a_partition_of_unity_and_not_negative) {
+TEST_P(Contract, values_are_a_partition_of_unity) {
   on_all_operators([](const NamedCloud&, const DiscreteOperators<2>& op) {
     std::vector<double> sum(index(op.points), 0.0);
-    for_each_entry(op, [&](std::size_t p, std::size_t e, std::size_t) {
-      EXPECT_GE(value(op, p, e), 0.0);
-      sum[p] += value(op, p, e);
-    });
+    for_each_entry(op, [&](std::size_t p, std::size_t e, std::size_t) { sum[p] += value(op, p, e); });
     for (const double s : sum) EXPECT_NEAR(s, 1.0, tolerance);
-    if (op.nodal) { EXPECT_EQ(op.points, op.nodes); }
   });
 }
 
-TEST_P(Contract, volumes_fill_the_domain) {
-  on_all_operators([](const NamedCloud& domain, const DiscreteOperators<2>& op) {
+TEST_P(Contract, declares_the_promises_of_the_registry) {
+  const auto method = GetParam().make();
+  for (const Promise promise : all_promises)
+    EXPECT_EQ(method->promises().keep(promise), GetParam().entry->promises.keep(promise)) << name_of(promise);
+}
+
+TEST_P(Contract, promised_one_point_per_node) {
+  on_operators_that_keep(Promise::one_point_per_node, [](const NamedCloud&, const DiscreteOperators<2>& op) {
+    ASSERT_EQ(op.points, op.nodes);
+    std::vector<bool> own(index(op.nodes), false);
+    for_each_entry(op, [&](std::size_t p, std::size_t, std::size_t j) {
+      if (j == p) own[p] = true;
+    });
+    for (std::size_t p = 0; p < own.size(); ++p) EXPECT_TRUE(own[p]) << "row " << p;
+  });
+}
+
+TEST_P(Contract, promised_identity_is_declared_by_operators_without_values) {
+  on_every_domain([](const NamedCloud&, const Approximation<2>& approximation) {
+    EXPECT_EQ(approximation.mechanics.nodal, promised(Promise::identity_values));
+  });
+}
+
+TEST_P(Contract, promised_values_are_not_negative) {
+  on_operators_that_keep(Promise::non_negative_values, [](const NamedCloud&, const DiscreteOperators<2>& op) {
+    for_each_entry(op, [&](std::size_t p, std::size_t e, std::size_t) { EXPECT_GE(value(op, p, e), 0.0); });
+  });
+}
+
+TEST_P(Contract, promised_volumes_fill_the_domain) {
+  on_operators_that_keep(Promise::tiling_cells, [](const NamedCloud& domain, const DiscreteOperators<2>& op) {
     double sum = 0.0;
     for (const double v : op.volume) sum += v;
     const double exact = area(domain.cloud);
@@ -165,21 +191,36 @@ TEST_P(Contract, internal_forces_sum_to_zero_and_carry_no_moment_under_symmetric
   });
 }
 
-TEST_P(Contract, patch_constant_stress_loads_the_boundary_only) {
+TEST_P(Contract, constant_stress_has_the_virial_of_its_volume) {
   Mat2 stress;
   stress << 2.0, -0.7, 0.5, 1.1;
   on_all_operators([&](const NamedCloud& domain, const DiscreteOperators<2>& op) {
-    // Each boundary edge hands half of its traction P·n L to either end; no other node is loaded.
-    std::vector<Vec2> expected(index(op.nodes), Vec2::Zero());
-    for (const auto& facet : domain.cloud.facets) {
-      const Vec2 n = right_normal(domain.cloud.position[index(facet.node[1])] -
-                                  domain.cloud.position[index(facet.node[0])]);
-      for (const auto j : facet.node) expected[index(j)] -= 0.5 * stress * n;
-    }
+    Mat2 virial = Mat2::Zero();
+    double volume = 0.0;
+    for (const double v : op.volume) volume += v;
     const auto force = internal_force(op, Tensors(index(op.points), stress));
-    for (std::size_t j = 0; j < force.size(); ++j)
-      EXPECT_LT((force[j] - expected[j]).norm(), tolerance * domain.spacing);
+    for (std::size_t j = 0; j < force.size(); ++j) virial -= force[j] * domain.cloud.position[j].transpose();
+    EXPECT_LT((virial - volume * stress).norm(), tolerance * volume);
   });
+}
+
+TEST_P(Contract, promised_patch_constant_stress_loads_the_boundary_only) {
+  Mat2 stress;
+  stress << 2.0, -0.7, 0.5, 1.1;
+  on_operators_that_keep(Promise::balanced_constant_stress,
+                         [&](const NamedCloud& domain, const DiscreteOperators<2>& op) {
+                           // Each boundary edge hands half of its traction P·n L to either end; no other node
+                           // is loaded.
+                           std::vector<Vec2> expected(index(op.nodes), Vec2::Zero());
+                           for (const auto& facet : domain.cloud.facets) {
+                             const Vec2 n = right_normal(domain.cloud.position[index(facet.node[1])] -
+                                                         domain.cloud.position[index(facet.node[0])]);
+                             for (const auto j : facet.node) expected[index(j)] -= 0.5 * stress * n;
+                           }
+                           const auto force = internal_force(op, Tensors(index(op.points), stress));
+                           for (std::size_t j = 0; j < force.size(); ++j)
+                             EXPECT_LT((force[j] - expected[j]).norm(), tolerance * domain.spacing);
+                         });
 }
 
 } // namespace

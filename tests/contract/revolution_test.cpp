@@ -1,31 +1,13 @@
-// What every discretisation promises of bodies of revolution, to rounding, on domains that touch the axis and
-// on domains away from it.
+// What every discretisation that promises hoop rows keeps on bodies of revolution, to rounding, on domains
+// that touch the axis and on domains away from it.
 #include "contract.hpp"
+#include "core/error.hpp"
 #include "core/revolution.hpp"
 
 namespace cnem::testing {
 namespace {
 
 constexpr double tolerance = 1e-12;
-
-struct Revolved {
-  std::string name;
-  std::function<std::unique_ptr<Discretisation<2>>()> make;
-};
-void PrintTo(const Revolved& method, std::ostream* os) { *os << method.name; }
-
-std::vector<Revolved> revolved_methods() {
-  std::vector<Revolved> list{
-      {"fe_triangle", [] { return std::make_unique<methods::FeTriangles>(Space::revolution); }}};
-  for (const auto functions : {scni::Functions::sibson, scni::Functions::laplace})
-    for (int points = 1; points <= 3; ++points)
-      list.push_back(
-          {(functions == scni::Functions::sibson ? "sibson_" : "laplace_") + std::to_string(points), [=] {
-             return std::make_unique<scni::Cnem>(
-                 scni::Options{.functions = functions, .gauss_points = points, .space = Space::revolution});
-           }});
-  return list;
-}
 
 /// The domains of the suite, moved to touch the axis and to stand half their size away from it.
 std::vector<NamedCloud> revolved_domains() {
@@ -51,7 +33,7 @@ double solid_volume(const Cloud<2>& cloud) {
   return std::numbers::pi * sum;
 }
 
-class Revolution : public ::testing::TestWithParam<Revolved> {
+class Revolution : public ::testing::TestWithParam<Method> {
 protected:
   template<class Check> void on_all_operators(Check&& check) const {
     for (const NamedCloud& domain : revolved_domains()) {
@@ -159,6 +141,19 @@ TEST_P(Revolution, patch_uniform_axial_stress_loads_the_boundary_only) {
   });
 }
 
+TEST(RevolvedSolids, methods_without_hoop_rows_are_refused_by_the_promise) {
+  for (const methods::Entry& entry : methods::registry()) {
+    if (entry.promises.keep(Promise::hoop_rows)) continue;
+    try {
+      methods::make(entry.name, {.space = Space::revolution});
+      FAIL() << entry.name;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("hoop rows of bodies of revolution"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(RevolvedSolids, cylinder_and_cone_have_their_volumes) {
   Cloud<2> cylinder, cone;
   add_loop(cylinder, {{0.5, 0}, {2, 0}, {2, 3}, {0.5, 3}}, 0.2);
@@ -174,7 +169,7 @@ TEST(RevolvedSolids, cylinder_and_cone_have_their_volumes) {
   EXPECT_NEAR(volume(cone), std::numbers::pi * 2.0 / 3.0, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(methods, Revolution, ::testing::ValuesIn(revolved_methods()),
+INSTANTIATE_TEST_SUITE_P(methods, Revolution, ::testing::ValuesIn(methods(Space::revolution)),
                          [](const auto& test) { return test.param.name; });
 
 } // namespace

@@ -45,7 +45,8 @@ NodalResponse response(const DiscreteOperators<2>& op, const std::vector<double>
   return r;
 }
 
-TEST_P(Contract, cells_have_the_volumes_of_their_points) {
+TEST_P(Contract, promised_cells_have_the_volumes_of_their_points) {
+  if (!promised(Promise::tiling_cells)) GTEST_SKIP() << "not promised";
   on_every_domain([](const NamedCloud& domain, const Approximation<2>& approximation) {
     const CellGeometry<2>& cells = approximation.cells;
     const auto& op = approximation.mechanics;
@@ -60,6 +61,21 @@ TEST_P(Contract, cells_have_the_volumes_of_their_points) {
                        cells.vertex[index(cells.index[v + 1 < end ? v + 1 : begin])] - origin);
       EXPECT_NEAR(0.5 * twice, op.volume[p], tolerance * domain.spacing * domain.spacing);
     }
+  });
+}
+
+TEST_P(Contract, promised_interpolation_cell_vertices_at_nodes_move_with_them) {
+  if (!promised(Promise::interpolating_values)) GTEST_SKIP() << "not promised";
+  on_every_domain([](const NamedCloud& domain, const Approximation<2>& approximation) {
+    const CellGeometry<2>& cells = approximation.cells;
+    std::size_t at_nodes = 0;
+    for (std::size_t v = 0; v < cells.vertex.size(); ++v)
+      for (auto e = index(cells.vertex_begin[v]); e < index(cells.vertex_begin[v + 1]); ++e)
+        if (cells.vertex[v] == domain.cloud.position[index(cells.vertex_node[e])]) {
+          EXPECT_EQ(cells.vertex_weight[e], 1.0);
+          ++at_nodes;
+        }
+    EXPECT_GE(at_nodes, domain.cloud.facets.size());
   });
 }
 

@@ -274,10 +274,12 @@ TEST_F(Restart, wrong_geometry_leaves_no_folder) {
 }
 
 TEST_F(Restart, a_file_that_may_not_grow_stops_the_run_with_4_and_a_valid_checkpoint) {
-  reference("loaded"); // its history is the file that grows most
+  // Its history is the file that grows most, once checkpoints hold no state to go back to.
+  const std::vector<std::string> alone{"--threads", "1", "--set", "method.rereference.strain=0"};
+  reference("loaded", alone);
   const std::size_t limit = fs::file_size(folder / "reference" / "history.csv") / 2;
   ASSERT_LT(fs::file_size(folder / "reference" / "checkpoint.h5"), limit);
-  const Ending ending = run_cnem(run_of("loaded", "limited"), limit);
+  const Ending ending = run_cnem(run_of("loaded", "limited", alone), limit);
   EXPECT_EQ(ending.code, 4) << ending.printed;
   EXPECT_NE(ending.printed.find("history.csv"), std::string::npos) << ending.printed;
   EXPECT_EQ(results::read_status(folder / "limited").exit, 4);

@@ -12,7 +12,8 @@ struct SmallCase {
 };
 
 /// Plasticity, heat, contact with friction, re-references, bulk viscosity, loads, supports, bodies of
-/// revolution, finite elements, damage, parts that touch.
+/// revolution, finite elements, damage, parts that touch, a failure
+/// that is gone back from.
 const std::vector<SmallCase>& small_cases();
 const std::string& small_case(const std::string& name);
 

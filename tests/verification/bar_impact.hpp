@@ -24,7 +24,7 @@ inline void expect_bar_impact(ExplicitSolver<2>& solver, double meet, double dur
   }
   EXPECT_NEAR(plateau / samples, expected, 0.01 * expected);
   EXPECT_NEAR(last_contact, duration, 0.03 * duration);
-  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * solver.ledger().initial);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * solver.ledger().initial());
 }
 
 } // namespace cnem::testing

@@ -20,10 +20,10 @@ struct Shape {
 };
 
 /// Runs a case of cases/verification.
-Shape run(const std::string& name, const std::string& spacing) {
+Shape run(const std::string& name, const std::string& spacing, const std::string& method = "cnem") {
   const input::Case input =
       input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
-                       {"cloud.spacing=\"" + spacing + "\""});
+                       {"cloud.spacing=\"" + spacing + "\"", "method.name=" + method});
   app::Setup setup = app::build(input);
   ExplicitSolver<2> solver(std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature));
   while (solver.state().time < input.time.end) {
@@ -33,7 +33,8 @@ Shape run(const std::string& name, const std::string& spacing) {
   const State<2>& state = solver.state();
   Shape shape{};
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    const double X = solver.state().node.initial_position[0][i], Y = solver.state().node.initial_position[1][i];
+    const double X = solver.state().node.initial_position[0][i],
+                 Y = solver.state().node.initial_position[1][i];
     shape.length = std::max(shape.length, state.node.position[1][i]);
     if (Y == 0.0) shape.radius = std::max(shape.radius, state.node.position[0][i]);
     shape.plastic_strain = std::max(shape.plastic_strain, state.point.plastic_strain[i]);
@@ -85,6 +86,13 @@ TEST(TaylorBar, plane_strain_slab) {
   expect_near(shape.length, 28.830e-3, 0.01, "length");
   expect_near(shape.radius, 6.372e-3, 0.02, "half width");
   expect_near(shape.plastic_strain, 1.82, 0.15, "plastic strain");
+
+  const Shape particles = run("taylor_slab_copper", "0.32 mm", "sph");
+  expect_near(particles.length, shape.length, 0.005, "length of particles");
+  expect_near(particles.radius, shape.radius, 0.025, "half width of particles");
+  expect_near(particles.centre, shape.centre, 0.15,
+              "plastic strain of particles"); // elsewhere: docs/methods.md
+  EXPECT_LT(particles.residual, 1e-3);
 }
 
 } // namespace

@@ -79,7 +79,7 @@ TEST_F(Axisymmetric, nodes_on_the_axis_are_held_and_at_least_two_gauss_points_ta
   ASSERT_EQ(supports.size(), 2U);
   EXPECT_EQ(supports[0].name, "axis");
   EXPECT_EQ(supports[0].nodes.size(), 11U);
-  EXPECT_EQ(read({}).method.gauss_points, 2);
+  EXPECT_EQ(read({}).method.options.gauss_points, 2);
   EXPECT_EQ(build(read({"domain.outer.rectangle.from=\"1 0 mm\""})).model.supports.list().size(), 1U);
 }
 

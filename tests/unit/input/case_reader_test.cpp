@@ -114,13 +114,13 @@ TEST(CaseReader, SmallCaseHasTheDefaults) {
   EXPECT_EQ(c.domain.material, "steel");
   EXPECT_EQ(c.domain.piece_names(), (std::vector<std::string>{"bottom", "right", "top", "left"}));
   EXPECT_DOUBLE_EQ(c.domain.outer.area(), 50e-6);
-  EXPECT_EQ(c.cloud.pattern, CloudSpec::Pattern::hexagonal);
+  EXPECT_EQ(c.cloud.pattern, clouds::Pattern::hexagonal);
   EXPECT_EQ(c.cloud.spacing, 0.25e-3);
-  EXPECT_EQ(c.material("steel").poisson, 0.3);
-  EXPECT_TRUE(std::holds_alternative<std::monostate>(c.material("steel").plastic));
-  EXPECT_FALSE(c.material("steel").heat);
+  EXPECT_EQ(c.material("steel").elasticity.poisson, 0.3);
+  EXPECT_FALSE(c.material("steel").hardening);
+  EXPECT_EQ(c.material("steel").specific_heat, 0.0);
   EXPECT_EQ(c.initial.temperature, 293.15);
-  EXPECT_EQ(c.method.name, Method::Name::cnem);
+  EXPECT_EQ(c.method.name, "cnem");
   EXPECT_EQ(c.method.lagrangian, Method::Lagrangian::periodic);
   EXPECT_EQ(c.method.rereference_strain, 0.25);
   EXPECT_EQ(c.output.history_every, 20e-6 / 400.0);
@@ -143,25 +143,25 @@ TEST(CaseReader, FullCaseInSI) {
   EXPECT_NEAR(c.domain.holes[0].outline.area(), -std::numbers::pi * 1e-6, 1e-18);
   EXPECT_NEAR(c.domain.holes[1].outline.area(), -4e-6, 1e-18);
   ASSERT_EQ(c.domain.cracks.size(), 1U);
-  EXPECT_EQ(c.domain.cracks[0].points[2], Vec2(0.017, 0.006));
+  EXPECT_EQ(c.domain.cracks[0].path[2], Vec2(0.017, 0.006));
 
-  EXPECT_EQ(c.cloud.pattern, CloudSpec::Pattern::jittered);
+  EXPECT_EQ(c.cloud.pattern, clouds::Pattern::jittered);
   EXPECT_EQ(c.cloud.jitter, 0.1);
   EXPECT_EQ(c.cloud.seed, 7U);
-  ASSERT_EQ(c.cloud.refine.size(), 2U);
-  EXPECT_EQ((*c.cloud.refine[0].box)[0], Vec2(0.012, 0.004));
-  EXPECT_EQ((*c.cloud.refine[0].box)[1], Vec2(0.014, 0.006));
-  EXPECT_EQ(c.cloud.refine[0].spacing, 0.25e-3);
-  EXPECT_EQ(c.cloud.refine[1].growth, 0.2);
+  ASSERT_EQ(c.cloud.refinements.size(), 2U);
+  EXPECT_EQ(c.cloud.refinements[0].points[0], Vec2(0.012, 0.004));
+  EXPECT_EQ(c.cloud.refinements[0].points[1], Vec2(0.014, 0.006));
+  EXPECT_EQ(c.cloud.refinements[0].spacing, 0.25e-3);
+  EXPECT_EQ(c.cloud.refinements[1].growth, 0.2);
 
   ASSERT_EQ(c.materials.size(), 2U);
   EXPECT_EQ(c.materials[0].name, "soft");
   EXPECT_EQ(c.materials[0].density, 2700.0);
-  EXPECT_EQ(std::get<LinearHardening>(c.materials[0].plastic).hardening, 50e6);
-  EXPECT_EQ(c.materials[0].heat->expansion, 23e-6);
-  EXPECT_EQ(c.materials[0].heat->taylor_quinney, 0.9);
-  EXPECT_EQ(c.materials[0].heat->reference_temperature, 300.0);
-  const auto& jc = std::get<JohnsonCook>(c.materials[1].plastic);
+  EXPECT_EQ(c.materials[0].hardening->B, 50e6);
+  EXPECT_EQ(c.materials[0].expansion, 23e-6);
+  EXPECT_EQ(c.materials[0].taylor_quinney, 0.9);
+  EXPECT_EQ(c.materials[0].expansion_reference, 300.0);
+  const plasticity::JohnsonCook& jc = *c.materials[1].hardening;
   EXPECT_EQ(jc.A, 253e6);
   EXPECT_EQ(jc.C, 0.0);
   EXPECT_EQ(jc.rate0, 1.0);
@@ -188,15 +188,15 @@ TEST(CaseReader, FullCaseInSI) {
     EXPECT_LE(piece.from.x(), 1e-12);
     EXPECT_GE(piece.from.x(), -0.002 - 1e-12);
   }
-  EXPECT_DOUBLE_EQ(punch.velocity[1](1e-6), -5.5);
-  EXPECT_EQ(punch.friction.law, Friction::Law::tresca_limited);
+  EXPECT_DOUBLE_EQ(punch.motion.velocity[1](1e-6), -5.5);
+  EXPECT_EQ(punch.friction.coulomb, 0.2);
   EXPECT_EQ(punch.friction.shear_factor, 0.8);
-  EXPECT_EQ(punch.heat->temperature, 300.0);
-  EXPECT_DOUBLE_EQ(*punch.heat->effusivity, std::sqrt(100.0 * 8000.0 * 450.0));
+  EXPECT_EQ(punch.thermal.temperature, 300.0);
+  EXPECT_DOUBLE_EQ(punch.thermal.effusivity, std::sqrt(100.0 * 8000.0 * 450.0));
 
-  EXPECT_EQ(c.method.name, Method::Name::fe_triangles);
-  EXPECT_EQ(c.method.functions, Method::Functions::laplace);
-  EXPECT_EQ(c.method.gauss_points, 2);
+  EXPECT_EQ(c.method.name, "fe-triangles");
+  EXPECT_EQ(c.method.options.functions, scni::Functions::laplace);
+  EXPECT_EQ(c.method.options.gauss_points, 2);
   EXPECT_EQ(c.method.lagrangian, Method::Lagrangian::total);
   EXPECT_EQ(c.method.rereference_every, 50);
   EXPECT_EQ(c.method.viscosity_quadratic, 2.0);
@@ -249,12 +249,12 @@ TEST(CaseReader, OverridesReplaceAddAndAddressElements) {
   EXPECT_EQ(read_small("", {"time.end=3 us", "time.end=4 us"}).time.end, 4e-6);
   EXPECT_EQ(read_small("", {"materials.steel.plastic={ law = \"perfect\", yield = \"1 MPa\" }"})
                 .material("steel")
-                .plastic.index(),
-            1U);
+                .hardening->A,
+            1e6);
   const Case c = read_case_text(full_case, "case.toml",
                                 {"domain.outer.path[1].fillet=2 mm", "tools.punch.velocity=0 -50 m/s",
                                  "boundary.bed.pieces=[\"bottom\", \"side\"]"});
-  EXPECT_EQ(c.tools[0].velocity[1](0.0), -50.0);
+  EXPECT_EQ(c.tools[0].motion.velocity[1](0.0), -50.0);
   EXPECT_EQ(c.boundary[0].pieces.size(), 2U);
   for (const CurvePiece& piece : c.domain.outer.pieces) EXPECT_TRUE(!piece.is_arc() || piece.radius == 0.002);
 }
@@ -383,10 +383,10 @@ TEST(CaseReader, PaperCasesRead) {
     EXPECT_EQ(c.name, name);
     EXPECT_EQ(c.time.end, 60e-6);
     EXPECT_TRUE(c.analysis.thermal);
-    EXPECT_EQ(c.materials[0].heat->conductivity, 5.86);
-    EXPECT_EQ(std::get<JohnsonCook>(c.material("304L").plastic).C, 0.0973);
+    EXPECT_EQ(c.materials[0].conductivity, 5.86);
+    EXPECT_EQ(c.material("304L").hardening->C, 0.0973);
     ASSERT_EQ(c.tools.size(), 2U);
-    EXPECT_EQ(c.tools[0].velocity[1](0.0), -11.0);
+    EXPECT_EQ(c.tools[0].motion.velocity[1](0.0), -11.0);
     double right = -1.0, left = 1.0;
     for (const CurvePiece& piece : c.tools[0].outline.pieces) right = std::max(right, piece.from.x());
     for (const CurvePiece& piece : c.tools[1].outline.pieces) left = std::min(left, piece.from.x());

@@ -64,14 +64,10 @@ std::vector<Vec2> places(const Case& c) {
   };
   outline(c.domain.outer);
   outline(c.domain.holes.at(0).outline);
-  add(c.domain.cracks.at(0).points);
-  add(c.domain.interfaces.at(0).points);
+  add(c.domain.cracks.at(0).path);
+  add(c.domain.interfaces.at(0).path);
   add({c.domain.regions.at(0).at});
-  for (const Refinement& refinement : c.cloud.refine) {
-    if (refinement.box) add({(*refinement.box)[0], (*refinement.box)[1]});
-    add(refinement.points);
-    add(refinement.tips);
-  }
+  for (const clouds::Refinement& refinement : c.cloud.refinements) add(refinement.points);
   add(c.boundary.at(0).points);
   add({c.initial.spin->centre, c.initial.gradient->centre});
   add(c.initial.imperfections.at(0).points);

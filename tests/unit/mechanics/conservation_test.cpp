@@ -51,7 +51,8 @@ TEST_P(Conservation, plastic_impact_closes_the_ledger) {
   EXPECT_LT(worst, 2e-3 * solver.ledger().initial());
 }
 
-INSTANTIATE_TEST_SUITE_P(methods, Conservation, ::testing::Values(Method::cnem, Method::triangles));
+INSTANTIATE_TEST_SUITE_P(methods, Conservation,
+                         ::testing::Values(Method::cnem, Method::triangles, Method::sph));
 
 } // namespace
 } // namespace cnem::testing

@@ -90,7 +90,7 @@ TEST(StableStep, bound_is_below_the_exact_step_and_not_far) {
   for (const double poisson : {0.0, 0.33, 0.49})
     for (const double jitter : {0.0, 0.25})
       for (const double alpha : {0.0, 0.05, 0.5})
-        for (const Method method : {Method::cnem, Method::triangles}) {
+        for (const Method method : {Method::cnem, Method::triangles, Method::sph}) {
           plasticity::Material material = steel();
           material.elasticity.poisson = poisson;
           const Cloud<2> cloud = rectangle(8e-3, 6e-3, 1e-3, Lattice::hexagonal, jitter, 7);

@@ -3,6 +3,7 @@
 #include "cnem/scni.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "methods/fe_triangle.hpp"
+#include "methods/sph.hpp"
 #include "tests/clouds.hpp"
 
 #include <cmath>
@@ -11,13 +12,14 @@
 
 namespace cnem::testing {
 
-enum class Method { cnem, triangles };
+enum class Method { cnem, triangles, sph };
 inline void PrintTo(Method method, std::ostream* out) {
-  *out << (method == Method::cnem ? "cnem" : "triangles");
+  *out << (method == Method::cnem ? "cnem" : method == Method::sph ? "sph" : "triangles");
 }
 
 inline std::unique_ptr<Discretisation<2>> make(Method method, Space space = Space::plane) {
   if (method == Method::triangles) return std::make_unique<methods::FeTriangles>(space);
+  if (method == Method::sph) return std::make_unique<methods::Sph>();
   return std::make_unique<scni::Cnem>(scni::Options{.space = space});
 }
 

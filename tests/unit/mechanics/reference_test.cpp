@@ -1,4 +1,5 @@
 // Re-referencing, stabilisation energy, determinism, adiabatic shear: what the solver as a whole must keep.
+#include "core/error.hpp"
 #include "tests/unit/mechanics/tools.hpp"
 
 #include <cstring>
@@ -79,6 +80,20 @@ TEST(Rereference, keeps_mass_momentum_temperature_and_stress_and_books_energy) {
   EXPECT_LT(std::abs(after["kinetic"] - before["kinetic"]), 1e-4 * before.external());
   EXPECT_EQ(after["stabilisation"], 0.0);
   EXPECT_GT(after["penalty_release"], before["penalty_release"]);
+}
+
+TEST(Rereference, of_triangles_is_refused_by_the_promise) {
+  ExplicitSolver<2> solver =
+      start(model_of(rectangle(4e-3, 2e-3, 1e-3), Method::triangles, steel()), [](const Vec2&) -> Vec2 {
+        return {0, 0};
+      });
+  try {
+    solver.prepare();
+    FAIL() << "the history of triangles would go to others";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'one stress point per node'"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Shearing, small_blank_closes_its_books) {

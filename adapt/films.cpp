@@ -1,0 +1,122 @@
+// Films of broken matter, thinner than a cell: cut where they are thinnest, before their faces pass each
+// other.
+#include "adapt/cut.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace cnem::adapt {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+struct Waist {
+  double thickness;   ///< in units of the wanted spacing
+  std::int32_t node;  ///< at one face
+  std::int32_t start; ///< at the other: the node, or the start of the facet that has none yet
+  double place;       ///< on that facet; 0: at its start
+};
+
+/// Between broken boundary nodes across films thinner than `film`, or between one and the foot of it on a
+/// facet, the thinnest first.
+std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, double film) {
+  const auto& mesh = structure.mesh;
+  const auto at = [&](std::int32_t i) -> const Vec2& { return work.cloud().position[u(i)]; };
+  const auto ends_cut = [&](std::int32_t i) {
+    return work.on_boundary(i) && work.node().broken[u(i)] >= 1.0;
+  };
+  std::vector<Waist> list;
+  const auto consider = [&](std::int32_t i, std::int32_t start, double place, double distance) {
+    const double thickness = distance / work.size_between(i, start);
+    if (thickness < film) list.push_back({thickness, i, start, place});
+  };
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i)
+    for (const std::int32_t k : structure.neighbours(i))
+      if (i < k && ends_cut(i) && ends_cut(k) && work.next(i) != k && work.previous(i) != k)
+        consider(i, k, 0.0, (at(k) - at(i)).norm());
+  for (std::size_t t = 0; t < mesh.node.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
+      // with two facets it is a corner
+      if (mesh.facet[t][k] < 0 || mesh.facet[t][next] >= 0 || mesh.facet[t][last] >= 0) continue;
+      const std::int32_t i = mesh.node[t][k], a = mesh.node[t][next], b = mesh.node[t][last];
+      if (!ends_cut(i) || !ends_cut(a) || !ends_cut(b)) continue;
+      const Foot foot = foot_on(at(i), at(a), at(b));
+      const double length = (at(b) - at(a)).norm();
+      // feet beside an end are left to that end
+      if (std::min(foot.place, 1.0 - foot.place) * length > foot.distance)
+        consider(i, a, foot.place, foot.distance);
+    }
+  std::sort(list.begin(), list.end(), [](const Waist& a, const Waist& b) {
+    return std::tie(a.thickness, a.node, a.start) < std::tie(b.thickness, b.node, b.start);
+  });
+  return list;
+}
+
+/// Puts a node on a facet, with the matter of the cell it takes. Returns its number; −1, with nothing
+/// changed, when there is no room for one.
+std::int32_t insert_foot(WorkingCloud& work, Structure& structure, const Waist& waist) {
+  WorkingCloud changed = work;
+  const std::int32_t made = changed.insert_between(waist.start, work.next(waist.start), true, waist.place);
+  changed.refresh_facets();
+  std::optional<Structure> after = structure_if_valid(changed.cloud());
+  if (!after) return -1;
+  std::vector<char> is_made(changed.size(), 0);
+  is_made[u(made)] = 1;
+  changed.move(stolen(changed.cloud(), structure, *after, is_made));
+  if (!(changed.node().mass[u(made)] > 0.0)) return -1;
+  work = std::move(changed);
+  structure = std::move(*after);
+  return made;
+}
+
+/// The cut leaves the boundary at one of its ends nearly along it: the two faces would cross it.
+bool shaves(const WorkingCloud& work, std::int32_t from, std::int32_t to, double steepest) {
+  const auto direction = [&](std::int32_t a, std::int32_t b) {
+    return Vec2((work.cloud().position[u(b)] - work.cloud().position[u(a)]).normalized());
+  };
+  for (const auto& [one, other] : {std::pair(from, to), std::pair(to, from)})
+    for (const std::int32_t beside : {work.next(one), work.previous(one)})
+      if (direction(one, other).dot(direction(one, beside)) > steepest) return true;
+  return false;
+}
+
+bool cut_at(WorkingCloud& work, Structure& structure, const Waist& waist, const SplitRules& rules) {
+  WorkingCloud opened = work;
+  Structure after = structure;
+  const std::int32_t to = waist.place > 0.0 ? insert_foot(opened, after, waist) : waist.start;
+  if (to < 0 || shaves(opened, waist.node, to, std::cos(rules.least_angle * std::numbers::pi / 180.0)) ||
+      !open_cut(opened, after, std::array{waist.node, to}, rules, 0.0))
+    return false;
+  work = std::move(opened);
+  structure = std::move(after);
+  return true;
+}
+
+} // namespace
+
+void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report) {
+  constexpr int most = 8; // cuts in one pass
+  for (int k = 0; k < most; ++k) {
+    const BoundaryLoops loops(work);
+    const std::vector<Waist> list = waists(work, structure, rules.film);
+    const auto cut = std::find_if(list.begin(), list.end(), [&](const Waist& waist) {
+      const double length = waist.thickness * work.size_between(waist.node, waist.start);
+      return loops.parts(waist.node, waist.start, rules.part * length, rules.least_loop) &&
+             cut_at(work, structure, waist, rules);
+    });
+    if (cut == list.end()) return;
+    ++report.films;
+    ++report.cuts;
+    ++report.opened;
+  }
+}
+
+} // namespace cnem::adapt

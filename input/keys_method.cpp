@@ -1,0 +1,132 @@
+// Keys of the method and of adaptation.
+#include "input/keys.hpp"
+#include "methods/registry.hpp"
+
+namespace cnem::input {
+
+void add_method(Keys& k) {
+  using enum Type;
+  k.add("method", table, "How it is solved.").always();
+  k.add("method.name", choice,
+        "Constrained natural elements, linear triangles, or total-Lagrangian corrected particles (SPH): "
+        "docs/methods.md.")
+      .one_of(methods::names())
+      .fallback("\"cnem\"");
+  k.add("method.functions", choice, "Natural neighbour functions (cnem).")
+      .one_of({"sibson", "laplace"})
+      .fallback("\"sibson\"");
+  k.add("method.gauss_points", integer,
+        "Per edge of a Voronoi cell (cnem); axisymmetric analyses take at least 2.")
+      .in({.low = 1, .high = 3})
+      .fallback("2");
+  k.add("method.kernel", choice, "Kernel of the particles.")
+      .one_of({"cubic_spline", "wendland_c2"})
+      .fallback("\"cubic_spline\"")
+      .when("name", {"sph"});
+  k.add("method.smoothing", quantity,
+        "Support of the kernel in spacings, twice the smoothing length; each node counts the distance to its "
+        "natural "
+        "neighbours as its spacing.")
+      .in({.low = 1.5, .high = 5.0})
+      .fallback("2.4")
+      .when("name", {"sph"});
+  k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem, sph).")
+      .in(not_negative)
+      .example("0.1")
+      .computed("0.05; in axisymmetric analyses 0.2");
+  k.add("method.pressure_exchange", quantity,
+        "Factor of the exchange of volume between flowing neighbours, which smooths their pressure; 0: off "
+        "(cnem, sph). 0.3 "
+        "where pressures matter: docs/pressure_exchange.md.")
+      .in(not_negative)
+      .fallback("0.0");
+  k.add("method.lagrangian", choice,
+        "Reference configuration: `total`: the initial one; `periodic`: renewed as `rereference` says; "
+        "`updated`: renewed every step.")
+      .one_of({"total", "periodic", "updated"})
+      .fallback("\"periodic\"");
+  k.add("method.rereference", table, "When `periodic` takes a new reference: whichever comes first.")
+      .always();
+  k.add("method.rereference.every", integer, "Steps; 0: not by count.")
+      .in({.low = 0, .high = 1e9})
+      .fallback("0");
+  k.add("method.rereference.strain", quantity,
+        "Largest ‖f − 1‖ of a cell since the last reference; 0: not by strain.")
+      .in(not_negative)
+      .fallback("0.25");
+  k.add("method.bulk_viscosity", table, "Smears shocks over a few nodes.").always();
+  k.add("method.bulk_viscosity.linear", quantity, "Linear coefficient.").in(not_negative).fallback("0.06");
+  k.add("method.bulk_viscosity.quadratic", quantity, "Quadratic coefficient.")
+      .in(not_negative)
+      .fallback("1.2");
+  k.add("method.energy_tolerance", quantity,
+        "The run has diverged when, from step 10 on, the energy residual exceeds this part of work done and "
+        "initial energy; where there is neither, of the energy of a body at rest.")
+      .in(positive)
+      .fallback("0.05");
+}
+
+void add_adaptation(Keys& k) {
+  using enum Type;
+  namespace d = dimension;
+  k.add("adapt", table, "The cloud follows the deformation (explicit analyses in the plane).").always();
+  k.add("adapt.resample", boolean,
+        "At each new reference nodes that crowd are removed, gaps are filled, the boundary is split and "
+        "thinned, "
+        "and mass is exchanged between neighbours whose cells no longer fit it; all of it conservative.")
+      .fallback("false");
+  k.add("adapt.separate", boolean,
+        "At each new reference the cloud is cut along edges between broken nodes (materials with `damage`) "
+        "where broken matter joins two parts of the boundary: nodes are doubled, nothing is deleted, the new "
+        "faces are the piece `fracture`. Needs `contact.deformable`.")
+      .fallback("false");
+  k.add("adapt.placement", choice,
+        "Where nodes are added: half-way between neighbours, or at vertices of Voronoi cells (boundary edges "
+        "are "
+        "split in the middle in any case).")
+      .one_of({"between nodes", "voronoi vertices"})
+      .fallback("\"between nodes\"");
+  k.add("adapt.growth", quantity, "How fast the wanted spacing may change: per unit of distance.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true})
+      .fallback("0.3");
+  k.add(
+       "adapt.tool_spacing", quantity,
+       "Wanted spacing at corners and arcs of tools, from where it grows; about half the radius of the edge.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"0.02 mm\"");
+  k.add("adapt.indicator", table, "Refinement where a field is not resolved (paper 004, (80)-(82)).")
+      .always();
+  k.add("adapt.indicator.field", choice,
+        "The field: `none` keeps the spacing of the cloud. The indicator of a cell is the L2 distance of the "
+        "interpolated field from the value of the cell. `plastic_power` is von Mises stress times plastic "
+        "rate, "
+        "`damage` needs a material with damage.")
+      .one_of({"none", "plastic_strain", "plastic_power", "temperature", "damage"})
+      .fallback("\"none\"");
+  k.add("adapt.indicator.tolerance", quantity,
+        "A cell is refined when its indicator exceeds this part of the norm of the field, shared out among "
+        "the cells.")
+      .in(positive)
+      .fallback("0.1");
+  k.add("adapt.indicator.coarsen", quantity,
+        "A cell is made coarser when its indicator falls below this part of the limit; 0: never.")
+      .in({.low = 0.0, .high = 0.25})
+      .fallback("0.05");
+  k.add("adapt.indicator.h_min", quantity, "Least spacing.")
+      .unit(d::length)
+      .in(positive)
+      .computed("a quarter of `cloud.spacing`")
+      .example("\"0.05 mm\"");
+  k.add("adapt.indicator.h_max", quantity, "Largest spacing.")
+      .unit(d::length)
+      .in(positive)
+      .computed("`cloud.spacing`")
+      .example("\"0.4 mm\"");
+  k.add("adapt.indicator.max_nodes", integer,
+        "The tolerance is raised when more nodes than this were needed.")
+      .in({.low = 10, .high = 1e8})
+      .fallback("100000");
+}
+
+} // namespace cnem::input

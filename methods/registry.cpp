@@ -1,0 +1,60 @@
+#include "methods/registry.hpp"
+
+#include "core/error.hpp"
+#include "methods/fe_triangle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace cnem::methods {
+namespace {
+
+using Made = std::unique_ptr<Discretisation<2>>;
+
+constexpr std::array list{
+    Entry{"cnem", scni::Cnem::promised,
+          [](const Options& o) -> Made {
+            return std::make_unique<scni::Cnem>(scni::Options{o.functions, o.gauss_points, o.space});
+          }},
+    Entry{"fe-triangles", FeTriangles::promised,
+          [](const Options& o) -> Made { return std::make_unique<FeTriangles>(o.space); }},
+    Entry{"sph", Sph::promised,
+          [](const Options& o) -> Made { return std::make_unique<Sph>(o.kernel, o.smoothing); }},
+};
+
+std::vector<std::string> names_where(auto&& wanted) {
+  std::vector<std::string> found;
+  for (const Entry& method : list)
+    if (wanted(method)) found.emplace_back(method.name);
+  return found;
+}
+
+} // namespace
+
+std::span<const Entry> registry() { return list; }
+
+const Entry& entry(std::string_view name) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const Entry& method) { return method.name == name; });
+  if (found == list.end())
+    throw InputError(fmt::format("found method '{}', expected one of {}", name, fmt::join(names(), ", ")));
+  return *found;
+}
+
+std::vector<std::string> names() {
+  return names_where([](const Entry&) { return true; });
+}
+
+std::vector<std::string> names_that_keep(Promise promise) {
+  return names_where([&](const Entry& method) { return method.promises.keep(promise); });
+}
+
+Made make(std::string_view name, const Options& options) {
+  const Entry& method = entry(name);
+  if (options.space == Space::revolution)
+    require(method.promises, Promise::hoop_rows, method.name, "a body of revolution");
+  return method.make(options);
+}
+
+} // namespace cnem::methods

@@ -1,0 +1,88 @@
+// What a case asks for and a method does not promise is refused by the promise's name
+// (input/case_promises.cpp).
+#include "input/case_parts.hpp"
+#include "tests/unit/input/case_text.hpp"
+
+#include <algorithm>
+
+namespace cnem::input {
+namespace {
+
+/// A method that promises nothing: moving least squares with points of their own, say.
+constexpr Promises nothing{};
+constexpr Promises everything{Promise::identity_values, Promise::non_negative_values, Promise::tiling_cells,
+                              Promise::balanced_constant_stress, Promise::hoop_rows};
+
+/// The promises that a case with these lines lacks at a key when its method promises nothing.
+std::vector<Promise> lacking(const std::string& path, const std::string& more) {
+  const Case c = read_small(more);
+  EXPECT_TRUE(unmet_needs(c, everything).empty());
+  std::vector<Promise> list;
+  for (const Unmet& unmet : unmet_needs(c, nothing)) {
+    EXPECT_NE(unmet.message.find(name_of(unmet.promise)), std::string::npos) << unmet.message;
+    EXPECT_NE(unmet.message.find(", expected "), std::string::npos) << unmet.message;
+    if (unmet.path == path) list.push_back(unmet.promise);
+  }
+  return list;
+}
+
+using List = std::vector<Promise>;
+
+TEST(Promises, a_plain_total_lagrangian_case_needs_none) {
+  EXPECT_TRUE(unmet_needs(read_small("[method]\nlagrangian = \"total\"\n"), nothing).empty());
+}
+
+TEST(Promises, history_at_nodes_needs_one_point_per_node) {
+  const List one{Promise::one_point_per_node};
+  EXPECT_EQ(lacking("method.lagrangian", ""), one);
+  EXPECT_EQ(lacking("method.pressure_exchange", "[method]\npressure_exchange = 0.3\n"), one);
+  EXPECT_EQ(lacking("time.step.local", "[method]\nlagrangian = \"total\"\n[time.step]\nlocal = true\n"), one);
+  EXPECT_EQ(lacking("adapt.resample", "[adapt]\nresample = true\n"),
+            (List{Promise::one_point_per_node, Promise::tiling_cells, Promise::balanced_constant_stress}));
+}
+
+TEST(Promises, kinematics_statics_and_heat) {
+  EXPECT_EQ(lacking("analysis.kinematics", "[analysis]\nkinematics = \"axisymmetric\"\n"),
+            List{Promise::hoop_rows});
+  EXPECT_EQ(lacking("analysis.thermal",
+                    "heat = { specific_heat = \"500 J/(kg K)\", conductivity = \"15 W/(m K)\" }\n"),
+            List{Promise::non_negative_values});
+}
+
+TEST(Promises, what_holds_or_touches_nodes_needs_interpolation) {
+  const List interpolation{Promise::interpolating_values};
+  EXPECT_EQ(lacking("boundary", "[boundary.wall]\npieces = [\"bottom\"]\nsymmetry = true\n"), interpolation);
+  EXPECT_EQ(lacking("boundary", "heat = { specific_heat = \"500 J/(kg K)\", conductivity = \"15 W/(m K)\" "
+                                "}\n[boundary.hot]\npieces = [\"bottom\"]\ntemperature = \"400 K\"\n"),
+            interpolation);
+  EXPECT_EQ(lacking("boundary", "[boundary.free]\npieces = [\"bottom\"]\npressure = \"1 MPa\"\n"), List{});
+  EXPECT_EQ(lacking("tools", "[tools.punch]\ncircle = { centre = \"5 8 mm\", radius = \"2 mm\" }\n"),
+            interpolation);
+  EXPECT_EQ(lacking("contact.deformable", "[contact]\ndeformable = true\n"), interpolation);
+}
+
+TEST(Promises, identity_holds_one_point_per_node_and_interpolation_in_it) {
+  EXPECT_TRUE(everything.keep(Promise::one_point_per_node));
+  EXPECT_TRUE(everything.keep(Promise::interpolating_values));
+  for (const Promise promise : all_promises) EXPECT_FALSE(name_of(promise).empty());
+}
+
+TEST(Registry, names_methods_and_refuses_others) {
+  EXPECT_EQ(methods::names(), (std::vector<std::string>{"cnem", "fe-triangles", "sph"}));
+  EXPECT_EQ(methods::names_that_keep(Promise::balanced_constant_stress),
+            (std::vector<std::string>{"cnem", "fe-triangles"}));
+  EXPECT_THROW(methods::entry("sphe"), InputError);
+}
+
+TEST(CaseReader, particles_have_a_kernel_and_its_support) {
+  const Case plain = read_small("[method]\nname = \"sph\"\n");
+  EXPECT_EQ(plain.method.options.kernel, methods::Kernel::cubic_spline);
+  EXPECT_EQ(plain.method.options.smoothing, 2.4);
+  const Case chosen = read_small("[method]\nname = \"sph\"\nkernel = \"wendland_c2\"\nsmoothing = 3\n");
+  EXPECT_EQ(chosen.method.options.kernel, methods::Kernel::wendland_c2);
+  EXPECT_EQ(chosen.method.options.smoothing, 3.0);
+  EXPECT_EQ(methods::make(chosen.method.name, chosen.method.options)->name(), "sph_wendland_c2");
+}
+
+} // namespace
+} // namespace cnem::input
