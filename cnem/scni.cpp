@@ -5,7 +5,7 @@
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
 #include "voronoi/cells.hpp"
-#include "voronoi/linear_triangles.hpp"
+#include "voronoi/linear_simplices.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
   } else {
     result.mechanics = smoothed_gradients(cloud, cells, around, means);
   }
-  result.conduction = voronoi::linear_triangles(cloud, triangulation, options_.space);
+  result.conduction = voronoi::linear_simplices<2>(cloud, triangulation.node, options_.space);
   result.links = delaunay_links(cloud, triangulation, cells, around);
   if (options_.space == Space::revolution) revolve(result.mechanics.radius, result.links);
   result.node_volume = result.mechanics.volume;

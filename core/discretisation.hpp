@@ -20,11 +20,11 @@ template<int dim> struct StabilisationLinks {
                 ///< 2π r, m
 };
 
-/// Polygons (2D) or polyhedra surfaces of the stress points, for output and pictures.
+/// Cells of the stress points, for output and pictures: polygons in the plane, tetrahedra in space.
 template<int dim> struct CellGeometry {
   std::vector<Vec<dim>> vertex;    ///< m, in the reference
   std::vector<std::int32_t> begin; ///< [point + 1]
-  std::vector<std::int32_t> index; ///< counter-clockwise vertices of each cell
+  std::vector<std::int32_t> index; ///< vertices of each cell, counter-clockwise in the plane
 
   // How a vertex moves with the nodes: x_v = Σ weight x_node. Rows on the pattern below.
   std::vector<std::int32_t> vertex_begin; ///< [vertex + 1]

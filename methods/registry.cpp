@@ -1,7 +1,7 @@
 #include "methods/registry.hpp"
 
 #include "core/error.hpp"
-#include "methods/fe_triangle.hpp"
+#include "methods/fe_simplices.hpp"
 
 #include <algorithm>
 #include <array>

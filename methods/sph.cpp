@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "voronoi/cells.hpp"
-#include "voronoi/linear_triangles.hpp"
+#include "voronoi/linear_simplices.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -204,7 +204,7 @@ Approximation<2> Sph::rebuild(const Cloud<2>& cloud) {
   result.links =
       scni::delaunay_links(cloud, triangulation, cells, scni::facets_of_cells(cloud.nodes(), cells));
   result.mechanics = corrected_gradients(cloud, cells.volume, support, result.links, kernel_);
-  result.conduction = voronoi::linear_triangles(cloud, triangulation);
+  result.conduction = voronoi::linear_simplices<2>(cloud, triangulation.node);
   result.node_volume = cells.volume;
   result.cells = voronoi::cell_geometry(cloud, triangulation, circles, cells);
   return result;

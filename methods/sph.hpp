@@ -37,7 +37,7 @@ public:
   /// node. Throws InputError when it is not in [1.5, 5].
   explicit Sph(Kernel kernel = Kernel::cubic_spline, double smoothing = 2.4);
 
-  /// Throws GeometryError as voronoi::triangulate and voronoi::linear_triangles, and with the position of a
+  /// Throws GeometryError as voronoi::triangulate and voronoi::linear_simplices, and with the position of a
   /// node whose neighbours lie in one line. Cost O(N log N).
   Approximation<2> rebuild(const Cloud<2>& cloud) override;
   std::string name() const override;

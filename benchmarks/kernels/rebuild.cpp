@@ -3,11 +3,11 @@
 #include "cnem/quadrature.hpp"
 #include "cnem/scni.hpp"
 #include "cnem/smoothing.hpp"
-#include "methods/fe_triangle.hpp"
+#include "methods/fe_simplices.hpp"
 #include "methods/sph.hpp"
 #include "tests/clouds.hpp"
 #include "voronoi/cells.hpp"
-#include "voronoi/linear_triangles.hpp"
+#include "voronoi/linear_simplices.hpp"
 #include "voronoi/order.hpp"
 
 #include <benchmark/benchmark.h>
@@ -96,10 +96,10 @@ void links(benchmark::State& state) {
   per_node(state, g.cloud, [&] { return scni::delaunay_links(g.cloud, g.triangulation, g.cells, around); });
 }
 
-void linear_triangles(benchmark::State& state) {
+void linear_simplices(benchmark::State& state) {
   const auto cloud = benchmark_cloud(state.range(0));
   const auto triangulation = voronoi::triangulate(cloud);
-  per_node(state, cloud, [&] { return voronoi::linear_triangles(cloud, triangulation); });
+  per_node(state, cloud, [&] { return voronoi::linear_simplices<2>(cloud, triangulation.node); });
 }
 
 void whole_cnem(benchmark::State& state) {
@@ -133,7 +133,7 @@ void by_nodes_and_rule(benchmark::internal::Benchmark* b) {
 
 BENCHMARK(triangulate)->Apply(by_nodes);
 BENCHMARK(cells)->Apply(by_nodes);
-BENCHMARK(linear_triangles)->Apply(by_nodes);
+BENCHMARK(linear_simplices)->Apply(by_nodes);
 BENCHMARK(cell_geometry)->Apply(by_nodes);
 BENCHMARK(links)->Apply(by_nodes);
 BENCHMARK(functions_on_facets)->Apply(by_nodes_and_rule);

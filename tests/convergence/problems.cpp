@@ -2,7 +2,7 @@
 
 #include "clouds/generate.hpp"
 #include "cnem/scni.hpp"
-#include "methods/fe_triangle.hpp"
+#include "methods/fe_simplices.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 // the interior. Errors are measured against what the entries of a row add up to, which grows where nodes
 // crowd.
 #include "cnem/scni.hpp"
-#include "methods/fe_triangle.hpp"
+#include "methods/fe_simplices.hpp"
 #include "random_clouds.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // Bodies for tests of the solver: rectangles of a method and a material.
 #include "cnem/scni.hpp"
 #include "mechanics/explicit_solver.hpp"
-#include "methods/fe_triangle.hpp"
+#include "methods/fe_simplices.hpp"
 #include "methods/sph.hpp"
 #include "tests/clouds.hpp"
 

@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "mechanics/statics/rigid_motion.hpp"
 #include "mechanics/statics/statics.hpp"
-#include "methods/fe_triangle.hpp"
+#include "methods/fe_simplices.hpp"
 #include "tests/clouds.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,47 @@
+#include "methods/fe_simplices.hpp"
+
+#include "voronoi/triangulation.hpp"
+
+#include <numeric>
+#include <span>
+
+namespace cnem::methods {
+namespace {
+
+template<int dim>
+CellGeometry<dim> simplex_cells(const Cloud<dim>& cloud, std::span<const voronoi::Simplex<dim>> simplices) {
+  CellGeometry<dim> cells;
+  cells.vertex = cloud.position;
+  cells.begin.reserve(simplices.size() + 1);
+  cells.index.reserve((dim + 1) * simplices.size());
+  cells.begin.push_back(0);
+  for (const auto& corner : simplices) {
+    cells.index.insert(cells.index.end(), corner.begin(), corner.end());
+    cells.begin.push_back(static_cast<std::int32_t>(cells.index.size()));
+  }
+  cells.vertex_begin.resize(cloud.position.size() + 1);
+  std::iota(cells.vertex_begin.begin(), cells.vertex_begin.end(), 0);
+  cells.vertex_node.assign(cells.vertex_begin.begin(), cells.vertex_begin.end() - 1);
+  cells.vertex_weight.assign(cloud.position.size(), 1.0);
+  return cells;
+}
+
+} // namespace
+
+template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>& cloud) {
+  std::vector<voronoi::Simplex<dim>> simplices = simplices_;
+  if constexpr (dim == 2)
+    if (simplices.empty()) simplices = voronoi::triangulate(cloud).node;
+  Approximation<dim> result;
+  result.mechanics = voronoi::linear_simplices<dim>(cloud, simplices, space_);
+  result.conduction = result.mechanics;
+  result.node_volume = result.mechanics.node_volume();
+  result.links.begin.assign(cloud.position.size() + 1, 0);
+  result.cells = simplex_cells<dim>(cloud, simplices);
+  return result;
+}
+
+template class FeSimplices<2>;
+template class FeSimplices<3>;
+
+} // namespace cnem::methods

@@ -1,0 +1,288 @@
+// Linear tetrahedra under the same solver, loads, heat and contact as in the plane.
+#include "clouds/tetrahedral_block.hpp"
+#include "contact/plane_shape.hpp"
+#include "core/error.hpp"
+#include "core/facets.hpp"
+#include "mechanics/explicit_solver.hpp"
+#include "methods/fe_simplices.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <omp.h>
+#include <random>
+
+namespace cnem::testing {
+namespace {
+
+using Vec3 = Vec<3>;
+using clouds::TetrahedralBlock;
+
+/// A block of 3 × 2 × 4 boxes whose inner nodes are moved at random.
+TetrahedralBlock jittered(double jitter = 0.15) {
+  std::mt19937 random(7);
+  const Vec3 size(3e-3, 2e-3, 4e-3);
+  return clouds::tetrahedral_block(size, {3, 2, 4}, [&](const Vec3& x) {
+    Vec3 moved = x;
+    for (int k = 0; k < 3; ++k) {
+      const double step = jitter * 1e-3 * (2.0 * double(random() % 1000) / 999.0 - 1.0);
+      if (x[k] > 0.0 && x[k] < size[k]) moved[k] += step;
+    }
+    return moved;
+  });
+}
+
+plasticity::Material steel() {
+  plasticity::Material material;
+  material.name = "steel";
+  material.density = 7850.0;
+  material.elasticity = {.young = 210e9, .poisson = 0.3};
+  material.specific_heat = 460.0;
+  material.conductivity = 50.0;
+  return material;
+}
+
+Problem<3> problem_of(TetrahedralBlock block, plasticity::Material material) {
+  Problem<3> problem;
+  problem.method = std::make_unique<methods::FeTetrahedra>(std::move(block.tetrahedra));
+  problem.supports = Supports<3>({}, block.cloud.position.size());
+  problem.loads = Loads<3>({}, {}, {}, block.cloud.position);
+  problem.cloud = std::move(block.cloud);
+  problem.materials = {std::move(material)};
+  problem.thermal = false;
+  return problem;
+}
+
+ExplicitSolver<3> start(Problem<3> problem, const std::function<Vec3(const Vec3&)>& velocity) {
+  Fields<3> v;
+  resize_all(v, problem.cloud.position.size());
+  for (std::size_t i = 0; i < v[0].size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      v[k][i] = velocity(problem.cloud.position[i])[static_cast<Eigen::Index>(k)];
+  Field temperature(v[0].size(), 296.0);
+  return ExplicitSolver<3>(std::move(problem), std::move(v), std::move(temperature));
+}
+
+Vec3 at(const Fields<3>& field, std::size_t i) { return {field[0][i], field[1][i], field[2][i]}; }
+
+struct Momenta {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+Momenta momenta(const ExplicitSolver<3>& solver) {
+  const NodeState<3>& node = solver.state().node;
+  Momenta sum;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const Vec3 mv = node.mass[i] * at(node.velocity, i);
+    sum.linear += mv;
+    sum.angular += at(node.position, i).cross(mv);
+  }
+  return sum;
+}
+
+TEST(Tetrahedra, tile_the_block_and_reproduce_linear_fields) {
+  TetrahedralBlock block = jittered();
+  const auto op = methods::FeTetrahedra(block.tetrahedra).rebuild(block.cloud).mechanics;
+  EXPECT_EQ(block.tetrahedra.size(), 6U * 24U);
+  EXPECT_NEAR(std::accumulate(op.volume.begin(), op.volume.end(), 0.0), 24e-9, 1e-22);
+  for (std::size_t p = 0; p < static_cast<std::size_t>(op.points); ++p) {
+    Vec3 sum = Vec3::Zero();
+    Mat<3> one = Mat<3>::Zero();
+    for (auto e = static_cast<std::size_t>(op.row_begin[p]);
+         e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
+      const Vec3 b(op.gradient[0][e], op.gradient[1][e], op.gradient[2][e]);
+      sum += b;
+      one += block.cloud.position[static_cast<std::size_t>(op.node[e])] * b.transpose();
+      if (e > static_cast<std::size_t>(op.row_begin[p])) { EXPECT_LT(op.node[e - 1], op.node[e]); }
+    }
+    EXPECT_LT(sum.norm(), 1e-9 * 1e3) << p;
+    EXPECT_LT((one - Mat<3>::Identity()).norm(), 1e-12) << p;
+  }
+}
+
+/// Facets close the block, point outwards and are as large as its sides.
+TEST(Tetrahedra, have_a_closed_boundary) {
+  const TetrahedralBlock block = jittered();
+  Vec3 closed = Vec3::Zero();
+  double volume = 0.0;
+  std::array<double, 6> area{};
+  for (const Facet<3>& facet : block.cloud.facets) {
+    std::array<Vec3, 3> corner;
+    for (std::size_t a = 0; a < 3; ++a)
+      corner[a] = block.cloud.position[static_cast<std::size_t>(facet.node[a])];
+    const Vec3 normal = area_normal<3>(corner);
+    closed += normal;
+    volume += (corner[0] + corner[1] + corner[2]).dot(normal) / 9.0;
+    area[static_cast<std::size_t>(facet.piece)] += normal.norm();
+    const auto shares = corner_areas<3>(Space::plane, corner);
+    EXPECT_NEAR(shares[0] + shares[1] + shares[2], normal.norm(), 1e-20);
+  }
+  EXPECT_LT(closed.norm(), 1e-18);
+  EXPECT_NEAR(volume, 24e-9, 1e-21);
+  EXPECT_NEAR(area[0], 8e-6, 1e-17);
+  EXPECT_NEAR(area[3], 12e-6, 1e-17);
+  EXPECT_NEAR(area[5], 6e-6, 1e-17);
+}
+
+TEST(Tetrahedra, refuse_blocks_that_are_none) {
+  EXPECT_THROW(clouds::tetrahedral_block({1.0, 1.0, 1.0}, {1, 0, 1}), GeometryError);
+  EXPECT_THROW(clouds::tetrahedral_block({1.0, 0.0, 1.0}, {1, 1, 1}), GeometryError);
+  EXPECT_THROW(clouds::tetrahedral_block({1.0, 1.0, 1.0}, {1, 1, 1},
+                                         [](const Vec3& x) { return Vec3(x.x(), x.y(), 0.0); }),
+               GeometryError);
+  TetrahedralBlock block = jittered();
+  std::swap(block.tetrahedra[5][0], block.tetrahedra[5][1]);
+  EXPECT_THROW(methods::FeTetrahedra(block.tetrahedra).rebuild(block.cloud), GeometryError);
+}
+
+/// The patch test: all boundary nodes follow an affine motion, and so does everything within.
+TEST(Tetrahedra, pass_the_patch_test_at_finite_strain) {
+  Problem<3> problem = problem_of(jittered(), steel());
+  Mat<3> rate;
+  rate << 200.0, 150.0, -80.0, 90.0, -250.0, 60.0, -40.0, 110.0, 180.0;
+  std::vector<bool> boundary(problem.cloud.position.size(), false);
+  for (const Facet<3>& facet : problem.cloud.facets)
+    for (const std::int32_t i : facet.node) boundary[static_cast<std::size_t>(i)] = true;
+  std::vector<Support<3>> supports;
+  for (std::size_t i = 0; i < boundary.size(); ++i)
+    if (boundary[i])
+      for (int k = 0; k < 3; ++k) {
+        const double speed = (rate * problem.cloud.position[i])[k];
+        supports.push_back({"boundary",
+                            Support<3>::Kind::velocity,
+                            Vec3::Unit(k),
+                            TimeTable(speed),
+                            {static_cast<std::int32_t>(i)},
+                            {}});
+      }
+  problem.supports = Supports<3>(std::move(supports), boundary.size());
+  ExplicitSolver<3> solver = start(std::move(problem), [&](const Vec3& x) { return Vec3(rate * x); });
+  const double dt = 0.9 * solver.stable_step().dt;
+  for (int n = 0; n < 400; ++n) solver.advance(dt);
+  const Mat<3> F = Mat<3>::Identity() + 400 * dt * rate;
+  EXPECT_GT((F - Mat<3>::Identity()).norm(), 0.02);
+  const State<3>& state = solver.state();
+  for (std::size_t i = 0; i < state.node.size(); ++i)
+    EXPECT_LT((at(state.node.position, i) - F * at(state.node.initial_position, i)).norm(), 1e-12 * 4e-3)
+        << i;
+  for (std::size_t c = 0; c < 9; ++c)
+    for (std::size_t p = 1; p < state.point.size(); ++p)
+      EXPECT_NEAR(state.point.piola[c][p], state.point.piola[c][0], 1e-9 * 210e9) << c;
+  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-6 * solver.ledger().external());
+}
+
+TEST(Tetrahedra, conserve_momentum_and_energy_under_a_new_reference_of_stress) {
+  plasticity::Material soft = steel();
+  soft.hardening = plasticity::JohnsonCook{.A = 200e6, .B = 500e6};
+  ExplicitSolver<3> solver = start(problem_of(jittered(), soft), [](const Vec3& x) -> Vec3 {
+    return {40.0 * std::sin(900.0 * x.y()), -50.0 * std::sin(700.0 * x.z()), 30.0 * std::cos(800.0 * x.x())};
+  });
+  const Momenta before = momenta(solver);
+  const double initial = solver.ledger().total();
+  for (int n = 0; n < 500; ++n) {
+    const double dt = 0.9 * solver.stable_step().dt;
+    solver.advance(dt);
+  }
+  const Momenta after = momenta(solver);
+  EXPECT_LT((after.linear - before.linear).norm(), 1e-12 * before.linear.norm());
+  EXPECT_LT((after.angular - before.angular).norm(), 1e-11 * before.linear.norm() * 1e-3);
+  EXPECT_GT(solver.ledger()["plastic"], 0.05 * initial);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 2e-3 * initial);
+}
+
+TEST(Tetrahedra, results_do_not_depend_on_threads) {
+  std::vector<Field> seen;
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    ExplicitSolver<3> solver =
+        start(problem_of(clouds::tetrahedral_block({4e-3, 4e-3, 4e-3}, {9, 9, 9}), steel()),
+              [](const Vec3& x) -> Vec3 {
+                return {0.0, 0.0, -1e4 * x.z()};
+              });
+    for (int n = 0; n < 20; ++n) solver.advance(0.9 * solver.stable_step().dt);
+    Field all = solver.state().node.position[2];
+    all.push_back(solver.ledger().residual());
+    seen.push_back(std::move(all));
+  }
+  omp_set_num_threads(2);
+  EXPECT_EQ(seen[0], seen[1]);
+  EXPECT_EQ(seen[0], seen[2]);
+}
+
+/// Pressure on all sides of a block balances itself and presses it together as much as elasticity says.
+TEST(Tetrahedra, take_pressure_on_their_facets) {
+  TetrahedralBlock block = jittered();
+  Problem<3> problem = problem_of(block, steel());
+  problem.loads = Loads<3>({}, {{"all", TimeTable(1e8), block.cloud.facets}}, {}, block.cloud.position);
+  Fields<3> position;
+  resize_all(position, block.cloud.position.size());
+  for (std::size_t i = 0; i < block.cloud.position.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      position[k][i] = block.cloud.position[i][static_cast<Eigen::Index>(k)];
+  problem.loads.evaluate(0.0, position, Field(position[0].size(), 0.0));
+  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+  double up = 0.0;
+  for (std::size_t i = 0; i < position[0].size(); ++i) {
+    const Vec3 f = at(problem.loads.force(), i);
+    sum += f;
+    moment += at(position, i).cross(f);
+    if (position[2][i] == 0.0) up += f.z();
+  }
+  EXPECT_LT(sum.norm(), 1e-12 * 1e8 * 12e-6);
+  EXPECT_LT(moment.norm(), 1e-12 * 1e8 * 12e-6 * 4e-3);
+  EXPECT_NEAR(up, 1e8 * 6e-6, 1e-9 * 600.0);
+}
+
+/// A heated side: what flows in is what the block holds.
+TEST(Tetrahedra, conduct_heat_and_balance_it) {
+  TetrahedralBlock block = jittered();
+  Problem<3> problem = problem_of(block, steel());
+  problem.thermal = true;
+  problem.mechanical = false;
+  std::vector<Facet<3>> top;
+  for (const Facet<3>& facet : block.cloud.facets)
+    if (facet.piece == 5) top.push_back(facet);
+  problem.heat_boundaries = ThermalBoundaries<3>({}, {{"top", TimeTable(1e6), top}}, {});
+  ExplicitSolver<3> solver = start(std::move(problem), [](const Vec3&) { return Vec3::Zero(); });
+  while (solver.state().time < 0.2) solver.advance(solver.stable_step().dt);
+  const double heat = 1e6 * 6e-6 * solver.state().time;
+  EXPECT_NEAR(solver.ledger()["heat_content"], heat, 1e-9 * heat);
+  EXPECT_NEAR(solver.ledger()["heat_exchanged"], heat, 1e-9 * heat);
+  // quasi-steady: the gradient at the heated side is q/k, half of it in the middle
+  double low = 0.0, high = 0.0;
+  for (std::size_t i = 0; i < solver.state().node.size(); ++i) {
+    if (solver.state().node.position[2][i] == 0.0) low = solver.state().node.temperature[i];
+    if (solver.state().node.position[2][i] == 4e-3) high = solver.state().node.temperature[i];
+  }
+  EXPECT_NEAR(high - low, 1e6 * 4e-3 / (2.0 * 50.0), 0.05 * 40.0);
+}
+
+/// A block that hits a wall leaves it again: impulses balance, no node is left inside.
+TEST(Tetrahedra, bounce_off_a_plane) {
+  Problem<3> problem = problem_of(jittered(), steel());
+  contact::Tool<3> wall;
+  wall.name = "wall";
+  wall.shape = std::make_shared<contact::PlaneShape<3>>(Vec3(0.0, 0.0, -1e-5), Vec3(0.0, 0.0, 2.0), 0.1);
+  wall.friction.coulomb = 0.1;
+  problem.contact = contact::RigidContact<3>({wall});
+  ExplicitSolver<3> solver = start(std::move(problem), [](const Vec3&) -> Vec3 { return {3.0, 0.0, -10.0}; });
+  const Momenta before = momenta(solver);
+  double peak = 0.0;
+  while (solver.state().time < 6e-6) {
+    solver.advance(0.9 * solver.stable_step().dt);
+    peak = std::max(peak, solver.conditions().contact.results()[0].force.z());
+    for (std::size_t i = 0; i < solver.state().node.size(); ++i)
+      ASSERT_GT(solver.state().node.position[2][i], -1e-5 - 1e-12);
+  }
+  const Momenta after = momenta(solver);
+  const contact::ToolResult<3>& result = solver.conditions().contact.results()[0];
+  EXPECT_GT(peak, 1e3);
+  EXPECT_LT((after.linear - before.linear - result.impulse).norm(), 1e-12 * before.linear.norm());
+  EXPECT_GT(after.linear.z(), 0.5 * std::abs(before.linear.z()));
+  EXPECT_LT(after.linear.x(), before.linear.x());
+  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-2 * solver.ledger().initial());
+}
+
+} // namespace
+} // namespace cnem::testing

@@ -1,0 +1,27 @@
+#pragma once
+// Linear finite-element operators on simplices: triangles in the plane, tetrahedra in space. They are a
+// discretisation of their own (methods/fe_simplices), and on the constrained Delaunay triangles the operators
+// C-NEM conducts heat with: GᵀV k G of nodal integration lets checkerboards of temperature stand, the
+// triangles do not.
+#include "core/cloud.hpp"
+#include "core/operators.hpp"
+#include "core/revolution.hpp"
+
+#include <array>
+#include <span>
+
+namespace cnem::voronoi {
+
+/// Corners of a simplex: triangles counter-clockwise; of tetrahedra the first three clockwise as seen from
+/// the fourth, so that (x₁ − x₀, x₂ − x₀, x₃ − x₀) is right-handed.
+template<int dim> using Simplex = std::array<std::int32_t, dim + 1>;
+
+/// One stress point per simplex, V = its measure (m² or m³), b = the constant gradients of the linear shape
+/// functions (1/m), N = 1/(dim + 1) each; of revolution V = 2π r̄ A and h = N/r̄. Rows are sorted by node; the
+/// transpose is built. Throws GeometryError, with the corners' positions, when a simplex has no measure in
+/// floating point.
+template<int dim>
+DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const Simplex<dim>> simplices,
+                                        Space space = Space::plane);
+
+} // namespace cnem::voronoi
