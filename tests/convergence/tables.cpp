@@ -117,7 +117,7 @@ Table crack() {
       const app::StaticModel model(input);
       const auto tips = app::evaluate_tips(model, solve_statics(model.problem()));
       const double unit = 1e6 * std::sqrt(std::numbers::pi * 1e-4);
-      values.push_back(model.setup.model.cloud.nodes());
+      values.push_back(model.setup.problem.cloud.nodes());
       values.push_back(tips.at(1).intensity.K_I / unit - 1.01395);
     }
     return values;

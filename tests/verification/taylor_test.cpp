@@ -25,7 +25,7 @@ Shape run(const std::string& name, const std::string& spacing, const std::string
       input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
                        {"cloud.spacing=\"" + spacing + "\"", "method.name=" + method});
   app::Setup setup = app::build(input);
-  ExplicitSolver<2> solver(std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature));
+  ExplicitSolver<2> solver(std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature));
   while (solver.state().time < input.time.end) {
     const double dt = solver.stable_step().dt;
     for (int n = 0; n < 10; ++n) solver.advance(dt);

@@ -38,7 +38,7 @@ input::Case read(const std::vector<std::string>& overrides) {
 
 ExplicitSolver<2> start(const std::vector<std::string>& overrides) {
   Setup setup = build(read(overrides));
-  return {std::move(setup.model), std::move(setup.velocity), std::move(setup.temperature)};
+  return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
 }
 
 std::string refusal(const std::vector<std::string>& overrides) {
@@ -193,10 +193,10 @@ TEST(Imperfection, lowers_the_strength_around_a_line) {
       read({"initial.imperfections.line={ points = [\"0 1 mm\", \"10 1 mm\"], width = \"0.5 "
             "mm\", reduction = 0.1 }"});
   const app::Setup setup = build(input);
-  const Field& factor = setup.model.strength;
-  ASSERT_EQ(factor.size(), setup.model.cloud.position.size());
+  const Field& factor = setup.problem.strength;
+  ASSERT_EQ(factor.size(), setup.problem.cloud.position.size());
   for (std::size_t i = 0; i < factor.size(); ++i) {
-    const double d = (setup.model.cloud.position[i].y() - 1e-3) / 0.5e-3;
+    const double d = (setup.problem.cloud.position[i].y() - 1e-3) / 0.5e-3;
     EXPECT_NEAR(factor[i], 1.0 - 0.1 * std::exp(-d * d), 1e-14);
   }
 }

@@ -75,12 +75,12 @@ TEST_F(Axisymmetric, statics_refuses_cracks) {
 
 TEST_F(Axisymmetric, nodes_on_the_axis_are_held_and_at_least_two_gauss_points_taken) {
   const app::Setup setup = build(read({}));
-  const auto& supports = setup.model.supports.list();
+  const auto& supports = setup.problem.supports.list();
   ASSERT_EQ(supports.size(), 2U);
   EXPECT_EQ(supports[0].name, "axis");
   EXPECT_EQ(supports[0].nodes.size(), 11U);
   EXPECT_EQ(read({}).method.options.gauss_points, 2);
-  EXPECT_EQ(build(read({"domain.outer.rectangle.from=\"1 0 mm\""})).model.supports.list().size(), 1U);
+  EXPECT_EQ(build(read({"domain.outer.rectangle.from=\"1 0 mm\""})).problem.supports.list().size(), 1U);
 }
 
 TEST_F(Axisymmetric, history_counts_the_whole_body) {

@@ -31,7 +31,8 @@ TEST(EnergyLedger, of_a_run_names_each_entry_and_metric_once) {
   const ExplicitSolver<2> solver = start(model_of(rectangle(2e-3, 1e-3, 2e-4), Method::cnem, steel()),
                                          [](const Vec2&) { return Vec2(1.0, 0.0); });
   std::set<std::string> names;
-  for (const Energy& entry : solver.ledger().entries()) EXPECT_TRUE(names.insert(entry.name).second);
+  const EnergyLedger ledger = solver.ledger();
+  for (const Energy& entry : ledger.entries()) EXPECT_TRUE(names.insert(entry.name).second);
   for (const char* name : {"kinetic", "elastic", "plastic", "stabilisation", "viscosity", "friction",
                            "heat_content", "resampling", "pressure_exchange", "load_work"})
     EXPECT_TRUE(names.count(name)) << name;
