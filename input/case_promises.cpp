@@ -59,9 +59,8 @@ constexpr std::array needs{
          "holding a node would not hold the body there"},
     Need{Promise::interpolating_values, "tools", [](const Case& c) { return !c.tools.empty(); },
          "contact with tools", "a node on a tool would not bring the surface there"},
-    Need{Promise::interpolating_values, "contact.deformable",
-         [](const Case& c) { return c.contact.active; }, "contact of bodies",
-         "nodes that touch would not bring the surfaces together", "false"},
+    Need{Promise::interpolating_values, "contact.deformable", [](const Case& c) { return c.contact.active; },
+         "contact of bodies", "nodes that touch would not bring the surfaces together", "false"},
 };
 
 std::string expectation(const Need& need) {

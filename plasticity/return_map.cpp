@@ -55,7 +55,8 @@ template<int dim> StressPoints<dim> stress_points(PointState<dim>& state) {
     p.deformation[c] = state.deformation[c].data();
     p.piola[c] = state.piola[c].data();
   }
-  for (std::size_t c = 0; c < state.inverse_plastic_cauchy_green.size(); ++c) p.inverse_plastic_cauchy_green[c] = state.inverse_plastic_cauchy_green[c].data();
+  for (std::size_t c = 0; c < state.inverse_plastic_cauchy_green.size(); ++c)
+    p.inverse_plastic_cauchy_green[c] = state.inverse_plastic_cauchy_green[c].data();
   p.temperature = state.temperature.data();
   p.strength = state.damaged.on() ? state.flow_factor.data() : state.strength.data();
   p.plastic_strain = state.plastic_strain.data();

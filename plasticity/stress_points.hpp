@@ -17,9 +17,10 @@ template<int dim> struct StressPoints {
   const double* temperature;          ///< K
   const double* strength;             ///< –     factor on the flow stress
   // in and out
-  double* inverse_plastic_cauchy_green[symmetric]; ///< –     C_p⁻¹, so that b_e = F C_p⁻¹ Fᵀ; changes in plastic steps only
-  double* plastic_strain;     ///< –     ε̄p
-  double* plastic_rate;       ///< 1/s   mean dε̄p/dt of the step; in: that of the last step, starts Newton
+  double* inverse_plastic_cauchy_green[symmetric]; ///< –     C_p⁻¹, so that b_e = F C_p⁻¹ Fᵀ; changes in
+                                                   ///< plastic steps only
+  double* plastic_strain;    ///< –     ε̄p
+  double* plastic_rate;      ///< 1/s   mean dε̄p/dt of the step; in: that of the last step, starts Newton
   double* equivalent_stress; ///< Pa    von Mises stress of τ; in: that of t_n, for the trapezoid of the work
   double* plastic_work;      ///< J/m³  ∫ σ_eq dε̄p per unit stress-free volume
   // out

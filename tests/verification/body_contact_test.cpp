@@ -42,7 +42,8 @@ template<class Test> Share share_of(const ExplicitSolver<2>& solver, Test&& test
   Share sum;
   const NodeState<2>& node = solver.state().node;
   for (std::size_t i = 0; i < node.size(); ++i) {
-    if (!test(Vec2(solver.state().node.initial_position[0][i], solver.state().node.initial_position[1][i]))) continue;
+    if (!test(Vec2(solver.state().node.initial_position[0][i], solver.state().node.initial_position[1][i])))
+      continue;
     sum.mass += node.mass[i];
     sum.momentum += node.mass[i] * Vec2(node.velocity[0][i], node.velocity[1][i]);
     sum.heat += node.heat_capacity[i] * (node.temperature[i] - 296.0);
@@ -75,8 +76,8 @@ TEST_P(Blocks, that_collide_exchange_velocities_after_2_l_over_c) {
   plasticity::Material material = steel();
   material.elasticity.poisson = 0.0; // one-dimensional: c = √(E/ρ) exactly
   Problem<2> model = model_of(two_blocks(corners({-length - gap, 0}, {-gap, width}),
-                                       corners({gap, 0}, {length + gap, width}), h, GetParam() * h),
-                            Method::cnem, material);
+                                         corners({gap, 0}, {length + gap, width}), h, GetParam() * h),
+                              Method::cnem, material);
   model.contact = bodies(0.0);
   ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
     return {x.x() < 0.0 ? speed : -speed, 0};

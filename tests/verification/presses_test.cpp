@@ -71,7 +71,8 @@ TEST(Hammer, bounces_off_a_free_block_with_the_momentum_and_energy_they_had) {
     EXPECT_LT(std::abs(ledger.residual()), 1e-3 * ledger.initial());
     const double layer = 7850.0 * 1.2e-3 * 0.5e-4; // of nodes that meet the ram at once, inelastically
     EXPECT_LT(ledger["contact_impact"], 1.3 * layer / (layer + mass) * ledger.initial());
-    EXPECT_NEAR(ledger["tool_kinetic"], 0.5 * mass * ram_velocity(solver).squaredNorm(), 1e-12 * ledger.initial());
+    EXPECT_NEAR(ledger["tool_kinetic"], 0.5 * mass * ram_velocity(solver).squaredNorm(),
+                1e-12 * ledger.initial());
   }
 }
 

@@ -40,7 +40,7 @@ Field all_of(const ExplicitSolver<2>& solver) {
 /// A square whose middle is twelve times as fine as its sides, in four levels.
 Problem<2> graded_square() {
   Problem<2> model = model_of(graded_rectangle(1e-2, 1e-2, 3e-4, 2.5e-5, {{4.9e-3, 5e-3}, {5.1e-3, 5e-3}}),
-                            Method::cnem, steel());
+                              Method::cnem, steel());
   model.local = {.on = true, .least_gain = 0.0};
   return model;
 }

@@ -46,8 +46,10 @@ ExplicitSolver<2> stretched(Method method, double radius, double a, double b, do
 void expect_stretched(const ExplicitSolver<2>& solver, double a, double b) {
   const State<2>& state = solver.state();
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    EXPECT_NEAR(state.node.position[0][i], (1 + a) * solver.state().node.initial_position[0][i], 1e-12) << "node " << i;
-    EXPECT_NEAR(state.node.position[1][i], (1 + b) * solver.state().node.initial_position[1][i], 1e-12) << "node " << i;
+    EXPECT_NEAR(state.node.position[0][i], (1 + a) * solver.state().node.initial_position[0][i], 1e-12)
+        << "node " << i;
+    EXPECT_NEAR(state.node.position[1][i], (1 + b) * solver.state().node.initial_position[1][i], 1e-12)
+        << "node " << i;
   }
   for (std::size_t p = 0; p < state.point.size(); ++p)
     EXPECT_NEAR(state.point.piola[0][p], state.point.piola[4][p], 1e-9 * 210e9) << "point " << p;

@@ -189,7 +189,8 @@ TYPED_TEST(Stress, does_not_change_with_the_reference) {
       const Mat3 a = general<dim>(s.deformation, 1);
       const Mat3 pushed = a * symmetric<dim>(s.inverse_plastic_cauchy_green, 1) * a.transpose();
       const int row[] = {0, 1, 2, 0, 1, 2}, column[] = {0, 1, 2, 1, 2, 0};
-      for (std::size_t c = 0; c < s.inverse_plastic_cauchy_green.size(); ++c) s.inverse_plastic_cauchy_green[c][1] = pushed(row[c], column[c]);
+      for (std::size_t c = 0; c < s.inverse_plastic_cauchy_green.size(); ++c)
+        s.inverse_plastic_cauchy_green[c][1] = pushed(row[c], column[c]);
       reference = f;
     }
   }
