@@ -84,7 +84,10 @@ void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& 
 }
 
 template Field held_tension<2>(const std::vector<plasticity::Material>&, const PointState<2>&);
+template Field held_tension<3>(const std::vector<plasticity::Material>&, const PointState<3>&);
 template void mix_elastic<2>(const Resampling<2>&, const Field&, const Field&,
                              const std::vector<plasticity::Material>&, PointState<2>&);
+template void mix_elastic<3>(const Resampling<3>&, const Field&, const Field&,
+                             const std::vector<plasticity::Material>&, PointState<3>&);
 
 } // namespace cnem

@@ -159,8 +159,9 @@ TEST(Tetrahedra, pass_the_patch_test_at_finite_strain) {
   problem.supports = Supports<3>(std::move(supports), boundary.size());
   ExplicitSolver<3> solver = start(std::move(problem), [&](const Vec3& x) { return Vec3(rate * x); });
   const double dt = 0.9 * solver.stable_step().dt;
-  for (int n = 0; n < 400; ++n) solver.advance(dt);
-  const Mat<3> F = Mat<3>::Identity() + 400 * dt * rate;
+  constexpr int steps = 1200;
+  for (int n = 0; n < steps; ++n) solver.advance(dt);
+  const Mat<3> F = Mat<3>::Identity() + steps * dt * rate;
   EXPECT_GT((F - Mat<3>::Identity()).norm(), 0.02);
   const State<3>& state = solver.state();
   for (std::size_t i = 0; i < state.node.size(); ++i)
@@ -172,7 +173,7 @@ TEST(Tetrahedra, pass_the_patch_test_at_finite_strain) {
   EXPECT_LT(std::abs(solver.ledger().residual()), 1e-6 * solver.ledger().external());
 }
 
-TEST(Tetrahedra, conserve_momentum_and_energy_under_a_new_reference_of_stress) {
+TEST(Tetrahedra, conserve_momentum_and_energy_in_plastic_flow) {
   plasticity::Material soft = steel();
   soft.hardening = plasticity::JohnsonCook{.A = 200e6, .B = 500e6};
   ExplicitSolver<3> solver = start(problem_of(jittered(), soft), [](const Vec3& x) -> Vec3 {
@@ -245,7 +246,7 @@ TEST(Tetrahedra, conduct_heat_and_balance_it) {
     if (facet.piece == 5) top.push_back(facet);
   problem.heat_boundaries = ThermalBoundaries<3>({}, {{"top", TimeTable(1e6), top}}, {});
   ExplicitSolver<3> solver = start(std::move(problem), [](const Vec3&) { return Vec3::Zero(); });
-  while (solver.state().time < 0.2) solver.advance(solver.stable_step().dt);
+  while (solver.state().time < 1.0) solver.advance(solver.stable_step().dt);
   const double heat = 1e6 * 6e-6 * solver.state().time;
   EXPECT_NEAR(solver.ledger()["heat_content"], heat, 1e-9 * heat);
   EXPECT_NEAR(solver.ledger()["heat_exchanged"], heat, 1e-9 * heat);
