@@ -1,5 +1,7 @@
 #include "adapt/cut.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,8 +9,6 @@
 namespace cnem::adapt {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Moves the inner nodes of a cut towards a smooth line, so that its two faces do not interlock.
 void straighten(WorkingCloud& work, std::span<const std::int32_t> path, double most) {

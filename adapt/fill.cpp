@@ -1,5 +1,6 @@
 // Insertion: nodes where the cloud has become too coarse.
 #include "adapt/resample.hpp"
+#include "core/index.hpp"
 #include "voronoi/locate.hpp"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace cnem::adapt {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Gap {
   double length;                        ///< over its limit

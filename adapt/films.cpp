@@ -2,6 +2,8 @@
 // other.
 #include "adapt/cut.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +16,6 @@
 namespace cnem::adapt {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Waist {
   double thickness;   ///< in units of the wanted spacing

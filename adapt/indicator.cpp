@@ -1,6 +1,7 @@
 #include "adapt/indicator.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/parallel.hpp"
 #include "voronoi/natural_neighbours.hpp"
 
@@ -10,8 +11,6 @@
 namespace cnem::adapt {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// f* − f_i at x. Outside the domain, where rounding may put a point of a cell at a notch, the value of the
 /// nearest triangle's node counts: none.

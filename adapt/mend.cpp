@@ -1,5 +1,6 @@
 // What has to be put right before a cloud can be triangulated at all.
 #include "adapt/resample.hpp"
+#include "core/index.hpp"
 #include "core/parallel.hpp"
 #include "voronoi/edge_tree.hpp"
 
@@ -10,8 +11,6 @@
 namespace cnem::adapt {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Whether the segments ab and cd cross.
 bool crosses(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {

@@ -1,15 +1,13 @@
 #include "adapt/resample.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace cnem::adapt {
 
-namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-} // namespace
+namespace {} // namespace
 
 PassReport& PassReport::operator+=(const PassReport& other) {
   for (int PassReport::*count :

@@ -1,6 +1,7 @@
 // Separation: where broken matter goes through the body, the cloud is opened along Delaunay edges.
 #include "adapt/cut.hpp"
 #include "adapt/resample.hpp"
+#include "core/index.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,6 @@ namespace cnem::adapt {
 
 namespace {
 
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 double cosine(const Vec2& a, const Vec2& b) { return a.dot(b) / (a.norm() * b.norm()); }
 
 /// Two boundary nodes and the interior ones between them.

@@ -1,17 +1,14 @@
 #include "adapt/structure.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 #include <algorithm>
 #include <tuple>
 
 namespace cnem::adapt {
 
-namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-} // namespace
+namespace {} // namespace
 
 Structure build_structure(const Cloud<2>& cloud) {
   Structure s;

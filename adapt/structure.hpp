@@ -1,5 +1,6 @@
 #pragma once
 // Cells without shape functions: what insertion and removal look at between two rounds.
+#include "core/index.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/circumcircles.hpp"
 #include "voronoi/triangulation.hpp"
@@ -20,8 +21,8 @@ struct Structure {
   std::vector<std::int32_t> neighbour; ///< Delaunay neighbours, in increasing order
 
   std::span<const std::int32_t> neighbours(std::int32_t node) const {
-    const auto first = static_cast<std::size_t>(begin[static_cast<std::size_t>(node)]);
-    const auto last = static_cast<std::size_t>(begin[static_cast<std::size_t>(node) + 1]);
+    const auto first = u(begin[u(node)]);
+    const auto last = u(begin[u(node) + 1]);
     return {neighbour.data() + first, last - first};
   }
 };

@@ -1,6 +1,8 @@
 // Removal: nodes that crowd at the boundary or each other.
 #include "adapt/resample.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,8 +11,6 @@
 namespace cnem::adapt {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Candidate {
   std::int32_t node;

@@ -1,6 +1,7 @@
 #pragma once
 // A cloud while it is being resampled: nodes come and go, and mass goes with them in parcels.
 #include "adapt/structure.hpp"
+#include "core/index.hpp"
 #include "core/resampling.hpp"
 
 #include <cstdint>
@@ -81,7 +82,7 @@ public:
   Resampling<2> finish();
 
 private:
-  static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+  static std::size_t index(std::int32_t i) { return u(i); }
   void renew_loops();
   Row& row(std::vector<Row>& rows, std::int32_t i);
   NodeRows in_order(std::vector<Row>& rows, const std::vector<std::int32_t>& order);

@@ -1,6 +1,7 @@
 #include "app/adaptation.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "mechanics/kinematics.hpp"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace cnem::app {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The piece that new faces belong to.
 std::int32_t fracture_piece(Cloud<2>& cloud) {

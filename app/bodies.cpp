@@ -1,4 +1,5 @@
 #include "app/bodies.hpp"
+#include "core/index.hpp"
 
 #include "voronoi/triangulation.hpp"
 
@@ -12,8 +13,6 @@
 namespace cnem::app {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The part of the domain each node is in: parts are connected through triangles.
 std::vector<std::int32_t> parts(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
@@ -119,7 +118,7 @@ std::vector<Facet<2>> facets_of(const Cloud<2>& cloud, const std::vector<std::st
         wanted[p] = true;
   std::vector<Facet<2>> facets;
   std::copy_if(cloud.facets.begin(), cloud.facets.end(), std::back_inserter(facets),
-               [&](const Facet<2>& facet) { return wanted[static_cast<std::size_t>(facet.piece)]; });
+               [&](const Facet<2>& facet) { return wanted[u(facet.piece)]; });
   return facets;
 }
 

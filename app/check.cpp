@@ -3,6 +3,7 @@
 #include "app/simulation.hpp"
 #include "app/statics.hpp"
 #include "app/tool_speed.hpp"
+#include "core/index.hpp"
 #include "core/threads.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
@@ -45,11 +46,11 @@ void check(const input::Case& input, const RunOptions& options) {
   } else {
     fmt::print("tools       {} places where a tool overlaps the workpiece, the deepest:\n", overlaps.size());
     for (std::size_t k = 0; k < std::min<std::size_t>(overlaps.size(), 3); ++k)
-      fmt::print("            {}\n",
-                 input.placed(fmt::format(
-                     "{} by {:.3g} m at ({:.4g}, {:.4g}) m",
-                     solver.conditions().contact.tools()[static_cast<std::size_t>(overlaps[k].tool)].name,
-                     overlaps[k].depth, overlaps[k].position.x(), overlaps[k].position.y())));
+      fmt::print(
+          "            {}\n",
+          input.placed(fmt::format("{} by {:.3g} m at ({:.4g}, {:.4g}) m",
+                                   solver.conditions().contact.tools()[u(overlaps[k].tool)].name,
+                                   overlaps[k].depth, overlaps[k].position.x(), overlaps[k].position.y())));
   }
   const std::filesystem::path folder = options.output / "initial";
   results::prepare_output_folder(folder, true);

@@ -1,6 +1,7 @@
 #include "app/static_model.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "mechanics/kinematics.hpp"
 
 #include <Eigen/LU>
@@ -13,8 +14,6 @@
 namespace cnem::app {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::vector<fracture::CrackTip> tips_of(const input::Case& input, const Cloud<2>& cloud) {
   std::vector<fracture::CrackPath> paths;

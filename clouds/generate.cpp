@@ -1,4 +1,5 @@
 #include "clouds/generate.hpp"
+#include "core/index.hpp"
 
 #include "clouds/generate_boundary.hpp"
 #include "clouds/generate_interior.hpp"
@@ -14,8 +15,6 @@
 namespace cnem::clouds {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::string at(const Vec2& x) { return fmt::format("({:.6g}, {:.6g})", x.x(), x.y()); }
 

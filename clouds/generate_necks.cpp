@@ -1,12 +1,14 @@
 #include "clouds/generate_interior.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 
 namespace cnem::clouds {
 
 Necks find_necks(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
-  const auto u = [](std::int32_t i) { return static_cast<std::size_t>(i); };
+  const auto u = [](std::int32_t i) { return u(i); };
   std::vector<std::int32_t> loop(u(cloud.nodes()), -1), place(u(cloud.nodes()), -1), loop_size;
   for (const Facet<2>& f : cloud.facets) { // they come loop after loop
     if (loop[u(f.node[0])] < 0) loop_size.push_back(0);

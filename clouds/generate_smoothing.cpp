@@ -1,5 +1,6 @@
 #include "clouds/generate_interior.hpp"
 #include "clouds/node_hash.hpp"
+#include "core/index.hpp"
 #include "voronoi/delaunay_flips.hpp"
 #include "voronoi/order.hpp"
 #include "voronoi/triangulation.hpp"
@@ -10,8 +11,6 @@
 namespace cnem::clouds {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Interior nodes on the move, behind the fixed boundary nodes in one cloud. With a uniform spacing, nodes
 /// beyond `mobile` from the boundary stay, and those beyond `near` are left out.

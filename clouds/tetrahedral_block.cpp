@@ -1,6 +1,7 @@
 #include "clouds/tetrahedral_block.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -34,13 +35,11 @@ TetrahedralBlock tetrahedral_block(const Vec<3>& size, const std::array<int, 3>&
           std::array<int, 3> at{i, j, k};
           std::array<std::int32_t, 4> corner{index(i, j, k)};
           for (int step = 0; step < 3; ++step) {
-            ++at[static_cast<std::size_t>(orders[o][step])];
-            corner[static_cast<std::size_t>(step + 1)] = index(at[0], at[1], at[2]);
+            ++at[u(orders[o][step])];
+            corner[u(step + 1)] = index(at[0], at[1], at[2]);
           }
           if (o >= 3) std::swap(corner[1], corner[2]);
-          const auto x = [&](int c) {
-            return block.cloud.position[static_cast<std::size_t>(corner[static_cast<std::size_t>(c)])];
-          };
+          const auto x = [&](int c) { return block.cloud.position[u(corner[u(c)])]; };
           if (!((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) > 0.0))
             throw GeometryError(
                 fmt::format("a tetrahedron of the block at ({:g}, {:g}, {:g}) m has no volume", x(0).x(),
@@ -51,13 +50,13 @@ TetrahedralBlock tetrahedral_block(const Vec<3>& size, const std::array<int, 3>&
   // A side is cut along the diagonal from its lowest to its highest corner, as the tetrahedra cut it.
   const auto add_side = [&](int axis, bool high) {
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-    for (int v = 0; v < count[static_cast<std::size_t>(b)]; ++v)
-      for (int u = 0; u < count[static_cast<std::size_t>(a)]; ++u) {
+    for (int second = 0; second < count[u(b)]; ++second)
+      for (int first = 0; first < count[u(a)]; ++first) {
         const auto node = [&](int du, int dv) {
           std::array<int, 3> at{};
-          at[static_cast<std::size_t>(axis)] = high ? count[static_cast<std::size_t>(axis)] : 0;
-          at[static_cast<std::size_t>(a)] = u + du;
-          at[static_cast<std::size_t>(b)] = v + dv;
+          at[u(axis)] = high ? count[u(axis)] : 0;
+          at[u(a)] = first + du;
+          at[u(b)] = second + dv;
           return index(at[0], at[1], at[2]);
         };
         const std::int32_t piece = 2 * axis + (high ? 1 : 0);

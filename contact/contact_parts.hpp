@@ -2,12 +2,13 @@
 // What the parts of contact share.
 #include "contact/impulse_solver.hpp"
 #include "core/aligned.hpp"
+#include "core/index.hpp"
 
 namespace cnem::contact {
 
 template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
   Vec<dim> x;
-  for (int k = 0; k < dim; ++k) x[k] = field[static_cast<std::size_t>(k)][static_cast<std::size_t>(node)];
+  for (int k = 0; k < dim; ++k) x[k] = field[u(k)][u(node)];
   return x;
 }
 
@@ -15,7 +16,7 @@ template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
 template<int dim, class PerNode> Vec<dim> at_contact(const Contact<dim>& contact, PerNode&& value) {
   Vec<dim> sum = Vec<dim>::Zero();
   for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-    if (contact.weight[a] != 0.0) sum += contact.weight[a] * value(static_cast<std::size_t>(contact.node[a]));
+    if (contact.weight[a] != 0.0) sum += contact.weight[a] * value(u(contact.node[a]));
   return sum;
 }
 

@@ -1,5 +1,7 @@
 #include "contact/impulse_solver.hpp"
 
+#include "core/index.hpp"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -70,7 +72,7 @@ public:
   }
 
 private:
-  Reaction<dim>& at(std::size_t a) { return nodes_[static_cast<std::size_t>(contact_.node[a])]; }
+  Reaction<dim>& at(std::size_t a) { return nodes_[u(contact_.node[a])]; }
 
   /// The same of nodes against tool.
   double along(const Vec<dim>& u) {
@@ -106,7 +108,7 @@ double shift_tool(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>
   Vec<dim> drive = Vec<dim>::Zero();
   for (Contact<dim>& contact : contacts) {
     if (contact.tool != index || contact.pressing <= 0.0 || contact.facet >= 0) continue;
-    if (char& known = taken[static_cast<std::size_t>(contact.node[0])]; known)
+    if (char& known = taken[u(contact.node[0])]; known)
       continue;
     else
       known = 1;
@@ -138,7 +140,7 @@ void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<di
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double moved = 0.0;
     for (Contact<dim>& contact : contacts) {
-      Reaction<dim>& tool = contact.tool < 0 ? none : tools[static_cast<std::size_t>(contact.tool)];
+      Reaction<dim>& tool = contact.tool < 0 ? none : tools[u(contact.tool)];
       Sweeper<dim> sweeper(contact, nodes, tool, dt);
       moved = std::max(moved, sweeper.press());
       moved = std::max(moved, sweeper.rub());

@@ -1,6 +1,7 @@
 #pragma once
 // Rigid tools: shape, motion or mass, friction and what they do to heat.
 #include "contact/tool_shape.hpp"
+#include "core/index.hpp"
 #include "core/time_table.hpp"
 
 #include <array>
@@ -17,13 +18,13 @@ template<int dim> struct ToolMotion {
 
   Vec<dim> velocity_at(double t) const {
     Vec<dim> v;
-    for (int k = 0; k < dim; ++k) v[k] = velocity[static_cast<std::size_t>(k)](t);
+    for (int k = 0; k < dim; ++k) v[k] = velocity[u(k)](t);
     return v;
   }
   /// Displacement since t = 0, m.
   Vec<dim> displacement(double t) const {
     Vec<dim> u;
-    for (int k = 0; k < dim; ++k) u[k] = velocity[static_cast<std::size_t>(k)].integral(t);
+    for (int k = 0; k < dim; ++k) u[k] = velocity[u(k)].integral(t);
     return u;
   }
 };

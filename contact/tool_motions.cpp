@@ -1,5 +1,7 @@
 #include "contact/tool_motions.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -10,7 +12,7 @@ namespace {
 template<int dim> Vec<dim> impulse(const ToolDrive<dim>& drive, double from, double to) {
   Vec<dim> sum;
   for (int k = 0; k < dim; ++k) {
-    const TimeTable& force = drive.force[static_cast<std::size_t>(k)];
+    const TimeTable& force = drive.force[u(k)];
     sum[k] = force.integral(to) - force.integral(from);
   }
   return drive.free * sum;

@@ -1,6 +1,7 @@
 #pragma once
 // How a checkpoint is described: an object lists what evolves in it once, and the same list writes and reads.
 #include "core/aligned.hpp"
+#include "core/index.hpp"
 #include "core/vec.hpp"
 
 #include <array>
@@ -26,7 +27,7 @@ public:
 
   void number(const std::string& name, const char* unit, double& value) { carry(name, unit, {&value, 1}); }
   template<int dim> void vector(const std::string& name, const char* unit, Vec<dim>& value) {
-    carry(name, unit, {value.data(), static_cast<std::size_t>(dim)});
+    carry(name, unit, {value.data(), u(dim)});
   }
   /// Keeps the length the field has.
   void field(const std::string& name, const char* unit, Field& values) { carry(name, unit, values); }

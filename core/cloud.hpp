@@ -1,5 +1,6 @@
 #pragma once
 // The cloud of nodes with its boundary: all that a discretisation is built from.
+#include "core/index.hpp"
 #include "core/vec.hpp"
 
 #include <array>
@@ -39,9 +40,7 @@ template<class Position> double enclosed_area(const std::vector<Facet<2>>& facet
   return 0.5 * twice;
 }
 inline double enclosed_area(const Cloud<2>& cloud) {
-  return enclosed_area(cloud.facets, [&](std::int32_t i) -> const Vec2& {
-    return cloud.position[static_cast<std::size_t>(i)];
-  });
+  return enclosed_area(cloud.facets, [&](std::int32_t i) -> const Vec2& { return cloud.position[u(i)]; });
 }
 
 } // namespace cnem

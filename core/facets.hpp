@@ -2,6 +2,7 @@
 // Measures of the facets of a boundary: edges in the plane, triangles in space.
 #include "core/aligned.hpp"
 #include "core/cloud.hpp"
+#include "core/index.hpp"
 #include "core/revolution.hpp"
 
 #include <Eigen/Geometry>
@@ -13,7 +14,7 @@ template<int dim> std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet, 
   std::array<Vec<dim>, dim> corner;
   for (std::size_t a = 0; a < dim; ++a)
     for (std::size_t k = 0; k < dim; ++k)
-      corner[a][static_cast<Eigen::Index>(k)] = position[k][static_cast<std::size_t>(facet.node[a])];
+      corner[a][static_cast<Eigen::Index>(k)] = position[k][u(facet.node[a])];
   return corner;
 }
 

@@ -3,6 +3,7 @@
 // and values N, whose rows are stress points and whose columns are nodes. Solver, heat and contact see
 // nothing else.
 #include "core/aligned.hpp"
+#include "core/index.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -41,9 +42,7 @@ template<int dim> struct DiscreteOperators {
   bool of_revolution() const { return !radius.empty(); }
 
   /// A node of the row of a point, its own for nodal rows: all of a row are of one body and one material.
-  std::size_t first_node(std::size_t p) const {
-    return nodal ? p : static_cast<std::size_t>(node[static_cast<std::size_t>(row_begin[p])]);
-  }
+  std::size_t first_node(std::size_t p) const { return nodal ? p : u(node[u(row_begin[p])]); }
 
   /// Fills the transpose from the rows. To be called once the rows are complete.
   void build_transpose();

@@ -1,5 +1,7 @@
 #pragma once
 // Loops over nodes and stress points in fixed blocks: results do not depend on the number of threads.
+#include "core/index.hpp"
+
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -43,7 +45,7 @@ template<class Body> void for_each_block(std::size_t n, Body&& body) {
   ParallelFailure failure;
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t b = 0; b < count; ++b) {
-    const std::size_t begin = static_cast<std::size_t>(b) * block_size;
+    const std::size_t begin = u(b) * block_size;
     failure.guard(b, [&] { body(begin, begin + block_size < n ? begin + block_size : n); });
   }
   failure.rethrow();

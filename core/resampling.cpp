@@ -1,4 +1,5 @@
 #include "core/resampling.hpp"
+#include "core/index.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -6,8 +7,6 @@
 namespace cnem {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// f(first, last entry) for every row makes the new field.
 template<class RowValue> void carry(const NodeRows& rows, Field& value, const RowValue& row_value) {

@@ -2,6 +2,7 @@
 // How the nodes of a new cloud are made of those of an old one, and what is carried over with them.
 #include "core/aligned.hpp"
 #include "core/cloud.hpp"
+#include "core/index.hpp"
 
 #include <cstdint>
 #include <span>
@@ -36,7 +37,7 @@ template<int dim> struct Resampling {
 
   /// Whether node p is other matter than one old node.
   bool mixed(std::size_t p) const {
-    const auto first = static_cast<std::size_t>(parcels.begin[p]);
+    const auto first = u(parcels.begin[p]);
     return parcels.begin[p + 1] - parcels.begin[p] != 1 || parcels.weight[first] != 1.0;
   }
 };

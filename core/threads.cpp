@@ -1,4 +1,5 @@
 #include "core/threads.hpp"
+#include "core/index.hpp"
 
 #include "core/error.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 void try_threads(int threads) {
   std::latch go(1);
   std::vector<std::jthread> started;
-  started.reserve(static_cast<std::size_t>(threads));
+  started.reserve(u(threads));
   try {
     for (int k = 0; k < threads; ++k) started.emplace_back([&] { go.wait(); });
   } catch (const std::system_error& error) {

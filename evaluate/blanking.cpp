@@ -1,4 +1,5 @@
 #include "evaluate/blanking.hpp"
+#include "core/index.hpp"
 
 #include "evaluate/force_stroke.hpp"
 #include "evaluate/sheared_face.hpp"
@@ -15,8 +16,6 @@
 namespace cnem::evaluate {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// t across the cutting direction, s along it.
 double across(const CutTools& tools, const Vec2& x) { return x.dot(left_normal(tools.direction)); }

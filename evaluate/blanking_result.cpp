@@ -1,6 +1,7 @@
 #include "evaluate/blanking_result.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "results/output_folder.hpp"
 
 #include <array>
@@ -119,7 +120,7 @@ std::size_t zone_index(const std::string& name) {
 
 } // namespace
 
-const char* zone_name(Zone zone) { return zone_names[static_cast<std::size_t>(zone)]; }
+const char* zone_name(Zone zone) { return zone_names[u(zone)]; }
 
 std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& result) {
   std::vector<std::pair<std::string, double>> metrics;

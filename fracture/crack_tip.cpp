@@ -1,6 +1,7 @@
 #include "fracture/crack_tip.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@
 namespace cnem::fracture {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
   const Vec2 d = b - a;

@@ -1,6 +1,7 @@
 #include "fracture/enrichment.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "voronoi/circumcircles.hpp"
 #include "voronoi/triangulation.hpp"
 
@@ -14,8 +15,6 @@
 namespace cnem::fracture {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Gauss-Legendre points and weights on [0, 1].
 struct LineRule {

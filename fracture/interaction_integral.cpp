@@ -1,13 +1,13 @@
 #include "fracture/interaction_integral.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace cnem::fracture {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 double plateau(const Ring& ring, double r) {
   return std::clamp((ring.outer - r) / (ring.outer - ring.inner), 0.0, 1.0);
@@ -61,14 +61,14 @@ StressIntensity stress_intensity(const CrackTip& tip, const Ring& ring, const Pl
       const TipField unit = tip_field(mode, elasticity, r, theta);
       const Vec2 flow = stress * unit.gradient.col(0) + unit.stress * gradient.col(0);
       const double mixed = unit.stress.cwiseProduct(gradient).sum();
-      sum[static_cast<std::size_t>(mode)] += op.volume[p] * (flow.dot(slope) - mixed * slope.x());
+      sum[u(mode)] += op.volume[p] * (flow.dot(slope) - mixed * slope.x());
     }
   }
   for (const FacetLoad& load : loads) {
     const double nearest = std::min((load.from - tip.position).norm(), (load.to - tip.position).norm());
     if (nearest >= ring.outer || load.traction.squaredNorm() == 0.0) continue;
     for (int mode = 0; mode < 2; ++mode)
-      sum[static_cast<std::size_t>(mode)] -= facet_integral(tip, ring, elasticity, mode, load, to_frame);
+      sum[u(mode)] -= facet_integral(tip, ring, elasticity, mode, load, to_frame);
   }
   return {0.5 * elasticity.effective * sum[0], 0.5 * elasticity.effective * sum[1]};
 }

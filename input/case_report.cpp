@@ -1,4 +1,5 @@
 // What a run is evaluated for: tools that cut, springback.
+#include "core/index.hpp"
 #include "input/case_parts.hpp"
 #include "input/schema/nearest.hpp"
 
@@ -72,7 +73,7 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
                                        fmt::join(names, "\", \"")));
   const auto index_of = [&](const Setting& key, const std::string& name) -> std::optional<std::size_t> {
     const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    if (found != names.end()) return u(found - names.begin());
     diagnostics.add(
         Mistake::reference, key.where, key.path,
         fmt::format("found '{}', expected the name of a tool{}", name, did_you_mean(name, names)));

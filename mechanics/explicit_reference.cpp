@@ -1,5 +1,6 @@
 // A solver's start and its references: cells, functions and everything that belongs to them.
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "mechanics/kinematics.hpp"
 #include "plasticity/return_map.hpp"
@@ -14,7 +15,7 @@ ExplicitSolver<dim>::ExplicitSolver(Problem<dim> problem, Fields<dim> velocity, 
       conditions_(std::move(static_cast<Conditions<dim>&>(problem))), terms_(make_terms(model_)),
       local_(model_.local) {
   NodeState<dim>& node = state_.node;
-  const auto n = static_cast<std::size_t>(conditions_.cloud.nodes());
+  const auto n = u(conditions_.cloud.nodes());
   node.scaling.switch_on(model_.mass_scaling.active());
   state_.point.damaged.switch_on(
       std::any_of(model_.materials.begin(), model_.materials.end(),
@@ -74,7 +75,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   const std::ptrdiff_t bad =
       plasticity::update_stress(model_.materials, point.material, plasticity::stress_points(point), 0,
                                 static_cast<std::ptrdiff_t>(points), 0.0);
-  if (bad >= 0) diverged(static_cast<std::size_t>(bad), "elastic strain");
+  if (bad >= 0) diverged(u(bad), "elastic strain");
   each([&](Term<dim>& term) { term.renew(body()); });
   for (std::size_t p = 0; p < points; ++p)
     point.density[p] = body().material_of(p).density * point.stress_free[p];
@@ -128,7 +129,7 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
   const DiscreteOperators<dim>& op = approximation_.mechanics;
-  const auto points = static_cast<std::size_t>(op.points);
+  const auto points = u(op.points);
   node.mass = op.node_volume();
   for (std::size_t i = 0; i < node.mass.size(); ++i) {
     const plasticity::Material& material = body().material_of_node(i);

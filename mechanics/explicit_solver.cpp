@@ -2,6 +2,7 @@
 
 #include "core/clock.hpp"
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/parallel.hpp"
 #include "mechanics/explicit_reactions.hpp"
 #include "plasticity/return_map.hpp"
@@ -109,7 +110,7 @@ template<int dim> void ExplicitSolver<dim>::update_stress(int activity, int befo
     each([&](Term<dim>& term) { term.after_stress(body, due, range); });
   });
   for (const std::ptrdiff_t p : bad)
-    if (p >= 0) diverged(static_cast<std::size_t>(p), "deformation gradient");
+    if (p >= 0) diverged(u(p), "deformation gradient");
   each([&](Term<dim>& term) { term.end_stress(body, due); });
 }
 

@@ -1,5 +1,6 @@
 #include "mechanics/local_steps.hpp"
 
+#include "core/index.hpp"
 #include "core/parallel.hpp"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace cnem {
 namespace {
 
 template<int dim> constexpr std::size_t block = LocalSteps<dim>::block;
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::size_t blocks_of(std::size_t nodes, std::size_t size) { return (nodes + size - 1) / size; }
 

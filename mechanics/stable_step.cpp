@@ -1,5 +1,6 @@
 #include "mechanics/stable_step.hpp"
 
+#include "core/index.hpp"
 #include "core/isa.hpp"
 #include "core/parallel.hpp"
 #include "core/side_by_side.hpp"
@@ -50,8 +51,7 @@ SpectralView<dim> view_of(const DiscreteOperators<dim>& operators, Field& invers
 template<int dim>
 void SpectralBound<dim>::prepare(const DiscreteOperators<dim>& operators,
                                  const Fields<tensor_size<dim>>& deformation, const Field& weight) {
-  const auto nodes = static_cast<std::size_t>(operators.nodes),
-             points = static_cast<std::size_t>(operators.points);
+  const auto nodes = u(operators.nodes), points = u(operators.points);
   inverse_.resize(SpectralView<dim>::stride * points);
   transfer_.resize(nodes);
   const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
@@ -71,13 +71,13 @@ SpectralBound<dim>::evaluate(const DiscreteOperators<dim>& operators,
                              const Field& weight, std::size_t width) {
   prepare(operators, deformation, weight);
   const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
-  const auto points = static_cast<std::size_t>(operators.points);
+  const auto points = u(operators.points);
   std::vector<Result> ranges((points + width - 1) / width);
   for_each_block(points, [&](std::size_t first, std::size_t last) {
     for (std::size_t begin = first; begin < last; begin += width) {
       const SpectralMaximum most = largest(view, modulus.data(), static_cast<std::ptrdiff_t>(begin),
                                            static_cast<std::ptrdiff_t>(std::min(begin + width, last)));
-      ranges[begin / width] = {most.value, static_cast<std::size_t>(most.point)};
+      ranges[begin / width] = {most.value, u(most.point)};
     }
   });
   return ranges;

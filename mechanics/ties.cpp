@@ -1,15 +1,13 @@
 #include "mechanics/ties.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <numeric>
 
 namespace cnem {
 
-namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-} // namespace
+namespace {} // namespace
 
 template<int dim>
 Ties<dim>::Ties(const std::vector<std::array<std::int32_t, 2>>& pairs,

@@ -2,6 +2,7 @@
 
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/parallel.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/linear_simplices.hpp"
@@ -13,8 +14,6 @@
 
 namespace cnem::methods {
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Distance to the natural neighbours of each node, m, weighted with the facets between: diagonals of
 /// squares, whose choice is arbitrary, have none.
@@ -79,7 +78,7 @@ private:
       known->path = path;
     else
       return;
-    open_.push_back(static_cast<std::size_t>(known - reached_.begin()));
+    open_.push_back(u(known - reached_.begin()));
   }
 
   const Cloud<2>& cloud_;

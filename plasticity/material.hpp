@@ -1,5 +1,7 @@
 #pragma once
 // Materials as plain structs that can be tried at a single point.
+#include "core/index.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -94,10 +96,10 @@ template<class F>
 void for_each_run(const std::vector<Material>& materials, const std::vector<std::int32_t>& material,
                   std::ptrdiff_t begin, std::ptrdiff_t end, F&& f) {
   for (std::ptrdiff_t first = begin; first < end;) {
-    const std::int32_t index = material[static_cast<std::size_t>(first)];
+    const std::int32_t index = material[u(first)];
     std::ptrdiff_t stop = first + 1;
-    while (stop < end && material[static_cast<std::size_t>(stop)] == index) ++stop;
-    f(materials[static_cast<std::size_t>(index)], first, stop);
+    while (stop < end && material[u(stop)] == index) ++stop;
+    f(materials[u(index)], first, stop);
     first = stop;
   }
 }

@@ -1,3 +1,4 @@
+#include "core/index.hpp"
 #include "evaluate/force_stroke.hpp"
 #include "report/chart.hpp"
 #include "results/si_format.hpp"
@@ -48,10 +49,8 @@ private:
   void use(int column) {
     if (column >= 0) used_.insert(column);
   }
-  const std::vector<double>& column(int k) const { return history_.column[static_cast<std::size_t>(k)]; }
-  results::ColumnName name(int k) const {
-    return results::split_column_name(history_.names[static_cast<std::size_t>(k)]);
-  }
+  const std::vector<double>& column(int k) const { return history_.column[u(k)]; }
+  results::ColumnName name(int k) const { return results::split_column_name(history_.names[u(k)]); }
   int columns() const { return static_cast<int>(history_.names.size()); }
 
   Chart against_time(std::string title, std::string label, std::string unit) const {

@@ -1,5 +1,6 @@
 #pragma once
 // PNG files of drawings with few colours, a byte a pixel: a third of true colour's.
+#include "core/index.hpp"
 #include "report/colour_map.hpp"
 
 #include <cstddef>
@@ -16,9 +17,7 @@ struct PixelView {
   int width = 0, height = 0;
   std::size_t stride = 0; ///< pixels
 
-  std::span<const std::uint32_t> row(int y) const {
-    return {first + static_cast<std::size_t>(y) * stride, static_cast<std::size_t>(width)};
-  }
+  std::span<const std::uint32_t> row(int y) const { return {first + u(y) * stride, u(width)}; }
 };
 
 /// Colours of a drawing that are its colour map's, at equal distances from 0 to 1.

@@ -1,6 +1,7 @@
 #include "results/output_folder.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 #include <fmt/format.h>
 
@@ -69,7 +70,7 @@ void write_whole(const fs::path& path, const fs::path& target, std::string_view 
     const ssize_t n = ::write(fd, content.data() + done, content.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail("write", target, n < 0 ? errno : ENOSPC);
-    done += static_cast<std::size_t>(n);
+    done += u(n);
   }
   if (flush == Flush::begin)
     ::sync_file_range(fd, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint: who needs it on the disk flushes it
@@ -161,7 +162,7 @@ std::string read_file(const fs::path& path) {
     content.resize(size + (std::size_t{1} << 16));
     const ssize_t n = ::read(fd, content.data() + size, content.size() - size);
     if (n < 0 && errno != EINTR) fail("read", path, errno);
-    if (n > 0) size += static_cast<std::size_t>(n);
+    if (n > 0) size += u(n);
     content.resize(size);
     if (n == 0) return content;
   }

@@ -1,4 +1,5 @@
 #include "results/progress.hpp"
+#include "core/index.hpp"
 
 #include "results/si_format.hpp"
 
@@ -19,8 +20,7 @@ double wall_clock() {
 
 // Columns a UTF-8 text takes: its bytes less the continuation bytes.
 std::size_t columns(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return u(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 constexpr double terminal_interval = 0.1, plain_interval = 10.0; // s

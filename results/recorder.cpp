@@ -1,6 +1,7 @@
 #include "results/recorder.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
 #include "voronoi/natural_neighbours.hpp"
@@ -182,7 +183,7 @@ void HistoryRecorder::resample(const Resampling<2>& change, const ExplicitSolver
   for (ProbeWeights& probe : probes_) {
     Vec2 at = Vec2::Zero();
     for (std::size_t k = 0; k < probe.node.size(); ++k)
-      at += probe.weight[k] * change.old_position[static_cast<std::size_t>(probe.node[k])];
+      at += probe.weight[k] * change.old_position[u(probe.node[k])];
     try {
       functions.evaluate(voronoi::Functions::sibson, at);
       probe.node.assign(functions.nodes().begin(), functions.nodes().end());
@@ -273,7 +274,7 @@ void write_lines(const input::Case& input, const Snapshot& shot, const std::file
       for (const Field& field : fields) {
         double sum = 0.0;
         for (std::size_t j = 0; j < functions.nodes().size(); ++j)
-          sum += functions.values()[j] * field[static_cast<std::size_t>(functions.nodes()[j])];
+          sum += functions.values()[j] * field[u(functions.nodes()[j])];
         text += fmt::format(",{}", sum);
       }
       text += "\n";

@@ -1,6 +1,7 @@
 #include "results/vtk_writer.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "results/output_folder.hpp"
 
 #include <fmt/format.h>
@@ -73,10 +74,9 @@ void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField
     array->SetNumberOfTuples(count);
     array->Fill(0.0);
     for (int k = 0; k < 3; ++k) {
-      const std::span<const double> component = field.component[static_cast<std::size_t>(k)];
+      const std::span<const double> component = field.component[u(k)];
       if (component.empty()) continue;
-      for (vtkIdType i = 0; i < count; ++i)
-        array->SetTypedComponent(i, k, component[static_cast<std::size_t>(i)]);
+      for (vtkIdType i = 0; i < count; ++i) array->SetTypedComponent(i, k, component[u(i)]);
     }
     to.AddArray(array);
   }
@@ -110,7 +110,7 @@ std::string cells_text(const FieldFrame& frame) {
   const auto count = static_cast<vtkIdType>(cell_count(frame));
   grid->AllocateEstimate(count, 7);
   std::vector<vtkIdType> polygon;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
+  for (std::size_t c = 0; c < u(count); ++c) {
     polygon.assign(cells.index.begin() + cells.begin[c], cells.index.begin() + cells.begin[c + 1]);
     grid->InsertNextCell(VTK_POLYGON, static_cast<vtkIdType>(polygon.size()), polygon.data());
   }
@@ -128,7 +128,7 @@ std::string nodes_text(const FieldFrame& frame) {
   grid->SetPoints(points);
   grid->AllocateEstimate(count, 1);
   for (vtkIdType i = 0; i < count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
+    const auto at = u(i);
     points->SetPoint(i, frame.origin.x() + frame.position[0][at], frame.origin.y() + frame.position[1][at],
                      0.0);
     grid->InsertNextCell(VTK_VERTEX, 1, &i);
@@ -155,9 +155,8 @@ std::vector<Vec2> moved_vertices(const CellGeometry<2>& cells,
                                  const std::array<std::span<const double>, 2>& position) {
   std::vector<Vec2> moved(cells.vertex.size(), Vec2::Zero());
   for (std::size_t v = 0; v < moved.size(); ++v)
-    for (auto k = static_cast<std::size_t>(cells.vertex_begin[v]);
-         k < static_cast<std::size_t>(cells.vertex_begin[v + 1]); ++k) {
-      const auto node = static_cast<std::size_t>(cells.vertex_node[k]);
+    for (auto k = u(cells.vertex_begin[v]); k < u(cells.vertex_begin[v + 1]); ++k) {
+      const auto node = u(cells.vertex_node[k]);
       moved[v] += cells.vertex_weight[k] * Vec2(position[0][node], position[1][node]);
     }
   return moved;

@@ -1,6 +1,7 @@
 #include "study/sweep.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/threads.hpp"
 #include "input/case_reader.hpp"
 #include "input/schema/nearest.hpp"
@@ -162,9 +163,8 @@ std::vector<std::string> command(const Study& study, std::size_t k, bool interru
 
 std::size_t processes_for(const Study& study, const SweepOptions& options) {
   const int wanted = options.processes > 0 ? options.processes : study.processes;
-  if (wanted > 0) return static_cast<std::size_t>(wanted);
-  return std::max<std::size_t>(1,
-                               std::thread::hardware_concurrency() / static_cast<std::size_t>(study.threads));
+  if (wanted > 0) return u(wanted);
+  return std::max<std::size_t>(1, std::thread::hardware_concurrency() / u(study.threads));
 }
 
 /// Columns and charts that name what no run has.

@@ -1,6 +1,7 @@
 #include "study/sweep.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "report/chart.hpp"
 #include "report/html.hpp"
 #include "report/report_style.hpp"
@@ -115,7 +116,7 @@ report::Chart history_chart(const Study& study, const std::vector<results::Histo
     const results::HistoryTable& history = histories[k];
     const int at = history.find(column);
     if (at < 0) continue;
-    const auto index = static_cast<std::size_t>(at);
+    const auto index = u(at);
     chart.y_unit = results::split_column_name(history.names[index]).unit;
     report::ChartSeries line;
     const std::string label = label_of(study.runs[k], "");

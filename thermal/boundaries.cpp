@@ -1,6 +1,7 @@
 #include "thermal/boundaries.hpp"
 
 #include "core/facets.hpp"
+#include "core/index.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -41,8 +42,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
     const double value = flux.value(time);
     for (const Facet<dim>& facet : flux.facets) {
       const auto area = areas<dim>(space_, facet, position);
-      for (std::size_t end = 0; end < dim; ++end)
-        flow[static_cast<std::size_t>(facet.node[end])] += value * area[end];
+      for (std::size_t end = 0; end < dim; ++end) flow[u(facet.node[end])] += value * area[end];
     }
   }
   for (const Convection<dim>& convection : convections_) {
@@ -50,7 +50,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
     for (const Facet<dim>& facet : convection.facets) {
       const auto area = areas<dim>(space_, facet, position);
       for (std::size_t end = 0; end < dim; ++end) {
-        const auto i = static_cast<std::size_t>(facet.node[end]);
+        const auto i = u(facet.node[end]);
         flow[i] += h * (ambient - temperature[i]) * area[end];
       }
     }
@@ -59,26 +59,24 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
     for (std::size_t f = 0; f < interface.facets.size(); ++f) {
       const auto area = areas<dim>(space_, interface.facets[f], position);
       for (std::size_t end = 0; end < dim; ++end) {
-        const auto i = static_cast<std::size_t>(interface.facets[f].node[end]);
-        const auto j = static_cast<std::size_t>(interface.opposite[f][end]);
+        const auto i = u(interface.facets[f].node[end]);
+        const auto j = u(interface.opposite[f][end]);
         const double crossing = interface.conductance * area[end] * (temperature[j] - temperature[i]);
         flow[i] += crossing;
         flow[j] -= crossing;
       }
     }
   for (const ToolConductance& tool : touching.tools) {
-    const auto i = static_cast<std::size_t>(tool.node);
+    const auto i = u(tool.node);
     flow[i] += tool.conductance * tool.area * (tool.tool_temperature - temperature[i]);
   }
   for (const BodyConductance<dim>& body : touching.bodies) {
     double opposite = 0.0;
-    for (std::size_t a = 0; a < dim; ++a)
-      opposite += body.weight[a] * temperature[static_cast<std::size_t>(body.facet[a])];
-    const auto i = static_cast<std::size_t>(body.node);
+    for (std::size_t a = 0; a < dim; ++a) opposite += body.weight[a] * temperature[u(body.facet[a])];
+    const auto i = u(body.node);
     const double crossing = body.conductance * body.area * (opposite - temperature[i]);
     flow[i] += crossing;
-    for (std::size_t a = 0; a < dim; ++a)
-      flow[static_cast<std::size_t>(body.facet[a])] -= body.weight[a] * crossing;
+    for (std::size_t a = 0; a < dim; ++a) flow[u(body.facet[a])] -= body.weight[a] * crossing;
   }
 }
 
@@ -92,8 +90,7 @@ template<int dim> double HeatContacts<dim>::fastest_decay(const Field& heat_capa
       given[body.facet[a]] += 2.0 * body.weight[a] * body.conductance * body.area;
   }
   double worst = 0.0;
-  for (const auto& [node, sum] : given)
-    worst = std::max(worst, sum / heat_capacity[static_cast<std::size_t>(node)]);
+  for (const auto& [node, sum] : given) worst = std::max(worst, sum / heat_capacity[u(node)]);
   return worst;
 }
 
@@ -103,7 +100,7 @@ double ThermalBoundaries<dim>::hold(double time, const Field& heat_capacity, Fie
   for (const FixedTemperature& fixed : fixed_) {
     const double value = fixed.value(time);
     for (const std::int32_t node : fixed.nodes) {
-      const auto i = static_cast<std::size_t>(node);
+      const auto i = u(node);
       heat += heat_capacity[i] * (value - temperature[i]);
       temperature[i] = value;
     }
@@ -119,16 +116,15 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
     for (const Facet<dim>& facet : convection.facets) {
       const auto area = areas<dim>(space_, facet, position);
       for (std::size_t end = 0; end < dim; ++end)
-        worst = std::max(worst, 2.0 * convection.coefficient(time) * area[end] /
-                                    heat_capacity[static_cast<std::size_t>(facet.node[end])]);
+        worst = std::max(worst,
+                         2.0 * convection.coefficient(time) * area[end] / heat_capacity[u(facet.node[end])]);
     }
   for (const ContactConductance<dim>& interface : interfaces_)
     for (std::size_t f = 0; f < interface.facets.size(); ++f) {
       const auto area = areas<dim>(space_, interface.facets[f], position);
       for (std::size_t end = 0; end < dim; ++end)
         for (const std::int32_t node : {interface.facets[f].node[end], interface.opposite[f][end]})
-          worst = std::max(worst, 4.0 * interface.conductance * area[end] /
-                                      heat_capacity[static_cast<std::size_t>(node)]);
+          worst = std::max(worst, 4.0 * interface.conductance * area[end] / heat_capacity[u(node)]);
     }
   return worst;
 }

@@ -1,3 +1,4 @@
+#include "core/index.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/locate.hpp"
 
@@ -5,7 +6,6 @@ namespace cnem::voronoi {
 
 namespace {
 
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
 
 /// Polygons of the cells, each from one round through the triangles of its node.

@@ -1,13 +1,13 @@
 #include "voronoi/delaunay_flips.hpp"
 
+#include "core/index.hpp"
+
 #include <cmath>
 #include <numeric>
 
 namespace cnem::voronoi {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Whether the angles at p and q, on either side of the edge ab, sum to more than π.
 bool opposite_angles_too_large(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& q) {

@@ -1,14 +1,12 @@
 #include "voronoi/locate.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 
 namespace cnem::voronoi {
 
-namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-} // namespace
+namespace {} // namespace
 
 std::array<double, 3> barycentric(const Cloud<2>& cloud, const Triangulation& mesh, std::int32_t triangle,
                                   const Vec2& x) {

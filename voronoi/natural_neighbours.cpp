@@ -1,6 +1,7 @@
 #include "voronoi/natural_neighbours.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace cnem::voronoi {
 
 namespace {
 
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
 
 /// Sine below which x counts as lying on an edge.

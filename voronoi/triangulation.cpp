@@ -1,6 +1,7 @@
 #include "voronoi/triangulation.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "voronoi/boundary_checks.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -35,8 +36,6 @@ using Delaunay =
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Vertex = Delaunay::Vertex_handle;
 using Face = Delaunay::Face_handle;
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The work of one call of triangulate().
 class Builder {

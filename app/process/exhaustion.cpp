@@ -1,6 +1,7 @@
 #include "app/process/exhaustion.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "results/checkpoint_folder.hpp"
 #include "results/output_folder.hpp"
 
@@ -44,7 +45,7 @@ void write_all(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = write(fd, text.data(), text.size());
     if (n <= 0) return;
-    text.remove_prefix(static_cast<std::size_t>(n));
+    text.remove_prefix(u(n));
   }
 }
 

@@ -1,4 +1,5 @@
 #include "app/process/standard_streams.hpp"
+#include "core/index.hpp"
 
 #include "app/run.hpp"
 
@@ -26,7 +27,7 @@ ssize_t pass_on(void* cookie, const char* text, std::size_t size) {
   for (std::size_t done = 0; done < size && sink.error == 0;) {
     const ssize_t n = write(sink.fd, text + done, size - done);
     if (n >= 0)
-      done += static_cast<std::size_t>(n);
+      done += u(n);
     else if (errno != EINTR)
       sink.error = errno;
   }

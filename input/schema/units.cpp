@@ -1,4 +1,5 @@
 #include "input/schema/units.hpp"
+#include "core/index.hpp"
 
 #include "input/schema/nearest.hpp"
 
@@ -178,7 +179,7 @@ private:
     const auto [end, error] =
         std::from_chars(text_.data() + at_, text_.data() + text_.size(), value, std::chars_format::fixed);
     if (error != std::errc{}) fail("a number must follow '^', as in m^2 or s^0.5");
-    at_ = static_cast<std::size_t>(end - text_.data());
+    at_ = u(end - text_.data());
     if (std::abs(value) > 9.0 || 2.0 * value != std::round(2.0 * value))
       fail("powers are whole or half numbers up to 9");
     return value;
@@ -249,7 +250,7 @@ std::pair<double, std::size_t> leading_number(std::string_view text) {
         "found '{}', which is beyond what a number can hold, expected 0 or 1e-307 to 1e308", text));
   if (error != std::errc{}) return {0.0, 0};
   if (!std::isfinite(value)) throw UnitError(fmt::format("found '{}', expected a finite number", text));
-  return {value, static_cast<std::size_t>(end - text.data())};
+  return {value, u(end - text.data())};
 }
 
 } // namespace

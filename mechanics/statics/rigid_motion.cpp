@@ -1,5 +1,7 @@
 #include "mechanics/statics/rigid_motion.hpp"
 
+#include "core/index.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <fmt/format.h>
@@ -44,11 +46,10 @@ std::vector<std::size_t> parts_of(const DiscreteOperators<2>& op, std::size_t no
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  for (std::size_t p = 0; p < static_cast<std::size_t>(op.points); ++p) {
-    const auto first = static_cast<std::size_t>(op.row_begin[p]),
-               last = static_cast<std::size_t>(op.row_begin[p + 1]);
+  for (std::size_t p = 0; p < u(op.points); ++p) {
+    const auto first = u(op.row_begin[p]), last = u(op.row_begin[p + 1]);
     for (std::size_t e = first + 1; e < last; ++e) {
-      const auto a = static_cast<std::size_t>(op.node[first]), b = static_cast<std::size_t>(op.node[e]);
+      const auto a = u(op.node[first]), b = u(op.node[e]);
       if (a >= nodes || b >= nodes) continue; // enrichment
       const std::size_t ra = root(a), rb = root(b);
       parent[std::max(ra, rb)] = std::min(ra, rb);
@@ -73,7 +74,7 @@ std::string missing_support(const DiscreteOperators<2>& operators, const std::ve
     part.radius = std::max(part.radius, (position[i] - part.centre).norm());
   }
   for (const auto& p : supports.prescribed()) {
-    const auto i = static_cast<std::size_t>(p.node);
+    const auto i = u(p.node);
     Part& part = parts[part_of[i]];
     const Eigen::Vector3d felt(p.direction.x(), p.direction.y(),
                                p.direction.dot(left_normal(position[i] - part.centre)) / part.radius);

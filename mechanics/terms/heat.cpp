@@ -1,5 +1,6 @@
 // The thermal half of a step: plastic and friction heat, conduction and what boundaries exchange, staggered
 // behind the mechanics (paper 004, 5.1.4).
+#include "core/index.hpp"
 #include "core/parallel.hpp"
 #include "mechanics/terms/list.hpp"
 #include "thermal/conduction.hpp"
@@ -39,7 +40,7 @@ public:
   void attach(const Body<dim>& body) override {
     if (!body.model.thermal) return;
     const DiscreteOperators<dim>& op = body.approximation.conduction;
-    Field conductivity(static_cast<std::size_t>(op.points));
+    Field conductivity(u(op.points));
     for (std::size_t p = 0; p < conductivity.size(); ++p)
       conductivity[p] = body.material_of_node(op.first_node(p)).conductivity;
     conduction_.set_operators(op, std::move(conductivity));
@@ -90,10 +91,10 @@ private:
     if (!contact.active()) return;
     const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
     for (std::size_t b = 0; b < boundary.size(); ++b)
-      body.state.node.contact_heat[static_cast<std::size_t>(boundary[b])] = contact.friction_heat()[b];
+      body.state.node.contact_heat[u(boundary[b])] = contact.friction_heat()[b];
     contacts_.clear();
     for (const contact::ContactPoint<dim>& touch : contact.points()) {
-      const contact::ToolThermal& thermal = contact.tools()[static_cast<std::size_t>(touch.tool)].thermal;
+      const contact::ToolThermal& thermal = contact.tools()[u(touch.tool)].thermal;
       if (thermal.conductance > 0.0)
         contacts_.tools.push_back({touch.node, thermal.conductance, touch.area, thermal.temperature});
     }
@@ -115,9 +116,8 @@ private:
         if (op.nodal) {
           heat += plastic_heat_of_node(body, i);
         } else {
-          for (auto e = static_cast<std::size_t>(op.col_begin[i]);
-               e < static_cast<std::size_t>(op.col_begin[i + 1]); ++e) {
-            const auto p = static_cast<std::size_t>(op.point[e]);
+          for (auto e = u(op.col_begin[i]); e < u(op.col_begin[i + 1]); ++e) {
+            const auto p = u(op.point[e]);
             heat += body.material_of(p).taylor_quinney * point.dissipation[p] * point.stress_free[p] *
                     op.weighted_value[e];
           }

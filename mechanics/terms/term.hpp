@@ -1,6 +1,7 @@
 #pragma once
 // What acts in a step: each term gives its stress or force, its share in the stable step, its energies to the
 // ledger, and keeps its own state. The solver calls it once per range of points (mechanics/explicit_*.cpp).
+#include "core/index.hpp"
 #include "mechanics/energy_ledger.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/local_steps.hpp"
@@ -37,10 +38,10 @@ template<int dim, bool constant> struct BodyOf {
 
   const DiscreteOperators<dim>& operators() const { return approximation.mechanics; }
   const plasticity::Material& material_of(std::size_t point) const {
-    return model.materials[static_cast<std::size_t>(state.point.material[point])];
+    return model.materials[u(state.point.material[point])];
   }
   const plasticity::Material& material_of_node(std::size_t node) const {
-    return model.materials[static_cast<std::size_t>(state.node.material[node])];
+    return model.materials[u(state.node.material[node])];
   }
   /// Finest steps over which the loads on a node act.
   double load_weight(std::size_t node) const {
@@ -63,9 +64,7 @@ struct DuePoints {
 
   /// s, of a range.
   double own(const LevelRange& range) const { return dt * (1 << range.level); }
-  std::size_t index(const LevelRange& range) const {
-    return static_cast<std::size_t>(&range - ranges.data());
-  }
+  std::size_t index(const LevelRange& range) const { return u(&range - ranges.data()); }
 };
 
 /// What limits the step beside the elastic waves of the cells.

@@ -1,13 +1,12 @@
 // Films, thinner than a cell: long edges of theirs are split, broken ones are cut at the waist.
 #include "adapt/resample.hpp"
+#include "core/index.hpp"
 #include "tests/conservation/blank.hpp"
 
 #include <gtest/gtest.h>
 
 namespace cnem::adapt {
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double h = 0.1;
 

@@ -3,6 +3,7 @@
 #include "adapt/resample.hpp"
 #include "cnem/scni.hpp"
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "tests/clouds.hpp"
 #include "tests/conservation/blank.hpp"
 
@@ -12,8 +13,6 @@ namespace cnem::adapt {
 namespace {
 
 using cnem::testing::Random;
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Cloud<2> domain(int kind, double spacing, std::uint64_t seed) {
   Cloud<2> cloud;

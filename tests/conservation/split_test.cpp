@@ -1,14 +1,13 @@
 // Cutting a cloud along edges: topology, matter, cells.
 #include "adapt/resample.hpp"
 #include "cnem/scni.hpp"
+#include "core/index.hpp"
 #include "tests/conservation/blank.hpp"
 
 #include <gtest/gtest.h>
 
 namespace cnem::adapt {
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct BrokenBlank : Blank {
   explicit BrokenBlank(double spacing = 0.1, bool hole = false) {

@@ -1,6 +1,8 @@
 // Nodes that go from the boundary: slits, slivers, faces that touch.
 #include "tests/conservation/blank.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
@@ -8,8 +10,6 @@
 
 namespace cnem::adapt {
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// Three nodes in the lower side make a slit that narrows upwards.
 std::array<std::size_t, 3> cut_slit(Blank& b, double depth, double mouth = 0.006) {

@@ -1,4 +1,5 @@
 #include "problems.hpp"
+#include "core/index.hpp"
 
 #include "clouds/generate.hpp"
 #include "cnem/scni.hpp"
@@ -13,8 +14,6 @@
 namespace cnem::convergence {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 CurvePiece line(const Vec2& from, const Vec2& to, const std::string& name) {
   return {from, to, {0, 0}, 0.0, false, name};

@@ -1,5 +1,6 @@
 // The promises of the geometry on adversarial clouds; 70 seeds of every family, more than 1,000 clouds in
 // all.
+#include "core/index.hpp"
 #include "tests/degenerate/random_clouds.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/natural_neighbours.hpp"
@@ -14,8 +15,6 @@ namespace cnem::voronoi::test {
 namespace {
 
 constexpr std::uint32_t seeds = 70;
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class RandomClouds : public testing::TestWithParam<int> {
 protected:

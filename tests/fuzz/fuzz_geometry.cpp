@@ -5,6 +5,7 @@
 #include "app/bodies.hpp"
 #include "cnem/scni.hpp"
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "mechanics/ties.hpp"
 #include "tests/fuzz/shapes.hpp"
 #include "voronoi/cells.hpp"
@@ -24,8 +25,6 @@ using namespace cnem;
   std::fprintf(stderr, "%s: found %.17g, expected %.17g\n", what, found, expected);
   std::abort();
 }
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 double polygon_area(const Cloud<2>& cloud) {
   const Vec2 origin = cloud.position[u(cloud.facets.front().node[0])];

@@ -1,4 +1,5 @@
 // Where cuts are and whose faces lie there: a hand-made cloud of slug and skeletons, in every position.
+#include "core/index.hpp"
 #include "evaluate/blanking.hpp"
 
 #include "app/command_line.hpp"
@@ -17,8 +18,6 @@
 
 namespace cnem::evaluate {
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double degree = std::numbers::pi / 180.0;
 

@@ -1,4 +1,5 @@
 // What bodies do when they are let go: bars, beams and rings with known answers.
+#include "core/index.hpp"
 #include "evaluate/springback.hpp"
 
 #include "tests/unit/mechanics/models.hpp"
@@ -11,8 +12,6 @@ namespace cnem {
 namespace {
 
 using testing::Method;
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// A cloud whose points have a stretch and a Cauchy stress of our choice.
 struct Loaded {

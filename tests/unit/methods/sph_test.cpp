@@ -1,6 +1,7 @@
 // Total-Lagrangian corrected SPH beyond the contract (tests/contract): its kernels, what they reach, and how
 // far it is from what it does not promise.
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "methods/registry.hpp"
 #include "tests/unit/mechanics/models.hpp"
 
@@ -12,8 +13,6 @@ namespace {
 
 using methods::Kernel;
 using methods::Sph;
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 class Kernels : public ::testing::TestWithParam<Kernel> {};
 

@@ -1,3 +1,4 @@
+#include "core/index.hpp"
 #include "voronoi/cells.hpp"
 
 #include "tests/unit/voronoi/small_clouds.hpp"
@@ -7,8 +8,6 @@
 
 namespace cnem::voronoi::test {
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Cells cells_of(const Cloud<2>& cloud) {
   const auto mesh = triangulate(cloud);

@@ -1,6 +1,7 @@
 #include "voronoi/natural_neighbours.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "tests/unit/voronoi/small_clouds.hpp"
 #include "voronoi/cells.hpp"
 
@@ -10,8 +11,6 @@
 
 namespace cnem::voronoi::test {
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 /// The functions of one cloud, as a map from node to value.
 class Evaluated {

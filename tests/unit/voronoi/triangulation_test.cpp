@@ -1,6 +1,7 @@
 #include "voronoi/triangulation.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "tests/unit/voronoi/small_clouds.hpp"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace cnem::voronoi::test {
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 double area(const Cloud<2>& cloud, const Triangulation& mesh) {
   double sum = 0.0;
