@@ -63,10 +63,10 @@ void FieldTable::archive(Archive& archive) {
     if (entry.label) {
       archive.integers(path, *entry.label);
     } else if (entry.components == 1) {
-      archive.field(path, entry.line.unit.c_str(), *entry.component);
+      archive.field(path, entry.line.unit, *entry.component);
     } else {
       for (std::size_t k = 0; k < entry.components; ++k)
-        archive.field(fmt::format("{}.{}", path, k), entry.line.unit.c_str(), entry.component[k]);
+        archive.field(fmt::format("{}.{}", path, k), entry.line.unit, entry.component[k]);
     }
   }
 }

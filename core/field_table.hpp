@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,12 +34,13 @@ enum class ColourMap {
   diverging, ///< blue, near white, red: for fields with a sign, zero in the middle
 };
 
-/// What users see of a field in files, probes and pictures.
+/// What users see of a field in files, probes and pictures; without a label it is not shown. Texts are
+/// literals.
 struct Shown {
-  std::string label;   ///< "equivalent plastic strain", over pictures
-  std::string meaning; ///< one sentence for the reference of names
-  std::string unit;    ///< in pictures
-  double factor = 1.0; ///< SI value of one unit of pictures
+  const char* label = nullptr;   ///< "equivalent plastic strain", over pictures
+  const char* meaning = nullptr; ///< one sentence for the reference of names
+  const char* unit = "";         ///< in pictures
+  double factor = 1.0;           ///< SI value of one unit of pictures
   ColourMap map = ColourMap::strain;
 };
 
@@ -53,12 +53,12 @@ inline constexpr Rest rest_unit_general =
 
 /// The line that declares a field.
 struct FieldLine {
-  std::string name;
-  std::string unit; ///< SI, "1" for plain numbers
+  const char* name;
+  const char* unit; ///< SI, "1" for plain numbers
   Carry carry = Carry::renewed;
   Checkpoint checkpoint = Checkpoint::omits;
   Rest rest = rest_zero;
-  std::optional<Shown> shown = std::nullopt;
+  Shown shown = {};
 };
 
 /// What the rules of carrying take their weights from, all of the old nodes.
@@ -92,7 +92,7 @@ public:
     return *this;
   }
 
-  void enter(Entry entry) { entries_.push_back(std::move(entry)); }
+  void enter(const Entry& entry) { entries_.push_back(entry); }
   const std::vector<Entry>& entries() const { return entries_; }
 
   bool on() const { return on_; }
@@ -116,7 +116,7 @@ private:
 /// A declared field of one component.
 class ScalarField : public Field {
 public:
-  ScalarField(FieldTable& table, FieldLine line) { table.enter({std::move(line), this, 1}); }
+  ScalarField(FieldTable& table, const FieldLine& line) { table.enter({line, this, 1}); }
   ScalarField(const ScalarField&) = delete;
   ~ScalarField() = default;
   ScalarField& operator=(const ScalarField&) = default;
@@ -133,7 +133,7 @@ public:
 /// A declared vector or tensor: n components, structure of arrays.
 template<int n> class TensorField : public Fields<n> {
 public:
-  TensorField(FieldTable& table, FieldLine line) { table.enter({std::move(line), this->data(), n}); }
+  TensorField(FieldTable& table, const FieldLine& line) { table.enter({line, this->data(), n}); }
   TensorField(const TensorField&) = delete;
   ~TensorField() = default;
   TensorField& operator=(const TensorField&) = default;
@@ -150,8 +150,8 @@ public:
 /// A declared field of whole numbers; always a label.
 class LabelField : public std::vector<std::int32_t> {
 public:
-  LabelField(FieldTable& table, std::string name) {
-    table.enter({{std::move(name), "1", Carry::label, Checkpoint::holds}, nullptr, 0, this});
+  LabelField(FieldTable& table, const char* name) {
+    table.enter({{name, "1", Carry::label, Checkpoint::holds}, nullptr, 0, this});
   }
   LabelField(const LabelField&) = delete;
   ~LabelField() = default;

@@ -4,6 +4,7 @@
 #include "mechanics/kinematics.hpp"
 
 #include <fmt/format.h>
+#include <string_view>
 
 namespace cnem {
 
@@ -99,9 +100,9 @@ void add_shown(std::vector<FieldInfo>& list, const FieldTable& declared, bool at
                Table table) {
   for (std::size_t k = 0; k < declared.entries().size(); ++k) {
     const FieldLine& line = declared.entries()[k].line;
-    if (!line.shown) continue;
-    list.push_back({line.name, line.unit == "1" ? "" : line.unit, *line.shown, at_nodes, adaptive,
-                    !declared.on(), [table, k](const FieldSource& source, std::size_t i) {
+    if (!line.shown.label) continue;
+    list.push_back({line.name, std::string_view(line.unit) == "1" ? "" : line.unit, line.shown, at_nodes,
+                    adaptive, !declared.on(), [table, k](const FieldSource& source, std::size_t i) {
                       const Field& values = *table(source).entries()[k].component;
                       return values.empty() ? 0.0 : values[i];
                     }});

@@ -131,13 +131,13 @@ TEST(FieldTable, names_of_the_state_are_unique_and_have_units) {
   std::map<std::string, int> seen;
   for (const FieldTable* table : {&state.node.table, &state.node.scaling})
     for (const FieldTable::Entry& entry : table->entries()) {
-      EXPECT_EQ(++seen["node/" + entry.line.name], 1) << entry.line.name;
-      EXPECT_FALSE(entry.line.unit.empty()) << entry.line.name;
+      EXPECT_EQ(++seen[std::string("node/") + entry.line.name], 1) << entry.line.name;
+      EXPECT_NE(std::string(entry.line.unit), "") << entry.line.name;
     }
   for (const FieldTable* table : {&state.point.table, &state.point.damaged})
     for (const FieldTable::Entry& entry : table->entries()) {
-      EXPECT_EQ(++seen["point/" + entry.line.name], 1) << entry.line.name;
-      EXPECT_FALSE(entry.line.unit.empty()) << entry.line.name;
+      EXPECT_EQ(++seen[std::string("point/") + entry.line.name], 1) << entry.line.name;
+      EXPECT_NE(std::string(entry.line.unit), "") << entry.line.name;
     }
 }
 
