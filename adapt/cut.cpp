@@ -14,12 +14,12 @@ namespace {
 void straighten(WorkingCloud& work, std::span<const std::int32_t> path, double most) {
   constexpr int sweeps = 10;
   std::vector<Vec2> place;
-  for (const std::int32_t i : path) place.push_back(work.cloud().position[u(i)]);
+  for (const std::int32_t i : path) place.push_back(work.cloud().position[index_of(i)]);
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (std::size_t k = 1; k + 1 < path.size(); ++k) {
-      const Vec2& start = work.cloud().position[u(path[k])];
+      const Vec2& start = work.cloud().position[index_of(path[k])];
       const Vec2 moved = 0.5 * place[k] + 0.25 * (place[k - 1] + place[k + 1]) - start;
-      const double limit = most * work.node().size[u(path[k])];
+      const double limit = most * work.node().size[index_of(path[k])];
       place[k] = start + moved * std::min(1.0, limit / std::max(moved.norm(), 1e-300));
     }
   for (std::size_t k = 1; k + 1 < path.size(); ++k) work.place(path[k], place[k]);
@@ -31,14 +31,14 @@ BoundaryLoops::BoundaryLoops(const WorkingCloud& work)
     : loop_(work.size(), -1), along_(work.size(), 0.0), order_(work.size(), 0) {
   const std::vector<Vec2>& at = work.cloud().position;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i) {
-    if (!work.on_boundary(i) || loop_[u(i)] >= 0) continue;
+    if (!work.on_boundary(i) || loop_[index_of(i)] >= 0) continue;
     double length = 0.0;
     int nodes = 0;
-    for (std::int32_t k = i; loop_[u(k)] < 0; k = work.next(k)) {
-      loop_[u(k)] = static_cast<std::int32_t>(length_.size());
-      along_[u(k)] = length;
-      order_[u(k)] = nodes++;
-      length += (at[u(work.next(k))] - at[u(k)]).norm();
+    for (std::int32_t k = i; loop_[index_of(k)] < 0; k = work.next(k)) {
+      loop_[index_of(k)] = static_cast<std::int32_t>(length_.size());
+      along_[index_of(k)] = length;
+      order_[index_of(k)] = nodes++;
+      length += (at[index_of(work.next(k))] - at[index_of(k)]).norm();
     }
     length_.push_back(length);
     nodes_.push_back(nodes);
@@ -46,10 +46,10 @@ BoundaryLoops::BoundaryLoops(const WorkingCloud& work)
 }
 
 bool BoundaryLoops::parts(std::int32_t from, std::int32_t to, double length, int nodes) const {
-  if (loop_[u(from)] != loop_[u(to)]) return true;
-  const auto loop = u(loop_[u(from)]);
-  const double one = std::abs(along_[u(from)] - along_[u(to)]);
-  const int some = std::abs(order_[u(from)] - order_[u(to)]);
+  if (loop_[index_of(from)] != loop_[index_of(to)]) return true;
+  const auto loop = index_of(loop_[index_of(from)]);
+  const double one = std::abs(along_[index_of(from)] - along_[index_of(to)]);
+  const int some = std::abs(order_[index_of(from)] - order_[index_of(to)]);
   return std::min(one, length_[loop] - one) >= length && std::min(some, nodes_[loop] - some) > nodes;
 }
 
@@ -63,7 +63,7 @@ bool open_cut(WorkingCloud& work, Structure& structure, std::span<const std::int
   std::optional<Structure> after = structure_if_valid(opened.cloud());
   if (!after) return false;
   for (const auto& [old, made] : doubled) {
-    const double mine = after->cells.volume[u(old)], other = after->cells.volume[u(made)];
+    const double mine = after->cells.volume[index_of(old)], other = after->cells.volume[index_of(made)];
     opened.move_now(old, made, other / (mine + other));
   }
   work = std::move(opened);

@@ -30,9 +30,9 @@ public:
     for (const std::int32_t t : gap.triangle)
       if (t >= 0) visit(t, stamp);
     for (std::size_t k = 0; k < triangle_.size(); ++k)
-      for (const std::int32_t across : structure_.mesh.neighbour[u(triangle_[k])])
-        if (across >= 0 && (structure_.circles.centre[u(across)] - gap.x).squaredNorm() <
-                               structure_.circles.limit[u(across)])
+      for (const std::int32_t across : structure_.mesh.neighbour[index_of(triangle_[k])])
+        if (across >= 0 && (structure_.circles.centre[index_of(across)] - gap.x).squaredNorm() <
+                               structure_.circles.limit[index_of(across)])
           visit(across, stamp);
   }
   const std::vector<std::int32_t>& triangles() const { return triangle_; }
@@ -41,14 +41,14 @@ public:
   bool clear(const Gap& gap, bool on_boundary, const Thresholds& limit) const {
     for (const std::int32_t t : triangle_)
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t i = structure_.mesh.node[u(t)][k];
-        const double h = work_.node().size[u(i)];
-        const Vec2& x = work_.cloud().position[u(i)];
+        const std::int32_t i = structure_.mesh.node[index_of(t)][k];
+        const double h = work_.node().size[index_of(i)];
+        const Vec2& x = work_.cloud().position[index_of(i)];
         const bool across = gap.of_film && work_.on_boundary(i); // a film is as thin as it is
         if (!across && (x - gap.x).norm() < limit.clear_node * h) return false;
-        if (on_boundary || structure_.mesh.facet[u(t)][k] < 0) continue;
-        const Vec2 &a = work_.cloud().position[u(structure_.mesh.node[u(t)][(k + 1) % 3])],
-                   &b = work_.cloud().position[u(structure_.mesh.node[u(t)][(k + 2) % 3])];
+        if (on_boundary || structure_.mesh.facet[index_of(t)][k] < 0) continue;
+        const Vec2 &a = work_.cloud().position[index_of(structure_.mesh.node[index_of(t)][(k + 1) % 3])],
+                   &b = work_.cloud().position[index_of(structure_.mesh.node[index_of(t)][(k + 2) % 3])];
         if (cross(b - a, gap.x - a) < limit.clear_edge * h * (b - a).norm()) return false;
       }
     return true;
@@ -56,8 +56,8 @@ public:
 
 private:
   void visit(std::int32_t t, std::int32_t stamp) {
-    if (seen_[u(t)] == stamp) return;
-    seen_[u(t)] = stamp;
+    if (seen_[index_of(t)] == stamp) return;
+    seen_[index_of(t)] = stamp;
     triangle_.push_back(t);
   }
 
@@ -81,15 +81,15 @@ public:
   const std::vector<Gap>& gaps() const { return gaps_; }
 
 private:
-  const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
+  const Vec2& at(std::int32_t i) const { return work_.cloud().position[index_of(i)]; }
 
   void edges(bool interior) {
     const auto& mesh = structure_.mesh;
     for (std::int32_t t = 0; t < mesh.triangles(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t across = mesh.neighbour[u(t)][k];
+        const std::int32_t across = mesh.neighbour[index_of(t)][k];
         if (across > t || (across >= 0 && !interior)) continue;
-        const std::int32_t a = mesh.node[u(t)][(k + 1) % 3], b = mesh.node[u(t)][(k + 2) % 3];
+        const std::int32_t a = mesh.node[index_of(t)][(k + 1) % 3], b = mesh.node[index_of(t)][(k + 2) % 3];
         const double limit = (across < 0 ? limit_.split_edge : limit_.long_edge) * work_.size_between(a, b);
         const double squared = (at(b) - at(a)).squaredNorm();
         if (squared <= limit * limit) continue;
@@ -107,11 +107,11 @@ private:
   void vertices() {
     const auto& mesh = structure_.mesh;
     for (std::int32_t t = 0; t < mesh.triangles(); ++t) {
-      if (structure_.cells.hidden_of_triangle[u(t)] >= 0) continue;
+      if (structure_.cells.hidden_of_triangle[index_of(t)] >= 0) continue;
       double h = 0.0;
-      for (const std::int32_t i : mesh.node[u(t)]) h += work_.node().size[u(i)] / 3.0;
-      const Vec2& centre = structure_.circles.centre[u(t)];
-      const double radius = (centre - at(mesh.node[u(t)][0])).norm();
+      for (const std::int32_t i : mesh.node[index_of(t)]) h += work_.node().size[index_of(i)] / 3.0;
+      const Vec2& centre = structure_.circles.centre[index_of(t)];
+      const double radius = (centre - at(mesh.node[index_of(t)][0])).norm();
       const double limit = limit_.long_edge / std::sqrt(3.0) * h;
       if (radius <= limit) continue;
       const auto end = voronoi::walk(work_.cloud(), mesh, t, centre);
@@ -132,13 +132,13 @@ std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const
                            const std::vector<char>& made) {
   std::vector<Contribution> list = contributions(cloud, after.cells, made);
   Field claimed(made.size(), 0.0);
-  for (const Contribution& c : list) claimed[u(c.other)] += c.area;
+  for (const Contribution& c : list) claimed[index_of(c.other)] += c.area;
   std::vector<Parcel> parcels;
   for (const Contribution& c : list) {
-    const double volume = before.cells.volume[u(c.other)];
-    const double lost = (volume - after.cells.volume[u(c.other)]) / volume;
+    const double volume = before.cells.volume[index_of(c.other)];
+    const double lost = (volume - after.cells.volume[index_of(c.other)]) / volume;
     if (lost > 0.0 && c.area > 0.0)
-      parcels.push_back({c.other, c.marked, lost * c.area / claimed[u(c.other)]});
+      parcels.push_back({c.other, c.marked, lost * c.area / claimed[index_of(c.other)]});
   }
   return parcels;
 }
@@ -155,14 +155,15 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
     cavity.collect(gap, stamp++);
     const bool edge = gap.node[0] >= 0, on_boundary = gap.triangle[1] < 0;
     const auto& triangles = cavity.triangles();
-    if (std::any_of(triangles.begin(), triangles.end(), [&](std::int32_t t) { return taken[u(t)] != 0; }) ||
+    if (std::any_of(triangles.begin(), triangles.end(),
+                    [&](std::int32_t t) { return taken[index_of(t)] != 0; }) ||
         !cavity.clear(gap, on_boundary, thresholds))
       continue;
-    for (const std::int32_t t : triangles) taken[u(t)] = 1;
+    for (const std::int32_t t : triangles) taken[index_of(t)] = 1;
     if (edge)
       filled.insert_between(gap.node[0], gap.node[1], on_boundary);
     else
-      filled.insert_at(gap.x, structure.mesh.node[u(gap.triangle[0])],
+      filled.insert_at(gap.x, structure.mesh.node[index_of(gap.triangle[0])],
                        voronoi::barycentric(work.cloud(), structure.mesh, gap.triangle[0], gap.x));
     ++(on_boundary ? done.inserted_boundary : done.inserted);
   }

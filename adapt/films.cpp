@@ -28,9 +28,9 @@ struct Waist {
 /// facet, the thinnest first.
 std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, double film) {
   const auto& mesh = structure.mesh;
-  const auto at = [&](std::int32_t i) -> const Vec2& { return work.cloud().position[u(i)]; };
+  const auto at = [&](std::int32_t i) -> const Vec2& { return work.cloud().position[index_of(i)]; };
   const auto ends_cut = [&](std::int32_t i) {
-    return work.on_boundary(i) && work.node().broken[u(i)] >= 1.0;
+    return work.on_boundary(i) && work.node().broken[index_of(i)] >= 1.0;
   };
   std::vector<Waist> list;
   const auto consider = [&](std::int32_t i, std::int32_t start, double place, double distance) {
@@ -69,9 +69,9 @@ std::int32_t insert_foot(WorkingCloud& work, Structure& structure, const Waist& 
   std::optional<Structure> after = structure_if_valid(changed.cloud());
   if (!after) return -1;
   std::vector<char> is_made(changed.size(), 0);
-  is_made[u(made)] = 1;
+  is_made[index_of(made)] = 1;
   changed.move(stolen(changed.cloud(), structure, *after, is_made));
-  if (!(changed.node().mass[u(made)] > 0.0)) return -1;
+  if (!(changed.node().mass[index_of(made)] > 0.0)) return -1;
   work = std::move(changed);
   structure = std::move(*after);
   return made;
@@ -80,7 +80,7 @@ std::int32_t insert_foot(WorkingCloud& work, Structure& structure, const Waist& 
 /// The cut leaves the boundary at one of its ends nearly along it: the two faces would cross it.
 bool shaves(const WorkingCloud& work, std::int32_t from, std::int32_t to, double steepest) {
   const auto direction = [&](std::int32_t a, std::int32_t b) {
-    return Vec2((work.cloud().position[u(b)] - work.cloud().position[u(a)]).normalized());
+    return Vec2((work.cloud().position[index_of(b)] - work.cloud().position[index_of(a)]).normalized());
   };
   for (const auto& [one, other] : {std::pair(from, to), std::pair(to, from)})
     for (const std::int32_t beside : {work.next(one), work.previous(one)})

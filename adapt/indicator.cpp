@@ -21,7 +21,7 @@ double excess(voronoi::NaturalNeighbours& functions, const Vec2& x, std::int32_t
   } catch (const GeometryError&) { return 0.0; }
   double sum = 0.0;
   for (std::size_t k = 0; k < functions.nodes().size(); ++k)
-    sum += functions.values()[k] * (value[u(functions.nodes()[k])] - own);
+    sum += functions.values()[k] * (value[index_of(functions.nodes()[k])] - own);
   return sum;
 }
 
@@ -36,14 +36,15 @@ Indicator indicator(const Cloud<2>& cloud, const Structure& structure, const Fie
     voronoi::NaturalNeighbours functions(cloud, structure.mesh, structure.circles);
     for (std::size_t i = begin; i < end; ++i) {
       const auto around = structure.neighbours(static_cast<std::int32_t>(i));
-      if (std::all_of(around.begin(), around.end(), [&](std::int32_t k) { return value[u(k)] == value[i]; }))
+      if (std::all_of(around.begin(), around.end(),
+                      [&](std::int32_t k) { return value[index_of(k)] == value[i]; }))
         continue;
-      const auto first = u(cells.begin[i]), last = u(cells.begin[i + 1]);
+      const auto first = index_of(cells.begin[i]), last = index_of(cells.begin[i + 1]);
       const Vec2& centre = cloud.position[i];
       double squared = 0.0;
       for (std::size_t v = first; v < last; ++v) {
-        const Vec2 &a = cells.vertex[u(cells.index[v])],
-                   &b = cells.vertex[u(cells.index[v + 1 < last ? v + 1 : first])];
+        const Vec2 &a = cells.vertex[index_of(cells.index[v])],
+                   &b = cells.vertex[index_of(cells.index[v + 1 < last ? v + 1 : first])];
         const double area = 0.5 * cross(a - centre, b - centre);
         if (area == 0.0) continue;
         const std::array<Vec2, 3> corner{centre, a, b};

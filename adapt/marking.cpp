@@ -70,10 +70,10 @@ void limit_growth(const Cloud<2>& cloud, const Structure& structure, double grow
   while (!front.empty()) {
     const auto [h, i] = front.top();
     front.pop();
-    const auto at = u(i);
+    const auto at = index_of(i);
     if (h > size[at]) continue; // lowered since
     for (const std::int32_t k : structure.neighbours(i)) {
-      const auto other = u(k);
+      const auto other = index_of(k);
       const double limit = h + growth * (cloud.position[other] - cloud.position[at]).norm();
       if (limit < size[other] * (1.0 - 1e-12)) {
         size[other] = limit;

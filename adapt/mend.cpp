@@ -53,7 +53,7 @@ public:
   }
 
 private:
-  const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
+  const Vec2& at(std::int32_t i) const { return work_.cloud().position[index_of(i)]; }
   /// Whether the boundary has more nodes than that from one node to another: what is cut off is the smaller
   /// part.
   bool longer(std::int32_t from, std::int32_t to, int nodes) const {
@@ -71,12 +71,13 @@ void mend_boundary(WorkingCloud& work, PassReport& report) {
   std::vector<char> gone(work.size(), 0);
   bool any = false;
   const auto bypass = [&](std::int32_t i) {
-    const Vec2& x = work.cloud().position[u(i)];
+    const Vec2& x = work.cloud().position[index_of(i)];
     const std::int32_t a = work.previous(i), c = work.next(i);
-    const bool to_a = (work.cloud().position[u(a)] - x).norm() < (work.cloud().position[u(c)] - x).norm();
+    const bool to_a =
+        (work.cloud().position[index_of(a)] - x).norm() < (work.cloud().position[index_of(c)] - x).norm();
     work.move_now(i, to_a ? a : c, 1.0);
     work.bypass(i);
-    gone[u(i)] = 1;
+    gone[index_of(i)] = 1;
     any = true;
     ++report.folded;
   };
@@ -127,7 +128,7 @@ void drop_outside(WorkingCloud& work, PassReport& report) {
     Parcel to_start{static_cast<std::int32_t>(i), -1, 1.0}, to_end = to_start;
     for (const Facet<2>& facet : cloud.facets) {
       const auto [a, b] = facet.node;
-      const Foot foot = foot_on(cloud.position[i], cloud.position[u(a)], cloud.position[u(b)]);
+      const Foot foot = foot_on(cloud.position[i], cloud.position[index_of(a)], cloud.position[index_of(b)]);
       if (foot.distance >= best) continue;
       best = foot.distance;
       const double place = std::clamp(foot.place, 0.0, 1.0);

@@ -21,7 +21,8 @@ PassReport& PassReport::operator+=(const PassReport& other) {
 
 double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node) {
   const NodeProperties& p = work.node();
-  return p.density[u(node)] * structure.cells.volume[u(node)] / (p.mass[u(node)] * p.jacobian[u(node)]);
+  return p.density[index_of(node)] * structure.cells.volume[index_of(node)] /
+         (p.mass[index_of(node)] * p.jacobian[index_of(node)]);
 }
 
 /// Neighbours whose ratios differ exchange half of what would make them equal, the worst nodes first.
@@ -46,11 +47,11 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
         if (takes ? other >= mine : other <= mine) continue;
         const std::int32_t from = takes ? j : i, to = takes ? i : j;
         const NodeProperties& p = work.node();
-        const double wanted_from = p.mass[u(from)] * volume_ratio(work, structure, from),
-                     wanted_to = p.mass[u(to)] * volume_ratio(work, structure, to);
-        const double equal =
-            (wanted_to * p.mass[u(from)] - wanted_from * p.mass[u(to)]) / (wanted_from + wanted_to);
-        const double fraction = 0.5 * equal / p.mass[u(from)];
+        const double wanted_from = p.mass[index_of(from)] * volume_ratio(work, structure, from),
+                     wanted_to = p.mass[index_of(to)] * volume_ratio(work, structure, to);
+        const double equal = (wanted_to * p.mass[index_of(from)] - wanted_from * p.mass[index_of(to)]) /
+                             (wanted_from + wanted_to);
+        const double fraction = 0.5 * equal / p.mass[index_of(from)];
         if (!(fraction > 1e-6)) continue;
         work.move_now(from, to, fraction);
         ++report.balanced;

@@ -33,7 +33,8 @@ public:
     Path best;
     double least = std::numeric_limits<double>::infinity();
     for (std::int32_t from = 0; from < count(); ++from) {
-      if (chain_[u(from)] < 0 || chain_[u(from)] == longest_) continue; // from its other end then
+      if (chain_[index_of(from)] < 0 || chain_[index_of(from)] == longest_)
+        continue; // from its other end then
       const auto [path, cost] = from_node(from, least);
       if (cost < least) {
         least = cost;
@@ -45,20 +46,20 @@ public:
 
 private:
   std::int32_t count() const { return static_cast<std::int32_t>(work_.size()); }
-  const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
-  bool broken(std::int32_t i) const { return broken_[u(i)] >= 1.0; }
+  const Vec2& at(std::int32_t i) const { return work_.cloud().position[index_of(i)]; }
+  bool broken(std::int32_t i) const { return broken_[index_of(i)] >= 1.0; }
 
   /// Broken boundary nodes that follow each other make a chain: a cut leads from one to another.
   void number_chains() {
     chain_.assign(work_.size(), -1);
     std::vector<std::int32_t> length;
     for (std::int32_t i = 0; i < count(); ++i) {
-      if (!work_.on_boundary(i) || !broken(i) || chain_[u(i)] >= 0) continue;
+      if (!work_.on_boundary(i) || !broken(i) || chain_[index_of(i)] >= 0) continue;
       std::int32_t begin = i;
       while (broken(work_.previous(begin)) && work_.previous(begin) != i) begin = work_.previous(begin);
       length.push_back(0);
-      for (std::int32_t k = begin; broken(k) && chain_[u(k)] < 0; k = work_.next(k)) {
-        chain_[u(k)] = static_cast<std::int32_t>(length.size()) - 1;
+      for (std::int32_t k = begin; broken(k) && chain_[index_of(k)] < 0; k = work_.next(k)) {
+        chain_[index_of(k)] = static_cast<std::int32_t>(length.size()) - 1;
         ++length.back();
       }
     }
@@ -88,31 +89,31 @@ private:
     std::vector<std::int32_t> came(work_.size(), -1);
     using Entry = std::pair<double, std::int32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    cost[u(from)] = 0.0;
+    cost[index_of(from)] = 0.0;
     front.emplace(0.0, from);
     while (!front.empty()) {
       const auto [known, i] = front.top();
       front.pop();
-      if (known > cost[u(i)]) continue;
+      if (known > cost[index_of(i)]) continue;
       if (known >= limit) break;
       if (i != from && work_.on_boundary(i)) {
-        if (!loops_.parts(from, i, rules_.part * length[u(i)], rules_.least_loop)) continue;
+        if (!loops_.parts(from, i, rules_.part * length[index_of(i)], rules_.least_loop)) continue;
         Path path;
-        for (std::int32_t k = i; k >= 0; k = came[u(k)]) path.push_back(k);
+        for (std::int32_t k = i; k >= 0; k = came[index_of(k)]) path.push_back(k);
         std::reverse(path.begin(), path.end());
         return {path, known};
       }
       for (const std::int32_t k : structure_.neighbours(i)) {
         if (!broken(k)) continue;
         if (i == from && (work_.on_boundary(k) || shaves(from, k))) continue;
-        if (work_.on_boundary(k) && (chain_[u(k)] == chain_[u(from)] || shaves(k, i))) continue;
+        if (work_.on_boundary(k) && (chain_[index_of(k)] == chain_[index_of(from)] || shaves(k, i))) continue;
         const double step = (at(k) - at(i)).norm();
-        const double reached =
-            known + step * (work_.on_boundary(k) ? 1.0 : detour(k)) * 2.0 / (broken_[u(i)] + broken_[u(k)]);
-        if (reached >= cost[u(k)]) continue;
-        cost[u(k)] = reached;
-        length[u(k)] = length[u(i)] + step;
-        came[u(k)] = i;
+        const double reached = known + step * (work_.on_boundary(k) ? 1.0 : detour(k)) * 2.0 /
+                                           (broken_[index_of(i)] + broken_[index_of(k)]);
+        if (reached >= cost[index_of(k)]) continue;
+        cost[index_of(k)] = reached;
+        length[index_of(k)] = length[index_of(i)] + step;
+        came[index_of(k)] = i;
         front.emplace(reached, k);
       }
     }

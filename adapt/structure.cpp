@@ -25,13 +25,13 @@ Structure build_structure(const Cloud<2>& cloud) {
         edges.push_back({s.mesh.node[t][(k + 1) % 3], s.mesh.node[t][(k + 2) % 3]});
   s.begin.assign(n + 1, 0);
   for (const auto& edge : edges)
-    for (const std::int32_t i : edge) ++s.begin[u(i) + 1];
+    for (const std::int32_t i : edge) ++s.begin[index_of(i) + 1];
   for (std::size_t i = 0; i < n; ++i) s.begin[i + 1] += s.begin[i];
   std::vector<std::int32_t> at(s.begin.begin(), s.begin.end() - 1);
   s.neighbour.resize(2 * edges.size());
   for (const auto& [a, b] : edges) {
-    s.neighbour[u(at[u(a)]++)] = b;
-    s.neighbour[u(at[u(b)]++)] = a;
+    s.neighbour[index_of(at[index_of(a)]++)] = b;
+    s.neighbour[index_of(at[index_of(b)]++)] = a;
   }
   for (std::size_t i = 0; i < n; ++i)
     std::sort(s.neighbour.begin() + s.begin[i], s.neighbour.begin() + s.begin[i + 1]);
@@ -47,7 +47,8 @@ std::optional<Structure> structure_if_valid(const Cloud<2>& cloud) {
 double spacing_at(const Cloud<2>& cloud, const Structure& structure, std::int32_t node) {
   const auto around = structure.neighbours(node);
   double sum = 0.0;
-  for (const std::int32_t k : around) sum += (cloud.position[u(k)] - cloud.position[u(node)]).norm();
+  for (const std::int32_t k : around)
+    sum += (cloud.position[index_of(k)] - cloud.position[index_of(node)]).norm();
   return sum / static_cast<double>(around.size());
 }
 
@@ -63,10 +64,10 @@ std::vector<Contribution> contributions(const Cloud<2>& cloud, const voronoi::Ce
   std::vector<Contribution> list;
   for (const voronoi::InteriorFacet& facet : cells.interior) {
     const auto [i, j] = facet.cell;
-    if (marked[u(i)] == marked[u(j)]) continue;
-    const std::int32_t inside = marked[u(i)] ? i : j, other = marked[u(i)] ? j : i;
+    if (marked[index_of(i)] == marked[index_of(j)]) continue;
+    const std::int32_t inside = marked[index_of(i)] ? i : j, other = marked[index_of(i)] ? j : i;
     const double area =
-        0.5 * std::abs(cross(facet.start - cloud.position[u(inside)], facet.end - facet.start));
+        0.5 * std::abs(cross(facet.start - cloud.position[index_of(inside)], facet.end - facet.start));
     list.push_back({inside, other, area});
   }
   std::sort(list.begin(), list.end(), [](const Contribution& a, const Contribution& b) {

@@ -21,8 +21,8 @@ struct Structure {
   std::vector<std::int32_t> neighbour; ///< Delaunay neighbours, in increasing order
 
   std::span<const std::int32_t> neighbours(std::int32_t node) const {
-    const auto first = u(begin[u(node)]);
-    const auto last = u(begin[u(node) + 1]);
+    const auto first = index_of(begin[index_of(node)]);
+    const auto last = index_of(begin[index_of(node) + 1]);
     return {neighbour.data() + first, last - first};
   }
 };

@@ -60,7 +60,7 @@ public:
         if (k == a || k == node || k == c || !within(at(k), xa, xc, at(node))) continue;
         const Vec2 along = (xc - xa).normalized(), outwards(along.y(), -along.x());
         const double depth = -outwards.dot(at(k) - xa);
-        if (depth > limit_.gives_way * work_.node().size[u(k)] || work_.held(k)) return std::nullopt;
+        if (depth > limit_.gives_way * work_.node().size[index_of(k)] || work_.held(k)) return std::nullopt;
         shifts.push_back({k, at(k) + (depth + 1e-6 * (xc - xa).norm()) * outwards});
       }
     for (const std::int32_t k : structure_.neighbours(node)) {
@@ -74,7 +74,7 @@ public:
   }
 
 private:
-  const Vec2& at(std::int32_t i) const { return work_.cloud().position[u(i)]; }
+  const Vec2& at(std::int32_t i) const { return work_.cloud().position[index_of(i)]; }
   /// Whether a point lies in or on a triangle, corners counter-clockwise, which may be as flat as rounding.
   static bool within(const Vec2& x, const Vec2& a, const Vec2& b, const Vec2& c) {
     const Vec2 along = b - a;
@@ -110,10 +110,10 @@ private:
         const bool keep_i = work_.on_boundary(i) || work_.held(i),
                    keep_j = work_.on_boundary(j) || work_.held(j);
         if (keep_i && keep_j) continue;
-        const std::int32_t goes = keep_i                                              ? j
-                                  : keep_j                                            ? i
-                                  : work_.node().mass[u(j)] < work_.node().mass[u(i)] ? j
-                                                                                      : i;
+        const std::int32_t goes = keep_i                                                            ? j
+                                  : keep_j                                                          ? i
+                                  : work_.node().mass[index_of(j)] < work_.node().mass[index_of(i)] ? j
+                                                                                                    : i;
         list_.push_back({goes, std::sqrt(squared) / limit});
       }
   }
@@ -124,8 +124,8 @@ private:
     for (std::int32_t b = 0; b < static_cast<std::int32_t>(work_.size()); ++b) {
       if (!work_.on_boundary(b)) continue;
       const Turn turn = turn_at(b);
-      const double h = work_.node().size[u(b)], shortest = std::min(turn.back, turn.ahead);
-      if (structure_.cells.volume[u(b)] < limit_.sliver * h * h) sliver(b);
+      const double h = work_.node().size[index_of(b)], shortest = std::min(turn.back, turn.ahead);
+      if (structure_.cells.volume[index_of(b)] < limit_.sliver * h * h) sliver(b);
       if (stays(b)) continue;
       if (shortest < limit_.short_edge * h && turn.area < limit_.flat_area * h * h)
         list_.push_back({b, shortest / (limit_.short_edge * h)});
@@ -162,7 +162,7 @@ private:
     constexpr double after_others = 1.0;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(work_.size()); ++i) {
       if (work_.held(i)) continue;
-      const double h = work_.node().size[u(i)];
+      const double h = work_.node().size[index_of(i)];
       double spacing = 0.0;
       if (work_.on_boundary(i)) {
         const Turn turn = turn_at(i);
@@ -188,7 +188,7 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
                                 const std::vector<char>& gone, const std::vector<std::int32_t>& number) {
   std::vector<Contribution> list = contributions(work.cloud(), before.cells, gone);
   Field claimed(work.size(), 0.0);
-  for (const Contribution& c : list) claimed[u(c.other)] += c.area;
+  for (const Contribution& c : list) claimed[index_of(c.other)] += c.area;
   std::vector<Parcel> parcels;
   for (std::size_t first = 0; first < list.size();) {
     std::size_t last = first;
@@ -196,8 +196,9 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
     std::vector<double> gain;
     for (; last < list.size() && list[last].marked == list[first].marked; ++last) {
       const std::int32_t k = list[last].other;
-      const double growth = std::max(0.0, after.cells.volume[u(number[u(k)])] - before.cells.volume[u(k)]);
-      gain.push_back(claimed[u(k)] > 0.0 ? growth * list[last].area / claimed[u(k)] : 0.0);
+      const double growth =
+          std::max(0.0, after.cells.volume[index_of(number[index_of(k)])] - before.cells.volume[index_of(k)]);
+      gain.push_back(claimed[index_of(k)] > 0.0 ? growth * list[last].area / claimed[index_of(k)] : 0.0);
       gained += gain.back();
       area += list[last].area;
     }
@@ -222,33 +223,33 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   for (const Candidate& candidate : thinning.candidates()) {
     const std::int32_t i = candidate.node;
     const auto around = structure.neighbours(i);
-    if (touched[u(i)] ||
-        std::any_of(around.begin(), around.end(), [&](std::int32_t k) { return touched[u(k)] != 0; }))
+    if (touched[index_of(i)] ||
+        std::any_of(around.begin(), around.end(), [&](std::int32_t k) { return touched[index_of(k)] != 0; }))
       continue;
     if (candidate.promote_to >= 0) {
-      const Vec2 &a = work.cloud().position[u(candidate.promote_to)],
-                 &b = work.cloud().position[u(work.next(candidate.promote_to))];
-      const double place = foot_on(work.cloud().position[u(i)], a, b).place;
+      const Vec2 &a = work.cloud().position[index_of(candidate.promote_to)],
+                 &b = work.cloud().position[index_of(work.next(candidate.promote_to))];
+      const double place = foot_on(work.cloud().position[index_of(i)], a, b).place;
       changed.promote(i, candidate.promote_to, a + place * (b - a));
       ++done.promoted;
     } else if (work.on_boundary(i)) {
       const auto shifts = thinning.bypass(i);
       if (!shifts || std::any_of(shifts->begin(), shifts->end(),
-                                 [&](const auto& shift) { return touched[u(shift.node)] != 0; }))
+                                 [&](const auto& shift) { return touched[index_of(shift.node)] != 0; }))
         continue;
       for (const auto& shift : *shifts) {
         changed.place(shift.node, shift.to);
-        touched[u(shift.node)] = 1;
+        touched[index_of(shift.node)] = 1;
       }
       changed.bypass(i);
-      gone[u(i)] = 1;
+      gone[index_of(i)] = 1;
       ++done.removed_boundary;
     } else {
-      gone[u(i)] = 1;
+      gone[index_of(i)] = 1;
       ++done.removed;
     }
-    touched[u(i)] = 1;
-    for (const std::int32_t k : around) touched[u(k)] = 1;
+    touched[index_of(i)] = 1;
+    for (const std::int32_t k : around) touched[index_of(k)] = 1;
   }
   if (done.removed == report.removed && done.removed_boundary == report.removed_boundary &&
       done.promoted == report.promoted)
@@ -261,7 +262,7 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   std::vector<Parcel> parcels;
   std::vector<char> orphaned = gone;
   if (after) parcels = inheritance(work, structure, *after, gone, number);
-  for (const Parcel& parcel : parcels) orphaned[u(parcel.from)] = 0;
+  for (const Parcel& parcel : parcels) orphaned[index_of(parcel.from)] = 0;
   if (!after || std::find(orphaned.begin(), orphaned.end(), 1) != orphaned.end()) {
     ++report.undone;
     return false;

@@ -82,7 +82,7 @@ public:
   Resampling<2> finish();
 
 private:
-  static std::size_t index(std::int32_t i) { return u(i); }
+  static std::size_t index(std::int32_t i) { return index_of(i); }
   void renew_loops();
   Row& row(std::vector<Row>& rows, std::int32_t i);
   NodeRows in_order(std::vector<Row>& rows, const std::vector<std::int32_t>& order);

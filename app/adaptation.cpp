@@ -27,13 +27,13 @@ std::int32_t fracture_piece(Cloud<2>& cloud) {
 std::vector<std::int32_t> corners(const Cloud<2>& cloud) {
   constexpr double least_cosine = 0.866;
   std::vector<std::int32_t> corner(cloud.position.size(), 0), next(corner.size(), -1);
-  for (const Facet<2>& facet : cloud.facets) next[u(facet.node[0])] = facet.node[1];
+  for (const Facet<2>& facet : cloud.facets) next[index_of(facet.node[0])] = facet.node[1];
   for (const Facet<2>& facet : cloud.facets) {
     const auto [a, b] = facet.node;
-    const std::int32_t c = next[u(b)];
-    const Vec2 in = (cloud.position[u(b)] - cloud.position[u(a)]).normalized(),
-               out = (cloud.position[u(c)] - cloud.position[u(b)]).normalized();
-    if (in.dot(out) < least_cosine) corner[u(b)] = 1;
+    const std::int32_t c = next[index_of(b)];
+    const Vec2 in = (cloud.position[index_of(b)] - cloud.position[index_of(a)]).normalized(),
+               out = (cloud.position[index_of(c)] - cloud.position[index_of(b)]).normalized();
+    if (in.dot(out) < least_cosine) corner[index_of(b)] = 1;
   }
   return corner;
 }
@@ -85,7 +85,7 @@ adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Fi
   properties.density.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     properties.jacobian[i] = jacobian<2>(state.point.deformation, i) / state.point.stress_free[i];
-    properties.density[i] = solver.model().materials[u(state.point.material[i])].density;
+    properties.density[i] = solver.model().materials[index_of(state.point.material[i])].density;
   }
   if (input_->adapt.separate) { // of what is broken, the most strained is in the middle of the band
     properties.broken = state.point.softening;
@@ -182,7 +182,7 @@ void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
   std::vector<std::int32_t> corner(change.old_of.size(), 0);
   for (std::size_t p = 0; p < corner.size(); ++p)
     if (change.old_of[p] >= 0)
-      corner[p] = corner_[u(change.old_of[p])];
+      corner[p] = corner_[index_of(change.old_of[p])];
     else
       birth_[p] = time;
   corner_ = std::move(corner);

@@ -16,17 +16,17 @@ namespace {
 
 /// The part of the domain each node is in: parts are connected through triangles.
 std::vector<std::int32_t> parts(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
-  std::vector<std::int32_t> root(u(cloud.nodes()));
+  std::vector<std::int32_t> root(index_of(cloud.nodes()));
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](std::int32_t i) {
-    while (root[u(i)] != i) i = root[u(i)] = root[u(root[u(i)])];
+    while (root[index_of(i)] != i) i = root[index_of(i)] = root[index_of(root[index_of(i)])];
     return i;
   };
   for (const auto& [a, b, c] : mesh.node) {
-    root[u(find(b))] = find(a);
-    root[u(find(c))] = find(a);
+    root[index_of(find(b))] = find(a);
+    root[index_of(find(c))] = find(a);
   }
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) root[u(i)] = find(i);
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) root[index_of(i)] = find(i);
   return root;
 }
 
@@ -37,7 +37,8 @@ std::int32_t node_at(const Cloud<2>& cloud, const voronoi::Triangulation& mesh, 
   for (const auto& triangle : mesh.node) {
     double inside = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 &a = cloud.position[u(triangle[k])], &b = cloud.position[u(triangle[(k + 1) % 3])];
+      const Vec2 &a = cloud.position[index_of(triangle[k])],
+                 &b = cloud.position[index_of(triangle[(k + 1) % 3])];
       inside = std::min(inside, cross(b - a, x - a) / (b - a).norm());
     }
     if (inside > depth) depth = inside, best = triangle[0];
@@ -84,23 +85,24 @@ matching_nodes(const input::Case& input, const input::Periodicity& spec, const C
                            second.size(), spec.pieces[1]));
   const auto mean = [&](const std::vector<std::int32_t>& nodes) {
     Vec2 sum = Vec2::Zero();
-    for (const std::int32_t i : nodes) sum += cloud.position[u(i)];
+    for (const std::int32_t i : nodes) sum += cloud.position[index_of(i)];
     return Vec2(sum / static_cast<double>(nodes.size()));
   };
   const Vec2 shift = mean(second) - mean(first);
   double spacing = std::numeric_limits<double>::infinity();
   for (const Facet<2>& facet : facets_of(cloud, {spec.pieces[0]}))
-    spacing = std::min(spacing, (cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])]).norm());
+    spacing = std::min(
+        spacing, (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm());
   std::vector<std::array<std::int32_t, 2>> pairs;
   for (const std::int32_t i : first) {
-    const Vec2 wanted = cloud.position[u(i)] + shift;
+    const Vec2 wanted = cloud.position[index_of(i)] + shift;
     const auto nearest = std::min_element(second.begin(), second.end(), [&](std::int32_t a, std::int32_t b) {
-      return (cloud.position[u(a)] - wanted).norm() < (cloud.position[u(b)] - wanted).norm();
+      return (cloud.position[index_of(a)] - wanted).norm() < (cloud.position[index_of(b)] - wanted).norm();
     });
-    const double gap = (cloud.position[u(*nearest)] - wanted).norm();
+    const double gap = (cloud.position[index_of(*nearest)] - wanted).norm();
     if (gap > 1e-3 * spacing || *nearest == i)
-      throw fail(fmt::format("found no partner of the node at ({:g}, {:g}) m", cloud.position[u(i)].x(),
-                             cloud.position[u(i)].y()));
+      throw fail(fmt::format("found no partner of the node at ({:g}, {:g}) m",
+                             cloud.position[index_of(i)].x(), cloud.position[index_of(i)].y()));
     pairs.push_back({i, *nearest});
     second.erase(nearest);
   }
@@ -118,7 +120,7 @@ std::vector<Facet<2>> facets_of(const Cloud<2>& cloud, const std::vector<std::st
         wanted[p] = true;
   std::vector<Facet<2>> facets;
   std::copy_if(cloud.facets.begin(), cloud.facets.end(), std::back_inserter(facets),
-               [&](const Facet<2>& facet) { return wanted[u(facet.piece)]; });
+               [&](const Facet<2>& facet) { return wanted[index_of(facet.piece)]; });
   return facets;
 }
 
@@ -137,13 +139,13 @@ std::vector<std::int32_t> region_of_nodes(const input::Case& input, const Cloud<
   const std::vector<std::int32_t> part = parts(cloud, mesh);
   std::map<std::int32_t, std::int32_t> region_of_part;
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    const auto [entry, fresh] =
-        region_of_part.emplace(part[u(node_at(cloud, mesh, regions[r].at))], static_cast<std::int32_t>(r));
+    const auto [entry, fresh] = region_of_part.emplace(part[index_of(node_at(cloud, mesh, regions[r].at))],
+                                                       static_cast<std::int32_t>(r));
     if (!fresh)
       throw input.error("domain.regions." + regions[r].name,
                         fmt::format("lies in the same part of the domain as domain.regions.{}, expected an "
                                     "interface between them",
-                                    regions[u(entry->second)].name));
+                                    regions[index_of(entry->second)].name));
   }
   std::vector<std::int32_t> region(part.size(), -1);
   for (std::size_t i = 0; i < part.size(); ++i)
@@ -184,7 +186,7 @@ std::vector<ContactConductance<2>> conductances(const input::Case& input, const 
 
 Field strength(const input::Case& input, const Cloud<2>& cloud) {
   if (input.initial.imperfections.empty()) return {};
-  Field factor(u(cloud.nodes()), 1.0);
+  Field factor(index_of(cloud.nodes()), 1.0);
   for (const input::Imperfection& imperfection : input.initial.imperfections)
     for (std::size_t i = 0; i < factor.size(); ++i) {
       const double d = distance_to(imperfection.points, cloud.position[i]) / imperfection.width;
@@ -196,13 +198,13 @@ Field strength(const input::Case& input, const Cloud<2>& cloud) {
 void set_initial_state(const input::Case& input, const Cloud<2>& cloud,
                        const std::vector<std::int32_t>& region, Fields<2>& velocity, Field& temperature) {
   const input::InitialState& initial = input.initial;
-  resize_all(velocity, u(cloud.nodes()));
-  temperature.assign(u(cloud.nodes()), initial.temperature);
+  resize_all(velocity, index_of(cloud.nodes()));
+  temperature.assign(index_of(cloud.nodes()), initial.temperature);
   for (std::size_t i = 0; i < temperature.size(); ++i) {
     Vec2 v = initial.velocity;
     if (!region.empty() && region[i] >= 0) {
-      v = input.domain.regions[u(region[i])].velocity;
-      temperature[i] = input.domain.regions[u(region[i])].temperature;
+      v = input.domain.regions[index_of(region[i])].velocity;
+      temperature[i] = input.domain.regions[index_of(region[i])].temperature;
     }
     if (initial.spin) v += initial.spin->rate * left_normal(cloud.position[i] - initial.spin->centre);
     if (initial.gradient) v += initial.gradient->rate * (cloud.position[i] - initial.gradient->centre);

@@ -49,7 +49,7 @@ void check(const input::Case& input, const RunOptions& options) {
       fmt::print(
           "            {}\n",
           input.placed(fmt::format("{} by {:.3g} m at ({:.4g}, {:.4g}) m",
-                                   solver.conditions().contact.tools()[u(overlaps[k].tool)].name,
+                                   solver.conditions().contact.tools()[index_of(overlaps[k].tool)].name,
                                    overlaps[k].depth, overlaps[k].position.x(), overlaps[k].position.y())));
   }
   const std::filesystem::path folder = options.output / "initial";

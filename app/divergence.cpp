@@ -15,10 +15,10 @@ double spacing_at(const ExplicitSolver<2>& solver, std::size_t node) {
   const DiscreteOperators<2>& op = solver.approximation().mechanics;
   const Fields<2>& X = solver.state().node.reference;
   double nearest = std::numeric_limits<double>::infinity();
-  for (auto c = u(op.col_begin[node]); c < u(op.col_begin[node + 1]); ++c) {
-    const auto p = u(op.point[c]);
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
-      const auto j = u(op.node[e]);
+  for (auto c = index_of(op.col_begin[node]); c < index_of(op.col_begin[node + 1]); ++c) {
+    const auto p = index_of(op.point[c]);
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
+      const auto j = index_of(op.node[e]);
       const double d = std::hypot(X[0][j] - X[0][node], X[1][j] - X[1][node]);
       if (j != node && d > 0.0) nearest = std::min(nearest, d);
     }
@@ -60,7 +60,7 @@ void blame_place(const input::Case& input, const ExplicitSolver<2>& solver, std:
                  std::vector<std::string>& causes) {
   const State<2>& state = solver.state();
   const DiscreteOperators<2>& op = solver.approximation().mechanics;
-  const auto point = u(op.point[u(op.col_begin[node])]);
+  const auto point = index_of(op.point[index_of(op.col_begin[node])]);
   const Place place = place_of(solver, node);
   const double spacing = spacing_at(solver, node);
   const auto& contact = solver.conditions().contact;
@@ -95,7 +95,7 @@ void blame_place(const input::Case& input, const ExplicitSolver<2>& solver, std:
                     "cloud can follow: refine there.",
                     plastic));
   const auto& materials = solver.model().materials;
-  const auto& hardening = materials[u(state.point.material[point])].hardening;
+  const auto& hardening = materials[index_of(state.point.material[point])].hardening;
   if (hardening && hardening->homologous_temperature(state.point.temperature[point]) > 0.95)
     causes.push_back(fmt::format("The material there is at {:.4g} K, where it melts ({:.4g} K) and has no "
                                  "strength left.",
@@ -193,7 +193,7 @@ results::PostMortem post_mortem(const DivergenceError& error, const input::Case&
   dead.text = input.placed(error.what());
   blame_settings(input, error.field, dead.causes);
   if (error.node >= 0) {
-    const auto node = u(error.node);
+    const auto node = index_of(error.node);
     dead.x = input.origin.x() + state.node.position[0][node];
     dead.y = input.origin.y() + state.node.position[1][node];
     blame_place(input, solver, node, dead.causes);

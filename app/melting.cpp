@@ -29,7 +29,7 @@ void MeltingWatch::look(const ExplicitSolver<2>& solver) {
   std::size_t hottest = 0, of_hottest = 0;
   double most = 0.0; // K above melting
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    const auto material = u(state.node.material[i]);
+    const auto material = index_of(state.node.material[i]);
     if (const double above = state.node.temperature[i] - melting[material]; above > most)
       most = above, hottest = i, of_hottest = material;
   }

@@ -26,7 +26,7 @@ clouds::DomainShape domain_shape(const input::Domain& domain) {
 /// The materials in use and which node is of which. region: as region_of_nodes gives it.
 void set_materials(const input::Case& input, const std::vector<std::int32_t>& region, Problem<2>& model) {
   std::vector<std::string> names;
-  const auto index_of = [&](const std::string& name) {
+  const auto number_of = [&](const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       names.push_back(name);
@@ -34,11 +34,12 @@ void set_materials(const input::Case& input, const std::vector<std::int32_t>& re
     }
     return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
-  const std::int32_t everywhere = index_of(input.domain.material);
+  const std::int32_t everywhere = number_of(input.domain.material);
   std::vector<std::int32_t> of_region;
-  for (const input::Region& part : input.domain.regions) of_region.push_back(index_of(part.material));
+  for (const input::Region& part : input.domain.regions) of_region.push_back(number_of(part.material));
   if (model.materials.size() == 1) return;
-  for (const std::int32_t r : region) model.node_material.push_back(r < 0 ? everywhere : of_region[u(r)]);
+  for (const std::int32_t r : region)
+    model.node_material.push_back(r < 0 ? everywhere : of_region[index_of(r)]);
 }
 
 struct Conditions {
@@ -56,7 +57,7 @@ std::vector<std::int32_t> nodes_at(const input::Case& input, const input::Bounda
   std::vector<std::int32_t> nodes;
   for (const Vec2& point : spec.points) {
     std::int32_t best = 0;
-    const auto distance = [&](std::int32_t i) { return (cloud.position[u(i)] - point).norm(); };
+    const auto distance = [&](std::int32_t i) { return (cloud.position[index_of(i)] - point).norm(); };
     for (std::int32_t i = 1; i < cloud.nodes(); ++i)
       if (distance(i) < distance(best)) best = i;
     if (input.cloud.spacing > 0.0 && distance(best) > input.cloud.spacing)
@@ -83,8 +84,8 @@ void add_condition(const input::Case& input, const input::BoundaryCondition& spe
     for (const std::string& piece : spec.pieces) {
       const std::vector<Facet<2>> straight = facets_of(cloud, {piece});
       if (straight.empty()) continue;
-      const Vec2 edge =
-          cloud.position[u(straight.front().node[1])] - cloud.position[u(straight.front().node[0])];
+      const Vec2 edge = cloud.position[index_of(straight.front().node[1])] -
+                        cloud.position[index_of(straight.front().node[0])];
       all.supports.push_back({spec.name,
                               Kind::symmetry,
                               right_normal(edge).normalized(),
@@ -121,7 +122,7 @@ void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>
   for (const Vec2& x : cloud.position) size = std::max(size, x.norm());
   std::vector<std::int32_t> axis;
   for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    double& r = cloud.position[u(i)].x();
+    double& r = cloud.position[index_of(i)].x();
     if (std::abs(r) <= 1e-12 * size) {
       r = 0.0;
       axis.push_back(i);
@@ -199,7 +200,7 @@ Setup build(const input::Case& input) {
   for (Support<2>& support : all.supports) support.nodes = model.ties.with_partners(std::move(support.nodes));
   for (FixedTemperature& fixed : all.temperatures)
     fixed.nodes = model.heat_ties.with_partners(std::move(fixed.nodes));
-  const auto nodes = u(model.cloud.nodes());
+  const auto nodes = index_of(model.cloud.nodes());
   try {
     model.supports = Supports<2>(std::move(all.supports), nodes);
   } catch (const InputError& error) { throw input.error("boundary", error.what()); }

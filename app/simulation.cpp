@@ -278,7 +278,7 @@ void Simulation::diverge(const DivergenceError& error) {
     dead_->causes.push_back(fmt::format("Nodes have passed each other: {}.", warning));
   dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", results::files::checkpoint,
                                  last_checkpoint_.empty() ? "no step" : last_checkpoint_, fields_due_.last());
-  const Place place = place_of(solver_, u(error.node));
+  const Place place = place_of(solver_, index_of(error.node));
   dead_->picture = pictures_->record_place(files_, shot(), place.centre, place.radius);
 }
 

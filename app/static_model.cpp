@@ -61,15 +61,15 @@ StaticModel::StaticModel(const input::Case& in) : input(in), setup(build(in)) {
     enriched =
         fracture::enrich(cloud, approximation, tips, enrichment_radius, input.method.options.functions);
   } catch (const GeometryError& error) { throw input.error("fracture.enrichment", error.what()); }
-  resize_all(position, u(cloud.nodes()));
+  resize_all(position, index_of(cloud.nodes()));
   Field mass = approximation.mechanics.node_volume();
   for (double& m : mass) m *= model.materials.front().density;
-  for (std::size_t i = 0; i < u(cloud.nodes()); ++i)
+  for (std::size_t i = 0; i < index_of(cloud.nodes()); ++i)
     for (std::size_t k = 0; k < 2; ++k) position[k][i] = cloud.position[i][static_cast<Eigen::Index>(k)];
   model.loads.evaluate(input.time.end, position, mass);
   for (const auto& load : model.loads.facet_tractions(input.time.end, position))
-    loads.push_back({load.facet.node, cloud.position[u(load.facet.node[0])],
-                     cloud.position[u(load.facet.node[1])], load.traction});
+    loads.push_back({load.facet.node, cloud.position[index_of(load.facet.node[0])],
+                     cloud.position[index_of(load.facet.node[1])], load.traction});
   Vec2 body_force = Vec2::Zero();
   for (std::size_t k = 0; k < 2; ++k)
     if (const auto& acceleration = input.loads.body_force[k])
@@ -164,10 +164,11 @@ std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSol
   for (const input::Crack& crack : model.input.domain.cracks) {
     std::map<std::int32_t, Vec2> normal; // of nodes on the left face, out of the right one
     for (const Facet<2>& facet : cloud.facets)
-      if (cloud.piece_names[u(facet.piece)] == crack.name + "+")
+      if (cloud.piece_names[index_of(facet.piece)] == crack.name + "+")
         for (const std::int32_t i : facet.node)
           normal.try_emplace(i, Vec2::Zero()).first->second +=
-              left_normal(cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])]).normalized();
+              left_normal(cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])])
+                  .normalized();
     double largest = 0.0, overlap = 0.0;
     int pairs = 0, closed = 0;
     std::vector<std::pair<double, Vec2>> openings;
@@ -176,10 +177,10 @@ std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSol
         const std::int32_t left = twin[swap ? 1 : 0], right = twin[swap ? 0 : 1];
         const auto found = normal.find(left);
         if (found == normal.end()) continue;
-        const Vec2 jump(solution.displacement[0][u(left)] - solution.displacement[0][u(right)],
-                        solution.displacement[1][u(left)] - solution.displacement[1][u(right)]);
+        const Vec2 jump(solution.displacement[0][index_of(left)] - solution.displacement[0][index_of(right)],
+                        solution.displacement[1][index_of(left)] - solution.displacement[1][index_of(right)]);
         largest = std::max(largest, jump.norm());
-        openings.emplace_back(jump.dot(found->second.normalized()), cloud.position[u(left)]);
+        openings.emplace_back(jump.dot(found->second.normalized()), cloud.position[index_of(left)]);
         break;
       }
     Vec2 where = Vec2::Zero();
@@ -205,7 +206,7 @@ State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
   const DiscreteOperators<2>& op = model.approximation.mechanics;
   State<2> state;
   state.time = model.input.time.end;
-  const auto nodes = u(op.nodes), points = u(op.points);
+  const auto nodes = index_of(op.nodes), points = index_of(op.points);
   NodeState<2>& node = state.node;
   node.reference = node.position = node.initial_position = model.position;
   for (std::size_t k = 0; k < 2; ++k)
@@ -222,8 +223,8 @@ State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
   Fields<4> stress;
   resize_all(gradient, points);
   resize_all(stress, points);
-  for (std::size_t p = 0; p < u(model.enriched.operators.points); ++p) {
-    const auto cell = u(model.enriched.cell[p]);
+  for (std::size_t p = 0; p < index_of(model.enriched.operators.points); ++p) {
+    const auto cell = index_of(model.enriched.cell[p]);
     const double share = model.enriched.operators.volume[p] / op.volume[cell];
     for (std::size_t k = 0; k < 5; ++k) gradient[k][cell] += share * solution.gradient[k][p];
     for (std::size_t k = 0; k < 4; ++k) stress[k][cell] += share * solution.stress[k][p];

@@ -54,8 +54,8 @@ void write_history(const StaticModel& model, const StaticSolution& solution, con
     if (s > 0 && supports.list()[s - 1].name == name) continue;
     Vec2 force = Vec2::Zero();
     for (const auto& p : supports.prescribed()) {
-      if (supports.list()[u(p.support)].name != name) continue;
-      const auto i = u(p.node);
+      if (supports.list()[index_of(p.support)].name != name) continue;
+      const auto i = index_of(p.node);
       force += p.direction.dot(Vec2(solution.reaction[0][i], solution.reaction[1][i])) * p.direction;
     }
     row.emplace_back("support." + name + ".force_x" + units.force, force.x());
@@ -131,7 +131,7 @@ Exit give_up(const StaticModel& model, const DivergenceError& error, const RunOp
       "their units.");
   dead.last_good = "nothing was solved";
   if (error.node >= 0) {
-    const Vec2 at = input.origin + model.setup.problem.cloud.position[u(error.node)];
+    const Vec2 at = input.origin + model.setup.problem.cloud.position[index_of(error.node)];
     dead.x = at.x();
     dead.y = at.y();
   }
@@ -218,9 +218,9 @@ void check_static(const input::Case& input, const RunOptions& options) {
                                              model.setup.problem.supports);
   if (motion.empty()) fmt::print("supports    hold all rigid motions\n");
   StaticSolution nothing;
-  resize_all(nothing.displacement, u(model.enriched.operators.nodes));
-  resize_all(nothing.gradient, u(model.enriched.operators.points));
-  resize_all(nothing.stress, u(model.enriched.operators.points));
+  resize_all(nothing.displacement, index_of(model.enriched.operators.nodes));
+  resize_all(nothing.gradient, index_of(model.enriched.operators.points));
+  resize_all(nothing.stress, index_of(model.enriched.operators.points));
   const State<2> state = as_state(model, nothing);
   const std::filesystem::path folder = options.output / "initial";
   results::prepare_output_folder(folder, true);

@@ -55,7 +55,7 @@ void warn_of_short_edges(const Cloud<2>& cloud, const SpacingField& spacing,
   };
   std::map<std::int32_t, Worst> worst;
   for (const Facet<2>& f : cloud.facets) {
-    const Vec2 a = cloud.position[u(f.node[0])], b = cloud.position[u(f.node[1])];
+    const Vec2 a = cloud.position[index_of(f.node[0])], b = cloud.position[index_of(f.node[1])];
     const double length = (b - a).norm(), ratio = length / spacing.at(0.5 * (a + b));
     if (ratio < Worst{}.ratio && ratio < worst[f.piece].ratio)
       worst[f.piece] = {ratio, length, 0.5 * (a + b)};
@@ -64,7 +64,7 @@ void warn_of_short_edges(const Cloud<2>& cloud, const SpacingField& spacing,
     warnings.push_back(
         fmt::format("boundary piece '{}' has an edge of {:.3g} m near {}, where the spacing is "
                     "{:.3g} m: refine there, or the stable step suffers",
-                    cloud.piece_names[u(piece)], edge.length, at(edge.where), spacing.at(edge.where)));
+                    cloud.piece_names[index_of(piece)], edge.length, at(edge.where), spacing.at(edge.where)));
 }
 
 void warn_of_necks(const Necks& necks, std::vector<std::string>& warnings) {
@@ -77,8 +77,8 @@ void warn_of_necks(const Necks& necks, std::vector<std::string>& warnings) {
 
 Cloud<2> listed(const DomainShape& domain, const CloudOptions& options) {
   Cloud<2> cloud = assemble_boundary(list_boundary(domain, options.nodes));
-  std::vector<bool> on_boundary(u(cloud.nodes()), false);
-  for (const Facet<2>& f : cloud.facets) on_boundary[u(f.node[0])] = true;
+  std::vector<bool> on_boundary(index_of(cloud.nodes()), false);
+  for (const Facet<2>& f : cloud.facets) on_boundary[index_of(f.node[0])] = true;
   const voronoi::EdgeTree tree(cloud);
   for (std::size_t k = 0; k < options.nodes.size(); ++k)
     if (!on_boundary[k] && !tree.inside(options.nodes[k]))

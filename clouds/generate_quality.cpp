@@ -16,7 +16,7 @@ CloudQuality measure_quality(const Cloud<2>& cloud, const SpacingField& spacing)
   quality.angle_min = std::numbers::pi;
   std::vector<double> length_sum(cloud.position.size(), 0.0), valence(cloud.position.size(), 0.0);
   double sum = 0.0, count = 0.0;
-  const auto at = [&](std::int32_t i) { return cloud.position[u(i)]; };
+  const auto at = [&](std::int32_t i) { return cloud.position[index_of(i)]; };
   const auto each_edge = [&](auto&& visit) { // each edge once
     for (std::size_t t = 0; t < mesh.node.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k)
@@ -30,13 +30,13 @@ CloudQuality measure_quality(const Cloud<2>& cloud, const SpacingField& spacing)
     sum += ratio;
     count += 1.0;
     for (const std::int32_t i : {a, b}) {
-      length_sum[u(i)] += length;
-      valence[u(i)] += 1.0;
+      length_sum[index_of(i)] += length;
+      valence[index_of(i)] += 1.0;
     }
   });
   quality.edge_mean = sum / count;
   each_edge([&](std::int32_t a, std::int32_t b) {
-    const auto mean = [&](std::int32_t i) { return length_sum[u(i)] / valence[u(i)]; };
+    const auto mean = [&](std::int32_t i) { return length_sum[index_of(i)] / valence[index_of(i)]; };
     quality.grading_max = std::max({quality.grading_max, mean(a) / mean(b), mean(b) / mean(a)});
   });
   for (const auto& n : mesh.node) {

@@ -25,7 +25,7 @@ public:
       movable_.push_back(false);
     }
     for (const std::int32_t k : voronoi::hilbert_order(interior)) {
-      const Vec2& x = interior[u(k)];
+      const Vec2& x = interior[index_of(k)];
       const double h = spacing.at(x), room = uniform_ ? tree.distance(x, near * h) : 0.0;
       if (room >= near * h) {
         far_.push_back(x);
@@ -77,9 +77,9 @@ public:
     h_.resize(fixed_);
     movable_.resize(fixed_);
     for (const std::int32_t k : voronoi::hilbert_order(interior)) {
-      cloud_.position.push_back(interior[u(k)]);
-      h_.push_back(spacing_.at(interior[u(k)]));
-      movable_.push_back(may[u(k)]);
+      cloud_.position.push_back(interior[index_of(k)]);
+      h_.push_back(spacing_.at(interior[index_of(k)]));
+      movable_.push_back(may[index_of(k)]);
     }
     mesh_ = voronoi::triangulate(cloud_);
     return true;
@@ -105,12 +105,12 @@ private:
     for (bool again = true; again;) {
       again = false;
       for (const auto& n : mesh_.node) {
-        const Vec2 b = cloud_.position[u(n[1])] - cloud_.position[u(n[0])];
-        const Vec2 c = cloud_.position[u(n[2])] - cloud_.position[u(n[0])];
+        const Vec2 b = cloud_.position[index_of(n[1])] - cloud_.position[index_of(n[0])];
+        const Vec2 c = cloud_.position[index_of(n[2])] - cloud_.position[index_of(n[0])];
         if (cross(b, c) > 1e-3 * (b.squaredNorm() + c.squaredNorm())) continue;
         for (const std::int32_t i : n) {
-          again = again || cloud_.position[u(i)] != before[u(i)];
-          cloud_.position[u(i)] = before[u(i)];
+          again = again || cloud_.position[index_of(i)] != before[index_of(i)];
+          cloud_.position[index_of(i)] = before[index_of(i)];
         }
       }
     }
@@ -119,8 +119,8 @@ private:
   /// Circumcentre relative to the first node.
   Vec2 circumcentre(std::size_t t) const {
     const auto& n = mesh_.node[t];
-    const Vec2 b = cloud_.position[u(n[1])] - cloud_.position[u(n[0])];
-    const Vec2 c = cloud_.position[u(n[2])] - cloud_.position[u(n[0])];
+    const Vec2 b = cloud_.position[index_of(n[1])] - cloud_.position[index_of(n[0])];
+    const Vec2 c = cloud_.position[index_of(n[2])] - cloud_.position[index_of(n[0])];
     return (c.squaredNorm() * right_normal(b) - b.squaredNorm() * right_normal(c)) / (-2.0 * cross(b, c));
   }
 
@@ -129,9 +129,9 @@ private:
   void add_shares(std::size_t t, std::vector<Vec2>& moment, std::vector<double>& mass,
                   std::vector<bool>& by_wall) const {
     const auto& n = mesh_.node[t];
-    if (!movable_[u(n[0])] && !movable_[u(n[1])] && !movable_[u(n[2])]) return;
+    if (!movable_[index_of(n[0])] && !movable_[index_of(n[1])] && !movable_[index_of(n[2])]) return;
     std::array<Vec2, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[u(n[k])];
+    for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[index_of(n[k])];
     const Vec2 origin = x[0];
     Vec2 centre = circumcentre(t);
     for (Vec2& point : x) point -= origin;
@@ -140,25 +140,27 @@ private:
       const Vec2 &a = x[(k + 1) % 3], &b = x[(k + 2) % 3];
       if (mesh_.facet[t][k] >= 0 && cross(b - a, centre - a) < 0.0) centre = 0.5 * (a + b); // cut at the wall
     }
-    const double low = std::min({h_[u(n[0])], h_[u(n[1])], h_[u(n[2])]});
+    const double low = std::min({h_[index_of(n[0])], h_[index_of(n[1])], h_[index_of(n[2])]});
     double h_centre = low;
     if (!uniform_) {
       h_centre = 0.0;
       for (std::size_t k = 0; k < 3; ++k)
-        h_centre += h_[u(n[k])] * cross(x[(k + 2) % 3] - x[(k + 1) % 3], centre - x[(k + 1) % 3]) / area2;
-      h_centre = std::clamp(h_centre, 0.7 * low, 1.5 * std::max({h_[u(n[0])], h_[u(n[1])], h_[u(n[2])]}));
+        h_centre +=
+            h_[index_of(n[k])] * cross(x[(k + 2) % 3] - x[(k + 1) % 3], centre - x[(k + 1) % 3]) / area2;
+      h_centre = std::clamp(h_centre, 0.7 * low,
+                            1.5 * std::max({h_[index_of(n[0])], h_[index_of(n[1])], h_[index_of(n[2])]}));
     }
     bool wall = false;
-    for (const std::int32_t i : n) wall = wall || u(i) < fixed_;
+    for (const std::int32_t i : n) wall = wall || index_of(i) < fixed_;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t i = u(n[k]);
+      const std::size_t i = index_of(n[k]);
       if (wall) by_wall[i] = true;
       const Vec2 to_centre = centre - x[k];
       for (const std::size_t j : {(k + 1) % 3, (k + 2) % 3}) {
         const Vec2 to_middle = 0.5 * (x[j] - x[k]);
         double share = 0.5 * (j == (k + 1) % 3 ? cross(to_middle, to_centre) : cross(to_centre, to_middle));
         if (!uniform_) {
-          const double h = (1.5 * h_[i] + 0.5 * h_[u(n[j])] + h_centre) / (3.0 * h_[i]);
+          const double h = (1.5 * h_[i] + 0.5 * h_[index_of(n[j])] + h_centre) / (3.0 * h_[i]);
           share /= h * h * h * h;
         }
         mass[i] += share;
@@ -176,12 +178,12 @@ private:
     double h_min = spacing_.spacing, growth = 0.0;
     for (std::size_t t = 0; t < mesh_.node.size(); ++t) {
       const auto& n = mesh_.node[t];
-      if (!movable_[u(n[0])] && !movable_[u(n[1])] && !movable_[u(n[2])] &&
-          std::ranges::any_of(n, [&](std::int32_t i) { return u(i) >= fixed_; }))
+      if (!movable_[index_of(n[0])] && !movable_[index_of(n[1])] && !movable_[index_of(n[2])] &&
+          std::ranges::any_of(n, [&](std::int32_t i) { return index_of(i) >= fixed_; }))
         continue;
       const Vec2 radius = circumcentre(t);
-      const Vec2 centre = cloud_.position[u(n[0])] + radius;
-      const double low = std::min({h_[u(n[0])], h_[u(n[1])], h_[u(n[2])]});
+      const Vec2 centre = cloud_.position[index_of(n[0])] + radius;
+      const double low = std::min({h_[index_of(n[0])], h_[index_of(n[1])], h_[index_of(n[2])]});
       if (radius.norm() < hole * low) continue;
       const double h = spacing_.at(centre);
       if (radius.norm() < hole * h || !tree_.inside(centre) || tree_.distance(centre, 0.5 * h) < 0.5 * h)
@@ -208,7 +210,7 @@ private:
     std::vector<bool> gone(cloud_.position.size(), false);
     for (std::size_t t = 0; t < mesh_.node.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto a = u(mesh_.node[t][(k + 1) % 3]), b = u(mesh_.node[t][(k + 2) % 3]);
+        const auto a = index_of(mesh_.node[t][(k + 1) % 3]), b = index_of(mesh_.node[t][(k + 2) % 3]);
         const std::size_t late = std::max(a, b);
         if (!movable_[late] || gone[a] || gone[b]) continue;
         const double limit = 0.5 * crowd * (h_[a] + h_[b]);

@@ -35,11 +35,11 @@ TetrahedralBlock tetrahedral_block(const Vec<3>& size, const std::array<int, 3>&
           std::array<int, 3> at{i, j, k};
           std::array<std::int32_t, 4> corner{index(i, j, k)};
           for (int step = 0; step < 3; ++step) {
-            ++at[u(orders[o][step])];
-            corner[u(step + 1)] = index(at[0], at[1], at[2]);
+            ++at[index_of(orders[o][step])];
+            corner[index_of(step + 1)] = index(at[0], at[1], at[2]);
           }
           if (o >= 3) std::swap(corner[1], corner[2]);
-          const auto x = [&](int c) { return block.cloud.position[u(corner[u(c)])]; };
+          const auto x = [&](int c) { return block.cloud.position[index_of(corner[index_of(c)])]; };
           if (!((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) > 0.0))
             throw GeometryError(
                 fmt::format("a tetrahedron of the block at ({:g}, {:g}, {:g}) m has no volume", x(0).x(),
@@ -50,13 +50,13 @@ TetrahedralBlock tetrahedral_block(const Vec<3>& size, const std::array<int, 3>&
   // A side is cut along the diagonal from its lowest to its highest corner, as the tetrahedra cut it.
   const auto add_side = [&](int axis, bool high) {
     const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-    for (int second = 0; second < count[u(b)]; ++second)
-      for (int first = 0; first < count[u(a)]; ++first) {
+    for (int second = 0; second < count[index_of(b)]; ++second)
+      for (int first = 0; first < count[index_of(a)]; ++first) {
         const auto node = [&](int du, int dv) {
           std::array<int, 3> at{};
-          at[u(axis)] = high ? count[u(axis)] : 0;
-          at[u(a)] = first + du;
-          at[u(b)] = second + dv;
+          at[index_of(axis)] = high ? count[index_of(axis)] : 0;
+          at[index_of(a)] = first + du;
+          at[index_of(b)] = second + dv;
           return index(at[0], at[1], at[2]);
         };
         const std::int32_t piece = 2 * axis + (high ? 1 : 0);

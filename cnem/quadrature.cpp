@@ -59,7 +59,7 @@ FacetMeans facet_means(const Cloud<2>& cloud, const voronoi::Triangulation& tria
     for (std::size_t f = first; f < last; ++f) {
       const voronoi::InteriorFacet& facet = cells.interior[f];
       const Vec2 along = facet.end - facet.start;
-      const Vec2 between = cloud.position[u(facet.cell[1])] - cloud.position[u(facet.cell[0])];
+      const Vec2 between = cloud.position[index_of(facet.cell[1])] - cloud.position[index_of(facet.cell[0])];
       if (along.squaredNorm() > shortest * shortest * between.squaredNorm()) {
         const std::size_t start = block.node.size();
         for (const GaussPoint& point : rule) {

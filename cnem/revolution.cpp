@@ -7,7 +7,7 @@
 namespace cnem::scni {
 namespace {
 
-std::size_t index(std::int32_t i) { return u(i); }
+std::size_t index(std::int32_t i) { return index_of(i); }
 
 /// ∮ ½ (ρ_x² n_x, ρ_y² n_y) ds over a segment, ρ from `origin`, n ds the right normal of the segment: its
 /// share of the first moments of area.

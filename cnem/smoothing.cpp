@@ -11,7 +11,7 @@
 namespace cnem::scni {
 namespace {
 
-std::size_t index(std::int32_t i) { return u(i); }
+std::size_t index(std::int32_t i) { return index_of(i); }
 
 /// Lists of items per cell from the cells of each item: a counting sort.
 template<class CellsOf> CellFacets group_by_cell(int nodes, std::size_t items, CellsOf&& cells_of) {
@@ -212,7 +212,8 @@ StabilisationLinks<2> delaunay_links(const Cloud<2>& cloud, const voronoi::Trian
       const voronoi::InteriorFacet& facet = cells.interior[index(around.facet[a])];
       const Vec2 between = cloud.position[index(facet.cell[1])] - cloud.position[index(facet.cell[0])];
       const auto link = std::find(first, last, other(facet.cell)) - links.neighbour.begin();
-      links.weight[u(link)] = std::clamp((facet.end - facet.start).norm() / between.norm(), least, most);
+      links.weight[index_of(link)] =
+          std::clamp((facet.end - facet.start).norm() / between.norm(), least, most);
     }
   }
   return links;

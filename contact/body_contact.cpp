@@ -33,8 +33,8 @@ struct FacetView {
   double length;
 
   FacetView(const Surface<2>& surface, std::int32_t facet, std::span<const Vec2> position)
-      : a(position[u(surface.facets[u(facet)][0])]), edge(position[u(surface.facets[u(facet)][1])] - a),
-        length(edge.norm()) {
+      : a(position[index_of(surface.facets[index_of(facet)][0])]),
+        edge(position[index_of(surface.facets[index_of(facet)][1])] - a), length(edge.norm()) {
     normal = right_normal(edge) / length;
   }
   double gap(const Vec2& x) const { return normal.dot(x - a); }
@@ -57,7 +57,7 @@ bool faces(const Surface<2>& surface, std::size_t node, const Vec2& normal, std:
 int winding_number(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x) {
   int turns = 0;
   for (const auto& facet : surface.facets) {
-    const Vec2 &a = position[u(facet[0])], &b = position[u(facet[1])];
+    const Vec2 &a = position[index_of(facet[0])], &b = position[index_of(facet[1])];
     const double side = cross(b - a, x - a);
     if (a.y() <= x.y() && b.y() > x.y() && side > 0.0) ++turns;
     if (a.y() > x.y() && b.y() <= x.y() && side < 0.0) --turns;
@@ -76,7 +76,7 @@ void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
                       std::vector<Candidate>& of_node) {
   const auto beaten = [&](const Candidate& c) {
     return std::any_of(of_node.begin(), of_node.end(), [&](const Candidate& other) {
-      const auto &f = surface.facets[u(c.hit.facet)], &g = surface.facets[u(other.hit.facet)];
+      const auto &f = surface.facets[index_of(c.hit.facet)], &g = surface.facets[index_of(other.hit.facet)];
       const bool before = f[1] == g[0], after = f[0] == g[1];
       if (c.hit.facet == other.hit.facet || (!before && !after)) return false;
       const Vec2 e = FacetView(surface, c.hit.facet, position).edge,
@@ -97,20 +97,20 @@ template<int dim>
 void BodyContact<dim>::set_boundary(const Surface<dim>& surface, std::span<const std::int32_t> group) {
   group_.assign(surface.node.size(), -1);
   if (!group.empty())
-    for (std::size_t b = 0; b < group_.size(); ++b) group_[b] = group[u(surface.node[b])];
+    for (std::size_t b = 0; b < group_.size(); ++b) group_[b] = group[index_of(surface.node[b])];
   listed_.clear();
 }
 
 template<int dim> bool BodyContact<dim>::bonded(const Surface<dim>& surface, std::int32_t facet) const {
   if (facet < 0) return true;
-  const auto& ends = surface.facets[u(facet)];
-  return std::all_of(ends.begin(), ends.end(), [&](std::int32_t b) { return group_[u(b)] >= 0; });
+  const auto& ends = surface.facets[index_of(facet)];
+  return std::all_of(ends.begin(), ends.end(), [&](std::int32_t b) { return group_[index_of(b)] >= 0; });
 }
 
 template<int dim>
 bool BodyContact<dim>::related(const Surface<dim>& surface, std::size_t node, std::size_t facet) const {
   return std::any_of(surface.facets[facet].begin(), surface.facets[facet].end(), [&](std::int32_t b) {
-    const auto end = u(b);
+    const auto end = index_of(b);
     return end == node || (group_[node] >= 0 && group_[end] == group_[node]);
   });
 }
@@ -124,8 +124,8 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
   std::vector<std::pair<TreeBox, std::int32_t>> boxes;
   double total = 0.0;
   for (std::int32_t f = 0; f < std::ssize(surface.facets); ++f) {
-    const auto& ends = surface.facets[u(f)];
-    const Vec2 &a = listed_[u(ends[0])], &b = listed_[u(ends[1])];
+    const auto& ends = surface.facets[index_of(f)];
+    const Vec2 &a = listed_[index_of(ends[0])], &b = listed_[index_of(ends[1])];
     total += (b - a).norm();
     if (!bonded(surface, f)) boxes.emplace_back(box_around(a.cwiseMin(b), a.cwiseMax(b), 0.0), f);
   }
@@ -138,7 +138,7 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
     tree.query(bg::index::intersects(box_around(listed_[b], listed_[b], skin_)), std::back_inserter(near));
     std::sort(near.begin(), near.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
     for (const auto& [box, f] : near) {
-      if (related(surface, b, u(f))) continue;
+      if (related(surface, b, index_of(f))) continue;
       const FacetView facet(surface, f, listed_);
       const Vec2 foot = facet.nearest(listed_[b]);
       if ((foot - listed_[b]).norm() > skin_) continue;
@@ -172,7 +172,7 @@ void BodyContact<2>::find(const Surface<2>& surface, std::span<const Vec2> start
   std::vector<Candidate> crossed;
   for (std::size_t first = 0; first < pairs_.size();) {
     const std::int32_t node = pairs_[first].node;
-    const auto b = u(node);
+    const auto b = index_of(node);
     crossed.clear();
     FacetHit<2> inside;
     double depth = std::numeric_limits<double>::infinity();

@@ -51,7 +51,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
   for (const NodeConstraint<dim>& constraint : constraints) {
     const auto found = std::lower_bound(surface_.node.begin(), surface_.node.end(), constraint.node);
     if (found != surface_.node.end() && *found == constraint.node)
-      free_[u(found - surface_.node.begin())] = constraint.free;
+      free_[index_of(found - surface_.node.begin())] = constraint.free;
   }
   before_.assign(n, Vec<dim>::Zero());
   start_.resize(n);
@@ -114,7 +114,7 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
   for (std::size_t b = 0; b < reactions_.size(); ++b) {
     const std::int32_t node = surface_.node[b];
     Reaction<dim>& reaction = reactions_[b];
-    reaction.inverse = free_[b] / step.mass[u(node)];
+    reaction.inverse = free_[b] / step.mass[index_of(node)];
     reaction.position = end_[b] = at<dim>(step.position, node);
     reaction.velocity = at<dim>(step.velocity, node);
     reaction.change.setZero();
@@ -143,7 +143,8 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   }
   const double gap = contact.normal.dot(mean(end_)) - contact.level;
   if (gap >= 0.0) return false;
-  if (contact.tool >= 0) contact.level -= dt * contact.normal.dot(tool_reactions_[u(contact.tool)].change);
+  if (contact.tool >= 0)
+    contact.level -= dt * contact.normal.dot(tool_reactions_[index_of(contact.tool)].change);
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
   const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
@@ -178,7 +179,7 @@ bool RigidContact<dim>::find_on_faces(const std::vector<Pose<dim>>& poses, const
     if (inside.empty()) continue;
     tool.shape->entries(from, to, entries);
     for (const Entry<dim>& entry : entries) {
-      const auto b = u(inside[u(entry.index)]);
+      const auto b = index_of(inside[index_of(entry.index)]);
       Contact<dim> contact;
       contact.tool = static_cast<std::int32_t>(t);
       contact.feature = entry.at.feature;
@@ -205,7 +206,7 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose<dim>>& poses, cons
       contact.tool = static_cast<std::int32_t>(t);
       contact.feature = hit.ridge;
       contact.facet = hit.facet;
-      const auto& ends = surface_.facets[u(hit.facet)];
+      const auto& ends = surface_.facets[index_of(hit.facet)];
       std::copy(ends.begin(), ends.end(), contact.node.begin());
       std::copy(hit.weight.begin(), hit.weight.end(), contact.weight.begin());
       contact.normal = hit.normal;
@@ -214,7 +215,7 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose<dim>>& poses, cons
         const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<dim>& c) {
           return c.tool == contact.tool && c.facet < 0 && c.node[0] == contact.node[a];
         });
-        if (!on_face) area += contact.weight[a] * rubbing_[u(contact.node[a])];
+        if (!on_face) area += contact.weight[a] * rubbing_[index_of(contact.node[a])];
       }
       set_friction(contact, area, step);
       const Vec<dim> x = at_contact(contact, [&](std::size_t b) { return end_[b]; });
@@ -233,7 +234,7 @@ bool RigidContact<dim>::find_on_bodies(const std::vector<Pose<dim>>& poses, cons
   std::vector<FacetHit<dim>> hits;
   if constexpr (dim == 2) bodies_.find(surface_, start_, end_, hits);
   for (const FacetHit<dim>& hit : hits) {
-    const auto& ends = surface_.facets[u(hit.facet)];
+    const auto& ends = surface_.facets[index_of(hit.facet)];
     Contact<dim> contact;
     contact.tool = -1;
     contact.facet = hit.facet;
@@ -244,27 +245,27 @@ bool RigidContact<dim>::find_on_bodies(const std::vector<Pose<dim>>& poses, cons
       contact.weight[a + 1] = -hit.weight[a];
     }
     contact.normal = hit.normal;
-    set_friction(contact, rubbing_[u(hit.node)], step);
+    set_friction(contact, rubbing_[index_of(hit.node)], step);
     any |= add(contact, hit.start, hit.clearance, rest, step.dt);
   }
   return any;
 }
 
 template<int dim> const Friction& RigidContact<dim>::friction_of(const Contact<dim>& contact) const {
-  return contact.tool < 0 ? law_.friction : tools_[u(contact.tool)].friction;
+  return contact.tool < 0 ? law_.friction : tools_[index_of(contact.tool)].friction;
 }
 
 template<int dim>
 void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const {
   const Friction& friction = friction_of(contact);
-  if (contact.tool >= 0) contact.surface = tool_reactions_[u(contact.tool)].velocity;
+  if (contact.tool >= 0) contact.surface = tool_reactions_[index_of(contact.tool)].velocity;
   contact.coulomb = friction.coulomb;
   contact.limit = std::numeric_limits<double>::infinity();
   if (friction.coulomb == 0.0 || std::isinf(friction.shear_factor)) return;
   double flow_stress = 0.0, opposite = 0.0; // of two bodies the weaker one counts
   for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
     if (const double w = contact.weight[a]; w != 0.0)
-      (w > 0.0 ? flow_stress : opposite) += std::abs(w) * step.flow_stress[u(contact.node[a])];
+      (w > 0.0 ? flow_stress : opposite) += std::abs(w) * step.flow_stress[index_of(contact.node[a])];
   if (contact.tool < 0) flow_stress = std::min(flow_stress, opposite);
   contact.limit = friction.shear_factor * flow_stress / std::numbers::sqrt3 * area * step.dt_mean;
 }
@@ -273,10 +274,10 @@ template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) 
   for (std::size_t b = 0; b < reactions_.size(); ++b) {
     const Vec<dim>& change = reactions_[b].change;
     if (change.squaredNorm() == 0.0) continue;
-    const auto node = u(surface_.node[b]);
+    const auto node = index_of(surface_.node[b]);
     for (int k = 0; k < dim; ++k) {
-      step.velocity[u(k)][node] += change[k];
-      step.position[u(k)][node] += step.dt * change[k];
+      step.velocity[index_of(k)][node] += change[k];
+      step.position[index_of(k)][node] += step.dt * change[k];
     }
   }
 }

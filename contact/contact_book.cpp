@@ -30,7 +30,7 @@ void RigidContact<dim>::book(const std::vector<Pose<dim>>& poses, const ContactS
   body_result_.step = {};
   const Pose<dim> rest;
   for (const Contact<dim>& contact : contacts_) {
-    const auto t = u(contact.tool);
+    const auto t = index_of(contact.tool);
     const bool on_tool = contact.tool >= 0;
     const Pose<dim>& pose = on_tool ? poses[t] : rest;
     const Vec<dim> impulse = contact.impulse();
@@ -55,7 +55,7 @@ void RigidContact<dim>::book(const std::vector<Pose<dim>>& poses, const ContactS
       body_result_.pressing += contact.pressing / step.dt_mean;
     }
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (contact.weight[a] != 0.0) nodal_impulse_[u(contact.node[a])] += contact.weight[a] * impulse;
+      if (contact.weight[a] != 0.0) nodal_impulse_[index_of(contact.node[a])] += contact.weight[a] * impulse;
     share_heat(contact, std::max(0.0, tangential), step);
   }
   for (ToolResult<dim>& result : results_) result.total += result.step;
@@ -70,7 +70,7 @@ void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, con
     double mean = 0.0;
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (const double w = contact.weight[a]; of_node ? w > 0.0 : w < 0.0)
-        mean += std::abs(w) * step.effusivity[u(contact.node[a])];
+        mean += std::abs(w) * step.effusivity[index_of(contact.node[a])];
     return mean;
   };
   if (contact.tool < 0) {
@@ -79,14 +79,14 @@ void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, con
     const double share = one + other > 0.0 ? one / (one + other) : 0.5;
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (const double w = contact.weight[a]; w != 0.0)
-        heat_[u(contact.node[a])] += std::abs(w) * (w > 0.0 ? share : 1.0 - share) * heat;
+        heat_[index_of(contact.node[a])] += std::abs(w) * (w > 0.0 ? share : 1.0 - share) * heat;
     return;
   }
-  const auto t = u(contact.tool);
+  const auto t = index_of(contact.tool);
   const double e_tool = tools_[t].thermal.effusivity;
   for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
     if (contact.weight[a] == 0.0) continue;
-    const auto b = u(contact.node[a]);
+    const auto b = index_of(contact.node[a]);
     const double share =
         step.effusivity.empty() || e_tool == 0.0 ? 1.0 : step.effusivity[b] / (step.effusivity[b] + e_tool);
     heat_[b] += share * contact.weight[a] * heat;
@@ -100,7 +100,7 @@ void RigidContact<dim>::list_points(const std::vector<Pose<dim>>& poses, const C
   for (const Contact<dim>& contact : contacts_)
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
       if (contact.weight[a] == 0.0 || contact.pressing == 0.0 || contact.tool < 0) continue;
-      const auto b = u(contact.node[a]);
+      const auto b = index_of(contact.node[a]);
       ContactPoint<dim> point;
       point.node = surface_.node[b];
       point.boundary = contact.node[a];
@@ -112,8 +112,8 @@ void RigidContact<dim>::list_points(const std::vector<Pose<dim>>& poses, const C
     }
   merge_points();
   for (ContactPoint<dim>& point : points_) {
-    const auto t = u(point.tool);
-    const Vec<dim> x = end_[u(point.boundary)] - poses[t].end;
+    const auto t = index_of(point.tool);
+    const Vec<dim> x = end_[index_of(point.boundary)] - poses[t].end;
     point.gap = tools_[t].shape->closest(x).distance;
   }
 }
@@ -128,13 +128,13 @@ template<int dim> void RigidContact<dim>::list_touches() {
     if (contact.tool >= 0) continue;
     BodyTouch<dim> touch;
     for (std::size_t a = 0; a < dim; ++a) {
-      touch.facet[a] = surface_.node[u(contact.node[a + 1])];
+      touch.facet[a] = surface_.node[index_of(contact.node[a + 1])];
       touch.weight[a] = -contact.weight[a + 1];
     }
-    const double length = (end_[u(contact.node[1])] - end_[u(contact.node[2])]).norm();
+    const double length = (end_[index_of(contact.node[1])] - end_[index_of(contact.node[2])]).norm();
     const double gap = contact.normal.dot(at_contact(contact, [&](std::size_t b) { return end_[b]; }));
     if (gap > closed * length) continue;
-    const auto node = u(contact.node[0]);
+    const auto node = index_of(contact.node[0]);
     touch.node = surface_.node[node];
     touch.area = 0.5 * surface_.area_against(node, contact.normal, end_, space_);
     touches_.push_back(touch);
@@ -162,14 +162,14 @@ std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& positio
     std::vector<Entry<dim>> entries;
     tools_[t].shape->entries(local, local, entries);
     for (const Entry<dim>& entry : entries) {
-      const auto b = u(entry.index);
+      const auto b = index_of(entry.index);
       if (entry.at.distance < -rounding)
         found.push_back({static_cast<std::int32_t>(t), surface_.node[b], -entry.at.distance, all[b], false});
     }
     for (const RidgeDepth<dim>& ridge : ridges_inside<dim>(surface_, *tools_[t].shape, all, shift))
       if (ridge.depth > rounding)
-        found.push_back(
-            {static_cast<std::int32_t>(t), surface_.node[u(ridge.node)], ridge.depth, ridge.position, true});
+        found.push_back({static_cast<std::int32_t>(t), surface_.node[index_of(ridge.node)], ridge.depth,
+                         ridge.position, true});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Overlap<dim>& a, const Overlap<dim>& b) { return a.depth > b.depth; });

@@ -8,7 +8,7 @@ namespace cnem::contact {
 
 template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
   Vec<dim> x;
-  for (int k = 0; k < dim; ++k) x[k] = field[u(k)][u(node)];
+  for (int k = 0; k < dim; ++k) x[k] = field[index_of(k)][index_of(node)];
   return x;
 }
 
@@ -16,7 +16,7 @@ template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
 template<int dim, class PerNode> Vec<dim> at_contact(const Contact<dim>& contact, PerNode&& value) {
   Vec<dim> sum = Vec<dim>::Zero();
   for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-    if (contact.weight[a] != 0.0) sum += contact.weight[a] * value(u(contact.node[a]));
+    if (contact.weight[a] != 0.0) sum += contact.weight[a] * value(index_of(contact.node[a]));
   return sum;
 }
 

@@ -156,7 +156,7 @@ SurfacePoint<2> CurveShape::closest(const Vec2& x) const {
     best.point = foot;
     best.feature = static_cast<std::int32_t>(i);
   }
-  const auto i = u(best.feature);
+  const auto i = index_of(best.feature);
   const Face& face = faces_[i];
   const Vec2 away = x - best.point;
   const double length = std::sqrt(least), rounding2 = tolerance_ * tolerance_;

@@ -72,7 +72,7 @@ public:
   }
 
 private:
-  Reaction<dim>& at(std::size_t a) { return nodes_[u(contact_.node[a])]; }
+  Reaction<dim>& at(std::size_t a) { return nodes_[index_of(contact_.node[a])]; }
 
   /// The same of nodes against tool.
   double along(const Vec<dim>& u) {
@@ -108,7 +108,7 @@ double shift_tool(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>
   Vec<dim> drive = Vec<dim>::Zero();
   for (Contact<dim>& contact : contacts) {
     if (contact.tool != index || contact.pressing <= 0.0 || contact.facet >= 0) continue;
-    if (char& known = taken[u(contact.node[0])]; known)
+    if (char& known = taken[index_of(contact.node[0])]; known)
       continue;
     else
       known = 1;
@@ -140,7 +140,7 @@ void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<di
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double moved = 0.0;
     for (Contact<dim>& contact : contacts) {
-      Reaction<dim>& tool = contact.tool < 0 ? none : tools[u(contact.tool)];
+      Reaction<dim>& tool = contact.tool < 0 ? none : tools[index_of(contact.tool)];
       Sweeper<dim> sweeper(contact, nodes, tool, dt);
       moved = std::max(moved, sweeper.press());
       moved = std::max(moved, sweeper.rub());

@@ -13,7 +13,7 @@ namespace cnem::contact {
 template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes) {
   std::vector<std::int32_t> number(nodes, -1);
   for (const Facet<dim>& facet : boundary)
-    for (const std::int32_t i : facet.node) number[u(i)] = 0;
+    for (const std::int32_t i : facet.node) number[index_of(i)] = 0;
   for (std::size_t i = 0; i < nodes; ++i) {
     if (number[i] < 0) continue;
     number[i] = static_cast<std::int32_t>(node.size());
@@ -28,11 +28,11 @@ template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary,
   for (const Facet<dim>& facet : boundary) {
     const auto f = static_cast<std::int32_t>(facets.size());
     auto& corner = facets.emplace_back();
-    for (std::size_t a = 0; a < dim; ++a) corner[a] = number[u(facet.node[a])];
+    for (std::size_t a = 0; a < dim; ++a) corner[a] = number[index_of(facet.node[a])];
     if constexpr (dim == 2)
-      leaving[u(corner[0])] = entering[u(corner[1])] = f;
+      leaving[index_of(corner[0])] = entering[index_of(corner[1])] = f;
     else
-      for (const std::int32_t a : corner) around[u(a)].push_back(f);
+      for (const std::int32_t a : corner) around[index_of(a)].push_back(f);
   }
 }
 
@@ -42,7 +42,7 @@ template<int dim>
 std::array<Vec<dim>, dim> corners(const std::array<std::int32_t, dim>& facet,
                                   std::span<const Vec<dim>> position) {
   std::array<Vec<dim>, dim> corner;
-  for (std::size_t a = 0; a < dim; ++a) corner[a] = position[u(facet[a])];
+  for (std::size_t a = 0; a < dim; ++a) corner[a] = position[index_of(facet[a])];
   return corner;
 }
 
@@ -53,7 +53,7 @@ std::vector<double> Surface<dim>::areas(std::span<const Vec<dim>> position, Spac
   std::vector<double> area(node.size(), 0.0);
   for (const auto& facet : facets) {
     const auto share = corner_areas<dim>(space, corners<dim>(facet, position));
-    for (std::size_t a = 0; a < dim; ++a) area[u(facet[a])] += share[a];
+    for (std::size_t a = 0; a < dim; ++a) area[index_of(facet[a])] += share[a];
   }
   return area;
 }
@@ -64,12 +64,12 @@ double Surface<dim>::area_against(std::size_t at, const Vec<dim>& normal, std::s
   double area = 0.0;
   const auto add = [&](std::int32_t f) {
     if (f < 0) return;
-    const auto& facet = facets[u(f)];
+    const auto& facet = facets[index_of(f)];
     const auto corner = corners<dim>(facet, position);
     const Vec<dim> outwards = area_normal<dim>(corner);
     if (!(outwards.dot(normal) < -0.5 * outwards.norm())) return;
     const auto own = std::find(facet.begin(), facet.end(), static_cast<std::int32_t>(at)) - facet.begin();
-    area += corner_areas<dim>(space, corner)[u(own)];
+    area += corner_areas<dim>(space, corner)[index_of(own)];
   };
   if constexpr (dim == 2) {
     add(entering[at]);
@@ -86,7 +86,7 @@ template struct Surface<3>;
 bool encloses(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x) {
   bool inside = false;
   for (const auto& facet : surface.facets) {
-    const Vec2 &a = position[u(facet[0])], &b = position[u(facet[1])];
+    const Vec2 &a = position[index_of(facet[0])], &b = position[index_of(facet[1])];
     if ((a.y() > x.y()) == (b.y() > x.y())) continue;
     // the ray towards +x meets the edge where the point is on the inner side of its direction
     const double side = cross(b - a, x - a);
@@ -105,7 +105,7 @@ struct EdgeView {
   double length = 0.0;
 
   EdgeView(const Surface<2>& surface, std::size_t facet, std::span<const Vec2> position)
-      : a(position[u(surface.facets[facet][0])]), b(position[u(surface.facets[facet][1])]),
+      : a(position[index_of(surface.facets[facet][0])]), b(position[index_of(surface.facets[facet][1])]),
         length((b - a).norm()) {
     along = (b - a) / length;
     normal = left_normal(along);
@@ -120,10 +120,10 @@ struct EdgeView {
 /// on the node between them.
 bool presses_on_notch(const Surface<2>& surface, const EdgeView& edge, std::size_t facet,
                       std::span<const Vec2> position, const Vec2& tip, bool at_end) {
-  const auto vertex = u(surface.facets[facet][at_end ? 1 : 0]);
+  const auto vertex = index_of(surface.facets[facet][at_end ? 1 : 0]);
   const std::int32_t other = at_end ? surface.leaving[vertex] : surface.entering[vertex];
   if (other < 0) return false;
-  const EdgeView neighbour(surface, u(other), position);
+  const EdgeView neighbour(surface, index_of(other), position);
   const double turn = at_end ? cross(edge.along, neighbour.along) : cross(neighbour.along, edge.along);
   if (turn >= 0.0 || (tip - position[vertex]).norm() > 0.5 * edge.length) return false;
   const double place = neighbour.place(tip);
@@ -138,17 +138,17 @@ double fraction_passed(const RidgeHit<2>& hit) {
 void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
                       std::vector<RidgeHit<2>>& hits, std::size_t first) {
   const auto beaten = [&](const RidgeHit<2>& hit) {
-    return std::any_of(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
-                       [&](const RidgeHit<2>& o) {
-                         if (&o == &hit) return false;
-                         const auto &f = surface.facets[u(hit.facet)], &g = surface.facets[u(o.facet)];
-                         if (f[0] != g[1] && f[1] != g[0]) return false;
-                         const EdgeView e(surface, u(hit.facet), position), n(surface, u(o.facet), position);
-                         const double turn = f[1] == g[0] ? cross(e.along, n.along) : cross(n.along, e.along);
-                         if (turn <= 0.0) return false;
-                         const double mine = fraction_passed(hit), others = fraction_passed(o);
-                         return others > mine || (others == mine && o.facet < hit.facet);
-                       });
+    return std::any_of(
+        hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(), [&](const RidgeHit<2>& o) {
+          if (&o == &hit) return false;
+          const auto &f = surface.facets[index_of(hit.facet)], &g = surface.facets[index_of(o.facet)];
+          if (f[0] != g[1] && f[1] != g[0]) return false;
+          const EdgeView e(surface, index_of(hit.facet), position), n(surface, index_of(o.facet), position);
+          const double turn = f[1] == g[0] ? cross(e.along, n.along) : cross(n.along, e.along);
+          if (turn <= 0.0) return false;
+          const double mine = fraction_passed(hit), others = fraction_passed(o);
+          return others > mine || (others == mine && o.facet < hit.facet);
+        });
   };
   std::vector<RidgeHit<2>> kept;
   for (std::size_t i = first; i < hits.size(); ++i)
@@ -168,7 +168,7 @@ void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, std::sp
   const Vec2 low = box.low + shift_end, high = box.high + shift_end;
   std::vector<std::size_t> near;
   for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-    const Vec2 &a = end[u(surface.facets[f][0])], &b = end[u(surface.facets[f][1])];
+    const Vec2 &a = end[index_of(surface.facets[f][0])], &b = end[index_of(surface.facets[f][1])];
     const double margin = (b - a).lpNorm<1>();
     if (((a.cwiseMax(b) - low).array() < -margin).any() || ((high - a.cwiseMin(b)).array() < -margin).any())
       continue;
@@ -178,7 +178,7 @@ void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, std::sp
     const Ridge<2>& ridge = ridges[r];
     const std::size_t first = hits.size();
     for (const std::size_t f : near) {
-      const Vec2 &a = end[u(surface.facets[f][0])], &b = end[u(surface.facets[f][1])];
+      const Vec2 &a = end[index_of(surface.facets[f][0])], &b = end[index_of(surface.facets[f][1])];
       const double reach = ridge.radius + 1.5 * (b - a).lpNorm<1>();
       if ((ridge.centre + shift_end - a).squaredNorm() > reach * reach) continue;
       const EdgeView now(surface, f, end);

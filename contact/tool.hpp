@@ -18,13 +18,13 @@ template<int dim> struct ToolMotion {
 
   Vec<dim> velocity_at(double t) const {
     Vec<dim> v;
-    for (int k = 0; k < dim; ++k) v[k] = velocity[u(k)](t);
+    for (int k = 0; k < dim; ++k) v[k] = velocity[index_of(k)](t);
     return v;
   }
   /// Displacement since t = 0, m.
   Vec<dim> displacement(double t) const {
     Vec<dim> u;
-    for (int k = 0; k < dim; ++k) u[k] = velocity[u(k)].integral(t);
+    for (int k = 0; k < dim; ++k) u[k] = velocity[index_of(k)].integral(t);
     return u;
   }
 };

@@ -12,7 +12,7 @@ namespace {
 template<int dim> Vec<dim> impulse(const ToolDrive<dim>& drive, double from, double to) {
   Vec<dim> sum;
   for (int k = 0; k < dim; ++k) {
-    const TimeTable& force = drive.force[u(k)];
+    const TimeTable& force = drive.force[index_of(k)];
     sum[k] = force.integral(to) - force.integral(from);
   }
   return drive.free * sum;

@@ -27,7 +27,7 @@ public:
 
   void number(const std::string& name, const char* unit, double& value) { carry(name, unit, {&value, 1}); }
   template<int dim> void vector(const std::string& name, const char* unit, Vec<dim>& value) {
-    carry(name, unit, {value.data(), u(dim)});
+    carry(name, unit, {value.data(), index_of(dim)});
   }
   /// Keeps the length the field has.
   void field(const std::string& name, const char* unit, Field& values) { carry(name, unit, values); }

@@ -40,7 +40,8 @@ template<class Position> double enclosed_area(const std::vector<Facet<2>>& facet
   return 0.5 * twice;
 }
 inline double enclosed_area(const Cloud<2>& cloud) {
-  return enclosed_area(cloud.facets, [&](std::int32_t i) -> const Vec2& { return cloud.position[u(i)]; });
+  return enclosed_area(cloud.facets,
+                       [&](std::int32_t i) -> const Vec2& { return cloud.position[index_of(i)]; });
 }
 
 } // namespace cnem

@@ -14,7 +14,7 @@ template<int dim> std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet, 
   std::array<Vec<dim>, dim> corner;
   for (std::size_t a = 0; a < dim; ++a)
     for (std::size_t k = 0; k < dim; ++k)
-      corner[a][static_cast<Eigen::Index>(k)] = position[k][u(facet.node[a])];
+      corner[a][static_cast<Eigen::Index>(k)] = position[k][index_of(facet.node[a])];
   return corner;
 }
 

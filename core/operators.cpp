@@ -5,9 +5,9 @@ namespace cnem {
 
 template<int dim> void DiscreteOperators<dim>::build_transpose() {
   const std::size_t entries = node.size();
-  col_begin.assign(u(nodes) + 1, 0);
-  for (const std::int32_t j : node) ++col_begin[u(j) + 1];
-  for (std::size_t j = 0; j < u(nodes); ++j) col_begin[j + 1] += col_begin[j];
+  col_begin.assign(index_of(nodes) + 1, 0);
+  for (const std::int32_t j : node) ++col_begin[index_of(j) + 1];
+  for (std::size_t j = 0; j < index_of(nodes); ++j) col_begin[j + 1] += col_begin[j];
 
   point.resize(entries);
   for (Field& f : weighted_gradient) f.resize(entries);
@@ -16,9 +16,9 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
 
   std::vector<std::int32_t> next(col_begin.begin(), col_begin.end() - 1);
   for (std::int32_t p = 0; p < points; ++p) {
-    const double v = volume[u(p)];
-    for (auto e = u(row_begin[u(p)]); e < u(row_begin[u(p) + 1]); ++e) {
-      const auto t = u(next[u(node[e])]++);
+    const double v = volume[index_of(p)];
+    for (auto e = index_of(row_begin[index_of(p)]); e < index_of(row_begin[index_of(p) + 1]); ++e) {
+      const auto t = index_of(next[index_of(node[e])]++);
       point[t] = p;
       for (std::size_t k = 0; k < dim; ++k) weighted_gradient[k][t] = v * gradient[k][e];
       if (!value.empty()) weighted_value[t] = v * value[e];
@@ -29,9 +29,9 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
 
 template<int dim> Field DiscreteOperators<dim>::node_volume() const {
   if (nodal) return volume;
-  Field share(u(nodes), 0.0);
+  Field share(index_of(nodes), 0.0);
   for (std::size_t j = 0; j < share.size(); ++j)
-    for (auto e = u(col_begin[j]); e < u(col_begin[j + 1]); ++e) share[j] += weighted_value[e];
+    for (auto e = index_of(col_begin[j]); e < index_of(col_begin[j + 1]); ++e) share[j] += weighted_value[e];
   return share;
 }
 

@@ -42,7 +42,7 @@ template<int dim> struct DiscreteOperators {
   bool of_revolution() const { return !radius.empty(); }
 
   /// A node of the row of a point, its own for nodal rows: all of a row are of one body and one material.
-  std::size_t first_node(std::size_t p) const { return nodal ? p : u(node[u(row_begin[p])]); }
+  std::size_t first_node(std::size_t p) const { return nodal ? p : index_of(node[index_of(row_begin[p])]); }
 
   /// Fills the transpose from the rows. To be called once the rows are complete.
   void build_transpose();

@@ -45,7 +45,7 @@ template<class Body> void for_each_block(std::size_t n, Body&& body) {
   ParallelFailure failure;
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t b = 0; b < count; ++b) {
-    const std::size_t begin = u(b) * block_size;
+    const std::size_t begin = index_of(b) * block_size;
     failure.guard(b, [&] { body(begin, begin + block_size < n ? begin + block_size : n); });
   }
   failure.rethrow();

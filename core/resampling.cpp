@@ -12,9 +12,9 @@ namespace {
 template<class RowValue> void carry(const NodeRows& rows, Field& value, const RowValue& row_value) {
   Field made(rows.size());
   for (std::size_t p = 0; p < made.size(); ++p) {
-    const std::size_t first = u(rows.begin[p]), last = u(rows.begin[p + 1]);
-    made[p] =
-        last - first == 1 && rows.weight[first] == 1.0 ? value[u(rows.node[first])] : row_value(first, last);
+    const std::size_t first = index_of(rows.begin[p]), last = index_of(rows.begin[p + 1]);
+    made[p] = last - first == 1 && rows.weight[first] == 1.0 ? value[index_of(rows.node[first])]
+                                                             : row_value(first, last);
   }
   value = std::move(made);
 }
@@ -34,19 +34,19 @@ NodeRows NodeRows::identity(std::size_t n) {
 void carry_sum(const NodeRows& parcels, Field& value) {
   carry(parcels, value, [&](std::size_t first, std::size_t last) {
     double sum = 0.0;
-    for (std::size_t e = first; e < last; ++e) sum += parcels.weight[e] * value[u(parcels.node[e])];
+    for (std::size_t e = first; e < last; ++e) sum += parcels.weight[e] * value[index_of(parcels.node[e])];
     return sum;
   });
 }
 
 void carry_mean(const NodeRows& parcels, const Field& weight, Field& value) {
   carry(parcels, value, [&](std::size_t first, std::size_t last) {
-    if (last - first == 1) return value[u(parcels.node[first])];
-    const double one = value[u(parcels.node[first])]; // equal values stay what they are to the bit
+    if (last - first == 1) return value[index_of(parcels.node[first])];
+    const double one = value[index_of(parcels.node[first])]; // equal values stay what they are to the bit
     double sum = 0.0, total = 0.0;
     for (std::size_t e = first; e < last; ++e) {
-      const double share = parcels.weight[e] * weight[u(parcels.node[e])];
-      sum += share * (value[u(parcels.node[e])] - one);
+      const double share = parcels.weight[e] * weight[index_of(parcels.node[e])];
+      sum += share * (value[index_of(parcels.node[e])] - one);
       total += share;
     }
     return one + sum / total;
@@ -57,7 +57,8 @@ void carry_label(const NodeRows& labels, Field& value) { carry_sum(labels, value
 
 void carry_label(const NodeRows& labels, std::vector<std::int32_t>& value) {
   std::vector<std::int32_t> made(labels.size());
-  for (std::size_t p = 0; p < made.size(); ++p) made[p] = value[u(labels.node[u(labels.begin[p])])];
+  for (std::size_t p = 0; p < made.size(); ++p)
+    made[p] = value[index_of(labels.node[index_of(labels.begin[p])])];
   value = std::move(made);
 }
 
@@ -74,7 +75,7 @@ std::vector<std::int32_t> renumbered(const Resampling<dim>& change, std::span<co
                                      std::span<const std::int32_t> pieces) {
   std::vector<std::int32_t> list;
   for (const std::int32_t i : nodes)
-    if (change.new_of[u(i)] >= 0) list.push_back(change.new_of[u(i)]);
+    if (change.new_of[index_of(i)] >= 0) list.push_back(change.new_of[index_of(i)]);
   for (const Facet<dim>& facet : facets_of_pieces(change.cloud, pieces))
     list.insert(list.end(), facet.node.begin(), facet.node.end());
   std::sort(list.begin(), list.end());

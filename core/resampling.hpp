@@ -37,7 +37,7 @@ template<int dim> struct Resampling {
 
   /// Whether node p is other matter than one old node.
   bool mixed(std::size_t p) const {
-    const auto first = u(parcels.begin[p]);
+    const auto first = index_of(parcels.begin[p]);
     return parcels.begin[p + 1] - parcels.begin[p] != 1 || parcels.weight[first] != 1.0;
   }
 };

@@ -19,7 +19,7 @@ namespace {
 void try_threads(int threads) {
   std::latch go(1);
   std::vector<std::jthread> started;
-  started.reserve(u(threads));
+  started.reserve(index_of(threads));
   try {
     for (int k = 0; k < threads; ++k) started.emplace_back([&] { go.wait(); });
   } catch (const std::system_error& error) {

@@ -26,7 +26,7 @@ double TimeTable::operator()(double t) const {
   const auto next = std::upper_bound(time_.begin(), time_.end(), t);
   if (next == time_.begin()) return value_.front();
   if (next == time_.end()) return value_.back();
-  const auto i = u(next - time_.begin());
+  const auto i = index_of(next - time_.begin());
   const double s = (t - time_[i - 1]) / (time_[i] - time_[i - 1]);
   return (1.0 - s) * value_[i - 1] + s * value_[i];
 }

@@ -56,20 +56,20 @@ struct Loop {
 Loop outline_of(const CutSheet& sheet, std::int32_t part) {
   std::vector<std::int32_t> leaving(sheet.position.size(), -1);
   for (std::size_t f = 0; f < sheet.facets.size(); ++f)
-    leaving[u(sheet.facets[f].node[0])] = static_cast<std::int32_t>(f);
+    leaving[index_of(sheet.facets[f].node[0])] = static_cast<std::int32_t>(f);
   std::vector<char> seen(sheet.position.size(), 0);
   Loop longest;
   double most = -1.0;
   for (const Facet<2>& first : sheet.facets) {
-    if (seen[u(first.node[0])] || sheet.part[u(first.node[0])] != part) continue;
+    if (seen[index_of(first.node[0])] || sheet.part[index_of(first.node[0])] != part) continue;
     Loop loop;
     double length = 0.0;
-    for (std::int32_t i = first.node[0]; !seen[u(i)];) {
-      const Facet<2>& facet = sheet.facets[u(leaving[u(i)])];
-      seen[u(i)] = 1;
+    for (std::int32_t i = first.node[0]; !seen[index_of(i)];) {
+      const Facet<2>& facet = sheet.facets[index_of(leaving[index_of(i)])];
+      seen[index_of(i)] = 1;
       loop.node.push_back(i);
       loop.fracture.push_back(facet.piece == sheet.fracture_piece);
-      length += (sheet.position[u(facet.node[1])] - sheet.position[u(i)]).norm();
+      length += (sheet.position[index_of(facet.node[1])] - sheet.position[index_of(i)]).norm();
       i = facet.node[1];
     }
     if (length > most) {
@@ -104,8 +104,8 @@ ShearedFace measure_side(const Cut& cut, const CutTools& tools, const CutSheet& 
     FaceOutline outline;
     outline.fracture = loop.fracture;
     for (const std::int32_t i : loop.node)
-      outline.point.emplace_back(outwards * across(tools, sheet.position[u(i)]),
-                                 into * along(tools, sheet.position[u(i)]));
+      outline.point.emplace_back(outwards * across(tools, sheet.position[index_of(i)]),
+                                 into * along(tools, sheet.position[index_of(i)]));
     FaceRules rules;
     rules.thickness = cut.thickness;
     rules.parallel = parallel;
@@ -180,7 +180,7 @@ std::vector<char> nodes_on_planes(const Supports<2>& supports, const Vec2& direc
   std::vector<char> on(nodes, 0);
   for (const Support<2>& support : supports.list())
     if (support.kind == Support<2>::Kind::symmetry && std::abs(support.direction.dot(direction)) < 1e-6)
-      for (const std::int32_t i : support.nodes) on[u(i)] = 1;
+      for (const std::int32_t i : support.nodes) on[index_of(i)] = 1;
   return on;
 }
 

@@ -120,7 +120,7 @@ std::size_t zone_index(const std::string& name) {
 
 } // namespace
 
-const char* zone_name(Zone zone) { return zone_names[u(zone)]; }
+const char* zone_name(Zone zone) { return zone_names[static_cast<std::size_t>(zone)]; }
 
 std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& result) {
   std::vector<std::pair<std::string, double>> metrics;

@@ -13,7 +13,7 @@ namespace {
 const std::vector<double>& column(const results::HistoryTable& history, const std::string& name) {
   const int k = history.find(name);
   if (k < 0) throw IoError(fmt::format("the history has no column '{}'", name));
-  return history.column[u(k)];
+  return history.column[index_of(k)];
 }
 
 std::vector<double> component(const results::HistoryTable& history, const std::string& vector,
@@ -42,7 +42,7 @@ std::vector<double> interpolated(const std::vector<double>& t, const std::vector
   std::vector<double> value;
   for (const double time : at) {
     const auto upper = std::upper_bound(t.begin(), t.end(), time);
-    const auto k = u(std::clamp<std::ptrdiff_t>(upper - t.begin(), 1, std::ssize(t) - 1));
+    const auto k = index_of(std::clamp<std::ptrdiff_t>(upper - t.begin(), 1, std::ssize(t) - 1));
     const double s = std::clamp((time - t[k - 1]) / (t[k] - t[k - 1]), 0.0, 1.0);
     value.push_back((1.0 - s) * y[k - 1] + s * y[k]);
   }
@@ -57,7 +57,7 @@ std::vector<double> gaussian_filter(const std::vector<double>& t, const std::vec
   for (const double centre : at) {
     const auto first = std::lower_bound(t.begin(), t.end(), centre - reach * sigma) - t.begin();
     double sum = 0.0, weights = 0.0;
-    for (auto k = u(first); k < t.size() && t[k] <= centre + reach * sigma; ++k) {
+    for (auto k = index_of(first); k < t.size() && t[k] <= centre + reach * sigma; ++k) {
       if (!std::isfinite(y[k])) continue;
       const double interval = 0.5 * (t[std::min(k + 1, t.size() - 1)] - t[k > 0 ? k - 1 : 0]);
       const double distance = (t[k] - centre) / sigma;

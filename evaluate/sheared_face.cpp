@@ -35,7 +35,7 @@ public:
   double length() const { return at.back(); }
   Vec2 operator()(double l) const {
     const auto upper = std::upper_bound(at.begin(), at.end(), l) - at.begin();
-    const auto k = u(std::clamp<std::ptrdiff_t>(upper, 1, std::ssize(at) - 1));
+    const auto k = index_of(std::clamp<std::ptrdiff_t>(upper, 1, std::ssize(at) - 1));
     const double size = at[k] - at[k - 1];
     const double s = size > 0.0 ? std::clamp((l - at[k - 1]) / size, 0.0, 1.0) : 0.0;
     return (1.0 - s) * point[k - 1] + s * point[k];
@@ -144,7 +144,7 @@ private:
         deepest = size;
         crack_ = true;
         crack_begin_ = walk_.at[k];
-        crack_end_ = walk_.at[u(high - begin)]; // where the body is whole: the tip
+        crack_end_ = walk_.at[index_of(high - begin)]; // where the body is whole: the tip
       }
       k = last;
     }

@@ -19,13 +19,13 @@ using Mode = Eigen::Vector3d; ///< translation along x and y, rotation times the
 /// G and h of the reference turned into those of the present configuration: b = F⁻ᵀ B, V = J V_0, h/F_θθ.
 DiscreteOperators<2> pushed_forward(const DiscreteOperators<2>& reference, const PointState<2>& point) {
   DiscreteOperators<2> op = reference;
-  for (std::size_t p = 0; p < u(op.points); ++p) {
+  for (std::size_t p = 0; p < index_of(op.points); ++p) {
     Mat2 F;
     F << point.deformation[0][p], point.deformation[1][p], point.deformation[2][p], point.deformation[3][p];
     const Mat2 inverse = F.inverse();
     op.volume[p] *= jacobian<2>(point.deformation, p);
     if (op.of_revolution()) op.radius[p] *= point.deformation[4][p];
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       const Vec2 b = inverse.transpose() * Vec2(op.gradient[0][e], op.gradient[1][e]);
       op.gradient[0][e] = b.x();
       op.gradient[1][e] = b.y();
@@ -78,8 +78,8 @@ public:
     for (std::size_t i = 0; i < position.size(); ++i)
       at(i).radius = std::max(at(i).radius, (position[i] - at(i).centre).norm());
     for (const auto& p : symmetry.prescribed()) {
-      Part& part = at(u(p.node));
-      const Mode felt = part.felt(position[u(p.node)], p.direction);
+      Part& part = at(index_of(p.node));
+      const Mode felt = part.felt(position[index_of(p.node)], p.direction);
       part.held += felt * felt.transpose();
     }
     for (Part& part : list_) {
@@ -108,7 +108,7 @@ public:
     for (int round = 0; round < 3; ++round) {
       std::vector<Best> best(list_.size());
       for (std::size_t i = 0; i < position_.size(); ++i) {
-        const auto part = u(of_node_[i]);
+        const auto part = index_of(of_node_[i]);
         for (const Vec2& direction : {Vec2(1, 0), Vec2(0, 1)}) {
           const Mode felt = left[part] * list_[part].felt(position_[i], direction);
           if (felt.norm() > best[part].gain)
@@ -131,8 +131,8 @@ public:
     for (std::size_t i = 0; i < position_.size(); ++i)
       for (std::size_t k = 0; k < 2; ++k) {
         const Mode felt = at(i).free * at(i).felt(position_[i], Vec2::Unit(static_cast<Eigen::Index>(k)));
-        inertia[u(of_node_[i])] += mass[i] * felt * felt.transpose();
-        momentum[u(of_node_[i])] += mass[i] * u[k][i] * felt;
+        inertia[index_of(of_node_[i])] += mass[i] * felt * felt.transpose();
+        momentum[index_of(of_node_[i])] += mass[i] * u[k][i] * felt;
       }
     std::vector<Mode> mean;
     for (std::size_t part = 0; part < list_.size(); ++part) {
@@ -144,13 +144,13 @@ public:
     for (std::size_t i = 0; i < position_.size(); ++i)
       for (std::size_t k = 0; k < 2; ++k) {
         const Mode felt = at(i).free * at(i).felt(position_[i], Vec2::Unit(static_cast<Eigen::Index>(k)));
-        u[k][i] -= felt.dot(mean[u(of_node_[i])]);
+        u[k][i] -= felt.dot(mean[index_of(of_node_[i])]);
       }
   }
 
 private:
-  Part& at(std::size_t node) { return list_[u(of_node_[node])]; }
-  const Part& at(std::size_t node) const { return list_[u(of_node_[node])]; }
+  Part& at(std::size_t node) { return list_[index_of(of_node_[node])]; }
+  const Part& at(std::size_t node) const { return list_[index_of(of_node_[node])]; }
 
   const std::vector<Vec2>& position_;
   std::vector<std::int32_t> of_node_;
@@ -183,7 +183,7 @@ Springback springback(const StressedBody& body) {
 
   std::vector<plasticity::Elasticity> elasticity;
   for (const std::int32_t material : body.point.material)
-    elasticity.push_back(body.materials[u(material)].elasticity);
+    elasticity.push_back(body.materials[index_of(material)].elasticity);
   const StaticSolution solution = solve_statics({.operators = op,
                                                  .position = position,
                                                  .links = body.approximation.links,
@@ -201,7 +201,7 @@ Springback springback(const StressedBody& body) {
   if (const double scale = largest(force); scale > 0.0)
     for (const auto& p : supports.prescribed()) {
       if (p.support < first_pin) continue;
-      const auto i = u(p.node);
+      const auto i = index_of(p.node);
       const double along = p.direction.dot(Vec2(solution.reaction[0][i], solution.reaction[1][i]));
       result.residual = std::max(result.residual, std::abs(along) / scale);
     }

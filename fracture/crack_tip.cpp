@@ -22,7 +22,8 @@ double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
 std::int32_t nearest_node(const Cloud<2>& cloud, const Vec2& x) {
   std::int32_t best = 0;
   for (std::int32_t i = 1; i < cloud.nodes(); ++i)
-    if ((cloud.position[u(i)] - x).squaredNorm() < (cloud.position[u(best)] - x).squaredNorm()) best = i;
+    if ((cloud.position[index_of(i)] - x).squaredNorm() < (cloud.position[index_of(best)] - x).squaredNorm())
+      best = i;
   return best;
 }
 
@@ -38,10 +39,11 @@ double CrackTip::angle(const Vec2& x) const {
 }
 
 double CrackTip::angle_of_node(std::int32_t i, const Vec2& x) const {
-  if (face[u(i)] != 0) {
+  if (face[index_of(i)] != 0) {
     // Beyond a kink the faces leave the line θ = ±π; the side still tells which way round to go.
     const double theta = angle(x);
-    return std::abs(theta) > 0.5 * std::numbers::pi ? std::copysign(std::abs(theta), face[u(i)]) : theta;
+    return std::abs(theta) > 0.5 * std::numbers::pi ? std::copysign(std::abs(theta), face[index_of(i)])
+                                                    : theta;
   }
   return angle(x);
 }
@@ -66,9 +68,9 @@ std::array<FacetPoint, 4> facet_points(const CrackTip& tip, const FacetLoad& fac
 }
 
 std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPath>& cracks) {
-  std::vector<bool> twinned(u(cloud.nodes()), false);
+  std::vector<bool> twinned(index_of(cloud.nodes()), false);
   for (const auto& pair : cloud.twins)
-    for (const std::int32_t i : pair) twinned[u(i)] = true;
+    for (const std::int32_t i : pair) twinned[index_of(i)] = true;
   std::vector<CrackTip> tips;
   for (const CrackPath& crack : cracks) {
     double length = 0.0;
@@ -82,19 +84,19 @@ std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPa
       tip.name = crack.tip_names[last ? 1 : 0];
       tip.crack = crack.name;
       tip.node = nearest_node(cloud, end);
-      tip.position = cloud.position[u(tip.node)];
+      tip.position = cloud.position[index_of(tip.node)];
       if ((tip.position - end).norm() > 1e-6 * length)
         throw GeometryError(fmt::format("the crack '{}' ends at ({:g}, {:g}) m, where there is no node",
                                         crack.name, end.x(), end.y()));
-      if (twinned[u(tip.node)]) continue; // a mouth
+      if (twinned[index_of(tip.node)]) continue; // a mouth
       tip.direction = (end - before).normalized();
       tip.straight = (end - before).norm();
-      tip.face.assign(u(cloud.nodes()), 0);
+      tip.face.assign(index_of(cloud.nodes()), 0);
       tip.clearance = std::numeric_limits<double>::infinity();
       double edges = 0.0;
       for (const Facet<2>& facet : cloud.facets) {
-        const std::string& piece = cloud.piece_names[u(facet.piece)];
-        const Vec2 &a = cloud.position[u(facet.node[0])], &b = cloud.position[u(facet.node[1])];
+        const std::string& piece = cloud.piece_names[index_of(facet.piece)];
+        const Vec2 &a = cloud.position[index_of(facet.node[0])], &b = cloud.position[index_of(facet.node[1])];
         if (!is_face(piece, crack.name)) {
           tip.clearance = std::min(tip.clearance, distance_to_segment(tip.position, a, b));
           continue;
@@ -104,7 +106,7 @@ std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPa
             edges += 0.5;
             tip.spacing += 0.5 * (b - a).norm();
           } else {
-            tip.face[u(i)] = static_cast<std::int8_t>((piece.back() == '+') == last ? 1 : -1);
+            tip.face[index_of(i)] = static_cast<std::int8_t>((piece.back() == '+') == last ? 1 : -1);
           }
         }
       }

@@ -53,10 +53,10 @@ std::array<double, branch_count> on_facet(const EnrichedOperators::Function& fun
 std::vector<QuadraturePoint> fan(const CellGeometry<2>& cells, std::size_t cell, const Vec2& apex,
                                  bool at_tip, const LineRule& rule) {
   std::vector<QuadraturePoint> points;
-  const auto first = u(cells.begin[cell]), last = u(cells.begin[cell + 1]);
+  const auto first = index_of(cells.begin[cell]), last = index_of(cells.begin[cell + 1]);
   for (std::size_t k = first; k < last; ++k) {
-    const Vec2& a = cells.vertex[u(cells.index[k])];
-    const Vec2& b = cells.vertex[u(cells.index[k + 1 < last ? k + 1 : first])];
+    const Vec2& a = cells.vertex[index_of(cells.index[k])];
+    const Vec2& b = cells.vertex[index_of(cells.index[k + 1 < last ? k + 1 : first])];
     const double twice_area = cross(a - apex, b - apex);
     if (std::abs(twice_area) < 1e-14 * ((a - apex).squaredNorm() + (b - apex).squaredNorm())) continue;
     for (std::size_t i = 0; i < rule.x.size(); ++i) {
@@ -79,7 +79,7 @@ struct Layout {
 
 Layout lay_out(const Cloud<2>& cloud, const Approximation<2>& base, const std::vector<CrackTip>& tips,
                const std::vector<double>& radius) {
-  const auto nodes = u(cloud.nodes());
+  const auto nodes = index_of(cloud.nodes());
   Layout layout;
   layout.of_node.resize(nodes);
   layout.enriched.assign(nodes, false);
@@ -87,21 +87,21 @@ Layout lay_out(const Cloud<2>& cloud, const Approximation<2>& base, const std::v
   layout.columns = cloud.nodes();
   for (std::int32_t i = 0; i < cloud.nodes(); ++i)
     for (std::size_t t = 0; t < tips.size(); ++t) {
-      const Vec2& x = cloud.position[u(i)];
+      const Vec2& x = cloud.position[index_of(i)];
       const double r = (x - tips[t].position).norm();
-      layout.tip_distance[u(i)] = std::min(layout.tip_distance[u(i)], r / tips[t].spacing);
+      layout.tip_distance[index_of(i)] = std::min(layout.tip_distance[index_of(i)], r / tips[t].spacing);
       if (r > radius[t] || radius[t] <= 0.0) continue;
-      layout.of_node[u(i)].push_back({i, t, branch(r, tips[t].angle_of_node(i, x)), layout.columns});
+      layout.of_node[index_of(i)].push_back({i, t, branch(r, tips[t].angle_of_node(i, x)), layout.columns});
       layout.columns += static_cast<std::int32_t>(branch_count);
-      layout.enriched[u(i)] = true;
+      layout.enriched[index_of(i)] = true;
     }
   // φ_J is felt in the cells of its neighbours and may reach into those of theirs.
   for (int ring = 0; ring < 2; ++ring) {
     std::vector<bool> wider = layout.enriched;
     for (std::size_t i = 0; i < nodes; ++i)
       if (layout.enriched[i])
-        for (auto l = u(base.links.begin[i]); l < u(base.links.begin[i + 1]); ++l)
-          wider[u(base.links.neighbour[l])] = true;
+        for (auto l = index_of(base.links.begin[i]); l < index_of(base.links.begin[i + 1]); ++l)
+          wider[index_of(base.links.neighbour[l])] = true;
     layout.enriched = std::move(wider);
   }
   return layout;
@@ -128,13 +128,13 @@ struct Rows {
 };
 
 Vec2 centroid(const CellGeometry<2>& cells, std::size_t cell) {
-  const auto first = u(cells.begin[cell]), last = u(cells.begin[cell + 1]);
-  const Vec2 origin = cells.vertex[u(cells.index[first])];
+  const auto first = index_of(cells.begin[cell]), last = index_of(cells.begin[cell + 1]);
+  const Vec2 origin = cells.vertex[index_of(cells.index[first])];
   double twice_area = 0.0;
   Vec2 moment = Vec2::Zero();
   for (std::size_t k = first; k < last; ++k) {
-    const Vec2 a = cells.vertex[u(cells.index[k])] - origin;
-    const Vec2 b = cells.vertex[u(cells.index[k + 1 < last ? k + 1 : first])] - origin;
+    const Vec2 a = cells.vertex[index_of(cells.index[k])] - origin;
+    const Vec2 b = cells.vertex[index_of(cells.index[k + 1 < last ? k + 1 : first])] - origin;
     twice_area += cross(a, b);
     moment += cross(a, b) * (a + b) / 3.0;
   }
@@ -159,7 +159,7 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
   const double to_volume = op.volume[cell] / area;
   std::vector<Sample> samples;
   std::map<std::int32_t, Vec2> correction; // V b − ∫ ∇φ, then per volume
-  for (auto e = u(op.row_begin[cell]); e < u(op.row_begin[cell + 1]); ++e)
+  for (auto e = index_of(op.row_begin[cell]); e < index_of(op.row_begin[cell + 1]); ++e)
     correction[op.node[e]] = op.volume[cell] * Vec2(op.gradient[0][e], op.gradient[1][e]);
   for (QuadraturePoint point : points) {
     point.weight *= to_volume;
@@ -185,7 +185,7 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
     }
     for (const auto& [node, f] : phi) rows.entry(node, f.first, f.second);
     for (std::size_t j = 0; j < sample.node.size(); ++j)
-      for (const auto& function : layout.of_node[u(sample.node[j])]) {
+      for (const auto& function : layout.of_node[index_of(sample.node[j])]) {
         const CrackTip& tip = tips[function.tip];
         const double r = (sample.point.position - tip.position).norm();
         const double theta = tip.angle(sample.point.position);
@@ -207,25 +207,25 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
 /// Hillman and Rüter 2013).
 void make_consistent(const Cloud<2>& cloud, const std::vector<CrackTip>& tips,
                      const std::vector<EnrichedOperators::Function>& functions, DiscreteOperators<2>& op) {
-  const auto first = u(cloud.nodes()), count = u(op.nodes) - first;
+  const auto first = index_of(cloud.nodes()), count = index_of(op.nodes) - first;
   std::vector<Vec2> defect(count, Vec2::Zero());
   for (const auto& function : functions)
     for (const Facet<2>& facet : cloud.facets) {
       if (facet.node[0] != function.node && facet.node[1] != function.node) continue;
-      const Vec2 &a = cloud.position[u(facet.node[0])], &b = cloud.position[u(facet.node[1])];
+      const Vec2 &a = cloud.position[index_of(facet.node[0])], &b = cloud.position[index_of(facet.node[1])];
       const Vec2 outward = -left_normal(b - a).normalized();
       const FacetLoad load{facet.node, a, b, outward};
       for (const FacetPoint& point : facet_points(tips[function.tip], load)) {
         const auto psi = on_facet(function, load, point);
         for (std::size_t k = 0; k < branch_count; ++k)
-          defect[u(function.column) + k - first] += point.weight * psi[k] * outward;
+          defect[index_of(function.column) + k - first] += point.weight * psi[k] * outward;
       }
     }
   std::vector<double> area(count, 0.0);
   const auto each_entry = [&](auto&& act) {
-    for (std::size_t p = 0; p < u(op.points); ++p)
-      for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e)
-        if (u(op.node[e]) >= first) act(p, e, u(op.node[e]) - first);
+    for (std::size_t p = 0; p < index_of(op.points); ++p)
+      for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e)
+        if (index_of(op.node[e]) >= first) act(p, e, index_of(op.node[e]) - first);
   };
   each_entry([&](std::size_t p, std::size_t e, std::size_t a) {
     area[a] += op.volume[p];
@@ -247,7 +247,7 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
   if (!wanted) {
     result.operators = base.mechanics;
     result.links = base.links;
-    for (std::size_t p = 0; p < u(base.mechanics.points); ++p) {
+    for (std::size_t p = 0; p < index_of(base.mechanics.points); ++p) {
       result.position.push_back(centroid(base.cells, p));
       result.cell.push_back(static_cast<std::int32_t>(p));
     }
@@ -266,7 +266,7 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
   DiscreteOperators<2>& op = result.operators;
   op.nodes = layout.columns;
   op.row_begin.push_back(0);
-  for (std::size_t i = 0; i < u(cloud.nodes()); ++i) {
+  for (std::size_t i = 0; i < index_of(cloud.nodes()); ++i) {
     const bool at_tip = std::any_of(tips.begin(), tips.end(), [&](const CrackTip& tip) {
       return tip.node == static_cast<std::int32_t>(i);
     });
@@ -287,7 +287,7 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
     result.functions.insert(result.functions.end(), list.begin(), list.end());
   make_consistent(cloud, tips, result.functions, op);
   op.build_transpose();
-  result.links.begin.assign(u(cloud.nodes()) + 1, 0);
+  result.links.begin.assign(index_of(cloud.nodes()) + 1, 0);
   return result;
 }
 
@@ -302,16 +302,17 @@ Fields<2> forces_on_functions(const EnrichedOperators& enriched, const std::vect
                               const Vec2& body_force) {
   const DiscreteOperators<2>& op = enriched.operators;
   Fields<2> force = nodal;
-  for (Field& component : force) component.resize(u(op.nodes), 0.0);
+  for (Field& component : force) component.resize(index_of(op.nodes), 0.0);
   const auto add = [&](std::int32_t column, const Vec2& f) {
-    force[0][u(column)] += f.x();
-    force[1][u(column)] += f.y();
+    force[0][index_of(column)] += f.x();
+    force[1][index_of(column)] += f.y();
   };
   for (const EnrichedOperators::Function& function : enriched.functions) {
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(branch_count); ++k) {
-      const auto a = u(function.column + k);
+      const auto a = index_of(function.column + k);
       double integral = 0.0;
-      for (auto e = u(op.col_begin[a]); e < u(op.col_begin[a + 1]); ++e) integral += op.weighted_value[e];
+      for (auto e = index_of(op.col_begin[a]); e < index_of(op.col_begin[a + 1]); ++e)
+        integral += op.weighted_value[e];
       add(function.column + k, integral * body_force);
     }
     for (const FacetLoad& load : loads) {

@@ -39,11 +39,11 @@ StressIntensity stress_intensity(const CrackTip& tip, const Ring& ring, const Pl
   for (std::size_t i = 0; i < q.size(); ++i) q[i] = plateau(ring, (field.node[i] - tip.position).norm());
 
   std::array<double, 2> sum{0.0, 0.0};
-  for (std::size_t p = 0; p < u(op.points); ++p) {
+  for (std::size_t p = 0; p < index_of(op.points); ++p) {
     Vec2 dq = Vec2::Zero();
     bool touched = false;
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
-      const auto i = u(op.node[e]);
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
+      const auto i = index_of(op.node[e]);
       if (i >= q.size() || q[i] == 0.0) continue;
       touched = true;
       dq += q[i] * Vec2(op.gradient[0][e], op.gradient[1][e]);
@@ -61,14 +61,14 @@ StressIntensity stress_intensity(const CrackTip& tip, const Ring& ring, const Pl
       const TipField unit = tip_field(mode, elasticity, r, theta);
       const Vec2 flow = stress * unit.gradient.col(0) + unit.stress * gradient.col(0);
       const double mixed = unit.stress.cwiseProduct(gradient).sum();
-      sum[u(mode)] += op.volume[p] * (flow.dot(slope) - mixed * slope.x());
+      sum[index_of(mode)] += op.volume[p] * (flow.dot(slope) - mixed * slope.x());
     }
   }
   for (const FacetLoad& load : loads) {
     const double nearest = std::min((load.from - tip.position).norm(), (load.to - tip.position).norm());
     if (nearest >= ring.outer || load.traction.squaredNorm() == 0.0) continue;
     for (int mode = 0; mode < 2; ++mode)
-      sum[u(mode)] -= facet_integral(tip, ring, elasticity, mode, load, to_frame);
+      sum[index_of(mode)] -= facet_integral(tip, ring, elasticity, mode, load, to_frame);
   }
   return {0.5 * elasticity.effective * sum[0], 0.5 * elasticity.effective * sum[1]};
 }

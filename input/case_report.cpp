@@ -73,7 +73,7 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
                                        fmt::join(names, "\", \"")));
   const auto index_of = [&](const Setting& key, const std::string& name) -> std::optional<std::size_t> {
     const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return u(found - names.begin());
+    if (found != names.end()) return index_of(found - names.begin());
     diagnostics.add(
         Mistake::reference, key.where, key.path,
         fmt::format("found '{}', expected the name of a tool{}", name, did_you_mean(name, names)));

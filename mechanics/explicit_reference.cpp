@@ -15,7 +15,7 @@ ExplicitSolver<dim>::ExplicitSolver(Problem<dim> problem, Fields<dim> velocity, 
       conditions_(std::move(static_cast<Conditions<dim>&>(problem))), terms_(make_terms(model_)),
       local_(model_.local) {
   NodeState<dim>& node = state_.node;
-  const auto n = u(conditions_.cloud.nodes());
+  const auto n = index_of(conditions_.cloud.nodes());
   node.scaling.switch_on(model_.mass_scaling.active());
   state_.point.damaged.switch_on(
       std::any_of(model_.materials.begin(), model_.materials.end(),
@@ -75,7 +75,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   const std::ptrdiff_t bad =
       plasticity::update_stress(model_.materials, point.material, plasticity::stress_points(point), 0,
                                 static_cast<std::ptrdiff_t>(points), 0.0);
-  if (bad >= 0) diverged(u(bad), "elastic strain");
+  if (bad >= 0) diverged(index_of(bad), "elastic strain");
   each([&](Term<dim>& term) { term.renew(body()); });
   for (std::size_t p = 0; p < points; ++p)
     point.density[p] = body().material_of(p).density * point.stress_free[p];
@@ -129,7 +129,7 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
   const DiscreteOperators<dim>& op = approximation_.mechanics;
-  const auto points = u(op.points);
+  const auto points = index_of(op.points);
   node.mass = op.node_volume();
   for (std::size_t i = 0; i < node.mass.size(); ++i) {
     const plasticity::Material& material = body().material_of_node(i);

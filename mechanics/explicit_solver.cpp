@@ -110,7 +110,7 @@ template<int dim> void ExplicitSolver<dim>::update_stress(int activity, int befo
     each([&](Term<dim>& term) { term.after_stress(body, due, range); });
   });
   for (const std::ptrdiff_t p : bad)
-    if (p >= 0) diverged(u(p), "deformation gradient");
+    if (p >= 0) diverged(index_of(p), "deformation gradient");
   each([&](Term<dim>& term) { term.end_stress(body, due); });
 }
 

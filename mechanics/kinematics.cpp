@@ -10,7 +10,7 @@ namespace cnem {
 
 namespace {
 
-std::size_t at(const std::vector<std::int32_t>& v, std::size_t i) { return u(v[i]); }
+std::size_t at(const std::vector<std::int32_t>& v, std::size_t i) { return index_of(v[i]); }
 
 template<int dim>
 void deformation_rows_of(const DiscreteOperators<dim>& op, const double* position, double* const* deformation,
@@ -73,7 +73,7 @@ double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_
 }
 
 template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators, const Field& at_points) {
-  Field nodal(u(operators.nodes));
+  Field nodal(index_of(operators.nodes));
   for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = average_at_node(operators, at_points, i);
   return nodal;
 }
@@ -125,12 +125,12 @@ template<> void push_forward<3>(PointState<3>& point) {
     Mat<3> f, c;
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
-        f(i, k) = point.deformation[u(3 * i + k)][p];
-        c(i, k) = point.inverse_plastic_cauchy_green[u(place[i][k])][p];
+        f(i, k) = point.deformation[index_of(3 * i + k)][p];
+        c(i, k) = point.inverse_plastic_cauchy_green[index_of(place[i][k])][p];
       }
     const Mat<3> pushed = f * c * f.transpose();
     for (int i = 0; i < 3; ++i)
-      for (int k = i; k < 3; ++k) point.inverse_plastic_cauchy_green[u(place[i][k])][p] = pushed(i, k);
+      for (int k = i; k < 3; ++k) point.inverse_plastic_cauchy_green[index_of(place[i][k])][p] = pushed(i, k);
   }
 }
 

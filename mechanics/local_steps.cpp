@@ -21,11 +21,11 @@ std::size_t blocks_of(std::size_t nodes, std::size_t size) { return (nodes + siz
 template<int dim>
 std::vector<std::int8_t> finest_point(const DiscreteOperators<dim>& op,
                                       const typename LocalSteps<dim>::Levels& level) {
-  std::vector<std::int8_t> finest(u(op.nodes));
+  std::vector<std::int8_t> finest(index_of(op.nodes));
   for (std::size_t j = 0; j < finest.size(); ++j) {
     std::int8_t least = level[j / block<dim>];
-    for (std::size_t e = u(op.col_begin[j]); e < u(op.col_begin[j + 1]); ++e)
-      least = std::min(least, level[u(op.point[e]) / block<dim>]);
+    for (std::size_t e = index_of(op.col_begin[j]); e < index_of(op.col_begin[j + 1]); ++e)
+      least = std::min(least, level[index_of(op.point[e]) / block<dim>]);
     finest[j] = least;
   }
   return finest;
@@ -76,12 +76,12 @@ void LocalSteps<dim>::grade(const DiscreteOperators<dim>& op, const Stabilisatio
       own = static_cast<std::int8_t>(to);
       changed = true;
     };
-    for (std::size_t p = 0; p < u(op.points); ++p) {
-      for (std::size_t e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e)
-        lower(p, finest[u(op.node[e])] + 1);
+    for (std::size_t p = 0; p < index_of(op.points); ++p) {
+      for (std::size_t e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e)
+        lower(p, finest[index_of(op.node[e])] + 1);
       if (links.neighbour.empty()) continue;
-      for (std::size_t e = u(links.begin[p]); e < u(links.begin[p + 1]); ++e)
-        lower(p, level[u(links.neighbour[e]) / block] + 1);
+      for (std::size_t e = index_of(links.begin[p]); e < index_of(links.begin[p + 1]); ++e)
+        lower(p, level[index_of(links.neighbour[e]) / block] + 1);
     }
   }
 }
@@ -90,7 +90,7 @@ template<int dim>
 typename LocalSteps<dim>::Choice LocalSteps<dim>::choose(const DiscreteOperators<dim>& op,
                                                          const StabilisationLinks<dim>& links,
                                                          const Field& stable) {
-  const std::size_t nodes = u(op.nodes);
+  const std::size_t nodes = index_of(op.nodes);
   if (!on()) { // all of one level, whatever the blocks are
     Choice one;
     one.finest = std::numeric_limits<double>::infinity();
@@ -133,7 +133,8 @@ typename LocalSteps<dim>::Choice LocalSteps<dim>::choose(const DiscreteOperators
 template<int dim> void LocalSteps<dim>::follow(const NodeRows& labels) {
   Levels followed(blocks_of(labels.size(), block), std::numeric_limits<std::int8_t>::max());
   for (std::size_t i = 0; i < labels.size(); ++i)
-    followed[i / block] = std::min(followed[i / block], level_[u(labels.node[u(labels.begin[i])]) / block]);
+    followed[i / block] =
+        std::min(followed[i / block], level_[index_of(labels.node[index_of(labels.begin[i])]) / block]);
   level_ = std::move(followed);
 }
 
@@ -141,7 +142,7 @@ template<int dim>
 void LocalSteps<dim>::set_levels(Levels level, const DiscreteOperators<dim>& op,
                                  const StabilisationLinks<dim>& links, const std::vector<bool>& finest) {
   level_ = std::move(level);
-  const std::size_t nodes = u(op.nodes);
+  const std::size_t nodes = index_of(op.nodes);
   level_.resize(blocks_of(nodes, block), 0);
   highest_ = *std::max_element(level_.begin(), level_.end());
   const std::vector<std::int8_t> least = finest_point(op, level_);
@@ -152,8 +153,8 @@ void LocalSteps<dim>::set_levels(Levels level, const DiscreteOperators<dim>& op,
     if (finest[i]) move_[i / block] = 0;
   std::vector<bool> silent(level_.size(), false);
   for (std::size_t p = 0; p < nodes; ++p)
-    for (std::size_t e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e)
-      if (kick_[u(op.node[e]) / block] < level_[p / block]) silent[p / block] = true;
+    for (std::size_t e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e)
+      if (kick_[index_of(op.node[e]) / block] < level_[p / block]) silent[p / block] = true;
   split(links);
   list(nodes, silent);
 }
@@ -184,8 +185,8 @@ template<int dim> void LocalSteps<dim>::split(const StabilisationLinks<dim>& lin
   own_.neighbour.reserve(links.neighbour.size());
   own_.weight.reserve(links.weight.size());
   for (std::size_t i = 0; i < nodes; ++i) {
-    for (std::size_t e = u(links.begin[i]); e < u(links.begin[i + 1]); ++e) {
-      const int coarser = level_[u(links.neighbour[e]) / block] - level_[i / block];
+    for (std::size_t e = index_of(links.begin[i]); e < index_of(links.begin[i + 1]); ++e) {
+      const int coarser = level_[index_of(links.neighbour[e]) / block] - level_[i / block];
       StabilisationLinks<dim>& part = coarser > 0 ? coarse_ : own_;
       part.neighbour.push_back(links.neighbour[e]);
       part.weight.push_back(coarser > 0 ? links.weight[e] * (1 << coarser) : links.weight[e]);
@@ -228,11 +229,11 @@ template<int dim> int LocalSteps<dim>::activity(int s) const {
 template<int dim>
 double LocalSteps<dim>::window(const DiscreteOperators<dim>& op, std::size_t node, int activity) const {
   double sum = 0.0, whole = 0.0;
-  for (std::size_t e = u(op.col_begin[node]); e < u(op.col_begin[node + 1]); ++e) {
+  for (std::size_t e = index_of(op.col_begin[node]); e < index_of(op.col_begin[node + 1]); ++e) {
     double square = 0.0;
     for (std::size_t k = 0; k < dim; ++k) square += op.weighted_gradient[k][e] * op.weighted_gradient[k][e];
     const double share = std::sqrt(square);
-    const int level = level_[u(op.point[e]) / block];
+    const int level = level_[index_of(op.point[e]) / block];
     whole += share;
     if (level <= activity) sum += share * (1 << level);
   }

@@ -113,7 +113,7 @@ private:
   struct Due {
     std::vector<LevelRange> points, kicked, moved, silenced;
   };
-  static std::size_t at(int i) { return u(i); }
+  static std::size_t at(int i) { return index_of(i); }
   void split(const StabilisationLinks<dim>& links);
   void list(std::size_t nodes, const std::vector<bool>& silent);
 
@@ -144,14 +144,15 @@ template<class Body> void for_each_range(const std::vector<LevelRange>& ranges, 
   if (count == 1) return body(ranges.front());
   ParallelFailure failure;
 #pragma omp parallel for schedule(dynamic)
-  for (std::ptrdiff_t r = 0; r < count; ++r) failure.guard(r, [&] { body(ranges[u(r)]); });
+  for (std::ptrdiff_t r = 0; r < count; ++r) failure.guard(r, [&] { body(ranges[index_of(r)]); });
   failure.rethrow();
 }
 
 /// Sum of body(range), added up in the order of the ranges.
 template<class Body> double sum_ranges(const std::vector<LevelRange>& ranges, Body&& body) {
   std::vector<double> partial(ranges.size());
-  for_each_range(ranges, [&](const LevelRange& range) { partial[u(&range - ranges.data())] = body(range); });
+  for_each_range(ranges,
+                 [&](const LevelRange& range) { partial[index_of(&range - ranges.data())] = body(range); });
   double sum = 0.0;
   for (const double value : partial) sum += value;
   return sum;

@@ -17,14 +17,14 @@ template<int dim> double block_norm(const Fields<dim>& gradient, const Field& ho
   return std::sqrt(square);
 }
 
-std::size_t at(const std::vector<std::int32_t>& list, std::size_t i) { return u(list[i]); }
+std::size_t at(const std::vector<std::int32_t>& list, std::size_t i) { return index_of(list[i]); }
 
 } // namespace
 
 template<int dim>
 Field scales_for_frequency(const DiscreteOperators<dim>& operators, const Field& wave_modulus,
                            const Field& mass, double most) {
-  const auto points = u(operators.points);
+  const auto points = index_of(operators.points);
   Field transfer(mass.size(), 0.0), scale(mass.size(), 1.0);
   for (std::size_t j = 0; j < mass.size(); ++j) {
     for (std::size_t e = at(operators.col_begin, j); e < at(operators.col_begin, j + 1); ++e)

@@ -28,7 +28,7 @@ Field held_tension(const std::vector<plasticity::Material>& materials, const Poi
     const auto log_elastic =
         plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, p));
     const double tension =
-        dilatation<dim>(log_elastic, materials[u(point.material[p])], point.temperature[p]) -
+        dilatation<dim>(log_elastic, materials[index_of(point.material[p])], point.temperature[p]) -
         point.opening[p];
     held[p] = tension > 0.0 ? (1.0 - point.softening[p]) * tension * tension : 0.0;
   }
@@ -41,14 +41,14 @@ void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& 
   Fields<symmetric_size<dim>> mixed;
   for (std::size_t k = 0; k < mixed.size(); ++k) mixed[k].resize(change.parcels.size());
   for (std::size_t p = 0; p < change.parcels.size(); ++p) {
-    const auto first = u(change.parcels.begin[p]), last = u(change.parcels.begin[p + 1]);
+    const auto first = index_of(change.parcels.begin[p]), last = index_of(change.parcels.begin[p + 1]);
     auto elastic =
-        plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, u(change.parcels.node[first]));
+        plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, index_of(change.parcels.node[first]));
     if (last - first > 1) {
       elastic.setZero();
       double total = 0.0, volume = 0.0;
       for (std::size_t e = first; e < last; ++e) {
-        const auto k = u(change.parcels.node[e]);
+        const auto k = index_of(change.parcels.node[e]);
         const double share = change.parcels.weight[e] * mass[k];
         const auto part =
             plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, k));
@@ -57,7 +57,7 @@ void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& 
         total += share;
       }
       elastic /= total;
-      const plasticity::Material& material = materials[u(point.material[p])];
+      const plasticity::Material& material = materials[index_of(point.material[p])];
       const double softening = material.damage ? point.softening[p] : 0.0;
       if (softening > 0.0) // gaps are volumes, which add
         elastic.template head<3>().array() +=

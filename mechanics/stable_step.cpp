@@ -51,7 +51,7 @@ SpectralView<dim> view_of(const DiscreteOperators<dim>& operators, Field& invers
 template<int dim>
 void SpectralBound<dim>::prepare(const DiscreteOperators<dim>& operators,
                                  const Fields<tensor_size<dim>>& deformation, const Field& weight) {
-  const auto nodes = u(operators.nodes), points = u(operators.points);
+  const auto nodes = index_of(operators.nodes), points = index_of(operators.points);
   inverse_.resize(SpectralView<dim>::stride * points);
   transfer_.resize(nodes);
   const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
@@ -71,13 +71,13 @@ SpectralBound<dim>::evaluate(const DiscreteOperators<dim>& operators,
                              const Field& weight, std::size_t width) {
   prepare(operators, deformation, weight);
   const SpectralView<dim> view = view_of(operators, inverse_, transfer_);
-  const auto points = u(operators.points);
+  const auto points = index_of(operators.points);
   std::vector<Result> ranges((points + width - 1) / width);
   for_each_block(points, [&](std::size_t first, std::size_t last) {
     for (std::size_t begin = first; begin < last; begin += width) {
       const SpectralMaximum most = largest(view, modulus.data(), static_cast<std::ptrdiff_t>(begin),
                                            static_cast<std::ptrdiff_t>(std::min(begin + width, last)));
-      ranges[begin / width] = {most.value, u(most.point)};
+      ranges[begin / width] = {most.value, index_of(most.point)};
     }
   });
   return ranges;

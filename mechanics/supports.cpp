@@ -28,12 +28,12 @@ template<int dim> void Supports<dim>::resolve(std::size_t nodes) {
   for (std::size_t s = 0; s < support_.size(); ++s) {
     const bool moving = support_[s].kind != Support<dim>::Kind::symmetry;
     for (const std::int32_t node : support_[s].nodes) {
-      auto& mine = held[u(node)];
+      auto& mine = held[index_of(node)];
       Vec<dim> rest = support_[s].direction;
       bool oblique_to_moving = false;
       for (const Prescribed& other : mine) {
         const double along = rest.dot(other.direction);
-        const bool other_moves = support_[u(other.support)].kind != Support<dim>::Kind::symmetry;
+        const bool other_moves = support_[index_of(other.support)].kind != Support<dim>::Kind::symmetry;
         oblique_to_moving |=
             std::abs(along) > 1e-9 && std::abs(along) < 1.0 - 1e-9 && (moving || other_moves);
         rest -= along * other.direction;
@@ -42,7 +42,7 @@ template<int dim> void Supports<dim>::resolve(std::size_t nodes) {
         throw InputError(fmt::format(
             "support '{}' is oblique to support '{}' at a node they share, expected directions of "
             "prescribed motion that are equal or at right angles",
-            support_[s].name, support_[u(mine.front().support)].name));
+            support_[s].name, support_[index_of(mine.front().support)].name));
       if (rest.norm() < 1e-9) continue;
       mine.push_back({node, static_cast<std::int32_t>(s), rest.normalized()});
     }
@@ -71,8 +71,8 @@ void Supports<dim>::apply(double time, double dt, double dt_mean, const Field& m
       target[s] = (value(time + dt) - value(time)) / dt;
   }
   for (const Prescribed& p : prescribed_) {
-    const auto i = u(p.node);
-    const auto s = u(p.support);
+    const auto i = index_of(p.node);
+    const auto s = index_of(p.support);
     double now = 0.0, was = 0.0;
     for (std::size_t k = 0; k < dim; ++k) {
       now += velocity[k][i] * p.direction[static_cast<Eigen::Index>(k)];
@@ -99,7 +99,7 @@ template<int dim> void Supports<dim>::archive_nodes(Archive& archive, std::size_
 }
 
 template<int dim> double Supports<dim>::displacement(std::int32_t s, double time) const {
-  const Support<dim>& support = support_[u(s)];
+  const Support<dim>& support = support_[index_of(s)];
   switch (support.kind) {
   case Support<dim>::Kind::velocity:
     return support.value.integral(time);

@@ -21,10 +21,11 @@ Field distances(const Cloud<2>& cloud, const voronoi::Cells& cells) {
   Field length(cloud.position.size(), 0.0), distance(length);
   for (const voronoi::InteriorFacet& facet : cells.interior) {
     const double l = (facet.end - facet.start).norm();
-    const double d = (cloud.position[u(facet.cell[1])] - cloud.position[u(facet.cell[0])]).norm();
+    const double d =
+        (cloud.position[index_of(facet.cell[1])] - cloud.position[index_of(facet.cell[0])]).norm();
     for (const std::int32_t i : facet.cell) {
-      length[u(i)] += l;
-      distance[u(i)] += l * d;
+      length[index_of(i)] += l;
+      distance[index_of(i)] += l * d;
     }
   }
   for (std::size_t i = 0; i < length.size(); ++i) distance[i] /= length[i];
@@ -46,7 +47,8 @@ public:
     open_ = {0};
     for (std::size_t next = 0; next < open_.size(); ++next) {
       const Reached from = reached_[open_[next]];
-      for (auto e = u(links_.begin[u(from.node)]); e < u(links_.begin[u(from.node) + 1]); ++e)
+      for (auto e = index_of(links_.begin[index_of(from.node)]);
+           e < index_of(links_.begin[index_of(from.node) + 1]); ++e)
         relax(centre, support, detour * support, from, links_.neighbour[e]);
     }
     found_.clear();
@@ -63,7 +65,7 @@ private:
   };
 
   double straight(std::int32_t i, std::int32_t j) const {
-    return (cloud_.position[u(j)] - cloud_.position[u(i)]).norm();
+    return (cloud_.position[index_of(j)] - cloud_.position[index_of(i)]).norm();
   }
 
   void relax(std::int32_t centre, double support, double longest, const Reached& from, std::int32_t node) {
@@ -78,7 +80,7 @@ private:
       known->path = path;
     else
       return;
-    open_.push_back(u(known - reached_.begin()));
+    open_.push_back(index_of(known - reached_.begin()));
   }
 
   const Cloud<2>& cloud_;
@@ -124,10 +126,12 @@ public:
   }
 
 private:
-  Vec2 to(std::int32_t i, std::int32_t j) const { return cloud_.position[u(j)] - cloud_.position[u(i)]; }
+  Vec2 to(std::int32_t i, std::int32_t j) const {
+    return cloud_.position[index_of(j)] - cloud_.position[index_of(i)];
+  }
   double weight(std::int32_t i, std::int32_t j, double support) const {
     const double r = to(i, j).norm();
-    return -volume_[u(j)] * kernel_slope(kernel_, r, support) / r;
+    return -volume_[index_of(j)] * kernel_slope(kernel_, r, support) / r;
   }
 
   const Cloud<2>& cloud_;

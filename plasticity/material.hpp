@@ -96,10 +96,10 @@ template<class F>
 void for_each_run(const std::vector<Material>& materials, const std::vector<std::int32_t>& material,
                   std::ptrdiff_t begin, std::ptrdiff_t end, F&& f) {
   for (std::ptrdiff_t first = begin; first < end;) {
-    const std::int32_t index = material[u(first)];
+    const std::int32_t index = material[index_of(first)];
     std::ptrdiff_t stop = first + 1;
-    while (stop < end && material[u(stop)] == index) ++stop;
-    f(materials[u(index)], first, stop);
+    while (stop < end && material[index_of(stop)] == index) ++stop;
+    f(materials[index_of(index)], first, stop);
     first = stop;
   }
 }

@@ -61,7 +61,7 @@ Table make_table(const std::vector<Stop>& stops) {
   }
   const std::size_t last = knot.size() - 1;
   const auto curve = [&](double s) { // Catmull-Rom
-    const std::size_t k = std::min(u(s), last - 1);
+    const std::size_t k = std::min(static_cast<std::size_t>(s), last - 1);
     const double t = s - static_cast<double>(k);
     const Lab& p1 = knot[k];
     const Lab& p2 = knot[k + 1];
@@ -109,7 +109,7 @@ std::vector<double> finite_values(std::span<const double> values) {
 }
 
 double quantile(std::vector<double>& values, double fraction) {
-  const auto at = u(std::llround(fraction * static_cast<double>(values.size() - 1)));
+  const auto at = index_of(std::llround(fraction * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
   return values[at];
 }
@@ -120,7 +120,7 @@ Colour map_colour(ColourMap map, double s) {
   if (std::isnan(s)) return invalid_colour;
   const Table& table = table_of(map);
   const double at = std::clamp(s, 0.0, 1.0) * (entries - 1);
-  const std::size_t k = std::min(u(at), entries - 2);
+  const std::size_t k = std::min(static_cast<std::size_t>(at), entries - 2);
   const double t = at - static_cast<double>(k);
   return {(1 - t) * table[k].red + t * table[k + 1].red, (1 - t) * table[k].green + t * table[k + 1].green,
           (1 - t) * table[k].blue + t * table[k + 1].blue};

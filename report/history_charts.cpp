@@ -49,8 +49,8 @@ private:
   void use(int column) {
     if (column >= 0) used_.insert(column);
   }
-  const std::vector<double>& column(int k) const { return history_.column[u(k)]; }
-  results::ColumnName name(int k) const { return results::split_column_name(history_.names[u(k)]); }
+  const std::vector<double>& column(int k) const { return history_.column[index_of(k)]; }
+  results::ColumnName name(int k) const { return results::split_column_name(history_.names[index_of(k)]); }
   int columns() const { return static_cast<int>(history_.names.size()); }
 
   Chart against_time(std::string title, std::string label, std::string unit) const {

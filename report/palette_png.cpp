@@ -30,7 +30,7 @@ class Palette {
 public:
   explicit Palette(std::span<const std::uint32_t> colours) : size_(colours.size()) {
     for (std::size_t k = 0; k < size_; ++k)
-      for (int c = 0; c < 3; ++c) channel_[u(c)][k] = channel(colours[k], c);
+      for (int c = 0; c < 3; ++c) channel_[index_of(c)][k] = channel(colours[k], c);
   }
 
   std::uint8_t nearest(std::uint32_t pixel) {
@@ -80,7 +80,7 @@ std::vector<std::uint32_t> drawing_palette(ColourMap map, double shade) {
 
 std::vector<std::uint8_t> nearest_colours(const PixelView& pixels, std::span<const std::uint32_t> palette) {
   std::vector<std::uint8_t> index;
-  index.reserve(u(pixels.width) * u(pixels.height));
+  index.reserve(index_of(pixels.width) * index_of(pixels.height));
   Palette colours(palette);
   for (int y = 0; y < pixels.height; ++y) {
     const auto row = pixels.row(y);

@@ -17,7 +17,7 @@ struct PixelView {
   int width = 0, height = 0;
   std::size_t stride = 0; ///< pixels
 
-  std::span<const std::uint32_t> row(int y) const { return {first + u(y) * stride, u(width)}; }
+  std::span<const std::uint32_t> row(int y) const { return {first + index_of(y) * stride, index_of(width)}; }
 };
 
 /// Colours of a drawing that are its colour map's, at equal distances from 0 to 1.

@@ -118,7 +118,8 @@ double cell_size(const PictureLayout& layout, const CellGeometry<2>& cells,
   double area = 0.0;
   for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c)
     for (auto b = cells.begin[c], e = cells.begin[c + 1], k = b; k < e; ++k)
-      area += 0.5 * cross(vertices[u(cells.index[u(k)])], vertices[u(cells.index[u(k + 1 < e ? k + 1 : b)])]);
+      area += 0.5 * cross(vertices[index_of(cells.index[index_of(k)])],
+                          vertices[index_of(cells.index[index_of(k + 1 < e ? k + 1 : b)])]);
   const auto count = static_cast<double>(std::max<std::size_t>(cells.begin.size(), 2) - 1);
   return std::sqrt(std::abs(area) / count) * layout.scale;
 }
@@ -184,7 +185,7 @@ std::string draw_png(const Picture& picture) {
   cairo_surface_t* image = surface.get();
   return palette_png({reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(image)),
                       layout.width, layout.height,
-                      u(cairo_image_surface_get_stride(image)) / sizeof(std::uint32_t)},
+                      index_of(cairo_image_surface_get_stride(image)) / sizeof(std::uint32_t)},
                      drawing_palette(picture.map, cell_line_shade));
 }
 

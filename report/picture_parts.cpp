@@ -37,12 +37,12 @@ void fill_cells(cairo_t* cr, const View& view, const std::vector<Vec2>& pixel, c
                 const ColourRange& range) {
   const CellGeometry<2>& cells = *picture.cells;
   for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
-    const auto begin = u(cells.begin[c]), end = u(cells.begin[c + 1]);
+    const auto begin = index_of(cells.begin[c]), end = index_of(cells.begin[c + 1]);
     if (begin == end) continue;
-    Vec2 low = pixel[u(cells.index[begin])], high = low;
+    Vec2 low = pixel[index_of(cells.index[begin])], high = low;
     bool finite = true;
     for (std::size_t k = begin; k < end; ++k) {
-      const Vec2& p = pixel[u(cells.index[k])];
+      const Vec2& p = pixel[index_of(cells.index[k])];
       finite = finite && p.allFinite();
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
@@ -50,7 +50,7 @@ void fill_cells(cairo_t* cr, const View& view, const std::vector<Vec2>& pixel, c
     if (!finite || !view.holds(low, high)) continue;
     cairo_new_path(cr);
     for (std::size_t k = begin; k < end; ++k) {
-      const Vec2& p = pixel[u(cells.index[k])];
+      const Vec2& p = pixel[index_of(cells.index[k])];
       cairo_line_to(cr, p.x(), p.y());
     }
     cairo_close_path(cr);
@@ -71,15 +71,15 @@ CellEdges edges_of(const CellGeometry<2>& cells) {
   const auto for_edges = [&](auto&& use) {
     for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c)
       for (auto b = cells.begin[c], e = cells.begin[c + 1], k = b; k < e; ++k)
-        use(cells.index[u(k)], cells.index[u(k + 1 < e ? k + 1 : b)]);
+        use(cells.index[index_of(k)], cells.index[index_of(k + 1 < e ? k + 1 : b)]);
   };
-  for_edges([&](std::int32_t from, std::int32_t) { ++begin[u(from) + 1]; });
+  for_edges([&](std::int32_t from, std::int32_t) { ++begin[index_of(from) + 1]; });
   for (std::size_t v = 0; v + 1 < begin.size(); ++v) begin[v + 1] += begin[v];
   std::vector<std::int32_t> end(begin.begin(), begin.end() - 1), next(cells.index.size());
-  for_edges([&](std::int32_t from, std::int32_t to) { next[u(end[u(from)]++)] = to; });
+  for_edges([&](std::int32_t from, std::int32_t to) { next[index_of(end[index_of(from)]++)] = to; });
   CellEdges edges;
   for_edges([&](std::int32_t from, std::int32_t to) {
-    const auto back = next.begin() + begin[u(to)], last = next.begin() + end[u(to)];
+    const auto back = next.begin() + begin[index_of(to)], last = next.begin() + end[index_of(to)];
     if (std::find(back, last, from) == last)
       edges.rim.push_back({from, to});
     else if (from < to)
@@ -94,7 +94,7 @@ void stroke_edges(cairo_t* cr, const View& view, const std::vector<Vec2>& pixel,
   int count = 0;
   cairo_new_path(cr);
   for (const auto& [from, to] : edges) {
-    const Vec2 &a = pixel[u(from)], &b = pixel[u(to)];
+    const Vec2 &a = pixel[index_of(from)], &b = pixel[index_of(to)];
     if (!a.allFinite() || !b.allFinite() || !view.holds(a.cwiseMin(b), a.cwiseMax(b))) continue;
     cairo_move_to(cr, a.x(), a.y());
     cairo_line_to(cr, b.x(), b.y());

@@ -24,7 +24,7 @@ std::string words(std::string name) {
 std::string grouped(std::int64_t count) {
   std::string digits = std::to_string(count);
   for (auto at = std::ssize(digits) - 3; at > (count < 0 ? 1 : 0); at -= 3)
-    digits.insert(u(at), "\u202f"); // narrow no-break space
+    digits.insert(index_of(at), "\u202f"); // narrow no-break space
   return digits;
 }
 
@@ -44,7 +44,7 @@ std::string verdict(const results::RunStatus& status) {
 
 double largest(const results::HistoryTable& history, int column) {
   double most = -INFINITY;
-  for (const double value : history.column[u(column)])
+  for (const double value : history.column[index_of(column)])
     if (std::isfinite(value)) most = std::max(most, value);
   return most;
 }
@@ -61,7 +61,7 @@ void collect_figures(ReportData& report, const results::RunStatus& status,
     figures.emplace_back("Energy residual", results::number_format(100.0 * status.energy_residual, 2) + " %");
   if (!history || history->rows() == 0) return;
   for (int k = 0; k < static_cast<int>(history->names.size()); ++k) {
-    const results::ColumnName column = results::split_column_name(history->names[u(k)]);
+    const results::ColumnName column = results::split_column_name(history->names[index_of(k)]);
     if (!column.name.starts_with("max.") || !std::isfinite(largest(*history, k))) continue;
     figures.emplace_back("Largest " + words(column.name.substr(4)),
                          results::si_format(largest(*history, k), column.unit));

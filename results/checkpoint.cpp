@@ -55,8 +55,8 @@ std::string_view checked_body(std::string_view content) {
   const std::string_view body = content.substr(std::min(head_size, content.size()));
   const std::int64_t wanted = leading_number(rest.substr(std::min(rest.find('\n') + 1, rest.size())));
   if (wanted > static_cast<std::int64_t>(body.size()))
-    throw IoError(
-        fmt::format("it is cut short: {} of {} bytes are there", content.size(), head_size + u(wanted)));
+    throw IoError(fmt::format("it is cut short: {} of {} bytes are there", content.size(),
+                              head_size + index_of(wanted)));
   if (content.substr(0, head_size) != head_of(body))
     throw IoError("it is damaged: the checksum does not fit the content");
   return body;
@@ -157,8 +157,8 @@ std::string CheckpointWriter::content() {
   check(H5Fflush(file_->file, H5F_SCOPE_GLOBAL), "its end");
   const ssize_t size = H5Fget_file_image(file_->file, nullptr, 0);
   if (size < 0) fail("HDF5 failed at the size of the file");
-  std::string all(head_size + u(size), '\0');
-  if (H5Fget_file_image(file_->file, all.data() + head_size, u(size)) != size)
+  std::string all(head_size + index_of(size), '\0');
+  if (H5Fget_file_image(file_->file, all.data() + head_size, index_of(size)) != size)
     fail("HDF5 failed at the content of the file");
   all.replace(0, head_size, head_of(std::string_view(all).substr(head_size)));
   return all;
@@ -198,14 +198,14 @@ struct CheckpointReader::File {
     const hid_t set = H5Dopen2(*file, name.c_str(), H5P_DEFAULT);
     if (set < 0) fail(fmt::format("it lacks '{}'", name));
     const Handle type(H5Dget_type(set), H5Tclose, name), space(H5Dget_space(set), H5Sclose, name);
-    const auto found = u(H5Sget_simple_extent_npoints(space));
+    const auto found = index_of(H5Sget_simple_extent_npoints(space));
     const bool fits = kind == H5T_NO_CLASS || H5Tget_class(type) == kind;
     if (fits && (length == any || found == length)) return set;
     H5Dclose(set);
     throw IoError(!fits ? fmt::format("'{}' is of another type than expected", name)
                         : fmt::format("'{}' has {} values, expected {}", name, found, length));
   }
-  static constexpr std::size_t any = u(-1);
+  static constexpr std::size_t any = index_of(-1);
 };
 
 CheckpointReader::CheckpointReader(std::string_view content)
@@ -215,7 +215,7 @@ CheckpointReader::~CheckpointReader() = default;
 std::size_t CheckpointReader::extent(const std::string& name) {
   const Handle set(file_->open(name, H5T_NO_CLASS, File::any), H5Dclose, name);
   const Handle space(H5Dget_space(set), H5Sclose, name);
-  return u(H5Sget_simple_extent_npoints(space));
+  return index_of(H5Sget_simple_extent_npoints(space));
 }
 
 void CheckpointReader::carry(const std::string& name, const char*, std::span<double> values) {

@@ -32,7 +32,7 @@ Field values_at_points(const Snapshot& shot, const std::string& name) {
   const DiscreteOperators<2>& op = shot.approximation.mechanics;
   Field values = own_values(shot, e);
   if (!e.at_nodes || op.nodal) return values;
-  Field at_points(u(op.points));
+  Field at_points(index_of(op.points));
   interpolate<2>(op, values, at_points, 0, at_points.size());
   return at_points;
 }
@@ -59,18 +59,19 @@ double weighted_value(const Snapshot& shot, const std::string& name, std::span<c
   const DiscreteOperators<2>& op = shot.approximation.mechanics;
   double sum = 0.0;
   if (e.at_nodes || op.nodal) {
-    for (std::size_t k = 0; k < node.size(); ++k) sum += weight[k] * e.at(source_of(shot), u(node[k]));
+    for (std::size_t k = 0; k < node.size(); ++k) sum += weight[k] * e.at(source_of(shot), index_of(node[k]));
     return sum;
   }
   const Field values = own_values(shot, e);
-  for (std::size_t k = 0; k < node.size(); ++k) sum += weight[k] * average_at_node<2>(op, values, u(node[k]));
+  for (std::size_t k = 0; k < node.size(); ++k)
+    sum += weight[k] * average_at_node<2>(op, values, index_of(node[k]));
   return sum;
 }
 
 double boundary_area(const Snapshot& shot) {
   const Fields<2>& x = shot.state.node.position;
   return enclosed_area(shot.cloud.facets, [&](std::int32_t node) {
-    const auto i = u(node);
+    const auto i = index_of(node);
     return Vec2{x[0][i], x[1][i]};
   });
 }

@@ -129,7 +129,7 @@ bool FileQueue::write_made(Lock& lock) {
       std::find_if(jobs_.begin(), jobs_.end(), [](const Job& job) { return job.stage != Stage::made; });
   if (end == jobs_.begin()) return false;
   std::vector<FileContent> batch;
-  batch.reserve(u(std::distance(jobs_.begin(), end)));
+  batch.reserve(index_of(std::distance(jobs_.begin(), end)));
   for (auto job = jobs_.begin(); job != end; ++job) {
     job->stage = Stage::under_way; // stays in the list: whoever waits, waits for it
     batch.push_back(std::move(job->file));

@@ -70,7 +70,7 @@ void write_whole(const fs::path& path, const fs::path& target, std::string_view 
     const ssize_t n = ::write(fd, content.data() + done, content.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail("write", target, n < 0 ? errno : ENOSPC);
-    done += u(n);
+    done += index_of(n);
   }
   if (flush == Flush::begin)
     ::sync_file_range(fd, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint: who needs it on the disk flushes it
@@ -162,7 +162,7 @@ std::string read_file(const fs::path& path) {
     content.resize(size + (std::size_t{1} << 16));
     const ssize_t n = ::read(fd, content.data() + size, content.size() - size);
     if (n < 0 && errno != EINTR) fail("read", path, errno);
-    if (n > 0) size += u(n);
+    if (n > 0) size += index_of(n);
     content.resize(size);
     if (n == 0) return content;
   }

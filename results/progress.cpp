@@ -20,7 +20,7 @@ double wall_clock() {
 
 // Columns a UTF-8 text takes: its bytes less the continuation bytes.
 std::size_t columns(const std::string& text) {
-  return u(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return index_of(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 constexpr double terminal_interval = 0.1, plain_interval = 10.0; // s

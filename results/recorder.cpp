@@ -183,7 +183,7 @@ void HistoryRecorder::resample(const Resampling<2>& change, const ExplicitSolver
   for (ProbeWeights& probe : probes_) {
     Vec2 at = Vec2::Zero();
     for (std::size_t k = 0; k < probe.node.size(); ++k)
-      at += probe.weight[k] * change.old_position[u(probe.node[k])];
+      at += probe.weight[k] * change.old_position[index_of(probe.node[k])];
     try {
       functions.evaluate(voronoi::Functions::sibson, at);
       probe.node.assign(functions.nodes().begin(), functions.nodes().end());
@@ -274,7 +274,7 @@ void write_lines(const input::Case& input, const Snapshot& shot, const std::file
       for (const Field& field : fields) {
         double sum = 0.0;
         for (std::size_t j = 0; j < functions.nodes().size(); ++j)
-          sum += functions.values()[j] * field[u(functions.nodes()[j])];
+          sum += functions.values()[j] * field[index_of(functions.nodes()[j])];
         text += fmt::format(",{}", sum);
       }
       text += "\n";

@@ -74,9 +74,9 @@ void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField
     array->SetNumberOfTuples(count);
     array->Fill(0.0);
     for (int k = 0; k < 3; ++k) {
-      const std::span<const double> component = field.component[u(k)];
+      const std::span<const double> component = field.component[index_of(k)];
       if (component.empty()) continue;
-      for (vtkIdType i = 0; i < count; ++i) array->SetTypedComponent(i, k, component[u(i)]);
+      for (vtkIdType i = 0; i < count; ++i) array->SetTypedComponent(i, k, component[index_of(i)]);
     }
     to.AddArray(array);
   }
@@ -110,7 +110,7 @@ std::string cells_text(const FieldFrame& frame) {
   const auto count = static_cast<vtkIdType>(cell_count(frame));
   grid->AllocateEstimate(count, 7);
   std::vector<vtkIdType> polygon;
-  for (std::size_t c = 0; c < u(count); ++c) {
+  for (std::size_t c = 0; c < index_of(count); ++c) {
     polygon.assign(cells.index.begin() + cells.begin[c], cells.index.begin() + cells.begin[c + 1]);
     grid->InsertNextCell(VTK_POLYGON, static_cast<vtkIdType>(polygon.size()), polygon.data());
   }
@@ -128,7 +128,7 @@ std::string nodes_text(const FieldFrame& frame) {
   grid->SetPoints(points);
   grid->AllocateEstimate(count, 1);
   for (vtkIdType i = 0; i < count; ++i) {
-    const auto at = u(i);
+    const auto at = index_of(i);
     points->SetPoint(i, frame.origin.x() + frame.position[0][at], frame.origin.y() + frame.position[1][at],
                      0.0);
     grid->InsertNextCell(VTK_VERTEX, 1, &i);
@@ -155,8 +155,8 @@ std::vector<Vec2> moved_vertices(const CellGeometry<2>& cells,
                                  const std::array<std::span<const double>, 2>& position) {
   std::vector<Vec2> moved(cells.vertex.size(), Vec2::Zero());
   for (std::size_t v = 0; v < moved.size(); ++v)
-    for (auto k = u(cells.vertex_begin[v]); k < u(cells.vertex_begin[v + 1]); ++k) {
-      const auto node = u(cells.vertex_node[k]);
+    for (auto k = index_of(cells.vertex_begin[v]); k < index_of(cells.vertex_begin[v + 1]); ++k) {
+      const auto node = index_of(cells.vertex_node[k]);
       moved[v] += cells.vertex_weight[k] * Vec2(position[0][node], position[1][node]);
     }
   return moved;

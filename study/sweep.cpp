@@ -163,8 +163,8 @@ std::vector<std::string> command(const Study& study, std::size_t k, bool interru
 
 std::size_t processes_for(const Study& study, const SweepOptions& options) {
   const int wanted = options.processes > 0 ? options.processes : study.processes;
-  if (wanted > 0) return u(wanted);
-  return std::max<std::size_t>(1, std::thread::hardware_concurrency() / u(study.threads));
+  if (wanted > 0) return index_of(wanted);
+  return std::max<std::size_t>(1, std::thread::hardware_concurrency() / index_of(study.threads));
 }
 
 /// Columns and charts that name what no run has.

@@ -116,7 +116,7 @@ report::Chart history_chart(const Study& study, const std::vector<results::Histo
     const results::HistoryTable& history = histories[k];
     const int at = history.find(column);
     if (at < 0) continue;
-    const auto index = u(at);
+    const auto index = index_of(at);
     chart.y_unit = results::split_column_name(history.names[index]).unit;
     report::ChartSeries line;
     const std::string label = label_of(study.runs[k], "");

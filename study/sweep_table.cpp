@@ -20,7 +20,7 @@ bool is_quantity(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), number);
     if (error != std::errc{}) break;
     any = true;
-    text.remove_prefix(u(end - text.data()));
+    text.remove_prefix(index_of(end - text.data()));
     text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   }
   if (!any || text.empty()) return any;

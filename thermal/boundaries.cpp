@@ -42,7 +42,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
     const double value = flux.value(time);
     for (const Facet<dim>& facet : flux.facets) {
       const auto area = areas<dim>(space_, facet, position);
-      for (std::size_t end = 0; end < dim; ++end) flow[u(facet.node[end])] += value * area[end];
+      for (std::size_t end = 0; end < dim; ++end) flow[index_of(facet.node[end])] += value * area[end];
     }
   }
   for (const Convection<dim>& convection : convections_) {
@@ -50,7 +50,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
     for (const Facet<dim>& facet : convection.facets) {
       const auto area = areas<dim>(space_, facet, position);
       for (std::size_t end = 0; end < dim; ++end) {
-        const auto i = u(facet.node[end]);
+        const auto i = index_of(facet.node[end]);
         flow[i] += h * (ambient - temperature[i]) * area[end];
       }
     }
@@ -59,24 +59,24 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
     for (std::size_t f = 0; f < interface.facets.size(); ++f) {
       const auto area = areas<dim>(space_, interface.facets[f], position);
       for (std::size_t end = 0; end < dim; ++end) {
-        const auto i = u(interface.facets[f].node[end]);
-        const auto j = u(interface.opposite[f][end]);
+        const auto i = index_of(interface.facets[f].node[end]);
+        const auto j = index_of(interface.opposite[f][end]);
         const double crossing = interface.conductance * area[end] * (temperature[j] - temperature[i]);
         flow[i] += crossing;
         flow[j] -= crossing;
       }
     }
   for (const ToolConductance& tool : touching.tools) {
-    const auto i = u(tool.node);
+    const auto i = index_of(tool.node);
     flow[i] += tool.conductance * tool.area * (tool.tool_temperature - temperature[i]);
   }
   for (const BodyConductance<dim>& body : touching.bodies) {
     double opposite = 0.0;
-    for (std::size_t a = 0; a < dim; ++a) opposite += body.weight[a] * temperature[u(body.facet[a])];
-    const auto i = u(body.node);
+    for (std::size_t a = 0; a < dim; ++a) opposite += body.weight[a] * temperature[index_of(body.facet[a])];
+    const auto i = index_of(body.node);
     const double crossing = body.conductance * body.area * (opposite - temperature[i]);
     flow[i] += crossing;
-    for (std::size_t a = 0; a < dim; ++a) flow[u(body.facet[a])] -= body.weight[a] * crossing;
+    for (std::size_t a = 0; a < dim; ++a) flow[index_of(body.facet[a])] -= body.weight[a] * crossing;
   }
 }
 
@@ -90,7 +90,7 @@ template<int dim> double HeatContacts<dim>::fastest_decay(const Field& heat_capa
       given[body.facet[a]] += 2.0 * body.weight[a] * body.conductance * body.area;
   }
   double worst = 0.0;
-  for (const auto& [node, sum] : given) worst = std::max(worst, sum / heat_capacity[u(node)]);
+  for (const auto& [node, sum] : given) worst = std::max(worst, sum / heat_capacity[index_of(node)]);
   return worst;
 }
 
@@ -100,7 +100,7 @@ double ThermalBoundaries<dim>::hold(double time, const Field& heat_capacity, Fie
   for (const FixedTemperature& fixed : fixed_) {
     const double value = fixed.value(time);
     for (const std::int32_t node : fixed.nodes) {
-      const auto i = u(node);
+      const auto i = index_of(node);
       heat += heat_capacity[i] * (value - temperature[i]);
       temperature[i] = value;
     }
@@ -116,15 +116,15 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
     for (const Facet<dim>& facet : convection.facets) {
       const auto area = areas<dim>(space_, facet, position);
       for (std::size_t end = 0; end < dim; ++end)
-        worst = std::max(worst,
-                         2.0 * convection.coefficient(time) * area[end] / heat_capacity[u(facet.node[end])]);
+        worst = std::max(worst, 2.0 * convection.coefficient(time) * area[end] /
+                                    heat_capacity[index_of(facet.node[end])]);
     }
   for (const ContactConductance<dim>& interface : interfaces_)
     for (std::size_t f = 0; f < interface.facets.size(); ++f) {
       const auto area = areas<dim>(space_, interface.facets[f], position);
       for (std::size_t end = 0; end < dim; ++end)
         for (const std::int32_t node : {interface.facets[f].node[end], interface.opposite[f][end]})
-          worst = std::max(worst, 4.0 * interface.conductance * area[end] / heat_capacity[u(node)]);
+          worst = std::max(worst, 4.0 * interface.conductance * area[end] / heat_capacity[index_of(node)]);
     }
   return worst;
 }

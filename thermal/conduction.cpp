@@ -24,12 +24,12 @@ template<int dim>
 Row<dim> row_of(const DiscreteOperators<dim>& operators, const Field& position, std::size_t p) {
   Row<dim> row;
   if (operators.of_revolution()) row.hoop = 0.0;
-  for (auto e = u(operators.row_begin[p]); e < u(operators.row_begin[p + 1]); ++e) {
-    const auto j = u(operators.node[e]);
+  for (auto e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e) {
+    const auto j = index_of(operators.node[e]);
     if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[dim * j];
     for (int k = 0; k < dim; ++k) {
-      const double b = operators.gradient[u(k)][e];
-      for (int i = 0; i < dim; ++i) row.deformation(i, k) += position[dim * j + u(i)] * b;
+      const double b = operators.gradient[index_of(k)][e];
+      for (int i = 0; i < dim; ++i) row.deformation(i, k) += position[dim * j + index_of(i)] * b;
     }
   }
   return row;
@@ -43,7 +43,7 @@ void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Fie
   conductivity_ = std::move(conductivity);
   corner_.clear();
   const bool triangles = linear_triangles();
-  flux_.assign((triangles ? 3 : dim) * u(operators.points), 0.0);
+  flux_.assign((triangles ? 3 : dim) * index_of(operators.points), 0.0);
   if (!triangles) return;
   number_corners();
 }
@@ -72,7 +72,7 @@ template<int dim> bool Conduction<dim>::linear_triangles() const {
   const DiscreteOperators<dim>& op = *operators_;
   if (dim != 2 || op.of_revolution()) return false;
   for (int p = 0; p <= op.points; ++p)
-    if (op.row_begin[u(p)] != 3 * p) return false;
+    if (op.row_begin[index_of(p)] != 3 * p) return false;
   return true;
 }
 
@@ -105,7 +105,7 @@ template<int dim> void Conduction<dim>::number_corners() {
     const bool clockwise = bx[first] * by[first + 1] - by[first] * bx[first + 1] < 0.0;
     if (clockwise) std::swap(triangle_[first + 1], triangle_[first + 2]);
     for (std::size_t e = first; e < first + 3; ++e)
-      corner_[u(next[u(triangle_[e])]++)] = static_cast<std::int32_t>(e);
+      corner_[index_of(next[index_of(triangle_[e])]++)] = static_cast<std::int32_t>(e);
   }
 }
 
@@ -113,10 +113,10 @@ template<int dim>
 void Conduction<dim>::add_triangle_flow(const Field& position, const Field& temperature, Field& flow) {
   if constexpr (dim == 2) {
     const DiscreteOperators<2>& op = *operators_;
-    for_each_block(u(op.points), [&](std::size_t begin, std::size_t end) {
+    for_each_block(index_of(op.points), [&](std::size_t begin, std::size_t end) {
       triangle_heat(triangle_, position, temperature, conductivity_, flux_, begin, end);
     });
-    for_each_block(u(op.nodes), [&](std::size_t begin, std::size_t end) {
+    for_each_block(index_of(op.nodes), [&](std::size_t begin, std::size_t end) {
       add_corners(op, corner_, flux_, flow, begin, end);
     });
   }
@@ -129,36 +129,36 @@ void Conduction<dim>::add_flow(const Field& position, const Field& temperature, 
   const auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
   const auto columns = sparse_rows<dim>(op.col_begin, op.point, op.weighted_gradient);
   const double* hoop = op.of_revolution() ? op.hoop.data() : nullptr;
-  for_each_block(u(op.points), [&](std::size_t begin, std::size_t end) {
+  for_each_block(index_of(op.points), [&](std::size_t begin, std::size_t end) {
     flux(rows, hoop, position, temperature, conductivity_, flux_, begin, end);
   });
-  for_each_block(u(op.nodes), [&](std::size_t begin, std::size_t end) {
+  for_each_block(index_of(op.nodes), [&](std::size_t begin, std::size_t end) {
     subtract_flow(columns, flux_, flow, begin, end);
   });
 }
 
 template<int dim> double Conduction<dim>::fastest_decay(const Field& position, const Field& heat_capacity) {
   const DiscreteOperators<dim>& op = *operators_;
-  const auto points = u(op.points);
-  transfer_.assign(u(op.nodes), 0.0);
+  const auto points = index_of(op.points);
+  transfer_.assign(index_of(op.nodes), 0.0);
   // The same Gershgorin bound as for waves, with b = F⁻ᵀ b_r and V = V_r det F (mechanics/stable_step.hpp).
   std::vector<double> norm(op.node.size());
   for (std::size_t p = 0; p < points; ++p) {
     const Row<dim> row = row_of<dim>(op, position, p);
     const Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
     const double volume = op.volume[p] * row.deformation.determinant() * row.hoop;
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       Vec<dim> b;
-      for (int k = 0; k < dim; ++k) b[k] = op.gradient[u(k)][e];
+      for (int k = 0; k < dim; ++k) b[k] = op.gradient[index_of(k)][e];
       norm[e] = (inverse_transpose * b).norm();
-      transfer_[u(op.node[e])] += volume * conductivity_[p] * norm[e];
+      transfer_[index_of(op.node[e])] += volume * conductivity_[p] * norm[e];
     }
   }
   double worst = 0.0;
   for (std::size_t p = 0; p < points; ++p) {
     double sum = 0.0;
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
-      const auto j = u(op.node[e]);
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
+      const auto j = index_of(op.node[e]);
       sum += norm[e] * transfer_[j] / heat_capacity[j];
     }
     worst = std::max(worst, sum);

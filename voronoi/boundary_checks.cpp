@@ -13,7 +13,7 @@ namespace {
 
 std::string describe_point(const Vec2& x) { return fmt::format("({:.9g}, {:.9g}) m", x.x(), x.y()); }
 
-const Vec2& at(const Cloud<2>& cloud, std::int32_t node) { return cloud.position[u(node)]; }
+const Vec2& at(const Cloud<2>& cloud, std::int32_t node) { return cloud.position[index_of(node)]; }
 
 void check_node_index(const Cloud<2>& cloud, std::int32_t node, const std::string& who) {
   if (node < 0 || node >= cloud.nodes())
@@ -28,7 +28,7 @@ std::string describe_node(const Cloud<2>& cloud, std::int32_t node) {
 }
 
 std::string describe_facet(const Cloud<2>& cloud, std::int32_t facet) {
-  const auto& [a, b] = cloud.facets[u(facet)].node;
+  const auto& [a, b] = cloud.facets[index_of(facet)].node;
   return fmt::format("facet {} from {} to {}", facet, describe_point(at(cloud, a)),
                      describe_point(at(cloud, b)));
 }
@@ -40,11 +40,11 @@ std::vector<std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
   if (cloud.facets.empty())
     throw GeometryError("empty domain: the cloud has no boundary facets, expected at least one closed loop");
 
-  const auto n = u(cloud.nodes());
+  const auto n = index_of(cloud.nodes());
   std::vector<std::int32_t> leaving(n, -1), arriving(n, -1);
   const auto claim = [&](std::vector<std::int32_t>& of_node, std::int32_t node, std::int32_t facet,
                          const char* verb) {
-    auto& slot = of_node[u(node)];
+    auto& slot = of_node[index_of(node)];
     if (slot >= 0)
       throw GeometryError(
           fmt::format("boundary branches at {}: facets {} and {} both {} it, expected one (loops that touch "
@@ -64,8 +64,8 @@ std::vector<std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
     claim(arriving, b, facet, "arrive at");
   }
   for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    const bool leaves = leaving[u(i)] >= 0;
-    if (leaves != (arriving[u(i)] >= 0))
+    const bool leaves = leaving[index_of(i)] >= 0;
+    if (leaves != (arriving[index_of(i)] >= 0))
       throw GeometryError(fmt::format("open boundary: at {} a facet {} but none {}, expected closed loops",
                                       describe_node(cloud, i), leaves ? "leaves" : "arrives",
                                       leaves ? "arrives" : "leaves"));
@@ -75,12 +75,12 @@ std::vector<std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
 
 std::vector<std::int32_t> twin_groups(const Cloud<2>& cloud) {
   if (cloud.twins.empty()) return {};
-  std::vector<std::int32_t> parent(u(cloud.nodes()));
+  std::vector<std::int32_t> parent(index_of(cloud.nodes()));
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](std::int32_t i) {
-    while (parent[u(i)] != i) {
-      auto& up = parent[u(i)];
-      i = up = parent[u(up)];
+    while (parent[index_of(i)] != i) {
+      auto& up = parent[index_of(i)];
+      i = up = parent[index_of(up)];
     }
     return i;
   };
@@ -88,9 +88,9 @@ std::vector<std::int32_t> twin_groups(const Cloud<2>& cloud) {
     const auto& [a, b] = cloud.twins[t];
     check_node_index(cloud, a, fmt::format("twin pair {}", t));
     check_node_index(cloud, b, fmt::format("twin pair {}", t));
-    parent[u(root(a))] = root(b);
+    parent[index_of(root(a))] = root(b);
   }
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) parent[u(i)] = root(i);
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) parent[index_of(i)] = root(i);
   return parent;
 }
 
@@ -111,7 +111,7 @@ void throw_crossing(const Cloud<2>& cloud) {
 }
 
 void throw_node_on_facet(const Cloud<2>& cloud, std::int32_t facet) {
-  const auto& [a, b] = cloud.facets[u(facet)].node;
+  const auto& [a, b] = cloud.facets[index_of(facet)].node;
   const Vec2 along = at(cloud, b) - at(cloud, a);
   std::int32_t nearest = -1;
   double best = 0.0;

@@ -17,14 +17,14 @@ public:
         vertex_of_triangle_(mesh.node.size(), -1), vertex_of_crossing_(cells.crossing.size(), -1) {}
 
   CellGeometry<2> build() {
-    std::vector<bool> on_boundary(u(cloud_.nodes()), false);
-    for (const auto& facet : cloud_.facets) on_boundary[u(facet.node[0])] = true;
-    result_.index.reserve(7 * u(cloud_.nodes()));
+    std::vector<bool> on_boundary(index_of(cloud_.nodes()), false);
+    for (const auto& facet : cloud_.facets) on_boundary[index_of(facet.node[0])] = true;
+    result_.index.reserve(7 * index_of(cloud_.nodes()));
     result_.vertex.reserve(mesh_.node.size() + 2 * cloud_.facets.size());
     result_.vertex_begin.push_back(0);
     result_.begin.push_back(0);
     for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
-      add_cell(i, on_boundary[u(i)]);
+      add_cell(i, on_boundary[index_of(i)]);
       result_.begin.push_back(static_cast<std::int32_t>(result_.index.size()));
     }
     return std::move(result_);
@@ -32,22 +32,22 @@ public:
 
 private:
   void add_cell(std::int32_t node, bool on_boundary) {
-    const std::int32_t first = mesh_.triangle_of_node[u(node)];
+    const std::int32_t first = mesh_.triangle_of_node[index_of(node)];
     std::int32_t t = first, k = 0;
-    while (mesh_.node[u(t)][u(k)] != node) ++k;
+    while (mesh_.node[index_of(t)][index_of(k)] != node) ++k;
     if (on_boundary) {
-      result_.index.push_back(new_vertex(cloud_.position[u(node)], {{node, 1.0}}));
+      result_.index.push_back(new_vertex(cloud_.position[index_of(node)], {{node, 1.0}}));
       leave_wall(t, next(next(k)));
     }
     while (true) {
-      if (cells_.hidden_of_triangle[u(t)] < 0) result_.index.push_back(centre_vertex(t));
-      const std::int32_t exit = next(k), across = mesh_.neighbour[u(t)][u(exit)];
+      if (cells_.hidden_of_triangle[index_of(t)] < 0) result_.index.push_back(centre_vertex(t));
+      const std::int32_t exit = next(k), across = mesh_.neighbour[index_of(t)][index_of(exit)];
       if (across < 0) {
         reach_wall(t, exit);
         return;
       }
       std::int32_t back = 0;
-      while (mesh_.neighbour[u(across)][u(back)] != t) ++back;
+      while (mesh_.neighbour[index_of(across)][index_of(back)] != t) ++back;
       cross_edge(t, exit, across, back);
       if (across == first) return;
       t = across;
@@ -56,8 +56,8 @@ private:
   }
 
   std::int32_t hider(std::int32_t t) const {
-    const std::int32_t hidden = cells_.hidden_of_triangle[u(t)];
-    return hidden < 0 ? -1 : cells_.hidden[u(hidden)].facet;
+    const std::int32_t hidden = cells_.hidden_of_triangle[index_of(t)];
+    return hidden < 0 ? -1 : cells_.hidden[index_of(hidden)].facet;
   }
 
   /// The ends on the boundary of the facet dual to the edge between two triangles.
@@ -69,40 +69,40 @@ private:
   }
 
   void leave_wall(std::int32_t t, std::int32_t k) {
-    const std::int32_t facet = mesh_.facet[u(t)][u(k)];
+    const std::int32_t facet = mesh_.facet[index_of(t)][index_of(k)];
     if (hider(t) == facet) return;
-    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[u(facet)]));
+    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[index_of(facet)]));
     if (hider(t) >= 0) add_end(t, k);
   }
 
   void reach_wall(std::int32_t t, std::int32_t k) {
-    const std::int32_t facet = mesh_.facet[u(t)][u(k)];
+    const std::int32_t facet = mesh_.facet[index_of(t)][index_of(k)];
     if (hider(t) == facet) return;
     if (hider(t) >= 0) add_end(t, k);
-    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[u(facet)]));
+    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[index_of(facet)]));
   }
 
   void add_end(std::int32_t t, std::int32_t k) {
-    const auto& hidden = cells_.hidden[u(cells_.hidden_of_triangle[u(t)])];
-    result_.index.push_back(crossing_vertex(hidden.crossing[u(k)]));
+    const auto& hidden = cells_.hidden[index_of(cells_.hidden_of_triangle[index_of(t)])];
+    result_.index.push_back(crossing_vertex(hidden.crossing[index_of(k)]));
   }
 
   std::int32_t crossing_vertex(std::int32_t crossing) {
-    auto& vertex = vertex_of_crossing_[u(crossing)];
+    auto& vertex = vertex_of_crossing_[index_of(crossing)];
     if (vertex >= 0) return vertex;
-    const auto& [facet, s] = cells_.crossing[u(crossing)];
-    const auto& [a, b] = cloud_.facets[u(facet)].node;
-    return vertex = new_vertex((1.0 - s) * cloud_.position[u(a)] + s * cloud_.position[u(b)],
+    const auto& [facet, s] = cells_.crossing[index_of(crossing)];
+    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
+    return vertex = new_vertex((1.0 - s) * cloud_.position[index_of(a)] + s * cloud_.position[index_of(b)],
                                {{a, 1.0 - s}, {b, s}});
   }
 
   std::int32_t centre_vertex(std::int32_t t) {
-    auto& vertex = vertex_of_triangle_[u(t)];
+    auto& vertex = vertex_of_triangle_[index_of(t)];
     if (vertex >= 0) return vertex;
-    const Vec2& x = circles_.centre[u(t)];
+    const Vec2& x = circles_.centre[index_of(t)];
     const std::int32_t in = walk(cloud_, mesh_, t, x).triangle;
     const auto weight = barycentric(cloud_, mesh_, in, x);
-    const auto& nodes = mesh_.node[u(in)];
+    const auto& nodes = mesh_.node[index_of(in)];
     return vertex = new_vertex(x, {{nodes[0], weight[0]}, {nodes[1], weight[1]}, {nodes[2], weight[2]}});
   }
 

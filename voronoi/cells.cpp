@@ -26,36 +26,37 @@ public:
     cells_.volume.assign(cloud_.position.size(), 0.0);
     for (std::size_t t = 0; t < mesh_.node.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k)
-        if (mesh_.facet[t][k] >= 0) facet_triangle_[u(mesh_.facet[t][k])] = static_cast<std::int32_t>(t);
+        if (mesh_.facet[t][k] >= 0)
+          facet_triangle_[index_of(mesh_.facet[t][k])] = static_cast<std::int32_t>(t);
     for (std::size_t f = 0; f < cloud_.facets.size(); ++f) share_facet(static_cast<std::int32_t>(f));
     add_interior();
     return std::move(cells_);
   }
 
 private:
-  const Vec2& at(std::int32_t node) const { return cloud_.position[u(node)]; }
+  const Vec2& at(std::int32_t node) const { return cloud_.position[index_of(node)]; }
 
   /// The circumcentre of t is on the far side of the facet's line. For the triangle at the facet, and from
   /// there for each neighbour of a hidden triangle, this means hidden by the facet itself: the bisector of
   /// the common edge meets the line inside both circles, where no end of the facet can be.
   bool is_beyond(std::int32_t t, std::int32_t facet) const {
-    const auto& [a, b] = cloud_.facets[u(facet)].node;
-    return cross(at(b) - at(a), circles_.centre[u(t)] - at(a)) < 0.0;
+    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
+    return cross(at(b) - at(a), circles_.centre[index_of(t)] - at(a)) < 0.0;
   }
 
   /// The part of the facet that belongs to `cell` ends at s.
   void end_piece(std::int32_t facet, std::int32_t cell, double s0, double s1) {
     cells_.boundary.push_back({cell, facet, s0, s1});
-    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
     const Vec2 edge = at(b) - at(a);
-    cells_.volume[u(cell)] += 0.5 * (s1 - s0) * cross(at(a) - at(cell), edge);
+    cells_.volume[index_of(cell)] += 0.5 * (s1 - s0) * cross(at(a) - at(cell), edge);
   }
 
   /// Where the bisector of nodes i and j, which passes through the hidden `centre`, meets the facet. Both
   /// nodes are on the near side and the centre is beyond, so that this is always between the midpoint and the
   /// centre.
   double crossing_parameter(std::int32_t facet, std::int32_t i, std::int32_t j, const Vec2& centre) const {
-    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
     const Vec2 edge = at(b) - at(a), middle = 0.5 * (at(i) + at(j));
     const double near = std::max(cross(edge, middle - at(a)), 0.0), beyond = -cross(edge, centre - at(a));
     const Vec2 x = middle + (centre - middle) * (near / (near + beyond));
@@ -67,17 +68,17 @@ private:
   /// clockwise from one end of the facet to the other gives its owners in order. Which triangles these are is
   /// decided once, so that the cells close even where rounding decides it.
   void share_facet(std::int32_t facet) {
-    const auto& [a, b] = cloud_.facets[u(facet)].node;
-    const std::int32_t first = facet_triangle_[u(facet)];
-    if (cells_.hidden_of_triangle[u(first)] >= 0 || !is_beyond(first, facet)) {
-      cells_.crossing_of_facet[u(facet)] = static_cast<std::int32_t>(cells_.crossing.size());
+    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
+    const std::int32_t first = facet_triangle_[index_of(facet)];
+    if (cells_.hidden_of_triangle[index_of(first)] >= 0 || !is_beyond(first, facet)) {
+      cells_.crossing_of_facet[index_of(facet)] = static_cast<std::int32_t>(cells_.crossing.size());
       cells_.crossing.push_back({facet, 0.5});
       end_piece(facet, a, 0.0, 0.5);
       end_piece(facet, b, 0.5, 1.0);
       return;
     }
     std::int32_t entry = 0;
-    while (mesh_.facet[u(first)][u(entry)] != facet) ++entry;
+    while (mesh_.facet[index_of(first)][index_of(entry)] != facet) ++entry;
     hide(first, facet);
     std::int32_t owner = a;
     double s = 0.0;
@@ -85,18 +86,19 @@ private:
     while (!stack_.empty()) {
       const auto [t, k] = stack_.back();
       stack_.pop_back();
-      const std::int32_t across = mesh_.neighbour[u(t)][u(k)];
-      if (across >= 0 && cells_.hidden_of_triangle[u(across)] < 0 && is_beyond(across, facet)) {
+      const std::int32_t across = mesh_.neighbour[index_of(t)][index_of(k)];
+      if (across >= 0 && cells_.hidden_of_triangle[index_of(across)] < 0 && is_beyond(across, facet)) {
         hide(across, facet);
         std::int32_t back = 0;
-        while (mesh_.neighbour[u(across)][u(back)] != t) ++back;
+        while (mesh_.neighbour[index_of(across)][index_of(back)] != t) ++back;
         stack_.emplace_back(across, next(back));
         stack_.emplace_back(across, next(next(back)));
         continue;
       }
-      const std::int32_t to = mesh_.node[u(t)][u(next(k))];
-      const double end = std::clamp(crossing_parameter(facet, owner, to, circles_.centre[u(t)]), s, 1.0);
-      cells_.hidden[u(cells_.hidden_of_triangle[u(t)])].crossing[u(k)] =
+      const std::int32_t to = mesh_.node[index_of(t)][index_of(next(k))];
+      const double end =
+          std::clamp(crossing_parameter(facet, owner, to, circles_.centre[index_of(t)]), s, 1.0);
+      cells_.hidden[index_of(cells_.hidden_of_triangle[index_of(t)])].crossing[index_of(k)] =
           static_cast<std::int32_t>(cells_.crossing.size());
       cells_.crossing.push_back({facet, end});
       end_piece(facet, owner, s, end);
@@ -107,25 +109,26 @@ private:
   }
 
   void hide(std::int32_t t, std::int32_t facet) {
-    cells_.hidden_of_triangle[u(t)] = static_cast<std::int32_t>(cells_.hidden.size());
+    cells_.hidden_of_triangle[index_of(t)] = static_cast<std::int32_t>(cells_.hidden.size());
     cells_.hidden.push_back({facet, {-1, -1, -1}});
   }
 
   Vec2 position(std::int32_t crossing) const {
-    const auto& [facet, s] = cells_.crossing[u(crossing)];
-    const auto& [a, b] = cloud_.facets[u(facet)].node;
+    const auto& [facet, s] = cells_.crossing[index_of(crossing)];
+    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
     return (1.0 - s) * at(a) + s * at(b);
   }
 
   /// End of the facet dual to edge k of triangle t, on the side of t.
   Vec2 end_point(std::int32_t t, std::int32_t k) const {
-    const std::int32_t hidden = cells_.hidden_of_triangle[u(t)];
-    return hidden < 0 ? circles_.centre[u(t)] : position(cells_.hidden[u(hidden)].crossing[u(k)]);
+    const std::int32_t hidden = cells_.hidden_of_triangle[index_of(t)];
+    return hidden < 0 ? circles_.centre[index_of(t)]
+                      : position(cells_.hidden[index_of(hidden)].crossing[index_of(k)]);
   }
 
   std::int32_t hider(std::int32_t t) const {
-    const std::int32_t hidden = cells_.hidden_of_triangle[u(t)];
-    return hidden < 0 ? -1 : cells_.hidden[u(hidden)].facet;
+    const std::int32_t hidden = cells_.hidden_of_triangle[index_of(t)];
+    return hidden < 0 ? -1 : cells_.hidden[index_of(hidden)].facet;
   }
 
   void add_interior() {
@@ -133,24 +136,25 @@ private:
     for (std::int32_t t = 0; t < mesh_.triangles(); ++t) {
       const std::int32_t hidden_by = hider(t);
       for (std::int32_t k = 0; k < 3; ++k) {
-        const std::int32_t across = mesh_.neighbour[u(t)][u(k)];
+        const std::int32_t across = mesh_.neighbour[index_of(t)][index_of(k)];
         if (across > t) continue; // each edge once, from its later triangle
         Vec2 start;
         if (across < 0) {
-          const std::int32_t facet = mesh_.facet[u(t)][u(k)];
+          const std::int32_t facet = mesh_.facet[index_of(t)][index_of(k)];
           if (hidden_by == facet) continue;
-          start = position(cells_.crossing_of_facet[u(facet)]);
+          start = position(cells_.crossing_of_facet[index_of(facet)]);
         } else {
           if (hidden_by >= 0 && hidden_by == hider(across)) continue;
           std::int32_t back = 0;
-          while (mesh_.neighbour[u(across)][u(back)] != t) ++back;
+          while (mesh_.neighbour[index_of(across)][index_of(back)] != t) ++back;
           start = end_point(across, back);
         }
         const Vec2 end = end_point(t, k);
-        const std::int32_t i = mesh_.node[u(t)][u(next(k))], j = mesh_.node[u(t)][u(next(next(k)))];
+        const std::int32_t i = mesh_.node[index_of(t)][index_of(next(k))],
+                           j = mesh_.node[index_of(t)][index_of(next(next(k)))];
         cells_.interior.push_back({{i, j}, {across, t}, start, end});
-        cells_.volume[u(i)] += 0.5 * cross(start - at(i), end - start);
-        cells_.volume[u(j)] -= 0.5 * cross(start - at(j), end - start);
+        cells_.volume[index_of(i)] += 0.5 * cross(start - at(i), end - start);
+        cells_.volume[index_of(j)] -= 0.5 * cross(start - at(j), end - start);
       }
     }
   }
@@ -168,11 +172,11 @@ private:
 Cells constrained_cells(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles) {
   Cells cells = CellBuilder(cloud, mesh, circles).build();
   for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-    if (!(cells.volume[u(i)] > 0.0))
+    if (!(cells.volume[index_of(i)] > 0.0))
       throw GeometryError(
           fmt::format("the cell of {} has no area (V = {:.3g} m²): its neighbours are too close "
                       "to each other or to one line",
-                      describe_node(cloud, i), cells.volume[u(i)]));
+                      describe_node(cloud, i), cells.volume[index_of(i)]));
   return cells;
 }
 

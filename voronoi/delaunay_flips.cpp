@@ -18,7 +18,7 @@ bool opposite_angles_too_large(const Vec2& p, const Vec2& a, const Vec2& b, cons
   return sine_p * cosine_q + cosine_p * sine_q < -1e-10 * scale;
 }
 
-std::size_t index_of(const std::array<std::int32_t, 3>& values, std::int32_t value) {
+std::size_t place_in(const std::array<std::int32_t, 3>& values, std::int32_t value) {
   return values[0] == value ? 0 : values[1] == value ? 1 : 2;
 }
 
@@ -31,34 +31,37 @@ void restore_delaunay(Triangulation& mesh, const std::vector<Vec2>& position) {
     const std::int32_t t = waiting.back();
     waiting.pop_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t o = mesh.neighbour[u(t)][k];
+      const std::int32_t o = mesh.neighbour[index_of(t)][k];
       if (o < 0) continue;
       const std::size_t k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      const std::size_t m = index_of(mesh.neighbour[u(o)], t), m1 = (m + 1) % 3, m2 = (m + 2) % 3;
-      const std::int32_t p = mesh.node[u(t)][k], a = mesh.node[u(t)][k1], b = mesh.node[u(t)][k2];
-      const std::int32_t q = mesh.node[u(o)][m];
-      if (!opposite_angles_too_large(position[u(p)], position[u(a)], position[u(b)], position[u(q)]))
+      const std::size_t m = place_in(mesh.neighbour[index_of(o)], t), m1 = (m + 1) % 3, m2 = (m + 2) % 3;
+      const std::int32_t p = mesh.node[index_of(t)][k], a = mesh.node[index_of(t)][k1],
+                         b = mesh.node[index_of(t)][k2];
+      const std::int32_t q = mesh.node[index_of(o)][m];
+      if (!opposite_angles_too_large(position[index_of(p)], position[index_of(a)], position[index_of(b)],
+                                     position[index_of(q)]))
         continue;
 
       // pab and qba become paq and pqb.
-      const std::int32_t beyond_aq = mesh.neighbour[u(o)][m1], beyond_pb = mesh.neighbour[u(t)][k1];
-      const std::array<std::int32_t, 3> t_neighbour{beyond_aq, o, mesh.neighbour[u(t)][k2]};
-      const std::array<std::int32_t, 3> o_neighbour{mesh.neighbour[u(o)][m2], beyond_pb, t};
-      const std::array<std::int32_t, 3> t_facet{mesh.facet[u(o)][m1], -1, mesh.facet[u(t)][k2]};
-      const std::array<std::int32_t, 3> o_facet{mesh.facet[u(o)][m2], mesh.facet[u(t)][k1], -1};
-      mesh.node[u(t)] = {p, a, q};
-      mesh.node[u(o)] = {p, q, b};
-      mesh.neighbour[u(t)] = t_neighbour;
-      mesh.neighbour[u(o)] = o_neighbour;
-      mesh.facet[u(t)] = t_facet;
-      mesh.facet[u(o)] = o_facet;
+      const std::int32_t beyond_aq = mesh.neighbour[index_of(o)][m1],
+                         beyond_pb = mesh.neighbour[index_of(t)][k1];
+      const std::array<std::int32_t, 3> t_neighbour{beyond_aq, o, mesh.neighbour[index_of(t)][k2]};
+      const std::array<std::int32_t, 3> o_neighbour{mesh.neighbour[index_of(o)][m2], beyond_pb, t};
+      const std::array<std::int32_t, 3> t_facet{mesh.facet[index_of(o)][m1], -1, mesh.facet[index_of(t)][k2]};
+      const std::array<std::int32_t, 3> o_facet{mesh.facet[index_of(o)][m2], mesh.facet[index_of(t)][k1], -1};
+      mesh.node[index_of(t)] = {p, a, q};
+      mesh.node[index_of(o)] = {p, q, b};
+      mesh.neighbour[index_of(t)] = t_neighbour;
+      mesh.neighbour[index_of(o)] = o_neighbour;
+      mesh.facet[index_of(t)] = t_facet;
+      mesh.facet[index_of(o)] = o_facet;
       if (beyond_aq >= 0) {
-        auto& back = mesh.neighbour[u(beyond_aq)];
-        back[index_of(back, o)] = t;
+        auto& back = mesh.neighbour[index_of(beyond_aq)];
+        back[place_in(back, o)] = t;
       }
       if (beyond_pb >= 0) {
-        auto& back = mesh.neighbour[u(beyond_pb)];
-        back[index_of(back, t)] = o;
+        auto& back = mesh.neighbour[index_of(beyond_pb)];
+        back[place_in(back, t)] = o;
       }
       waiting.push_back(o);
       waiting.push_back(t);

@@ -11,7 +11,7 @@ namespace {} // namespace
 std::array<double, 3> barycentric(const Cloud<2>& cloud, const Triangulation& mesh, std::int32_t triangle,
                                   const Vec2& x) {
   std::array<Vec2, 3> r;
-  for (std::size_t k = 0; k < 3; ++k) r[k] = cloud.position[u(mesh.node[u(triangle)][k])] - x;
+  for (std::size_t k = 0; k < 3; ++k) r[k] = cloud.position[index_of(mesh.node[index_of(triangle)][k])] - x;
   const double a = cross(r[1], r[2]), b = cross(r[2], r[0]), c = cross(r[0], r[1]);
   const double sum = a + b + c;
   return {a / sum, b / sum, c / sum};
@@ -19,9 +19,9 @@ std::array<double, 3> barycentric(const Cloud<2>& cloud, const Triangulation& me
 
 WalkEnd walk(const Cloud<2>& cloud, const Triangulation& mesh, std::int32_t from, const Vec2& x) {
   const auto at = [&](std::size_t t, std::size_t k) -> const Vec2& {
-    return cloud.position[u(mesh.node[t][k % 3])];
+    return cloud.position[index_of(mesh.node[t][k % 3])];
   };
-  std::size_t t = u(from);
+  std::size_t t = index_of(from);
   const Vec2 origin = (at(t, 0) + at(t, 1) + at(t, 2)) / 3.0;
   const Vec2 direction = x - origin;
   // The edge through which the ray leaves runs from its right to its left.
@@ -37,8 +37,8 @@ WalkEnd walk(const Cloud<2>& cloud, const Triangulation& mesh, std::int32_t from
     const std::int32_t next = mesh.neighbour[t][exit];
     if (next < 0) return {static_cast<std::int32_t>(t), mesh.facet[t][exit]};
     std::size_t back = 0;
-    while (mesh.neighbour[u(next)][back] != static_cast<std::int32_t>(t)) ++back;
-    t = u(next);
+    while (mesh.neighbour[index_of(next)][back] != static_cast<std::int32_t>(t)) ++back;
+    t = index_of(next);
     exit = cross(direction, at(t, back) - origin) >= 0.0 ? (back + 1) % 3 : (back + 2) % 3;
   }
   return {static_cast<std::int32_t>(t), -1};

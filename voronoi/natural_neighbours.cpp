@@ -27,7 +27,7 @@ NaturalNeighbours::NaturalNeighbours(const Cloud<2>& cloud, const Triangulation&
 }
 
 bool NaturalNeighbours::in_circle(std::int32_t triangle, const Vec2& x) const {
-  return (circles_.centre[u(triangle)] - x).squaredNorm() < circles_.limit[u(triangle)];
+  return (circles_.centre[index_of(triangle)] - x).squaredNorm() < circles_.limit[index_of(triangle)];
 }
 
 /// What an edge a → b of the cavity means that x is not clearly to the left of.
@@ -43,7 +43,7 @@ NaturalNeighbours::Outcome NaturalNeighbours::degenerate_edge(const Neighbour& a
 
 void NaturalNeighbours::push(std::int32_t node, const Vec2& x) {
   if (count_ == ring_.size()) ring_.resize(2 * count_);
-  const Vec2& p = cloud_.position[u(node)];
+  const Vec2& p = cloud_.position[index_of(node)];
   ring_[count_].node = node;
   ring_[count_].x = p.x() - x.x();
   ring_[count_].y = p.y() - x.y();
@@ -56,17 +56,17 @@ void NaturalNeighbours::push(std::int32_t node, const Vec2& x) {
 /// ring_[1]) are the nodes concerned and frame_[0] a triangle that has them.
 NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, std::int32_t start, bool located) {
   count_ = 0;
-  push(mesh_.node[u(start)][1], x);
+  push(mesh_.node[index_of(start)][1], x);
   std::size_t depth = 0, visited = 1;
   frame_[0] = {start, 0, 3};
-  Vec2 c = circles_.centre[u(start)] - x;
+  Vec2 c = circles_.centre[index_of(start)] - x;
   double path = 0.0;
   while (true) {
     Frame& frame = frame_[depth];
     if (frame.left == 0) {
       if (depth == 0) break;
       --depth;
-      const Vec2 up = circles_.centre[u(frame_[depth].triangle)] - x;
+      const Vec2 up = circles_.centre[index_of(frame_[depth].triangle)] - x;
       path += cross(c, up);
       c = up;
       continue;
@@ -74,13 +74,13 @@ NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, std::int32_
     const std::int32_t t = frame.triangle, k = frame.edge;
     frame.edge = next(k);
     --frame.left;
-    const std::int32_t across = mesh_.neighbour[u(t)][u(k)];
+    const std::int32_t across = mesh_.neighbour[index_of(t)][index_of(k)];
     const auto descend = [&] {
-      const auto& back = mesh_.neighbour[u(across)];
+      const auto& back = mesh_.neighbour[index_of(across)];
       const std::int32_t entry = back[0] == t ? 0 : back[1] == t ? 1 : 2;
       if (++depth == frame_.size()) frame_.resize(2 * depth);
       frame_[depth] = {across, next(entry), 2};
-      const Vec2 down = circles_.centre[u(across)] - x;
+      const Vec2 down = circles_.centre[index_of(across)] - x;
       path += cross(c, down);
       c = down;
       ++visited;
@@ -92,7 +92,7 @@ NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, std::int32_
     }
 
     const std::size_t here = count_++;
-    push(mesh_.node[u(t)][u(next(next(k)))], x);
+    push(mesh_.node[index_of(t)][index_of(next(next(k)))], x);
     Neighbour& a = ring_[here];
     const Neighbour& b = ring_[here + 1];
     const double aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y, ab = a.x * b.x + a.y * b.y;
@@ -184,19 +184,19 @@ void NaturalNeighbours::weigh_gradients(Functions functions) {
 }
 
 void NaturalNeighbours::linear_on(const Location& at) {
-  node_.assign(mesh_.node[u(at.triangle)].begin(), mesh_.node[u(at.triangle)].end());
+  node_.assign(mesh_.node[index_of(at.triangle)].begin(), mesh_.node[index_of(at.triangle)].end());
   value_.assign(at.weight.begin(), at.weight.end());
 }
 
 void NaturalNeighbours::linear_gradients_on(std::int32_t triangle) {
-  const auto& nodes = mesh_.node[u(triangle)];
+  const auto& nodes = mesh_.node[index_of(triangle)];
   std::array<double, 3> value{};
   for (std::size_t i = 0; i < node_.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       if (nodes[k] == node_[i]) value[k] = value_[i];
   linear_on({triangle, value, true});
   std::array<Vec2, 3> x;
-  for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[u(nodes[k])];
+  for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[index_of(nodes[k])];
   const double twice_area = cross(x[1] - x[0], x[2] - x[0]);
   gradient_.resize(3);
   for (std::size_t k = 0; k < 3; ++k)

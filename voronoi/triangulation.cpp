@@ -53,33 +53,33 @@ public:
   }
 
 private:
-  const Vec2& at(std::int32_t node) const { return cloud_.position[u(node)]; }
-  bool on_boundary(std::int32_t node) const { return leaving_[u(node)] >= 0; }
+  const Vec2& at(std::int32_t node) const { return cloud_.position[index_of(node)]; }
+  bool on_boundary(std::int32_t node) const { return leaving_[index_of(node)] >= 0; }
 
   /// Nodes at the same position share one CGAL vertex, which is allowed to declared twins only. The nodes go
   /// into an unconstrained triangulation, whose flips are cheaper; the constrained one takes over its
   /// structure.
   void insert_nodes() {
     const auto group = twin_groups(cloud_);
-    vertex_.resize(u(cloud_.nodes()));
-    is_merged_.assign(u(cloud_.nodes()), false);
+    vertex_.resize(index_of(cloud_.nodes()));
+    is_merged_.assign(index_of(cloud_.nodes()), false);
     Unconstrained nodes;
     Face hint;
     for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
       const std::size_t before = nodes.number_of_vertices();
       const Vertex v = nodes.insert({at(i).x(), at(i).y()}, hint);
       hint = v->face();
-      vertex_[u(i)] = v;
+      vertex_[index_of(i)] = v;
       if (nodes.number_of_vertices() > before) {
         v->info() = i;
         continue;
       }
       const std::int32_t first = v->info();
-      if (group.empty() || group[u(first)] != group[u(i)])
+      if (group.empty() || group[index_of(first)] != group[index_of(i)])
         throw GeometryError(fmt::format("{} coincides with node {}: expected distinct positions, or a "
                                         "declared pair of twins on the two faces of a crack",
                                         describe_node(cloud_, i), first));
-      is_merged_[u(first)] = is_merged_[u(i)] = merged_ = true;
+      is_merged_[index_of(first)] = is_merged_[index_of(i)] = merged_ = true;
     }
     if (nodes.dimension() < 2)
       throw GeometryError(fmt::format("empty domain: the {} nodes lie on one line", cloud_.nodes()));
@@ -91,12 +91,13 @@ private:
   void insert_facets() {
     try {
       for (const auto& facet : cloud_.facets)
-        delaunay_.insert_constraint(vertex_[u(facet.node[0])], vertex_[u(facet.node[1])]);
+        delaunay_.insert_constraint(vertex_[index_of(facet.node[0])], vertex_[index_of(facet.node[1])]);
     } catch (const Delaunay::Intersection_of_constraints_exception&) { throw_crossing(cloud_); }
     left_of_.resize(cloud_.facets.size());
     for (std::size_t f = 0; f < cloud_.facets.size(); ++f) {
       const auto facet = static_cast<std::int32_t>(f);
-      const Vertex a = vertex_[u(cloud_.facets[f].node[0])], b = vertex_[u(cloud_.facets[f].node[1])];
+      const Vertex a = vertex_[index_of(cloud_.facets[f].node[0])],
+                   b = vertex_[index_of(cloud_.facets[f].node[1])];
       Face face;
       int k = 0;
       if (!delaunay_.is_edge(a, b, face, k)) throw_node_on_facet(cloud_, facet);
@@ -105,7 +106,7 @@ private:
         k = delaunay_.mirror_index(face, k);
         face = other;
       }
-      auto& slot = face->info().facet[u(k)];
+      auto& slot = face->info().facet[index_of(k)];
       if (slot >= 0)
         throw GeometryError(fmt::format("{} runs along facet {} in the same direction, expected opposite "
                                         "faces of a crack or no overlap",
@@ -143,7 +144,7 @@ private:
     for (std::size_t f = 0; f < left_of_.size(); ++f) {
       const auto& [face, k] = left_of_[f];
       const auto& right = face->neighbor(k)->info();
-      if (right.side == Side::inside && right.facet[u(delaunay_.mirror_index(face, k))] < 0)
+      if (right.side == Side::inside && right.facet[index_of(delaunay_.mirror_index(face, k))] < 0)
         throw_orientation(f);
     }
   }
@@ -157,7 +158,7 @@ private:
 
   void number_triangles() {
     std::vector<Face> faces;
-    faces.reserve(2 * u(cloud_.nodes()));
+    faces.reserve(2 * index_of(cloud_.nodes()));
     for (const Face face : delaunay_.finite_face_handles()) {
       if (face->info().side != Side::inside) continue;
       face->info().triangle = static_cast<std::int32_t>(faces.size());
@@ -173,9 +174,9 @@ private:
       const Face face = faces[t];
       for (int k = 0; k < 3; ++k) {
         const bool wall = face->is_constrained(k);
-        result_.node[t][u(k)] = face->vertex(k)->info();
-        result_.facet[t][u(k)] = face->info().facet[u(k)];
-        result_.neighbour[t][u(k)] = wall ? -1 : face->neighbor(k)->info().triangle;
+        result_.node[t][index_of(k)] = face->vertex(k)->info();
+        result_.facet[t][index_of(k)] = face->info().facet[index_of(k)];
+        result_.neighbour[t][index_of(k)] = wall ? -1 : face->neighbor(k)->info().triangle;
       }
     }
   }
@@ -184,16 +185,16 @@ private:
   void separate_merged_nodes() {
     for (std::size_t f = 0; f < left_of_.size(); ++f) {
       const std::int32_t node = cloud_.facets[f].node[0];
-      if (!is_merged_[u(node)]) continue;
+      if (!is_merged_[index_of(node)]) continue;
       std::int32_t t = left_of_[f].first->info().triangle;
       int k = Delaunay::ccw(left_of_[f].second);
       while (true) {
-        result_.node[u(t)][u(k)] = node;
+        result_.node[index_of(t)][index_of(k)] = node;
         const int exit = Delaunay::ccw(k);
-        const std::int32_t next = result_.neighbour[u(t)][u(exit)];
+        const std::int32_t next = result_.neighbour[index_of(t)][index_of(exit)];
         if (next < 0) {
-          const std::int32_t last = result_.facet[u(t)][u(exit)];
-          if (cloud_.facets[u(last)].node[1] == node) break;
+          const std::int32_t last = result_.facet[index_of(t)][index_of(exit)];
+          if (cloud_.facets[index_of(last)].node[1] == node) break;
           throw GeometryError(
               fmt::format("the boundary touches or crosses itself at {}: the domain to the left of {} ends "
                           "at {}, which does not arrive at that node",
@@ -201,7 +202,7 @@ private:
                           describe_facet(cloud_, last)));
         }
         int back = 0;
-        while (result_.neighbour[u(next)][u(back)] != t) ++back;
+        while (result_.neighbour[index_of(next)][index_of(back)] != t) ++back;
         t = next;
         k = Delaunay::ccw(back);
       }
@@ -209,19 +210,20 @@ private:
   }
 
   void record_triangle_of_node() {
-    result_.triangle_of_node.assign(u(cloud_.nodes()), -1);
+    result_.triangle_of_node.assign(index_of(cloud_.nodes()), -1);
     for (std::size_t t = 0; t < result_.node.size(); ++t)
       for (const std::int32_t i : result_.node[t])
-        if (result_.triangle_of_node[u(i)] < 0) result_.triangle_of_node[u(i)] = static_cast<std::int32_t>(t);
+        if (result_.triangle_of_node[index_of(i)] < 0)
+          result_.triangle_of_node[index_of(i)] = static_cast<std::int32_t>(t);
     for (std::size_t f = 0; f < left_of_.size(); ++f)
-      result_.triangle_of_node[u(cloud_.facets[f].node[0])] = left_of_[f].first->info().triangle;
+      result_.triangle_of_node[index_of(cloud_.facets[f].node[0])] = left_of_[f].first->info().triangle;
     for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
-      if (is_merged_[u(i)] && !on_boundary(i))
+      if (is_merged_[index_of(i)] && !on_boundary(i))
         throw GeometryError(
             fmt::format("{} is declared a twin but belongs to no facet: expected the nodes of "
                         "the two faces of a crack",
                         describe_node(cloud_, i)));
-      if (result_.triangle_of_node[u(i)] < 0)
+      if (result_.triangle_of_node[index_of(i)] < 0)
         throw GeometryError(fmt::format("{} lies outside the domain", describe_node(cloud_, i)));
     }
   }

@@ -45,7 +45,7 @@ void write_all(int fd, std::string_view text) {
   while (!text.empty()) {
     const ssize_t n = write(fd, text.data(), text.size());
     if (n <= 0) return;
-    text.remove_prefix(u(n));
+    text.remove_prefix(index_of(n));
   }
 }
 

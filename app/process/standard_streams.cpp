@@ -27,7 +27,7 @@ ssize_t pass_on(void* cookie, const char* text, std::size_t size) {
   for (std::size_t done = 0; done < size && sink.error == 0;) {
     const ssize_t n = write(sink.fd, text + done, size - done);
     if (n >= 0)
-      done += u(n);
+      done += index_of(n);
     else if (errno != EINTR)
       sink.error = errno;
   }

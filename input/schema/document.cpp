@@ -268,7 +268,7 @@ Value read_document(const std::string& path) {
   std::string text;
   for (std::vector<char> part(1 << 16); stream.is_open() && !stream.bad() && !stream.eof();) {
     stream.read(part.data(), static_cast<std::streamsize>(part.size()));
-    text.append(part.data(), u(stream.gcount()));
+    text.append(part.data(), index_of(stream.gcount()));
     if (text.size() > largest)
       throw InputError(fmt::format("{}: found more than {} bytes, expected a case file", path, largest));
   }

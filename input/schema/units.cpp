@@ -179,7 +179,7 @@ private:
     const auto [end, error] =
         std::from_chars(text_.data() + at_, text_.data() + text_.size(), value, std::chars_format::fixed);
     if (error != std::errc{}) fail("a number must follow '^', as in m^2 or s^0.5");
-    at_ = u(end - text_.data());
+    at_ = index_of(end - text_.data());
     if (std::abs(value) > 9.0 || 2.0 * value != std::round(2.0 * value))
       fail("powers are whole or half numbers up to 9");
     return value;
@@ -250,7 +250,7 @@ std::pair<double, std::size_t> leading_number(std::string_view text) {
         "found '{}', which is beyond what a number can hold, expected 0 or 1e-307 to 1e308", text));
   if (error != std::errc{}) return {0.0, 0};
   if (!std::isfinite(value)) throw UnitError(fmt::format("found '{}', expected a finite number", text));
-  return {value, u(end - text.data())};
+  return {value, index_of(end - text.data())};
 }
 
 } // namespace

@@ -46,10 +46,10 @@ std::vector<std::size_t> parts_of(const DiscreteOperators<2>& op, std::size_t no
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  for (std::size_t p = 0; p < u(op.points); ++p) {
-    const auto first = u(op.row_begin[p]), last = u(op.row_begin[p + 1]);
+  for (std::size_t p = 0; p < index_of(op.points); ++p) {
+    const auto first = index_of(op.row_begin[p]), last = index_of(op.row_begin[p + 1]);
     for (std::size_t e = first + 1; e < last; ++e) {
-      const auto a = u(op.node[first]), b = u(op.node[e]);
+      const auto a = index_of(op.node[first]), b = index_of(op.node[e]);
       if (a >= nodes || b >= nodes) continue; // enrichment
       const std::size_t ra = root(a), rb = root(b);
       parent[std::max(ra, rb)] = std::min(ra, rb);
@@ -74,7 +74,7 @@ std::string missing_support(const DiscreteOperators<2>& operators, const std::ve
     part.radius = std::max(part.radius, (position[i] - part.centre).norm());
   }
   for (const auto& p : supports.prescribed()) {
-    const auto i = u(p.node);
+    const auto i = index_of(p.node);
     Part& part = parts[part_of[i]];
     const Eigen::Vector3d felt(p.direction.x(), p.direction.y(),
                                p.direction.dot(left_normal(position[i] - part.centre)) / part.radius);

@@ -27,18 +27,19 @@ double lame_lambda(const StaticProblem& problem, std::size_t point) {
 class FreeUnknowns {
 public:
   explicit FreeUnknowns(const StaticProblem& problem) {
-    const auto functions = u(problem.operators.nodes);
+    const auto functions = index_of(problem.operators.nodes);
     map_.resize(functions);
     resize_all(given_, functions);
     std::vector<int> held(functions, 0);
     for (const auto& p : problem.supports.prescribed()) {
-      const auto i = u(p.node);
+      const auto i = index_of(p.node);
       const double value = problem.supports.displacement(p.support, problem.time);
       for (std::size_t k = 0; k < 2; ++k) given_[k][i] += value * p.direction[static_cast<Eigen::Index>(k)];
       ++held[i];
     }
     std::vector<Mat<2>> free(functions, Mat<2>::Identity());
-    for (const auto& constraint : problem.supports.constraints()) free[u(constraint.node)] = constraint.free;
+    for (const auto& constraint : problem.supports.constraints())
+      free[index_of(constraint.node)] = constraint.free;
     for (std::size_t a = 0; a < functions; ++a) {
       Mat<2> rest = free[a];
       for (int d = held[a]; d < 2; ++d) {
@@ -87,10 +88,10 @@ private:
 Fields<5> gradients(const StaticProblem& problem, const Fields<2>& u) {
   const DiscreteOperators<2>& op = problem.operators;
   Fields<5> g;
-  resize_all(g, u(op.points));
+  resize_all(g, index_of(op.points));
   for (std::size_t p = 0; p < g[0].size(); ++p)
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
-      const auto a = u(op.node[e]);
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
+      const auto a = index_of(op.node[e]);
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t k = 0; k < 2; ++k) g[i * 2 + k][p] += u[i][a] * op.gradient[k][e];
       if (op.of_revolution()) g[4][p] += u[0][a] * op.hoop[e];
@@ -121,10 +122,10 @@ Fields<4> stresses(const StaticProblem& problem, Fields<5>& g) {
 Fields<2> internal_force(const StaticProblem& problem, const Fields<4>& stress) {
   const DiscreteOperators<2>& op = problem.operators;
   Fields<2> f;
-  resize_all(f, u(op.nodes));
+  resize_all(f, index_of(op.nodes));
   for (std::size_t a = 0; a < f[0].size(); ++a)
-    for (auto e = u(op.col_begin[a]); e < u(op.col_begin[a + 1]); ++e) {
-      const auto p = u(op.point[e]);
+    for (auto e = index_of(op.col_begin[a]); e < index_of(op.col_begin[a + 1]); ++e) {
+      const auto p = index_of(op.point[e]);
       const double bx = op.weighted_gradient[0][e], by = op.weighted_gradient[1][e];
       f[0][a] += stress[0][p] * bx + stress[3][p] * by;
       f[1][a] += stress[3][p] * bx + stress[1][p] * by;
@@ -140,8 +141,8 @@ template<class Visit> std::size_t each_defect(const StaticProblem& problem, Visi
   std::size_t row = 0;
   if (problem.stabilisation <= 0.0 || problem.links.neighbour.empty()) return row;
   for (std::size_t i = 0; i + 1 < problem.links.begin.size(); ++i)
-    for (auto l = u(problem.links.begin[i]); l < u(problem.links.begin[i + 1]); ++l) {
-      const auto j = u(problem.links.neighbour[l]);
+    for (auto l = index_of(problem.links.begin[i]); l < index_of(problem.links.begin[i + 1]); ++l) {
+      const auto j = index_of(problem.links.neighbour[l]);
       if (j < i) continue;
       const double mu = 0.5 * (problem.at_point(i).mu() + problem.at_point(j).mu());
       const double root = std::sqrt(problem.stabilisation * mu * problem.links.weight[l]);
@@ -149,10 +150,10 @@ template<class Visit> std::size_t each_defect(const StaticProblem& problem, Visi
       visit(row, j, root);
       visit(row, i, -root);
       for (const std::size_t p : {i, j})
-        for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
+        for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
           double along = 0.0;
           for (std::size_t k = 0; k < 2; ++k) along += op.gradient[k][e] * X[static_cast<Eigen::Index>(k)];
-          visit(row, u(op.node[e]), -0.5 * root * along);
+          visit(row, index_of(op.node[e]), -0.5 * root * along);
         }
       ++row;
     }
@@ -175,8 +176,8 @@ SparseMatrix elastic_stiffness(const StaticProblem& problem, const FreeUnknowns&
   const int rows = op.of_revolution() ? 4 : 3;
   for (std::size_t p = begin; p < end; ++p) {
     const double lambda = lame_lambda(problem, p), mu = problem.at_point(p).mu();
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
-      const auto a = u(op.node[e]);
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
+      const auto a = index_of(op.node[e]);
       const double bx = op.gradient[0][e], by = op.gradient[1][e], V = op.volume[p];
       const double hoop = op.of_revolution() ? op.hoop[e] : 0.0;
       const auto row = rows * static_cast<int>(p - begin);
@@ -194,14 +195,14 @@ SparseMatrix elastic_stiffness(const StaticProblem& problem, const FreeUnknowns&
         });
     }
   }
-  const std::size_t all = u(rows) * (end - begin);
+  const std::size_t all = index_of(rows) * (end - begin);
   return matrix(all, unknowns.size(), strain).transpose() * matrix(all, unknowns.size(), stress);
 }
 
 /// Tᵀ K T with the edge defect. Points go in portions, so that memory follows K and not their number.
 SparseMatrix stiffness(const StaticProblem& problem, const FreeUnknowns& unknowns) {
   constexpr std::size_t portion = 50000;
-  const auto points = u(problem.operators.points);
+  const auto points = index_of(problem.operators.points);
   SparseMatrix K(unknowns.size(), unknowns.size());
   for (std::size_t begin = 0; begin < points; begin += portion)
     K += elastic_stiffness(problem, unknowns, begin, std::min(begin + portion, points));
@@ -284,7 +285,7 @@ void check_finite(const StaticProblem& problem, const StaticSolution& solution) 
         const auto* const row = op.node.data();
         const auto* const near = std::min_element(row + op.row_begin[p],
                                                   row + op.row_begin[p + 1]); // functions beyond nodes enrich
-        fail("stress", u(*near), component[p], "the point of node");
+        fail("stress", index_of(*near), component[p], "the point of node");
       }
   for (const Field& component : solution.reaction)
     for (std::size_t i = 0; i < nodes; ++i)
@@ -303,7 +304,7 @@ StaticSolution solve_statics(const StaticProblem& problem) {
       !motion.empty())
     throw InputError(motion);
   const FreeUnknowns unknowns(problem);
-  const auto functions = u(problem.operators.nodes);
+  const auto functions = index_of(problem.operators.nodes);
 
   Fields<2> load = problem.force;
   for (Field& component : load) component.resize(functions, 0.0);
@@ -326,7 +327,7 @@ StaticSolution solve_statics(const StaticProblem& problem) {
 
   resize_all(solution.reaction, problem.position.size());
   for (const auto& p : problem.supports.prescribed()) {
-    const auto i = u(p.node);
+    const auto i = index_of(p.node);
     const double along = p.direction.x() * unbalanced[0][i] + p.direction.y() * unbalanced[1][i];
     solution.reaction[0][i] += along * p.direction.x();
     solution.reaction[1][i] += along * p.direction.y();

@@ -35,7 +35,7 @@ public:
     for (int a = 0; a <= body.levels.highest(); ++a) {
       std::vector<double>& window = window_.emplace_back();
       for (const std::int32_t i : contact.boundary_nodes())
-        window.push_back(body.levels.window(body.operators(), u(i), a));
+        window.push_back(body.levels.window(body.operators(), index_of(i), a));
     }
   }
 
@@ -51,7 +51,7 @@ public:
   void correct(const Body<dim>& body, int activity, double dt, double dt_mean) override {
     NodeState<dim>& node = body.state.node;
     if (body.conditions.contact.active())
-      touch(body, window_.empty() ? std::span<const double>() : window_[u(activity)], dt, dt_mean);
+      touch(body, window_.empty() ? std::span<const double>() : window_[index_of(activity)], dt, dt_mean);
     if (!body.conditions.ties.empty())
       tie_loss_ += body.conditions.ties.share_motion(node.inertia(), dt, node.velocity, node.position);
   }
@@ -65,12 +65,13 @@ private:
     if (contact.flow_stress_needed()) {
       flow_stress.reserve(boundary.size());
       for (const std::int32_t i : boundary)
-        flow_stress.push_back(average_at_node<dim>(body.operators(), body.state.point.flow_stress, u(i)));
+        flow_stress.push_back(
+            average_at_node<dim>(body.operators(), body.state.point.flow_stress, index_of(i)));
     }
     std::vector<double> effusivity;
     if (body.model.thermal)
       for (const std::int32_t i : boundary) {
-        const plasticity::Material& material = body.material_of_node(u(i));
+        const plasticity::Material& material = body.material_of_node(index_of(i));
         effusivity.push_back(std::sqrt(material.conductivity * material.density * material.specific_heat));
       }
     contact.correct({.time = body.state.time,

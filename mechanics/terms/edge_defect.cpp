@@ -80,7 +80,7 @@ void EdgeDefect<dim>::add_forces(const Body<dim>& body, int activity, const Leve
     return apply(part, body.operators().volume, body.reference, body.position, body.stress,
                  body.state.node.force, range.begin, range.end);
   };
-  EdgeEnergy& sum = energy_[u(&range - body.levels.points(activity).data())];
+  EdgeEnergy& sum = energy_[index_of(&range - body.levels.points(activity).data())];
   sum = from(body.levels.own_links(links));
   if (!range.marked || activity <= range.level) return; // twice as heavy as seen from the other end
   const EdgeEnergy coarse = from(body.levels.coarse_links());

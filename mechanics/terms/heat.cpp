@@ -40,7 +40,7 @@ public:
   void attach(const Body<dim>& body) override {
     if (!body.model.thermal) return;
     const DiscreteOperators<dim>& op = body.approximation.conduction;
-    Field conductivity(u(op.points));
+    Field conductivity(index_of(op.points));
     for (std::size_t p = 0; p < conductivity.size(); ++p)
       conductivity[p] = body.material_of_node(op.first_node(p)).conductivity;
     conduction_.set_operators(op, std::move(conductivity));
@@ -91,10 +91,10 @@ private:
     if (!contact.active()) return;
     const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
     for (std::size_t b = 0; b < boundary.size(); ++b)
-      body.state.node.contact_heat[u(boundary[b])] = contact.friction_heat()[b];
+      body.state.node.contact_heat[index_of(boundary[b])] = contact.friction_heat()[b];
     contacts_.clear();
     for (const contact::ContactPoint<dim>& touch : contact.points()) {
-      const contact::ToolThermal& thermal = contact.tools()[u(touch.tool)].thermal;
+      const contact::ToolThermal& thermal = contact.tools()[index_of(touch.tool)].thermal;
       if (thermal.conductance > 0.0)
         contacts_.tools.push_back({touch.node, thermal.conductance, touch.area, thermal.temperature});
     }
@@ -116,8 +116,8 @@ private:
         if (op.nodal) {
           heat += plastic_heat_of_node(body, i);
         } else {
-          for (auto e = u(op.col_begin[i]); e < u(op.col_begin[i + 1]); ++e) {
-            const auto p = u(op.point[e]);
+          for (auto e = index_of(op.col_begin[i]); e < index_of(op.col_begin[i + 1]); ++e) {
+            const auto p = index_of(op.point[e]);
             heat += body.material_of(p).taylor_quinney * point.dissipation[p] * point.stress_free[p] *
                     op.weighted_value[e];
           }

@@ -29,7 +29,7 @@ template<int dim> void Loads<dim>::share_out(const std::vector<Vec<dim>>& initia
     std::vector<std::array<double, dim>>& share = traction_share_.emplace_back();
     for (const Facet<dim>& facet : traction.facets) {
       std::array<Vec<dim>, dim> corner;
-      for (std::size_t a = 0; a < dim; ++a) corner[a] = initial[u(facet.node[a])];
+      for (std::size_t a = 0; a < dim; ++a) corner[a] = initial[index_of(facet.node[a])];
       share.push_back(corner_areas<dim>(space_, corner));
     }
   }
@@ -47,7 +47,7 @@ template<int dim> void Loads<dim>::evaluate(double time, const Fields<dim>& posi
       const double value = tractions_[t].value[k](time);
       for (std::size_t f = 0; f < tractions_[t].facets.size(); ++f)
         for (std::size_t end = 0; end < dim; ++end)
-          force_[k][u(tractions_[t].facets[f].node[end])] += value * traction_share_[t][f][end];
+          force_[k][index_of(tractions_[t].facets[f].node[end])] += value * traction_share_[t][f][end];
     }
   for (const Pressure<dim>& pressure : pressures_) {
     const double value = pressure.value(time);
@@ -57,7 +57,7 @@ template<int dim> void Loads<dim>::evaluate(double time, const Fields<dim>& posi
       const Vec<dim> push = -value * area_normal<dim>(corner).normalized();
       for (std::size_t k = 0; k < dim; ++k)
         for (std::size_t a = 0; a < dim; ++a)
-          force_[k][u(facet.node[a])] += area[a] * push[static_cast<Eigen::Index>(k)];
+          force_[k][index_of(facet.node[a])] += area[a] * push[static_cast<Eigen::Index>(k)];
     }
   }
 }

@@ -26,7 +26,7 @@ void PointDamage<dim>::measure(const DiscreteOperators<dim>& operators,
   const std::size_t n = point.size();
   length_.assign(n, 0.0);
   for (std::size_t p = 0; p < n; ++p) {
-    const auto& law = materials[u(point.material[p])].damage;
+    const auto& law = materials[index_of(point.material[p])].damage;
     if (!law) continue;
     double measure = operators.volume[p] * point.stress_free[p];
     if (operators.of_revolution()) measure /= 2.0 * std::numbers::pi * operators.radius[p];
@@ -37,7 +37,8 @@ void PointDamage<dim>::measure(const DiscreteOperators<dim>& operators,
 template<int dim>
 void PointDamage<dim>::weaken(PointState<dim>& point, std::size_t begin, std::size_t end) const {
   for (std::size_t p = begin; p < end; ++p)
-    point.flow_factor[p] = point.strength[p] * law_[u(point.material[p])].flow_share(point.softening[p]);
+    point.flow_factor[p] =
+        point.strength[p] * law_[index_of(point.material[p])].flow_share(point.softening[p]);
 }
 
 template<int dim>
@@ -58,7 +59,7 @@ void PointDamage<dim>::wave_moduli(const std::vector<plasticity::Material>& mate
     for (std::size_t p = begin; p < end; ++p) {
       const double softening = point.softening[p];
       if (softening == 0.0) continue;
-      const plasticity::Material& material = materials[u(point.material[p])];
+      const plasticity::Material& material = materials[index_of(point.material[p])];
       const plasticity::Elasticity& elasticity = material.elasticity;
       const double opened = point.jacobian[p] / point.stress_free[p];
       const double expansion =

@@ -13,7 +13,7 @@ namespace {
 template<int dim> std::vector<char> boundary_nodes(const std::vector<Facet<dim>>& facets, std::size_t nodes) {
   std::vector<char> on_boundary(nodes, 0);
   for (const Facet<dim>& facet : facets)
-    for (const std::int32_t node : facet.node) on_boundary[u(node)] = 1;
+    for (const std::int32_t node : facet.node) on_boundary[index_of(node)] = 1;
   return on_boundary;
 }
 
@@ -98,7 +98,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       const double kappa = bulk_modulus_[i];
       double flow = 0.0;
       for (std::int32_t e = first[i]; e < first[i + 1]; ++e) {
-        const auto j = u(neighbour[e]);
+        const auto j = index_of(neighbour[e]);
         const double* other = record_.data() + stride * j;
         if (other[increment] == 0.0 || bulk_modulus_[j] != kappa) continue;
         double linear = 0.0, distance2 = 0.0;
@@ -179,7 +179,7 @@ double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Fa
     if (on_boundary[i] || !(point.plastic_rate[i] > 0.0)) continue;
     double mean = 0.0;
     for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e)
-      mean += point.pressure[u(links.neighbour[u(e)])];
+      mean += point.pressure[index_of(links.neighbour[index_of(e)])];
     mean /= links.begin[i + 1] - links.begin[i];
     sum += std::pow((point.pressure[i] - mean) / point.equivalent_stress[i], 2);
     ++count;

@@ -38,10 +38,10 @@ template<int dim, bool constant> struct BodyOf {
 
   const DiscreteOperators<dim>& operators() const { return approximation.mechanics; }
   const plasticity::Material& material_of(std::size_t point) const {
-    return model.materials[u(state.point.material[point])];
+    return model.materials[index_of(state.point.material[point])];
   }
   const plasticity::Material& material_of_node(std::size_t node) const {
-    return model.materials[u(state.node.material[node])];
+    return model.materials[index_of(state.node.material[node])];
   }
   /// Finest steps over which the loads on a node act.
   double load_weight(std::size_t node) const {
@@ -64,7 +64,7 @@ struct DuePoints {
 
   /// s, of a range.
   double own(const LevelRange& range) const { return dt * (1 << range.level); }
-  std::size_t index(const LevelRange& range) const { return u(&range - ranges.data()); }
+  std::size_t index(const LevelRange& range) const { return index_of(&range - ranges.data()); }
 };
 
 /// What limits the step beside the elastic waves of the cells.

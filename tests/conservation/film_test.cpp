@@ -43,7 +43,7 @@ void expect_all_handed_on(const Resampling<2>& change, std::size_t old_nodes) {
   Field sum(old_nodes, 0.0);
   for (std::size_t e = 0; e < change.parcels.node.size(); ++e) {
     EXPECT_GT(change.parcels.weight[e], 0.0);
-    sum[u(change.parcels.node[e])] += change.parcels.weight[e];
+    sum[index_of(change.parcels.node[e])] += change.parcels.weight[e];
   }
   for (const double s : sum) EXPECT_NEAR(s, 1.0, 1e-14);
   for (std::size_t p = 0; p < change.parcels.size(); ++p)
@@ -64,7 +64,7 @@ TEST(Film, broken_and_thin_is_cut_at_its_waist) {
   expect_all_handed_on(change, b.node.mass.size());
   for (const Facet<2>& facet : change.cloud.facets) {
     if (facet.piece != 1) continue;
-    for (const std::int32_t i : facet.node) EXPECT_NEAR(change.cloud.position[u(i)].x(), 1.0, 1e-3);
+    for (const std::int32_t i : facet.node) EXPECT_NEAR(change.cloud.position[index_of(i)].x(), 1.0, 1e-3);
   }
 }
 
@@ -78,7 +78,7 @@ TEST(Film, is_cut_straight_across_where_a_node_stands_over_a_facet) {
   expect_all_handed_on(change, b.node.mass.size());
   for (const Facet<2>& facet : change.cloud.facets) {
     if (facet.piece != 1) continue;
-    for (const std::int32_t i : facet.node) EXPECT_NEAR(change.cloud.position[u(i)].x(), 1.0, 1e-3);
+    for (const std::int32_t i : facet.node) EXPECT_NEAR(change.cloud.position[index_of(i)].x(), 1.0, 1e-3);
   }
 }
 
@@ -135,7 +135,8 @@ Blank drawn_out(double edge, double thickness) {
 double longest_edge(const Cloud<2>& cloud) {
   double longest = 0.0;
   for (const Facet<2>& facet : cloud.facets)
-    longest = std::max(longest, (cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])]).norm());
+    longest = std::max(
+        longest, (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm());
   return longest;
 }
 

@@ -57,9 +57,9 @@ void expect_exact_patch(const Cloud<2>& cloud) {
     Mat2 gradient = -Mat2::Identity();
     Vec2 sum = Vec2::Zero();
     double largest = 0.0;
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       const Vec2 b(op.gradient[0][e], op.gradient[1][e]);
-      const Vec2 x = cloud.position[u(op.node[e])] - cloud.position[p];
+      const Vec2 x = cloud.position[index_of(op.node[e])] - cloud.position[p];
       gradient += x * b.transpose();
       sum += b;
       largest = std::max(largest, b.norm() * x.norm());
@@ -88,7 +88,7 @@ void one_sequence(int kind, std::uint64_t seed, Placement placement, PassReport&
   for (int pass = 0; pass < 4; ++pass) {
     const Motion motion(random);
     std::vector<char> boundary(cloud.position.size(), 0);
-    for (const Facet<2>& facet : cloud.facets) boundary[u(facet.node[0])] = 1;
+    for (const Facet<2>& facet : cloud.facets) boundary[index_of(facet.node[0])] = 1;
     for (std::size_t i = 0; i < cloud.position.size(); ++i) {
       Vec2& x = cloud.position[i];
       x = motion(x);
@@ -114,12 +114,12 @@ void one_sequence(int kind, std::uint64_t seed, Placement placement, PassReport&
     Field of_old(c.mass.size(), 0.0);
     for (std::size_t e = 0; e < change.parcels.node.size(); ++e) {
       ASSERT_GT(change.parcels.weight[e], 0.0);
-      of_old[u(change.parcels.node[e])] += change.parcels.weight[e];
+      of_old[index_of(change.parcels.node[e])] += change.parcels.weight[e];
     }
     for (const double sum : of_old) ASSERT_NEAR(sum, 1.0, 1e-12);
     for (std::size_t p = 0; p < change.labels.size(); ++p) {
       double sum = 0.0;
-      for (auto e = u(change.labels.begin[p]); e < u(change.labels.begin[p + 1]); ++e)
+      for (auto e = index_of(change.labels.begin[p]); e < index_of(change.labels.begin[p + 1]); ++e)
         sum += change.labels.weight[e];
       ASSERT_NEAR(sum, 1.0, 1e-12);
     }
@@ -195,7 +195,7 @@ TEST(Resample, doubling_the_spacing_removes_most_nodes_and_keeps_the_boundary) {
   Blank b = blank(0.05);
   const auto n = static_cast<double>(b.cloud.nodes());
   for (double& h : b.node.size) h *= 2.0;
-  for (const std::int32_t corner : {0, 20, 32, 52}) b.node.held[u(corner)] = 1;
+  for (const std::int32_t corner : {0, 20, 32, 52}) b.node.held[index_of(corner)] = 1;
   for (int pass = 0; pass < 3; ++pass) {
     PassReport report;
     const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
@@ -204,7 +204,7 @@ TEST(Resample, doubling_the_spacing_removes_most_nodes_and_keeps_the_boundary) {
     for (Field* field : {&b.node.mass}) carry_sum(change.parcels, *field);
     for (Field* field : {&b.node.size, &b.node.density}) carry_label(change.labels, *field);
     std::vector<char> held;
-    for (const std::int32_t old : change.old_of) held.push_back(old < 0 ? 0 : b.node.held[u(old)]);
+    for (const std::int32_t old : change.old_of) held.push_back(old < 0 ? 0 : b.node.held[index_of(old)]);
     b.node.held = held;
   }
   EXPECT_LT(static_cast<double>(b.cloud.nodes()),
@@ -217,15 +217,15 @@ TEST(Resample, a_node_that_left_the_domain_gives_its_mass_to_the_nearest_edge) {
   Blank b = blank(0.1);
   std::int32_t inner = -1;
   for (std::int32_t i = 0; i < b.cloud.nodes(); ++i) {
-    const Vec2& x = b.cloud.position[u(i)];
+    const Vec2& x = b.cloud.position[index_of(i)];
     if (x.y() > 0.05 && x.y() < 0.15 && x.x() > 0.45 && x.x() < 0.55) inner = i;
   }
   ASSERT_GE(inner, 0);
-  b.cloud.position[u(inner)].y() = -0.01;
+  b.cloud.position[index_of(inner)].y() = -0.01;
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
   EXPECT_EQ(report.outside, 1);
-  EXPECT_EQ(change.new_of[u(inner)], -1);
+  EXPECT_EQ(change.new_of[index_of(inner)], -1);
   Field mass = b.node.mass;
   carry_sum(change.parcels, mass);
   double sum = 0.0;
@@ -238,18 +238,18 @@ TEST(Resample, an_inner_node_at_a_long_edge_becomes_part_of_it) {
   // the boundary node at (0.5, 0) gone and an inner one near its place
   std::int32_t inner = -1;
   for (std::int32_t i = 0; i < b.cloud.nodes(); ++i) {
-    const Vec2& x = b.cloud.position[u(i)];
+    const Vec2& x = b.cloud.position[index_of(i)];
     if (x.y() > 0.05 && x.y() < 0.15 && std::abs(x.x() - 0.55) < 0.051 && inner < 0) inner = i;
   }
   ASSERT_GE(inner, 0);
-  b.cloud.position[u(inner)] = {0.55, 0.02};
+  b.cloud.position[index_of(inner)] = {0.55, 0.02};
   for (double& h : b.node.size) h = 0.08;
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
   EXPECT_EQ(report.promoted, 1);
-  const std::int32_t now = change.new_of[u(inner)];
+  const std::int32_t now = change.new_of[index_of(inner)];
   ASSERT_GE(now, 0);
-  EXPECT_NEAR(change.cloud.position[u(now)].y(), 0.0, 1e-15);
+  EXPECT_NEAR(change.cloud.position[index_of(now)].y(), 0.0, 1e-15);
   EXPECT_NEAR(testing::area(change.cloud), 0.6, 1e-14);
 }
 
@@ -258,11 +258,11 @@ TEST(Resample, a_boundary_that_turns_back_on_itself_is_mended) {
   Blank b = blank(0.1);
   std::int32_t first = -1;
   for (const Facet<2>& facet : b.cloud.facets)
-    if (std::abs(b.cloud.position[u(facet.node[0])].x() - 0.4) < 1e-9 &&
-        b.cloud.position[u(facet.node[0])].y() == 0.0)
+    if (std::abs(b.cloud.position[index_of(facet.node[0])].x() - 0.4) < 1e-9 &&
+        b.cloud.position[index_of(facet.node[0])].y() == 0.0)
       first = facet.node[0];
   ASSERT_GE(first, 0);
-  b.cloud.position[u(first)].x() = 0.53; // beyond the one at 0.5
+  b.cloud.position[index_of(first)].x() = 0.53; // beyond the one at 0.5
   EXPECT_THROW(build_structure(b.cloud), GeometryError);
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
@@ -279,12 +279,12 @@ TEST(Resample, a_small_loop_of_the_boundary_is_cut_off) {
   Blank b = blank(0.1);
   std::int32_t left = -1;
   for (const Facet<2>& facet : b.cloud.facets) {
-    const Vec2& x = b.cloud.position[u(facet.node[0])];
+    const Vec2& x = b.cloud.position[index_of(facet.node[0])];
     if (std::abs(x.x() - 0.4) < 1e-9 && x.y() == 0.0) left = facet.node[0];
   }
   ASSERT_GE(left, 0);
-  b.cloud.position[u(left)] = {0.55, 0.01};
-  b.cloud.position[u(left + 1)] = {0.45, 0.02};
+  b.cloud.position[index_of(left)] = {0.55, 0.01};
+  b.cloud.position[index_of(left + 1)] = {0.45, 0.02};
   EXPECT_THROW(build_structure(b.cloud), GeometryError);
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);

@@ -82,9 +82,9 @@ TEST(Split, takes_the_body_apart_where_it_is_broken_through) {
   while (!front.empty()) {
     const std::int32_t i = front.back();
     front.pop_back();
-    for (auto e = u(op.row_begin[u(i)]); e < u(op.row_begin[u(i) + 1]); ++e)
-      if (!side[u(op.node[e])]) {
-        side[u(op.node[e])] = 1;
+    for (auto e = index_of(op.row_begin[index_of(i)]); e < index_of(op.row_begin[index_of(i) + 1]); ++e)
+      if (!side[index_of(op.node[e])]) {
+        side[index_of(op.node[e])] = 1;
         front.push_back(op.node[e]);
       }
   }
@@ -119,20 +119,20 @@ TEST(Split, faces_are_smooth_and_end_on_the_boundary) {
   ASSERT_EQ(report.cuts, 1);
   const Cloud<2>& cloud = change.cloud;
   std::vector<const Facet<2>*> leaving(cloud.position.size(), nullptr);
-  for (const Facet<2>& facet : cloud.facets) leaving[u(facet.node[0])] = &facet;
+  for (const Facet<2>& facet : cloud.facets) leaving[index_of(facet.node[0])] = &facet;
   int turns = 0;
   for (const Facet<2>& facet : cloud.facets) {
-    const Facet<2>& next = *leaving[u(facet.node[1])];
+    const Facet<2>& next = *leaving[index_of(facet.node[1])];
     if (facet.piece != 1) {
       if (next.piece == 1) {
-        const double y = cloud.position[u(facet.node[1])].y();
+        const double y = cloud.position[index_of(facet.node[1])].y();
         EXPECT_NEAR(std::min(std::abs(y), std::abs(y - 0.6)), 0.0, 1e-15);
       }
       continue;
     }
     if (next.piece != 1) continue;
-    const Vec2 in = cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])],
-               out = cloud.position[u(next.node[1])] - cloud.position[u(next.node[0])];
+    const Vec2 in = cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])],
+               out = cloud.position[index_of(next.node[1])] - cloud.position[index_of(next.node[0])];
     EXPECT_GT(in.dot(out), 0.85 * in.norm() * out.norm()); // a path of the lattice turns by 60 degrees
     ++turns;
   }

@@ -28,8 +28,8 @@ std::array<std::size_t, 3> cut_slit(Blank& b, double depth, double mouth = 0.006
 double shortest_facet(const Cloud<2>& cloud) {
   double shortest = 1.0;
   for (const Facet<2>& facet : cloud.facets)
-    shortest =
-        std::min(shortest, (cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])]).norm());
+    shortest = std::min(
+        shortest, (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm());
   return shortest;
 }
 
@@ -140,7 +140,8 @@ TEST(WorkingCloud, ends_of_the_free_piece_may_go) {
   b.cloud.piece_names = {"boundary", "fracture"};
   std::int32_t start = -1;
   for (Facet<2>& facet : b.cloud.facets) {
-    const double x = b.cloud.position[u(facet.node[0])].x(), y = b.cloud.position[u(facet.node[0])].y();
+    const double x = b.cloud.position[index_of(facet.node[0])].x(),
+                 y = b.cloud.position[index_of(facet.node[0])].y();
     if (y == 0.0 && x > 0.39 && x < 0.59) facet.piece = 1;
     if (y == 0.0 && std::abs(x - 0.4) < 1e-9) start = facet.node[0];
   }

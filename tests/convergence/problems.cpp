@@ -74,16 +74,16 @@ Exact timoshenko(const plasticity::Elasticity& elastic, const Vec2& x) {
 /// External forces from exact tractions on facets that are not held, in the components that are free.
 Fields<2> forces(const Problem& problem, const Cloud<2>& cloud) {
   Fields<2> force;
-  resize_all(force, u(cloud.nodes()));
+  resize_all(force, index_of(cloud.nodes()));
   constexpr std::array<double, 3> s{0.1127016653792583, 0.5, 0.8872983346207417},
       w{5.0 / 18, 8.0 / 18, 5.0 / 18};
   for (const Facet<2>& facet : cloud.facets) {
-    const Vec2 &a = cloud.position[u(facet.node[0])], &b = cloud.position[u(facet.node[1])];
+    const Vec2 &a = cloud.position[index_of(facet.node[0])], &b = cloud.position[index_of(facet.node[1])];
     for (std::size_t g = 0; g < 3; ++g) {
       const Vec2 t = w[g] * problem.exact(a + s[g] * (b - a)).stress * right_normal(b - a);
       for (std::size_t k = 0; k < 2; ++k) {
-        force[k][u(facet.node[0])] += (1.0 - s[g]) * t[static_cast<Eigen::Index>(k)];
-        force[k][u(facet.node[1])] += s[g] * t[static_cast<Eigen::Index>(k)];
+        force[k][index_of(facet.node[0])] += (1.0 - s[g]) * t[static_cast<Eigen::Index>(k)];
+        force[k][index_of(facet.node[1])] += s[g] * t[static_cast<Eigen::Index>(k)];
       }
     }
   }
@@ -95,16 +95,16 @@ Supports<2> supports(const Problem& problem, const Cloud<2>& cloud) {
   std::set<std::pair<std::int32_t, Eigen::Index>> done;
   for (const Problem::Held& held : problem.held)
     for (const Facet<2>& facet : cloud.facets)
-      if (cloud.piece_names[u(facet.piece)] == held.piece)
+      if (cloud.piece_names[index_of(facet.piece)] == held.piece)
         for (const std::int32_t i : facet.node)
           for (const Eigen::Index k : held.components)
             if (done.emplace(i, k).second)
               list.push_back({held.piece,
                               Support<2>::Kind::displacement,
                               Vec2::Unit(k),
-                              TimeTable(problem.exact(cloud.position[u(i)]).displacement[k]),
+                              TimeTable(problem.exact(cloud.position[index_of(i)]).displacement[k]),
                               {i}});
-  return Supports<2>(std::move(list), u(cloud.nodes()));
+  return Supports<2>(std::move(list), index_of(cloud.nodes()));
 }
 
 /// σ : D⁻¹ : σ in the plane problem.
@@ -250,13 +250,13 @@ Errors solve(const Problem& problem, const Method& method, double spacing) {
   for (std::size_t p = 0; p + 1 < cells.begin.size(); ++p) {
     Mat2 stress;
     stress << solution.stress[0][p], solution.stress[3][p], solution.stress[3][p], solution.stress[1][p];
-    const auto first = u(cells.begin[p]), last = u(cells.begin[p + 1]);
+    const auto first = index_of(cells.begin[p]), last = index_of(cells.begin[p + 1]);
     Vec2 centre = Vec2::Zero();
     for (std::size_t k = first; k < last; ++k)
-      centre += cells.vertex[u(cells.index[k])] / double(last - first);
+      centre += cells.vertex[index_of(cells.index[k])] / double(last - first);
     for (std::size_t k = first; k < last; ++k) {
-      const Vec2 a = cells.vertex[u(cells.index[k])],
-                 b = cells.vertex[u(cells.index[k + 1 < last ? k + 1 : first])];
+      const Vec2 a = cells.vertex[index_of(cells.index[k])],
+                 b = cells.vertex[index_of(cells.index[k + 1 < last ? k + 1 : first])];
       const double weight = cross(a - centre, b - centre) / 6.0; // a third of the triangle's area
       for (const Vec2& x : {Vec2(0.5 * (a + b)), Vec2(0.5 * (b + centre)), Vec2(0.5 * (centre + a))}) {
         const Mat2 exact = problem.exact(x).stress;
@@ -274,21 +274,22 @@ double cook_tip(const Method& method, const plasticity::Elasticity& elasticity, 
   const Approximation<2> approximation = method.method->rebuild(cloud);
   std::vector<std::int32_t> left;
   Fields<2> force;
-  resize_all(force, u(cloud.nodes()));
+  resize_all(force, index_of(cloud.nodes()));
   std::int32_t tip = 0;
   for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    const Vec2& x = cloud.position[u(i)];
+    const Vec2& x = cloud.position[index_of(i)];
     if (x.x() == 0.0) left.push_back(i);
-    if ((x - Vec2(48, 52)).norm() < (cloud.position[u(tip)] - Vec2(48, 52)).norm()) tip = i;
+    if ((x - Vec2(48, 52)).norm() < (cloud.position[index_of(tip)] - Vec2(48, 52)).norm()) tip = i;
   }
   for (const Facet<2>& facet : cloud.facets)
-    if (cloud.piece_names[u(facet.piece)] == "right")
+    if (cloud.piece_names[index_of(facet.piece)] == "right")
       for (const std::int32_t i : facet.node)
-        force[1][u(i)] +=
-            0.5 / 16.0 * (cloud.position[u(facet.node[1])] - cloud.position[u(facet.node[0])]).norm();
+        force[1][index_of(i)] +=
+            0.5 / 16.0 *
+            (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm();
   const Supports<2> held({{"left", Support<2>::Kind::displacement, Vec2(1, 0), TimeTable(0.0), left},
                           {"left", Support<2>::Kind::displacement, Vec2(0, 1), TimeTable(0.0), left}},
-                         u(cloud.nodes()));
+                         index_of(cloud.nodes()));
   return solve_statics({.operators = approximation.mechanics,
                         .position = cloud.position,
                         .links = approximation.links,
@@ -297,7 +298,7 @@ double cook_tip(const Method& method, const plasticity::Elasticity& elasticity, 
                         .stabilisation = method.stabilisation,
                         .supports = held,
                         .force = force})
-      .displacement[1][u(tip)];
+      .displacement[1][index_of(tip)];
 }
 
 } // namespace cnem::convergence

@@ -36,8 +36,9 @@ std::vector<std::pair<std::int32_t, Vec2>> sample_points(const Cloud<2>& cloud, 
   std::vector<std::pair<std::int32_t, Vec2>> points;
   const std::int32_t stride = std::max(1, mesh.triangles() / 60);
   for (std::int32_t t = 0; t < mesh.triangles(); t += stride) {
-    const auto& [i, j, k] = mesh.node[u(t)];
-    const Vec2 &a = cloud.position[u(i)], &b = cloud.position[u(j)], &c = cloud.position[u(k)];
+    const auto& [i, j, k] = mesh.node[index_of(t)];
+    const Vec2 &a = cloud.position[index_of(i)], &b = cloud.position[index_of(j)],
+               &c = cloud.position[index_of(k)];
     points.emplace_back(t, (a + b + c) / 3.0);
     points.emplace_back(t, 0.3 * a + 0.699 * b + 0.001 * c);
     points.emplace_back(t, 0.9999 * a + 0.00006 * b + 0.00004 * c);
@@ -56,42 +57,44 @@ TEST_P(RandomClouds, CellsFillTheDomainAndAreClosed) {
     // The second term is the rounding of the area itself, of a domain that is hardly wider than a line.
     EXPECT_NEAR(volume, random.area, 1e-12 * random.area + 1e-16 * random.size * random.size);
 
-    std::vector<Vec2> normals(u(cloud.nodes()), Vec2::Zero());
+    std::vector<Vec2> normals(index_of(cloud.nodes()), Vec2::Zero());
     for (const auto& f : cells.interior) {
-      normals[u(f.cell[0])] += right_normal(f.end - f.start);
-      normals[u(f.cell[1])] -= right_normal(f.end - f.start);
+      normals[index_of(f.cell[0])] += right_normal(f.end - f.start);
+      normals[index_of(f.cell[1])] -= right_normal(f.end - f.start);
     }
     std::vector<double> covered(cloud.facets.size(), 0.0);
     for (const auto& piece : cells.boundary) {
-      const auto& [a, b] = cloud.facets[u(piece.facet)].node;
-      EXPECT_EQ(piece.s0, covered[u(piece.facet)]);
+      const auto& [a, b] = cloud.facets[index_of(piece.facet)].node;
+      EXPECT_EQ(piece.s0, covered[index_of(piece.facet)]);
       EXPECT_LE(piece.s0, piece.s1);
-      covered[u(piece.facet)] = piece.s1;
-      normals[u(piece.cell)] +=
-          right_normal(cloud.position[u(b)] - cloud.position[u(a)]) * (piece.s1 - piece.s0);
+      covered[index_of(piece.facet)] = piece.s1;
+      normals[index_of(piece.cell)] +=
+          right_normal(cloud.position[index_of(b)] - cloud.position[index_of(a)]) * (piece.s1 - piece.s0);
     }
     for (const double s : covered) EXPECT_EQ(s, 1.0);
 
     for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-      EXPECT_GT(cells.volume[u(i)], 0.0) << "node " << i;
-      EXPECT_LT(normals[u(i)].norm(), 1e-13) << "node " << i;
+      EXPECT_GT(cells.volume[index_of(i)], 0.0) << "node " << i;
+      EXPECT_LT(normals[index_of(i)].norm(), 1e-13) << "node " << i;
       double area = 0.0;
-      const std::int32_t begin = polygons.begin[u(i)], end = polygons.begin[u(i) + 1];
+      const std::int32_t begin = polygons.begin[index_of(i)], end = polygons.begin[index_of(i) + 1];
       ASSERT_GE(end - begin, 3);
       for (std::int32_t k = begin; k < end; ++k) {
         const std::int32_t l = k + 1 == end ? begin : k + 1;
-        area += 0.5 * cross(polygons.vertex[u(polygons.index[u(k)])] - cloud.position[u(i)],
-                            polygons.vertex[u(polygons.index[u(l)])] - cloud.position[u(i)]);
+        area +=
+            0.5 * cross(polygons.vertex[index_of(polygons.index[index_of(k)])] - cloud.position[index_of(i)],
+                        polygons.vertex[index_of(polygons.index[index_of(l)])] - cloud.position[index_of(i)]);
       }
-      EXPECT_NEAR(area, cells.volume[u(i)], 1e-13 * random.area) << "node " << i;
+      EXPECT_NEAR(area, cells.volume[index_of(i)], 1e-13 * random.area) << "node " << i;
     }
     for (std::size_t v = 0; v < polygons.vertex.size(); ++v) {
       Vec2 x = Vec2::Zero();
       double sum = 0.0;
       for (std::int32_t e = polygons.vertex_begin[v]; e < polygons.vertex_begin[v + 1]; ++e) {
-        x += polygons.vertex_weight[u(e)] * cloud.position[u(polygons.vertex_node[u(e)])];
-        sum += polygons.vertex_weight[u(e)];
-        EXPECT_GE(polygons.vertex_weight[u(e)], -1e-9);
+        x +=
+            polygons.vertex_weight[index_of(e)] * cloud.position[index_of(polygons.vertex_node[index_of(e)])];
+        sum += polygons.vertex_weight[index_of(e)];
+        EXPECT_GE(polygons.vertex_weight[index_of(e)], -1e-9);
       }
       EXPECT_NEAR(sum, 1.0, 1e-13);
       EXPECT_LT((x - polygons.vertex[v]).norm(), 1e-13);
@@ -105,7 +108,7 @@ void expect_consistent(const Cloud<2>& cloud, const NaturalNeighbours& at, const
   for (std::size_t k = 0; k < at.nodes().size(); ++k) {
     EXPECT_GE(at.values()[k], 0.0);
     sum += at.values()[k];
-    mean += at.values()[k] * (cloud.position[u(at.nodes()[k])] - x);
+    mean += at.values()[k] * (cloud.position[index_of(at.nodes()[k])] - x);
   }
   EXPECT_NEAR(sum, 1.0, 1e-14);
   EXPECT_LT(mean.norm(), 1e-12) << "at " << x.transpose();
@@ -137,7 +140,7 @@ TEST_P(RandomClouds, FunctionsInterpolateTheNodes) {
     NaturalNeighbours at(cloud, mesh, circles);
     for (const auto functions : {Functions::sibson, Functions::laplace})
       for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-        at.evaluate(functions, cloud.position[u(i)], mesh.triangle_of_node[u(i)]);
+        at.evaluate(functions, cloud.position[index_of(i)], mesh.triangle_of_node[index_of(i)]);
         ASSERT_EQ(at.nodes().size(), 1u);
         EXPECT_EQ(at.nodes()[0], i);
         EXPECT_EQ(at.values()[0], 1.0);
@@ -152,8 +155,9 @@ TEST_P(RandomClouds, GradientsAreThoseOfTheValues) {
     const std::int32_t stride = std::max(1, mesh.triangles() / 20);
     for (const auto functions : {Functions::sibson, Functions::laplace})
       for (std::int32_t t = 0; t < mesh.triangles(); t += stride) {
-        const auto& [i, j, k] = mesh.node[u(t)];
-        const Vec2 &a = cloud.position[u(i)], &b = cloud.position[u(j)], &c = cloud.position[u(k)];
+        const auto& [i, j, k] = mesh.node[index_of(t)];
+        const Vec2 &a = cloud.position[index_of(i)], &b = cloud.position[index_of(j)],
+                   &c = cloud.position[index_of(k)];
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
         const double step = 1e-5 * cross(b - a, c - a) / longest;
         if (step < 1e-9) continue; // differences drown in rounding
@@ -165,7 +169,7 @@ TEST_P(RandomClouds, GradientsAreThoseOfTheValues) {
         for (std::size_t n = 0; n < at.nodes().size(); ++n) {
           error[at.nodes()[n]] = at.gradients()[n];
           sum += at.gradients()[n];
-          moment += (cloud.position[u(at.nodes()[n])] - x) * at.gradients()[n].transpose();
+          moment += (cloud.position[index_of(at.nodes()[n])] - x) * at.gradients()[n].transpose();
         }
         EXPECT_LT(sum.norm() * step, 1e-17) << "triangle " << t;
         EXPECT_LT((moment - Mat2::Identity()).norm(), 1e-9) << "triangle " << t;
@@ -189,7 +193,7 @@ TEST_P(RandomClouds, GradientsAreThoseOfTheValues) {
 bool crosses_wall(const Cloud<2>& cloud, const Vec2& a, const Vec2& b) {
   const double small = 1e-12 * (b - a).norm();
   for (const auto& facet : cloud.facets) {
-    const Vec2 &p = cloud.position[u(facet.node[0])], &q = cloud.position[u(facet.node[1])];
+    const Vec2 &p = cloud.position[index_of(facet.node[0])], &q = cloud.position[index_of(facet.node[1])];
     const double scale = small * (q - p).norm();
     const double side_p = cross(b - a, p - a), side_q = cross(b - a, q - a);
     const double side_a = cross(q - p, a - p), side_b = cross(q - p, b - p);
@@ -202,10 +206,10 @@ bool crosses_wall(const Cloud<2>& cloud, const Vec2& a, const Vec2& b) {
 
 /// [node] the facets that leave and arrive; −1 inside.
 std::vector<std::array<std::int32_t, 2>> facets_of_nodes(const Cloud<2>& cloud) {
-  std::vector<std::array<std::int32_t, 2>> facets(u(cloud.nodes()), {-1, -1});
+  std::vector<std::array<std::int32_t, 2>> facets(index_of(cloud.nodes()), {-1, -1});
   for (std::size_t f = 0; f < cloud.facets.size(); ++f) {
-    facets[u(cloud.facets[f].node[0])][0] = static_cast<std::int32_t>(f);
-    facets[u(cloud.facets[f].node[1])][1] = static_cast<std::int32_t>(f);
+    facets[index_of(cloud.facets[f].node[0])][0] = static_cast<std::int32_t>(f);
+    facets[index_of(cloud.facets[f].node[1])][1] = static_cast<std::int32_t>(f);
   }
   return facets;
 }
@@ -215,15 +219,15 @@ std::vector<std::array<std::int32_t, 2>> facets_of_nodes(const Cloud<2>& cloud) 
 bool in_sector(const Cloud<2>& cloud, std::int32_t node, const std::array<std::int32_t, 2>& facets,
                const Vec2& x) {
   if (facets[0] < 0) return true;
-  const Vec2& origin = cloud.position[u(node)];
-  const Vec2 out = cloud.position[u(cloud.facets[u(facets[0])].node[1])] - origin;
-  const Vec2 in = cloud.position[u(cloud.facets[u(facets[1])].node[0])] - origin;
+  const Vec2& origin = cloud.position[index_of(node)];
+  const Vec2 out = cloud.position[index_of(cloud.facets[index_of(facets[0])].node[1])] - origin;
+  const Vec2 in = cloud.position[index_of(cloud.facets[index_of(facets[1])].node[0])] - origin;
   const auto angle = [&](const Vec2& d) {
     const double phi = std::atan2(cross(out, d), out.dot(d));
     return phi < -1e-9 ? phi + 2.0 * std::numbers::pi : phi;
   };
-  const bool tip = cloud.position[u(cloud.facets[u(facets[0])].node[1])] ==
-                   cloud.position[u(cloud.facets[u(facets[1])].node[0])];
+  const bool tip = cloud.position[index_of(cloud.facets[index_of(facets[0])].node[1])] ==
+                   cloud.position[index_of(cloud.facets[index_of(facets[1])].node[0])];
   return tip || angle(x - origin) <= angle(in) + 1e-9;
 }
 
@@ -235,14 +239,15 @@ TEST_P(RandomClouds, WallsStopAllInfluence) {
     NaturalNeighbours at(cloud, mesh, circles);
     const auto expect_visible = [&](const Vec2& x) {
       for (const std::int32_t i : at.nodes()) {
-        EXPECT_FALSE(crosses_wall(cloud, x, cloud.position[u(i)]))
+        EXPECT_FALSE(crosses_wall(cloud, x, cloud.position[index_of(i)]))
             << "node " << i << " from " << x.transpose();
-        EXPECT_TRUE(in_sector(cloud, i, facets[u(i)], x)) << "node " << i << " from " << x.transpose();
+        EXPECT_TRUE(in_sector(cloud, i, facets[index_of(i)], x)) << "node " << i << " from " << x.transpose();
       }
     };
     for (std::int32_t t = 0; t < mesh.triangles(); ++t) {
-      const auto& [i, j, k] = mesh.node[u(t)];
-      const Vec2 x = 0.4 * cloud.position[u(i)] + 0.35 * cloud.position[u(j)] + 0.25 * cloud.position[u(k)];
+      const auto& [i, j, k] = mesh.node[index_of(t)];
+      const Vec2 x = 0.4 * cloud.position[index_of(i)] + 0.35 * cloud.position[index_of(j)] +
+                     0.25 * cloud.position[index_of(k)];
       at.evaluate(Functions::sibson, x, t);
       expect_visible(x);
     }
@@ -259,22 +264,23 @@ TEST_P(RandomClouds, CellsBelongToTheNearestVisibleNode) {
     const Cloud<2>& cloud = random.cloud;
     const Cells cells = constrained_cells(cloud, mesh, circles);
     const auto expect_nearest = [&](const Vec2& x, std::int32_t owner) {
-      const double distance = (cloud.position[u(owner)] - x).norm();
+      const double distance = (cloud.position[index_of(owner)] - x).norm();
       for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-        if ((cloud.position[u(i)] - x).norm() < distance - 1e-9) {
-          EXPECT_TRUE(crosses_wall(cloud, x, cloud.position[u(i)]))
+        if ((cloud.position[index_of(i)] - x).norm() < distance - 1e-9) {
+          EXPECT_TRUE(crosses_wall(cloud, x, cloud.position[index_of(i)]))
               << "node " << i << " is nearer to " << x.transpose() << " than node " << owner;
         }
     };
     for (const auto& f : cells.interior) {
       const Vec2 x = 0.5 * (f.start + f.end);
-      EXPECT_NEAR((cloud.position[u(f.cell[0])] - x).norm(), (cloud.position[u(f.cell[1])] - x).norm(), 1e-9);
+      EXPECT_NEAR((cloud.position[index_of(f.cell[0])] - x).norm(),
+                  (cloud.position[index_of(f.cell[1])] - x).norm(), 1e-9);
       expect_nearest(x, f.cell[0]);
     }
     for (const auto& piece : cells.boundary) {
-      const auto& [a, b] = cloud.facets[u(piece.facet)].node;
-      const Vec2 edge = cloud.position[u(b)] - cloud.position[u(a)];
-      const Vec2 x = cloud.position[u(a)] + 0.5 * (piece.s0 + piece.s1) * edge;
+      const auto& [a, b] = cloud.facets[index_of(piece.facet)].node;
+      const Vec2 edge = cloud.position[index_of(b)] - cloud.position[index_of(a)];
+      const Vec2 x = cloud.position[index_of(a)] + 0.5 * (piece.s0 + piece.s1) * edge;
       expect_nearest(x + 1e-10 * left_normal(edge), piece.cell);
     }
   });

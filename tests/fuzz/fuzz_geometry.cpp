@@ -27,10 +27,11 @@ using namespace cnem;
 }
 
 double polygon_area(const Cloud<2>& cloud) {
-  const Vec2 origin = cloud.position[u(cloud.facets.front().node[0])];
+  const Vec2 origin = cloud.position[index_of(cloud.facets.front().node[0])];
   double area = 0.0;
   for (const Facet<2>& f : cloud.facets)
-    area += 0.5 * cross(cloud.position[u(f.node[0])] - origin, cloud.position[u(f.node[1])] - origin);
+    area += 0.5 *
+            cross(cloud.position[index_of(f.node[0])] - origin, cloud.position[index_of(f.node[1])] - origin);
   return area;
 }
 
@@ -51,8 +52,8 @@ double last_bit(const Cloud<2>& cloud) {
 double thinness(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
   double least = 1.0;
   for (const auto& [i, j, k] : mesh.node) {
-    const Vec2 a = cloud.position[u(j)] - cloud.position[u(i)],
-               b = cloud.position[u(k)] - cloud.position[u(i)];
+    const Vec2 a = cloud.position[index_of(j)] - cloud.position[index_of(i)],
+               b = cloud.position[index_of(k)] - cloud.position[index_of(i)];
     least = std::min(least, std::abs(cross(a, b)) / std::max({a.norm(), b.norm(), (b - a).norm()}));
   }
   return least / extent(cloud);
@@ -77,14 +78,14 @@ void check_cells(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
 /// Constants have no gradient, linear fields the right one.
 void check_operators(const Cloud<2>& cloud, const DiscreteOperators<2>& op) {
   const double size = extent(cloud);
-  for (std::size_t p = 0; p < u(op.points); ++p) {
+  for (std::size_t p = 0; p < index_of(op.points); ++p) {
     if (!(op.volume[p] > 0.0)) fail("volume of a point", op.volume[p], 0.0);
-    const Vec2 origin = cloud.position[op.nodal ? p : u(op.node[u(op.row_begin[p])])];
+    const Vec2 origin = cloud.position[op.nodal ? p : index_of(op.node[index_of(op.row_begin[p])])];
     Vec2 sum = Vec2::Zero();
     Mat2 identity = Mat2::Zero();
     double total = 0.0, scale = 1.0;
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e) {
-      const Vec2 b(op.gradient[0][e], op.gradient[1][e]), r = cloud.position[u(op.node[e])] - origin;
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
+      const Vec2 b(op.gradient[0][e], op.gradient[1][e]), r = cloud.position[index_of(op.node[e])] - origin;
       sum += b;
       identity += r * b.transpose();
       total += b.norm();
@@ -134,16 +135,17 @@ void check_regions(const input::Case& input, const Cloud<2>& cloud, const vorono
   } catch (const InputError&) { return; } // two in one part
   if (region.empty()) return;
   for (const auto& [i, j, k] : mesh.node)
-    if (region[u(i)] != region[u(j)] || region[u(i)] != region[u(k)])
-      fail("regions of one triangle", region[u(j)], region[u(i)]);
+    if (region[index_of(i)] != region[index_of(j)] || region[index_of(i)] != region[index_of(k)])
+      fail("regions of one triangle", region[index_of(j)], region[index_of(i)]);
   const Field volume = adapt::build_structure(cloud).cells.volume;
   const double rounding = 1e-11 * polygon_area(cloud) + 100.0 * last_bit(cloud) * extent(cloud);
   const Vec2 origin = cloud.position.front();
   for (std::int32_t r = 0; r < static_cast<std::int32_t>(input.domain.regions.size()); ++r) {
     double enclosed = 0.0, cells = 0.0;
     for (const Facet<2>& f : cloud.facets)
-      if (region[u(f.node[0])] == r)
-        enclosed += 0.5 * cross(cloud.position[u(f.node[0])] - origin, cloud.position[u(f.node[1])] - origin);
+      if (region[index_of(f.node[0])] == r)
+        enclosed += 0.5 * cross(cloud.position[index_of(f.node[0])] - origin,
+                                cloud.position[index_of(f.node[1])] - origin);
     for (std::size_t i = 0; i < volume.size(); ++i)
       if (region[i] == r) cells += volume[i];
     if (!(cells > 0.0)) fail("cells of a region", cells, enclosed);
@@ -156,8 +158,8 @@ void check_regions(const input::Case& input, const Cloud<2>& cloud, const vorono
 void check_interfaces(const input::Case& input, const Cloud<2>& cloud) {
   const app::Pairs pairs = app::tied_pairs(input, cloud);
   for (const auto& [a, b] : pairs.motion)
-    if (cloud.position[u(a)] != cloud.position[u(b)])
-      fail("distance of tied nodes", (cloud.position[u(a)] - cloud.position[u(b)]).norm(), 0.0);
+    if (cloud.position[index_of(a)] != cloud.position[index_of(b)])
+      fail("distance of tied nodes", (cloud.position[index_of(a)] - cloud.position[index_of(b)]).norm(), 0.0);
   const Ties<2> ties(pairs.motion, cloud.position);
   const std::vector<ContactConductance<2>> heat = app::conductances(input, cloud);
   std::size_t crossed = 0;
@@ -168,13 +170,13 @@ void check_interfaces(const input::Case& input, const Cloud<2>& cloud) {
       fail("facets of the faces of an interface", double(front.size()), double(back.size()));
     for (const auto& facets : {front, back})
       for (const std::int32_t i : app::nodes_of(facets))
-        if (ties.group()[u(i)] < 0) fail("group of a node on an interface", -1.0, 0.0);
+        if (ties.group()[index_of(i)] < 0) fail("group of a node on an interface", -1.0, 0.0);
     if (!face.conductance) continue;
     const ContactConductance<2>& exchange = heat[crossed++];
     for (std::size_t f = 0; f < exchange.facets.size(); ++f)
       for (std::size_t k = 0; k < 2; ++k) {
-        const Vec2 gap =
-            cloud.position[u(exchange.opposite[f][k])] - cloud.position[u(exchange.facets[f].node[k])];
+        const Vec2 gap = cloud.position[index_of(exchange.opposite[f][k])] -
+                         cloud.position[index_of(exchange.facets[f].node[k])];
         if (gap != Vec2::Zero()) fail("gap of a conductance", gap.norm(), 0.0);
       }
   }
@@ -196,7 +198,7 @@ public:
     for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
       double sum = 0.0;
       for (const std::int32_t k : structure.neighbours(i))
-        sum += (cloud.position[u(k)] - cloud.position[u(i)]).norm();
+        sum += (cloud.position[index_of(k)] - cloud.position[index_of(i)]).norm();
       size_.push_back(sum / static_cast<double>(structure.neighbours(i).size()));
     }
   }
@@ -205,7 +207,8 @@ public:
     deform(change);
     std::vector<char> held(mass_.size(), 0);
     for (std::size_t f = 0; f < cloud_.facets.size(); ++f)
-      held[u(cloud_.facets[f].node[0])] = change.held > 0 && f % static_cast<std::size_t>(change.held) == 0;
+      held[index_of(cloud_.facets[f].node[0])] =
+          change.held > 0 && f % static_cast<std::size_t>(change.held) == 0;
     const auto placement =
         change.at_vertices ? adapt::Placement::voronoi_vertices : adapt::Placement::between_nodes;
     adapt::PassReport report;
@@ -217,9 +220,9 @@ public:
     for (std::size_t i = 0; i < held.size(); ++i) {
       if (!held[i]) continue;
       if (made.new_of[i] < 0) fail("new number of a node that has to stay", made.new_of[i], 0.0);
-      if (made.cloud.position[u(made.new_of[i])] != cloud_.position[i])
+      if (made.cloud.position[index_of(made.new_of[i])] != cloud_.position[i])
         fail("motion of a node that has to stay",
-             (made.cloud.position[u(made.new_of[i])] - cloud_.position[i]).norm(), 0.0);
+             (made.cloud.position[index_of(made.new_of[i])] - cloud_.position[i]).norm(), 0.0);
     }
     const double before = sum_of(mass_);
     carry_sum(made.parcels, mass_);
@@ -254,13 +257,13 @@ private:
     Field given(mass_.size(), 0.0);
     for (std::size_t e = 0; e < made.parcels.node.size(); ++e) {
       if (!(made.parcels.weight[e] > 0.0)) fail("weight of a parcel", made.parcels.weight[e], 0.0);
-      given[u(made.parcels.node[e])] += made.parcels.weight[e];
+      given[index_of(made.parcels.node[e])] += made.parcels.weight[e];
     }
     for (const double sum : given)
       if (!(std::abs(sum - 1.0) <= 1e-12)) fail("sum of the parcels of a node", sum, 1.0);
     for (std::size_t p = 0; p < made.labels.size(); ++p) {
       double sum = 0.0;
-      for (auto e = u(made.labels.begin[p]); e < u(made.labels.begin[p + 1]); ++e)
+      for (auto e = index_of(made.labels.begin[p]); e < index_of(made.labels.begin[p + 1]); ++e)
         sum += made.labels.weight[e];
       if (!(std::abs(sum - 1.0) <= 1e-12)) fail("sum of the weights of a label", sum, 1.0);
     }

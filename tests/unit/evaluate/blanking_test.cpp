@@ -39,7 +39,7 @@ struct Blank {
     std::size_t side = 0;
     for (Facet<2>& facet : cloud.facets) {
       if (facet.node[0] < first) continue;
-      const Vec2& x = cloud.position[u(facet.node[0])];
+      const Vec2& x = cloud.position[index_of(facet.node[0])];
       while (side + 1 < corner.size() && (x - corner[side + 1]).norm() < 1e-12) ++side;
       facet.piece = std::find(broken.begin(), broken.end(), side) != broken.end() ? 1 : 0;
     }
@@ -271,7 +271,7 @@ protected:
 TEST_F(BlankingRun, work_is_force_over_stroke_and_what_the_ledger_received) {
   run(small_cut);
   const results::HistoryTable table = history();
-  const auto column = [&](const std::string& name) { return table.column[u(table.find(name))]; };
+  const auto column = [&](const std::string& name) { return table.column[index_of(table.find(name))]; };
   const std::vector<double> work = column("punch.work"), force = column("punch.force_y"),
                             at = column("punch.displacement_y"), books = column("energy.tool_work");
   EXPECT_EQ(metric("blanking.work.punch"), work.back());

@@ -26,13 +26,13 @@ struct Loaded {
 
   Loaded(Cloud<2> given, Method method, Space space = Space::plane)
       : cloud(std::move(given)), approximation(testing::make(method, space)->rebuild(cloud)),
-        supports({}, u(cloud.nodes())) {
-    const auto points = u(approximation.mechanics.points);
+        supports({}, index_of(cloud.nodes())) {
+    const auto points = index_of(approximation.mechanics.points);
     resize_all(point.deformation, points, 0.0);
     for (const std::size_t k : {0U, 3U, 4U}) point.deformation[k].assign(points, 1.0);
     resize_all(point.piola, points, 0.0);
     point.material.assign(points, 0);
-    resize_all(position, u(cloud.nodes()));
+    resize_all(position, index_of(cloud.nodes()));
     for (std::size_t i = 0; i < position[0].size(); ++i)
       for (std::size_t k = 0; k < 2; ++k) position[k][i] = cloud.position[i][static_cast<Eigen::Index>(k)];
     mass = approximation.node_volume;
@@ -70,8 +70,8 @@ struct Loaded {
     const DiscreteOperators<2>& op = approximation.mechanics;
     if (op.nodal) return cloud.position[p];
     double count = 0.0;
-    for (auto e = u(op.row_begin[p]); e < u(op.row_begin[p + 1]); ++e, count += 1.0)
-      x += cloud.position[u(op.node[e])];
+    for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e, count += 1.0)
+      x += cloud.position[index_of(op.node[e])];
     return x / count;
   }
   Springback unload() const {
@@ -145,7 +145,7 @@ TEST_P(SpringbackOf, planes_of_symmetry_stay_and_other_supports_let_go) {
   bar.supports = Supports<2>(
       {{"symmetry", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3)},
        {"grip", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(2.0), testing::nodes_on(bar.cloud, 1)}},
-      u(bar.cloud.nodes()));
+      index_of(bar.cloud.nodes()));
   bar.stress_everywhere(Vec2(300e6, 0.0).asDiagonal());
   const Springback s = bar.unload();
   const plasticity::Elasticity& e = bar.materials[0].elasticity;
@@ -215,13 +215,13 @@ TEST_P(SpringbackOf, stress_in_equilibrium_with_itself_gives_zero) {
   double left = 0.0;
   for (std::size_t p = 0; p < block.point.material.size(); ++p) {
     Mat2 g = Mat2::Zero();
-    for (auto k = u(op.row_begin[p]); k < u(op.row_begin[p + 1]); ++k)
-      g += block.at(first, u(op.node[k])) * Vec2(op.gradient[0][k], op.gradient[1][k]).transpose();
+    for (auto k = index_of(op.row_begin[p]); k < index_of(op.row_begin[p + 1]); ++k)
+      g += block.at(first, index_of(op.node[k])) * Vec2(op.gradient[0][k], op.gradient[1][k]).transpose();
     const Mat2 strain = 0.5 * (g + g.transpose());
     const Mat2 added = e.lambda() * strain.trace() * Mat2::Identity() + 2.0 * e.mu() * strain;
     for (Eigen::Index a = 0; a < 2; ++a)
       for (Eigen::Index b = 0; b < 2; ++b)
-        block.point.piola[u(static_cast<std::int32_t>(2 * a + b))][p] += added(a, b);
+        block.point.piola[index_of(static_cast<std::int32_t>(2 * a + b))][p] += added(a, b);
     left = std::max(left, std::abs(block.point.piola[0][p]));
   }
   EXPECT_GT(left, 10e6); // a residual stress is there
@@ -253,7 +253,7 @@ TEST(Springback, each_body_returns_for_itself) {
     EXPECT_EQ(s.body[i], second ? 1 : 0);
   }
   for (std::int32_t body = 0; body < 2; ++body) {
-    const double nu = two.materials[u(body)].elasticity.poisson;
+    const double nu = two.materials[index_of(body)].elasticity.poisson;
     expect_strain(two, s, 1e-3 * Mat2(Vec2(nu * (1.0 + nu), -(1.0 - nu * nu)).asDiagonal()), body);
   }
   expect_no_mean_motion(two, s);
@@ -263,7 +263,7 @@ TEST(Springback, round_bar_returns_along_its_axis_and_grows_in_radius) {
   Loaded bar(testing::rectangle(0.5, 2.0, 0.1), Method::cnem, Space::revolution);
   bar.supports =
       Supports<2>({{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3)}},
-                  u(bar.cloud.nodes()));
+                  index_of(bar.cloud.nodes()));
   bar.deform(Vec2(0.9, 1.2).asDiagonal(), 0.9);
   bar.stress_everywhere(Vec2(0.0, 210e6).asDiagonal());
   const Springback s = bar.unload();

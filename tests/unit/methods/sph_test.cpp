@@ -35,13 +35,14 @@ TEST_P(Kernels, have_unit_integral_and_fall_to_zero_at_their_support) {
 TEST_P(Kernels, hardly_need_correction_inside_a_lattice) {
   const Cloud<2> cloud = rectangle(1.0, 1.0, 0.1, Lattice::hexagonal, 0.0);
   const auto op = Sph(GetParam(), 2.4).rebuild(cloud).mechanics;
-  for (std::size_t i = 0; i < u(op.points); ++i) {
+  for (std::size_t i = 0; i < index_of(op.points); ++i) {
     const Vec2& x = cloud.position[i];
     if (x.cwiseMin(Vec2(1, 1) - x).minCoeff() < 0.35) continue;
-    for (auto e = u(op.row_begin[i]); e < u(op.row_begin[i + 1]); ++e) {
-      const Vec2 to = cloud.position[u(op.node[e])] - x, b(op.gradient[0][e], op.gradient[1][e]);
+    for (auto e = index_of(op.row_begin[i]); e < index_of(op.row_begin[i + 1]); ++e) {
+      const Vec2 to = cloud.position[index_of(op.node[e])] - x, b(op.gradient[0][e], op.gradient[1][e]);
       if (to.norm() == 0.0 || to.norm() > 0.11) continue;
-      const double bare = -op.volume[u(op.node[e])] * methods::kernel_slope(GetParam(), to.norm(), 0.24);
+      const double bare =
+          -op.volume[index_of(op.node[e])] * methods::kernel_slope(GetParam(), to.norm(), 0.24);
       EXPECT_NEAR(b.dot(to) / (bare * to.norm()), 1.0, 0.05);
     }
   }
@@ -56,13 +57,13 @@ TEST_P(Kernels, do_not_reach_across_a_slit) {
   fill(cloud, Lattice::hexagonal, 0.1, 0.1, 0.05, 1);
   const auto op = Sph(GetParam(), 2.4).rebuild(cloud).mechanics;
   int rows = 0;
-  for (std::size_t i = 0; i < u(op.points); ++i) {
+  for (std::size_t i = 0; i < index_of(op.points); ++i) {
     const Vec2& x = cloud.position[i];
     if (x.y() > 0.25 || std::abs(x.x() - 0.5) > 0.2) continue;
     double left = x.x(), right = x.x();
-    for (auto e = u(op.row_begin[i]); e < u(op.row_begin[i + 1]); ++e) {
-      left = std::min(left, cloud.position[u(op.node[e])].x());
-      right = std::max(right, cloud.position[u(op.node[e])].x());
+    for (auto e = index_of(op.row_begin[i]); e < index_of(op.row_begin[i + 1]); ++e) {
+      left = std::min(left, cloud.position[index_of(op.node[e])].x());
+      right = std::max(right, cloud.position[index_of(op.node[e])].x());
     }
     EXPECT_TRUE(left >= 0.5 || right <= 0.5) << "node at " << x.transpose();
     ++rows;
@@ -78,11 +79,11 @@ INSTANTIATE_TEST_SUITE_P(sph, Kernels, ::testing::Values(Kernel::cubic_spline, K
 double inner_force(const Cloud<2>& cloud, double spacing, double depth) {
   const auto op = Sph().rebuild(cloud).mechanics;
   double most = 0.0;
-  for (std::size_t j = 0; j < u(op.nodes); ++j) {
+  for (std::size_t j = 0; j < index_of(op.nodes); ++j) {
     const Vec2& x = cloud.position[j];
     if (x.cwiseMin(Vec2(1, 1) - x).minCoeff() < depth) continue;
     Vec2 force = Vec2::Zero();
-    for (auto e = u(op.col_begin[j]); e < u(op.col_begin[j + 1]); ++e)
+    for (auto e = index_of(op.col_begin[j]); e < index_of(op.col_begin[j + 1]); ++e)
       force += Vec2(op.weighted_gradient[0][e], op.weighted_gradient[1][e]);
     most = std::max(most, force.norm() / spacing);
   }
@@ -116,10 +117,10 @@ double patch_error(double spacing, int rereference_every) {
       supports.push_back({"side",
                           Support<2>::Kind::velocity,
                           k == 0 ? Vec2(1, 0) : Vec2(0, 1),
-                          TimeTable(H.row(k).dot(cloud.position[u(i)]) / end),
+                          TimeTable(H.row(k).dot(cloud.position[index_of(i)]) / end),
                           {i}});
   Problem<2> model = model_of(cloud, Method::sph, steel());
-  model.supports = Supports<2>(std::move(supports), u(cloud.nodes()));
+  model.supports = Supports<2>(std::move(supports), index_of(cloud.nodes()));
   ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 { return H * x / end; });
   const int steps = static_cast<int>(0.4 / spacing);
   for (int n = 1; n <= steps; ++n) {

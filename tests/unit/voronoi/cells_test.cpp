@@ -24,12 +24,12 @@ TEST(Cells, GridHasSquareCellsHalvedAndQuarteredOnTheBoundary) {
   const auto cloud = grid(4);
   const auto cells = cells_of(cloud);
   for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    const Vec2& x = cloud.position[u(i)];
+    const Vec2& x = cloud.position[index_of(i)];
     const double half_x = x.x() == 0 || x.x() == 4 ? 0.5 : 1.0, half_y = x.y() == 0 || x.y() == 4 ? 0.5 : 1.0;
-    EXPECT_DOUBLE_EQ(cells.volume[u(i)], half_x * half_y) << "node " << i;
+    EXPECT_DOUBLE_EQ(cells.volume[index_of(i)], half_x * half_y) << "node " << i;
   }
   for (const auto& f : cells.interior) {
-    const Vec2 link = cloud.position[u(f.cell[1])] - cloud.position[u(f.cell[0])];
+    const Vec2 link = cloud.position[index_of(f.cell[1])] - cloud.position[index_of(f.cell[0])];
     EXPECT_GE(right_normal(f.end - f.start).dot(link), 0.0);
   }
 }
@@ -79,7 +79,8 @@ TEST(Cells, PolygonsMoveWithTheNodes) {
   for (std::size_t v = 0; v < cells.vertex.size(); ++v) {
     Vec2 moved = Vec2::Zero();
     for (std::int32_t e = cells.vertex_begin[v]; e < cells.vertex_begin[v + 1]; ++e)
-      moved += cells.vertex_weight[u(e)] * gradient * cloud.position[u(cells.vertex_node[u(e)])];
+      moved += cells.vertex_weight[index_of(e)] * gradient *
+               cloud.position[index_of(cells.vertex_node[index_of(e)])];
     EXPECT_LT((moved - gradient * cells.vertex[v]).norm(), 1e-13);
   }
 }

@@ -61,7 +61,7 @@ TEST(NaturalNeighbours, EdgeMidpointOfAStructuredGrid) { // where Watson's form 
     const auto value = phi(Functions::sibson, {1.5, 2.0}, hint);
     EXPECT_EQ(value.size(), 6u);
     for (const auto& [i, v] : value)
-      EXPECT_NEAR(v, phi.cloud().position[u(i)].y() == 2.0 ? 4.0 / 9.0 : 1.0 / 36.0, 1e-15);
+      EXPECT_NEAR(v, phi.cloud().position[index_of(i)].y() == 2.0 ? 4.0 / 9.0 : 1.0 / 36.0, 1e-15);
   }
 }
 
@@ -77,7 +77,8 @@ TEST(NaturalNeighbours, SibsonIsTheRatioOfStolenAreas) {
     const auto after = constrained_cells(with_x, mesh, circumcircles(with_x, mesh)).volume;
     const auto value = phi(Functions::sibson, x);
     for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-      EXPECT_NEAR(value.contains(i) ? value.at(i) : 0.0, (before[u(i)] - after[u(i)]) / after.back(), 1e-13)
+      EXPECT_NEAR(value.contains(i) ? value.at(i) : 0.0,
+                  (before[index_of(i)] - after[index_of(i)]) / after.back(), 1e-13)
           << "node " << i << " at " << x.transpose();
   }
 }
@@ -95,7 +96,7 @@ TEST(NaturalNeighbours, LaplaceIsTheRatioOfFacetToDistance) {
     for (const std::size_t side : {0u, 1u})
       if (f.cell[side] == cloud.nodes()) {
         const std::int32_t i = f.cell[1 - side];
-        expected[i] = (f.end - f.start).norm() / (cloud.position[u(i)] - x).norm();
+        expected[i] = (f.end - f.start).norm() / (cloud.position[index_of(i)] - x).norm();
         sum += expected[i];
       }
   const auto value = phi(Functions::laplace, x);
@@ -114,7 +115,8 @@ TEST(NaturalNeighbours, LinearOnConcaveBoundaries) {
     for (const auto& facet : cloud.facets)
       for (const double s : {0.1, 0.5, 0.77}) {
         const auto [a, b] = facet.node;
-        const auto value = phi(functions, (1.0 - s) * cloud.position[u(a)] + s * cloud.position[u(b)]);
+        const auto value =
+            phi(functions, (1.0 - s) * cloud.position[index_of(a)] + s * cloud.position[index_of(b)]);
         EXPECT_EQ(value.size(), 2u);
         EXPECT_NEAR(value.at(a), 1.0 - s, 1e-14);
         EXPECT_NEAR(value.at(b), s, 1e-14);
@@ -130,7 +132,7 @@ TEST(NaturalNeighbours, TendToLinearNearTheBoundary) {
     EXPECT_NEAR(value.at(3), 0.7, 3.0 * depth);
     EXPECT_NEAR(value.at(4), 0.3, 3.0 * depth);
     Vec2 mean = Vec2::Zero();
-    for (const auto& [i, v] : value) mean += v * cloud.position[u(i)];
+    for (const auto& [i, v] : value) mean += v * cloud.position[index_of(i)];
     EXPECT_LT((mean - x).norm(), 1e-14) << "depth " << depth;
   }
 }
@@ -139,11 +141,11 @@ TEST(NaturalNeighbours, NoInfluenceThroughACrack) {
   Evaluated phi(embedded_crack());
   for (const auto& [i, v] : phi(Functions::sibson, {2.0, 2.1})) {
     EXPECT_NE(i, 19); // the lower face
-    EXPECT_GE(phi.cloud().position[u(i)].y(), 2.0);
+    EXPECT_GE(phi.cloud().position[index_of(i)].y(), 2.0);
   }
   for (const auto& [i, v] : phi(Functions::sibson, {2.0, 1.9})) {
     EXPECT_NE(i, 17); // the upper face
-    EXPECT_LE(phi.cloud().position[u(i)].y(), 2.0);
+    EXPECT_LE(phi.cloud().position[index_of(i)].y(), 2.0);
   }
 }
 
@@ -164,7 +166,7 @@ TEST(Locate, FindsPointsFromAnyHintAlsoBehindWalls) {
       Vec2 mean = Vec2::Zero();
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_GE(at.weight[k], -1e-12);
-        mean += at.weight[k] * cloud.position[u(mesh.node[u(at.triangle)][k])];
+        mean += at.weight[k] * cloud.position[index_of(mesh.node[index_of(at.triangle)][k])];
       }
       EXPECT_LT((mean - x).norm(), 1e-14);
     }
@@ -176,9 +178,9 @@ TEST(Locate, OnACrackTheHintChoosesTheFace) {
   const auto cloud = embedded_crack();
   const auto mesh = triangulate(cloud);
   for (const std::int32_t face : {17, 19}) {
-    const Location here = locate(cloud, mesh, {1.5, 2.0}, mesh.triangle_of_node[u(face)]);
+    const Location here = locate(cloud, mesh, {1.5, 2.0}, mesh.triangle_of_node[index_of(face)]);
     EXPECT_TRUE(here.inside);
-    const auto& nodes = mesh.node[u(here.triangle)];
+    const auto& nodes = mesh.node[index_of(here.triangle)];
     EXPECT_TRUE(nodes[0] == face || nodes[1] == face || nodes[2] == face);
   }
 }

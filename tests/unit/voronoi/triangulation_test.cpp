@@ -14,8 +14,8 @@ namespace {
 double area(const Cloud<2>& cloud, const Triangulation& mesh) {
   double sum = 0.0;
   for (const auto& [a, b, c] : mesh.node)
-    sum +=
-        0.5 * cross(cloud.position[u(b)] - cloud.position[u(a)], cloud.position[u(c)] - cloud.position[u(a)]);
+    sum += 0.5 * cross(cloud.position[index_of(b)] - cloud.position[index_of(a)],
+                       cloud.position[index_of(c)] - cloud.position[index_of(a)]);
   return sum;
 }
 
@@ -45,20 +45,20 @@ void expect_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
       const std::int32_t next = mesh.neighbour[t][k], facet = mesh.facet[t][k];
       ASSERT_EQ(next < 0, facet >= 0);
       if (facet >= 0) {
-        ++seen[u(facet)];
-        EXPECT_EQ(cloud.facets[u(facet)].node[0], a);
-        EXPECT_EQ(cloud.facets[u(facet)].node[1], b);
+        ++seen[index_of(facet)];
+        EXPECT_EQ(cloud.facets[index_of(facet)].node[0], a);
+        EXPECT_EQ(cloud.facets[index_of(facet)].node[1], b);
         continue;
       }
       std::size_t back = 0;
-      while (back < 3 && mesh.neighbour[u(next)][back] != static_cast<std::int32_t>(t)) ++back;
+      while (back < 3 && mesh.neighbour[index_of(next)][back] != static_cast<std::int32_t>(t)) ++back;
       ASSERT_LT(back, 3u);
-      EXPECT_EQ(mesh.node[u(next)][(back + 1) % 3], b);
-      EXPECT_EQ(mesh.node[u(next)][(back + 2) % 3], a);
+      EXPECT_EQ(mesh.node[index_of(next)][(back + 1) % 3], b);
+      EXPECT_EQ(mesh.node[index_of(next)][(back + 2) % 3], a);
     }
   for (const int count : seen) EXPECT_EQ(count, 1);
   for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-    EXPECT_TRUE(has(mesh.node[u(mesh.triangle_of_node[u(i)])], i));
+    EXPECT_TRUE(has(mesh.node[index_of(mesh.triangle_of_node[index_of(i)])], i));
 }
 
 TEST(Triangulation, SquareHasTwoTriangles) {
@@ -106,7 +106,7 @@ TEST(Triangulation, EmbeddedCrackHasTwoFaces) {
   expect_consistent(cloud, mesh);
   for (const auto& nodes : mesh.node) {
     double y = 0.0;
-    for (const auto i : nodes) y += cloud.position[u(i)].y() / 3.0;
+    for (const auto i : nodes) y += cloud.position[index_of(i)].y() / 3.0;
     for (const auto i : nodes) {
       if (i == 17) { EXPECT_GT(y, 2.0); }
       if (i == 19) { EXPECT_LT(y, 2.0); }
