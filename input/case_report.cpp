@@ -71,7 +71,7 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
     return diagnostics.add(Mistake::missing_key, blanking->where, "report.blanking.punch",
                            fmt::format("missing, expected one of the tools \"{}\": not one alone moves",
                                        fmt::join(names, "\", \"")));
-  const auto index_of = [&](const Setting& key, const std::string& name) -> std::optional<std::size_t> {
+  const auto place_of = [&](const Setting& key, const std::string& name) -> std::optional<std::size_t> {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return index_of(found - names.begin());
     diagnostics.add(
@@ -80,7 +80,7 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
     return std::nullopt;
   };
   const std::string punch_name = std::get<std::string>(punch->value);
-  const auto punch_index = index_of(*punch, punch_name);
+  const auto punch_index = place_of(*punch, punch_name);
   if (!punch_index) return;
   if (const auto usual = usual_dies(result.tools, punch_name); !usual.empty())
     root.set_default("report.blanking.die", usual);
@@ -95,7 +95,7 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
     if (name == punch_name)
       diagnostics.add(Mistake::conflict, dies.where, dies.path,
                       fmt::format("found the punch '{}', expected another tool", name));
-    else if (const auto index = index_of(dies, name))
+    else if (const auto index = place_of(dies, name))
       report.dies.push_back(*index);
   }
   report.parallel = root.get<double>("report.blanking.parallel");
