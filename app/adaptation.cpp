@@ -104,28 +104,13 @@ double Adaptation::tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) co
   return *input_->adapt.tool_spacing + input_->adapt.growth * nearest;
 }
 
-const Field& Adaptation::indicated(const ExplicitSolver<2>& solver, Field& made) const {
-  const PointState<2>& point = solver.state().point;
-  switch (input_->adapt.indicator) {
-  case input::Adaptation::Indicator::plastic_power:
-    made.resize(point.size());
-    for (std::size_t p = 0; p < made.size(); ++p)
-      made[p] = point.equivalent_stress[p] * point.plastic_rate[p];
-    return made;
-  case input::Adaptation::Indicator::temperature:
-    return point.temperature;
-  case input::Adaptation::Indicator::damage:
-    return point.damage;
-  default:
-    return point.plastic_strain;
-  }
-}
-
 void Adaptation::estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
                                    const adapt::Structure& structure) {
   const input::Adaptation& rules = input_->adapt;
-  Field made;
-  const adapt::Indicator estimate = adapt::indicator(cloud, structure, indicated(solver, made));
+  const PointState<2>& point = solver.state().point;
+  Field indicated(point.size());
+  for (std::size_t p = 0; p < indicated.size(); ++p) indicated[p] = rules.indicator->at(point, p);
+  const adapt::Indicator estimate = adapt::indicator(cloud, structure, indicated);
   const adapt::Marking marking = adapt::mark(cloud, structure, estimate,
                                              {.tolerance = rules.tolerance,
                                               .coarsen = rules.coarsen,
@@ -150,8 +135,7 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
     std::optional<adapt::Structure> structure = adapt::structure_if_valid(cloud);
     Field wanted = wanted_; // where nodes have passed each other there is nothing to estimate on
     if (structure) {
-      if (input_->adapt.indicator != input::Adaptation::Indicator::none)
-        estimate_and_mark(solver, cloud, *structure);
+      if (input_->adapt.indicator) estimate_and_mark(solver, cloud, *structure);
       wanted = size_;
       if (!tips_.empty())
         for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -243,7 +227,7 @@ void Adaptation::archive(Archive& archive) {
     wanted_.resize(corner_.size());
     birth_.resize(corner_.size());
   }
-  if (input_->adapt.indicator != input::Adaptation::Indicator::none) {
+  if (input_->adapt.indicator) {
     archive.integer("run/adapt/refined", refined_);
     archive.integer("run/adapt/coarsened", coarsened_);
     archive.number("run/adapt/error_total", "m", error_total_);

@@ -42,7 +42,6 @@ public:
   void archive(Archive& archive);
 
 private:
-  const Field& indicated(const ExplicitSolver<2>& solver, Field& made) const;
   void estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
                          const adapt::Structure& structure);
   /// Takes over to a changed cloud what this object knows of nodes.

@@ -3,6 +3,7 @@
 // The structs of the libraries themselves, where they have one for it; input/case_reader.hpp fills them, app/
 // makes solver objects of them. The meaning of each key is in docs/case_reference.md, which is generated from
 // input/schema/schema.cpp.
+#include "adapt/indicated_fields.hpp"
 #include "adapt/resample.hpp"
 #include "clouds/generate.hpp"
 #include "contact/body_contact.hpp"
@@ -170,15 +171,14 @@ struct Method {
 
 /// How the cloud follows the deformation.
 struct Adaptation {
-  enum class Indicator { none, plastic_strain, plastic_power, temperature, damage };
   /// The boundary piece that separation makes.
   static constexpr const char* fracture_piece = "fracture";
   bool resample = false;
   bool separate = false; ///< broken matter is opened along edges between nodes
   adapt::Placement placement = adapt::Placement::between_nodes;
-  double growth = 0.3;                ///< – of the wanted spacing per distance
-  std::optional<double> tool_spacing; ///< m, at corners and arcs of tools
-  Indicator indicator = Indicator::none;
+  double growth = 0.3;                              ///< – of the wanted spacing per distance
+  std::optional<double> tool_spacing;               ///< m, at corners and arcs of tools
+  const adapt::IndicatedField* indicator = nullptr; ///< null: the spacing stays
   double tolerance = 0.1;          ///< – of the norm of the field, shared out among the cells
   double coarsen = 0.05;           ///< – of the limit; 0: never
   double h_min = 0.0, h_max = 0.0; ///< m

@@ -19,14 +19,16 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   rules.placement = table.choice<adapt::Placement>("placement");
   rules.growth = table.get<double>("growth");
   rules.tool_spacing = table.maybe<double>("tool_spacing");
-  rules.indicator = table.choice<Adaptation::Indicator>("indicator.field");
+  rules.indicator = adapt::indicated_field(table.get<std::string>("indicator.field"));
   rules.tolerance = table.get<double>("indicator.tolerance");
   rules.coarsen = table.get<double>("indicator.coarsen");
   rules.h_min = table.maybe<double>("indicator.h_min").value_or(0.0);
   rules.h_max = table.maybe<double>("indicator.h_max").value_or(0.0);
   rules.max_nodes = table.get<std::int64_t>("indicator.max_nodes");
 
-  const bool refines = rules.indicator != Adaptation::Indicator::none;
+  using Needs = adapt::IndicatedField::Needs;
+  const bool refines = rules.indicator != nullptr;
+  const Needs needs = refines ? rules.indicator->needs : Needs::nothing;
   const auto conflict = [&](std::string_view path, const std::string& why) {
     const Setting* key = root.find(path);
     if (key) diagnostics.add(Mistake::conflict, key->where, key->path, why);
@@ -34,9 +36,10 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   const bool damage =
       std::any_of(result.materials.begin(), result.materials.end(),
                   [](const plasticity::Material& material) { return material.damage.has_value(); });
-  if (rules.indicator == Adaptation::Indicator::damage && !damage)
+  if (needs == Needs::damage && !damage)
     conflict("adapt.indicator.field",
-             "found \"damage\" where no material has a damage law, expected materials.NAME.damage");
+             fmt::format("found \"{}\" where no material has a damage law, expected materials.NAME.damage",
+                         rules.indicator->name));
   if (rules.separate && !damage)
     conflict("adapt.separate",
              "found true where no material has a damage law, expected materials.NAME.damage: nothing "
@@ -80,9 +83,10 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, least->where, least->path,
                     fmt::format("found {:g} m, expected less than adapt.indicator.h_max = {:g} m",
                                 rules.h_min, rules.h_max));
-  if (rules.indicator == Adaptation::Indicator::temperature && !result.analysis.thermal)
+  if (needs == Needs::heat && !result.analysis.thermal)
     conflict("adapt.indicator.field",
-             "found \"temperature\" in an analysis without heat, expected it with analysis.thermal = true");
+             fmt::format("found \"{}\" in an analysis without heat, expected it with analysis.thermal = true",
+                         rules.indicator->name));
   if (result.time.mass_scaling && result.time.mass_scaling->step > 0.0 && (refines || rules.tool_spacing))
     conflict("time.mass_scaling.step",
              "found a step for a cloud that is refined, expected time.mass_scaling.factor: the factors of "

@@ -1,4 +1,5 @@
 // Keys of the method and of adaptation.
+#include "adapt/indicated_fields.hpp"
 #include "input/keys.hpp"
 #include "methods/registry.hpp"
 
@@ -66,6 +67,16 @@ void add_method(Keys& k) {
       .fallback("0.05");
 }
 
+namespace {
+
+std::vector<std::string> indicator_choices() {
+  std::vector<std::string> names{"none"};
+  for (const adapt::IndicatedField& field : adapt::indicated_fields()) names.emplace_back(field.name);
+  return names;
+}
+
+} // namespace
+
 void add_adaptation(Keys& k) {
   using enum Type;
   namespace d = dimension;
@@ -102,7 +113,7 @@ void add_adaptation(Keys& k) {
         "interpolated field from the value of the cell. `plastic_power` is von Mises stress times plastic "
         "rate, "
         "`damage` needs a material with damage.")
-      .one_of({"none", "plastic_strain", "plastic_power", "temperature", "damage"})
+      .one_of(indicator_choices())
       .fallback("\"none\"");
   k.add("adapt.indicator.tolerance", quantity,
         "A cell is refined when its indicator exceeds this part of the norm of the field, shared out among "

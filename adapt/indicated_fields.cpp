@@ -1,0 +1,36 @@
+#include "adapt/indicated_fields.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace cnem::adapt {
+
+namespace {
+
+using Needs = IndicatedField::Needs;
+using Points = PointState<2>;
+
+constexpr std::array list{
+    IndicatedField{"plastic_strain", Needs::nothing,
+                   [](const Points& point, std::size_t p) { return point.plastic_strain[p]; }},
+    IndicatedField{"plastic_power", Needs::nothing,
+                   [](const Points& point, std::size_t p) {
+                     return point.equivalent_stress[p] * point.plastic_rate[p];
+                   }},
+    IndicatedField{"temperature", Needs::heat,
+                   [](const Points& point, std::size_t p) { return point.temperature[p]; }},
+    IndicatedField{"damage", Needs::damage,
+                   [](const Points& point, std::size_t p) { return point.damage[p]; }},
+};
+
+} // namespace
+
+std::span<const IndicatedField> indicated_fields() { return list; }
+
+const IndicatedField* indicated_field(std::string_view name) {
+  const auto* found =
+      std::find_if(list.begin(), list.end(), [&](const IndicatedField& field) { return field.name == name; });
+  return found == list.end() ? nullptr : found;
+}
+
+} // namespace cnem::adapt
