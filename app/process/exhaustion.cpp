@@ -6,6 +6,7 @@
 #include "results/output_folder.hpp"
 
 #include <atomic>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 #include <mutex>
 #include <omp.h>
 #include <string_view>
+#include <sys/mman.h>
 #include <unistd.h>
 
 namespace cnem::app {
@@ -74,6 +76,25 @@ void write_all(int fd, std::string_view text) {
   std::abort();
 }
 
+/// Libraries in C go on with a null pointer, or abort, where malloc gives them nothing. Any other fault ends
+/// the process as it would without this.
+extern "C" void on_fault(int signal) {
+  constexpr std::size_t some = std::size_t{16} << 20;
+  void* const block = mmap(nullptr, some, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (block == MAP_FAILED) end_with_last_words();
+  munmap(block, some);
+  raise(signal); // whose handling is the system's again
+}
+
+void end_faults_of_exhaustion_with_last_words() {
+#ifndef __SANITIZE_ADDRESS__ // which has handlers of its own
+  struct sigaction action {};
+  action.sa_handler = on_fault;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) sigaction(signal, &action, nullptr);
+#endif
+}
+
 void on_exit() {
   if (!ended_in_order) end_with_last_words();
 }
@@ -102,6 +123,7 @@ void prepare_for_exhaustion() {
   std::set_new_handler(use_reserve);
   terminate_before = std::set_terminate(on_terminate);
   std::atexit(on_exit);
+  end_faults_of_exhaustion_with_last_words();
 }
 
 int in_order(int code) {

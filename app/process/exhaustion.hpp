@@ -12,8 +12,8 @@
 namespace cnem::app {
 
 /// For a whole process: puts memory aside, so that what is under way when memory ends can be finished. Where
-/// an exception cannot pass (destructors and threads of libraries; OpenMP, which calls exit()) the process
-/// ends with io_failed and its last words.
+/// an exception cannot pass (destructors and threads of libraries; OpenMP, which calls exit(); libraries in C
+/// that go on with a null pointer) the process ends with io_failed and its last words.
 void prepare_for_exhaustion();
 
 /// Returns the exit code that main() ends with: what comes after is no early end.

@@ -117,6 +117,15 @@ TEST_F(Surroundings, memory_exhausted_wherever_ends_with_4) {
   EXPECT_GT(exhausted, 2) << "no limit was between the program and its run";
 }
 
+TEST_F(Surroundings, a_fault_with_memory_left_ends_as_the_system_says) {
+  if (sanitized) GTEST_SKIP();
+  Process process(run_of("punched.toml", "fault", {"--set", "time.end=1 us"}));
+  wait_for(process, folder / "fault" / "checkpoint.h5");
+  ASSERT_TRUE(process.running());
+  kill(process.id(), SIGSEGV);
+  EXPECT_EQ(process.wait().signal, SIGSEGV);
+}
+
 TEST_F(Surroundings, memory_exhausted_in_a_static_analysis_ends_with_4) {
   if (sanitized) GTEST_SKIP();
   const fs::path plate = fs::path(CNEM_SOURCE_DIR) / "cases" / "paper" / "crack_straight";
