@@ -205,7 +205,7 @@ struct CheckpointReader::File {
     throw IoError(!fits ? fmt::format("'{}' is of another type than expected", name)
                         : fmt::format("'{}' has {} values, expected {}", name, found, length));
   }
-  static constexpr std::size_t any = index_of(-1);
+  static constexpr std::size_t any = static_cast<std::size_t>(-1);
 };
 
 CheckpointReader::CheckpointReader(std::string_view content)
