@@ -30,8 +30,8 @@ void RigidContact<dim>::book(const std::vector<Pose<dim>>& poses, const ContactS
   body_result_.step = {};
   const Pose<dim> rest;
   for (const Contact<dim>& contact : contacts_) {
-    const auto t = index_of(contact.tool);
     const bool on_tool = contact.tool >= 0;
+    const std::size_t t = on_tool ? index_of(contact.tool) : 0;
     const Pose<dim>& pose = on_tool ? poses[t] : rest;
     const Vec<dim> impulse = contact.impulse();
     if (impulse.squaredNorm() == 0.0) continue;
