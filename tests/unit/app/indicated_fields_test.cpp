@@ -1,9 +1,7 @@
-// Fields that refinement follows: their values, and what a case lacks for them.
+// Fields that refinement follows: their values, and that a case can name each of them.
 #include "adapt/indicated_fields.hpp"
-#include "input/case_reader.hpp"
 #include "input/schema/schema.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace cnem::app {
