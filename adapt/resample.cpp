@@ -78,7 +78,7 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
   for (int round = 0; round < thresholds.rounds; ++round)
     if (!fill(work, *structure, thresholds, rules.placement, report)) break;
   balance(work, *structure, thresholds, report);
-  report.area_change = enclosed_area(work.cloud()) - enclosed_area(cloud);
+  report.area_change = enclosed_measure(work.cloud()) - enclosed_measure(cloud);
   Resampling<2> change = work.finish();
   change.old_position = cloud.position;
   return change;

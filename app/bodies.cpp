@@ -58,8 +58,8 @@ double distance_to(const std::vector<Vec2>& polyline, const Vec2& x) {
 
 /// The nodes on the two faces of an interface, face + first.
 std::vector<std::array<std::int32_t, 2>> face_pairs(const Cloud<2>& cloud, const std::string& name) {
-  const std::vector<std::int32_t> left = nodes_of(facets_of(cloud, {name + "+"}));
-  const std::vector<std::int32_t> right = nodes_of(facets_of(cloud, {name + "-"}));
+  const std::vector<std::int32_t> left = nodes_of<2>(facets_of<2>(cloud, {name + "+"}));
+  const std::vector<std::int32_t> right = nodes_of<2>(facets_of<2>(cloud, {name + "-"}));
   const auto on = [](const std::vector<std::int32_t>& face, std::int32_t node) {
     return std::binary_search(face.begin(), face.end(), node);
   };
@@ -73,8 +73,8 @@ std::vector<std::array<std::int32_t, 2>> face_pairs(const Cloud<2>& cloud, const
 
 std::vector<std::array<std::int32_t, 2>>
 matching_nodes(const input::Case& input, const input::Periodicity& spec, const Cloud<2>& cloud) {
-  const std::vector<std::int32_t> first = nodes_of(facets_of(cloud, {spec.pieces[0]}));
-  std::vector<std::int32_t> second = nodes_of(facets_of(cloud, {spec.pieces[1]}));
+  const std::vector<std::int32_t> first = nodes_of<2>(facets_of<2>(cloud, {spec.pieces[0]}));
+  std::vector<std::int32_t> second = nodes_of<2>(facets_of<2>(cloud, {spec.pieces[1]}));
   const auto fail = [&](const std::string& what) {
     return input.error(fmt::format("periodic.{}.pieces", spec.name),
                        fmt::format("{}, expected '{}' to be a shifted copy of '{}' with the same nodes", what,
@@ -90,7 +90,7 @@ matching_nodes(const input::Case& input, const input::Periodicity& spec, const C
   };
   const Vec2 shift = mean(second) - mean(first);
   double spacing = std::numeric_limits<double>::infinity();
-  for (const Facet<2>& facet : facets_of(cloud, {spec.pieces[0]}))
+  for (const Facet<2>& facet : facets_of<2>(cloud, {spec.pieces[0]}))
     spacing = std::min(
         spacing, (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm());
   std::vector<std::array<std::int32_t, 2>> pairs;
@@ -111,22 +111,23 @@ matching_nodes(const input::Case& input, const input::Periodicity& spec, const C
 
 } // namespace
 
-std::vector<Facet<2>> facets_of(const Cloud<2>& cloud, const std::vector<std::string>& pieces) {
+template<int dim>
+std::vector<Facet<dim>> facets_of(const Cloud<dim>& cloud, const std::vector<std::string>& pieces) {
   std::vector<bool> wanted(cloud.piece_names.size(), false);
   for (std::size_t p = 0; p < cloud.piece_names.size(); ++p)
     for (const std::string& piece : pieces)
       if (const std::string& name = cloud.piece_names[p];
           name == piece || name == piece + "+" || name == piece + "-")
         wanted[p] = true;
-  std::vector<Facet<2>> facets;
+  std::vector<Facet<dim>> facets;
   std::copy_if(cloud.facets.begin(), cloud.facets.end(), std::back_inserter(facets),
-               [&](const Facet<2>& facet) { return wanted[index_of(facet.piece)]; });
+               [&](const Facet<dim>& facet) { return wanted[index_of(facet.piece)]; });
   return facets;
 }
 
-std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>& facets) {
+template<int dim> std::vector<std::int32_t> nodes_of(const std::vector<Facet<dim>>& facets) {
   std::vector<std::int32_t> nodes;
-  for (const Facet<2>& facet : facets) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());
+  for (const Facet<dim>& facet : facets) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
@@ -176,7 +177,7 @@ std::vector<ContactConductance<2>> conductances(const input::Case& input, const 
     std::map<std::int32_t, std::int32_t> opposite;
     for (const auto& [a, b] : face_pairs(cloud, interface.name)) opposite[a] = b;
     ContactConductance<2> exchange{
-        interface.name, *interface.conductance, facets_of(cloud, {interface.name + "+"}), {}};
+        interface.name, *interface.conductance, facets_of<2>(cloud, {interface.name + "+"}), {}};
     for (const Facet<2>& facet : exchange.facets)
       exchange.opposite.push_back({opposite.at(facet.node[0]), opposite.at(facet.node[1])});
     list.push_back(std::move(exchange));
@@ -195,22 +196,33 @@ Field strength(const input::Case& input, const Cloud<2>& cloud) {
   return factor;
 }
 
-void set_initial_state(const input::Case& input, const Cloud<2>& cloud,
-                       const std::vector<std::int32_t>& region, Fields<2>& velocity, Field& temperature) {
+template<int dim>
+void set_initial_state(const input::Case& input, const Cloud<dim>& cloud,
+                       const std::vector<std::int32_t>& region, Fields<dim>& velocity, Field& temperature) {
   const input::InitialState& initial = input.initial;
   resize_all(velocity, index_of(cloud.nodes()));
   temperature.assign(index_of(cloud.nodes()), initial.temperature);
   for (std::size_t i = 0; i < temperature.size(); ++i) {
-    Vec2 v = initial.velocity;
-    if (!region.empty() && region[i] >= 0) {
-      v = input.domain.regions[index_of(region[i])].velocity;
-      temperature[i] = input.domain.regions[index_of(region[i])].temperature;
+    Vec<dim> v = initial.velocity.head<dim>();
+    if constexpr (dim == 2) {
+      if (!region.empty() && region[i] >= 0) {
+        v = input.domain.regions[index_of(region[i])].velocity;
+        temperature[i] = input.domain.regions[index_of(region[i])].temperature;
+      }
+      if (initial.spin) v += initial.spin->rate * left_normal(cloud.position[i] - initial.spin->centre);
+      if (initial.gradient) v += initial.gradient->rate * (cloud.position[i] - initial.gradient->centre);
     }
-    if (initial.spin) v += initial.spin->rate * left_normal(cloud.position[i] - initial.spin->centre);
-    if (initial.gradient) v += initial.gradient->rate * (cloud.position[i] - initial.gradient->centre);
-    velocity[0][i] = v.x();
-    velocity[1][i] = v.y();
+    for (int k = 0; k < dim; ++k) velocity[index_of(k)][i] = v[k];
   }
 }
+
+template std::vector<Facet<2>> facets_of(const Cloud<2>&, const std::vector<std::string>&);
+template std::vector<Facet<3>> facets_of(const Cloud<3>&, const std::vector<std::string>&);
+template std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>&);
+template std::vector<std::int32_t> nodes_of(const std::vector<Facet<3>>&);
+template void set_initial_state<2>(const input::Case&, const Cloud<2>&, const std::vector<std::int32_t>&,
+                                Fields<2>&, Field&);
+template void set_initial_state<3>(const input::Case&, const Cloud<3>&, const std::vector<std::int32_t>&,
+                                Fields<3>&, Field&);
 
 } // namespace cnem::app

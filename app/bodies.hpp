@@ -12,10 +12,11 @@
 namespace cnem::app {
 
 /// Facets of the named pieces; both faces NAME+ and NAME- of a crack or an interface answer to NAME.
-std::vector<Facet<2>> facets_of(const Cloud<2>& cloud, const std::vector<std::string>& pieces);
+template<int dim>
+std::vector<Facet<dim>> facets_of(const Cloud<dim>& cloud, const std::vector<std::string>& pieces);
 
 /// The nodes of facets, each once, in increasing order.
-std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>& facets);
+template<int dim> std::vector<std::int32_t> nodes_of(const std::vector<Facet<dim>>& facets);
 
 /// For each node the region of the case it belongs to, −1 where none was given; empty without regions.
 /// Throws InputError when two regions lie in one part of the domain.
@@ -39,7 +40,8 @@ Field strength(const input::Case& input, const Cloud<2>& cloud);
 
 /// Velocity [component][node], m/s, and temperature [node], K, at time 0. region: as region_of_nodes gives
 /// it.
-void set_initial_state(const input::Case& input, const Cloud<2>& cloud,
-                       const std::vector<std::int32_t>& region, Fields<2>& velocity, Field& temperature);
+template<int dim>
+void set_initial_state(const input::Case& input, const Cloud<dim>& cloud,
+                       const std::vector<std::int32_t>& region, Fields<dim>& velocity, Field& temperature);
 
 } // namespace cnem::app

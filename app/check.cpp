@@ -1,4 +1,5 @@
 #include "app/divergence.hpp"
+#include "app/places.hpp"
 #include "app/run.hpp"
 #include "app/simulation.hpp"
 #include "app/statics.hpp"
@@ -16,26 +17,25 @@
 
 namespace cnem::app {
 
-void check(const input::Case& input, const RunOptions& options) {
-  use_threads(options.threads);
-  if (input.analysis.type == input::Analysis::Type::statics) return check_static(input, options);
+namespace {
+
+template<int dim> void check_explicit(const input::Case& input, const RunOptions& options) {
   std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = make_solver(input, warnings);
+  ExplicitSolver<dim> solver = make_solver<dim>(input, warnings);
   StepControl control(input.time);
   control.refresh(solver);
   for (std::string& warning : supersonic_tools(input, solver)) warnings.push_back(std::move(warning));
   if (!input.adapt.tool_spacing) check_tool_steps(input, solver, control.limit() / solver.sub_steps());
-  const State<2>& state = solver.state();
+  const State<dim>& state = solver.state();
   const std::size_t node = node_of(solver, control.point());
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   fmt::print("case        {}\n", input.title.empty() ? input.name : input.title);
   fmt::print("nodes       {}\n", state.node.size());
   fmt::print("points      {}\n", state.point.size());
-  fmt::print("area        {:.9g} m²\n", results::boundary_area(results::snapshot(solver)));
+  fmt::print("{:<11} {:.9g} {}\n", dim == 2 ? "area" : "volume",
+             results::enclosed_measure(results::snapshot(solver)), dim == 2 ? "m²" : "m³");
   fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
-  if (!input.time.fixed)
-    fmt::print("{}", input.placed(fmt::format(" at ({:.4g}, {:.4g}) m", state.node.position[0][node],
-                                              state.node.position[1][node])));
+  if (!input.time.fixed) fmt::print("{}", input.placed(" at " + show_place<dim>(state.node.position, node)));
   if (solver.sub_steps() > 1) fmt::print(", in {} finest steps", solver.sub_steps());
   fmt::print("\nsteps       about {:.12g} to t = {:.4g} s\n", std::ceil(input.time.end / control.limit()),
              input.time.end);
@@ -46,11 +46,10 @@ void check(const input::Case& input, const RunOptions& options) {
   } else {
     fmt::print("tools       {} places where a tool overlaps the workpiece, the deepest:\n", overlaps.size());
     for (std::size_t k = 0; k < std::min<std::size_t>(overlaps.size(), 3); ++k)
-      fmt::print(
-          "            {}\n",
-          input.placed(fmt::format("{} by {:.3g} m at ({:.4g}, {:.4g}) m",
-                                   solver.conditions().contact.tools()[index_of(overlaps[k].tool)].name,
-                                   overlaps[k].depth, overlaps[k].position.x(), overlaps[k].position.y())));
+      fmt::print("            {}\n", input.placed(fmt::format(
+                                         "{} by {:.3g} m at {}",
+                                         solver.conditions().contact.tools()[index_of(overlaps[k].tool)].name,
+                                         overlaps[k].depth, show_place<dim>(overlaps[k].position))));
   }
   const std::filesystem::path folder = options.output / "initial";
   results::prepare_output_folder(folder, true);
@@ -58,6 +57,14 @@ void check(const input::Case& input, const RunOptions& options) {
   results::FieldRecorder(folder, input.origin).record(files, results::snapshot(solver));
   files.wait();
   fmt::print("fields      {}\n", (folder / results::files::fields).string());
+}
+
+} // namespace
+
+void check(const input::Case& input, const RunOptions& options) {
+  use_threads(options.threads);
+  if (input.analysis.type == input::Analysis::Type::statics) return check_static(input, options);
+  input.analysis.dimensions() == 3 ? check_explicit<3>(input, options) : check_explicit<2>(input, options);
 }
 
 } // namespace cnem::app

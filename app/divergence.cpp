@@ -1,5 +1,6 @@
 #include "app/divergence.hpp"
 
+#include "app/places.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
@@ -11,25 +12,30 @@ namespace cnem::app {
 namespace {
 
 /// Distance to the nearest node around in the reference, m.
-double spacing_at(const ExplicitSolver<2>& solver, std::size_t node) {
-  const DiscreteOperators<2>& op = solver.approximation().mechanics;
-  const Fields<2>& X = solver.state().node.reference;
+template<int dim> double spacing_at(const ExplicitSolver<dim>& solver, std::size_t node) {
+  const DiscreteOperators<dim>& op = solver.approximation().mechanics;
+  const Fields<dim>& X = solver.state().node.reference;
   double nearest = std::numeric_limits<double>::infinity();
   for (auto c = index_of(op.col_begin[node]); c < index_of(op.col_begin[node + 1]); ++c) {
     const auto p = index_of(op.point[c]);
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       const auto j = index_of(op.node[e]);
-      const double d = std::hypot(X[0][j] - X[0][node], X[1][j] - X[1][node]);
+      const double d = (place_of_node<dim>(X, j) - place_of_node<dim>(X, node)).norm();
       if (j != node && d > 0.0) nearest = std::min(nearest, d);
     }
   }
   return nearest;
 }
 
-double strain_of(const PointState<2>& point, std::size_t p) {
-  const auto& f = point.deformation;
-  return std::sqrt((f[0][p] - 1.0) * (f[0][p] - 1.0) + f[1][p] * f[1][p] + f[2][p] * f[2][p] +
-                   (f[3][p] - 1.0) * (f[3][p] - 1.0) + (f[4][p] - 1.0) * (f[4][p] - 1.0));
+template<int dim> double strain_of(const PointState<dim>& point, std::size_t p) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < point.deformation.size(); ++k) {
+    // The diagonal of F: components 0, 3 and 4 (out of plane) in the plane, 0, 4 and 8 in space.
+    const bool diagonal = dim == 2 ? k == 0 || k >= 3 : k % 4 == 0;
+    const double strain = point.deformation[k][p] - (diagonal ? 1.0 : 0.0);
+    sum += strain * strain;
+  }
+  return std::sqrt(sum);
 }
 
 /// What a user has chosen that makes runs diverge.
@@ -56,17 +62,18 @@ void blame_settings(const input::Case& input, const std::string& field, std::vec
 }
 
 /// What the place tells.
-void blame_place(const input::Case& input, const ExplicitSolver<2>& solver, std::size_t node,
+template<int dim>
+void blame_place(const input::Case& input, const ExplicitSolver<dim>& solver, std::size_t node,
                  std::vector<std::string>& causes) {
-  const State<2>& state = solver.state();
-  const DiscreteOperators<2>& op = solver.approximation().mechanics;
+  const State<dim>& state = solver.state();
+  const DiscreteOperators<dim>& op = solver.approximation().mechanics;
   const auto point = index_of(op.point[index_of(op.col_begin[node])]);
-  const Place place = place_of(solver, node);
+  const Place<dim> place = place_of(solver, node);
   const double spacing = spacing_at(solver, node);
   const auto& contact = solver.conditions().contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t) {
     const auto& tool = contact.tools()[t];
-    const Vec2 seen = place.centre - contact.displacement(t, state.time);
+    const Vec<dim> seen = place.centre - contact.displacement(t, state.time);
     if (std::abs(tool.shape->closest(seen).distance) < 3.0 * spacing)
       causes.push_back(
           fmt::format("It lies at tool '{}': a sharp corner, or a tool that moves more than a cell "
@@ -75,8 +82,9 @@ void blame_place(const input::Case& input, const ExplicitSolver<2>& solver, std:
                       tool.name));
   }
   const auto& facets = solver.conditions().cloud.facets;
-  if (std::any_of(facets.begin(), facets.end(), [&](const Facet<2>& facet) {
-        return facet.node[0] == static_cast<int>(node) || facet.node[1] == static_cast<int>(node);
+  if (std::any_of(facets.begin(), facets.end(), [&](const Facet<dim>& facet) {
+        return std::find(facet.node.begin(), facet.node.end(), static_cast<std::int32_t>(node)) !=
+               facet.node.end();
       }))
     causes.push_back("It lies on the boundary, which folds over itself where it stretches or buckles most: "
                      "refine there (cloud.refine), or end the run earlier.");
@@ -104,87 +112,87 @@ void blame_place(const input::Case& input, const ExplicitSolver<2>& solver, std:
 
 } // namespace
 
-std::size_t node_of(const ExplicitSolver<2>& solver, std::size_t point) {
+template<int dim> std::size_t node_of(const ExplicitSolver<dim>& solver, std::size_t point) {
   return solver.approximation().mechanics.first_node(point);
 }
 
-DivergenceError step_collapse(const ExplicitSolver<2>& solver, std::size_t point, double dt,
+template<int dim>
+DivergenceError step_collapse(const ExplicitSolver<dim>& solver, std::size_t point, double dt,
                               const std::string& least) {
-  const State<2>& state = solver.state();
+  const State<dim>& state = solver.state();
   const std::size_t node = node_of(solver, point);
   return {
       fmt::format("the stable step has fallen to {:.3g} s, below {}, at step {}, t = {:.6g} s, because of "
-                  "node {} at ({:.6g}, {:.6g}) m",
-                  dt, least, state.step, state.time, node, state.node.position[0][node],
-                  state.node.position[1][node]),
+                  "node {} at {}",
+                  dt, least, state.step, state.time, node, show_place<dim>(state.node.position, node)),
       static_cast<int>(node), "stable step"};
 }
 
-void check_finite(const State<2>& state) {
-  const NodeState<2>& node = state.node;
-  using Named = std::pair<const char*, const Field*>;
-  for (const auto& [name, values] : {Named{"temperature", &node.temperature},
-                                     {"velocity", &node.velocity[0]},
-                                     {"velocity", &node.velocity[1]},
-                                     {"position", &node.position[0]},
-                                     {"position", &node.position[1]}})
-    for (std::size_t i = 0; i < values->size(); ++i)
-      if (!std::isfinite((*values)[i]))
+template<int dim> void check_finite(const State<dim>& state) {
+  const NodeState<dim>& node = state.node;
+  const auto check = [&](const char* name, const Field& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i]))
         throw DivergenceError(
             fmt::format("the {} of node {} is not a number at step {}, t = {:.6g} s; it started "
-                        "from ({:.6g}, {:.6g}) m at the last reference",
-                        name, i, state.step, state.time, node.reference[0][i], node.reference[1][i]),
+                        "from {} at the last reference",
+                        name, i, state.step, state.time, show_place<dim>(node.reference, i)),
             static_cast<int>(i), name);
+  };
+  check("temperature", node.temperature);
+  for (const Field& component : node.velocity) check("velocity", component);
+  for (const Field& component : node.position) check("position", component);
 }
 
-void check_energy(double residual, const EnergyScale& scale, double tolerance, const State<2>& state) {
+template<int dim>
+void check_energy(double residual, const EnergyScale& scale, double tolerance, const State<dim>& state) {
   const double share = std::abs(residual) / scale.energy;
   // The error of a gentle start falls with the square of the steps while it is compared with next to nothing.
   constexpr std::int64_t first_judged = 10;
   if (state.step < first_judged || share <= tolerance) return;
-  const Fields<2>& v = state.node.velocity;
+  const auto speed = [&](std::size_t i) { return place_of_node<dim>(state.node.velocity, i).norm(); };
   std::size_t fastest = 0;
   for (std::size_t i = 0; i < state.node.size(); ++i)
-    if (!(std::hypot(v[0][i], v[1][i]) <= std::hypot(v[0][fastest], v[1][fastest]))) fastest = i;
+    if (!(speed(i) <= speed(fastest))) fastest = i;
   constexpr double at_rest = 1e-8; // m/s: what moves is rounding
-  if (std::hypot(v[0][fastest], v[1][fastest]) < at_rest) return;
+  if (speed(fastest) < at_rest) return;
   throw DivergenceError(
-      fmt::format(
-          "the energy residual is {:.3g} of {}, more than method.energy_tolerance = {:.3g} "
-          "allows, at step {}, t = {:.6g} s; the fastest node is {} at ({:.6g}, {:.6g}) m with {:.3g} m/s",
-          share, scale.what, tolerance, state.step, state.time, fastest, state.node.position[0][fastest],
-          state.node.position[1][fastest], std::hypot(v[0][fastest], v[1][fastest])),
+      fmt::format("the energy residual is {:.3g} of {}, more than method.energy_tolerance = {:.3g} "
+                  "allows, at step {}, t = {:.6g} s; the fastest node is {} at {} with {:.3g} m/s",
+                  share, scale.what, tolerance, state.step, state.time, fastest,
+                  show_place<dim>(state.node.position, fastest), speed(fastest)),
       static_cast<int>(fastest), "energy residual");
 }
 
-DivergenceError lost_reference(const ExplicitSolver<2>& solver, const GeometryError& error) {
-  const State<2>& state = solver.state();
+template<int dim>
+DivergenceError lost_reference(const ExplicitSolver<dim>& solver, const GeometryError& error) {
+  const State<dim>& state = solver.state();
   std::size_t worst = 0;
   for (std::size_t p = 1; p < state.point.size(); ++p)
     if (strain_of(state.point, p) > strain_of(state.point, worst)) worst = p;
   const std::size_t node = node_of(solver, worst);
   return {fmt::format(
               "the cloud could not be rebuilt at step {}, t = {:.6g} s: {}; the most strained cell is that "
-              "of node {} at ({:.6g}, {:.6g}) m",
-              state.step, state.time, error.what(), node, state.node.position[0][node],
-              state.node.position[1][node]),
+              "of node {} at {}",
+              state.step, state.time, error.what(), node, show_place<dim>(state.node.position, node)),
           static_cast<int>(node), "geometry"};
 }
 
-Place place_of(const ExplicitSolver<2>& solver, std::size_t node) {
-  const NodeState<2>& nodes = solver.state().node;
+template<int dim> Place<dim> place_of(const ExplicitSolver<dim>& solver, std::size_t node) {
+  const NodeState<dim>& nodes = solver.state().node;
   constexpr double cells_around = 8.0, lost = 30.0;
   const double spacing = spacing_at(solver, node);
-  const Vec2 reference(nodes.reference[0][node], nodes.reference[1][node]);
-  const Vec2 now(nodes.position[0][node], nodes.position[1][node]);
+  const Vec<dim> reference = place_of_node<dim>(nodes.reference, node);
+  const Vec<dim> now = place_of_node<dim>(nodes.position, node);
   // A node that has flown away shows nothing: then the place is where it came from.
   return {now.allFinite() && (now - reference).norm() < lost * spacing ? now : reference,
           cells_around * spacing};
 }
 
+template<int dim>
 results::PostMortem post_mortem(const DivergenceError& error, const input::Case& input,
-                                const ExplicitSolver<2>& solver) {
-  const State<2>& state = solver.state();
+                                const ExplicitSolver<dim>& solver) {
+  const State<dim>& state = solver.state();
   results::PostMortem dead;
   dead.step = state.step;
   dead.time = state.time;
@@ -194,8 +202,10 @@ results::PostMortem post_mortem(const DivergenceError& error, const input::Case&
   blame_settings(input, error.field, dead.causes);
   if (error.node >= 0) {
     const auto node = index_of(error.node);
-    dead.x = input.origin.x() + state.node.position[0][node];
-    dead.y = input.origin.y() + state.node.position[1][node];
+    const Vec<dim> place = input.origin.head<dim>() + place_of_node<dim>(state.node.position, node);
+    dead.x = place.x();
+    dead.y = place.y();
+    if constexpr (dim == 3) dead.z = place.z();
     blame_place(input, solver, node, dead.causes);
   }
   if (dead.causes.empty())
@@ -204,5 +214,22 @@ results::PostMortem post_mortem(const DivergenceError& error, const input::Case&
         "if it fails at the same place, look at the loads and the material there.");
   return dead;
 }
+
+template std::size_t node_of(const ExplicitSolver<2>&, std::size_t);
+template DivergenceError step_collapse(const ExplicitSolver<2>&, std::size_t, double, const std::string&);
+template void check_finite(const State<2>&);
+template void check_energy(double, const EnergyScale&, double, const State<2>&);
+template DivergenceError lost_reference(const ExplicitSolver<2>&, const GeometryError&);
+template results::PostMortem post_mortem(const DivergenceError&, const input::Case&,
+                                         const ExplicitSolver<2>&);
+template Place<2> place_of(const ExplicitSolver<2>&, std::size_t);
+template std::size_t node_of(const ExplicitSolver<3>&, std::size_t);
+template DivergenceError step_collapse(const ExplicitSolver<3>&, std::size_t, double, const std::string&);
+template void check_finite(const State<3>&);
+template void check_energy(double, const EnergyScale&, double, const State<3>&);
+template DivergenceError lost_reference(const ExplicitSolver<3>&, const GeometryError&);
+template results::PostMortem post_mortem(const DivergenceError&, const input::Case&,
+                                         const ExplicitSolver<3>&);
+template Place<3> place_of(const ExplicitSolver<3>&, std::size_t);
 
 } // namespace cnem::app

@@ -1,5 +1,6 @@
 #include "app/melting.hpp"
 
+#include "app/places.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
@@ -19,10 +20,10 @@ double melting_temperature(const plasticity::Material& material) {
 
 } // namespace
 
-void MeltingWatch::look(const ExplicitSolver<2>& solver) {
+template<int dim> void MeltingWatch::look(const ExplicitSolver<dim>& solver) {
   if (!warning_.empty()) return;
-  const Model<2>& model = solver.model();
-  const State<2>& state = solver.state();
+  const Model<dim>& model = solver.model();
+  const State<dim>& state = solver.state();
   std::vector<double> melting;
   for (const plasticity::Material& material : model.materials)
     melting.push_back(melting_temperature(material));
@@ -35,12 +36,14 @@ void MeltingWatch::look(const ExplicitSolver<2>& solver) {
   }
   if (!(most > 0.0)) return;
   warning_ = fmt::format(
-      "node {} at ({:.6g}, {:.6g}) m is at {:.5g} K, above the melting temperature {:.5g} K of {}, at step "
+      "node {} at {} is at {:.5g} K, above the melting temperature {:.5g} K of {}, at step "
       "{}, "
       "t = {:.6g} s: its metal has no strength left, and what melting itself takes is not counted",
-      hottest, state.node.position[0][hottest], state.node.position[1][hottest],
-      state.node.temperature[hottest], melting[of_hottest], model.materials[of_hottest].name, state.step,
-      state.time);
+      hottest, show_place<dim>(state.node.position, hottest), state.node.temperature[hottest],
+      melting[of_hottest], model.materials[of_hottest].name, state.step, state.time);
 }
+
+template void MeltingWatch::look(const ExplicitSolver<2>&);
+template void MeltingWatch::look(const ExplicitSolver<3>&);
 
 } // namespace cnem::app

@@ -11,7 +11,7 @@ namespace cnem::app {
 class MeltingWatch {
 public:
   /// Looks at all nodes, until one has been found.
-  void look(const ExplicitSolver<2>& solver);
+  template<int dim> void look(const ExplicitSolver<dim>& solver);
   /// Names node, temperature, material and time; empty while nothing melts.
   const std::string& warning() const { return warning_; }
   void archive(Archive& archive) { archive.text("run/melting", warning_); }

@@ -2,8 +2,11 @@
 #include "core/index.hpp"
 
 #include "app/bodies.hpp"
-#include "clouds/generate.hpp"
+#include "app/places.hpp"
+#include "app/workpiece.hpp"
 #include "contact/curve_shape.hpp"
+#include "contact/plane_shape.hpp"
+#include "core/facets.hpp"
 #include "methods/registry.hpp"
 
 #include <algorithm>
@@ -14,17 +17,9 @@ namespace cnem::app {
 
 namespace {
 
-clouds::DomainShape domain_shape(const input::Domain& domain) {
-  clouds::DomainShape shape;
-  shape.outer = domain.outer;
-  for (const input::Hole& hole : domain.holes) shape.holes.push_back(hole.outline);
-  shape.cracks.insert(shape.cracks.end(), domain.cracks.begin(), domain.cracks.end());
-  shape.cracks.insert(shape.cracks.end(), domain.interfaces.begin(), domain.interfaces.end());
-  return shape;
-}
-
 /// The materials in use and which node is of which. region: as region_of_nodes gives it.
-void set_materials(const input::Case& input, const std::vector<std::int32_t>& region, Problem<2>& model) {
+template<int dim>
+void set_materials(const input::Case& input, const std::vector<std::int32_t>& region, Problem<dim>& model) {
   std::vector<std::string> names;
   const auto number_of = [&](const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -42,20 +37,22 @@ void set_materials(const input::Case& input, const std::vector<std::int32_t>& re
     model.node_material.push_back(r < 0 ? everywhere : of_region[index_of(r)]);
 }
 
-struct Conditions {
-  std::vector<Support<2>> supports;
-  std::vector<Traction<2>> tractions;
-  std::vector<Pressure<2>> pressures;
+template<int dim> struct Conditions {
+  std::vector<Support<dim>> supports;
+  std::vector<Traction<dim>> tractions;
+  std::vector<Pressure<dim>> pressures;
   std::vector<FixedTemperature> temperatures;
-  std::vector<HeatFlux<2>> fluxes;
-  std::vector<Convection<2>> convections;
+  std::vector<HeatFlux<dim>> fluxes;
+  std::vector<Convection<dim>> convections;
 };
 
 /// The nodes nearest to the points of a condition.
+template<int dim>
 std::vector<std::int32_t> nodes_at(const input::Case& input, const input::BoundaryCondition& spec,
-                                   const Cloud<2>& cloud) {
+                                   const Cloud<dim>& cloud) {
   std::vector<std::int32_t> nodes;
-  for (const Vec2& point : spec.points) {
+  for (const Vec3& given : spec.points) {
+    const Vec<dim> point = given.head<dim>();
     std::int32_t best = 0;
     const auto distance = [&](std::int32_t i) { return (cloud.position[index_of(i)] - point).norm(); };
     for (std::int32_t i = 1; i < cloud.nodes(); ++i)
@@ -63,56 +60,58 @@ std::vector<std::int32_t> nodes_at(const input::Case& input, const input::Bounda
     if (input.cloud.spacing > 0.0 && distance(best) > input.cloud.spacing)
       throw input.error(
           "boundary." + spec.name + ".points",
-          fmt::format("found ({:g}, {:g}) m, expected a point of the workpiece: the nearest node "
-                      "is {:.3g} m away",
-                      point.x(), point.y(), distance(best)));
+          fmt::format("found {}, expected a point of the workpiece: the nearest node is {:.3g} m away",
+                      show_place<dim>(point), distance(best)));
     nodes.push_back(best);
   }
   return nodes;
 }
 
-void add_condition(const input::Case& input, const input::BoundaryCondition& spec, const Cloud<2>& cloud,
-                   Conditions& all) {
-  const std::vector<Facet<2>> facets = facets_of(cloud, spec.pieces);
+/// The first components of a function over time, those that are absent as zero.
+template<int dim> std::array<TimeTable, dim> components_of(const input::VectorFunction& function) {
+  std::array<TimeTable, dim> components;
+  for (std::size_t k = 0; k < dim; ++k) components[k] = function[k].value_or(TimeTable());
+  return components;
+}
+
+template<int dim>
+void add_condition(const input::Case& input, const input::BoundaryCondition& spec, const Cloud<dim>& cloud,
+                   Conditions<dim>& all) {
+  const std::vector<Facet<dim>> facets = facets_of(cloud, spec.pieces);
   std::vector<std::int32_t> nodes = nodes_of(facets);
   for (const std::int32_t node : nodes_at(input, spec, cloud))
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
-  const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<2>>(facets));
-  using Kind = Support<2>::Kind;
+  const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(facets));
+  using Kind = typename Support<dim>::Kind;
   if (spec.symmetry) {
     // One plane per straight piece: pieces of one condition may face different ways.
     for (const std::string& piece : spec.pieces) {
-      const std::vector<Facet<2>> straight = facets_of(cloud, {piece});
+      const std::vector<Facet<dim>> straight = facets_of(cloud, {piece});
       if (straight.empty()) continue;
-      const Vec2 edge = cloud.position[index_of(straight.front().node[1])] -
-                        cloud.position[index_of(straight.front().node[0])];
+      std::array<Vec<dim>, dim> corner;
+      for (std::size_t a = 0; a < dim; ++a) corner[a] = cloud.position[index_of(straight.front().node[a])];
       all.supports.push_back({spec.name,
                               Kind::symmetry,
-                              right_normal(edge).normalized(),
+                              area_normal<dim>(corner).normalized(),
                               {},
                               nodes_of(straight),
-                              pieces_of(std::span<const Facet<2>>(straight))});
+                              pieces_of(std::span<const Facet<dim>>(straight))});
     }
   }
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Vec2 direction = k == 0 ? Vec2(1, 0) : Vec2(0, 1);
+  for (std::size_t k = 0; k < dim; ++k) {
+    const Vec<dim> direction = Vec<dim>::Unit(static_cast<Eigen::Index>(k));
     if (spec.velocity[k])
       all.supports.push_back({spec.name, Kind::velocity, direction, *spec.velocity[k], nodes, pieces});
     if (spec.displacement[k])
       all.supports.push_back(
           {spec.name, Kind::displacement, direction, *spec.displacement[k], nodes, pieces});
   }
-  if (spec.traction[0] || spec.traction[1])
-    all.tractions.push_back({spec.name,
-                             {spec.traction[0].value_or(TimeTable()), spec.traction[1].value_or(TimeTable())},
-                             facets});
+  if (std::any_of(spec.traction.begin(), spec.traction.end(), [](const auto& t) { return t.has_value(); }))
+    all.tractions.push_back({spec.name, components_of<dim>(spec.traction), facets});
   if (spec.pressure) all.pressures.push_back({spec.name, *spec.pressure, facets});
   if (spec.temperature) all.temperatures.push_back({spec.name, *spec.temperature, nodes, pieces});
   if (spec.heat_flux) all.fluxes.push_back({spec.name, *spec.heat_flux, facets});
-  if (spec.convection) {
-    all.convections.push_back(*spec.convection);
-    all.convections.back().facets = facets;
-  }
+  if (spec.convection) all.convections.push_back({*spec.convection, facets});
 }
 
 /// Nodes on the axis of revolution stay on it. Throws InputError when the workpiece reaches beyond the axis.
@@ -147,42 +146,64 @@ void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>
                     {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis), {}});
 }
 
-contact::Tool<2> make_tool(const input::Case& input, const input::Tool& spec) {
-  contact::Tool<2> tool = spec;
+template<int dim>
+contact::Tool<dim> make_tool(const input::Case& input, const input::Tool& spec, const Cloud<dim>& cloud) {
+  contact::Tool<dim> tool;
+  static_cast<contact::ToolSurface&>(tool) = spec;
+  tool.motion.velocity = components_of<dim>(spec.velocity);
   try {
-    tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
+    if constexpr (dim == 2) {
+      tool.drive = spec.drive;
+      tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
+    } else {
+      // A half-space has no end; what looks through boxes first gets one larger than anything that happens.
+      constexpr double far = 1e3;
+      double reach = 0.0;
+      for (const Vec3& x : cloud.position) reach = std::max(reach, (x - spec.plane->at).norm());
+      tool.shape = std::make_shared<contact::PlaneShape<3>>(spec.plane->at, spec.plane->normal, far * reach);
+    }
   } catch (const InputError& error) { throw input.error("tools." + spec.name, error.what()); }
   return tool;
 }
 
-} // namespace
+/// The workpiece has no place where a tool is; the reader has seen to outlines.
+void check_overlap(const input::Case& input, const contact::Tool<3>& tool, const Cloud<3>& cloud) {
+  for (const Vec3& x : cloud.position)
+    if (const double distance = tool.shape->closest(x).distance; distance < -0.5 * input.cloud.spacing)
+      throw input.error("tools." + tool.name,
+                        fmt::format("the tool lies {:.3g} m deep in the workpiece at {}, expected it outside "
+                                    "at the start",
+                                    -distance, show_place<3>(x)));
+}
 
-Setup build(const input::Case& input) {
-  clouds::GeneratedCloud generated;
-  try {
-    generated = clouds::generate_cloud(domain_shape(input.domain), input.cloud, input.cloud);
-  } catch (const clouds::SpacingError& error) {
-    throw input.error("cloud.spacing", error.what());
-  } catch (const GeometryError& error) {
-    const bool list = input.cloud.pattern == clouds::Pattern::list;
-    throw input.error(list ? "cloud.nodes" : "domain", error.what());
-  }
-  std::vector<contact::Tool<2>> tools;
-  for (const input::Tool& tool : input.tools) tools.push_back(make_tool(input, tool));
-  Setup setup;
-  setup.warnings = input.warnings;
-  setup.warnings.insert(setup.warnings.end(), generated.warnings.begin(), generated.warnings.end());
-  Problem<2>& model = setup.problem;
-  const Space space = input.analysis.space();
-  model.contact = contact::RigidContact<2>(std::move(tools), space, input.contact);
-  model.cloud = std::move(generated.cloud);
-  model.method = methods::make(input.method.name, input.method.options);
-  const std::vector<std::int32_t> region = region_of_nodes(input, model.cloud);
-  set_materials(input, region, model);
+/// What only workpieces of the plane have: regions, imperfections, ties.
+void set_parts(const input::Case& input, Problem<2>& model, std::vector<std::int32_t>& region) {
+  region = region_of_nodes(input, model.cloud);
   model.strength = strength(input, model.cloud);
   const Pairs pairs = tied_pairs(input, model.cloud);
   model.ties = Ties<2>(pairs.motion, model.cloud.position);
   model.heat_ties = Ties<2>(pairs.heat, model.cloud.position);
+}
+
+} // namespace
+
+template<int dim> Setup<dim> build(const input::Case& input) {
+  Workpiece<dim> workpiece = make_workpiece<dim>(input);
+  std::vector<contact::Tool<dim>> tools;
+  for (const input::Tool& tool : input.tools) tools.push_back(make_tool(input, tool, workpiece.cloud));
+  if constexpr (dim == 3)
+    for (const contact::Tool<3>& tool : tools) check_overlap(input, tool, workpiece.cloud);
+  Setup<dim> setup;
+  setup.warnings = input.warnings;
+  setup.warnings.insert(setup.warnings.end(), workpiece.warnings.begin(), workpiece.warnings.end());
+  Problem<dim>& model = setup.problem;
+  const Space space = input.analysis.space();
+  model.contact = contact::RigidContact<dim>(std::move(tools), space, input.contact);
+  model.cloud = std::move(workpiece.cloud);
+  model.method = methods::make<dim>(input.method.name, workpiece.options);
+  std::vector<std::int32_t> region;
+  if constexpr (dim == 2) set_parts(input, model, region);
+  set_materials(input, region, model);
   model.stabilisation = input.method.stabilisation;
   model.pressure_exchange = input.method.pressure_exchange;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
@@ -192,29 +213,33 @@ Setup build(const input::Case& input) {
   model.local = input.time.local;
   model.mass_scaling = input.time.mass_scaling.value_or(MassScaling{});
 
-  Conditions all;
+  Conditions<dim> all;
   for (const input::BoundaryCondition& condition : input.boundary)
     add_condition(input, condition, model.cloud, all);
-  if (space == Space::revolution) hold_axis(input, model.cloud, all.supports, setup.warnings);
+  if constexpr (dim == 2)
+    if (space == Space::revolution) hold_axis(input, model.cloud, all.supports, setup.warnings);
   // What holds one node of a tie holds them all.
-  for (Support<2>& support : all.supports) support.nodes = model.ties.with_partners(std::move(support.nodes));
+  for (Support<dim>& support : all.supports)
+    support.nodes = model.ties.with_partners(std::move(support.nodes));
   for (FixedTemperature& fixed : all.temperatures)
     fixed.nodes = model.heat_ties.with_partners(std::move(fixed.nodes));
   const auto nodes = index_of(model.cloud.nodes());
   try {
-    model.supports = Supports<2>(std::move(all.supports), nodes);
+    model.supports = Supports<dim>(std::move(all.supports), nodes);
   } catch (const InputError& error) { throw input.error("boundary", error.what()); }
-  std::array<TimeTable, 2> acceleration;
-  for (std::size_t k = 0; k < 2; ++k) acceleration[k] = input.loads.body_force[k].value_or(TimeTable());
-  model.loads =
-      Loads<2>(std::move(all.tractions), std::move(all.pressures), acceleration, model.cloud.position, space);
-  model.heat_boundaries =
-      ThermalBoundaries<2>(std::move(all.temperatures), std::move(all.fluxes), std::move(all.convections),
-                           space, conductances(input, model.cloud));
+  model.loads = Loads<dim>(std::move(all.tractions), std::move(all.pressures),
+                           components_of<dim>(input.loads.body_force), model.cloud.position, space);
+  std::vector<ContactConductance<dim>> interfaces;
+  if constexpr (dim == 2) interfaces = conductances(input, model.cloud);
+  model.heat_boundaries = ThermalBoundaries<dim>(std::move(all.temperatures), std::move(all.fluxes),
+                                                 std::move(all.convections), space, std::move(interfaces));
 
-  set_initial_state(input, model.cloud, region, setup.velocity, setup.temperature);
+  set_initial_state<dim>(input, model.cloud, region, setup.velocity, setup.temperature);
   for (std::string& warning : setup.warnings) warning = input.placed(warning);
   return setup;
 }
+
+template Setup<2> build(const input::Case& input);
+template Setup<3> build(const input::Case& input);
 
 } // namespace cnem::app

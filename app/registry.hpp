@@ -11,16 +11,18 @@
 namespace cnem::app {
 
 /// A case made ready to run.
-struct Setup {
-  Problem<2> problem;
-  Fields<2> velocity; ///< [component][node] m/s at t = 0
-  Field temperature;  ///< [node] K at t = 0
+template<int dim> struct Setup {
+  Problem<dim> problem;
+  Fields<dim> velocity; ///< [component][node] m/s at t = 0
+  Field temperature;    ///< [node] K at t = 0
   std::vector<std::string> warnings;
 };
 
 /// Builds cloud, method, material, boundary conditions and tools of a case. Throws InputError with file, line
 /// and key for what only geometry can tell: impossible clouds, pieces without nodes, conditions that
 /// contradict each other.
-Setup build(const input::Case& input);
+template<int dim> Setup<dim> build(const input::Case& input);
+extern template Setup<2> build(const input::Case& input);
+extern template Setup<3> build(const input::Case& input);
 
 } // namespace cnem::app

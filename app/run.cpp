@@ -55,8 +55,9 @@ bool adopt(results::CheckpointReader& checkpoint, input::Case& input, const std:
 /// The run at its last good checkpoint; none when there is no good one, of which `warnings` tell. Files that
 /// are no use are set aside, so that they do not come before good ones again. Throws InputError when there
 /// are only those of another case.
-std::unique_ptr<Simulation> at_last_checkpoint(input::Case& input, const RunOptions& options,
-                                               std::vector<std::string>& warnings) {
+template<int dim>
+std::unique_ptr<Simulation<dim>> at_last_checkpoint(input::Case& input, const RunOptions& options,
+                                                    std::vector<std::string>& warnings) {
   std::vector<fs::path> refused;
   bool foreign = false;
   for (const fs::path& path : results::list_checkpoints(options.output)) {
@@ -67,7 +68,7 @@ std::unique_ptr<Simulation> at_last_checkpoint(input::Case& input, const RunOpti
         foreign = true;
         throw IoError(fmt::format("it belongs to another case than {}", results::files::resolved_case));
       }
-      auto simulation = std::make_unique<Simulation>(input, options);
+      auto simulation = std::make_unique<Simulation<dim>>(input, options);
       simulation->resume(checkpoint);
       warnings.insert(warnings.end(), differences.begin(), differences.end());
       for (const fs::path& other : refused) results::set_aside(other);
@@ -88,14 +89,14 @@ std::unique_ptr<Simulation> at_last_checkpoint(input::Case& input, const RunOpti
   return nullptr;
 }
 
-Exit run_explicit(const input::Case& input, const RunOptions& options) {
+template<int dim> Exit run_explicit(const input::Case& input, const RunOptions& options) {
   const RunSignals signals;
   const bool fresh = !results::holds_run(options.output);
   // A new folder is taken before the set-up, so that a run killed meanwhile can be restarted; one that holds
   // a run loses it only when the set-up has succeeded.
   if (fresh || !options.force) take_folder(input, options);
-  const auto set_up = [&] { return std::make_unique<Simulation>(input, options); };
-  std::unique_ptr<Simulation> simulation;
+  const auto set_up = [&] { return std::make_unique<Simulation<dim>>(input, options); };
+  std::unique_ptr<Simulation<dim>> simulation;
   try {
     simulation = fresh ? before_steps(input, options, set_up) : set_up();
     simulation->check_tools();
@@ -109,12 +110,34 @@ Exit run_explicit(const input::Case& input, const RunOptions& options) {
   return simulation->run();
 }
 
+template<int dim> Exit resume_explicit(input::Case& input, const RunOptions& options) {
+  const RunSignals signals;
+  std::unique_ptr<Simulation<dim>> simulation;
+  before_steps(input, options, [&] {
+    std::vector<std::string> warnings;
+    simulation = at_last_checkpoint<dim>(input, options, warnings);
+    if (simulation) {
+      for (const char* end : {results::files::blanking, results::files::status, results::files::report})
+        fs::remove(options.output / end);
+    } else {
+      fmt::print("there is no checkpoint to go on from: starting at step 0\n");
+      simulation = std::make_unique<Simulation<dim>>(input, options);
+      results::clear_results(options.output);
+      simulation->start();
+    }
+    for (std::string& warning : warnings) simulation->warn(std::move(warning));
+  });
+  return simulation->run();
+}
+
 } // namespace
 
 Exit run(const input::Case& input, const RunOptions& options) {
   use_threads(options.threads);
   const results::FolderLock lock(options.output, another_run);
-  if (input.analysis.type != input::Analysis::Type::statics) return run_explicit(input, options);
+  if (input.analysis.type != input::Analysis::Type::statics)
+    return input.analysis.dimensions() == 3 ? run_explicit<3>(input, options)
+                                            : run_explicit<2>(input, options);
   const auto solve = [&] { return run_static(input, options); };
   // The status of a run that is there stays until that run is replaced.
   return results::holds_run(options.output) ? solve() : before_steps(input, options, solve);
@@ -145,23 +168,8 @@ Exit restart(const RunOptions& options) {
     again.force = true;
     return run_static(input, again);
   }
-  const RunSignals signals;
-  std::unique_ptr<Simulation> simulation;
-  before_steps(input, options, [&] {
-    std::vector<std::string> warnings;
-    simulation = at_last_checkpoint(input, options, warnings);
-    if (simulation) {
-      for (const char* end : {results::files::blanking, results::files::status, results::files::report})
-        fs::remove(options.output / end);
-    } else {
-      fmt::print("there is no checkpoint to go on from: starting at step 0\n");
-      simulation = std::make_unique<Simulation>(input, options);
-      results::clear_results(options.output);
-      simulation->start();
-    }
-    for (std::string& warning : warnings) simulation->warn(std::move(warning));
-  });
-  return simulation->run();
+  return input.analysis.dimensions() == 3 ? resume_explicit<3>(input, options)
+                                          : resume_explicit<2>(input, options);
 }
 
 } // namespace cnem::app

@@ -7,7 +7,6 @@
 #include "app/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/isa.hpp"
-#include "evaluate/blanking.hpp"
 #include "report/report.hpp"
 #include "results/checkpoint_folder.hpp"
 #include "results/output_folder.hpp"
@@ -29,28 +28,29 @@ Schedule every(double interval, double end, const Schedule& otherwise) {
 
 } // namespace
 
-ExplicitSolver<2> make_solver(const input::Case& input, std::vector<std::string>& warnings) {
-  Setup setup = build(input);
+template<int dim>
+ExplicitSolver<dim> make_solver(const input::Case& input, std::vector<std::string>& warnings) {
+  Setup<dim> setup = build<dim>(input);
   warnings = std::move(setup.warnings);
   try {
     return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
   } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
 }
 
-Simulation::Simulation(const input::Case& input, const RunOptions& options)
+template<int dim>
+Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options)
     : input_(input), options_(options),
-      solver_(watch_.time("setup", [&] { return make_solver(input, warnings_); })),
+      solver_(watch_.time("setup", [&] { return make_solver<dim>(input, warnings_); })),
       history_(input, solver_, options.output),
       history_due_(every(input.output.history_every, input.time.end, Schedule::every_step())),
       fields_due_(every(input.output.fields_every, input.time.end,
                         Schedule::at({0.0, input.time.end}, input.time.end))),
       pictures_due_(Schedule::at(input.output.pictures, input.time.end)), control_(input.time),
-      renewal_(input.method), retries_(renewal_.by_strain()), adaptation_(input, solver_),
+      renewal_(input.method), retries_(renewal_.by_strain()), features_(input, solver_),
       checkpoints_(input.output.checkpoint) {
   for (std::string& warning : supersonic_tools(input, solver_)) warn(std::move(warning));
 }
-
-void Simulation::check_tools() {
+template<int dim> void Simulation<dim>::check_tools() {
   if (input_.adapt.tool_spacing) return; // the step is known once the cloud fits the tools
   try {
     StepControl first(input_.time);
@@ -58,18 +58,14 @@ void Simulation::check_tools() {
     check_tool_steps(input_, solver_, first.limit() / solver_.sub_steps());
   } catch (const DivergenceError&) {} // the run tells, with a report
 }
-
-void Simulation::start() {
-  adaptation_.start_log(options_.output);
+template<int dim> void Simulation<dim>::start() {
   watch_.time("rebuild", [&] {
-    adaptation_.fit_to_tools(solver_,
-                             [&](const Resampling<2>& change) { history_.resample(change, solver_); });
+    features_.start(options_.output, solver_,
+                    [&](const Resampling<dim>& change) { history_.resample(change, solver_); });
   });
   fields_.emplace(options_.output, input_.origin);
-  pictures_.emplace(input_, options_.output);
 }
-
-Exit Simulation::run() {
+template<int dim> Exit Simulation<dim>::run() {
   for (const std::string& warning : warnings_) progress_.message("warning: " + warning);
   try {
     while (const std::optional<DivergenceError> failure = run_on())
@@ -81,7 +77,7 @@ Exit Simulation::run() {
       if (exit_ != Exit::interrupted)
         results::write_lines(input_, results::snapshot(solver_), options_.output);
       watch_.time("output.disk", [&] { files_.wait(); });
-      evaluate();
+      if (exit_ == Exit::done) features_.evaluate(options_.output, solver_);
     });
     progress_.finish();
     for (const std::string& warning : late_warnings()) progress_.message("warning: " + warning);
@@ -111,8 +107,7 @@ Exit Simulation::run() {
     return fail(memory_exhausted());
   }
 }
-
-std::optional<DivergenceError> Simulation::run_on() {
+template<int dim> std::optional<DivergenceError> Simulation<dim>::run_on() {
   try {
     loop();
     return std::nullopt;
@@ -120,8 +115,7 @@ std::optional<DivergenceError> Simulation::run_on() {
     return lost_reference(solver_, error);
   }
 }
-
-void Simulation::loop() {
+template<int dim> void Simulation<dim>::loop() {
   if (control_.limit() == 0.0) watch_.time("step", [&] { refresh_step(); });
   while (true) {
     watch_.time("output", [&] {
@@ -133,10 +127,10 @@ void Simulation::loop() {
       return;
     }
     check_reserve();
-    const State<2>& state = solver_.state();
+    const State<dim>& state = solver_.state();
     check_energy(history_.last_residual(), history_.energy_scale(), input_.method.energy_tolerance, state);
     const char* signal = RunSignals::stop();
-    if (RunSignals::take_checkpoint() || signal || checkpoints_.due(state)) {
+    if (RunSignals::take_checkpoint() || signal || checkpoints_.due(state.step, state.time)) {
       check_finite(state);
       watch_.time("output", [&] {
         watch_.time("output.disk", [&] { files_.wait(); }); // a checkpoint counts on the frames before it
@@ -150,9 +144,8 @@ void Simulation::loop() {
     node_steps_ += solver_.updates();
   }
 }
-
-bool Simulation::finished() {
-  const State<2>& state = solver_.state();
+template<int dim> bool Simulation<dim>::finished() {
+  const State<dim>& state = solver_.state();
   if (!at_end()) return false;
   if (state.time >= input_.time.end * (1.0 - 1e-9)) {
     stop(Exit::done, "reached the end of the run");
@@ -162,9 +155,8 @@ bool Simulation::finished() {
   stop(Exit::done, "reached time.max_steps");
   return true;
 }
-
-void Simulation::record_due() {
-  const State<2>& state = solver_.state();
+template<int dim> void Simulation<dim>::record_due() {
+  const State<dim>& state = solver_.state();
   const double tolerance = 1e-9 * input_.time.end;
   record(history_due_.due(state.time, tolerance), fields_due_.due(state.time, tolerance),
          pictures_due_.due(state.time, tolerance));
@@ -174,58 +166,28 @@ void Simulation::record_due() {
                     .dt = state.step_before,
                     .nodes = static_cast<std::int64_t>(state.node.size())});
 }
-
-void Simulation::record_last() {
+template<int dim> void Simulation<dim>::record_last() {
   const double now = solver_.state().time;
   record(history_due_.last() != now, fields_due_.last() != now, pictures_due_.last() != now);
 }
-
-results::Snapshot Simulation::shot() {
-  results::Snapshot shot = results::snapshot(solver_);
-  if (adaptation_.active()) {
-    adaptation_fields_ = adaptation_.fields(solver_.state().time);
-    shot.adaptation = &adaptation_fields_;
-  }
-  if (springback_) shot.springback = &springback_->displacement;
-  return shot;
-}
-
-bool Simulation::at_end() const {
-  const State<2>& state = solver_.state();
+template<int dim> bool Simulation<dim>::at_end() const {
+  const State<dim>& state = solver_.state();
   return state.time >= input_.time.end * (1.0 - 1e-9) ||
          (input_.time.max_steps && state.step >= *input_.time.max_steps);
 }
 
 /// Springback belongs into the last frame: before it is recorded.
-void Simulation::unload() {
-  if (!input_.report.springback || !at_end()) return;
-  const Model<2>& model = solver_.model();
-  const State<2>& state = solver_.state();
-  check_finite(state);
-  try {
-    springback_ = springback({solver_.approximation(), state.point, state.node.position, state.node.mass,
-                              model.materials, solver_.conditions().supports, model.stabilisation});
-  } catch (const InputError& error) {
-    warn(input_.placed(fmt::format("there is no springback: {}", error.what())));
-  }
+template<int dim> void Simulation<dim>::unload() {
+  if (!at_end()) return;
+  if (std::string reason = features_.unload(solver_); !reason.empty()) warn(input_.placed(reason));
 }
-
-void Simulation::evaluate() {
-  if (exit_ != Exit::done || !(input_.report.blanking || springback_)) return;
-  blanking_ = evaluate::evaluate_blanking(input_, shot(), solver_.conditions().supports,
-                                          springback_ ? &*springback_ : nullptr,
-                                          results::read_history(options_.output / results::files::history));
-  evaluate::write_blanking(options_.output, *blanking_);
-}
-
-void Simulation::record(bool history, bool fields, bool pictures) {
+template<int dim> void Simulation<dim>::record(bool history, bool fields, bool pictures) {
   if (history) watch_.time("output.history", [&] { history_.record(solver_); });
-  if (fields) watch_.time("output.fields", [&] { fields_->record(files_, shot()); });
-  if (pictures) watch_.time("output.pictures", [&] { pictures_->record(files_, shot()); });
+  if (fields) watch_.time("output.fields", [&] { fields_->record(files_, features_.snapshot(solver_)); });
+  if (pictures) watch_.time("output.pictures", [&] { features_.draw(files_, features_.snapshot(solver_)); });
 }
-
-void Simulation::adapt_and_step() {
-  const State<2>& state = solver_.state();
+template<int dim> void Simulation<dim>::adapt_and_step() {
+  const State<dim>& state = solver_.state();
   retries_.look(state.time);
   const bool rereference =
       watch_.time("step", [&] { return renewal_.due(solver_, retries_.strain_share()); });
@@ -243,46 +205,36 @@ void Simulation::adapt_and_step() {
         control_.choose(state.time, std::min({input_.time.end, fields_due_.next(), pictures_due_.next()})));
   });
 }
-
-bool Simulation::new_reference() {
+template<int dim> bool Simulation<dim>::new_reference() {
   const auto prepare = [&] {
-    if (adaptation_.active())
-      adaptation_.renew(solver_, [&](const Resampling<2>& change) { history_.resample(change, solver_); });
-    else
-      solver_.prepare();
+    features_.renew(solver_, [&](const Resampling<dim>& change) { history_.resample(change, solver_); });
   };
   return renewal_.renew(solver_, prepare, retries_.strain_share());
 }
-
-void Simulation::look_at_step() {
+template<int dim> void Simulation<dim>::look_at_step() {
   check_finite(solver_.state());
   melting_.look(solver_);
   refresh_step();
   last_check_ = solver_.state().step;
 }
-
-void Simulation::refresh_step() {
+template<int dim> void Simulation<dim>::refresh_step() {
   control_.refresh(solver_);
   check_moving_tools(input_, solver_, control_.limit() / solver_.sub_steps());
 }
-
-void Simulation::stop(Exit exit, std::string reason) {
+template<int dim> void Simulation<dim>::stop(Exit exit, std::string reason) {
   exit_ = exit;
   reason_ = std::move(reason);
 }
-
-void Simulation::diverge(const DivergenceError& error) {
+template<int dim> void Simulation<dim>::diverge(const DivergenceError& error) {
   dead_ = post_mortem(error, input_, solver_);
   stop(Exit::diverged, dead_->text);
   if (const std::string warning = renewal_.warning(); !warning.empty())
     dead_->causes.push_back(fmt::format("Nodes have passed each other: {}.", warning));
   dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", results::files::checkpoint,
                                  last_checkpoint_.empty() ? "no step" : last_checkpoint_, fields_due_.last());
-  const Place place = place_of(solver_, index_of(error.node));
-  dead_->picture = pictures_->record_place(files_, shot(), place.centre, place.radius);
+  dead_->picture = features_.draw_place(files_, solver_, index_of(error.node));
 }
-
-Exit Simulation::fail(const std::string& message) {
+template<int dim> Exit Simulation<dim>::fail(const std::string& message) {
   forget_last_words();
   progress_.finish();
   stop(Exit::io_failed, message);
@@ -292,16 +244,14 @@ Exit Simulation::fail(const std::string& message) {
   } catch (const std::exception&) {} // there may be no room for this either
   return Exit::io_failed;
 }
-
-std::vector<std::string> Simulation::late_warnings() const {
+template<int dim> std::vector<std::string> Simulation<dim>::late_warnings() const {
   std::vector<std::string> list{melting_.warning(), retries_.warning(), renewal_.warning(),
                                 history_.kinetic_warning(input_)};
   std::erase(list, "");
   for (std::string& warning : list) warning = input_.placed(warning);
   return list;
 }
-
-void Simulation::add_step_times(Stopwatch& watch) const {
+template<int dim> void Simulation<dim>::add_step_times(Stopwatch& watch) const {
   const StepTimes& step = solver_.times();
   watch.add("step.motion", step.motion);
   watch.add("step.contact", step.contact);
@@ -309,15 +259,13 @@ void Simulation::add_step_times(Stopwatch& watch) const {
   watch.add("step.forces", step.forces);
   watch.add("step.heat", step.heat);
 }
-
-std::vector<std::pair<std::string, double>> Simulation::wall() const {
+template<int dim> std::vector<std::pair<std::string, double>> Simulation<dim>::wall() const {
   Stopwatch watch = watch_;
   add_step_times(watch);
   return watch.spent();
 }
-
-results::RunStatus Simulation::status() {
-  const State<2>& state = solver_.state();
+template<int dim> results::RunStatus Simulation<dim>::status() {
+  const State<dim>& state = solver_.state();
   results::RunStatus status;
   status.exit = exit_;
   status.reason = reason_;
@@ -333,13 +281,7 @@ results::RunStatus Simulation::status() {
   status.metrics = history_.metrics();
   status.metrics.emplace_back("references", solver_.references());
   status.metrics.emplace_back("retries", retries_.count());
-  for (const auto& metric : adaptation_.metrics()) status.metrics.push_back(metric);
-  if (blanking_) {
-    if (!blanking_->punch.empty())
-      for (const auto& metric : evaluate::metrics_of(*blanking_)) status.metrics.push_back(metric);
-    if (!blanking_->springback.empty())
-      for (const auto& metric : evaluate::metrics_of(blanking_->springback)) status.metrics.push_back(metric);
-  }
+  for (auto& metric : features_.metrics()) status.metrics.push_back(std::move(metric));
   status.step_limits = control_.shares();
   status.warnings = warnings_;
   for (std::string& warning : late_warnings()) status.warnings.push_back(std::move(warning));
@@ -347,5 +289,10 @@ results::RunStatus Simulation::status() {
   status.wall_s = wall();
   return status;
 }
+
+template ExplicitSolver<2> make_solver(const input::Case&, std::vector<std::string>&);
+template ExplicitSolver<3> make_solver(const input::Case&, std::vector<std::string>&);
+template class Simulation<2>;
+template class Simulation<3>;
 
 } // namespace cnem::app

@@ -1,16 +1,14 @@
 #pragma once
 // An explicit run from its set-up to its report: the time loop in a fixed order, output, checkpoint, adapt,
 // step.
-#include "app/adaptation.hpp"
 #include "app/divergence.hpp"
 #include "app/melting.hpp"
+#include "app/plane_features.hpp"
 #include "app/retries.hpp"
 #include "app/run.hpp"
+#include "app/space_features.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
-#include "evaluate/blanking_result.hpp"
-#include "evaluate/springback.hpp"
-#include "report/picture_recorder.hpp"
 #include "results/checkpoint.hpp"
 #include "results/file_queue.hpp"
 #include "results/progress.hpp"
@@ -19,12 +17,14 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace cnem::app {
 
-class Simulation {
+/// In the plane (dim 2) and in space (3).
+template<int dim> class Simulation {
 public:
   /// Builds the solver at time 0. `input` must outlive this object. Throws InputError.
   Simulation(const input::Case& input, const RunOptions& options);
@@ -62,9 +62,6 @@ private:
   /// Whether no step follows.
   bool at_end() const;
   void unload();
-  void evaluate();
-  /// Good until the next one.
-  results::Snapshot shot();
   void record(bool history, bool fields, bool pictures);
   void adapt_and_step();
   /// Whether there is a new one.
@@ -86,21 +83,16 @@ private:
   RunOptions options_;
   Stopwatch watch_;
   std::vector<std::string> warnings_;
-  ExplicitSolver<2> solver_;
-  results::HistoryRecorder history_;
+  ExplicitSolver<dim> solver_;
+  results::HistoryRecorder<dim> history_;
   results::FileQueue files_; ///< frames and pictures on their way to the disk
   std::optional<results::FieldRecorder> fields_;
-  std::optional<report::PictureRecorder> pictures_;
   Schedule history_due_, fields_due_, pictures_due_;
   StepControl control_;
   ReferenceRenewal renewal_;
   Retries retries_;
   MeltingWatch melting_;
-  Adaptation adaptation_;
-  AdaptationFields adaptation_fields_;
-  std::optional<Springback> springback_; ///< of the state at the end
-  std::optional<evaluate::BlankingResult>
-      blanking_; ///< where the case asks for it and the run has ended well
+  std::conditional_t<dim == 2, PlaneFeatures, SpaceFeatures> features_;
   CheckpointTimer checkpoints_;
   results::Progress progress_;
   std::int64_t last_check_ = -1; ///< step of the last look at the stable step; −1: none yet
@@ -112,6 +104,10 @@ private:
 };
 
 /// Builds the solver of a case. Throws InputError.
-ExplicitSolver<2> make_solver(const input::Case& input, std::vector<std::string>& warnings);
+template<int dim>
+ExplicitSolver<dim> make_solver(const input::Case& input, std::vector<std::string>& warnings);
+
+extern template class Simulation<2>;
+extern template class Simulation<3>;
 
 } // namespace cnem::app

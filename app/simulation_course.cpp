@@ -11,19 +11,17 @@ namespace cnem::app {
 
 namespace {
 
-std::string step_and_time(const State<2>& state) {
+template<int dim> std::string step_and_time(const State<dim>& state) {
   return fmt::format("step {}, t = {:.6g} s", state.step, state.time);
 }
 
 } // namespace
-
-void Simulation::resume(results::CheckpointReader& checkpoint) {
+template<int dim> void Simulation<dim>::resume(results::CheckpointReader& checkpoint) {
   take_up_files(archive(checkpoint, 0));
-  checkpoints_.written(solver_.state());
+  checkpoints_.written(solver_.state().step, solver_.state().time);
   last_checkpoint_ = step_and_time(solver_.state());
 }
-
-void Simulation::take_up_files(int frames) {
+template<int dim> void Simulation<dim>::take_up_files(int frames) {
   const double now = solver_.state().time;
   fields_.emplace(options_.output, input_.origin, now);
   if (fields_->frames() != frames)
@@ -31,12 +29,9 @@ void Simulation::take_up_files(int frames) {
                               (options_.output / results::files::fields).string(), fields_->frames(),
                               frames));
   history_.resume(solver_);
-  adaptation_.resume_log(options_.output);
-  pictures_.emplace(input_, options_.output);
-  pictures_->truncate(now);
+  features_.resume(options_.output, now);
 }
-
-int Simulation::archive_course(Archive& archive, int frames) {
+template<int dim> int Simulation<dim>::archive_course(Archive& archive, int frames) {
   solver_.archive(archive);
   history_due_.archive(archive, "run/due/history");
   fields_due_.archive(archive, "run/due/fields");
@@ -44,15 +39,14 @@ int Simulation::archive_course(Archive& archive, int frames) {
   control_.archive(archive);
   renewal_.archive(archive);
   melting_.archive(archive);
-  adaptation_.archive(archive);
+  features_.archive(archive);
   history_.archive(archive);
   archive.integer("run/last_check", last_check_);
   archive.number("run/node_steps", "1", node_steps_);
   archive.integer("run/frames", frames);
   return frames;
 }
-
-int Simulation::archive(Archive& archive, int frames) {
+template<int dim> int Simulation<dim>::archive(Archive& archive, int frames) {
   frames = archive_course(archive, frames);
   retries_.archive(archive);
   for (auto [phase, seconds] : wall()) {
@@ -61,9 +55,8 @@ int Simulation::archive(Archive& archive, int frames) {
   }
   return frames;
 }
-
-void Simulation::write_checkpoint(int frames) {
-  const State<2>& state = solver_.state();
+template<int dim> void Simulation<dim>::write_checkpoint(int frames) {
+  const State<dim>& state = solver_.state();
   results::flush_file(options_.output /
                       results::files::history); // what the checkpoint counts on must not be lost before it
   results::CheckpointWriter writer;
@@ -73,18 +66,17 @@ void Simulation::write_checkpoint(int frames) {
   info.archive(writer);
   archive(writer, frames);
   results::add_checkpoint(options_.output, writer.content(), input_.output.checkpoint.keep);
-  checkpoints_.written(state);
+  checkpoints_.written(state.step, state.time);
   last_checkpoint_ = step_and_time(state);
   set_last_words(options_.output, status(), how_to_go_on());
 }
-
-bool Simulation::go_back(const DivergenceError& error) {
+template<int dim> bool Simulation<dim>::go_back(const DivergenceError& error) {
   if (!retries_.may_go_back(error)) return false;
   watch_.time("output.disk", [&] { files_.wait(); });
   const double failed = solver_.state().time;
   add_step_times(watch_); // the next solver counts from zero
   std::vector<std::string> told;
-  solver_ = make_solver(input_, told); // a restart begins with the same one
+  solver_ = make_solver<dim>(input_, told); // a restart begins with the same one
   int frames = 0;
   retries_.go_back(failed, error.what(), [&](Archive& archive) { frames = archive_course(archive, 0); });
   progress_.message(fmt::format("{}\nback to {}: the reference is renewed at {:g} of the strain from there",
@@ -95,8 +87,7 @@ bool Simulation::go_back(const DivergenceError& error) {
   take_up_files(frames);
   return true;
 }
-
-std::string Simulation::how_to_go_on() const {
+template<int dim> std::string Simulation<dim>::how_to_go_on() const {
   const std::string folder = options_.output.string();
   return last_checkpoint_.empty()
              ? fmt::format(
@@ -106,5 +97,20 @@ std::string Simulation::how_to_go_on() const {
                    "the last checkpoint is of {}: once this is mended, `cnem restart {}` goes on from it",
                    last_checkpoint_, folder);
 }
+
+template void Simulation<2>::resume(results::CheckpointReader&);
+template void Simulation<2>::take_up_files(int);
+template int Simulation<2>::archive_course(Archive&, int);
+template int Simulation<2>::archive(Archive&, int);
+template void Simulation<2>::write_checkpoint(int);
+template bool Simulation<2>::go_back(const DivergenceError&);
+template std::string Simulation<2>::how_to_go_on() const;
+template void Simulation<3>::resume(results::CheckpointReader&);
+template void Simulation<3>::take_up_files(int);
+template int Simulation<3>::archive_course(Archive&, int);
+template int Simulation<3>::archive(Archive&, int);
+template void Simulation<3>::write_checkpoint(int);
+template bool Simulation<3>::go_back(const DivergenceError&);
+template std::string Simulation<3>::how_to_go_on() const;
 
 } // namespace cnem::app

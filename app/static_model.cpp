@@ -49,7 +49,7 @@ bool plane_stress(const input::Case& input) {
 
 } // namespace
 
-StaticModel::StaticModel(const input::Case& in) : input(in), setup(build(in)) {
+StaticModel::StaticModel(const input::Case& in) : input(in), setup(build<2>(in)) {
   Problem<2>& model = setup.problem;
   const Cloud<2>& cloud = model.cloud;
   try {

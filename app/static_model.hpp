@@ -19,7 +19,7 @@ struct StaticModel {
   StaticProblem problem() const;
 
   const input::Case& input;
-  Setup setup;
+  Setup<2> setup;
   Approximation<2> approximation;
   std::vector<fracture::CrackTip> tips;
   std::vector<double> enrichment_radius; ///< [tip] m, 0: none

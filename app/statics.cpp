@@ -41,7 +41,7 @@ double drawing_scale(const StaticModel& model, const StaticSolution& solution) {
   return most > 0.0 ? 0.05 * size / most : 1.0;
 }
 
-void write_history(const StaticModel& model, const StaticSolution& solution, const results::Snapshot& shot,
+void write_history(const StaticModel& model, const StaticSolution& solution, const results::Snapshot<2>& shot,
                    const std::filesystem::path& folder) {
   const results::HistoryUnits units = results::history_units(model.input);
   std::vector<std::pair<std::string, double>> row{{"time[s]", model.input.time.end},
@@ -69,7 +69,7 @@ void write_history(const StaticModel& model, const StaticSolution& solution, con
   double mass = 0.0;
   for (const double m : shot.state.node.mass) mass += m;
   row.emplace_back("mass" + units.mass, mass);
-  row.emplace_back("area[m^2]", results::boundary_area(shot));
+  row.emplace_back("area[m^2]", results::enclosed_measure(shot));
   std::vector<std::string> names;
   std::vector<double> values;
   for (const auto& [name, value] : row) {
@@ -131,7 +131,7 @@ Exit give_up(const StaticModel& model, const DivergenceError& error, const RunOp
       "their units.");
   dead.last_good = "nothing was solved";
   if (error.node >= 0) {
-    const Vec2 at = input.origin + model.setup.problem.cloud.position[index_of(error.node)];
+    const Vec2 at = input.origin.head<2>() + model.setup.problem.cloud.position[index_of(error.node)];
     dead.x = at.x();
     dead.y = at.y();
   }
@@ -157,7 +157,7 @@ Exit solve(const StaticModel& model, const RunOptions& options, Stopwatch& watch
     tips = evaluate_tips(model, solution);
   } catch (const DivergenceError& error) { return give_up(model, error, options, watch); }
   const State<2> state = as_state(model, solution);
-  const results::Snapshot shot{
+  const results::Snapshot<2> shot{
       state,   model.approximation,           model.setup.problem.cloud, model.setup.problem.contact,
       nullptr, drawing_scale(model, solution)};
   watch.time("output", [&] {
@@ -225,8 +225,9 @@ void check_static(const input::Case& input, const RunOptions& options) {
   const std::filesystem::path folder = options.output / "initial";
   results::prepare_output_folder(folder, true);
   results::FileQueue files;
-  results::FieldRecorder(folder, input.origin)
-      .record(files, {state, model.approximation, model.setup.problem.cloud, model.setup.problem.contact});
+  const results::Snapshot<2> shot{state, model.approximation, model.setup.problem.cloud,
+                                  model.setup.problem.contact};
+  results::FieldRecorder(folder, input.origin).record(files, shot);
   files.wait();
   fmt::print("fields      {}\n", (folder / results::files::fields).string());
   if (!motion.empty()) throw input.error("boundary", motion);

@@ -51,7 +51,7 @@ void Schedule::archive(Archive& archive, const std::string& name) {
   archive.number(name + "/last", "s", last_);
 }
 
-void StepControl::refresh(ExplicitSolver<2>& solver) {
+template<int dim> void StepControl::refresh(ExplicitSolver<dim>& solver) {
   if (time_->fixed) {
     limit_ = *time_->fixed;
     limited_by_ = "fixed step";
@@ -106,7 +106,7 @@ bool ReferenceRenewal::by_strain() const {
   return method_->lagrangian == input::Method::Lagrangian::periodic && method_->rereference_strain > 0.0;
 }
 
-bool ReferenceRenewal::due(const ExplicitSolver<2>& solver, double share) const {
+template<int dim> bool ReferenceRenewal::due(const ExplicitSolver<dim>& solver, double share) const {
   const std::int64_t steps = solver.state().step - last_;
   switch (method_->lagrangian) {
   case input::Method::Lagrangian::total:
@@ -122,7 +122,8 @@ bool ReferenceRenewal::due(const ExplicitSolver<2>& solver, double share) const 
          solver.strain_since_reference() > share * method_->rereference_strain;
 }
 
-bool ReferenceRenewal::renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare,
+template<int dim>
+bool ReferenceRenewal::renew(const ExplicitSolver<dim>& solver, const std::function<void()>& prepare,
                              double share) {
   last_ = solver.state().step;
   try {
@@ -153,17 +154,24 @@ void ReferenceRenewal::archive(Archive& archive) {
   archive.text("run/reference/first_postponed", first_);
 }
 
-bool CheckpointTimer::due(const State<2>& state) const {
-  return step_ < 0 || (control_->every_steps > 0 && state.step >= step_ + control_->every_steps) ||
-         (control_->every_time > 0.0 && state.time >= next_time_) ||
+bool CheckpointTimer::due(std::int64_t step, double time) const {
+  return step_ < 0 || (control_->every_steps > 0 && step >= step_ + control_->every_steps) ||
+         (control_->every_time > 0.0 && time >= next_time_) ||
          (control_->every_wall > 0.0 && wall_time() >= wall_ + control_->every_wall);
 }
 
-void CheckpointTimer::written(const State<2>& state) {
-  step_ = state.step;
+void CheckpointTimer::written(std::int64_t step, double time) {
+  step_ = step;
   wall_ = wall_time();
   if (control_->every_time > 0.0)
-    next_time_ = (std::floor(state.time / control_->every_time) + 1.0) * control_->every_time;
+    next_time_ = (std::floor(time / control_->every_time) + 1.0) * control_->every_time;
 }
+
+template void StepControl::refresh(ExplicitSolver<2>&);
+template void StepControl::refresh(ExplicitSolver<3>&);
+template bool ReferenceRenewal::due(const ExplicitSolver<2>&, double) const;
+template bool ReferenceRenewal::due(const ExplicitSolver<3>&, double) const;
+template bool ReferenceRenewal::renew(const ExplicitSolver<2>&, const std::function<void()>&, double);
+template bool ReferenceRenewal::renew(const ExplicitSolver<3>&, const std::function<void()>&, double);
 
 } // namespace cnem::app

@@ -43,7 +43,7 @@ public:
 
   /// Looks at the stable step anew: after a re-reference, and every `check_every` steps. Throws
   /// DivergenceError when it has collapsed.
-  void refresh(ExplicitSolver<2>& solver);
+  template<int dim> void refresh(ExplicitSolver<dim>& solver);
   /// The step from `now` towards the next event.
   double choose(double now, double event);
 
@@ -73,10 +73,11 @@ public:
   /// Whether a strain of the case calls for renewals; nothing could come sooner otherwise.
   bool by_strain() const;
   /// With a `share` below 1 of the strain of the case, which is looked at every step then.
-  bool due(const ExplicitSolver<2>& solver, double share = 1.0) const;
+  template<int dim> bool due(const ExplicitSolver<dim>& solver, double share = 1.0) const;
   /// Whether the reference is a new one. Throws GeometryError. `prepare` renews the reference and leaves the
   /// solver as it is when it throws one; it is tried again after so much less the smaller the share is.
-  bool renew(const ExplicitSolver<2>& solver, const std::function<void()>& prepare, double share = 1.0);
+  template<int dim>
+  bool renew(const ExplicitSolver<dim>& solver, const std::function<void()>& prepare, double share = 1.0);
   /// What to tell about it; empty when every renewal succeeded.
   std::string warning() const;
   void archive(Archive& archive);
@@ -92,9 +93,9 @@ private:
 class CheckpointTimer {
 public:
   explicit CheckpointTimer(const input::CheckpointControl& control) : control_(&control) {}
-  bool due(const State<2>& state) const;
-  /// A checkpoint of this state is there.
-  void written(const State<2>& state);
+  bool due(std::int64_t step, double time) const;
+  /// A checkpoint of this step and time (s) is there.
+  void written(std::int64_t step, double time);
 
 private:
   const input::CheckpointControl* control_;

@@ -14,13 +14,17 @@ double width_along(const Curve& outline, const Vec2& direction);
 
 /// Tools that meet the workpiece faster than its dilatational waves, at some time of the run or, where the
 /// workpiece itself flies, at the start. One sentence each.
-std::vector<std::string> supersonic_tools(const input::Case& input, const ExplicitSolver<2>& solver);
+template<int dim>
+std::vector<std::string> supersonic_tools(const input::Case& input, const ExplicitSolver<dim>& solver);
 
 /// Throws InputError when a tool moves, at some time of the run, further than it is wide in a step of `dt`
-/// (s), or the workpiece does so past it at the start: nodes would pass through it unseen.
-void check_tool_steps(const input::Case& input, const ExplicitSolver<2>& solver, double dt);
+/// (s), or the workpiece does so past it at the start: nodes would pass through it unseen. Half-spaces are as
+/// thick as it takes.
+template<int dim>
+void check_tool_steps(const input::Case& input, const ExplicitSolver<dim>& solver, double dt);
 
 /// The same for what tools do now, in a run. Throws DivergenceError.
-void check_moving_tools(const input::Case& input, const ExplicitSolver<2>& solver, double dt);
+template<int dim>
+void check_moving_tools(const input::Case& input, const ExplicitSolver<dim>& solver, double dt);
 
 } // namespace cnem::app

@@ -51,13 +51,17 @@ struct ToolThermal {
   double temperature = 293.15; ///< K
 };
 
-template<int dim> struct Tool {
+/// What a tool does to what touches it, whatever its shape and motion.
+struct ToolSurface {
   std::string name;
+  Friction friction;
+  ToolThermal thermal;
+};
+
+template<int dim> struct Tool : ToolSurface {
   std::shared_ptr<const ToolShape<dim>> shape;
   ToolMotion<dim> motion; ///< prescribed, when there is no drive
   std::optional<ToolDrive<dim>> drive;
-  Friction friction;
-  ToolThermal thermal;
 };
 
 } // namespace cnem::contact

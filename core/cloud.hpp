@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem {
@@ -33,15 +34,25 @@ template<int dim> struct Cloud {
   int nodes() const { return static_cast<int>(position.size()); }
 };
 
-/// Area that a boundary in the plane encloses, m², with position(node) for the places of its nodes.
-template<class Position> double enclosed_area(const std::vector<Facet<2>>& facets, const Position& position) {
-  double twice = 0.0;
-  for (const Facet<2>& facet : facets) twice += cross(position(facet.node[0]), position(facet.node[1]));
-  return 0.5 * twice;
+/// Area (m²) or volume (m³) that a boundary encloses, with position(node) for the places of its nodes.
+template<int dim, class Position>
+double enclosed_measure(const std::vector<Facet<dim>>& facets, const Position& position) {
+  double sum = 0.0;
+  for (const Facet<dim>& facet : facets) {
+    const auto& [a, b] = std::pair<Vec<dim>, Vec<dim>>(position(facet.node[0]), position(facet.node[1]));
+    if constexpr (dim == 2) {
+      sum += cross(a, b);
+    } else {
+      const Vec<dim> c = position(facet.node[2]);
+      sum += a.x() * (b.y() * c.z() - b.z() * c.y()) + a.y() * (b.z() * c.x() - b.x() * c.z()) +
+             a.z() * (b.x() * c.y() - b.y() * c.x());
+    }
+  }
+  return dim == 2 ? 0.5 * sum : sum / 6.0;
 }
-inline double enclosed_area(const Cloud<2>& cloud) {
-  return enclosed_area(cloud.facets,
-                       [&](std::int32_t i) -> const Vec2& { return cloud.position[index_of(i)]; });
+template<int dim> double enclosed_measure(const Cloud<dim>& cloud) {
+  return enclosed_measure(cloud.facets,
+                          [&](std::int32_t i) -> const Vec<dim>& { return cloud.position[index_of(i)]; });
 }
 
 } // namespace cnem

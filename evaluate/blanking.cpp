@@ -264,7 +264,7 @@ std::vector<BodySpringback> springback_of_bodies(std::span<const Cut> cuts, cons
   return bodies;
 }
 
-BlankingResult evaluate_blanking(const input::Case& input, const results::Snapshot& shot,
+BlankingResult evaluate_blanking(const input::Case& input, const results::Snapshot<2>& shot,
                                  const Supports<2>& supports, const Springback* springback,
                                  const results::HistoryTable& history) {
   BlankingResult result;

@@ -53,7 +53,7 @@ std::vector<BodySpringback> springback_of_bodies(std::span<const Cut> cuts, cons
                                                  const Field& mass);
 
 /// The whole evaluation of a run at its end: what the case asks for. springback: null when it does not.
-BlankingResult evaluate_blanking(const input::Case& input, const results::Snapshot& shot,
+BlankingResult evaluate_blanking(const input::Case& input, const results::Snapshot<2>& shot,
                                  const Supports<2>& supports, const Springback* springback,
                                  const results::HistoryTable& history);
 

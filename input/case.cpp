@@ -12,6 +12,8 @@ std::vector<std::string> Domain::piece_names() const {
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
+  if (block)
+    for (const std::string& face : block->faces()) add(face);
   for (const CurvePiece& piece : outer.pieces) add(piece.name);
   for (const Hole& hole : holes)
     for (const CurvePiece& piece : hole.outline.pieces) add(piece.name);
@@ -22,10 +24,36 @@ std::vector<std::string> Domain::piece_names() const {
   return names;
 }
 
-std::vector<std::string> field_names(bool adaptive) {
+bool moves(const VectorFunction& velocity) {
+  return std::any_of(velocity.begin(), velocity.end(), [](const std::optional<TimeTable>& component) {
+    return component && std::any_of(component->values().begin(), component->values().end(),
+                                    [](double v) { return v != 0.0; });
+  });
+}
+
+std::array<std::string, 6> Block::faces() const {
+  if (shape == Shape::box) return {"x-", "x+", "y-", "y+", "z-", "z+"};
+  return {part == Part::quarter ? "x-" : "side",
+          "side",
+          part == Part::whole ? "side" : "y-",
+          "side",
+          "bottom",
+          "top"};
+}
+
+std::array<Vec3, 2> Block::bounds() const {
+  if (shape == Shape::box) return {from.cwiseMin(to), from.cwiseMax(to)};
+  return {centre - Vec3(part == Part::quarter ? 0.0 : radius, part == Part::whole ? radius : 0.0, 0.0),
+          centre + Vec3(radius, radius, length)};
+}
+
+std::vector<std::string> field_names(int dimensions, bool adaptive) {
   std::vector<std::string> names;
-  for (const FieldInfo& field : field_catalogue())
-    if (adaptive || !field.adaptive) names.push_back(field.name);
+  const auto add = [&](const auto& catalogue) {
+    for (const auto& field : catalogue)
+      if (adaptive || !field.adaptive) names.push_back(field.name);
+  };
+  dimensions == 3 ? add(field_catalogue<3>()) : add(field_catalogue<2>());
   return names;
 }
 
@@ -50,14 +78,19 @@ InputError Case::error(const std::string& key, const std::string& message) const
 
 namespace {
 
-/// Whether a point such as "(0.01, -2e-3)" stands in a text.
+/// Whether a point such as "(0.01, -2e-3)" or "(0.01, -2e-3, 4)" stands in a text.
 bool names_a_place(const std::string& text) {
   constexpr const char* number = "-+.e0123456789";
   for (std::size_t open = text.find('('); open != std::string::npos; open = text.find('(', open + 1)) {
-    const std::size_t comma = text.find_first_not_of(number, open + 1);
-    if (comma == std::string::npos || comma == open + 1 || text.compare(comma, 2, ", ") != 0) continue;
-    const std::size_t close = text.find_first_not_of(number, comma + 2);
-    if (close != std::string::npos && close > comma + 2 && text[close] == ')') return true;
+    std::size_t begin = open + 1, numbers = 0;
+    while (true) {
+      const std::size_t end = text.find_first_not_of(number, begin);
+      if (end == std::string::npos || end == begin) break;
+      ++numbers;
+      if (text[end] == ')' && numbers >= 2) return true;
+      if (text.compare(end, 2, ", ") != 0) break;
+      begin = end + 2;
+    }
   }
   return false;
 }
@@ -65,8 +98,11 @@ bool names_a_place(const std::string& text) {
 } // namespace
 
 std::string Case::placed(const std::string& message) const {
-  if (origin == Vec2(0, 0)) return message;
+  if (origin == Vec3(0, 0, 0)) return message;
   if (!names_a_place(message)) return message;
+  if (analysis.dimensions() == 3)
+    return fmt::format("{}; places are counted from ({}, {}, {}) m", message, origin.x(), origin.y(),
+                       origin.z());
   return fmt::format("{}; places are counted from ({}, {}) m", message, origin.x(), origin.y());
 }
 

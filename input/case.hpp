@@ -21,23 +21,25 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace cnem::input {
 
-/// Prescribed histories of the components x and y; an absent component is not prescribed.
-using VectorFunction = std::array<std::optional<TimeTable>, 2>;
+/// Prescribed histories of the components x, y and, in space, z; an absent component is not prescribed.
+using VectorFunction = std::array<std::optional<TimeTable>, 3>;
+
+/// Whether a component is anywhere other than zero.
+bool moves(const VectorFunction& velocity);
 
 struct Analysis {
   enum class Type { explicit_dynamics, statics };
-  enum class Kinematics { plane_strain, plane_stress, axisymmetric };
+  enum class Kinematics { plane_strain, plane_stress, axisymmetric, three_dimensional };
   Type type = Type::explicit_dynamics;
   Kinematics kinematics = Kinematics::plane_strain;
+  int dimensions() const { return kinematics == Kinematics::three_dimensional ? 3 : 2; }
   Space space() const { return kinematics == Kinematics::axisymmetric ? Space::revolution : Space::plane; }
   bool mechanical = true; ///< false: nothing moves, heat alone
   bool thermal = false;   ///< solve for temperatures: plastic and friction heating, conduction
@@ -81,9 +83,27 @@ struct Region {
   Vec2 velocity{0, 0};         ///< m/s, at t = 0
 };
 
+/// A workpiece in space, on a structured grid.
+struct Block {
+  enum class Shape { box, cylinder };
+  enum class Part { whole, half, quarter };
+  Shape shape = Shape::box;
+  Vec3 from{0, 0, 0}, to{0, 0, 0}; ///< m, corners of the box
+  Vec3 centre{0, 0, 0};            ///< m, of the bottom of the cylinder, whose axis is along z
+  double radius = 0.0;             ///< m
+  double length = 0.0;             ///< m
+  Part part = Part::whole;         ///< of the cylinder: all, y > 0, x > 0 and y > 0, from its centre
+
+  /// Names of the faces x-, x+, y-, y+, z-, z+ of the grid.
+  std::array<std::string, 6> faces() const;
+  /// Corners of the box around it, the lower one first, m.
+  std::array<Vec3, 2> bounds() const;
+};
+
 struct Domain {
-  std::string material; ///< where no region says otherwise
-  Curve outer;          ///< counter-clockwise
+  std::string material;       ///< where no region says otherwise
+  std::optional<Block> block; ///< in space; the rest is of the plane
+  Curve outer;                ///< counter-clockwise
   std::vector<Hole> holes;
   std::vector<Crack> cracks;
   std::vector<Interface> interfaces;
@@ -101,16 +121,16 @@ struct CloudSpec : clouds::SpacingField, clouds::CloudOptions {};
 /// piece.
 struct BoundaryCondition {
   std::string name;
-  std::vector<std::string> pieces;         ///< names; "all" is spelt out
-  std::vector<Vec2> points;                ///< m; the nodes nearest to them are held too
-  bool symmetry = false;                   ///< zero normal velocity, free tangentially
-  VectorFunction velocity;                 ///< m/s
-  VectorFunction displacement;             ///< m, from the initial position
-  VectorFunction traction;                 ///< Pa, force on the initial area
-  std::optional<TimeTable> pressure;       ///< Pa, pushes against the body, on the present area and normal
-  std::optional<TimeTable> temperature;    ///< K
-  std::optional<TimeTable> heat_flux;      ///< W/m², into the body
-  std::optional<Convection<2>> convection; ///< without facets
+  std::vector<std::string> pieces;      ///< names; "all" is spelt out
+  std::vector<Vec3> points;             ///< m; the nodes nearest to them are held too
+  bool symmetry = false;                ///< zero normal velocity, free tangentially
+  VectorFunction velocity;              ///< m/s
+  VectorFunction displacement;          ///< m, from the initial position
+  VectorFunction traction;              ///< Pa, force on the initial area
+  std::optional<TimeTable> pressure;    ///< Pa, pushes against the body, on the present area and normal
+  std::optional<TimeTable> temperature; ///< K
+  std::optional<TimeTable> heat_flux;   ///< W/m², into the body
+  std::optional<ConvectionLaw> convection;
 };
 
 struct Spin {
@@ -133,7 +153,7 @@ struct Imperfection {
 
 struct InitialState {
   double temperature = 293.15;              ///< K
-  Vec2 velocity{0, 0};                      ///< m/s
+  Vec3 velocity{0, 0, 0};                   ///< m/s
   std::optional<Spin> spin;                 ///< adds rate × (X − centre) to the velocity
   std::optional<VelocityGradient> gradient; ///< adds rate (X − centre)
   std::vector<Imperfection> imperfections;
@@ -150,9 +170,18 @@ struct Loads {
   VectorFunction body_force; ///< m/s², force per unit mass; absent: zero
 };
 
-/// A rigid tool: solid inside its outline. Its shape is made of that by app/registry.
-struct Tool : contact::Tool<2> {
-  Curve outline; ///< counter-clockwise, at t = 0, m
+/// Bounds a tool, at t = 0.
+struct Plane {
+  Vec3 at{0, 0, 0};     ///< m
+  Vec3 normal{0, 0, 0}; ///< out of the tool, of any length but zero
+};
+
+/// A rigid tool. Its shape is made of that by app/registry.
+struct Tool : contact::ToolSurface {
+  Curve outline;                              ///< in the plane: counter-clockwise, at t = 0, m
+  std::optional<Plane> plane;                 ///< in space
+  VectorFunction velocity;                    ///< m/s, without a drive; absent components are zero
+  std::optional<contact::ToolDrive<2>> drive; ///< of the plane
 };
 
 struct Method {
@@ -195,7 +224,7 @@ struct Fracture {
 
 /// Names of the fields of the catalogue (mechanics/field_catalogue.hpp): all of them, or those that probes
 /// and lines know.
-std::vector<std::string> field_names(bool adaptive = true);
+std::vector<std::string> field_names(int dimensions, bool adaptive = true);
 
 struct Case {
   std::string path;  ///< file it was read from
@@ -218,7 +247,7 @@ struct Case {
   Output output;
   Report report;
 
-  Vec2 origin{0, 0}; ///< m, from which all places above are counted (input/local_origin.hpp)
+  Vec3 origin{0, 0, 0}; ///< m, from which all places above are counted (input/local_origin.hpp)
 
   std::string resolved;                        ///< the whole case in SI, defaults included, as TOML
   std::map<std::string, std::string> location; ///< key → "file:line:column", or the --set that gave it

@@ -68,7 +68,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
           "adapt.tool_spacing",
           "found a spacing at tools where adapt.resample is false, expected true: without resampling no node "
           "is added");
-    for (const FieldInfo& field : field_catalogue())
+    for (const FieldInfo<2>& field : field_catalogue<2>())
       if (field.adaptive &&
           std::find(result.output.picture_fields.begin(), result.output.picture_fields.end(), field.name) !=
               result.output.picture_fields.end())

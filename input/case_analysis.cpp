@@ -16,13 +16,6 @@ void refuse(Setting& root, std::string_view path, const std::string& why, Diagno
   root.erase(path);
 }
 
-bool moves(const VectorFunction& velocity) {
-  return std::any_of(velocity.begin(), velocity.end(), [](const std::optional<TimeTable>& component) {
-    return component && std::any_of(component->values().begin(), component->values().end(),
-                                    [](double v) { return v != 0.0; });
-  });
-}
-
 void check_local_steps(Setting& root, const Case& result, Diagnostics& diagnostics) {
   const auto clash = [&](const std::string& other, const std::string& expected) {
     refuse(root, "time.step.local", fmt::format("found local steps {}, expected {}", other, expected),
@@ -90,6 +83,11 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
            "found in an explicit analysis, expected it with analysis.type = \"static\" only", diagnostics);
     return;
   }
+  if (result.analysis.dimensions() == 3)
+    refuse(root, "analysis.type",
+           "found \"static\" in a three-dimensional analysis, expected \"explicit\": what equilibrium is "
+           "solved with are operators of the plane",
+           diagnostics);
   if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
     refuse(root, "domain.cracks", "found in an axisymmetric static analysis, expected a plane one",
            diagnostics);

@@ -30,7 +30,7 @@ void read_initial_and_loads(const Setting& root, Case& result, Diagnostics& diag
   const Setting& table = *root.find("initial");
   InitialState& initial = result.initial;
   initial.temperature = table.get<double>("temperature");
-  initial.velocity = table.get<Vec2>("velocity");
+  initial.velocity = table.vector("velocity");
   if (const Setting* spin = table.find("spin"))
     initial.spin = Spin{spin->get<double>("rate"), spin->get<Vec2>("centre")};
   if (const Setting* gradient = table.find("velocity_gradient")) {

@@ -143,6 +143,20 @@ void check_spacing(const Setting& spacing, const Domain& domain, Diagnostics& di
         fmt::format("found {:g} m, expected less than the size of the domain, {:.3g} m", given, size));
 }
 
+/// The spacing of a block.
+void read_grid(const Setting& table, Case& result, Diagnostics& diagnostics) {
+  const Setting* spacing = table.find("spacing");
+  if (!spacing)
+    return diagnostics.add(Mistake::missing_key, table.where, "cloud.spacing",
+                           "missing, expected " + find_key("cloud.spacing")->expectation());
+  result.cloud.spacing = std::get<double>(spacing->value);
+  const auto [low, high] = result.domain.block->bounds();
+  if (const double size = (high - low).norm(); result.cloud.spacing > size)
+    diagnostics.add(Mistake::range, spacing->where, spacing->path,
+                    fmt::format("found {:g} m, expected less than the size of the block, {:.3g} m",
+                                result.cloud.spacing, size));
+}
+
 void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, const Domain& domain,
                   Diagnostics& diagnostics) {
   if (domain.outer.pieces.empty()) return;
@@ -160,6 +174,7 @@ void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, co
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
   Setting& table = *root.find("cloud");
   CloudSpec& cloud = result.cloud;
+  if (result.domain.block) return read_grid(table, result, diagnostics);
   cloud.pattern = table.choice<clouds::Pattern>("pattern");
   cloud.jitter = table.get<double>("jitter");
   cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));

@@ -133,8 +133,9 @@ plasticity::Material read_material(const Setting& table, std::vector<std::string
   return material;
 }
 
-/// Whether the pieces of that name are segments of one direction; cracks and arcs are not.
+/// Whether the pieces of that name are segments of one direction, or a plane face; cracks and arcs are not.
 bool is_straight(const Domain& domain, const std::string& name) {
+  if (domain.block) return name != "side";
   std::optional<Vec2> direction;
   const auto fits = [&](const Curve& curve) {
     for (const CurvePiece& piece : curve.pieces) {
@@ -205,7 +206,8 @@ private:
   static bool fight(const std::string& a, const std::string& b) {
     static const std::vector<std::pair<std::string, std::string>> rivals{
         {"symmetry", "motion along x"},         {"symmetry", "motion along y"},
-        {"motion along x", "traction along x"}, {"motion along y", "traction along y"},
+        {"symmetry", "motion along z"},         {"motion along x", "traction along x"},
+        {"motion along y", "traction along y"}, {"motion along z", "traction along z"},
         {"temperature", "heat flux"},           {"temperature", "convection"}};
     return a == b || std::any_of(rivals.begin(), rivals.end(), [&](const auto& pair) {
              return pair == std::pair(a, b) || pair == std::pair(b, a);
@@ -218,10 +220,9 @@ private:
 
 void claim_all(const Setting& table, const BoundaryCondition& condition, Claims& claims) {
   const auto components = [&](const char* key, const std::string& what, const VectorFunction& function) {
-    const char* axis[] = {"x", "y"};
-    for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t k = 0; k < function.size(); ++k)
       if (function[k])
-        claims.claim(condition.pieces, fmt::format("{} along {}", what, axis[k]), *table.find(key));
+        claims.claim(condition.pieces, fmt::format("{} along {}", what, axis_name(k)), *table.find(key));
   };
   if (condition.symmetry) claims.claim(condition.pieces, "symmetry", *table.find("symmetry"));
   components("velocity", "motion", condition.velocity);
@@ -271,7 +272,7 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
     const Setting* pieces = table.find("pieces");
     if (pieces) condition.pieces = chosen_pieces(*pieces, result.domain, diagnostics);
     const Setting* points = table.find("points");
-    if (points) condition.points = std::get<std::vector<Vec2>>(points->value);
+    condition.points = table.vectors("points");
     if (!pieces && !points)
       diagnostics.add(Mistake::missing_key, table.where, table.path + ".pieces",
                       "missing, expected " + find_key("boundary.*.pieces")->expectation() +
@@ -293,10 +294,8 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
     condition.temperature = table.maybe<TimeTable>("temperature");
     condition.heat_flux = table.maybe<TimeTable>("heat_flux");
     if (const Setting* convection = table.find("convection"))
-      condition.convection = Convection<2>{condition.name,
-                                           TimeTable(convection->get<double>("coefficient")),
-                                           convection->get<TimeTable>("ambient"),
-                                           {}};
+      condition.convection = ConvectionLaw{condition.name, TimeTable(convection->get<double>("coefficient")),
+                                           convection->get<TimeTable>("ambient")};
 
     const bool nothing = std::all_of(table.members.begin(), table.members.end(), [](const Setting& member) {
       return member.name == "pieces" || member.name == "points" || member.name == "symmetry";

@@ -6,12 +6,6 @@
 #include <fmt/format.h>
 
 namespace cnem::input {
-namespace {
-
-const char* axis_name(std::size_t k) { return k == 0 ? "x" : "y"; }
-
-} // namespace
-
 void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics) {
   const Setting* mass = table.find("mass");
   if (!mass) {

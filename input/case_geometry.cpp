@@ -107,10 +107,41 @@ void check_overlap(const Setting& table, const Tool& tool, const Case& input, Di
 
 } // namespace
 
+namespace {
+
+/// Probes and lines lie in the workpiece.
+void check_points(const Setting& root, const Domain& domain, Diagnostics& diagnostics) {
+  const auto check = [&](const Setting& at, const Vec3& point, const char* what) {
+    const Vec2 in_plane = point.head<2>();
+    const std::string reason =
+        domain.block ? outside_reason(*domain.block, point) : outside_reason(domain, in_plane);
+    if (!reason.empty())
+      diagnostics.add(Mistake::geometry, at.where, at.path,
+                      fmt::format("the {} {} is {}, expected a material point", what,
+                                  domain.block ? show(point) : show(in_plane), reason));
+  };
+  for (const Setting& line : root.entries("output.lines")) {
+    const Vec3 from = line.vector("from"), to = line.vector("to");
+    check(*line.find("from"), from, "point");
+    check(*line.find("to"), to, "point");
+    if (const Setting& end = *line.find("to"); from == to)
+      diagnostics.add(
+          Mistake::geometry, end.where, end.path,
+          fmt::format("the line has no length, it begins and ends at {}, expected two different points",
+                      domain.block ? show(to) : show(Vec2(to.head<2>()))));
+  }
+  for (const Setting& probe : root.entries("output.probes"))
+    check(*probe.find("at"), probe.vector("at"), "probe at");
+}
+
+} // namespace
+
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("domain");
   Domain& domain = result.domain;
   domain.material = table.get<std::string>("material");
+  if (const Setting* block = table.find("block")) domain.block = read_block(*block, diagnostics);
+  if (domain.block) return check_points(root, domain, diagnostics);
   const auto outer = outline(*table.find("outer"), {"outer", true}, diagnostics);
   bool complete = outer.has_value();
   if (outer) domain.outer = *outer;
@@ -125,28 +156,7 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
     check_axis(*table.find("outer"), domain, diagnostics);
   if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);
   check_walls(table, domain, diagnostics);
-  for (const Setting& line : root.entries("output.lines")) {
-    for (const char* end : {"from", "to"}) {
-      const Setting& at = *line.find(end);
-      if (const std::string reason = outside_reason(domain, std::get<Vec2>(at.value)); !reason.empty())
-        diagnostics.add(Mistake::geometry, at.where, at.path,
-                        fmt::format("the point {} is {}, expected a material point",
-                                    show(std::get<Vec2>(at.value)), reason));
-    }
-    const Setting& to = *line.find("to");
-    if (line.get<Vec2>("from") == line.get<Vec2>("to"))
-      diagnostics.add(
-          Mistake::geometry, to.where, to.path,
-          fmt::format("the line has no length, it begins and ends at {}, expected two different points",
-                      show(line.get<Vec2>("to"))));
-  }
-  for (const Setting& probe : root.entries("output.probes")) {
-    const Setting& at = *probe.find("at");
-    const auto& point = std::get<Vec2>(at.value);
-    if (const std::string reason = outside_reason(domain, point); !reason.empty())
-      diagnostics.add(Mistake::geometry, at.where, at.path,
-                      fmt::format("the probe at {} is {}, expected a material point", show(point), reason));
-  }
+  check_points(root, domain, diagnostics);
 }
 
 namespace {
@@ -185,11 +195,13 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
   for (const Setting& table : root.entries("tools")) {
     Tool tool;
     tool.name = table.name;
-    tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
+    if (result.analysis.dimensions() == 3)
+      tool.plane = read_plane(*table.find("plane"), diagnostics);
+    else
+      tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
     if (!result.domain.outer.pieces.empty() && !tool.outline.pieces.empty())
       check_overlap(table, tool, result, diagnostics);
-    const auto velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
-    for (std::size_t k = 0; k < 2; ++k) tool.motion.velocity[k] = velocity[k].value_or(TimeTable(0.0));
+    tool.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     read_drive(table, result, tool, diagnostics);
     tool.friction = read_friction(*table.find("friction"));
     if (const Setting* heat = table.find("heat")) {

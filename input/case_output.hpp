@@ -13,14 +13,14 @@ namespace cnem::input {
 /// A field recorded at a material point.
 struct Probe {
   std::string name;
-  Vec2 at{0, 0};                   ///< m, initial position
+  Vec3 at{0, 0, 0};                ///< m, initial position
   std::vector<std::string> fields; ///< of field_names()
 };
 
 /// Fields sampled along a straight line through the initial configuration at the end of the run.
 struct SampleLine {
   std::string name;
-  Vec2 from{0, 0}, to{0, 0}; ///< m
+  Vec3 from{0, 0, 0}, to{0, 0, 0}; ///< m
   int samples = 101;
   std::vector<std::string> fields; ///< of field_names()
 };

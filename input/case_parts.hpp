@@ -9,6 +9,12 @@ namespace cnem::input {
 
 /// Domain and tools: outlines, holes and cracks, and whether they fit into one another.
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
+/// The workpiece of a three-dimensional analysis, and the plane of a tool of one.
+Block read_block(const Setting& table, Diagnostics& diagnostics);
+Plane read_plane(const Setting& table, Diagnostics& diagnostics);
+/// Why a point (m) is not in the block; "" when it is.
+std::string outside_reason(const Block& block, const Vec3& x);
+
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics);
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
 

@@ -12,8 +12,10 @@ bool dynamic(const Case& c) { return c.analysis.type == Analysis::Type::explicit
 
 bool holds_nodes(const Case& c) {
   return std::any_of(c.boundary.begin(), c.boundary.end(), [](const BoundaryCondition& condition) {
-    return condition.symmetry || condition.temperature || condition.velocity[0] || condition.velocity[1] ||
-           condition.displacement[0] || condition.displacement[1];
+    const auto given = [](const auto& component) { return component.has_value(); };
+    return condition.symmetry || condition.temperature ||
+           std::any_of(condition.velocity.begin(), condition.velocity.end(), given) ||
+           std::any_of(condition.displacement.begin(), condition.displacement.end(), given);
   });
 }
 
@@ -63,10 +65,12 @@ constexpr std::array needs{
          "contact of bodies", "nodes that touch would not bring the surfaces together", "false"},
 };
 
-std::string expectation(const Need& need) {
+std::string expectation(const Need& need, int dimensions) {
   const std::string instead(need.instead);
+  const std::vector<std::string> others = methods::names_that_keep(need.promise, dimensions);
+  if (others.empty()) return instead.empty() ? "another analysis: no method in space promises it" : instead;
   return fmt::format("{}{}method.name = \"{}\"", instead, instead.empty() ? "" : " or ",
-                     fmt::join(methods::names_that_keep(need.promise), "\" or \""));
+                     fmt::join(others, "\" or \""));
 }
 
 } // namespace
@@ -79,7 +83,7 @@ std::vector<Unmet> unmet_needs(const Case& input, const Promises& promises) {
           {need.path, need.promise,
            fmt::format("found {} with method.name = \"{}\", which does not promise '{}': {}, expected {}",
                        need.found, input.method.name, name_of(need.promise), need.reason,
-                       expectation(need))});
+                       expectation(need, input.analysis.dimensions()))});
   return list;
 }
 

@@ -29,7 +29,13 @@ void compute_defaults(Setting& root) {
                    round ? 0.2 : 0.05); // the axis has a weak mode of its own: docs/theory.md
   root.set_default("output.history_every", end / 400.0);
   root.set_default("output.fields_every", end / 24.0);
-  root.set_default("output.pictures", std::vector<double>{end});
+  const bool space = root.get<std::string>("analysis.kinematics") == "three-dimensional";
+  if (space)
+    root.set_default("initial.velocity", Vec3(0, 0, 0));
+  else
+    root.set_default("initial.velocity", Vec2(0, 0));
+  if (space && root.find("domain.block.radius")) root.set_default("domain.block.centre", Vec3(0, 0, 0));
+  if (!space) root.set_default("output.pictures", std::vector<double>{end});
   for (const Setting& entry : root.entries("materials")) {
     if (!entry.find("damage")) continue;
     const auto from_plastic = [&](const char* key) {
@@ -51,9 +57,11 @@ void compute_defaults(Setting& root) {
   }
   for (const Setting& entry : root.entries("tools")) {
     if (entry.find("heat")) root.set_default(entry.path + ".heat.temperature", temperature);
-    if (!entry.find("mass"))
-      root.set_default(entry.path + ".velocity", VectorFunction{TimeTable(0.0), TimeTable(0.0)});
-    else if (round)
+    if (!entry.find("mass")) {
+      VectorFunction rest{TimeTable(0.0), TimeTable(0.0)};
+      if (space) rest[2] = TimeTable(0.0);
+      root.set_default(entry.path + ".velocity", std::move(rest));
+    } else if (round)
       root.set_default(entry.path + ".direction", Vec2(0.0, 1.0));
   }
 }
@@ -100,6 +108,17 @@ void read_method(const Setting& root, Case& result) {
   method.energy_tolerance = table.get<double>("energy_tolerance");
 }
 
+void read_pictures(const Setting& table, Output& output, Diagnostics& diagnostics) {
+  output.pictures = table.get<std::vector<double>>("pictures");
+  std::sort(output.pictures.begin(), output.pictures.end());
+  output.pictures.erase(std::unique(output.pictures.begin(), output.pictures.end()), output.pictures.end());
+  output.picture_fields = table.get<std::vector<std::string>>("picture_fields");
+  if (const Setting& drawn = *table.find("picture_fields"); output.picture_fields.empty())
+    diagnostics.add(Mistake::type, drawn.where, drawn.path,
+                    "found an empty array, expected fields such as [\"plastic_strain\"]; for a run without "
+                    "pictures write output.pictures = []");
+}
+
 PictureNote read_note(const Setting& table, const Output& output) {
   PictureNote note{table.get<double>("at"), table.maybe<std::string>("field").value_or(""),
                    table.get<std::string>("text")};
@@ -122,24 +141,16 @@ void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   Output& output = result.output;
   output.history_every = table.get<double>("history_every");
   output.fields_every = table.get<double>("fields_every");
-  output.pictures = table.get<std::vector<double>>("pictures");
-  std::sort(output.pictures.begin(), output.pictures.end());
-  output.pictures.erase(std::unique(output.pictures.begin(), output.pictures.end()), output.pictures.end());
-  output.picture_fields = table.get<std::vector<std::string>>("picture_fields");
-  if (const Setting& drawn = *table.find("picture_fields"); output.picture_fields.empty())
-    diagnostics.add(Mistake::type, drawn.where, drawn.path,
-                    "found an empty array, expected fields such as [\"plastic_strain\"]; for a run without "
-                    "pictures write output.pictures = []");
+  if (result.analysis.dimensions() == 2) read_pictures(table, output, diagnostics);
   const Setting& checkpoint = *table.find("checkpoint");
   output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
                        checkpoint.get<double>("every_wall"),
                        static_cast<int>(checkpoint.get<std::int64_t>("keep"))};
   for (const Setting& note : table.entries("notes")) output.notes.push_back(read_note(note, output));
   for (const Setting& probe : table.entries("probes"))
-    output.probes.push_back(
-        {probe.name, probe.get<Vec2>("at"), probe.get<std::vector<std::string>>("fields")});
+    output.probes.push_back({probe.name, probe.vector("at"), probe.get<std::vector<std::string>>("fields")});
   for (const Setting& line : table.entries("lines"))
-    output.lines.push_back({line.name, line.get<Vec2>("from"), line.get<Vec2>("to"),
+    output.lines.push_back({line.name, line.vector("from"), line.vector("to"),
                             static_cast<int>(line.get<std::int64_t>("samples")),
                             line.get<std::vector<std::string>>("fields")});
 }
@@ -176,16 +187,19 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_domain(root, result, diagnostics);
   read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
-  read_contact(root, result, diagnostics);
+  const bool plane = result.analysis.dimensions() == 2;
+  if (plane) read_contact(root, result, diagnostics);
   diagnostics.throw_if_any();
   read_regions(root, result, diagnostics);
   read_boundary(root, result, diagnostics);
   read_periodic(root, result, diagnostics);
   read_initial_and_loads(root, result, diagnostics);
   read_method(root, result);
-  read_adaptation(root, result, diagnostics);
-  read_fracture(root, result, diagnostics);
-  read_report(root, result, diagnostics);
+  if (plane) {
+    read_adaptation(root, result, diagnostics);
+    read_fracture(root, result, diagnostics);
+    read_report(root, result, diagnostics);
+  }
   check_promises(root, result, diagnostics);
   check_analysis(root, result, diagnostics);
   diagnostics.throw_if_any();

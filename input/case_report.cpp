@@ -9,14 +9,7 @@
 namespace cnem::input {
 namespace {
 
-bool moves(const Tool& tool) {
-  if (tool.drive) return true;
-  return std::any_of(tool.motion.velocity.begin(), tool.motion.velocity.end(),
-                     [](const TimeTable& component) {
-                       return std::any_of(component.values().begin(), component.values().end(),
-                                          [](double v) { return v != 0.0; });
-                     });
-}
+bool moves(const Tool& tool) { return tool.drive || input::moves(tool.velocity); }
 
 std::vector<std::string> names_of(const std::vector<Tool>& tools) {
   std::vector<std::string> names;

@@ -63,6 +63,8 @@ constexpr double touching = 1e-9; ///< relative distance at which curves count a
 
 } // namespace
 
+std::string show(const Vec3& x) { return fmt::format("({:g}, {:g}, {:g}) m", x.x(), x.y(), x.z()); }
+
 std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
 
 std::array<Vec2, 2> bounds(const Curve& curve) {

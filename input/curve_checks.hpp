@@ -12,6 +12,7 @@ namespace cnem::input {
 
 /// A point as messages write it: "(0.01, 0.005) m".
 std::string show(const Vec2& x);
+std::string show(const Vec3& x);
 
 /// Lower left and upper right corner of the box round points on the curve, m. Expects pieces.
 std::array<Vec2, 2> bounds(const Curve& curve);

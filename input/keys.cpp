@@ -21,8 +21,9 @@ void add_general(Keys& k) {
         "Per unit thickness: no strain out of the plane, or no stress (static only). `axisymmetric`: "
         "a body of revolution about x = 0, x the radius and y the axial coordinate; nodes on the axis stay "
         "on it, "
-        "and masses, forces and energies are those of the whole body.")
-      .one_of({"plane strain", "plane stress", "axisymmetric"})
+        "and masses, forces and energies are those of the whole body. `three-dimensional`: whole bodies as "
+        "well, vectors have three components (docs/three_dimensions.md).")
+      .one_of({"plane strain", "plane stress", "axisymmetric", "three-dimensional"})
       .fallback("\"plane strain\"");
   k.add(
        "analysis.mechanical", boolean,
@@ -113,7 +114,7 @@ void add_conditions(Keys& k) {
       .unit(d::temperature)
       .in(temperature_range)
       .fallback("\"293.15 K\"");
-  k.add("initial.velocity", vector, "").unit(d::velocity).fallback("\"0 0 m/s\"");
+  k.add("initial.velocity", vector, "").unit(d::velocity).computed("0");
   k.add("initial.spin", table, "Adds a rotation to the velocity.");
   k.add("initial.spin.rate", quantity, "Counter-clockwise.").unit(d::angular_velocity).required();
   k.add("initial.spin.centre", vector, "").unit(d::length).fallback("\"0 0 m\"");
@@ -169,12 +170,16 @@ void add_tools(Keys& k) {
   const std::string at = "tools.*.";
   k.add("tools", named_tables, "Rigid tools.");
   k.add("tools.*", table,
-        "A rigid tool, solid inside its outline: either `start` and `path`, or `rectangle`, or `circle`.");
+        "A rigid tool, solid inside its outline: either `start` and `path`, or `rectangle`, or `circle`; in "
+        "three-dimensional analyses solid behind a `plane`.");
   add_outline(k, "tools.*", "the name of the tool");
+  k.add(at + "plane", table, "A tool bounded by a plane, a wall or an anvil.").required();
+  k.add(at + "plane.at", vector, "A point of the plane at time 0.").unit(d::length).required();
+  k.add(at + "plane.normal", vector, "Out of the tool, towards the workpiece; of any length.").required();
   k.add(at + "velocity", vector_function, "Prescribed translation; constant, ramped or over time.")
       .unit(d::velocity)
       .example("\"0 -11 m/s\"")
-      .computed("`\"0 0 m/s\"` without `mass`");
+      .computed("0 without `mass`");
   add_drive(k, at);
   add_friction(k, at + "friction", "Friction on the workpiece.");
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
@@ -234,7 +239,7 @@ void add_fracture(Keys& k) {
 }
 
 void add_output(Keys& k) {
-  const std::vector<std::string> fields = field_names(false);
+  const std::vector<std::string> fields = field_names(2, false), fields_in_space = field_names(3, false);
   k.add("output", table, "What is written.").always();
   k.add("output.history_every", quantity, "Time between rows of `history.csv`; 0: every step.")
       .unit(d::time)
@@ -273,7 +278,7 @@ void add_output(Keys& k) {
       .in({.low = 1, .high = 1000})
       .fallback("2");
   k.add("output.picture_fields", choices, "Fields drawn.")
-      .one_of(field_names())
+      .one_of(field_names(2))
       .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");
   k.add(
       "output.lines", named_tables,
@@ -286,6 +291,7 @@ void add_output(Keys& k) {
       .fallback("101");
   k.add("output.lines.*.fields", choices, "Fields sampled.")
       .one_of(fields)
+      .in_space_one_of(fields_in_space)
       .required()
       .example("[\"stress_yy\"]");
   k.add("output.notes", named_tables,
@@ -298,7 +304,7 @@ void add_output(Keys& k) {
       .required()
       .example("\"12 us\"");
   k.add("output.notes.*.field", choice, "A field of `output.picture_fields`.")
-      .one_of(field_names())
+      .one_of(field_names(2))
       .computed("the first of `output.picture_fields`")
       .example("\"plastic_strain\"");
   k.add("output.notes.*.text", text, "What to say.").required().example("\"Figure 22: a band.\"");
@@ -313,6 +319,7 @@ void add_output(Keys& k) {
   k.add("output.probes.*.at", vector, "Initial position.").unit(d::length).required().example("\"5.1 5 mm\"");
   k.add("output.probes.*.fields", choices, "Fields recorded.")
       .one_of(fields)
+      .in_space_one_of(fields_in_space)
       .required()
       .example("[\"temperature\", \"plastic_strain\"]");
 }
@@ -356,6 +363,7 @@ const std::vector<Key>& schema() {
     Keys k;
     add_general(k);
     add_domain(k);
+    add_block(k);
     add_parts(k);
     add_cloud(k);
     add_materials(k);
@@ -367,6 +375,7 @@ const std::vector<Key>& schema() {
     add_fracture(k);
     add_output(k);
     add_report(k);
+    mark_scopes(k);
     return std::move(k.all);
   }();
   return keys;

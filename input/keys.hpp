@@ -17,6 +17,10 @@ public:
   KeyDraft& of_revolution(const Dimension& dimension) { return key_.revolution = dimension, *this; }
   KeyDraft& in(const Range& range) { return key_.range = range, *this; }
   KeyDraft& one_of(std::vector<std::string> choices) { return key_.choices = std::move(choices), *this; }
+  /// Where three-dimensional analyses have others.
+  KeyDraft& in_space_one_of(std::vector<std::string> choices) {
+    return key_.choices_in_space = std::move(choices), *this;
+  }
   KeyDraft& required() { return key_.presence = Presence::required, *this; }
   /// Of a table: the defaults of its members hold without it.
   KeyDraft& always() { return key_.presence = Presence::fallback, *this; }
@@ -49,6 +53,7 @@ inline constexpr Range fraction{.low = 0.0, .high = 1.0};
 /// The closed curve of a domain, a hole or a tool: members of the table `at`.
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
 void add_domain(Keys& k);
+void add_block(Keys& k);
 void add_parts(Keys& k);
 void add_cloud(Keys& k);
 void add_materials(Keys& k);
@@ -58,5 +63,8 @@ void add_method(Keys& k);
 /// Members of the table of a tool, "tools.*.", that let it move as a body.
 void add_drive(Keys& k, const std::string& tool);
 void add_mass_scaling(Keys& k);
+
+/// Says which keys have a meaning in the plane alone, or in space alone: the one table of it.
+void mark_scopes(Keys& k);
 
 } // namespace cnem::input

@@ -8,12 +8,18 @@
 namespace cnem::input {
 namespace {
 
-/// Beside the middle of the outline; a round number in messages.
-Vec2 origin_of(const Case& input) {
-  const auto [low, high] = bounds(input.domain.outer);
+std::array<Vec3, 2> bounds_of(const Domain& domain) {
+  if (domain.block) return domain.block->bounds();
+  const auto [low, high] = bounds(domain.outer);
+  return {Vec3(low.x(), low.y(), 0.0), Vec3(high.x(), high.y(), 0.0)};
+}
+
+/// Beside the middle of the workpiece; a round number in messages.
+Vec3 origin_of(const Case& input) {
+  const auto [low, high] = bounds_of(input.domain);
   const double size = (high - low).norm();
   const double unit = std::pow(10.0, std::floor(std::log10(size)));
-  Vec2 origin = 0.5 * low + 0.5 * high;
+  Vec3 origin = 0.5 * low + 0.5 * high;
   for (double& x : origin) x = std::abs(x) > size ? std::round(x / unit) * unit : 0.0;
   if (input.analysis.kinematics == Analysis::Kinematics::axisymmetric) origin.x() = 0.0;
   return origin;
@@ -21,11 +27,12 @@ Vec2 origin_of(const Case& input) {
 
 class Shift {
 public:
-  explicit Shift(const Vec2& origin) : origin_(origin) {}
+  explicit Shift(const Vec3& origin) : origin3_(origin), origin_(origin.head<2>()) {}
 
   void operator()(Vec2& x) const { x -= origin_; }
-  void operator()(std::vector<Vec2>& points) const {
-    for (Vec2& x : points) x -= origin_;
+  void operator()(Vec3& x) const { x -= origin3_; }
+  template<int dim> void operator()(std::vector<Vec<dim>>& points) const {
+    for (Vec<dim>& x : points) (*this)(x);
   }
   void operator()(Curve& curve) const {
     for (CurvePiece& piece : curve.pieces) {
@@ -35,6 +42,7 @@ public:
   }
 
 private:
+  Vec3 origin3_;
   Vec2 origin_;
 };
 
@@ -42,9 +50,11 @@ private:
 
 void use_local_origin(Case& input) {
   input.origin = origin_of(input);
-  if (input.origin == Vec2(0, 0)) return; // leaves every bit as it was written
+  if (input.origin == Vec3(0, 0, 0)) return; // leaves every bit as it was written
   const Shift shift(input.origin);
   Domain& domain = input.domain;
+  if (domain.block)
+    for (Vec3* x : {&domain.block->from, &domain.block->to, &domain.block->centre}) shift(*x);
   shift(domain.outer);
   for (Hole& hole : domain.holes) shift(hole.outline);
   for (Crack& crack : domain.cracks) shift(crack.path);
@@ -56,12 +66,15 @@ void use_local_origin(Case& input) {
   if (input.initial.spin) shift(input.initial.spin->centre);
   if (input.initial.gradient) shift(input.initial.gradient->centre);
   for (Imperfection& imperfection : input.initial.imperfections) shift(imperfection.points);
-  for (Tool& tool : input.tools) shift(tool.outline);
+  for (Tool& tool : input.tools) {
+    shift(tool.outline);
+    if (tool.plane) shift(tool.plane->at);
+  }
   for (Window& window : input.output.windows)
     for (Vec2* corner : {&window.lower, &window.upper}) shift(*corner);
   for (Probe& probe : input.output.probes) shift(probe.at);
   for (SampleLine& line : input.output.lines)
-    for (Vec2* end : {&line.from, &line.to}) shift(*end);
+    for (Vec3* end : {&line.from, &line.to}) shift(*end);
 }
 
 } // namespace cnem::input

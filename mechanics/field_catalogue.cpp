@@ -1,8 +1,10 @@
 #include "mechanics/field_catalogue.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "mechanics/kinematics.hpp"
 
+#include <array>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -10,33 +12,55 @@ namespace cnem {
 
 namespace {
 
-/// Cauchy stress σ = P Fᵀ/det F at a point; components i, j of the plane, or zz for i = j = 2.
-double cauchy(const PointState<2>& point, std::size_t i, std::size_t j, std::size_t p) {
-  const double J = jacobian<2>(point.deformation, p);
-  return i == 2 ? point.piola[4][p] * point.deformation[4][p] / J
-                : (point.piola[2 * i][p] * point.deformation[2 * j][p] +
-                   point.piola[2 * i + 1][p] * point.deformation[2 * j + 1][p]) /
-                      J;
+/// Cauchy stress σ = P Fᵀ/det F at a point; i = j = 2 in the plane: out of it.
+template<int dim> double cauchy(const PointState<dim>& point, std::size_t i, std::size_t j, std::size_t p) {
+  constexpr std::size_t n = dim, out_of_plane = 4;
+  double stress = 0.0;
+  if (i >= n)
+    stress = point.piola[out_of_plane][p] * point.deformation[out_of_plane][p];
+  else
+    for (std::size_t k = 0; k < n; ++k) {
+      const double part = point.piola[n * i + k][p] * point.deformation[n * j + k][p];
+      stress = k == 0 ? part : stress + part;
+    }
+  return stress / jacobian<dim>(point.deformation, p);
 }
 
 /// Volume ratio J of the present to the stress-free configuration.
-double volume_ratio(const PointState<2>& point, std::size_t p) {
-  return jacobian<2>(point.deformation, p) / point.stress_free[p];
+template<int dim> double volume_ratio(const PointState<dim>& point, std::size_t p) {
+  return jacobian<dim>(point.deformation, p) / point.stress_free[p];
 }
 
-double displacement(const NodeState<2>& node, std::size_t k, std::size_t i) {
-  return node.position[k][i] - node.initial_position[k][i];
-}
+/// Words for users, which have to last as long as the catalogue.
+struct ComponentWords {
+  const char *name, *label, *meaning;
+};
+constexpr std::array stress_words{
+    ComponentWords{"stress_xx", "stress xx", "Cauchy stress, component xx"},
+    ComponentWords{"stress_yy", "stress yy", "Cauchy stress, component yy"},
+    ComponentWords{"stress_zz", "stress zz", "Cauchy stress, component zz, in the plane that out of it"},
+    ComponentWords{"stress_xy", "stress xy", "Cauchy stress, component xy"},
+    ComponentWords{"stress_yz", "stress yz", "Cauchy stress, component yz"},
+    ComponentWords{"stress_zx", "stress zx", "Cauchy stress, component zx"}};
+constexpr std::array<std::array<std::size_t, 2>, 6> stress_components{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+constexpr std::array velocity_words{ComponentWords{"velocity_x", "velocity x", "Velocity along x"},
+                                    ComponentWords{"velocity_y", "velocity y", "Velocity along y"},
+                                    ComponentWords{"velocity_z", "velocity z", "Velocity along z"}};
+constexpr std::array displacement_words{
+    ComponentWords{"displacement_x", "displacement x", "Displacement along x"},
+    ComponentWords{"displacement_y", "displacement y", "Displacement along y"},
+    ComponentWords{"displacement_z", "displacement z", "Displacement along z"}};
 
 /// Fields that are functions of others.
-std::vector<FieldInfo> derived_fields() {
-  using Source = const FieldSource&;
+template<int dim> std::vector<FieldInfo<dim>> derived_fields() {
+  using Source = const FieldSource<dim>&;
   using Index = std::size_t;
   constexpr bool at_nodes = true;
   const auto stress = [](const char* label, const char* meaning) {
     return Shown{label, meaning, "MPa", 1e6, ColourMap::diverging};
   };
-  return {
+  std::vector<FieldInfo<dim>> list{
       {"equivalent_stress",
        "Pa",
        {"von Mises stress", "Von Mises equivalent of the Cauchy stress", "MPa", 1e6, ColourMap::heat},
@@ -46,63 +70,56 @@ std::vector<FieldInfo> derived_fields() {
        [](Source s, Index p) { return s.state.point.equivalent_stress[p] / volume_ratio(s.state.point, p); }},
       {"pressure", "Pa", stress("pressure", "Pressure of the Cauchy stress, positive in compression"),
        !at_nodes, false, false,
-       [](Source s, Index p) { return s.state.point.pressure[p] / volume_ratio(s.state.point, p); }},
-      {"stress_xx", "Pa", stress("stress xx", "Cauchy stress, component xx"), !at_nodes, false, false,
-       [](Source s, Index p) { return cauchy(s.state.point, 0, 0, p); }},
-      {"stress_yy", "Pa", stress("stress yy", "Cauchy stress, component yy"), !at_nodes, false, false,
-       [](Source s, Index p) { return cauchy(s.state.point, 1, 1, p); }},
-      {"stress_zz", "Pa", stress("stress zz", "Cauchy stress, out of plane"), !at_nodes, false, false,
-       [](Source s, Index p) { return cauchy(s.state.point, 2, 2, p); }},
-      {"stress_xy", "Pa", stress("stress xy", "Cauchy stress, component xy"), !at_nodes, false, false,
-       [](Source s, Index p) { return cauchy(s.state.point, 0, 1, p); }},
-      {"volume_ratio",
-       "",
-       {"volume ratio J", "Present over stress-free volume", "", 1.0, ColourMap::strain},
-       !at_nodes,
-       false,
-       false,
-       [](Source s, Index p) { return volume_ratio(s.state.point, p); }},
-      {"velocity_x",
-       "m/s",
-       {"velocity x", "Velocity along x", "m/s", 1.0, ColourMap::diverging},
-       at_nodes,
-       false,
-       false,
-       [](Source s, Index i) { return s.state.node.velocity[0][i]; }},
-      {"velocity_y",
-       "m/s",
-       {"velocity y", "Velocity along y", "m/s", 1.0, ColourMap::diverging},
-       at_nodes,
-       false,
-       false,
-       [](Source s, Index i) { return s.state.node.velocity[1][i]; }},
-      {"displacement_x",
-       "m",
-       {"displacement x", "Displacement along x", "mm", 1e-3, ColourMap::diverging},
-       at_nodes,
-       false,
-       false,
-       [](Source s, Index i) { return displacement(s.state.node, 0, i); }},
-      {"displacement_y",
-       "m",
-       {"displacement y", "Displacement along y", "mm", 1e-3, ColourMap::diverging},
-       at_nodes,
-       false,
-       false,
-       [](Source s, Index i) { return displacement(s.state.node, 1, i); }},
-  };
+       [](Source s, Index p) { return s.state.point.pressure[p] / volume_ratio(s.state.point, p); }}};
+  for (std::size_t k = 0; k < index_of(symmetric_size<dim>); ++k) {
+    const auto& words = stress_words[k];
+    list.push_back({words.name, "Pa", stress(words.label, words.meaning), !at_nodes, false, false,
+                    [ij = stress_components[k]](Source s, Index p) {
+                      return cauchy<dim>(s.state.point, ij[0], ij[1], p);
+                    }});
+  }
+  list.push_back({"volume_ratio",
+                  "",
+                  {"volume ratio J", "Present over stress-free volume", "", 1.0, ColourMap::strain},
+                  !at_nodes,
+                  false,
+                  false,
+                  [](Source s, Index p) { return volume_ratio(s.state.point, p); }});
+  for (std::size_t k = 0; k < dim; ++k) {
+    const auto& words = velocity_words[k];
+    list.push_back({words.name,
+                    "m/s",
+                    {words.label, words.meaning, "m/s", 1.0, ColourMap::diverging},
+                    at_nodes,
+                    false,
+                    false,
+                    [k](Source s, Index i) { return s.state.node.velocity[k][i]; }});
+  }
+  for (std::size_t k = 0; k < dim; ++k) {
+    const auto& words = displacement_words[k];
+    list.push_back({words.name,
+                    "m",
+                    {words.label, words.meaning, "mm", 1e-3, ColourMap::diverging},
+                    at_nodes,
+                    false,
+                    false,
+                    [k](Source s, Index i) {
+                      return s.state.node.position[k][i] - s.state.node.initial_position[k][i];
+                    }});
+  }
+  return list;
 }
 
 /// Adds the fields of a group that are declared as shown; `table` finds the group in a source, null: it is
 /// not there. Fields of a group that is off are zero.
-template<class Table>
-void add_shown(std::vector<FieldInfo>& list, const FieldTable& declared, bool at_nodes, bool adaptive,
+template<int dim, class Table>
+void add_shown(std::vector<FieldInfo<dim>>& list, const FieldTable& declared, bool at_nodes, bool adaptive,
                Table table) {
   for (std::size_t k = 0; k < declared.entries().size(); ++k) {
     const FieldLine& line = declared.entries()[k].line;
     if (!line.shown.label) continue;
     list.push_back({line.name, std::string_view(line.unit) == "1" ? "" : line.unit, line.shown, at_nodes,
-                    adaptive, !declared.on(), [table, k](const FieldSource& source, std::size_t i) {
+                    adaptive, !declared.on(), [table, k](const FieldSource<dim>& source, std::size_t i) {
                       const Field& values = *table(source).entries()[k].component;
                       return values.empty() ? 0.0 : values[i];
                     }});
@@ -111,28 +128,34 @@ void add_shown(std::vector<FieldInfo>& list, const FieldTable& declared, bool at
 
 } // namespace
 
-const std::vector<FieldInfo>& field_catalogue() {
-  static const std::vector<FieldInfo> list = [] {
-    std::vector<FieldInfo> fields;
-    const State<2> state;
+template<int dim> const std::vector<FieldInfo<dim>>& field_catalogue() {
+  static const std::vector<FieldInfo<dim>> list = [] {
+    std::vector<FieldInfo<dim>> fields;
+    const State<dim> state;
     const AdaptationFields adaptation;
-    using Source = const FieldSource&;
+    using Source = const FieldSource<dim>&;
     using Table = const FieldTable&;
     add_shown(fields, state.node.table, true, false, [](Source s) -> Table { return s.state.node.table; });
     add_shown(fields, state.point.table, false, false, [](Source s) -> Table { return s.state.point.table; });
-    for (FieldInfo& derived : derived_fields()) fields.push_back(std::move(derived));
+    for (FieldInfo<dim>& derived : derived_fields<dim>()) fields.push_back(std::move(derived));
     add_shown(fields, state.point.damaged, false, false,
               [](Source s) -> Table { return s.state.point.damaged; });
-    add_shown(fields, adaptation.table, true, true, [](Source s) -> Table { return s.adaptation->table; });
+    if constexpr (dim == 2)
+      add_shown(fields, adaptation.table, true, true, [](Source s) -> Table { return s.adaptation->table; });
     return fields;
   }();
   return list;
 }
 
-const FieldInfo& field_info(const std::string& name) {
-  for (const FieldInfo& info : field_catalogue())
+template<int dim> const FieldInfo<dim>& field_info(const std::string& name) {
+  for (const FieldInfo<dim>& info : field_catalogue<dim>())
     if (info.name == name) return info;
   throw InputError(fmt::format("there is no field '{}'", name));
 }
+
+template const std::vector<FieldInfo<2>>& field_catalogue();
+template const std::vector<FieldInfo<3>>& field_catalogue();
+template const FieldInfo<2>& field_info(const std::string& name);
+template const FieldInfo<3>& field_info(const std::string& name);
 
 } // namespace cnem

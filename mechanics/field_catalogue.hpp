@@ -10,26 +10,31 @@
 namespace cnem {
 
 /// What shown fields are made from.
-struct FieldSource {
-  const State<2>& state;
+template<int dim> struct FieldSource {
+  const State<dim>& state;
   const AdaptationFields* adaptation = nullptr; ///< null: the cloud is not adapted
 };
 
 /// A field by its case-file name.
-struct FieldInfo {
+template<int dim> struct FieldInfo {
   std::string name; ///< "plastic_strain", as in case files and history columns
   std::string unit; ///< SI unit, "" when dimensionless
   Shown shown;
   bool at_nodes = false;  ///< lives at nodes (else at stress points)
   bool adaptive = false;  ///< only where the cloud is adapted
   bool of_damage = false; ///< zero unless a material has a damage law: then left out of files
-  std::function<double(const FieldSource&, std::size_t)> at; ///< value at a stress point or node
+  std::function<double(const FieldSource<dim>&, std::size_t)> at; ///< value at a stress point or node
 };
 
 /// All fields, in the order files list them.
-const std::vector<FieldInfo>& field_catalogue();
+template<int dim> const std::vector<FieldInfo<dim>>& field_catalogue();
 
 /// Throws InputError for an unknown name.
-const FieldInfo& field_info(const std::string& name);
+template<int dim> const FieldInfo<dim>& field_info(const std::string& name);
+
+extern template const std::vector<FieldInfo<2>>& field_catalogue();
+extern template const std::vector<FieldInfo<3>>& field_catalogue();
+extern template const FieldInfo<2>& field_info(const std::string& name);
+extern template const FieldInfo<3>& field_info(const std::string& name);
 
 } // namespace cnem

@@ -81,14 +81,15 @@ private:
       tools.push_back(tool);
       const int stroke = history_.find(tool + ".stroke");
       use(stroke);
-      for (const char* motion : {".displacement_x", ".displacement_y", ".velocity_x", ".velocity_y"})
+      for (const char* motion : {".displacement_x", ".displacement_y", ".displacement_z", ".velocity_x",
+                                 ".velocity_y", ".velocity_z"})
         if (const int at = history_.find(tool + motion); at >= 0 && largest(column(at)) == 0.0) use(at);
       if (stroke >= 0 && largest(column(stroke)) > longest) {
         longest = largest(column(stroke));
         moving = tool;
       }
     }
-    for (const char* component : {"y", "x"}) force_chart(tools, moving, component);
+    for (const char* component : {"z", "y", "x"}) force_chart(tools, moving, component);
   }
 
   void force_chart(const std::vector<std::string>& tools, const std::string& moving, const char* component) {
@@ -123,12 +124,11 @@ private:
     }
     if (!(most > 0.0)) return;
     const double cutoff = std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * sigma);
-    chart.note =
-        fmt::format("Force of the tool on the workpiece, {}. "
-                    "Pale: every recorded value; full: Gaussian low-pass in time, σ = {} (−3 dB at {}).",
-                    chart.y_unit == "N" ? "of the whole body of revolution"
-                                        : "per unit thickness, of the part that is modelled",
-                    results::si_format(sigma, "s", 3), results::si_format(cutoff, "Hz", 3));
+    chart.note = fmt::format(
+        "Force of the tool on the workpiece, {}. "
+        "Pale: every recorded value; full: Gaussian low-pass in time, σ = {} (−3 dB at {}).",
+        chart.y_unit == "N" ? "of the whole body" : "per unit thickness, of the part that is modelled",
+        results::si_format(sigma, "s", 3), results::si_format(cutoff, "Hz", 3));
     charts_.push_back(std::move(chart));
   }
 

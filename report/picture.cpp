@@ -128,12 +128,12 @@ double cell_size(const PictureLayout& layout, const CellGeometry<2>& cells,
 
 PictureLayout layout_picture(const Picture& picture) {
   check(picture);
-  return layout_of(picture, results::moved_vertices(*picture.cells, picture.position));
+  return layout_of(picture, results::moved_vertices<2>(*picture.cells, picture.position));
 }
 
 std::string draw_png(const Picture& picture) {
   check(picture);
-  const std::vector<Vec2> vertices = results::moved_vertices(*picture.cells, picture.position);
+  const std::vector<Vec2> vertices = results::moved_vertices<2>(*picture.cells, picture.position);
   const PictureLayout layout = layout_of(picture, vertices);
   const double unit = picture.width / design_width, size = font * unit;
   const ColourRange range = picture.range                         ? *picture.range

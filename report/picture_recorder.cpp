@@ -27,9 +27,9 @@ struct PictureRecorder::Kept {
   }
 };
 
-Picture PictureRecorder::picture_of(const results::Snapshot& shot, const std::string& field, Kept& kept,
+Picture PictureRecorder::picture_of(const results::Snapshot<2>& shot, const std::string& field, Kept& kept,
                                     Field values) const {
-  const FieldInfo& info = field_info(field);
+  const FieldInfo<2>& info = field_info<2>(field);
   Picture picture;
   picture.cells = &kept.cells;
   picture.position = spans(kept.position);
@@ -63,7 +63,7 @@ std::string PictureRecorder::note_of(double time, const std::string& field) cons
   return "";
 }
 
-void PictureRecorder::record(results::FileQueue& files, const results::Snapshot& shot) {
+void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<2>& shot) {
   const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, shot.state.node.position, {}});
   Fields<2>& drawn = kept->position;
   if (shot.displacement_scale != 1.0)
@@ -86,7 +86,7 @@ void PictureRecorder::record(results::FileQueue& files, const results::Snapshot&
   }
 }
 
-std::string PictureRecorder::record_place(results::FileQueue& files, const results::Snapshot& shot,
+std::string PictureRecorder::record_place(results::FileQueue& files, const results::Snapshot<2>& shot,
                                           const Vec2& centre, double radius) {
   const NodeState<2>& node = shot.state.node;
   const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, node.position, {}});

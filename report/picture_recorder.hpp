@@ -16,17 +16,18 @@ class PictureRecorder {
 public:
   PictureRecorder(const input::Case& input, const std::filesystem::path& folder)
       : case_(&input), album_(folder) {}
-  void record(results::FileQueue& files, const results::Snapshot& shot);
+  void record(results::FileQueue& files, const results::Snapshot<2>& shot);
   /// Draws the plastic strain around a place that went wrong, within `radius` (m). Returns the file's name in
   /// the folder of pictures.
-  std::string record_place(results::FileQueue& files, const results::Snapshot& shot, const Vec2& centre,
+  std::string record_place(results::FileQueue& files, const results::Snapshot<2>& shot, const Vec2& centre,
                            double radius);
   /// Drops the pictures later than `time` (s).
   void truncate(double time) { album_.truncate(time); }
 
 private:
   struct Kept;
-  Picture picture_of(const results::Snapshot& shot, const std::string& field, Kept& kept, Field values) const;
+  Picture picture_of(const results::Snapshot<2>& shot, const std::string& field, Kept& kept,
+                     Field values) const;
   std::string draw(results::FileQueue& files, const std::shared_ptr<const Kept>& kept, const Picture& picture,
                    const std::string& key, const std::string& caption, const std::string& note = "");
   std::string note_of(double time, const std::string& field) const;

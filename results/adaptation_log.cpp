@@ -39,7 +39,7 @@ Audit audit(const ExplicitSolver<2>& solver) {
   const Field& inertia = solver.state().node.inertia();
   Audit sums;
   sums.nodes = static_cast<double>(node.size());
-  sums.area = enclosed_area(solver.present_cloud());
+  sums.area = enclosed_measure(solver.present_cloud());
   for (std::size_t i = 0; i < node.size(); ++i) {
     const Vec2 x(node.position[0][i], node.position[1][i]), v(node.velocity[0][i], node.velocity[1][i]);
     sums.mass += node.mass[i];

@@ -11,23 +11,25 @@
 namespace cnem::results {
 
 /// Values at stress points [point]; fields of nodes are interpolated with N.
-Field values_at_points(const Snapshot& shot, const std::string& name);
+template<int dim> Field values_at_points(const Snapshot<dim>& shot, const std::string& name);
 
 /// Values at nodes [node]; fields of stress points are averaged by shared volume (identity for C-NEM).
-Field values_at_nodes(const Snapshot& shot, const std::string& name);
+template<int dim> Field values_at_nodes(const Snapshot<dim>& shot, const std::string& name);
 
 /// Largest value of a field where it lives, without laying out the field.
-double largest_value(const Snapshot& shot, const std::string& name);
+template<int dim> double largest_value(const Snapshot<dim>& shot, const std::string& name);
 
 /// Σ weight · value of a field over some nodes, as of values_at_nodes(), without laying out the field where
 /// it lives at these nodes.
-double weighted_value(const Snapshot& shot, const std::string& name, std::span<const std::int32_t> node,
+template<int dim>
+double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::span<const std::int32_t> node,
                       std::span<const double> weight);
 
-/// Area enclosed by the boundary as it stands, m².
-double boundary_area(const Snapshot& shot);
+/// Area or volume enclosed by the boundary as it stands, m^dim.
+template<int dim> double enclosed_measure(const Snapshot<dim>& shot);
 
-/// Stress-free area of the cells that are broken (ω = 1), m², in the meridian plane of revolution.
-double broken_area(const Snapshot& shot);
+/// Stress-free area or volume of the cells that are broken (ω = 1), m^dim, in the meridian plane of
+/// revolution.
+template<int dim> double broken_measure(const Snapshot<dim>& shot);
 
 } // namespace cnem::results

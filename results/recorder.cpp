@@ -4,7 +4,6 @@
 #include "core/index.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
-#include "voronoi/natural_neighbours.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,18 @@ namespace cnem::results {
 
 namespace {
 
-std::array<std::span<const double>, 2> spans(const Fields<2>& field) { return {field[0], field[1]}; }
+template<int dim> std::array<std::span<const double>, dim> spans(const Fields<dim>& field) {
+  std::array<std::span<const double>, dim> all;
+  std::copy(field.begin(), field.end(), all.begin());
+  return all;
+}
+
+/// As VTK knows vectors, whose third component is zero in the plane.
+template<int dim> VectorField vector_field(const char* name, const Fields<dim>& field) {
+  VectorField all{name, {}};
+  std::copy(field.begin(), field.end(), all.component.begin());
+  return all;
+}
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{}[{}]", name, unit);
@@ -28,25 +38,29 @@ std::vector<std::string> names_of(const std::vector<std::pair<std::string, doubl
   return names;
 }
 
-/// Natural-neighbour weights of the probes in the initial cloud.
-std::vector<ProbeWeights> probe_weights(const input::Case& input, const Cloud<2>& cloud) {
+template<int dim>
+std::vector<ProbeWeights> probe_weights(const input::Case& input, const Approximation<dim>& approximation,
+                                        const Cloud<dim>& cloud) {
   std::vector<ProbeWeights> probes;
   if (input.output.probes.empty()) return probes;
-  const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
-  const voronoi::Circumcircles circles = voronoi::circumcircles(cloud, mesh);
-  voronoi::NaturalNeighbours functions(cloud, mesh, circles);
+  const PointLocator<dim> locator(cloud, approximation.cells);
   for (const input::Probe& probe : input.output.probes) {
     try {
-      functions.evaluate(voronoi::Functions::sibson, probe.at);
+      probes.push_back({locator.weights(probe.at.head<dim>()), probe.name, probe.fields});
     } catch (const GeometryError& error) {
       throw input.error("output.probes." + probe.name + ".at", error.what());
     }
-    probes.push_back({probe.name,
-                      probe.fields,
-                      {functions.nodes().begin(), functions.nodes().end()},
-                      {functions.values().begin(), functions.values().end()}});
   }
   return probes;
+}
+
+/// Columns of what the boundary encloses. Volumes that material points lose are `volume_drift`.
+struct MeasureWords {
+  std::string enclosed, broken, unit;
+};
+MeasureWords measure_words(int dim) {
+  return dim == 2 ? MeasureWords{"area", "broken_area", "[m^2]"}
+                  : MeasureWords{"enclosed_volume", "broken_volume", "[m^3]"};
 }
 
 bool expands(const std::vector<plasticity::Material>& materials) {
@@ -54,7 +68,7 @@ bool expands(const std::vector<plasticity::Material>& materials) {
                      [](const plasticity::Material& material) { return material.expansion != 0.0; });
 }
 
-double total_mass(const ExplicitSolver<2>& solver) {
+template<int dim> double total_mass(const ExplicitSolver<dim>& solver) {
   double mass = 0.0;
   for (const double m : solver.state().node.mass) mass += m;
   return mass;
@@ -63,16 +77,22 @@ double total_mass(const ExplicitSolver<2>& solver) {
 } // namespace
 
 HistoryUnits history_units(const input::Case& input) {
-  return input.analysis.space() == Space::revolution ? HistoryUnits{"[N]", "[J]", "[kg]"} : HistoryUnits{};
+  const bool whole = input.analysis.space() == Space::revolution || input.analysis.dimensions() == 3;
+  return whole ? HistoryUnits{"[N]", "[J]", "[kg]"} : HistoryUnits{};
 }
 
-HistoryRecorder::HistoryRecorder(const input::Case& input, const ExplicitSolver<2>& solver,
-                                 const std::filesystem::path& folder)
-    : units_(history_units(input)), probes_(probe_weights(input, solver.conditions().cloud)), folder_(folder),
-      initial_area_(boundary_area(snapshot(solver))), initial_mass_(total_mass(solver)) {}
+template<int dim>
+HistoryRecorder<dim>::HistoryRecorder(const input::Case& input, const ExplicitSolver<dim>& solver,
+                                      const std::filesystem::path& folder)
+    : units_(history_units(input)),
+      probes_(probe_weights<dim>(input, solver.approximation(), solver.conditions().cloud)), folder_(folder),
+      initial_measure_(enclosed_measure(snapshot(solver))), initial_mass_(total_mass(solver)) {}
 
-std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitSolver<2>& solver) const {
-  const State<2>& state = solver.state();
+template<int dim>
+std::vector<std::pair<std::string, double>>
+HistoryRecorder<dim>::row(const ExplicitSolver<dim>& solver) const {
+  const MeasureWords measure = measure_words(dim);
+  const State<dim>& state = solver.state();
   std::vector<std::pair<std::string, double>> row{{"time[s]", state.time},
                                                   {"step", static_cast<double>(state.step)},
                                                   {"dt[s]", state.step_before},
@@ -81,14 +101,14 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
   for (std::size_t t = 0; t < contact.tools().size(); ++t) {
     const std::string& name = contact.tools()[t].name;
     const auto& result = contact.results()[t];
-    row.emplace_back(name + ".force_x" + units_.force, result.force.x());
-    row.emplace_back(name + ".force_y" + units_.force, result.force.y());
+    const auto components = [&](const char* what, const Vec<dim>& vector, const std::string& unit) {
+      for (int k = 0; k < dim; ++k)
+        row.emplace_back(fmt::format("{}.{}_{}{}", name, what, axis_name(index_of(k)), unit), vector[k]);
+    };
+    components("force", result.force, units_.force);
     row.emplace_back(name + ".stroke[m]", contact.displacement(t, state.time).norm());
-    const Vec2 at = contact.displacement(t, state.time), speed = contact.velocity(t, state.time);
-    row.emplace_back(name + ".displacement_x[m]", at.x());
-    row.emplace_back(name + ".displacement_y[m]", at.y());
-    row.emplace_back(name + ".velocity_x[m/s]", speed.x());
-    row.emplace_back(name + ".velocity_y[m/s]", speed.y());
+    components("displacement", contact.displacement(t, state.time), "[m]");
+    components("velocity", contact.velocity(t, state.time), "[m/s]");
     row.emplace_back(name + ".work" + units_.energy, result.total.tool);
   }
   if (contact.bodies_touch())
@@ -96,11 +116,13 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
   const auto& supports = solver.conditions().supports;
   for (std::size_t s = 0; s < supports.list().size(); ++s) {
     if (s > 0 && supports.list()[s].name == supports.list()[s - 1].name) continue;
-    Vec2 force = Vec2::Zero();
+    Vec<dim> force = Vec<dim>::Zero();
     for (std::size_t o = s; o < supports.list().size(); ++o)
       if (supports.list()[o].name == supports.list()[s].name) force += supports.reactions()[o];
-    row.emplace_back("support." + supports.list()[s].name + ".force_x" + units_.force, force.x());
-    row.emplace_back("support." + supports.list()[s].name + ".force_y" + units_.force, force.y());
+    for (int k = 0; k < dim; ++k)
+      row.emplace_back(
+          fmt::format("support.{}.force_{}{}", supports.list()[s].name, axis_name(index_of(k)), units_.force),
+          force[k]);
   }
   const EnergyLedger e = solver.ledger();
   for (const Energy& entry : e.entries())
@@ -110,24 +132,25 @@ std::vector<std::pair<std::string, double>> HistoryRecorder::row(const ExplicitS
   row.emplace_back("kinetic_share", e.kinetic_share());
   for (Metric& metric : solver.metrics()) row.emplace_back(std::move(metric.name), metric.value);
   for (const char* name : {"plastic_strain", "temperature"}) {
-    const FieldInfo& info = field_info(name);
+    const FieldInfo<dim>& info = field_info<dim>(name);
     row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
                      largest_value(snapshot(solver), name));
   }
   if (!state.point.damage.empty()) {
     row.emplace_back("max.damage", *std::max_element(state.point.damage.begin(), state.point.damage.end()));
-    row.emplace_back("broken_area[m^2]", broken_area(snapshot(solver)));
+    row.emplace_back(measure.broken + measure.unit, broken_measure(snapshot(solver)));
   }
   for (const ProbeWeights& probe : probes_)
     for (const std::string& name : probe.fields)
-      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info(name).unit),
+      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info<dim>(name).unit),
                        weighted_value(snapshot(solver), name, probe.node, probe.weight));
   row.emplace_back("mass" + units_.mass, total_mass(solver));
-  row.emplace_back("area[m^2]", boundary_area(snapshot(solver)));
+  row.emplace_back(measure.enclosed + measure.unit, enclosed_measure(snapshot(solver)));
   return row;
 }
 
-void HistoryRecorder::keep_metric(const std::string& name, double value, bool largest) {
+template<int dim>
+void HistoryRecorder<dim>::keep_metric(const std::string& name, double value, bool largest) {
   for (auto& [known, kept] : metrics_)
     if (known == name) {
       kept = largest ? std::max(kept, value) : value;
@@ -136,7 +159,8 @@ void HistoryRecorder::keep_metric(const std::string& name, double value, bool la
   metrics_.emplace_back(name, value);
 }
 
-void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
+template<int dim> void HistoryRecorder<dim>::record(const ExplicitSolver<dim>& solver) {
+  const MeasureWords measure = measure_words(dim);
   const auto named = row(solver);
   if (writer_.empty()) writer_.emplace_back(folder_ / files::history, names_of(named));
   std::vector<double> values;
@@ -165,8 +189,9 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
     if (name == "volume_drift" || name == "max.volume_drift") keep_metric(name, value, true);
     if (name == "max.temperature[K]") keep_metric("max_temperature", value, true);
     if (name == "max.damage") keep_metric("max_damage", value, true);
-    if (name == "broken_area[m^2]") keep_metric("broken_area", value, true);
-    if (name == "area[m^2]") keep_metric("area_drift", value / initial_area_ - 1.0, false);
+    if (name == measure.broken + measure.unit) keep_metric(measure.broken, value, true);
+    if (name == measure.enclosed + measure.unit)
+      keep_metric(measure.enclosed + "_drift", value / initial_measure_ - 1.0, false);
     if (name == "mass" + units_.mass) keep_metric("mass_drift", value / initial_mass_ - 1.0, false);
   }
   const std::array<double, 2> balance = solver.mass_balance();
@@ -174,38 +199,29 @@ void HistoryRecorder::record(const ExplicitSolver<2>& solver) {
   keep_metric("mass_balance.high", balance[1], false);
 }
 
-void HistoryRecorder::resample(const Resampling<2>& change, const ExplicitSolver<2>& solver) {
+template<int dim>
+void HistoryRecorder<dim>::resample(const Resampling<dim>& change, const ExplicitSolver<dim>& solver) {
   if (probes_.empty()) return;
-  const Cloud<2>& cloud = solver.conditions().cloud;
-  const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
-  const voronoi::Circumcircles circles = voronoi::circumcircles(cloud, mesh);
-  voronoi::NaturalNeighbours functions(cloud, mesh, circles);
+  const PointLocator<dim> locator(solver.conditions().cloud, solver.approximation().cells);
   for (ProbeWeights& probe : probes_) {
-    Vec2 at = Vec2::Zero();
+    Vec<dim> at = Vec<dim>::Zero();
     for (std::size_t k = 0; k < probe.node.size(); ++k)
       at += probe.weight[k] * change.old_position[index_of(probe.node[k])];
     try {
-      functions.evaluate(voronoi::Functions::sibson, at);
-      probe.node.assign(functions.nodes().begin(), functions.nodes().end());
-      probe.weight.assign(functions.values().begin(), functions.values().end());
+      static_cast<PointWeights&>(probe) = locator.weights(at);
     } catch (const GeometryError&) { // cut off with a corner of the boundary: the nearest node goes on
-      std::size_t nearest = 0;
-      for (std::size_t i = 1; i < cloud.position.size(); ++i)
-        if ((cloud.position[i] - at).squaredNorm() < (cloud.position[nearest] - at).squaredNorm())
-          nearest = i;
-      probe.node = {static_cast<std::int32_t>(nearest)};
-      probe.weight = {1.0};
+      static_cast<PointWeights&>(probe) = locator.nearest_node(at);
     }
   }
 }
 
-void HistoryRecorder::archive(Archive& archive) {
+template<int dim> void HistoryRecorder<dim>::archive(Archive& archive) {
   for (ProbeWeights& probe : probes_) {
     archive.integers(fmt::format("run/history/probe/{}/node", probe.name), probe.node);
     archive.list(fmt::format("run/history/probe/{}/weight", probe.name), "1", probe.weight);
   }
   archive.integer("run/history/rows", rows_);
-  archive.number("run/history/initial_area", "m^2", initial_area_);
+  archive.number("run/history/initial_area", "m^2", initial_measure_);
   archive.number("run/history/initial_mass", "kg/m", initial_mass_);
   archive.number("run/history/worst_residual", "J/m", worst_residual_);
   archive.number("run/history/last_residual", "J/m", last_residual_);
@@ -223,12 +239,12 @@ void HistoryRecorder::archive(Archive& archive) {
   }
 }
 
-void HistoryRecorder::resume(const ExplicitSolver<2>& solver) {
+template<int dim> void HistoryRecorder<dim>::resume(const ExplicitSolver<dim>& solver) {
   writer_.clear();
   writer_.push_back(HistoryWriter::resume(folder_ / files::history, names_of(row(solver)), rows_));
 }
 
-EnergyScale HistoryRecorder::energy_scale() const {
+template<int dim> EnergyScale HistoryRecorder<dim>::energy_scale() const {
   constexpr double rest = 1e-7; // m/s
   const double resting = 0.5 * initial_mass_ * rest * rest;
   if (scale_ > resting) return {scale_, "the work done"};
@@ -236,9 +252,11 @@ EnergyScale HistoryRecorder::energy_scale() const {
   return {resting, "the energy of a body at rest, where nothing has done work"};
 }
 
-double HistoryRecorder::energy_residual() const { return worst_residual_ / energy_scale().energy; }
+template<int dim> double HistoryRecorder<dim>::energy_residual() const {
+  return worst_residual_ / energy_scale().energy;
+}
 
-std::string HistoryRecorder::kinetic_warning(const input::Case& input) const {
+template<int dim> std::string HistoryRecorder<dim>::kinetic_warning(const input::Case& input) const {
   constexpr double small = 0.05;
   if (!input.time.mass_scaling || kinetic_share() <= small) return "";
   return fmt::format(
@@ -247,34 +265,35 @@ std::string HistoryRecorder::kinetic_warning(const input::Case& input) const {
       kinetic_share(), small);
 }
 
-void write_lines(const input::Case& input, const Snapshot& shot, const std::filesystem::path& folder) {
+template<int dim>
+void write_lines(const input::Case& input, const Snapshot<dim>& shot, const std::filesystem::path& folder) {
   if (input.output.lines.empty()) return;
-  Cloud<2> initial = shot.cloud;
+  Cloud<dim> initial = shot.cloud;
   for (std::size_t i = 0; i < initial.position.size(); ++i)
-    initial.position[i] = {shot.state.node.initial_position[0][i], shot.state.node.initial_position[1][i]};
-  const voronoi::Triangulation mesh = voronoi::triangulate(initial);
-  const voronoi::Circumcircles circles = voronoi::circumcircles(initial, mesh);
-  voronoi::NaturalNeighbours functions(initial, mesh, circles);
+    for (int k = 0; k < dim; ++k) initial.position[i][k] = shot.state.node.initial_position[index_of(k)][i];
+  const PointLocator<dim> locator(initial, shot.approximation.cells);
   std::filesystem::create_directories(folder / files::lines_folder);
   for (const input::SampleLine& line : input.output.lines) {
-    std::string text = "distance[m],x[m],y[m]";
+    std::string text = dim == 2 ? "distance[m],x[m],y[m]" : "distance[m],x[m],y[m],z[m]";
     std::vector<Field> fields;
     for (const std::string& name : line.fields) {
-      text += fmt::format(",{}", with_unit(name, field_info(name).unit));
+      text += fmt::format(",{}", with_unit(name, field_info<dim>(name).unit));
       fields.push_back(values_at_nodes(shot, name));
     }
     text += "\n";
+    const Vec<dim> from = line.from.head<dim>(), to = line.to.head<dim>();
     for (int k = 0; k < line.samples; ++k) {
-      const Vec2 x = line.from + (line.to - line.from) * (static_cast<double>(k) / (line.samples - 1));
+      const Vec<dim> x = from + (to - from) * (static_cast<double>(k) / (line.samples - 1));
+      PointWeights point;
       try {
-        functions.evaluate(voronoi::Functions::sibson, x);
+        point = locator.weights(x);
       } catch (const GeometryError& error) { throw input.error("output.lines." + line.name, error.what()); }
-      text +=
-          fmt::format("{},{},{}", (x - line.from).norm(), input.origin.x() + x.x(), input.origin.y() + x.y());
+      text += fmt::format("{}", (x - from).norm());
+      for (int c = 0; c < dim; ++c) text += fmt::format(",{}", input.origin[c] + x[c]);
       for (const Field& field : fields) {
         double sum = 0.0;
-        for (std::size_t j = 0; j < functions.nodes().size(); ++j)
-          sum += functions.values()[j] * field[index_of(functions.nodes()[j])];
+        for (std::size_t j = 0; j < point.node.size(); ++j)
+          sum += point.weight[j] * field[index_of(point.node[j])];
         text += fmt::format(",{}", sum);
       }
       text += "\n";
@@ -283,24 +302,24 @@ void write_lines(const input::Case& input, const Snapshot& shot, const std::file
   }
 }
 
-void FieldRecorder::record(FileQueue& files, const Snapshot& shot) {
+template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<dim>& shot) {
   struct Kept {
-    FieldFrame frame;
-    CellGeometry<2> cells;
-    Fields<2> position, velocity, springback;
+    FieldFrame<dim> frame;
+    CellGeometry<dim> cells;
+    Fields<dim> position, velocity, springback;
     std::vector<Field> values;
   };
   const auto kept = std::make_shared<Kept>();
   kept->cells = shot.approximation.cells;
   kept->position = shot.state.node.position;
   kept->velocity = shot.state.node.velocity;
-  kept->values.reserve(2 * field_catalogue().size());
-  FieldFrame& frame = kept->frame;
+  kept->values.reserve(2 * field_catalogue<dim>().size());
+  FieldFrame<dim>& frame = kept->frame;
   frame.time = shot.state.time;
   frame.cells = &kept->cells;
-  frame.position = spans(kept->position);
+  frame.position = spans<dim>(kept->position);
   frame.origin = origin_;
-  for (const FieldInfo& info : field_catalogue()) {
+  for (const FieldInfo<dim>& info : field_catalogue<dim>()) {
     if (info.of_damage && shot.state.point.damage.empty()) continue;
     if (info.adaptive && !shot.adaptation) continue;
     const std::string name =
@@ -312,12 +331,19 @@ void FieldRecorder::record(FileQueue& files, const Snapshot& shot) {
     else
       frame.node_scalars.push_back({name, kept->values.emplace_back(values_at_nodes(shot, info.name))});
   }
-  frame.node_vectors.push_back({"velocity [m/s]", {kept->velocity[0], kept->velocity[1], {}}});
+  frame.node_vectors.push_back(vector_field<dim>("velocity [m/s]", kept->velocity));
   if (shot.springback) {
     kept->springback = *shot.springback;
-    frame.node_vectors.push_back({"springback [m]", {kept->springback[0], kept->springback[1], {}}});
+    frame.node_vectors.push_back(vector_field<dim>("springback [m]", kept->springback));
   }
-  writer_.write(files, {kept, &frame});
+  writer_.write(files, std::shared_ptr<const FieldFrame<dim>>(kept, &frame));
 }
+
+template class HistoryRecorder<2>;
+template class HistoryRecorder<3>;
+template void write_lines(const input::Case&, const Snapshot<2>&, const std::filesystem::path&);
+template void write_lines(const input::Case&, const Snapshot<3>&, const std::filesystem::path&);
+template void FieldRecorder::record(FileQueue&, const Snapshot<2>&);
+template void FieldRecorder::record(FileQueue&, const Snapshot<3>&);
 
 } // namespace cnem::results

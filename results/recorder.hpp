@@ -3,6 +3,7 @@
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "results/history_writer.hpp"
+#include "results/point_weights.hpp"
 #include "results/snapshot.hpp"
 #include "results/vtk_writer.hpp"
 
@@ -13,36 +14,34 @@
 
 namespace cnem::results {
 
-/// A material point as a weighted mean of nodes: natural-neighbour weights of its initial position.
-struct ProbeWeights {
+/// A material point whose fields are recorded.
+struct ProbeWeights : PointWeights {
   std::string name;
   std::vector<std::string> fields;
-  std::vector<std::int32_t> node;
-  std::vector<double> weight;
 };
 
-/// Units in the headers of histories: per metre of thickness, or of the whole body of revolution.
+/// Units in the headers of histories: per metre of thickness, or of whole bodies.
 struct HistoryUnits {
   std::string force = "[N/m]", energy = "[J/m]", mass = "[kg/m]";
 };
 HistoryUnits history_units(const input::Case& input);
 
 /// Names and values of history.csv.
-class HistoryRecorder {
+template<int dim> class HistoryRecorder {
 public:
   /// Throws InputError for probes outside the domain.
-  HistoryRecorder(const input::Case& input, const ExplicitSolver<2>& solver,
+  HistoryRecorder(const input::Case& input, const ExplicitSolver<dim>& solver,
                   const std::filesystem::path& folder);
 
-  void record(const ExplicitSolver<2>& solver);
+  void record(const ExplicitSolver<dim>& solver);
   /// Probes stay where they are in the matter of a changed cloud.
-  void resample(const Resampling<2>& change, const ExplicitSolver<2>& solver);
+  void resample(const Resampling<dim>& change, const ExplicitSolver<dim>& solver);
 
   /// What a checkpoint keeps of it.
   void archive(Archive& archive);
   /// Goes on with the history that is there: rows later than the checkpoint are dropped. Throws IoError when
   /// earlier ones are missing.
-  void resume(const ExplicitSolver<2>& solver);
+  void resume(const ExplicitSolver<dim>& solver);
 
   /// Largest |residual| seen over energy_scale().
   double energy_residual() const;
@@ -59,14 +58,14 @@ public:
   std::vector<std::pair<std::string, double>> metrics() const { return metrics_; }
 
 private:
-  std::vector<std::pair<std::string, double>> row(const ExplicitSolver<2>& solver) const;
+  std::vector<std::pair<std::string, double>> row(const ExplicitSolver<dim>& solver) const;
   void keep_metric(const std::string& name, double value, bool largest);
 
   HistoryUnits units_;
   std::vector<ProbeWeights> probes_;
   std::vector<HistoryWriter> writer_; ///< one; made with the first row, when the columns are known
   std::filesystem::path folder_;
-  double initial_area_ = 0.0, initial_mass_ = 0.0;
+  double initial_measure_ = 0.0, initial_mass_ = 0.0;
   std::int64_t rows_ = 0;
   double worst_residual_ = 0.0, last_residual_ = 0.0, scale_ = 0.0;
   double heat_ = 0.0;      ///< J/m, largest heat taken up or given off by a body that expands
@@ -77,22 +76,23 @@ private:
 
 /// Writes lines/NAME.csv for every line of the case: distance and initial position, then the fields, from
 /// natural-neighbour interpolation of nodal values.
-void write_lines(const input::Case& input, const Snapshot& shot, const std::filesystem::path& folder);
+template<int dim>
+void write_lines(const input::Case& input, const Snapshot<dim>& shot, const std::filesystem::path& folder);
 
 /// Writes fields.pvd frames with every field of the catalogue, through a queue that must outlive the frames.
 class FieldRecorder {
 public:
   /// origin: from which positions are counted, m.
-  FieldRecorder(const std::filesystem::path& folder, const Vec2& origin) : writer_(folder), origin_(origin) {}
+  FieldRecorder(const std::filesystem::path& folder, const Vec3& origin) : writer_(folder), origin_(origin) {}
   /// Goes on with the series that is there: frames later than `time` (s) are dropped. Throws IoError.
-  FieldRecorder(const std::filesystem::path& folder, const Vec2& origin, double time)
+  FieldRecorder(const std::filesystem::path& folder, const Vec3& origin, double time)
       : writer_(FieldWriter::resume(folder, time)), origin_(origin) {}
-  void record(FileQueue& files, const Snapshot& shot);
+  template<int dim> void record(FileQueue& files, const Snapshot<dim>& shot);
   int frames() const { return writer_.frames(); }
 
 private:
   FieldWriter writer_;
-  Vec2 origin_;
+  Vec3 origin_;
 };
 
 } // namespace cnem::results

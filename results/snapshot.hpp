@@ -7,17 +7,18 @@
 namespace cnem::results {
 
 /// A state with the approximation it lives on. References must outlive it.
-struct Snapshot {
-  const State<2>& state;
-  const Approximation<2>& approximation;
-  const Cloud<2>& cloud;
-  const contact::RigidContact<2>& contact;
+template<int dim> struct Snapshot {
+  const State<dim>& state;
+  const Approximation<dim>& approximation;
+  const Cloud<dim>& cloud;
+  const contact::RigidContact<dim>& contact;
   const AdaptationFields* adaptation = nullptr; ///< null: the cloud is not adapted
   double displacement_scale = 1.0;              ///< pictures draw initial position + scale · displacement
-  const Fields<2>* springback = nullptr;        ///< [k][node] m; null: not asked for, or not the end
+  const Fields<dim>* springback = nullptr;      ///< [k][node] m; null: not asked for, or not the end
 };
 
-inline Snapshot snapshot(const ExplicitSolver<2>& solver, const AdaptationFields* adaptation = nullptr) {
+template<int dim>
+Snapshot<dim> snapshot(const ExplicitSolver<dim>& solver, const AdaptationFields* adaptation = nullptr) {
   return {solver.state(), solver.approximation(), solver.conditions().cloud, solver.conditions().contact,
           adaptation};
 }

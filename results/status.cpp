@@ -76,6 +76,7 @@ std::string status_json(const RunStatus& status) {
                            {"y", number(post.y)},         {"field", post.field},
                            {"text", post.text},           {"causes", post.causes},
                            {"last_good", post.last_good}, {"picture", post.picture}};
+    if (std::isfinite(post.z)) json["post_mortem"]["z"] = post.z;
   }
   // Names may come from a user's file in any encoding: never fail on them.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -113,6 +114,7 @@ RunStatus read_status(const std::filesystem::path& folder) {
                                       post.at("node").get<int>(),
                                       as_number(post.at("x")),
                                       as_number(post.at("y")),
+                                      as_number(post.value("z", Json(nullptr))),
                                       post.at("field").get<std::string>(),
                                       post.at("text").get<std::string>(),
                                       post.value("causes", std::vector<std::string>{}),

@@ -17,6 +17,7 @@ struct PostMortem {
   int node = -1;
   double x = std::numeric_limits<double>::quiet_NaN(); ///< m
   double y = std::numeric_limits<double>::quiet_NaN(); ///< m
+  double z = std::numeric_limits<double>::quiet_NaN(); ///< m; in the plane none
   std::string field;
   std::string text;
   std::vector<std::string> causes; ///< likely ones, in plain words

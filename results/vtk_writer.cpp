@@ -46,16 +46,16 @@ void check_lengths(const std::vector<ScalarField>& scalars, const std::vector<Ve
       if (!component.empty()) check(field.name, component.size());
 }
 
-std::size_t cell_count(const FieldFrame& frame) {
+template<int dim> std::size_t cell_count(const FieldFrame<dim>& frame) {
   return frame.cells->begin.empty() ? 0 : frame.cells->begin.size() - 1;
 }
 
-std::size_t bytes_of(const FieldFrame& frame) {
+template<int dim> std::size_t bytes_of(const FieldFrame<dim>& frame) {
   const std::size_t nodes = frame.position[0].size(), cells = cell_count(frame);
-  const CellGeometry<2>& geometry = *frame.cells;
-  return sizeof(double) * (nodes * (2 + frame.node_scalars.size() + 3 * frame.node_vectors.size()) +
+  const CellGeometry<dim>& geometry = *frame.cells;
+  return sizeof(double) * (nodes * (dim + frame.node_scalars.size() + 3 * frame.node_vectors.size()) +
                            cells * (frame.cell_scalars.size() + 3 * frame.cell_vectors.size()) +
-                           2 * geometry.vertex.size() + 2 * geometry.vertex_weight.size());
+                           dim * geometry.vertex.size() + 2 * geometry.vertex_weight.size());
 }
 
 void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField>& scalars,
@@ -95,15 +95,18 @@ std::string text_of(vtkUnstructuredGrid& grid) {
   return writer->GetOutputString();
 }
 
-std::string cells_text(const FieldFrame& frame) {
-  const CellGeometry<2>& cells = *frame.cells;
+template<int dim> void set_point(vtkPoints& points, vtkIdType at, const Vec3& origin, const Vec<dim>& x) {
+  points.SetPoint(at, origin.x() + x.x(), origin.y() + x.y(), dim == 3 ? origin.z() + x[dim - 1] : 0.0);
+}
+
+template<int dim> std::string cells_text(const FieldFrame<dim>& frame) {
+  const CellGeometry<dim>& cells = *frame.cells;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  const std::vector<Vec2> vertices = moved_vertices(cells, frame.position);
+  const std::vector<Vec<dim>> vertices = moved_vertices<dim>(cells, frame.position);
   points->SetNumberOfPoints(static_cast<vtkIdType>(vertices.size()));
   for (std::size_t v = 0; v < vertices.size(); ++v)
-    points->SetPoint(static_cast<vtkIdType>(v), frame.origin.x() + vertices[v].x(),
-                     frame.origin.y() + vertices[v].y(), 0.0);
+    set_point<dim>(*points, static_cast<vtkIdType>(v), frame.origin, vertices[v]);
 
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points);
@@ -112,14 +115,15 @@ std::string cells_text(const FieldFrame& frame) {
   std::vector<vtkIdType> polygon;
   for (std::size_t c = 0; c < index_of(count); ++c) {
     polygon.assign(cells.index.begin() + cells.begin[c], cells.index.begin() + cells.begin[c + 1]);
-    grid->InsertNextCell(VTK_POLYGON, static_cast<vtkIdType>(polygon.size()), polygon.data());
+    grid->InsertNextCell(dim == 2 ? VTK_POLYGON : VTK_TETRA, static_cast<vtkIdType>(polygon.size()),
+                         polygon.data());
   }
   add_fields(*grid->GetCellData(), count, frame.cell_scalars, frame.cell_vectors);
   add_time(*grid, frame.time);
   return text_of(*grid);
 }
 
-std::string nodes_text(const FieldFrame& frame) {
+template<int dim> std::string nodes_text(const FieldFrame<dim>& frame) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   const auto count = static_cast<vtkIdType>(frame.position[0].size());
@@ -129,8 +133,9 @@ std::string nodes_text(const FieldFrame& frame) {
   grid->AllocateEstimate(count, 1);
   for (vtkIdType i = 0; i < count; ++i) {
     const auto at = index_of(i);
-    points->SetPoint(i, frame.origin.x() + frame.position[0][at], frame.origin.y() + frame.position[1][at],
-                     0.0);
+    Vec<dim> x;
+    for (int k = 0; k < dim; ++k) x[k] = frame.position[index_of(k)][at];
+    set_point<dim>(*points, i, frame.origin, x);
     grid->InsertNextCell(VTK_VERTEX, 1, &i);
   }
   add_fields(*grid->GetPointData(), count, frame.node_scalars, frame.node_vectors);
@@ -150,17 +155,6 @@ void set_up_vtk() {
 }
 
 } // namespace
-
-std::vector<Vec2> moved_vertices(const CellGeometry<2>& cells,
-                                 const std::array<std::span<const double>, 2>& position) {
-  std::vector<Vec2> moved(cells.vertex.size(), Vec2::Zero());
-  for (std::size_t v = 0; v < moved.size(); ++v)
-    for (auto k = index_of(cells.vertex_begin[v]); k < index_of(cells.vertex_begin[v + 1]); ++k) {
-      const auto node = index_of(cells.vertex_node[k]);
-      moved[v] += cells.vertex_weight[k] * Vec2(position[0][node], position[1][node]);
-    }
-  return moved;
-}
 
 FieldWriter::FieldWriter(fs::path folder) : folder_(std::move(folder)) {
   std::error_code error;
@@ -196,7 +190,7 @@ FieldWriter FieldWriter::resume(fs::path folder, double time) {
   return writer;
 }
 
-void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame> frame) {
+template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame<dim>> frame) {
   check_lengths(frame->cell_scalars, frame->cell_vectors, cell_count(*frame));
   check_lengths(frame->node_scalars, frame->node_vectors, frame->position[0].size());
   set_up_vtk();
@@ -212,6 +206,9 @@ void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame> fram
   entries_.push_back(std::move(entry));
   queue.put(folder_ / files::fields, collection());
 }
+
+template void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame<2>> frame);
+template void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame<3>> frame);
 
 std::string FieldWriter::collection() const {
   std::string xml = "<?xml version=\"1.0\"?>\n"

@@ -1,6 +1,6 @@
 #pragma once
 // Fields for ParaView and VTK: fields.pvd, a time series whose every time has two parts: the cells of the
-// stress points as polygons with cell data, and the nodes as points with point data.
+// stress points, polygons or tetrahedra, with cell data, and the nodes as points with point data.
 #include "core/discretisation.hpp"
 #include "results/file_queue.hpp"
 
@@ -27,11 +27,11 @@ struct VectorField {
 
 /// Everything written for one time. Whoever makes one keeps what its spans and pointers refer to alive and
 /// unchanged as long as the frame.
-struct FieldFrame {
+template<int dim> struct FieldFrame {
   double time = 0.0; ///< s
-  const CellGeometry<2>* cells = nullptr;
-  std::array<std::span<const double>, 2> position; ///< [component][node] m, present positions
-  Vec2 origin{0, 0};                               ///< m, from which positions are counted
+  const CellGeometry<dim>* cells = nullptr;
+  std::array<std::span<const double>, dim> position; ///< [component][node] m, present positions
+  Vec3 origin{0, 0, 0};                              ///< m, from which positions are counted
   std::vector<ScalarField> cell_scalars;
   std::vector<VectorField> cell_vectors;
   std::vector<ScalarField> node_scalars;
@@ -39,8 +39,17 @@ struct FieldFrame {
 };
 
 /// Present positions of the vertices of the cells, x_v = Σ weight x_node, m.
-std::vector<Vec2> moved_vertices(const CellGeometry<2>& cells,
-                                 const std::array<std::span<const double>, 2>& position);
+template<int dim>
+std::vector<Vec<dim>> moved_vertices(const CellGeometry<dim>& cells,
+                                     const std::array<std::span<const double>, dim>& position) {
+  std::vector<Vec<dim>> moved(cells.vertex.size(), Vec<dim>::Zero());
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    for (auto k = index_of(cells.vertex_begin[v]); k < index_of(cells.vertex_begin[v + 1]); ++k) {
+      const auto node = index_of(cells.vertex_node[k]);
+      for (int c = 0; c < dim; ++c) moved[v][c] += cells.vertex_weight[k] * position[index_of(c)][node];
+    }
+  return moved;
+}
 
 /// Writes fields/cells_*.vtu, fields/nodes_*.vtu and, after each frame, fields.pvd (replaced atomically, so
 /// that a killed run leaves a valid series).
@@ -55,7 +64,7 @@ public:
 
   /// Hands the files of the frame to `queue`, which makes them later. Throws InputError when a field has the
   /// wrong length, IoError.
-  void write(FileQueue& queue, std::shared_ptr<const FieldFrame> frame);
+  template<int dim> void write(FileQueue& queue, std::shared_ptr<const FieldFrame<dim>> frame);
 
   int frames() const { return static_cast<int>(entries_.size()); }
 

@@ -28,13 +28,13 @@ template<int dim> struct HeatFlux {
   std::vector<Facet<dim>> facets;
 };
 
-/// Exchange with surroundings: coefficient h in W/(m² K), ambient temperature in K.
-template<int dim> struct Convection {
+/// Exchange with surroundings.
+struct ConvectionLaw {
   std::string name;
-  TimeTable coefficient;
-  TimeTable ambient;
-  std::vector<Facet<dim>> facets;
+  TimeTable coefficient; ///< W/(m² K)
+  TimeTable ambient;     ///< K
 };
+template<int dim> struct Convection : ConvectionLaw { std::vector<Facet<dim>> facets; };
 
 /// Exchange between the two faces of an interface: conductance in W/(m² K).
 template<int dim> struct ContactConductance {

@@ -76,15 +76,15 @@ std::vector<double> components(const Value& value, const Key& key, std::size_t n
   if (list.size() == n) return list;
   const DimensionText wanted = describe(key.dimension);
   throw ConversionError(Mistake::type, value.where,
-                        n == 1 ? fmt::format("found {} numbers in {}, expected one: {} such as \"{}\"",
-                                             list.size(), value.show(), wanted.name, wanted.example)
-                               : fmt::format("found {} numbers in {}, expected {} such as \"0 {}\"",
-                                             list.size(), value.show(), n, wanted.example));
+                        n == 1
+                            ? fmt::format("found {} numbers in {}, expected one: {} such as \"{}\"",
+                                          list.size(), value.show(), wanted.name, wanted.example)
+                            : fmt::format("found {} numbers in {}, expected {} such as \"{}{}\"", list.size(),
+                                          value.show(), n, n == 3 ? "0 0 " : "0 ", wanted.example));
 }
 
-Vec2 vector(const Value& value, const Key& key) {
-  const std::vector<double> xy = components(value, key, 2);
-  return {xy[0], xy[1]};
+template<int n> Vec<n> vector(const Value& value, const Key& key) {
+  return Vec<n>(components(value, key, n).data());
 }
 
 std::vector<double> quantities(const Value& value, const Key& key, const Dimension& dimension) {
@@ -105,6 +105,12 @@ void check_members(const Value& table, const std::vector<std::string>& allowed) 
       throw ConversionError(Mistake::unknown_key, found.where,
                             fmt::format("unknown part '{}', expected {}{}", shortened(found.key),
                                         fmt::join(allowed, ", "), did_you_mean(found.key, allowed)));
+}
+
+std::vector<std::string> axes(std::size_t n) {
+  std::vector<std::string> names{"x", "y", "z"};
+  names.resize(n);
+  return names;
 }
 
 /// From `first` to `last`: straight, or along 10 s³ − 15 s⁴ + 6 s⁵, which starts and ends without a kink or a
@@ -128,9 +134,9 @@ std::vector<TimeTable> functions(const Value& value, const Key& key, std::size_t
     for (const double constant : components(value, key, n)) result.emplace_back(constant);
     return result;
   }
-  check_members(value, n == 1 ? std::vector<std::string>{"value", "ramp", "from", "smooth", "times", "values"}
-                              : std::vector<std::string>{"x", "y", "value", "ramp", "from", "smooth", "times",
-                                                         "values"});
+  std::vector<std::string> parts = n == 1 ? std::vector<std::string>{} : axes(n);
+  parts.insert(parts.end(), {"value", "ramp", "from", "smooth", "times", "values"});
+  check_members(value, parts);
   const Value *end = member(value, "value"), *ramp = member(value, "ramp"), *from = member(value, "from");
   const Value* smooth = member(value, "smooth");
   const Value *times = member(value, "times"), *values = member(value, "values");
@@ -182,15 +188,18 @@ std::vector<TimeTable> functions(const Value& value, const Key& key, std::size_t
 }
 
 VectorFunction vector_function(const Value& value, const Key& key) {
-  const Value *x = member(value, "x"), *y = member(value, "y");
-  if (value.kind != Kind::table || (!x && !y)) {
-    std::vector<TimeTable> both = functions(value, key, 2);
-    return {std::move(both[0]), std::move(both[1])};
-  }
-  check_members(value, {"x", "y"});
+  const std::vector<std::string> names = axes(key.components);
   VectorFunction result;
-  if (x) result[0] = functions(*x, key, 1).front();
-  if (y) result[1] = functions(*y, key, 1).front();
+  if (value.kind != Kind::table || std::none_of(names.begin(), names.end(), [&](const std::string& axis) {
+        return member(value, axis) != nullptr;
+      })) {
+    std::vector<TimeTable> all = functions(value, key, key.components);
+    std::move(all.begin(), all.end(), result.begin());
+    return result;
+  }
+  check_members(value, names);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (const Value* component = member(value, names[k])) result[k] = functions(*component, key, 1).front();
   return result;
 }
 
@@ -225,10 +234,10 @@ std::vector<std::string> words(const Value& value, const Key& key,
   return list;
 }
 
-std::vector<Vec2> vectors(const Value& value, const Key& key) {
+template<int n> std::vector<Vec<n>> vectors(const Value& value, const Key& key) {
   if (value.kind != Kind::array) wrong_type(value, key);
-  std::vector<Vec2> list;
-  for (const Value& element : value.elements) list.push_back(vector(element, key));
+  std::vector<Vec<n>> list;
+  for (const Value& element : value.elements) list.push_back(vector<n>(element, key));
   return list;
 }
 
@@ -260,9 +269,11 @@ SettingValue convert_value(const Value& value, const Key& key) {
   case Type::choices:
     return words(value, key, choice);
   case Type::vector:
-    return vector(value, key);
+    if (key.components == 3) return vector<3>(value, key);
+    return vector<2>(value, key);
   case Type::vectors:
-    return vectors(value, key);
+    if (key.components == 3) return vectors<3>(value, key);
+    return vectors<2>(value, key);
   case Type::quantities:
     return quantities(value, key, key.dimension);
   case Type::function:

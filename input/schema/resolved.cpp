@@ -18,7 +18,8 @@ template<class List, class Write> std::string array(const List& list, const Writ
 class ValueWriter {
 public:
   explicit ValueWriter(const Key& key)
-      : unit_(key.dimension.dimensionless() ? "" : describe(key.dimension).si_unit) {}
+      : unit_(key.dimension.dimensionless() ? "" : describe(key.dimension).si_unit),
+        components_(key.components) {}
 
   std::string operator()(std::monostate) const { return "\"\""; }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
@@ -28,14 +29,15 @@ public:
   }
   std::string operator()(const std::string& value) const { return toml_quoted(value); }
   std::string operator()(const std::vector<double>& list) const { return array(list, *this); }
-  std::string operator()(const Vec2& v) const {
-    return fmt::format("\"{} {}{}{}\"", format_number(v.x()), format_number(v.y()), unit_.empty() ? "" : " ",
-                       unit_);
+  template<int n> std::string operator()(const Vec<n>& v) const {
+    std::string text = format_number(v[0]);
+    for (int k = 1; k < n; ++k) text += fmt::format(" {}", format_number(v[k]));
+    return fmt::format("\"{}{}{}\"", text, unit_.empty() ? "" : " ", unit_);
   }
-  std::string operator()(const std::vector<Vec2>& list) const {
+  template<int n> std::string operator()(const std::vector<Vec<n>>& list) const {
     if (list.size() <= 8) return array(list, *this);
     std::string lines;
-    for (const Vec2& point : list) lines += "  " + (*this)(point) + ",\n";
+    for (const Vec<n>& point : list) lines += "  " + (*this)(point) + ",\n";
     return "[\n" + lines + "]";
   }
   std::string operator()(const std::vector<std::string>& list) const {
@@ -48,17 +50,20 @@ public:
                        array(table.values(), *this));
   }
   std::string operator()(const VectorFunction& function) const {
-    const auto& [x, y] = function;
-    if (x && y && x->times().size() == 1 && y->times().size() == 1)
-      return (*this)(Vec2(x->values().front(), y->values().front()));
+    const auto constant = [&](std::size_t k) { return function[k] && function[k]->times().size() == 1; };
+    const auto value = [&](std::size_t k) { return function[k]->values().front(); };
+    if (components_ == 2 && constant(0) && constant(1)) return (*this)(Vec2(value(0), value(1)));
+    if (constant(0) && constant(1) && constant(2)) return (*this)(Vec3(value(0), value(1), value(2)));
     std::string parts;
-    if (x) parts += "x = " + (*this)(*x);
-    if (y) parts += (parts.empty() ? "y = " : ", y = ") + (*this)(*y);
+    for (std::size_t k = 0; k < components_; ++k)
+      if (function[k])
+        parts += fmt::format("{}{} = {}", parts.empty() ? "" : ", ", axis_name(k), (*this)(*function[k]));
     return "{ " + parts + " }";
   }
 
 private:
   std::string unit_;
+  std::size_t components_; ///< of vectors
 };
 
 bool is_table(const Setting& setting) {

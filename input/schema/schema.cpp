@@ -33,12 +33,14 @@ std::string Key::example_text() const {
   if (type == Type::text || type == Type::texts) return "\"name\"";
   std::string quantity = describe(dimension).example;
   if (dimension.dimensionless()) return quantity;
-  if (type == Type::vector || type == Type::vector_function) return fmt::format("\"0 {}\"", quantity);
+  if (type == Type::vector || type == Type::vector_function)
+    return fmt::format("\"{}{}\"", components == 3 ? "0 0 " : "0 ", quantity);
   return fmt::format("\"{}\"", quantity);
 }
 
 std::string Key::expectation() const {
   const DimensionText unit = describe(dimension);
+  const std::string zeros = components == 3 ? "0 0 " : "0 ";
   const std::string such_as = " such as " + example_text();
   switch (type) {
   case Type::table:
@@ -62,7 +64,7 @@ std::string Key::expectation() const {
   case Type::choices:
     return fmt::format("an array of \"{}\"", fmt::join(choices, "\", \""));
   case Type::vector:
-    return fmt::format("two components in {}{}", unit.si_unit, such_as);
+    return fmt::format("{} components in {}{}", components == 3 ? "three" : "two", unit.si_unit, such_as);
   case Type::vectors:
     return fmt::format("an array of points{}", such_as);
   case Type::quantities:
@@ -71,10 +73,10 @@ std::string Key::expectation() const {
     return fmt::format("{} such as \"{}\", or {{ value, ramp, from }}, or {{ times, values }}", unit.name,
                        unit.example);
   case Type::vector_function:
-    return fmt::format(
-        "two components such as \"0 {}\", or a table with x and y, with value and ramp, or with "
-        "times and values",
-        unit.example);
+    return fmt::format("{} components such as \"{}{}\", or a table with {}, with value and ramp, or with "
+                       "times and values",
+                       components == 3 ? "three" : "two", zeros, unit.example,
+                       components == 3 ? "x, y and z" : "x and y");
   }
   return "";
 }
@@ -89,19 +91,51 @@ const Key* find_key(std::string_view pattern) {
   return found == index.end() ? nullptr : found->second;
 }
 
+namespace {
+
+/// The keys that `change` alters, by path; it says whether it did.
+template<class Change> std::map<std::string, Key, std::less<>> altered(const Change& change) {
+  std::map<std::string, Key, std::less<>> map;
+  for (const Key& plane : schema())
+    if (Key key = plane; change(key)) map.emplace(plane.path, std::move(key));
+  return map;
+}
+
+const Key& in(const std::map<std::string, Key, std::less<>>& map, const Key& key) {
+  const auto found = map.find(key.path);
+  return found == map.end() ? key : found->second;
+}
+
+bool make_round(Key& key) {
+  if (!key.revolution) return false;
+  key.dimension = *key.revolution;
+  key.example.clear();
+  return true;
+}
+
+bool make_spatial(Key& key) {
+  const bool vector =
+      key.type == Type::vector || key.type == Type::vectors || key.type == Type::vector_function;
+  if (vector && key.scope == Scope::everywhere) key.example.clear(); // it has two components
+  if (vector) key.components = 3;
+  if (!key.choices_in_space.empty()) {
+    key.choices = key.choices_in_space;
+    if (!key.fallback.empty()) key.fallback = fmt::format("\"{}\"", key.choices.front());
+  }
+  // Forces and masses are those of whole bodies, as of revolution.
+  return make_round(key) || vector || !key.choices_in_space.empty();
+}
+
+} // namespace
+
 const Key& in_revolution(const Key& key) {
-  static const std::map<std::string, Key, std::less<>> index = [] {
-    std::map<std::string, Key, std::less<>> map;
-    for (const Key& plane : schema()) {
-      if (!plane.revolution) continue;
-      Key& round = map.emplace(plane.path, plane).first->second;
-      round.dimension = *plane.revolution;
-      round.example.clear();
-    }
-    return map;
-  }();
-  const auto found = index.find(key.path);
-  return found == index.end() ? key : found->second;
+  static const auto map = altered(make_round);
+  return in(map, key);
+}
+
+const Key& in_space(const Key& key) {
+  static const auto map = altered(make_spatial);
+  return in(map, key);
 }
 
 std::string readable(std::string pattern) {

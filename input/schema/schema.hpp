@@ -23,12 +23,16 @@ enum class Type {
   choice,          ///< one of `choices`
   texts,           ///< "…" or ["…", "…"]
   choices,         ///< one or several of `choices`
-  vector,          ///< "x y unit" or ["x unit", "y unit"]
+  vector,          ///< "x y unit" or ["x unit", "y unit"], in space with z
   vectors,         ///< array of vectors
   quantities,      ///< "2 4 us" or ["2 us", "4 us"]
   function,        ///< quantity, { value, ramp, from } or { times, values }
-  vector_function, ///< vector, the same tables with vectors, or { x = function, y = function }
+  vector_function, ///< vector, the same tables with vectors, or { x = function, y = function }, in space with
+                   ///< z
 };
+
+/// In which analyses a key has a meaning.
+enum class Scope { everywhere, plane, space };
 
 /// Whether a key has to be written. For a table, `fallback` means that its own defaults hold without it.
 enum class Presence { required, fallback, optional };
@@ -62,8 +66,12 @@ struct Key {
   std::string fallback = {}; ///< TOML text of the default; for computed ones `computed` says how
   Dimension dimension = {};
   std::optional<Dimension> revolution = {}; ///< dimension in axisymmetric analyses, where that is another one
+  Scope scope = Scope::everywhere;
+  std::string scope_reason = {}; ///< why it has none elsewhere
+  std::size_t components = 2;    ///< of vectors; 3 in space
   Range range = anything;
   std::vector<std::string> choices = {};
+  std::vector<std::string> choices_in_space = {}; ///< where they are others
   Condition when = {};
   std::string example = {};  ///< TOML text
   std::string computed = {}; ///< words for a default that depends on other keys
@@ -82,8 +90,9 @@ const std::vector<Key>& schema();
 /// The key with this pattern; nullptr when there is none.
 const Key* find_key(std::string_view pattern);
 
-/// The key as it is in axisymmetric analyses.
+/// The key as it is in axisymmetric analyses, and in three-dimensional ones.
 const Key& in_revolution(const Key& key);
+const Key& in_space(const Key& key);
 
 /// A pattern for people: "tools.NAME.velocity".
 std::string readable(std::string pattern);

@@ -3,6 +3,7 @@
 #include "input/schema/schema.hpp"
 #include "mechanics/field_catalogue.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,7 +23,7 @@ wrong dimension. Anything can be overridden on the command line: `--set time.end
 | kind | how it is written |
 | --- | --- |
 | quantity | a text with number and unit, `"11 m/s"`; numbers without dimension stand alone, `0.3` |
-| vector | two numbers and one unit, `"20 10 mm"`, or `["20 mm", "10 mm"]` |
+| vector | two numbers, in three-dimensional analyses three, and one unit, `"20 10 mm"`, or `["20 mm", "10 mm"]` |
 | values | several numbers and one unit, `"2 4 us"`, or `["2 us", "4 us"]` |
 | function | a quantity (constant in time), `{ value = "11 m/s", ramp = "1 us" }` (linear from 0, or from `from`, then constant; with `smooth = true` without kinks, for loads that must not set the body swinging), or `{ times = "0 1 5 us", values = "0 11 0 m/s" }` (linear between, constant outside) |
 | vector function | a vector, the same tables with vectors, or `{ x = function, y = function }`, of which one may be left out |
@@ -121,6 +122,15 @@ std::string kind(const Key& key) {
   return "";
 }
 
+/// Of a table whose keys have a meaning in the plane or in space alone, with the reason.
+std::string scope_of(const Key& table) {
+  if (table.scope == Scope::everywhere) return "";
+  return fmt::format(" {}: {}.",
+                     table.scope == Scope::plane ? "Not in three-dimensional analyses"
+                                                 : "In three-dimensional analyses only",
+                     table.scope_reason);
+}
+
 std::string default_text(const Key& key) {
   if (key.presence == Presence::required) return "**required**";
   if (!key.fallback.empty()) return fmt::format("`{}`", key.fallback);
@@ -130,6 +140,8 @@ std::string default_text(const Key& key) {
 std::string meaning(const Key& key) {
   std::vector<std::string> parts;
   if (!key.doc.empty()) parts.push_back(key.doc);
+  if (key.scope == Scope::plane) parts.push_back("Not in three-dimensional analyses.");
+  if (key.scope == Scope::space) parts.push_back("Three-dimensional analyses only.");
   if (!key.when.sibling.empty())
     parts.push_back(fmt::format("With `{}` = `{}`.", key.when.sibling, fmt::join(key.when.values, "` or `")));
   if (key.range.bounded())
@@ -146,8 +158,8 @@ std::string case_reference() {
     const bool is_list = table.type == Type::table_list;
     if ((table.type != Type::table && !is_list) || belongs_to_outline(table)) continue;
     const std::string pattern = is_list ? table.path + "[]" : table.path;
-    text += fmt::format("\n### `{}`\n\n{}{}\n", readable(pattern), is_list ? "A piece." : table.doc,
-                        table.presence == Presence::required ? " Required." : "");
+    text += fmt::format("\n### `{}`\n\n{}{}{}\n", readable(pattern), is_list ? "A piece." : table.doc,
+                        table.presence == Presence::required ? " Required." : "", scope_of(table));
     std::string rows;
     for (const Key* key : members_of(pattern)) {
       if (belongs_to_outline(*key) || key->type == Type::table || key->type == Type::named_tables) continue;
@@ -157,9 +169,12 @@ std::string case_reference() {
     if (!rows.empty()) text += "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n" + rows;
   }
   text += "\n## Fields\n\n| name | unit | meaning |\n| --- | --- | --- |\n";
-  for (const FieldInfo& field : field_catalogue())
-    text += fmt::format("| `{}` | {} | {} |\n", field.name, field.unit.empty() ? "1" : field.unit,
-                        field.shown.meaning);
+  const std::vector<std::string> in_plane = field_names(2);
+  for (const FieldInfo<3>& field : field_catalogue<3>()) {
+    const bool everywhere = std::find(in_plane.begin(), in_plane.end(), field.name) != in_plane.end();
+    text += fmt::format("| `{}` | {} | {}{} |\n", field.name, field.unit.empty() ? "1" : field.unit,
+                        field.shown.meaning, everywhere ? "" : " (three-dimensional analyses)");
+  }
   std::string top;
   for (const Key* key : members_of(""))
     if (key->type == Type::text) top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);

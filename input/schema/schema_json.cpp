@@ -14,10 +14,12 @@ Json one_of(std::vector<Json> options) { return {{"anyOf", std::move(options)}};
 
 Json array_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
 
-Json pair_of(const Json& item) {
-  Json pair = array_of(item);
-  pair["minItems"] = pair["maxItems"] = 2;
-  return pair;
+/// Two components, or three.
+Json components_of(const Json& item, const Key& key) {
+  Json list = array_of(item);
+  list["minItems"] = key.scope == Scope::space ? 3 : 2;
+  list["maxItems"] = key.scope == Scope::plane ? 2 : 3;
+  return list;
 }
 
 /// A number with a unit; dimensionless ones may be bare.
@@ -50,7 +52,7 @@ Json object_schema(const std::string& pattern);
 
 Json value_schema(const Key& key) {
   Json scalar = quantity(key);
-  Json vector = one_of({text_type(), pair_of(scalar)});
+  Json vector = one_of({text_type(), components_of(scalar, key)});
   switch (key.type) {
   case Type::table:
     return object_schema(key.path);
@@ -85,10 +87,11 @@ Json value_schema(const Key& key) {
   case Type::function:
     return time_tables(scalar);
   case Type::vector_function: {
-    Json components{{"type", "object"},
-                    {"properties", {{"x", time_tables(scalar)}, {"y", time_tables(scalar)}}},
-                    {"minProperties", 1},
-                    {"additionalProperties", false}};
+    Json components{
+        {"type", "object"},
+        {"properties", {{"x", time_tables(scalar)}, {"y", time_tables(scalar)}, {"z", time_tables(scalar)}}},
+        {"minProperties", 1},
+        {"additionalProperties", false}};
     return one_of({time_tables(vector), std::move(components)});
   }
   }
@@ -118,7 +121,11 @@ Json object_schema(const std::string& pattern) {
     if (!key->example.empty())
       if (Json example = parsed_toml(key->example); !example.is_discarded())
         schema["examples"] = Json::array({std::move(example)});
-    if (key->presence == Presence::required && key->when.sibling.empty()) required.push_back(key->name());
+    const bool outside =
+        key->scope != Scope::everywhere &&
+        (!find_key(pattern) || key->scope != find_key(pattern)->scope); // depends on the analysis
+    if (key->presence == Presence::required && key->when.sibling.empty() && !outside)
+      required.push_back(key->name());
     properties[key->name()] = std::move(schema);
   }
   Json object{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};

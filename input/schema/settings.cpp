@@ -39,15 +39,18 @@ std::string suggestion(const std::string& name, const std::string& pattern, cons
 
 class Resolver {
 public:
-  Resolver(Diagnostics& diagnostics, bool revolution) : diagnostics_(diagnostics), revolution_(revolution) {}
+  Resolver(Diagnostics& diagnostics, std::string_view kinematics)
+      : diagnostics_(diagnostics), revolution_(kinematics == "axisymmetric"),
+        space_(kinematics == "three-dimensional") {}
 
   /// Fills the members of a table from what was written (nullptr: nothing).
   void table(Setting& setting, const Value* written, const std::string& pattern) {
     if (written) report_unknown(*written, pattern, setting.path);
     for (const Key* plane : members_of(pattern)) {
-      const Key* key = revolution_ ? &in_revolution(*plane) : plane;
+      const Key* key = space_ ? &in_space(*plane) : revolution_ ? &in_revolution(*plane) : plane;
       const Member* found = written ? written->find(key->name()) : nullptr;
       const std::string path = join(setting.path, key->name());
+      if (!in_scope(*key, found, path)) continue;
       if (!key->when.sibling.empty() && !applies(*key, setting, found, path)) continue;
       if (!found && key->presence != Presence::fallback) {
         if (key->presence == Presence::required) report_missing(*key, setting.where, path);
@@ -76,6 +79,16 @@ private:
       else
         diagnostics_.count(Mistake::unknown_key);
     }
+  }
+
+  /// Whether the key has a meaning in this analysis; if not, it must not have been written.
+  bool in_scope(const Key& key, const Member* found, const std::string& path) {
+    if (key.scope == Scope::everywhere || (key.scope == Scope::space) == space_) return true;
+    if (found)
+      diagnostics_.add(Mistake::conflict, found->where, path,
+                       fmt::format("found in a {} analysis, expected none: {}",
+                                   space_ ? "three-dimensional" : "plane", key.scope_reason));
+    return false;
   }
 
   /// Whether the key goes with its sibling's value; if not, it must not have been written.
@@ -165,14 +178,15 @@ private:
   }
 
   Diagnostics& diagnostics_;
-  bool revolution_;
+  bool revolution_, space_;
 };
 
-bool is_of_revolution(const Value& document) {
+/// What the document says of them, of which other keys depend; "" where it says nothing.
+std::string_view kinematics_of(const Value& document) {
   const Member* analysis = document.find("analysis");
   const Member* kinematics = analysis ? analysis->value.find("kinematics") : nullptr;
-  return kinematics && kinematics->value.kind == Value::Kind::text &&
-         kinematics->value.text == "axisymmetric";
+  const bool said = kinematics && kinematics->value.kind == Value::Kind::text;
+  return said ? std::string_view(kinematics->value.text) : "";
 }
 
 } // namespace
@@ -200,6 +214,21 @@ Setting* Setting::find(std::string_view relative) {
   return const_cast<Setting*>(static_cast<const Setting*>(this)->find(relative));
 }
 
+Vec3 Setting::vector(std::string_view relative) const {
+  const SettingValue& held = find(relative)->value;
+  if (const Vec2* plane = std::get_if<Vec2>(&held)) return {plane->x(), plane->y(), 0.0};
+  return std::get<Vec3>(held);
+}
+
+std::vector<Vec3> Setting::vectors(std::string_view relative) const {
+  const Setting* setting = find(relative);
+  if (!setting) return {};
+  if (const auto* space = std::get_if<std::vector<Vec3>>(&setting->value)) return *space;
+  std::vector<Vec3> list;
+  for (const Vec2& x : std::get<std::vector<Vec2>>(setting->value)) list.emplace_back(x.x(), x.y(), 0.0);
+  return list;
+}
+
 const std::vector<Setting>& Setting::entries(std::string_view relative) const {
   static const std::vector<Setting> none;
   const Setting* setting = find(relative);
@@ -223,8 +252,10 @@ void Setting::set_default(std::string_view relative, SettingValue computed) {
   // The schema is one array, so its order is that of addresses in it.
   const auto place = std::find_if(table->members.begin(), table->members.end(),
                                   [&](const Setting& other) { return find_key(other.key->path) > spec; });
+  const auto* function = std::get_if<VectorFunction>(&computed);
+  const bool spatial = std::holds_alternative<Vec3>(computed) || (function && (*function)[2]);
   table->members.insert(
-      place, {spec, member, join(table->path, member), table->where, false, std::move(computed), {}, {}});
+      place, {spatial ? &in_space(*spec) : spec, member, join(table->path, member), table->where, false, std::move(computed), {}, {}});
 }
 
 void Setting::erase(std::string_view relative) {
@@ -237,7 +268,7 @@ void Setting::erase(std::string_view relative) {
 Setting apply_schema(const Value& document, Diagnostics& diagnostics) {
   Setting root;
   root.where = document.where;
-  Resolver(diagnostics, is_of_revolution(document)).table(root, &document, "");
+  Resolver(diagnostics, kinematics_of(document)).table(root, &document, "");
   return root;
 }
 

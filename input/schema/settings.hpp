@@ -18,8 +18,8 @@ namespace cnem::input {
 bool valid_name(std::string_view name);
 
 using SettingValue =
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>, Vec2,
-                 std::vector<Vec2>, std::vector<std::string>, TimeTable, VectorFunction>;
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>, Vec2, Vec3,
+                 std::vector<Vec2>, std::vector<Vec3>, std::vector<std::string>, TimeTable, VectorFunction>;
 
 /// A key with its value, or a table with its members: keys in the order of the schema, names in the order
 /// they were written, elements of a list in theirs.
@@ -50,6 +50,10 @@ struct Setting {
     const Setting* setting = find(relative);
     return setting ? std::optional<T>(std::get<T>(setting->value)) : std::nullopt;
   }
+  /// A vector of the plane or of space; z = 0 in the plane.
+  Vec3 vector(std::string_view relative) const;
+  /// A list of them; none where the key is absent.
+  std::vector<Vec3> vectors(std::string_view relative) const;
   /// A choice as an enumeration whose values stand in the order of the schema.
   template<class E> E choice(std::string_view relative) const {
     const Setting& setting = *find(relative);

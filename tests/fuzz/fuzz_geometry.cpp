@@ -164,8 +164,8 @@ void check_interfaces(const input::Case& input, const Cloud<2>& cloud) {
   const std::vector<ContactConductance<2>> heat = app::conductances(input, cloud);
   std::size_t crossed = 0;
   for (const input::Interface& face : input.domain.interfaces) {
-    const auto front = app::facets_of(cloud, {face.name + "+"}),
-               back = app::facets_of(cloud, {face.name + "-"});
+    const auto front = app::facets_of<2>(cloud, {face.name + "+"}),
+               back = app::facets_of<2>(cloud, {face.name + "-"});
     if (front.empty() || front.size() != back.size())
       fail("facets of the faces of an interface", double(front.size()), double(back.size()));
     for (const auto& facets : {front, back})

@@ -183,7 +183,7 @@ Adapted run(const std::string& text, Texts overrides = {}, double residual = 5e-
   EXPECT_LT(result.metric("mass_balance.high"), 1.3);
   EXPECT_EQ(result.counted("outside"), 0.0);
   EXPECT_EQ(static_cast<double>(result.nodes.size()), result.column("nodes").back());
-  const int start = app::build(input).problem.cloud.nodes();
+  const int start = app::build<2>(input).problem.cloud.nodes();
   for (const char* what : {"mass_error", "momentum_error", "heat_error"})
     EXPECT_LT(result.counted(what), 1e-12) << what;
   EXPECT_LT(result.counted("energy_error"), 1e-10);

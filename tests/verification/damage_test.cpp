@@ -70,7 +70,7 @@ Breaking break_it(const std::string& text, const std::string& spacing, std::vect
   more.push_back(fmt::format("cloud.spacing=\"{}\"", spacing));
   const input::Case input = input::read_case_text(text, "case.toml", more);
   std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = make_solver(input, warnings);
+  ExplicitSolver<2> solver = make_solver<2>(input, warnings);
   StepControl control(input.time);
   ReferenceRenewal renewal(input.method);
   Breaking result;
@@ -135,7 +135,7 @@ lagrangian = "periodic"
       {"materials.steel.damage.D1=1e-9", "materials.steel.damage.fracture_energy=\"1 J/m2\"",
        "method.bulk_viscosity.linear=0", "method.bulk_viscosity.quadratic=0"});
   std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = make_solver(input, warnings);
+  ExplicitSolver<2> solver = make_solver<2>(input, warnings);
   const double first = solver.stable_step().dt;
   while (solver.state().time < 0.05e-6) solver.advance(0.02 * first);
   const State<2>& state = solver.state();

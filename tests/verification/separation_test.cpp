@@ -106,7 +106,7 @@ TEST(Separation, makes_two_bodies) {
   const input::Case input = input::read_case_text(blanked, "case.toml", {});
   const TemporaryFolder folder("separation");
   std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = app::make_solver(input, warnings);
+  ExplicitSolver<2> solver = app::make_solver<2>(input, warnings);
   app::StepControl control(input.time);
   app::ReferenceRenewal renewal(input.method);
   app::Adaptation adaptation(input, solver);

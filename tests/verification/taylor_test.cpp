@@ -24,7 +24,7 @@ Shape run(const std::string& name, const std::string& spacing, const std::string
   const input::Case input =
       input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
                        {"cloud.spacing=\"" + spacing + "\"", "method.name=" + method});
-  app::Setup setup = app::build(input);
+  app::Setup<2> setup = app::build<2>(input);
   ExplicitSolver<2> solver(std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature));
   while (solver.state().time < input.time.end) {
     const double dt = solver.stable_step().dt;

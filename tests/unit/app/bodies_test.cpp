@@ -37,7 +37,7 @@ input::Case read(const std::vector<std::string>& overrides) {
 }
 
 ExplicitSolver<2> start(const std::vector<std::string>& overrides) {
-  Setup setup = build(read(overrides));
+  Setup<2> setup = build<2>(read(overrides));
   return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
 }
 
@@ -192,7 +192,7 @@ TEST(Imperfection, lowers_the_strength_around_a_line) {
   const input::Case input =
       read({"initial.imperfections.line={ points = [\"0 1 mm\", \"10 1 mm\"], width = \"0.5 "
             "mm\", reduction = 0.1 }"});
-  const app::Setup setup = build(input);
+  const app::Setup<2> setup = build<2>(input);
   const Field& factor = setup.problem.strength;
   ASSERT_EQ(factor.size(), setup.problem.cloud.position.size());
   for (std::size_t i = 0; i < factor.size(); ++i) {

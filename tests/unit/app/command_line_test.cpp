@@ -282,8 +282,8 @@ TEST_F(CommandLine, check_says_what_a_run_would_be) {
 
 TEST(FieldCatalogue, is_the_one_the_case_reader_knows) {
   std::vector<std::string> names;
-  for (const FieldInfo& info : field_catalogue()) names.push_back(info.name);
-  std::vector<std::string> known = input::field_names();
+  for (const FieldInfo<2>& info : field_catalogue<2>()) names.push_back(info.name);
+  std::vector<std::string> known = input::field_names(2);
   std::sort(names.begin(), names.end());
   std::sort(known.begin(), known.end());
   EXPECT_EQ(names, known);

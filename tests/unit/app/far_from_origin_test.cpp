@@ -51,7 +51,7 @@ TEST(FarFromOrigin, the_patch_test_holds_in_dynamics) {
     for (const Vec2& place : far_places) {
       const input::Case input = input::read_case_text(stretched(place, rate), "case.toml");
       std::vector<std::string> warnings;
-      ExplicitSolver<2> solver = make_solver(input, warnings);
+      ExplicitSolver<2> solver = make_solver<2>(input, warnings);
       for (int step = 1; step <= 100; ++step) {
         if (step % renew_every == 0) solver.prepare();
         solver.advance(dt);

@@ -60,7 +60,7 @@ TEST_F(Axisymmetric, the_workpiece_must_not_cross_the_axis) {
 
 TEST_F(Axisymmetric, radial_motion_prescribed_on_the_axis_is_warned_of) {
   EXPECT_TRUE(build(read({})).warnings.empty());
-  const app::Setup setup =
+  const app::Setup<2> setup =
       build(read({"boundary.pull={ pieces = [\"top\"], velocity = { x = \"1 m/s\" } }"}));
   ASSERT_EQ(setup.warnings.size(), 1U);
   EXPECT_NE(setup.warnings[0].find("boundary.pull moves nodes on the axis"), std::string::npos);
@@ -74,7 +74,7 @@ TEST_F(Axisymmetric, statics_refuses_cracks) {
 }
 
 TEST_F(Axisymmetric, nodes_on_the_axis_are_held_and_at_least_two_gauss_points_taken) {
-  const app::Setup setup = build(read({}));
+  const app::Setup<2> setup = build<2>(read({}));
   const auto& supports = setup.problem.supports.list();
   ASSERT_EQ(supports.size(), 2U);
   EXPECT_EQ(supports[0].name, "axis");

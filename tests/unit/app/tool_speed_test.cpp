@@ -42,7 +42,7 @@ std::string punch(const std::string& velocity) {
 
 std::vector<std::string> warnings_of(const input::Case& input) {
   std::vector<std::string> none;
-  return supersonic_tools(input, make_solver(input, none));
+  return supersonic_tools(input, make_solver<2>(input, none));
 }
 
 TEST(ToolSpeed, width_is_seen_along_the_way) {
@@ -87,7 +87,7 @@ TEST(ToolSpeed, of_more_than_its_width_a_step_is_refused) {
       "[tools.punch]\nrectangle = { from = \"-1 2.1 mm\", to = \"5 2.2 mm\" }\nvelocity = \"0 -1 km/s\"\n";
   const input::Case input = read(foil);
   std::vector<std::string> none;
-  const ExplicitSolver<2> solver = make_solver(input, none);
+  const ExplicitSolver<2> solver = make_solver<2>(input, none);
   EXPECT_NO_THROW(check_tool_steps(input, solver, 0.99e-7));
   EXPECT_NO_THROW(check_moving_tools(input, solver, 0.99e-7));
   EXPECT_THROW(check_tool_steps(input, solver, 1.01e-7), InputError);

@@ -188,7 +188,7 @@ TEST(CaseReader, FullCaseInSI) {
     EXPECT_LE(piece.from.x(), 1e-12);
     EXPECT_GE(piece.from.x(), -0.002 - 1e-12);
   }
-  EXPECT_DOUBLE_EQ(punch.motion.velocity[1](1e-6), -5.5);
+  EXPECT_DOUBLE_EQ(punch.velocity[1].value()(1e-6), -5.5);
   EXPECT_EQ(punch.friction.coulomb, 0.2);
   EXPECT_EQ(punch.friction.shear_factor, 0.8);
   EXPECT_EQ(punch.thermal.temperature, 300.0);
@@ -254,7 +254,7 @@ TEST(CaseReader, OverridesReplaceAddAndAddressElements) {
   const Case c = read_case_text(full_case, "case.toml",
                                 {"domain.outer.path[1].fillet=2 mm", "tools.punch.velocity=0 -50 m/s",
                                  "boundary.bed.pieces=[\"bottom\", \"side\"]"});
-  EXPECT_EQ(c.tools[0].motion.velocity[1](0.0), -50.0);
+  EXPECT_EQ(c.tools[0].velocity[1].value()(0.0), -50.0);
   EXPECT_EQ(c.boundary[0].pieces.size(), 2U);
   for (const CurvePiece& piece : c.domain.outer.pieces) EXPECT_TRUE(!piece.is_arc() || piece.radius == 0.002);
 }
@@ -386,7 +386,7 @@ TEST(CaseReader, PaperCasesRead) {
     EXPECT_EQ(c.materials[0].conductivity, 5.86);
     EXPECT_EQ(c.material("304L").hardening->C, 0.0973);
     ASSERT_EQ(c.tools.size(), 2U);
-    EXPECT_EQ(c.tools[0].motion.velocity[1](0.0), -11.0);
+    EXPECT_EQ(c.tools[0].velocity[1].value()(0.0), -11.0);
     double right = -1.0, left = 1.0;
     for (const CurvePiece& piece : c.tools[0].outline.pieces) right = std::max(right, piece.from.x());
     for (const CurvePiece& piece : c.tools[1].outline.pieces) left = std::min(left, piece.from.x());

@@ -26,16 +26,16 @@ rectangle = { from = "0 5 mm", to = "12 8 mm" }
 
 TEST(Tools, VelocityMayRampSmoothly) {
   const Case plain = read_case_text(with_press(""), "x");
-  EXPECT_EQ(plain.tools.front().motion.velocity[1](1.0), 0.0);
+  EXPECT_EQ(plain.tools.front().velocity[1].value()(1.0), 0.0);
   const Case input = read_case_text(
       with_press("velocity = { y = { value = \"-4 m/s\", ramp = \"2 us\", smooth = true } }"), "x");
-  const TimeTable& velocity = input.tools.front().motion.velocity[1];
+  const TimeTable& velocity = input.tools.front().velocity[1].value();
   EXPECT_EQ(velocity(0.0), 0.0);
   EXPECT_NEAR(velocity(1e-6), -2.0, 1e-12);
   EXPECT_NEAR(velocity(0.25e-6), -4.0 * (std::pow(0.125, 3) * (10.0 + 0.125 * (6.0 * 0.125 - 15.0))), 1e-12);
   EXPECT_EQ(velocity(5e-6), -4.0);
   EXPECT_FALSE(input.tools.front().drive);
-  EXPECT_EQ(input.tools.front().motion.velocity[0](1.0), 0.0);
+  EXPECT_EQ(input.tools.front().velocity[0].value()(1.0), 0.0);
 }
 
 TEST(Tools, MassAndForceArePerThicknessOrOfTheWholeBody) {

@@ -83,17 +83,17 @@ Case read(double x, double y, const std::string& kinematics = "plane strain") {
 
 TEST(LocalOrigin, every_place_is_counted_from_it) {
   const Case near = read(0, 0), far = read(4096, -8192);
-  EXPECT_EQ(near.origin, Vec2(0, 0));
-  EXPECT_LT((far.origin - Vec2(4098, -8191)).norm(), 4.0) << "beside the middle of the workpiece";
+  EXPECT_EQ(near.origin, Vec3(0, 0, 0));
+  EXPECT_LT((far.origin - Vec3(4098, -8191, 0)).norm(), 4.0) << "beside the middle of the workpiece";
   const std::vector<Vec2> expected = places(near), found = places(far);
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t k = 0; k < expected.size(); ++k)
-    EXPECT_LT((expected[k] - (found[k] + far.origin - Vec2(4096, -8192))).norm(), 1e-11) << k;
+    EXPECT_LT((expected[k] - (found[k] + far.origin.head<2>() - Vec2(4096, -8192))).norm(), 1e-11) << k;
   EXPECT_NE(far.resolved.find("4096"), std::string::npos) << "the resolved case says where things are";
 }
 
 TEST(LocalOrigin, stays_where_the_workpiece_is_near) {
-  EXPECT_EQ(read(2, 3).origin, Vec2(0, 0));
+  EXPECT_EQ(read(2, 3).origin, Vec3(0, 0, 0));
   EXPECT_EQ(read(0, 1000).origin.x(), 0.0) << "each axis by itself";
   EXPECT_GT(read(0, 1000).origin.y(), 900.0);
 }
@@ -116,7 +116,7 @@ cloud = { pattern = "list", nodes = ["1024 0 m", "1025 0 m", "1025 1 m", "1024 1
 materials.steel = { density = "7850 kg/m3", elastic = { young = "210 GPa", poisson = 0.3 } }
 )";
   const Case c = read_case_text(list, "case.toml");
-  EXPECT_EQ(c.cloud.nodes[4] + c.origin, Vec2(1024.5, 0.5));
+  EXPECT_EQ(c.cloud.nodes[4] + c.origin.head<2>(), Vec2(1024.5, 0.5));
   EXPECT_LT(c.cloud.nodes[4].norm(), 2.0);
 }
 

@@ -1,0 +1,76 @@
+#include "app/plane_features.hpp"
+
+#include "app/divergence.hpp"
+#include "evaluate/blanking.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+
+#include <fmt/format.h>
+
+namespace cnem::app {
+
+void PlaneFeatures::start(const std::filesystem::path& folder, ExplicitSolver<2>& solver,
+                          const Adaptation::Follow& follow) {
+  adaptation_.start_log(folder);
+  adaptation_.fit_to_tools(solver, follow);
+  pictures_.emplace(*input_, folder);
+}
+
+void PlaneFeatures::resume(const std::filesystem::path& folder, double time) {
+  adaptation_.resume_log(folder);
+  pictures_.emplace(*input_, folder);
+  pictures_->truncate(time);
+}
+
+void PlaneFeatures::renew(ExplicitSolver<2>& solver, const Adaptation::Follow& follow) {
+  if (adaptation_.active())
+    adaptation_.renew(solver, follow);
+  else
+    solver.prepare();
+}
+
+results::Snapshot<2> PlaneFeatures::snapshot(const ExplicitSolver<2>& solver) {
+  results::Snapshot<2> shot = results::snapshot(solver);
+  if (adaptation_.active()) {
+    adaptation_fields_ = adaptation_.fields(solver.state().time);
+    shot.adaptation = &adaptation_fields_;
+  }
+  if (springback_) shot.springback = &springback_->displacement;
+  return shot;
+}
+
+std::string PlaneFeatures::draw_place(results::FileQueue& files, const ExplicitSolver<2>& solver,
+                                      std::size_t node) {
+  const Place<2> place = place_of(solver, node);
+  return pictures_->record_place(files, snapshot(solver), place.centre, place.radius);
+}
+
+std::string PlaneFeatures::unload(const ExplicitSolver<2>& solver) {
+  if (!input_->report.springback) return "";
+  const Model<2>& model = solver.model();
+  const State<2>& state = solver.state();
+  check_finite(state);
+  try {
+    springback_ = springback({solver.approximation(), state.point, state.node.position, state.node.mass,
+                              model.materials, solver.conditions().supports, model.stabilisation});
+    return "";
+  } catch (const InputError& error) { return fmt::format("there is no springback: {}", error.what()); }
+}
+
+void PlaneFeatures::evaluate(const std::filesystem::path& folder, const ExplicitSolver<2>& solver) {
+  if (!(input_->report.blanking || springback_)) return;
+  blanking_ = evaluate::evaluate_blanking(*input_, snapshot(solver), solver.conditions().supports,
+                                          springback_ ? &*springback_ : nullptr,
+                                          results::read_history(folder / results::files::history));
+  evaluate::write_blanking(folder, *blanking_);
+}
+
+std::vector<std::pair<std::string, double>> PlaneFeatures::metrics() const {
+  std::vector<std::pair<std::string, double>> list = adaptation_.metrics();
+  const auto add = [&](const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
+  if (blanking_ && !blanking_->punch.empty()) add(evaluate::metrics_of(*blanking_));
+  if (blanking_ && !blanking_->springback.empty()) add(evaluate::metrics_of(blanking_->springback));
+  return list;
+}
+
+} // namespace cnem::app

@@ -1,0 +1,57 @@
+#pragma once
+// What runs in the plane have and those in space have not: a cloud that follows the deformation, pictures,
+// springback, the evaluation of cuts.
+#include "app/adaptation.hpp"
+#include "evaluate/blanking_result.hpp"
+#include "evaluate/springback.hpp"
+#include "report/picture_recorder.hpp"
+#include "results/file_queue.hpp"
+#include "results/snapshot.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cnem::app {
+
+class PlaneFeatures {
+public:
+  /// `input` must outlive this object.
+  PlaneFeatures(const input::Case& input, const ExplicitSolver<2>& solver)
+      : input_(&input), adaptation_(input, solver) {}
+
+  /// Begins the files of a run, and fits the cloud to the tools before the first step. Throws IoError.
+  void start(const std::filesystem::path& folder, ExplicitSolver<2>& solver,
+             const Adaptation::Follow& follow);
+  /// Goes on with the files that are there; what is later than `time` (s) is dropped. Throws IoError.
+  void resume(const std::filesystem::path& folder, double time);
+  void archive(Archive& archive) { adaptation_.archive(archive); }
+
+  /// Makes a new reference. Throws GeometryError with the solver left as it was, IoError.
+  void renew(ExplicitSolver<2>& solver, const Adaptation::Follow& follow);
+
+  /// The state with all that is known of it, good until the next one.
+  results::Snapshot<2> snapshot(const ExplicitSolver<2>& solver);
+  void draw(results::FileQueue& files, const results::Snapshot<2>& shot) { pictures_->record(files, shot); }
+  /// Returns the file's name in the folder of pictures.
+  std::string draw_place(results::FileQueue& files, const ExplicitSolver<2>& solver, std::size_t node);
+
+  /// Lets the bodies go, where the case asks for it. Returns why that cannot be done; "" when it can.
+  std::string unload(const ExplicitSolver<2>& solver);
+  /// Evaluates the cut of a run that has ended, where the case asks for it, and writes it. Throws IoError.
+  void evaluate(const std::filesystem::path& folder, const ExplicitSolver<2>& solver);
+  /// Named results for status.json.
+  std::vector<std::pair<std::string, double>> metrics() const;
+
+private:
+  const input::Case* input_;
+  Adaptation adaptation_;
+  AdaptationFields adaptation_fields_;
+  std::optional<report::PictureRecorder> pictures_;
+  std::optional<Springback> springback_; ///< of the state at the end
+  std::optional<evaluate::BlankingResult> blanking_;
+};
+
+} // namespace cnem::app

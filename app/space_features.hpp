@@ -1,0 +1,34 @@
+#pragma once
+// What runs in space have of app/plane_features.hpp: no more than their state. What they have not is refused
+// by the reader (input/keys_space.cpp).
+#include "input/case.hpp"
+#include "mechanics/explicit_solver.hpp"
+#include "results/file_queue.hpp"
+#include "results/snapshot.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cnem::app {
+
+class SpaceFeatures {
+public:
+  using Follow = std::function<void(const Resampling<3>&)>;
+
+  SpaceFeatures(const input::Case&, const ExplicitSolver<3>&) {}
+  void start(const std::filesystem::path&, ExplicitSolver<3>&, const Follow&) {}
+  void resume(const std::filesystem::path&, double) {}
+  void archive(Archive&) {}
+  void renew(ExplicitSolver<3>& solver, const Follow&) { solver.prepare(); }
+  results::Snapshot<3> snapshot(const ExplicitSolver<3>& solver) { return results::snapshot(solver); }
+  void draw(results::FileQueue&, const results::Snapshot<3>&) {}
+  std::string draw_place(results::FileQueue&, const ExplicitSolver<3>&, std::size_t) { return ""; }
+  std::string unload(const ExplicitSolver<3>&) { return ""; }
+  void evaluate(const std::filesystem::path&, const ExplicitSolver<3>&) {}
+  std::vector<std::pair<std::string, double>> metrics() const { return {}; }
+};
+
+} // namespace cnem::app

@@ -1,0 +1,71 @@
+#include "app/workpiece.hpp"
+
+#include "clouds/generate.hpp"
+#include "clouds/tetrahedral_block.hpp"
+#include "core/error.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace cnem::app {
+namespace {
+
+clouds::DomainShape domain_shape(const input::Domain& domain) {
+  clouds::DomainShape shape;
+  shape.outer = domain.outer;
+  for (const input::Hole& hole : domain.holes) shape.holes.push_back(hole.outline);
+  shape.cracks.insert(shape.cracks.end(), domain.cracks.begin(), domain.cracks.end());
+  shape.cracks.insert(shape.cracks.end(), domain.interfaces.begin(), domain.interfaces.end());
+  return shape;
+}
+
+/// The grid of a block: it is cut on `low` to `high`, and `place` takes it to the workpiece.
+clouds::TetrahedralBlock make_block(const input::Block& block, double spacing) {
+  using Part = input::Block::Part;
+  const bool box = block.shape == input::Block::Shape::box;
+  // A cylinder is bent out of a prism over the square [−1, 1]², its half or its quarter.
+  const auto [box_low, box_high] = block.bounds();
+  const Vec3 low =
+      box ? box_low
+          : Vec3(block.part == Part::quarter ? 0.0 : -1.0, block.part == Part::whole ? -1.0 : 0.0, 0.0);
+  const Vec3 high = box ? box_high : Vec3(1.0, 1.0, block.length);
+  const Vec3 scale = box ? Vec3(1.0, 1.0, 1.0) : Vec3(block.radius, block.radius, 1.0);
+  std::array<int, 3> count;
+  for (int k = 0; k < 3; ++k)
+    count[index_of(k)] = std::max(1, static_cast<int>(std::lround(scale[k] * (high[k] - low[k]) / spacing)));
+  return clouds::tetrahedral_block(high - low, count, [&](const Vec3& at) -> Vec3 {
+    const Vec3 x = low + at;
+    if (box) return x;
+    const Vec2 disc = block.radius * clouds::disc_of_square({x.x(), x.y()});
+    return block.centre + Vec3(disc.x(), disc.y(), x.z());
+  });
+}
+
+} // namespace
+
+template<> Workpiece<2> make_workpiece(const input::Case& input) {
+  try {
+    clouds::GeneratedCloud generated =
+        clouds::generate_cloud(domain_shape(input.domain), input.cloud, input.cloud);
+    return {std::move(generated.cloud), input.method.options, std::move(generated.warnings)};
+  } catch (const clouds::SpacingError& error) {
+    throw input.error("cloud.spacing", error.what());
+  } catch (const GeometryError& error) {
+    const bool list = input.cloud.pattern == clouds::Pattern::list;
+    throw input.error(list ? "cloud.nodes" : "domain", error.what());
+  }
+}
+
+template<> Workpiece<3> make_workpiece(const input::Case& input) {
+  const input::Block& block = *input.domain.block;
+  try {
+    clouds::TetrahedralBlock made = make_block(block, input.cloud.spacing);
+    const auto faces = block.faces();
+    made.cloud.piece_names.assign(faces.begin(), faces.end());
+    Workpiece<3> workpiece{std::move(made.cloud), input.method.options, {}};
+    workpiece.options.tetrahedra = std::move(made.tetrahedra);
+    return workpiece;
+  } catch (const GeometryError& error) { throw input.error("domain.block", error.what()); }
+}
+
+} // namespace cnem::app

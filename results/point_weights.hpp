@@ -1,0 +1,37 @@
+#pragma once
+// Material points between nodes, for probes and lines.
+#include "core/cloud.hpp"
+#include "core/discretisation.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cnem::results {
+
+/// A point as a weighted mean of nodes; weights sum to 1 and reproduce its position.
+struct PointWeights {
+  std::vector<std::int32_t> node;
+  std::vector<double> weight; ///< –
+};
+
+/// Finds the weights of points in a cloud: Sibson's in the plane, linear ones in the tetrahedra of space.
+/// Keeps references to cloud and cells.
+template<int dim> class PointLocator {
+public:
+  /// cells: used in space alone.
+  PointLocator(const Cloud<dim>& cloud, const CellGeometry<dim>& cells);
+  ~PointLocator();
+
+  /// x: m. Throws GeometryError for a point outside. In space points outside by less than a twentieth of the
+  /// tetrahedron belong to it: flat faces stand for a round side.
+  PointWeights weights(const Vec<dim>& x) const;
+  PointWeights nearest_node(const Vec<dim>& x) const;
+
+private:
+  struct Structure; ///< what is searched
+  const Cloud<dim>& cloud_;
+  std::unique_ptr<Structure> structure_;
+};
+
+} // namespace cnem::results
