@@ -176,7 +176,7 @@ Setup build(const input::Case& input) {
   const Space space = input.analysis.space();
   model.contact = contact::RigidContact<2>(std::move(tools), space, input.contact);
   model.cloud = std::move(generated.cloud);
-  model.method = methods::make(input.method.name, input.method.options);
+  model.method = methods::make<2>(input.method.name, input.method.options);
   const std::vector<std::int32_t> region = region_of_nodes(input, model.cloud);
   set_materials(input, region, model);
   model.strength = strength(input, model.cloud);

@@ -66,7 +66,7 @@ constexpr std::array needs{
 std::string expectation(const Need& need) {
   const std::string instead(need.instead);
   return fmt::format("{}{}method.name = \"{}\"", instead, instead.empty() ? "" : " or ",
-                     fmt::join(methods::names_that_keep(need.promise), "\" or \""));
+                     fmt::join(methods::names_that_keep(need.promise, 2), "\" or \""));
 }
 
 } // namespace

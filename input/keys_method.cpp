@@ -11,7 +11,7 @@ void add_method(Keys& k) {
   k.add("method.name", choice,
         "Constrained natural elements, linear triangles, or total-Lagrangian corrected particles (SPH): "
         "docs/methods.md.")
-      .one_of(methods::names())
+      .one_of(methods::names_in(2))
       .fallback("\"cnem\"");
   k.add("method.functions", choice, "Natural neighbour functions (cnem).")
       .one_of({"sibson", "laplace"})

@@ -1,5 +1,6 @@
 #include "methods/fe_simplices.hpp"
 
+#include "core/error.hpp"
 #include "voronoi/triangulation.hpp"
 
 #include <numeric>
@@ -28,10 +29,17 @@ CellGeometry<dim> simplex_cells(const Cloud<dim>& cloud, std::span<const voronoi
 
 } // namespace
 
+template<int dim>
+FeSimplices<dim>::FeSimplices(std::vector<voronoi::Simplex<dim>> simplices) requires(dim == 3)
+    : simplices_(std::move(simplices)) {
+  if (simplices_.empty())
+    throw InputError("found no tetrahedra, expected a mesh that tiles the domain");
+}
+
 template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>& cloud) {
-  std::vector<voronoi::Simplex<dim>> simplices = simplices_;
-  if constexpr (dim == 2)
-    if (simplices.empty()) simplices = voronoi::triangulate(cloud).node;
+  std::vector<voronoi::Simplex<dim>> triangles;
+  if constexpr (dim == 2) triangles = voronoi::triangulate(cloud).node;
+  const std::span<const voronoi::Simplex<dim>> simplices = dim == 2 ? triangles : simplices_;
   Approximation<dim> result;
   result.mechanics = voronoi::linear_simplices<dim>(cloud, simplices, space_);
   result.conduction = result.mechanics;

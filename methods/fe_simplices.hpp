@@ -21,8 +21,8 @@ public:
 
   /// On the constrained Delaunay triangulation of the cloud.
   explicit FeSimplices(Space space = Space::plane) requires(dim == 2) : space_(space) {}
-  /// On these simplices, which tile the domain of every cloud it is given.
-  explicit FeSimplices(std::vector<voronoi::Simplex<dim>> simplices) : simplices_(std::move(simplices)) {}
+  /// On these simplices, which tile the domain of every cloud it is given. Throws InputError for none.
+  explicit FeSimplices(std::vector<voronoi::Simplex<dim>> simplices) requires(dim == 3);
 
   /// Throws GeometryError as voronoi::triangulate and voronoi::linear_simplices do.
   Approximation<dim> rebuild(const Cloud<dim>& cloud) override;
@@ -31,7 +31,7 @@ public:
 
 private:
   Space space_ = Space::plane;
-  std::vector<voronoi::Simplex<dim>> simplices_; ///< empty: those of the triangulation
+  std::vector<voronoi::Simplex<dim>> simplices_; ///< in space; in the plane each cloud is triangulated
 };
 
 using FeTriangles = FeSimplices<2>;

@@ -10,17 +10,18 @@
 namespace cnem::methods {
 namespace {
 
-using Made = std::unique_ptr<Discretisation<2>>;
-
 constexpr std::array list{
     Entry{"cnem", scni::Cnem::promised,
-          [](const Options& o) -> Made {
+          [](const Options& o) -> Made<2> {
             return std::make_unique<scni::Cnem>(scni::Options{o.functions, o.gauss_points, o.space});
-          }},
+          },
+          nullptr},
     Entry{"fe-triangles", FeTriangles::promised,
-          [](const Options& o) -> Made { return std::make_unique<FeTriangles>(o.space); }},
+          [](const Options& o) -> Made<2> { return std::make_unique<FeTriangles>(o.space); }, nullptr},
+    Entry{"fe-tetrahedra", FeTetrahedra::promised, nullptr,
+          [](const Options& o) -> Made<3> { return std::make_unique<FeTetrahedra>(o.tetrahedra); }},
     Entry{"sph", Sph::promised,
-          [](const Options& o) -> Made { return std::make_unique<Sph>(o.kernel, o.smoothing); }},
+          [](const Options& o) -> Made<2> { return std::make_unique<Sph>(o.kernel, o.smoothing); }, nullptr},
 };
 
 std::vector<std::string> names_where(auto&& wanted) {
@@ -46,15 +47,26 @@ std::vector<std::string> names() {
   return names_where([](const Entry&) { return true; });
 }
 
-std::vector<std::string> names_that_keep(Promise promise) {
-  return names_where([&](const Entry& method) { return method.promises.keep(promise); });
+std::vector<std::string> names_in(int dim) {
+  return names_where([&](const Entry& method) { return method.exists_in(dim); });
 }
 
-Made make(std::string_view name, const Options& options) {
+std::vector<std::string> names_that_keep(Promise promise, int dim) {
+  return names_where(
+      [&](const Entry& method) { return method.exists_in(dim) && method.promises.keep(promise); });
+}
+
+template<int dim> Made<dim> make(std::string_view name, const Options& options) {
   const Entry& method = entry(name);
+  if (!method.exists_in(dim))
+    throw InputError(fmt::format("found method '{}' in {} dimensions, expected one of {}", name, dim,
+                                 fmt::join(names_in(dim), ", ")));
   if (options.space == Space::revolution)
     require(method.promises, Promise::hoop_rows, method.name, "a body of revolution");
-  return method.make(options);
+  return method.maker<dim>()(options);
 }
+
+template Made<2> make(std::string_view, const Options&);
+template Made<3> make(std::string_view, const Options&);
 
 } // namespace cnem::methods

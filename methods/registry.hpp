@@ -1,8 +1,10 @@
 #pragma once
-// Every discretisation a case can name, with what it promises: the one place a new one is entered.
+// Every discretisation a case can name, with what it promises and the dimensions it exists in: the one place
+// a new one is entered.
 #include "cnem/scni.hpp"
 #include "core/revolution.hpp"
 #include "methods/sph.hpp"
+#include "voronoi/linear_simplices.hpp"
 
 #include <memory>
 #include <span>
@@ -19,12 +21,24 @@ struct Options {
   Kernel kernel = Kernel::cubic_spline;
   double smoothing = 2.4; ///< – support of the kernel in spacings, 1.5 to 5
   Space space = Space::plane;
+  std::vector<voronoi::Simplex<3>> tetrahedra{}; ///< in space: the mesh that tiles the domain
 };
 
+template<int dim> using Made = std::unique_ptr<Discretisation<dim>>;
+
 struct Entry {
-  std::string_view name; ///< as in a case
-  Promises promises;     ///< of each object that `make` returns
-  std::unique_ptr<Discretisation<2>> (*make)(const Options& options);
+  std::string_view name;            ///< as in a case
+  Promises promises;                ///< of each object that is made
+  Made<2> (*plane)(const Options&); ///< null: the method does not exist in the plane
+  Made<3> (*space)(const Options&); ///< null: it does not exist in space
+
+  template<int dim> constexpr auto maker() const {
+    if constexpr (dim == 2)
+      return plane;
+    else
+      return space;
+  }
+  constexpr bool exists_in(int dim) const { return dim == 2 ? plane != nullptr : space != nullptr; }
 };
 
 std::span<const Entry> registry();
@@ -32,12 +46,17 @@ std::span<const Entry> registry();
 /// Throws InputError for a name that is not registered.
 const Entry& entry(std::string_view name);
 
-/// Names of all entries, or of those that keep a promise, in the order of the registry.
+/// Names of all entries, of those that exist in `dim` dimensions, and of those that keep a promise there, in
+/// the order of the registry.
 std::vector<std::string> names();
-std::vector<std::string> names_that_keep(Promise promise);
+std::vector<std::string> names_in(int dim);
+std::vector<std::string> names_that_keep(Promise promise, int dim);
 
-/// Throws InputError for a name that is not registered, for options out of range, and for bodies of
-/// revolution with a method that does not promise hoop rows.
-std::unique_ptr<Discretisation<2>> make(std::string_view name, const Options& options);
+/// Throws InputError for a name that is not registered, a method that does not exist in `dim` dimensions,
+/// options out of range or missing, and for bodies of revolution with a method that does not promise hoop
+/// rows.
+template<int dim> Made<dim> make(std::string_view name, const Options& options);
+extern template Made<2> make(std::string_view, const Options&);
+extern template Made<3> make(std::string_view, const Options&);
 
 } // namespace cnem::methods
