@@ -32,8 +32,7 @@ CellGeometry<dim> simplex_cells(const Cloud<dim>& cloud, std::span<const voronoi
 template<int dim>
 FeSimplices<dim>::FeSimplices(std::vector<voronoi::Simplex<dim>> simplices) requires(dim == 3)
     : simplices_(std::move(simplices)) {
-  if (simplices_.empty())
-    throw InputError("found no tetrahedra, expected those that tile the domain: a mesh is part of the cloud");
+  if (simplices_.empty()) throw InputError("found no tetrahedra, expected a mesh that tiles the domain");
 }
 
 template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>& cloud) {

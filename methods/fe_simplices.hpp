@@ -31,8 +31,7 @@ public:
 
 private:
   Space space_ = Space::plane;
-  std::vector<voronoi::Simplex<dim>>
-      simplices_; ///< in space; in the plane they are those of the triangulation
+  std::vector<voronoi::Simplex<dim>> simplices_; ///< in space; in the plane each cloud is triangulated
 };
 
 using FeTriangles = FeSimplices<2>;

@@ -21,7 +21,7 @@ struct Options {
   Kernel kernel = Kernel::cubic_spline;
   double smoothing = 2.4; ///< – support of the kernel in spacings, 1.5 to 5
   Space space = Space::plane;
-  std::vector<voronoi::Simplex<3>> tetrahedra; ///< in space: the mesh that tiles the domain
+  std::vector<voronoi::Simplex<3>> tetrahedra{}; ///< in space: the mesh that tiles the domain
 };
 
 template<int dim> using Made = std::unique_ptr<Discretisation<dim>>;

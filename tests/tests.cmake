@@ -43,7 +43,7 @@ target_compile_definitions(test_restart PRIVATE CNEM_PROGRAM="$<TARGET_FILE:cnem
 add_dependencies(test_restart cnem)
 cnem_tests(conservation cnem_adapt cnem_mechanics cnem_methods)
 cnem_tests(degenerate cnem_clouds cnem_cnem cnem_methods)
-cnem_tests(contract cnem_cnem cnem_methods)
+cnem_tests(contract cnem_clouds cnem_cnem cnem_methods)
 cnem_tests(convergence cnem_app)
 cnem_tests(verification cnem_app VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
 cnem_tests(bad_input cnem_app)

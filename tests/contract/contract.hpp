@@ -1,7 +1,7 @@
 #pragma once
-// The fixture of the contract suite: one method, run on every domain.
+// The fixture of the contract suite: one method, run on every domain of its dimension. Checks are written
+// once, as templates on the dimension.
 #include "methods.hpp"
-#include "tests/clouds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,18 +9,25 @@ namespace cnem::testing {
 
 inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-inline Vec2 gradient(const DiscreteOperators<2>& op, std::size_t entry) {
-  return {op.gradient[0][entry], op.gradient[1][entry]};
+/// A vector of a field [component][entry].
+template<int dim> Vec<dim> vector_at(const Fields<dim>& field, std::size_t entry) {
+  Vec<dim> v;
+  for (std::size_t k = 0; k < dim; ++k) v[static_cast<Eigen::Index>(k)] = field[k][entry];
+  return v;
+}
+
+template<int dim> Vec<dim> gradient(const DiscreteOperators<dim>& op, std::size_t entry) {
+  return vector_at<dim>(op.gradient, entry);
 }
 
 /// N_pJ of an entry: the identity when nodal.
-inline double value(const DiscreteOperators<2>& op, std::size_t point, std::size_t entry) {
+template<int dim> double value(const DiscreteOperators<dim>& op, std::size_t point, std::size_t entry) {
   if (op.nodal) return index(op.node[entry]) == point ? 1.0 : 0.0;
   return op.value[entry];
 }
 
 /// Calls body(point, entry, node) for all entries of all rows.
-template<class Body> void for_each_entry(const DiscreteOperators<2>& op, Body&& body) {
+template<int dim, class Body> void for_each_entry(const DiscreteOperators<dim>& op, Body&& body) {
   for (std::size_t p = 0; p < index(op.points); ++p)
     for (auto e = index(op.row_begin[p]); e < index(op.row_begin[p + 1]); ++e) body(p, e, index(op.node[e]));
 }
@@ -31,19 +38,31 @@ inline constexpr Promises conduction_promises{Promise::non_negative_values, Prom
 
 class Contract : public ::testing::TestWithParam<Method> {
 protected:
-  static bool promised(Promise promise) { return GetParam().make()->promises().keep(promise); }
+  static bool promised(Promise promise) { return GetParam().entry->promises.keep(promise); }
+
+  /// Calls check(domain) for every domain.
+  template<class Check> static void on_every_cloud(Check&& check) {
+    const auto all = [&](const auto& domains) {
+      for (const auto& domain : domains) {
+        SCOPED_TRACE(domain.name);
+        check(domain);
+      }
+    };
+    if (GetParam().dim == 2)
+      all(all_domains<2>());
+    else
+      all(all_domains<3>());
+  }
 
   /// Rebuilds on every domain and calls check(domain, approximation).
-  template<class Check> void on_every_domain(Check&& check) const {
-    for (const NamedCloud& domain : domains()) {
-      SCOPED_TRACE(domain.name);
-      check(domain, GetParam().make()->rebuild(domain.cloud));
-    }
+  template<class Check> static void on_every_domain(Check&& check) {
+    on_every_cloud(
+        [&](const auto& domain) { check(domain, GetParam().make(domain)->rebuild(domain.cloud)); });
   }
 
   /// Calls check(domain, operators) for the operators of mechanics and of conduction on every domain.
-  template<class Check> void on_all_operators(Check&& check) const {
-    on_every_domain([&](const NamedCloud& domain, const Approximation<2>& approximation) {
+  template<class Check> static void on_all_operators(Check&& check) {
+    on_every_domain([&](const auto& domain, const auto& approximation) {
       {
         SCOPED_TRACE("mechanics");
         check(domain, approximation.mechanics);
@@ -54,8 +73,8 @@ protected:
   }
 
   /// The same for those of both that keep a promise.
-  template<class Check> void on_operators_that_keep(Promise promise, Check&& check) const {
-    on_every_domain([&](const NamedCloud& domain, const Approximation<2>& approximation) {
+  template<class Check> static void on_operators_that_keep(Promise promise, Check&& check) {
+    on_every_domain([&](const auto& domain, const auto& approximation) {
       if (promised(promise)) {
         SCOPED_TRACE("mechanics");
         check(domain, approximation.mechanics);

@@ -1,6 +1,7 @@
 #pragma once
-// Every discretisation that has to keep the contract: all of the registry, C-NEM and SPH with all their
-// options.
+// Every discretisation that has to keep the contract: all of the registry in each dimension it exists in,
+// C-NEM and SPH with all their options.
+#include "domains.hpp"
 #include "methods/registry.hpp"
 
 #include <algorithm>
@@ -15,8 +16,13 @@ struct Method {
   std::string name;
   const methods::Entry* entry;
   methods::Options options;
+  int dim = 2;
 
-  std::unique_ptr<Discretisation<2>> make() const { return methods::make(entry->name, options); }
+  template<int dim> std::unique_ptr<Discretisation<dim>> make(const Domain<dim>& domain) const {
+    methods::Options given = options;
+    given.tetrahedra = domain.mesh;
+    return methods::make<dim>(entry->name, given);
+  }
 };
 
 inline void PrintTo(const Method& method, std::ostream* os) { *os << method.name; }
@@ -24,7 +30,8 @@ inline void PrintTo(const Method& method, std::ostream* os) { *os << method.name
 inline std::vector<Method> methods(Space space = Space::plane) {
   std::vector<Method> list;
   for (const methods::Entry& entry : methods::registry()) {
-    if (space == Space::revolution && !entry.promises.keep(Promise::hoop_rows)) continue;
+    if (space == Space::revolution && !(entry.exists_in(2) && entry.promises.keep(Promise::hoop_rows)))
+      continue;
     methods::Options options;
     options.space = space;
     if (entry.name == "cnem") {
@@ -38,12 +45,14 @@ inline std::vector<Method> methods(Space space = Space::plane) {
     } else if (entry.name == "sph") {
       for (const auto kernel : {methods::Kernel::cubic_spline, methods::Kernel::wendland_c2}) {
         options.kernel = kernel;
-        list.push_back({methods::make(entry.name, options)->name(), &entry, options});
+        list.push_back({methods::make<2>(entry.name, options)->name(), &entry, options});
       }
     } else {
       std::string name(entry.name);
       std::replace(name.begin(), name.end(), '-', '_');
-      list.push_back({name, &entry, options});
+      for (const int dim : {2, 3})
+        if (entry.exists_in(dim))
+          list.push_back({name + (dim == 3 && entry.exists_in(2) ? "_3d" : ""), &entry, options, dim});
     }
   }
   return list;

@@ -10,10 +10,10 @@ namespace {
 constexpr double tolerance = 1e-12;
 
 /// The domains of the suite, moved to touch the axis and to stand half their size away from it.
-std::vector<NamedCloud> revolved_domains() {
-  std::vector<NamedCloud> list;
+std::vector<Domain<2>> revolved_domains() {
+  std::vector<Domain<2>> list;
   for (const double gap : {0.0, 0.5})
-    for (NamedCloud domain : domains()) {
+    for (Domain<2> domain : all_domains<2>()) {
       double least = 1e9;
       for (const Vec2& x : domain.cloud.position) least = std::min(least, x.x());
       for (Vec2& x : domain.cloud.position) x.x() += gap - least;
@@ -36,9 +36,9 @@ double solid_volume(const Cloud<2>& cloud) {
 class Revolution : public ::testing::TestWithParam<Method> {
 protected:
   template<class Check> void on_all_operators(Check&& check) const {
-    for (const NamedCloud& domain : revolved_domains()) {
+    for (const Domain<2>& domain : revolved_domains()) {
       SCOPED_TRACE(domain.name);
-      const Approximation<2> approximation = GetParam().make()->rebuild(domain.cloud);
+      const Approximation<2> approximation = GetParam().make(domain)->rebuild(domain.cloud);
       {
         SCOPED_TRACE("mechanics");
         check(domain, approximation.mechanics);
@@ -50,7 +50,7 @@ protected:
 };
 
 TEST_P(Revolution, gradients_of_constants_vanish_and_of_positions_are_the_identity) {
-  on_all_operators([](const NamedCloud& domain, const DiscreteOperators<2>& op) {
+  on_all_operators([](const Domain<2>& domain, const DiscreteOperators<2>& op) {
     std::vector<Vec2> sum(index(op.points), Vec2::Zero());
     std::vector<Mat2> g(index(op.points), Mat2::Zero());
     for_each_entry(op, [&](std::size_t p, std::size_t e, std::size_t j) {
@@ -65,7 +65,7 @@ TEST_P(Revolution, gradients_of_constants_vanish_and_of_positions_are_the_identi
 }
 
 TEST_P(Revolution, hoop_rows_see_a_uniform_radial_stretch) {
-  on_all_operators([](const NamedCloud& domain, const DiscreteOperators<2>& op) {
+  on_all_operators([](const Domain<2>& domain, const DiscreteOperators<2>& op) {
     ASSERT_TRUE(op.of_revolution());
     std::vector<double> stretch(index(op.points), 0.0), share(stretch);
     for_each_entry(op, [&](std::size_t p, std::size_t e, std::size_t j) {
@@ -81,7 +81,7 @@ TEST_P(Revolution, hoop_rows_see_a_uniform_radial_stretch) {
 }
 
 TEST_P(Revolution, volumes_fill_the_solid) {
-  on_all_operators([](const NamedCloud& domain, const DiscreteOperators<2>& op) {
+  on_all_operators([](const Domain<2>& domain, const DiscreteOperators<2>& op) {
     double sum = 0.0, carried = 0.0;
     for (const double v : op.volume) {
       EXPECT_GT(v, 0.0);
@@ -95,7 +95,7 @@ TEST_P(Revolution, volumes_fill_the_solid) {
 }
 
 TEST_P(Revolution, transpose_repeats_the_rows) {
-  on_all_operators([](const NamedCloud&, const DiscreteOperators<2>& op) {
+  on_all_operators([](const Domain<2>&, const DiscreteOperators<2>& op) {
     std::vector<std::size_t> next(op.col_begin.begin(), op.col_begin.end() - 1);
     for_each_entry(op, [&](std::size_t p, std::size_t e, std::size_t j) {
       const std::size_t t = next[j]++;
@@ -106,7 +106,7 @@ TEST_P(Revolution, transpose_repeats_the_rows) {
 }
 
 TEST_P(Revolution, patch_uniform_pressure_loads_the_boundary_only) {
-  on_all_operators([](const NamedCloud& domain, const DiscreteOperators<2>& op) {
+  on_all_operators([](const Domain<2>& domain, const DiscreteOperators<2>& op) {
     std::vector<Vec2> expected(index(op.nodes), Vec2::Zero()), force(expected);
     for (const Facet<2>& facet : domain.cloud.facets) {
       const Vec2 &a = domain.cloud.position[index(facet.node[0])],
@@ -124,7 +124,7 @@ TEST_P(Revolution, patch_uniform_pressure_loads_the_boundary_only) {
 }
 
 TEST_P(Revolution, patch_uniform_axial_stress_loads_the_boundary_only) {
-  on_all_operators([](const NamedCloud& domain, const DiscreteOperators<2>& op) {
+  on_all_operators([](const Domain<2>& domain, const DiscreteOperators<2>& op) {
     for (std::size_t j = 0; j < index(op.nodes); ++j) {
       double axial = 0.0, exact = 0.0;
       for (auto e = index(op.col_begin[j]); e < index(op.col_begin[j + 1]); ++e)
@@ -143,9 +143,9 @@ TEST_P(Revolution, patch_uniform_axial_stress_loads_the_boundary_only) {
 
 TEST(RevolvedSolids, methods_without_hoop_rows_are_refused_by_the_promise) {
   for (const methods::Entry& entry : methods::registry()) {
-    if (entry.promises.keep(Promise::hoop_rows)) continue;
+    if (entry.promises.keep(Promise::hoop_rows) || !entry.exists_in(2)) continue;
     try {
-      methods::make(entry.name, {.space = Space::revolution});
+      methods::make<2>(entry.name, {.space = Space::revolution});
       FAIL() << entry.name;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("hoop rows of bodies of revolution"), std::string::npos)

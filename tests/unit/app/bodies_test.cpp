@@ -43,7 +43,7 @@ ExplicitSolver<2> start(const std::vector<std::string>& overrides) {
 
 std::string refusal(const std::vector<std::string>& overrides) {
   try {
-    build(read(overrides));
+    build<2>(read(overrides));
   } catch (const InputError& error) { return error.what(); }
   return "";
 }

@@ -44,7 +44,7 @@ protected:
   }
   std::string refusal(const std::vector<std::string>& overrides) {
     try {
-      build(read(overrides));
+      build<2>(read(overrides));
     } catch (const InputError& error) { return error.what(); }
     return "";
   }
@@ -59,9 +59,9 @@ TEST_F(Axisymmetric, the_workpiece_must_not_cross_the_axis) {
 }
 
 TEST_F(Axisymmetric, radial_motion_prescribed_on_the_axis_is_warned_of) {
-  EXPECT_TRUE(build(read({})).warnings.empty());
+  EXPECT_TRUE(build<2>(read({})).warnings.empty());
   const app::Setup<2> setup =
-      build(read({"boundary.pull={ pieces = [\"top\"], velocity = { x = \"1 m/s\" } }"}));
+      build<2>(read({"boundary.pull={ pieces = [\"top\"], velocity = { x = \"1 m/s\" } }"}));
   ASSERT_EQ(setup.warnings.size(), 1U);
   EXPECT_NE(setup.warnings[0].find("boundary.pull moves nodes on the axis"), std::string::npos);
 }
@@ -80,7 +80,7 @@ TEST_F(Axisymmetric, nodes_on_the_axis_are_held_and_at_least_two_gauss_points_ta
   EXPECT_EQ(supports[0].name, "axis");
   EXPECT_EQ(supports[0].nodes.size(), 11U);
   EXPECT_EQ(read({}).method.options.gauss_points, 2);
-  EXPECT_EQ(build(read({"domain.outer.rectangle.from=\"1 0 mm\""})).problem.supports.list().size(), 1U);
+  EXPECT_EQ(build<2>(read({"domain.outer.rectangle.from=\"1 0 mm\""})).problem.supports.list().size(), 1U);
 }
 
 TEST_F(Axisymmetric, history_counts_the_whole_body) {

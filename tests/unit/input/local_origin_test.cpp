@@ -56,6 +56,9 @@ std::vector<Vec2> places(const Case& c) {
   const auto add = [&](const std::vector<Vec2>& points) {
     all.insert(all.end(), points.begin(), points.end());
   };
+  const auto add_places = [&](const std::vector<Vec3>& points) {
+    for (const Vec3& x : points) all.emplace_back(x.head<2>());
+  };
   const auto outline = [&](const Curve& curve) {
     for (const CurvePiece& piece : curve.pieces) {
       add({piece.from, piece.to});
@@ -68,12 +71,12 @@ std::vector<Vec2> places(const Case& c) {
   add(c.domain.interfaces.at(0).path);
   add({c.domain.regions.at(0).at});
   for (const clouds::Refinement& refinement : c.cloud.refinements) add(refinement.points);
-  add(c.boundary.at(0).points);
+  add_places(c.boundary.at(0).points);
   add({c.initial.spin->centre, c.initial.gradient->centre});
   add(c.initial.imperfections.at(0).points);
   outline(c.tools.at(0).outline);
-  add({c.output.windows.at(0).lower, c.output.windows.at(0).upper, c.output.probes.at(0).at,
-       c.output.lines.at(0).from, c.output.lines.at(0).to});
+  add({c.output.windows.at(0).lower, c.output.windows.at(0).upper});
+  add_places({c.output.probes.at(0).at, c.output.lines.at(0).from, c.output.lines.at(0).to});
   return all;
 }
 

@@ -67,11 +67,31 @@ TEST(Promises, identity_holds_one_point_per_node_and_interpolation_in_it) {
   for (const Promise promise : all_promises) EXPECT_FALSE(name_of(promise).empty());
 }
 
+using Names = std::vector<std::string>;
+
 TEST(Registry, names_methods_and_refuses_others) {
-  EXPECT_EQ(methods::names(), (std::vector<std::string>{"cnem", "fe-triangles", "sph"}));
-  EXPECT_EQ(methods::names_that_keep(Promise::balanced_constant_stress),
-            (std::vector<std::string>{"cnem", "fe-triangles"}));
+  EXPECT_EQ(methods::names_in(2), (Names{"cnem", "fe-triangles", "sph"}));
+  EXPECT_EQ(methods::names_in(3), Names{"fe-tetrahedra"});
+  EXPECT_EQ(methods::names().size(), 4U);
+  EXPECT_EQ(methods::names_that_keep(Promise::balanced_constant_stress, 2), (Names{"cnem", "fe-triangles"}));
+  EXPECT_EQ(methods::names_that_keep(Promise::hoop_rows, 3), Names{});
   EXPECT_THROW(methods::entry("sphe"), InputError);
+}
+
+/// The message that refuses a method; empty when it is made.
+template<int dim> std::string refusal(std::string_view name) {
+  try {
+    methods::make<dim>(name, {});
+    return {};
+  } catch (const InputError& error) { return error.what(); }
+}
+
+TEST(Registry, refuses_methods_that_do_not_exist_in_the_dimension) {
+  EXPECT_EQ(refusal<2>("fe-triangles"), "");
+  EXPECT_EQ(refusal<3>("cnem"), "found method 'cnem' in 3 dimensions, expected one of fe-tetrahedra");
+  EXPECT_EQ(refusal<2>("fe-tetrahedra"),
+            "found method 'fe-tetrahedra' in 2 dimensions, expected one of cnem, fe-triangles, sph");
+  EXPECT_NE(refusal<3>("fe-tetrahedra").find("found no tetrahedra"), std::string::npos);
 }
 
 TEST(CaseReader, particles_have_a_kernel_and_its_support) {
@@ -81,7 +101,7 @@ TEST(CaseReader, particles_have_a_kernel_and_its_support) {
   const Case chosen = read_small("[method]\nname = \"sph\"\nkernel = \"wendland_c2\"\nsmoothing = 3\n");
   EXPECT_EQ(chosen.method.options.kernel, methods::Kernel::wendland_c2);
   EXPECT_EQ(chosen.method.options.smoothing, 3.0);
-  EXPECT_EQ(methods::make(chosen.method.name, chosen.method.options)->name(), "sph_wendland_c2");
+  EXPECT_EQ(methods::make<2>(chosen.method.name, chosen.method.options)->name(), "sph_wendland_c2");
 }
 
 } // namespace

@@ -10,7 +10,6 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <numeric>
 #include <omp.h>
 #include <random>
 
@@ -79,26 +78,6 @@ Momenta momenta(const ExplicitSolver<3>& solver) {
     sum.angular += at(node.position, i).cross(mv);
   }
   return sum;
-}
-
-TEST(Tetrahedra, tile_the_block_and_reproduce_linear_fields) {
-  TetrahedralBlock block = jittered();
-  const auto op = methods::FeTetrahedra(block.tetrahedra).rebuild(block.cloud).mechanics;
-  EXPECT_EQ(block.tetrahedra.size(), 6U * 24U);
-  EXPECT_NEAR(std::accumulate(op.volume.begin(), op.volume.end(), 0.0), 24e-9, 1e-22);
-  for (std::size_t p = 0; p < static_cast<std::size_t>(op.points); ++p) {
-    Vec3 sum = Vec3::Zero();
-    Mat<3> one = Mat<3>::Zero();
-    for (auto e = static_cast<std::size_t>(op.row_begin[p]);
-         e < static_cast<std::size_t>(op.row_begin[p + 1]); ++e) {
-      const Vec3 b(op.gradient[0][e], op.gradient[1][e], op.gradient[2][e]);
-      sum += b;
-      one += block.cloud.position[static_cast<std::size_t>(op.node[e])] * b.transpose();
-      if (e > static_cast<std::size_t>(op.row_begin[p])) { EXPECT_LT(op.node[e - 1], op.node[e]); }
-    }
-    EXPECT_LT(sum.norm(), 1e-9 * 1e3) << p;
-    EXPECT_LT((one - Mat<3>::Identity()).norm(), 1e-12) << p;
-  }
 }
 
 /// Facets close the block, point outwards and are as large as its sides.
