@@ -122,9 +122,20 @@ std::string kind(const Key& key) {
   return "";
 }
 
+/// Whether the tables around a key leave its scope to be said.
+bool says_scope(const Key& key) {
+  if (key.scope == Scope::everywhere) return false;
+  for (std::string at = key.path; !at.empty();) {
+    const auto cut = at.find_last_of(".[");
+    at.resize(cut == std::string::npos ? 0 : cut);
+    if (const Key* table = find_key(at); table && table->scope == key.scope) return false;
+  }
+  return true;
+}
+
 /// Of a table whose keys have a meaning in the plane or in space alone, with the reason.
 std::string scope_of(const Key& table) {
-  if (table.scope == Scope::everywhere) return "";
+  if (!says_scope(table)) return "";
   return fmt::format(" {}: {}.",
                      table.scope == Scope::plane ? "Not in three-dimensional analyses"
                                                  : "In three-dimensional analyses only",
@@ -140,8 +151,9 @@ std::string default_text(const Key& key) {
 std::string meaning(const Key& key) {
   std::vector<std::string> parts;
   if (!key.doc.empty()) parts.push_back(key.doc);
-  if (key.scope == Scope::plane) parts.push_back("Not in three-dimensional analyses.");
-  if (key.scope == Scope::space) parts.push_back("Three-dimensional analyses only.");
+  if (says_scope(key))
+    parts.push_back(key.scope == Scope::plane ? "Not in three-dimensional analyses."
+                                              : "Three-dimensional analyses only.");
   if (!key.when.sibling.empty())
     parts.push_back(fmt::format("With `{}` = `{}`.", key.when.sibling, fmt::join(key.when.values, "` or `")));
   if (key.range.bounded())

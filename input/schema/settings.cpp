@@ -254,8 +254,14 @@ void Setting::set_default(std::string_view relative, SettingValue computed) {
                                   [&](const Setting& other) { return find_key(other.key->path) > spec; });
   const auto* function = std::get_if<VectorFunction>(&computed);
   const bool spatial = std::holds_alternative<Vec3>(computed) || (function && (*function)[2]);
-  table->members.insert(
-      place, {spatial ? &in_space(*spec) : spec, member, join(table->path, member), table->where, false, std::move(computed), {}, {}});
+  table->members.insert(place, {spatial ? &in_space(*spec) : spec,
+                                member,
+                                join(table->path, member),
+                                table->where,
+                                false,
+                                std::move(computed),
+                                {},
+                                {}});
 }
 
 void Setting::erase(std::string_view relative) {

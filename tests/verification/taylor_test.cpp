@@ -2,10 +2,16 @@
 #include "app/registry.hpp"
 #include "app/run.hpp"
 #include "input/case_reader.hpp"
+#include "results/history_writer.hpp"
 #include "results/status.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
 
 #include <filesystem>
 
@@ -93,6 +99,32 @@ TEST(TaylorBar, plane_strain_slab) {
   expect_near(particles.centre, shape.centre, 0.15,
               "plastic strain of particles"); // elsewhere: docs/methods.md
   EXPECT_LT(particles.residual, 1e-3);
+}
+
+// 21.44 mm of the same bar (Q4, 20 × 120, and the literature), in linear tetrahedra, which lock.
+TEST(TaylorBar, in_space_is_as_long_as_the_reference_says) {
+  const TemporaryFolder temporary("taylor_space");
+  const input::Case input =
+      input::read_case(CNEM_SOURCE_DIR "/cases/three_dimensions/taylor_tetrahedra/case.toml",
+                       {"cloud.spacing=0.8 mm", "output.history_every=80 us", "output.fields_every=80 us"});
+  ASSERT_EQ(app::run(input, {.output = temporary.path(), .force = true, .version = "test"}), Exit::done);
+  const results::HistoryTable history = results::read_history(temporary.path() / "history.csv");
+  const int column = history.find("probe.free_end.displacement_z");
+  ASSERT_GE(column, 0);
+  const double length = 32.4e-3 + history.column.at(static_cast<std::size_t>(column)).back();
+  EXPECT_NEAR(length, 21.44e-3, 0.03 * 21.44e-3);
+  EXPECT_LT(results::read_status(temporary.path()).energy_residual, 1e-3);
+
+  // What ParaView opens: tetrahedra with their fields, in three dimensions.
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((temporary.path() / "fields" / "cells_00001.vtu").c_str());
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  ASSERT_EQ(grid->GetNumberOfCells(), 6 * 4 * 4 * 41);
+  EXPECT_EQ(grid->GetCellType(0), VTK_TETRA);
+  EXPECT_NEAR(grid->GetBounds()[5], length, 0.02 * length);
+  ASSERT_NE(grid->GetCellData()->GetArray("equivalent plastic strain"), nullptr);
+  EXPECT_GT(grid->GetCellData()->GetArray("equivalent plastic strain")->GetRange()[1], 0.5);
 }
 
 } // namespace

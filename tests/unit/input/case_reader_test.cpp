@@ -177,7 +177,7 @@ TEST(CaseReader, FullCaseInSI) {
   EXPECT_TRUE(c.boundary[3].symmetry);
   EXPECT_DOUBLE_EQ((*c.boundary[3].heat_flux)(2e-6), 1000.0);
 
-  EXPECT_EQ(c.initial.velocity, Vec2(1, 2));
+  EXPECT_EQ(c.initial.velocity, Vec3(1, 2, 0));
   EXPECT_DOUBLE_EQ(c.initial.spin->rate, 20.0 * std::numbers::pi);
   EXPECT_EQ((*c.loads.body_force[1])(0.0), -9.81);
 

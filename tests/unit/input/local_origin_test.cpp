@@ -123,6 +123,48 @@ materials.steel = { density = "7850 kg/m3", elastic = { young = "210 GPa", poiss
   EXPECT_LT(c.cloud.nodes[4].norm(), 2.0);
 }
 
+TEST(LocalOrigin, shifts_blocks_and_planes) {
+  const auto at = [](double x) {
+    return read_case_text(fmt::format(R"(analysis.kinematics = "three-dimensional"
+time.end = "1 us"
+[domain]
+material = "steel"
+block = {{ from = "{0} 0 {0} m", to = "{1} 2 {1} m" }}
+[cloud]
+spacing = "1 m"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = {{ young = "210 GPa", poisson = 0.3 }}
+[method]
+lagrangian = "total"
+[boundary.hold]
+points = ["{0} 0 {0} m"]
+velocity = "0 0 0 m/s"
+[tools.wall]
+plane = {{ at = "{0} 0 {0} m", normal = "0 0 1" }}
+[output]
+probes.p = {{ at = "{1} 1 {1} m", fields = ["stress_yz"] }}
+lines.l = {{ from = "{0} 1 {0} m", to = "{1} 1 {1} m", fields = ["velocity_z"] }}
+)",
+                                      x, x + 2.0),
+                          "case.toml");
+  };
+  const Case near = at(0.0), far = at(4096.0);
+  EXPECT_EQ(near.origin, Vec3(0, 0, 0));
+  EXPECT_LT((far.origin - Vec3(4097, 0, 4097)).norm(), 4.0);
+  const auto places = [](const Case& c) {
+    return std::vector<Vec3>{c.domain.block->from, c.domain.block->to,    c.boundary[0].points[0],
+                             c.tools[0].plane->at, c.output.probes[0].at, c.output.lines[0].from,
+                             c.output.lines[0].to};
+  };
+  for (std::size_t k = 0; k < places(near).size(); ++k)
+    EXPECT_EQ(places(near)[k] + Vec3(4096, 0, 4096), places(far)[k] + far.origin) << k;
+  EXPECT_EQ(near.domain.block->centre + Vec3(0, 0, 0), Vec3(0, 0, 0));
+  EXPECT_TRUE(
+      far.placed("at (1, 2, 3) m")
+          .ends_with(fmt::format("places are counted from ({}, 0, {}) m", far.origin.x(), far.origin.z())));
+}
+
 TEST(LocalOrigin, is_named_by_messages_with_places) {
   const Case far = read(4096, 0), near = read(0, 0);
   const std::string place = "the tip at (0.25, -1e-3) m";
@@ -139,7 +181,11 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
   for (const Key& key : schema())
     if ((key.type == Type::vector || key.type == Type::vectors) && key.dimension == dimension::length)
       found.insert(key.path);
-  std::set<std::string> known{"domain.cracks.*.points",
+  std::set<std::string> known{"domain.block.from",
+                              "domain.block.to",
+                              "domain.block.centre",
+                              "tools.*.plane.at",
+                              "domain.cracks.*.points",
                               "domain.cracks.*.rotate.centre",
                               "domain.interfaces.*.points",
                               "domain.regions.*.at",

@@ -268,7 +268,7 @@ protected:
     results::FileQueue queue;
     results::FieldWriter writer(folder);
     for (const double time : {0.0, 1e-6})
-      writer.write(queue, std::make_shared<results::FieldFrame>(results::FieldFrame{
+      writer.write<2>(queue, std::make_shared<results::FieldFrame<2>>(results::FieldFrame<2>{
                               .time = time,
                               .cells = &cells,
                               .position = {position[0], position[1]},
@@ -328,7 +328,7 @@ TEST_F(VtuFiles, arrays_of_many_blocks_come_back_to_the_bit) {
     noise.push_back(1.0 / static_cast<double>(1 + random()));
   }
   results::FileQueue queue;
-  results::FieldWriter(folder).write(queue, std::make_shared<results::FieldFrame>(results::FieldFrame{
+  results::FieldWriter(folder).write<2>(queue, std::make_shared<results::FieldFrame<2>>(results::FieldFrame<2>{
                                                 .time = 0.0,
                                                 .cells = &cells,
                                                 .position = {position[0], position[1]},
