@@ -371,7 +371,7 @@ end = "12 us"
 material = "steel"
 block = { shape = "cylinder", part = "half", radius = "1 mm", length = "4 mm" }
 [cloud]
-spacing = "0.25 mm"
+spacing = "0.4 mm"
 [method]
 lagrangian = "total"
 [initial]

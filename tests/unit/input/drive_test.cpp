@@ -35,7 +35,7 @@ TEST(Tools, VelocityMayRampSmoothly) {
   EXPECT_NEAR(velocity(0.25e-6), -4.0 * (std::pow(0.125, 3) * (10.0 + 0.125 * (6.0 * 0.125 - 15.0))), 1e-12);
   EXPECT_EQ(velocity(5e-6), -4.0);
   EXPECT_FALSE(input.tools.front().drive);
-  EXPECT_EQ(input.tools.front().velocity[0].value()(1.0), 0.0);
+  EXPECT_FALSE(input.tools.front().velocity[0]) << "zero";
 }
 
 TEST(Tools, MassAndForceArePerThicknessOrOfTheWholeBody) {
