@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 #include "voronoi/triangulation.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <numeric>
 #include <span>
 
@@ -32,8 +34,7 @@ CellGeometry<dim> simplex_cells(const Cloud<dim>& cloud, std::span<const voronoi
 template<int dim>
 FeSimplices<dim>::FeSimplices(std::vector<voronoi::Simplex<dim>> simplices) requires(dim == 3)
     : simplices_(std::move(simplices)) {
-  if (simplices_.empty())
-    throw InputError("found no tetrahedra, expected a mesh that tiles the domain");
+  if (simplices_.empty()) throw InputError("found no tetrahedra, expected a mesh that tiles the domain");
 }
 
 template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>& cloud) {
@@ -44,6 +45,11 @@ template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>&
   result.mechanics = voronoi::linear_simplices<dim>(cloud, simplices, space_);
   result.conduction = result.mechanics;
   result.node_volume = result.mechanics.node_volume();
+  for (std::size_t i = 0; i < result.node_volume.size(); ++i)
+    if (!(result.node_volume[i] > 0.0))
+      throw GeometryError(fmt::format("the node at ({:g}) m belongs to no {}",
+                                      fmt::join(cloud.position[i].begin(), cloud.position[i].end(), ", "),
+                                      dim == 2 ? "triangle" : "tetrahedron"));
   result.links.begin.assign(cloud.position.size() + 1, 0);
   result.cells = simplex_cells<dim>(cloud, simplices);
   return result;
