@@ -8,33 +8,11 @@
 
 namespace cnem::adapt {
 
-namespace {} // namespace
-
 Structure build_structure(const Cloud<2>& cloud) {
   Structure s;
   s.mesh = voronoi::triangulate(cloud);
   s.circles = voronoi::circumcircles(cloud, s.mesh);
   s.cells = voronoi::constrained_cells(cloud, s.mesh, s.circles);
-
-  const std::size_t n = cloud.position.size();
-  std::vector<std::array<std::int32_t, 2>> edges;
-  edges.reserve(3 * n);
-  for (std::size_t t = 0; t < s.mesh.node.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (s.mesh.neighbour[t][k] < static_cast<std::int32_t>(t))
-        edges.push_back({s.mesh.node[t][(k + 1) % 3], s.mesh.node[t][(k + 2) % 3]});
-  s.begin.assign(n + 1, 0);
-  for (const auto& edge : edges)
-    for (const std::int32_t i : edge) ++s.begin[index_of(i) + 1];
-  for (std::size_t i = 0; i < n; ++i) s.begin[i + 1] += s.begin[i];
-  std::vector<std::int32_t> at(s.begin.begin(), s.begin.end() - 1);
-  s.neighbour.resize(2 * edges.size());
-  for (const auto& [a, b] : edges) {
-    s.neighbour[index_of(at[index_of(a)]++)] = b;
-    s.neighbour[index_of(at[index_of(b)]++)] = a;
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    std::sort(s.neighbour.begin() + s.begin[i], s.neighbour.begin() + s.begin[i + 1]);
   return s;
 }
 
@@ -59,15 +37,15 @@ Field spacing_of(const Cloud<2>& cloud, const Structure& structure) {
   return spacing;
 }
 
-std::vector<Contribution> contributions(const Cloud<2>& cloud, const voronoi::Cells& cells,
+std::vector<Contribution> contributions(const Cloud<2>& cloud, const CellComplex<2>& cells,
                                         const std::vector<char>& marked) {
   std::vector<Contribution> list;
-  for (const voronoi::InteriorFacet& facet : cells.interior) {
-    const auto [i, j] = facet.cell;
+  for (const InnerFace<2>& face : cells.interior) {
+    const auto [i, j] = face.cell;
     if (marked[index_of(i)] == marked[index_of(j)]) continue;
     const std::int32_t inside = marked[index_of(i)] ? i : j, other = marked[index_of(i)] ? j : i;
-    const double area =
-        0.5 * std::abs(cross(facet.start - cloud.position[index_of(inside)], facet.end - facet.start));
+    const double area = 0.5 * std::abs(cross(face.corner[0] - cloud.position[index_of(inside)],
+                                             face.corner[1] - face.corner[0]));
     list.push_back({inside, other, area});
   }
   std::sort(list.begin(), list.end(), [](const Contribution& a, const Contribution& b) {

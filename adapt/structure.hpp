@@ -17,13 +17,10 @@ struct Structure {
   voronoi::Triangulation mesh;
   voronoi::Circumcircles circles;
   voronoi::Cells cells;
-  std::vector<std::int32_t> begin;     ///< [node + 1] into `neighbour`
-  std::vector<std::int32_t> neighbour; ///< Delaunay neighbours, in increasing order
 
+  /// Delaunay neighbours, in increasing order.
   std::span<const std::int32_t> neighbours(std::int32_t node) const {
-    const auto first = index_of(begin[index_of(node)]);
-    const auto last = index_of(begin[index_of(node) + 1]);
-    return {neighbour.data() + first, last - first};
+    return cells.neighbours.of(index_of(node));
   }
 };
 
@@ -37,14 +34,14 @@ double spacing_at(const Cloud<2>& cloud, const Structure& structure, std::int32_
 /// That of all nodes.
 Field spacing_of(const Cloud<2>& cloud, const Structure& structure);
 
-/// The facet of two cells, where one of the two nodes is marked: area of the triangle of that facet and the
+/// The face of two cells, where one of the two nodes is marked: area of the triangle of that face and the
 /// marked node, m²: how much of the marked cell lies towards the other.
 struct Contribution {
   std::int32_t marked, other;
   double area;
 };
-/// All facets between a marked and an unmarked node, by marked node and then by the other.
-std::vector<Contribution> contributions(const Cloud<2>& cloud, const voronoi::Cells& cells,
+/// All faces between a marked and an unmarked node, by marked node and then by the other.
+std::vector<Contribution> contributions(const Cloud<2>& cloud, const CellComplex<2>& cells,
                                         const std::vector<char>& marked);
 
 /// Distance from x to the segment ab, and where its foot is on the line: 0 at a, 1 at b.

@@ -1,41 +1,117 @@
 #pragma once
-// Natural-neighbour functions integrated along the Voronoi facets, each facet once for its two cells.
+// Functions integrated along the faces between cells, each face once for its two cells.
+#include "core/cell_complex.hpp"
+#include "core/parallel.hpp"
 #include "core/revolution.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/natural_neighbours.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace cnem::scni {
 
-/// Means φ̄_J = (1/L) ∫ φ_J ds of the functions along each interior facet, as sparse rows.
-class FacetMeans {
+/// Means φ̄_J = (1/|Γ|) ∫ φ_J dΓ of the functions on each inner face, as sparse rows.
+class FaceMeans {
 public:
-  /// Stencil of an interior facet; empty for facets without length.
-  std::span<const std::int32_t> nodes(std::size_t facet) const;
-  /// φ̄ on that stencil; sums to 1. Of revolution the mean of r φ (m), which sums to the mean radius.
-  std::span<const double> values(std::size_t facet) const;
-
-private:
-  friend FacetMeans facet_means(const Cloud<2>&, const voronoi::Triangulation&, const voronoi::Circumcircles&,
-                                const voronoi::Cells&, voronoi::Functions, int, Space);
   static constexpr std::size_t block_size = 512;
   struct Block {
-    std::vector<std::int32_t> begin; ///< [facet of the block + 1]
+    std::vector<std::int32_t> begin; ///< [face of the block + 1]
     std::vector<std::int32_t> node;
     std::vector<double> value;
   };
+  explicit FaceMeans(std::vector<Block> blocks) : blocks_(std::move(blocks)) {}
+
+  /// Stencil of an inner face; empty for faces without area.
+  std::span<const std::int32_t> nodes(std::size_t face) const {
+    const Block& block = blocks_[face / block_size];
+    const auto* begin = &block.begin[face % block_size];
+    return {block.node.data() + begin[0], block.node.data() + begin[1]};
+  }
+  /// φ̄ on that stencil; sums to 1. Of revolution the mean of r φ (m), which sums to the mean radius.
+  std::span<const double> values(std::size_t face) const {
+    const Block& block = blocks_[face / block_size];
+    const auto* begin = &block.begin[face % block_size];
+    return {block.value.data() + begin[0], block.value.data() + begin[1]};
+  }
+
+private:
   std::vector<Block> blocks_;
 };
 
-/// Integrates with 1, 2 or 3 Gauss points per facet. Facets shorter than 1e-14 of the distance between their
-/// nodes (cocircular nodes) are skipped: they carry rounding only. Of revolution at least 2 points, without
-/// which r φ of linear fields would not be exact. Throws GeometryError where the domain is so thin that
-/// rounding puts a point of a facet outside of it.
-FacetMeans facet_means(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
-                       const voronoi::Circumcircles& circles, const voronoi::Cells& cells,
-                       voronoi::Functions functions, int gauss_points, Space space = Space::plane);
+/// Integrates with `face_rule(points)`. make() gives the functions, one object a thread: evaluate(x, simplex)
+/// at a point of a face with InnerFace::simplex, then nodes() and values(). Faces whose area is less than
+/// 1e-14 of the distance between their nodes (to the power dim − 1) are skipped: they carry rounding only. Of
+/// revolution at least 2 points are taken, without which r φ of linear fields would not be exact.
+template<int dim, class MakeFunctions>
+FaceMeans face_means(const Cloud<dim>& cloud, const CellComplex<dim>& cells, int points, Space space,
+                     MakeFunctions&& make) {
+  const auto rule = face_rule<dim>(space == Space::revolution ? std::max(points, 2) : points);
+  const std::size_t faces = cells.interior.size();
+  std::vector<FaceMeans::Block> blocks((faces + FaceMeans::block_size - 1) / FaceMeans::block_size);
+
+  const auto is_skipped = [&](const InnerFace<dim>& face) {
+    constexpr double smallest = 1e-14;
+    const double distance =
+        (cloud.position[index_of(face.cell[1])] - cloud.position[index_of(face.cell[0])]).squaredNorm();
+    return !(face.normal().squaredNorm() > smallest * smallest * (dim == 2 ? distance : distance * distance));
+  };
+  const auto integrate = [&](std::size_t b, auto& functions) {
+    FaceMeans::Block& block = blocks[b];
+    const std::size_t first = b * FaceMeans::block_size;
+    const std::size_t last = std::min(first + FaceMeans::block_size, faces);
+    block.begin.reserve(last - first + 1);
+    block.node.reserve(10 * (last - first));
+    block.value.reserve(10 * (last - first));
+    block.begin.push_back(0);
+    for (std::size_t f = first; f < last; ++f) {
+      const InnerFace<dim>& face = cells.interior[f];
+      const std::size_t start = block.node.size();
+      for (const FacePoint<dim>& point : is_skipped(face) ? std::span<const FacePoint<dim>>() : rule) {
+        const Vec<dim> at = point_on<dim>(face.corner, point.place);
+        const double weight = space == Space::revolution ? point.weight * at.x() : point.weight;
+        functions.evaluate(at, face.simplex);
+        const auto node = functions.nodes();
+        const auto value = functions.values();
+        const std::size_t known = block.node.size();
+        for (std::size_t k = 0; k < node.size(); ++k) {
+          std::size_t e = start;
+          while (e < known && block.node[e] != node[k]) ++e;
+          if (e < known) {
+            block.value[e] += weight * value[k];
+          } else {
+            block.node.push_back(node[k]);
+            block.value.push_back(weight * value[k]);
+          }
+        }
+      }
+      block.begin.push_back(static_cast<std::int32_t>(block.node.size()));
+    }
+  };
+
+  ParallelFailure failure;
+#pragma omp parallel
+  {
+    std::optional<decltype(make())> functions;
+#pragma omp for schedule(dynamic)
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      failure.guard(static_cast<std::ptrdiff_t>(b), [&] {
+        if (!functions) functions.emplace(make());
+        integrate(b, *functions);
+      });
+  }
+  failure.rethrow();
+  return FaceMeans(std::move(blocks));
+}
+
+/// Those of natural neighbours on the faces of Voronoi cells, with 1, 2 or 3 Gauss points. Throws
+/// GeometryError where the domain is so thin that rounding puts a point of a face outside of it.
+FaceMeans face_means(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
+                     const voronoi::Circumcircles& circles, const voronoi::Cells& cells,
+                     voronoi::Functions functions, int gauss_points, Space space = Space::plane);
 
 } // namespace cnem::scni

@@ -2,6 +2,7 @@
 
 #include "core/index.hpp"
 
+#include <cassert>
 #include <numbers>
 
 namespace cnem::scni {
@@ -11,24 +12,23 @@ std::size_t index(std::int32_t i) { return index_of(i); }
 
 /// ∮ ½ (ρ_x² n_x, ρ_y² n_y) ds over a segment, ρ from `origin`, n ds the right normal of the segment: its
 /// share of the first moments of area.
-Vec2 first_moment(const Vec2& origin, const Vec2& start, const Vec2& end) {
-  const Vec2 a = start - origin, b = end - origin;
+Vec2 first_moment(const Vec2& origin, const std::array<Vec2, 2>& end) {
+  const Vec2 a = end[0] - origin, b = end[1] - origin;
   const Vec2 mean_square = (a.cwiseProduct(a) + a.cwiseProduct(b) + b.cwiseProduct(b)) / 3.0;
-  return 0.5 * mean_square.cwiseProduct(right_normal(end - start));
+  return 0.5 * mean_square.cwiseProduct(right_normal(end[1] - end[0]));
 }
 
-std::vector<Vec2> centroids(const Cloud<2>& cloud, const voronoi::Cells& cells) {
+std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) {
   std::vector<Vec2> moment(cloud.position.size(), Vec2::Zero());
-  for (const voronoi::InteriorFacet& facet : cells.interior) {
-    const std::size_t i = index(facet.cell[0]), j = index(facet.cell[1]);
-    moment[i] += first_moment(cloud.position[i], facet.start, facet.end);
-    moment[j] -= first_moment(cloud.position[j], facet.start, facet.end);
+  for (const InnerFace<2>& face : cells.interior) {
+    const std::size_t i = index(face.cell[0]), j = index(face.cell[1]);
+    moment[i] += first_moment(cloud.position[i], face.corner);
+    moment[j] -= first_moment(cloud.position[j], face.corner);
   }
-  for (const voronoi::BoundaryPiece& piece : cells.boundary) {
-    const auto& ends = cloud.facets[index(piece.facet)].node;
-    const Vec2 &a = cloud.position[index(ends[0])], &b = cloud.position[index(ends[1])];
-    const std::size_t i = index(piece.cell);
-    moment[i] += first_moment(cloud.position[i], a + piece.s0 * (b - a), a + piece.s1 * (b - a));
+  for (const BoundaryPart<2>& part : cells.boundary) {
+    const std::size_t i = index(part.cell);
+    moment[i] += first_moment(cloud.position[i],
+                              part.on(corners_of<2>(cloud.facets[index(part.facet)], cloud.position)));
   }
   for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = cloud.position[i] + moment[i] / cells.volume[i];
   return moment;
@@ -56,6 +56,7 @@ CentroidValues centroid_values(const Cloud<2>& cloud, const voronoi::Triangulati
   result.value.reserve(7 * centroid.size());
   voronoi::NaturalNeighbours neighbours(cloud, triangulation, circles);
   for (std::size_t i = 0; i < centroid.size(); ++i) {
+    assert(centroid[i].x() > 0.0);
     result.radius[i] = centroid[i].x();
     neighbours.evaluate(functions, centroid[i], hint[i]);
     result.node.insert(result.node.end(), neighbours.nodes().begin(), neighbours.nodes().end());
@@ -66,6 +67,7 @@ CentroidValues centroid_values(const Cloud<2>& cloud, const voronoi::Triangulati
 }
 
 void revolve(const Field& radius, StabilisationLinks<2>& links) {
+  assert(radius.size() + 1 == links.begin.size());
   for (std::size_t i = 0; i + 1 < links.begin.size(); ++i)
     for (auto e = index(links.begin[i]); e < index(links.begin[i + 1]); ++e)
       links.weight[e] *= std::numbers::pi * (radius[i] + radius[index(links.neighbour[e])]);

@@ -25,19 +25,19 @@ Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
   const auto triangulation = voronoi::triangulate(cloud);
   const auto circles = voronoi::circumcircles(cloud, triangulation);
   const auto cells = voronoi::constrained_cells(cloud, triangulation, circles);
-  const auto means = facet_means(cloud, triangulation, circles, cells, options_.functions,
-                                 options_.gauss_points, options_.space);
-  const auto around = facets_of_cells(cloud.nodes(), cells);
+  const auto means = face_means(cloud, triangulation, circles, cells, options_.functions,
+                                options_.gauss_points, options_.space);
+  const auto faces = faces_of_cells(cells);
 
   Approximation<2> result;
   if (options_.space == Space::revolution) {
     const auto values = centroid_values(cloud, triangulation, circles, cells, options_.functions);
-    result.mechanics = smoothed_gradients(cloud, cells, around, means, &values);
+    result.mechanics = smoothed_gradients<2>(cloud, cells, faces, means, &values);
   } else {
-    result.mechanics = smoothed_gradients(cloud, cells, around, means);
+    result.mechanics = smoothed_gradients<2>(cloud, cells, faces, means);
   }
   result.conduction = voronoi::linear_simplices<2>(cloud, triangulation.node, options_.space);
-  result.links = delaunay_links(cloud, triangulation, cells, around);
+  result.links = stabilisation_links<2>(cloud, cells, faces);
   if (options_.space == Space::revolution) revolve(result.mechanics.radius, result.links);
   result.node_volume = result.mechanics.volume;
   result.cells = voronoi::cell_geometry(cloud, triangulation, circles, cells);

@@ -32,7 +32,7 @@ public:
   /// Throws InputError when gauss_points is not 1, 2 or 3.
   explicit Cnem(Options options = {});
 
-  /// Throws GeometryError as voronoi::triangulate, voronoi::linear_simplices and facet_means do. Cost O(N log
+  /// Throws GeometryError as voronoi::triangulate, voronoi::linear_simplices and face_means do. Cost O(N log
   /// N).
   Approximation<2> rebuild(const Cloud<2>& cloud) override;
   std::string name() const override;

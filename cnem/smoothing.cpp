@@ -1,9 +1,11 @@
 #include "cnem/smoothing.hpp"
 
 #include "core/index.hpp"
+#include "core/operator_checks.hpp"
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -13,27 +15,12 @@ namespace {
 
 std::size_t index(std::int32_t i) { return index_of(i); }
 
-/// Lists of items per cell from the cells of each item: a counting sort.
-template<class CellsOf> CellFacets group_by_cell(int nodes, std::size_t items, CellsOf&& cells_of) {
-  CellFacets around;
-  around.begin.assign(index(nodes) + 1, 0);
-  for (std::size_t f = 0; f < items; ++f)
-    for (const std::int32_t i : cells_of(f)) ++around.begin[index(i) + 1];
-  for (std::size_t i = 0; i < index(nodes); ++i) around.begin[i + 1] += around.begin[i];
-  around.facet.resize(index(around.begin.back()));
-  std::vector<std::int32_t> next(around.begin.begin(), around.begin.end() - 1);
-  for (std::size_t f = 0; f < items; ++f)
-    for (const std::int32_t i : cells_of(f))
-      around.facet[index(next[index(i)]++)] = static_cast<std::int32_t>(f);
-  return around;
-}
-
 /// One row while it is summed up: entries are found through a table over all nodes.
-class RowAccumulator {
+template<int dim> class RowAccumulator {
 public:
   explicit RowAccumulator(int nodes) : slot_(index(nodes), -1) {}
 
-  void add(std::int32_t node, const Vec2& b, double value = 0.0) {
+  void add(std::int32_t node, const Vec<dim>& b, double value = 0.0) {
     std::int32_t& slot = slot_[index(node)];
     if (slot < 0) {
       slot = static_cast<std::int32_t>(entry_.size());
@@ -46,7 +33,7 @@ public:
 
   struct Entry {
     std::int32_t node;
-    Vec2 b;
+    Vec<dim> b;
     double value; ///< at the centroid, of revolution
   };
 
@@ -66,83 +53,83 @@ private:
 };
 
 /// Finished rows of consecutive cells.
-struct RowBlock {
+template<int dim> struct RowBlock {
   std::vector<std::int32_t> node;
-  std::array<std::vector<double>, 2> gradient;
+  std::array<std::vector<double>, dim> gradient;
   std::vector<double> hoop;
 };
 
-/// ∫ (1 − s, s) ds over a piece of a boundary facet; of revolution ∫ r (1 − s, s) ds.
-std::array<double, 2> end_integrals(const voronoi::BoundaryPiece& piece, const Vec2& a, const Vec2& b,
-                                    bool revolution) {
-  const double middle = 0.5 * (piece.s0 + piece.s1), length = piece.s1 - piece.s0;
-  if (!revolution) return {(1.0 - middle) * length, middle * length};
-  const auto r = [&](double s) { return (1.0 - s) * a.x() + s * b.x(); };
-  const double r0 = r(piece.s0) / 6.0, r1 = 4.0 * r(middle) / 6.0, r2 = r(piece.s1) / 6.0; // Simpson: exact
-  const double second = piece.s0 * r0 + middle * r1 + piece.s1 * r2;
+/// Of revolution ∫ r φ_a dΓ/|Γ| for the ends of a boundary facet over a part of it, m.
+std::array<double, 2> revolved_shares(const BoundaryPart<2>& part, const std::array<Vec2, 2>& end) {
+  const double s0 = part.place[0][0], s1 = part.place[1][0], middle = 0.5 * (s0 + s1), length = s1 - s0;
+  const auto r = [&](double s) { return (1.0 - s) * end[0].x() + s * end[1].x(); };
+  const double r0 = r(s0) / 6.0, r1 = 4.0 * r(middle) / 6.0, r2 = r(s1) / 6.0; // Simpson: exact
+  const double second = s0 * r0 + middle * r1 + s1 * r2;
   return {length * (r0 + r1 + r2 - second), length * second};
 }
 
 } // namespace
 
-CellFacets facets_of_cells(int nodes, const voronoi::Cells& cells) {
-  return group_by_cell(
-      nodes, cells.interior.size(), [&](std::size_t f) -> const auto& { return cells.interior[f].cell; });
-}
-
-DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Cells& cells,
-                                        const CellFacets& around, const FacetMeans& means,
-                                        const CentroidValues* revolution) {
+template<int dim>
+DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
+                                          const CellLists& faces, const FaceMeans& means,
+                                          const CentroidValues* revolution) {
   const auto nodes = index(cloud.nodes());
-  const CellFacets boundary = group_by_cell(cloud.nodes(), cells.boundary.size(), [&](std::size_t f) {
-    return std::array<std::int32_t, 1>{cells.boundary[f].cell};
-  });
+  assert(cells.cells() == nodes && faces.begin.size() == nodes + 1);
+  const CellLists boundary = parts_of_cells(cells);
 
-  DiscreteOperators<2> op;
+  DiscreteOperators<dim> op;
   op.points = op.nodes = cloud.nodes();
   op.nodal = true;
   op.volume = cells.volume;
   if (revolution) {
+    assert(dim == 2 && revolution->radius.size() == nodes);
     op.radius = revolution->radius;
     for (std::size_t i = 0; i < nodes; ++i) op.volume[i] *= 2.0 * std::numbers::pi * op.radius[i];
   }
   op.row_begin.assign(nodes + 1, 0);
 
-  std::vector<RowBlock> blocks((nodes + block_size - 1) / block_size);
-  const auto sum_rows = [&](std::size_t k, RowAccumulator& row) {
-    RowBlock& block = blocks[k];
+  const auto shares_of = [&](const BoundaryPart<dim>& part, const std::array<Vec<dim>, dim>& corner) {
+    if constexpr (dim == 2)
+      if (revolution) return revolved_shares(part, corner);
+    return part.shares();
+  };
+  std::vector<RowBlock<dim>> blocks((nodes + block_size - 1) / block_size);
+  const auto sum_rows = [&](std::size_t k, RowAccumulator<dim>& row) {
+    RowBlock<dim>& block = blocks[k];
     const std::size_t first = k * block_size, last = std::min(first + block_size, nodes);
     block.node.reserve(11 * (last - first));
     for (auto& g : block.gradient) g.reserve(11 * (last - first));
     for (std::size_t i = first; i < last; ++i) {
-      for (auto a = index(around.begin[i]); a < index(around.begin[i + 1]); ++a) {
-        const auto f = index(around.facet[a]);
-        const voronoi::InteriorFacet& facet = cells.interior[f];
-        const double sign = index(facet.cell[0]) == i ? 1.0 : -1.0;
-        const Vec2 normal = sign * right_normal(facet.end - facet.start);
+      for (const std::int32_t item : faces.of(i)) {
+        const auto f = index(item);
+        const InnerFace<dim>& face = cells.interior[f];
+        const double sign = index(face.cell[0]) == i ? 1.0 : -1.0;
+        const Vec<dim> normal = sign * face.normal();
         const auto node = means.nodes(f);
         const auto value = means.values(f);
         for (std::size_t e = 0; e < node.size(); ++e) row.add(node[e], value[e] * normal);
       }
-      for (auto a = index(boundary.begin[i]); a < index(boundary.begin[i + 1]); ++a) {
-        const voronoi::BoundaryPiece& piece = cells.boundary[index(boundary.facet[a])];
-        const auto& ends = cloud.facets[index(piece.facet)].node;
-        const Vec2 &a0 = cloud.position[index(ends[0])], &a1 = cloud.position[index(ends[1])];
-        const Vec2 normal = right_normal(a1 - a0);
-        const auto share = end_integrals(piece, a0, a1, revolution != nullptr);
-        row.add(ends[0], share[0] * normal);
-        row.add(ends[1], share[1] * normal);
+      for (const std::int32_t item : boundary.of(i)) {
+        const BoundaryPart<dim>& part = cells.boundary[index(item)];
+        const Facet<dim>& facet = cloud.facets[index(part.facet)];
+        const auto corner = corners_of<dim>(facet, cloud.position);
+        const Vec<dim> normal = area_normal<dim>(corner);
+        const auto share = shares_of(part, corner);
+        for (std::size_t a = 0; a < dim; ++a) row.add(facet.node[a], share[a] * normal);
       }
       double measure = cells.volume[i];
       if (revolution) {
-        for (auto e = index(revolution->begin[i]); e < index(revolution->begin[i + 1]); ++e)
-          row.add(revolution->node[e], Vec2(-cells.volume[i] * revolution->value[e], 0.0),
-                  revolution->value[e]);
+        for (auto e = index(revolution->begin[i]); e < index(revolution->begin[i + 1]); ++e) {
+          Vec<dim> radial = Vec<dim>::Zero();
+          radial[0] = -cells.volume[i] * revolution->value[e];
+          row.add(revolution->node[e], radial, revolution->value[e]);
+        }
         measure *= op.radius[i];
       }
       for (const auto& entry : row.sorted()) {
         block.node.push_back(entry.node);
-        for (std::size_t d = 0; d < 2; ++d)
+        for (std::size_t d = 0; d < dim; ++d)
           block.gradient[d].push_back(entry.b[static_cast<Eigen::Index>(d)] / measure);
         if (revolution) block.hoop.push_back(entry.value / op.radius[i]);
       }
@@ -153,7 +140,7 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
   ParallelFailure failure;
 #pragma omp parallel
   {
-    std::optional<RowAccumulator> row;
+    std::optional<RowAccumulator<dim>> row;
 #pragma omp for schedule(dynamic)
     for (std::size_t k = 0; k < blocks.size(); ++k)
       failure.guard(static_cast<std::ptrdiff_t>(k), [&] {
@@ -174,49 +161,51 @@ DiscreteOperators<2> smoothed_gradients(const Cloud<2>& cloud, const voronoi::Ce
     const std::size_t first = k * block_size, last = std::min(first + block_size, nodes);
     for (std::size_t i = first; i < last; ++i) op.row_begin[i + 1] += offset[k];
     std::copy(blocks[k].node.begin(), blocks[k].node.end(), op.node.begin() + offset[k]);
-    for (std::size_t d = 0; d < 2; ++d)
+    for (std::size_t d = 0; d < dim; ++d)
       std::copy(blocks[k].gradient[d].begin(), blocks[k].gradient[d].end(),
                 op.gradient[d].begin() + offset[k]);
     std::copy(blocks[k].hoop.begin(), blocks[k].hoop.end(), op.hoop.begin() + (revolution ? offset[k] : 0));
   }
   op.build_transpose();
+  assert(rows_are_complete(op) && reproduces_linear_fields(op, cloud.position));
   return op;
 }
 
-StabilisationLinks<2> delaunay_links(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
-                                     const voronoi::Cells& cells, const CellFacets& around) {
+template<int dim>
+StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
+                                            const CellLists& faces) {
   constexpr double least = 0.1, most = 2.0;
-  std::vector<std::array<std::int32_t, 2>> edges;
-  edges.reserve(3 * index(cloud.nodes()));
-  for (std::size_t t = 0; t < triangulation.node.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (triangulation.neighbour[t][k] < static_cast<std::int32_t>(t))
-        edges.push_back({triangulation.node[t][(k + 1) % 3], triangulation.node[t][(k + 2) % 3]});
-  CellFacets ends = group_by_cell(
-      cloud.nodes(), edges.size(), [&](std::size_t e) -> const auto& { return edges[e]; });
-
-  StabilisationLinks<2> links;
-  links.begin = std::move(ends.begin);
-  links.neighbour = std::move(ends.facet);
-  links.weight.assign(links.neighbour.size(), least);
+  StabilisationLinks<dim> links;
+  links.begin = cells.neighbours.begin;
+  links.neighbour = cells.neighbours.item;
+  links.weight.assign(links.neighbour.size(), 0.0);
 #pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < index(cloud.nodes()); ++i) {
-    const auto other = [i](const std::array<std::int32_t, 2>& pair) {
-      return pair[index(pair[0]) == i ? 1 : 0];
-    };
-    const auto first = links.neighbour.begin() + links.begin[i];
-    const auto last = links.neighbour.begin() + links.begin[i + 1];
-    for (auto link = first; link < last; ++link) *link = other(edges[index(*link)]);
-    std::sort(first, last);
-    for (auto a = index(around.begin[i]); a < index(around.begin[i + 1]); ++a) {
-      const voronoi::InteriorFacet& facet = cells.interior[index(around.facet[a])];
-      const Vec2 between = cloud.position[index(facet.cell[1])] - cloud.position[index(facet.cell[0])];
-      const auto link = std::find(first, last, other(facet.cell)) - links.neighbour.begin();
-      links.weight[index_of(link)] =
-          std::clamp((facet.end - facet.start).norm() / between.norm(), least, most);
+  for (std::size_t i = 0; i < cells.cells(); ++i) {
+    const auto linked = cells.neighbours.of(i);
+    double* const weight = links.weight.data() + links.begin[i];
+    for (const std::int32_t item : faces.of(i)) {
+      const InnerFace<dim>& face = cells.interior[index(item)];
+      const std::int32_t other = face.cell[index(face.cell[0]) == i ? 1 : 0];
+      const auto link = std::find(linked.begin(), linked.end(), other);
+      assert(link != linked.end());
+      weight[link - linked.begin()] += face.normal().norm();
+    }
+    for (std::size_t k = 0; k < linked.size(); ++k) {
+      const double distance = (cloud.position[index(linked[k])] - cloud.position[i]).norm();
+      if constexpr (dim == 2)
+        weight[k] = std::clamp(weight[k] / distance, least, most);
+      else
+        weight[k] = std::clamp(weight[k] / (distance * distance), least, most) * distance;
     }
   }
   return links;
 }
+
+template DiscreteOperators<2> smoothed_gradients(const Cloud<2>&, const CellComplex<2>&, const CellLists&,
+                                                 const FaceMeans&, const CentroidValues*);
+template DiscreteOperators<3> smoothed_gradients(const Cloud<3>&, const CellComplex<3>&, const CellLists&,
+                                                 const FaceMeans&, const CentroidValues*);
+template StabilisationLinks<2> stabilisation_links(const Cloud<2>&, const CellComplex<2>&, const CellLists&);
+template StabilisationLinks<3> stabilisation_links(const Cloud<3>&, const CellComplex<3>&, const CellLists&);
 
 } // namespace cnem::scni

@@ -16,8 +16,9 @@ namespace cnem {
 template<int dim> struct StabilisationLinks {
   std::vector<std::int32_t> begin;     ///< [node + 1]
   std::vector<std::int32_t> neighbour; ///< [link]
-  Field weight; ///< [link] facet measure over distance, L_ij/d_ij clamped to [0.1, 2], –; of revolution times
-                ///< 2π r, m
+  /// [link] area of the face between two cells over their distance: in the plane L_ij/d_ij, clamped to
+  /// [0.1, 2], –, of revolution times 2π r, m; in space A_ij/d_ij, clamped to [0.1, 2] d_ij, m.
+  Field weight;
 };
 
 /// Cells of the stress points, for output and pictures: polygons in the plane, tetrahedra in space.

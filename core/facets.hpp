@@ -9,7 +9,7 @@
 
 namespace cnem {
 
-/// The corners of a facet, m; positions [component][node].
+/// The corners of a facet, m; positions [component][node] or [node].
 template<int dim> std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet, const Fields<dim>& position) {
   std::array<Vec<dim>, dim> corner;
   for (std::size_t a = 0; a < dim; ++a)
@@ -18,12 +18,45 @@ template<int dim> std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet, 
   return corner;
 }
 
+template<int dim>
+std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet, const std::vector<Vec<dim>>& position) {
+  std::array<Vec<dim>, dim> corner;
+  for (std::size_t a = 0; a < dim; ++a) corner[a] = position[index_of(facet.node[a])];
+  return corner;
+}
+
+/// x_0 + Σ_k t_k (x_(k+1) − x_0), m: the point with the coordinates t (–) of a facet.
+template<int dim>
+Vec<dim> point_on(const std::array<Vec<dim>, dim>& corner, const std::array<double, dim - 1>& place) {
+  Vec<dim> x = corner[0];
+  for (std::size_t k = 0; k + 1 < dim; ++k) x += place[k] * (corner[k + 1] - corner[0]);
+  return x;
+}
+
 /// Normal out of the domain, its length the area of the facet in m^(dim−1) (in the plane per unit thickness).
 template<int dim> Vec<dim> area_normal(const std::array<Vec<dim>, dim>& corner) {
   if constexpr (dim == 2)
     return right_normal(corner[1] - corner[0]);
   else
     return 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+}
+
+/// Area (m²) or volume (m³) that the boundary of a cloud encloses, by Gauss's theorem.
+template<int dim> double enclosed_measure(const Cloud<dim>& cloud) {
+  double sum = 0.0;
+  for (const Facet<dim>& facet : cloud.facets) {
+    const auto corner = corners_of<dim>(facet, cloud.position);
+    sum += (corner[0] - cloud.position[0]).dot(area_normal<dim>(corner)) / dim;
+  }
+  return sum;
+}
+
+/// Area (m²) or volume (m³) of a simplex; positive for corners that stand as in voronoi::Simplex.
+template<int dim> double measure(const std::array<Vec<dim>, dim + 1>& x) {
+  if constexpr (dim == 2)
+    return 0.5 * cross(x[1] - x[0], x[2] - x[0]);
+  else
+    return (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6.0;
 }
 
 /// Shares ∫ φ dΓ of the corners in the area, φ linear on the facet; of revolution m².

@@ -1,10 +1,16 @@
 #include "core/operators.hpp"
 #include "core/index.hpp"
 
+#include <algorithm>
+#include <cassert>
+
 namespace cnem {
 
 template<int dim> void DiscreteOperators<dim>::build_transpose() {
   const std::size_t entries = node.size();
+  assert(row_begin.size() == index_of(points) + 1 && index_of(row_begin.back()) == entries);
+  assert(volume.size() == index_of(points) && (value.empty() || value.size() == entries));
+  assert(std::all_of(node.begin(), node.end(), [&](std::int32_t j) { return j >= 0 && j < nodes; }));
   col_begin.assign(index_of(nodes) + 1, 0);
   for (const std::int32_t j : node) ++col_begin[index_of(j) + 1];
   for (std::size_t j = 0; j < index_of(nodes); ++j) col_begin[j + 1] += col_begin[j];

@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 #include "voronoi/triangulation.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <numeric>
 #include <span>
 
@@ -43,6 +45,11 @@ template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>&
   result.mechanics = voronoi::linear_simplices<dim>(cloud, simplices, space_);
   result.conduction = result.mechanics;
   result.node_volume = result.mechanics.node_volume();
+  for (std::size_t i = 0; i < result.node_volume.size(); ++i)
+    if (!(result.node_volume[i] > 0.0))
+      throw GeometryError(fmt::format("the node at ({:g}) m belongs to no {}",
+                                      fmt::join(cloud.position[i].begin(), cloud.position[i].end(), ", "),
+                                      dim == 2 ? "triangle" : "tetrahedron"));
   result.links.begin.assign(cloud.position.size() + 1, 0);
   result.cells = simplex_cells<dim>(cloud, simplices);
   return result;

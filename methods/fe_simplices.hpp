@@ -24,7 +24,8 @@ public:
   /// On these simplices, which tile the domain of every cloud it is given. Throws InputError for none.
   explicit FeSimplices(std::vector<voronoi::Simplex<dim>> simplices) requires(dim == 3);
 
-  /// Throws GeometryError as voronoi::triangulate and voronoi::linear_simplices do.
+  /// Throws GeometryError as voronoi::triangulate and voronoi::linear_simplices do, and with its position for
+  /// a node that belongs to no simplex.
   Approximation<dim> rebuild(const Cloud<dim>& cloud) override;
   std::string name() const override { return dim == 2 ? "fe_triangle" : "fe_tetrahedron"; }
   Promises promises() const override { return promised; }

@@ -3,12 +3,14 @@
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/operator_checks.hpp"
 #include "core/parallel.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/linear_simplices.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -17,13 +19,12 @@ namespace {
 
 /// Distance to the natural neighbours of each node, m, weighted with the facets between: diagonals of
 /// squares, whose choice is arbitrary, have none.
-Field distances(const Cloud<2>& cloud, const voronoi::Cells& cells) {
+Field distances(const Cloud<2>& cloud, const CellComplex<2>& cells) {
   Field length(cloud.position.size(), 0.0), distance(length);
-  for (const voronoi::InteriorFacet& facet : cells.interior) {
-    const double l = (facet.end - facet.start).norm();
-    const double d =
-        (cloud.position[index_of(facet.cell[1])] - cloud.position[index_of(facet.cell[0])]).norm();
-    for (const std::int32_t i : facet.cell) {
+  for (const InnerFace<2>& face : cells.interior) {
+    const double l = face.normal().norm();
+    const double d = (cloud.position[index_of(face.cell[1])] - cloud.position[index_of(face.cell[0])]).norm();
+    for (const std::int32_t i : face.cell) {
       length[index_of(i)] += l;
       distance[index_of(i)] += l * d;
     }
@@ -174,6 +175,7 @@ DiscreteOperators<2> corrected_gradients(const Cloud<2>& cloud, const Field& vol
       op.gradient[k].insert(op.gradient[k].end(), block.gradient[k].begin(), block.gradient[k].end());
   }
   op.build_transpose();
+  assert(rows_are_complete(op) && reproduces_linear_fields(op, cloud.position));
   return op;
 }
 
@@ -204,8 +206,7 @@ Approximation<2> Sph::rebuild(const Cloud<2>& cloud) {
   for (double& s : support) s *= smoothing_;
 
   Approximation<2> result;
-  result.links =
-      scni::delaunay_links(cloud, triangulation, cells, scni::facets_of_cells(cloud.nodes(), cells));
+  result.links = scni::stabilisation_links<2>(cloud, cells, faces_of_cells<2>(cells));
   result.mechanics = corrected_gradients(cloud, cells.volume, support, result.links, kernel_);
   result.conduction = voronoi::linear_simplices<2>(cloud, triangulation.node);
   result.node_volume = cells.volume;

@@ -5,6 +5,8 @@
 #include "voronoi/boundary_checks.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace cnem::voronoi {
@@ -30,6 +32,7 @@ public:
           facet_triangle_[index_of(mesh_.facet[t][k])] = static_cast<std::int32_t>(t);
     for (std::size_t f = 0; f < cloud_.facets.size(); ++f) share_facet(static_cast<std::int32_t>(f));
     add_interior();
+    add_neighbours();
     return std::move(cells_);
   }
 
@@ -46,7 +49,7 @@ private:
 
   /// The part of the facet that belongs to `cell` ends at s.
   void end_piece(std::int32_t facet, std::int32_t cell, double s0, double s1) {
-    cells_.boundary.push_back({cell, facet, s0, s1});
+    cells_.boundary.push_back({cell, facet, {{{s0}, {s1}}}});
     const auto& [a, b] = cloud_.facets[index_of(facet)].node;
     const Vec2 edge = at(b) - at(a);
     cells_.volume[index_of(cell)] += 0.5 * (s1 - s0) * cross(at(a) - at(cell), edge);
@@ -152,11 +155,21 @@ private:
         const Vec2 end = end_point(t, k);
         const std::int32_t i = mesh_.node[index_of(t)][index_of(next(k))],
                            j = mesh_.node[index_of(t)][index_of(next(next(k)))];
-        cells_.interior.push_back({{i, j}, {across, t}, start, end});
+        cells_.interior.push_back({{i, j}, {across, t}, {start, end}});
         cells_.volume[index_of(i)] += 0.5 * cross(start - at(i), end - start);
         cells_.volume[index_of(j)] -= 0.5 * cross(start - at(j), end - start);
       }
     }
+  }
+
+  void add_neighbours() {
+    std::vector<std::array<std::int32_t, 2>> edges;
+    edges.reserve(3 * cloud_.position.size());
+    for (std::size_t t = 0; t < mesh_.node.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (mesh_.neighbour[t][k] < static_cast<std::int32_t>(t))
+          edges.push_back({mesh_.node[t][(k + 1) % 3], mesh_.node[t][(k + 2) % 3]});
+    cells_.neighbours = other_ends(cloud_.position.size(), edges);
   }
 
   const Cloud<2>& cloud_;
@@ -166,6 +179,15 @@ private:
   std::vector<std::int32_t> facet_triangle_; ///< [facet] the triangle on its left
   std::vector<std::pair<std::int32_t, std::int32_t>> stack_;
 };
+
+/// Whether the cells fill the domain, to rounding.
+[[maybe_unused]] bool fill(const Cloud<2>& cloud, const Cells& cells) {
+  double sum = 0.0, size = 0.0;
+  for (const double v : cells.volume) sum += v;
+  for (const Vec2& x : cloud.position) size = std::max(size, x.cwiseAbs().maxCoeff());
+  const double area = enclosed_measure(cloud);
+  return std::abs(sum - area) <= 1e-11 * area + 1e-13 * size * size;
+}
 
 } // namespace
 
@@ -177,6 +199,8 @@ Cells constrained_cells(const Cloud<2>& cloud, const Triangulation& mesh, const 
           fmt::format("the cell of {} has no area (V = {:.3g} m²): its neighbours are too close "
                       "to each other or to one line",
                       describe_node(cloud, i), cells.volume[index_of(i)]));
+  assert(is_closed(cloud, cells));
+  assert(fill(cloud, cells));
   return cells;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Constrained Voronoi cells clipped by the domain: the integration cells of the method (paper 004, (70)).
-#include "core/aligned.hpp"
+#include "core/cell_complex.hpp"
 #include "core/discretisation.hpp"
 #include "voronoi/circumcircles.hpp"
 #include "voronoi/triangulation.hpp"
@@ -11,29 +11,11 @@
 
 namespace cnem::voronoi {
 
-/// The segment that two cells share, dual to a Delaunay edge.
-struct InteriorFacet {
-  std::array<std::int32_t, 2> cell;     ///< i, j
-  std::array<std::int32_t, 2> triangle; ///< the triangles to both sides of the Delaunay edge, at start and at
-                                        ///< end; −1 for start when the edge is a boundary facet
-  Vec2 start, end; ///< right_normal(end − start) points from i to j; may coincide (cocircular nodes)
-};
-
-/// The part s0 <= s <= s1 of a boundary facet x = (1 − s) x_a + s x_b that bounds a cell, which need not be
-/// that of a or b.
-struct BoundaryPiece {
-  std::int32_t cell;
-  std::int32_t facet; ///< index into Cloud::facets
-  double s0, s1;
-};
-
-/// Cells of all nodes. Each cell is closed: the normals of its facets and pieces sum to zero, and ΣV = |Ω|,
-/// whatever the rounding of the vertices.
-struct Cells {
-  Field volume; ///< [node] m² (per unit thickness)
-  std::vector<InteriorFacet> interior;
-  std::vector<BoundaryPiece> boundary; ///< facet after facet, along each facet
-
+/// Cells of all nodes with the way walls cut them, ΣV = |Ω| and each closed, whatever the rounding of the
+/// vertices. An inner face is dual to a Delaunay edge; its `simplex` are the triangles to both sides of the
+/// edge, at its first corner and at its second. Parts of the boundary stand along each facet. Linked are the
+/// ends of Delaunay edges, those whose face a wall cuts away entirely too.
+struct Cells : CellComplex<2> {
   /// A point where the facet between two cells ends on the boundary.
   struct Crossing {
     std::int32_t facet;

@@ -3,9 +3,11 @@
 #include "core/error.hpp"
 #include "core/facets.hpp"
 #include "core/index.hpp"
+#include "core/operator_checks.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,13 +49,6 @@ template<int dim> Simplex<dim> from_lowest(Simplex<dim> corner) {
   return corner;
 }
 
-template<int dim> double measure(const Corners<dim>& x) {
-  if constexpr (dim == 2)
-    return 0.5 * cross(x[1] - x[0], x[2] - x[0]);
-  else
-    return (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6.0;
-}
-
 /// Corners of the facet opposite to corner k, whose area normal points out of the simplex.
 template<int dim> std::array<Vec<dim>, dim> opposite(const Corners<dim>& x, std::size_t k) {
   if constexpr (dim == 2) {
@@ -71,6 +66,7 @@ DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const
                                         Space space) {
   constexpr std::size_t corners = dim + 1;
   const std::size_t count = simplices.size();
+  assert(space == Space::plane || dim == 2);
   DiscreteOperators<dim> op;
   op.points = static_cast<int>(count);
   op.nodes = cloud.nodes();
@@ -112,6 +108,7 @@ DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const
     }
   }
   op.build_transpose();
+  assert(rows_are_complete(op) && reproduces_linear_fields(op, cloud.position));
   return op;
 }
 

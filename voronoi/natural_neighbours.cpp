@@ -4,8 +4,10 @@
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace cnem::voronoi {
 
@@ -15,6 +17,12 @@ std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
 
 /// Sine below which x counts as lying on an edge.
 constexpr double on_edge = 1e-14;
+
+/// Whether values are not negative (but for the rounding of barycentric coordinates) and sum to 1.
+[[maybe_unused]] bool part_unity(std::span<const double> values) {
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  return std::abs(sum - 1.0) < 1e-12 && *std::min_element(values.begin(), values.end()) > -1e-8;
+}
 
 } // namespace
 
@@ -232,12 +240,16 @@ void NaturalNeighbours::evaluate(Functions functions, const Vec2& x, std::int32_
     throw GeometryError(fmt::format("the point ({:.9g}, {:.9g}) m lies outside the domain", x.x(), x.y()));
   // Only rounding in triangles of hardly any area gets x lost once it is located.
   if (!finish(collect(x, at.triangle, true), functions)) linear_on(at);
+  assert(part_unity(value_));
 }
 
 void NaturalNeighbours::evaluate_on_facet(Functions functions, const Vec2& x,
                                           const std::array<std::int32_t, 2>& triangle) {
   for (const std::int32_t t : triangle)
-    if (t >= 0 && in_circle(t, x) && finish(collect(x, t, false), functions)) return;
+    if (t >= 0 && in_circle(t, x) && finish(collect(x, t, false), functions)) {
+      assert(part_unity(value_));
+      return;
+    }
   evaluate(functions, x, std::max(triangle[0], triangle[1]));
 }
 

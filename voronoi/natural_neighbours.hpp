@@ -26,7 +26,7 @@ public:
   void evaluate(Functions functions, const Vec2& x, std::int32_t hint = 0);
 
   /// Functions at a point of the facet between two cells: saves locating it.
-  /// `triangle`: InteriorFacet::triangle.
+  /// `triangle`: InnerFace::simplex of the cells (voronoi/cells.hpp).
   void evaluate_on_facet(Functions functions, const Vec2& x, const std::array<std::int32_t, 2>& triangle);
 
   /// Functions and their gradients at x. At nodes and on the boundary, where they have no (two-sided)

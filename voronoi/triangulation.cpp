@@ -9,6 +9,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <algorithm>
+#include <cassert>
 #include <fmt/format.h>
 #include <utility>
 
@@ -239,8 +241,42 @@ private:
   Triangulation result_;
 };
 
+/// Whether neighbours know each other and share an edge, edges without a neighbour are facets in the sense of
+/// the triangle, each facet on one of them, and the triangle of each node has it.
+[[maybe_unused]] bool is_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
+  std::vector<int> seen(cloud.facets.size(), 0);
+  for (std::size_t t = 0; t < mesh.node.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
+      const std::int32_t across = mesh.neighbour[t][k], facet = mesh.facet[t][k];
+      if ((across < 0) != (facet >= 0)) return false;
+      if (facet >= 0) {
+        ++seen[index_of(facet)];
+        if (cloud.facets[index_of(facet)].node != std::array{a, b}) return false;
+        continue;
+      }
+      const auto& back = mesh.neighbour[index_of(across)];
+      const auto entry =
+          index_of(std::find(back.begin(), back.end(), static_cast<std::int32_t>(t)) - back.begin());
+      if (entry == 3) return false;
+      const auto& other = mesh.node[index_of(across)];
+      if (other[(entry + 1) % 3] != b || other[(entry + 2) % 3] != a) return false;
+    }
+  for (const int count : seen)
+    if (count != 1) return false;
+  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+    const auto& corner = mesh.node[index_of(mesh.triangle_of_node[index_of(i)])];
+    if (std::find(corner.begin(), corner.end(), i) == corner.end()) return false;
+  }
+  return true;
+}
+
 } // namespace
 
-Triangulation triangulate(const Cloud<2>& cloud) { return Builder(cloud).build(); }
+Triangulation triangulate(const Cloud<2>& cloud) {
+  Triangulation mesh = Builder(cloud).build();
+  assert(is_consistent(cloud, mesh));
+  return mesh;
+}
 
 } // namespace cnem::voronoi

@@ -59,8 +59,8 @@ scni::Options options(const benchmark::State& state) {
           static_cast<int>(state.range(1))};
 }
 
-scni::FacetMeans facet_means(const Geometry& g, const scni::Options& o) {
-  return scni::facet_means(g.cloud, g.triangulation, g.circles, g.cells, o.functions, o.gauss_points);
+scni::FaceMeans face_means(const Geometry& g, const scni::Options& o) {
+  return scni::face_means(g.cloud, g.triangulation, g.circles, g.cells, o.functions, o.gauss_points);
 }
 
 void cells(benchmark::State& state) {
@@ -79,21 +79,20 @@ void cell_geometry(benchmark::State& state) {
 
 void functions_on_facets(benchmark::State& state) {
   const Geometry g(state.range(0));
-  per_node(state, g.cloud, [&] { return facet_means(g, options(state)); });
+  per_node(state, g.cloud, [&] { return face_means(g, options(state)); });
 }
 
 void smoothing(benchmark::State& state) {
   const Geometry g(state.range(0));
-  const auto means = facet_means(g, options(state));
-  per_node(state, g.cloud, [&] {
-    return scni::smoothed_gradients(g.cloud, g.cells, scni::facets_of_cells(g.cloud.nodes(), g.cells), means);
-  });
+  const auto means = face_means(g, options(state));
+  per_node(state, g.cloud,
+           [&] { return scni::smoothed_gradients<2>(g.cloud, g.cells, faces_of_cells<2>(g.cells), means); });
 }
 
 void links(benchmark::State& state) {
   const Geometry g(state.range(0));
-  const auto around = scni::facets_of_cells(g.cloud.nodes(), g.cells);
-  per_node(state, g.cloud, [&] { return scni::delaunay_links(g.cloud, g.triangulation, g.cells, around); });
+  const auto faces = faces_of_cells<2>(g.cells);
+  per_node(state, g.cloud, [&] { return scni::stabilisation_links<2>(g.cloud, g.cells, faces); });
 }
 
 void linear_simplices(benchmark::State& state) {

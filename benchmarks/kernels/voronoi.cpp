@@ -87,7 +87,7 @@ void functions_on_facets(benchmark::State& state, cnem::voronoi::Functions funct
   cnem::voronoi::NaturalNeighbours at(cloud, mesh, circles);
   for (auto _ : state)
     for (const auto& facet : cells.interior) {
-      at.evaluate_on_facet(functions, 0.5 * (facet.start + facet.end), facet.triangle);
+      at.evaluate_on_facet(functions, 0.5 * (facet.corner[0] + facet.corner[1]), facet.simplex);
       benchmark::DoNotOptimize(at.values().data());
     }
   ns_per_node(state, cloud);

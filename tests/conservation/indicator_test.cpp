@@ -1,6 +1,8 @@
 // The indicator (80)-(82) on fields it is exact for, and the marks that follow from it.
 #include "adapt/marking.hpp"
+#include "clouds/tetrahedral_block.hpp"
 #include "tests/clouds.hpp"
+#include "tests/median_dual.hpp"
 
 #include <gtest/gtest.h>
 
@@ -59,6 +61,70 @@ TEST(Indicator, of_a_linear_field_falls_with_the_spacing) {
     total[k] = indicator(cloud, build_structure(cloud), value).total;
   }
   EXPECT_NEAR(total[0] / total[1], 2.0, 0.3);
+}
+
+/// The same indicator in space, on the median dual of a bent block.
+struct Solid {
+  explicit Solid(int n)
+      : block(clouds::tetrahedral_block(
+            {1, 1, 1}, {n, n, n},
+            [](const Vec<3>& x) -> Vec<3> {
+              return {x.x() + 0.2 * x.y() * x.z(), x.y(), x.z() * (1.0 + 0.3 * x.x())};
+            })),
+        cells(testing::median_dual(block.cloud, block.tetrahedra)) {}
+
+  template<class Function> Indicator of(Function&& function) const {
+    Field value;
+    for (const Vec<3>& x : block.cloud.position) value.push_back(function(x));
+    return indicator<3>(block.cloud, cells, value,
+                        [&] { return testing::LinearFunctions(block.cloud, block.tetrahedra); });
+  }
+
+  clouds::TetrahedralBlock block;
+  CellComplex<3> cells;
+};
+
+TEST(Indicator, in_space_is_zero_for_a_constant) {
+  const Solid solid(3);
+  const Indicator found = solid.of([](const Vec<3>&) { return 0.7; });
+  double volume = 0.0;
+  for (const double v : solid.cells.volume) volume += v;
+  EXPECT_EQ(found.total, 0.0);
+  EXPECT_NEAR(found.norm, 0.7 * std::sqrt(volume), 1e-14);
+}
+
+TEST(Indicator, in_space_of_a_linear_field_is_the_second_moment_of_the_cell) {
+  const Solid solid(3);
+  const Vec<3> g(2.0, -1.5, 0.5);
+  const Indicator found = solid.of([&](const Vec<3>& x) { return 5.0 + g.dot(x); });
+  std::vector<double> exact(found.error.size(), 0.0);
+  for (const auto& corner : solid.block.tetrahedra) {
+    std::array<Vec<3>, 4> x;
+    for (std::size_t k = 0; k < 4; ++k)
+      x[k] = solid.block.cloud.position[static_cast<std::size_t>(corner[k])];
+    for (std::size_t a = 0; a < 4; ++a) {
+      // the hexahedron of corner a, as six pieces: corner, middle of an edge, centroid of a face, of all
+      for (std::size_t b = 0; b < 4; ++b)
+        for (std::size_t c = 0; c < 4; ++c) {
+          if (a == b || b == c || a == c) continue;
+          const Vec<3> middle = 0.5 * (x[a] + x[b]), face = (x[a] + x[b] + x[c]) / 3.0,
+                       centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+          const double l[3] = {g.dot(middle - x[a]), g.dot(face - x[a]), g.dot(centre - x[a])};
+          const double volume = std::abs(measure<3>({x[a], middle, face, centre}));
+          // ∫ λ_k² = V/10, ∫ λ_k λ_l = V/20
+          exact[static_cast<std::size_t>(corner[a])] +=
+              volume / 10.0 *
+              (l[0] * l[0] + l[1] * l[1] + l[2] * l[2] + l[0] * l[1] + l[1] * l[2] + l[2] * l[0]);
+        }
+    }
+  }
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    EXPECT_NEAR(found.error[i] * found.error[i], exact[i], 1e-12 * exact[i]) << i;
+}
+
+TEST(Indicator, in_space_falls_with_the_spacing) {
+  const auto quadratic = [](const Vec<3>& x) { return x.squaredNorm() + x.y(); };
+  EXPECT_NEAR(Solid(4).of(quadratic).total / Solid(8).of(quadratic).total, 2.0, 0.1);
 }
 
 struct Marked {

@@ -74,16 +74,4 @@ template<int dim> std::vector<Domain<dim>> all_domains() {
   }
 }
 
-/// |Ω| by Gauss's theorem over the boundary.
-template<int dim> double measure(const Cloud<dim>& cloud) {
-  double sum = 0.0;
-  for (const Facet<dim>& facet : cloud.facets) {
-    std::array<Vec<dim>, dim> corner;
-    for (std::size_t a = 0; a < dim; ++a)
-      corner[a] = cloud.position[static_cast<std::size_t>(facet.node[a])] - cloud.position[0];
-    sum += corner[0].dot(area_normal<dim>(corner)) / dim;
-  }
-  return sum;
-}
-
 } // namespace cnem::testing

@@ -2,6 +2,7 @@
 // (core/promises.hpp), to rounding, on convex and non-convex domains. Gradients are compared after
 // multiplication with the spacing.
 #include "contract.hpp"
+#include "core/operator_checks.hpp"
 
 namespace cnem::testing {
 namespace {
@@ -64,6 +65,33 @@ TEST_P(Contract, rows_are_complete_and_sorted_by_node) {
       for (auto e = index(op.row_begin[p]) + 1; e < index(op.row_begin[p + 1]); ++e)
         ASSERT_LT(op.node[e - 1], op.node[e]);
     }
+  });
+}
+
+/// What builds with assertions check of all operators (core/operator_checks.hpp).
+TEST_P(Contract, checks_for_assertions_pass_operators_and_see_damaged_ones) {
+  on_all_operators([]<int dim>(const Domain<dim>& domain, const DiscreteOperators<dim>& op) {
+    EXPECT_TRUE(rows_are_complete(op));
+    EXPECT_TRUE(reproduces_linear_fields(op, domain.cloud.position));
+    const auto damaged = [&](auto&& damage) {
+      DiscreteOperators<dim> changed = op;
+      damage(changed);
+      return changed;
+    };
+    const auto is_complete = [&](auto&& damage) { return rows_are_complete(damaged(damage)); };
+    EXPECT_FALSE(is_complete([](auto& o) { o.volume.back() = 0.0; }));
+    EXPECT_FALSE(is_complete([](auto& o) { std::swap(o.node[0], o.node[1]); }));
+    EXPECT_FALSE(is_complete([](auto& o) { o.node[index(o.row_begin[1]) - 1] = o.nodes; }));
+    EXPECT_FALSE(is_complete([](auto& o) { o.gradient[dim - 1].pop_back(); }));
+    EXPECT_FALSE(is_complete([](auto& o) { o.hoop.push_back(1.0); }));
+    const auto reproduces = [&](auto&& damage) {
+      return reproduces_linear_fields(damaged(damage), domain.cloud.position);
+    };
+    EXPECT_FALSE(
+        reproduces([](auto& o) { o.gradient[dim - 1][1] += 1e-6 * vector_at<dim>(o.gradient, 1).norm(); }));
+    EXPECT_FALSE(reproduces([](auto& o) {
+      for (double& g : o.gradient[0]) g *= 1.0 + 1e-6; // constants still have no gradient
+    }));
   });
 }
 
@@ -137,7 +165,7 @@ TEST_P(Contract, promised_volumes_fill_the_domain) {
                          []<int dim>(const Domain<dim>& domain, const DiscreteOperators<dim>& op) {
                            double sum = 0.0;
                            for (const double v : op.volume) sum += v;
-                           const double exact = measure(domain.cloud);
+                           const double exact = enclosed_measure(domain.cloud);
                            EXPECT_NEAR(sum, exact, tolerance * exact);
                          });
 }
@@ -220,21 +248,18 @@ TEST_P(Contract, constant_stress_has_the_virial_of_its_volume) {
 
 /// Each boundary facet hands an equal share of its traction P·n A to each corner; no other node is loaded.
 TEST_P(Contract, promised_patch_constant_stress_loads_the_boundary_only) {
-  on_operators_that_keep(Promise::balanced_constant_stress,
-                         []<int dim>(const Domain<dim>& domain, const DiscreteOperators<dim>& op) {
-                           const Mat<dim> stress = some_tensor<dim>();
-                           Vectors<dim> expected(index(op.nodes), Vec<dim>::Zero());
-                           for (const Facet<dim>& facet : domain.cloud.facets) {
-                             std::array<Vec<dim>, dim> corner;
-                             for (std::size_t a = 0; a < dim; ++a)
-                               corner[a] = domain.cloud.position[index(facet.node[a])];
-                             for (const auto j : facet.node)
-                               expected[index(j)] -= stress * area_normal<dim>(corner) / dim;
-                           }
-                           const auto force = internal_force(op, Tensors<dim>(index(op.points), stress));
-                           for (std::size_t j = 0; j < force.size(); ++j)
-                             EXPECT_LT((force[j] - expected[j]).norm(), tolerance * domain.spacing);
-                         });
+  on_operators_that_keep(Promise::balanced_constant_stress, []<int dim>(const Domain<dim>& domain,
+                                                                        const DiscreteOperators<dim>& op) {
+    const Mat<dim> stress = some_tensor<dim>();
+    Vectors<dim> expected(index(op.nodes), Vec<dim>::Zero());
+    for (const Facet<dim>& facet : domain.cloud.facets) {
+      const Vec<dim> normal = area_normal<dim>(corners_of<dim>(facet, domain.cloud.position));
+      for (const auto j : facet.node) expected[index(j)] -= stress * normal / dim;
+    }
+    const auto force = internal_force(op, Tensors<dim>(index(op.points), stress));
+    for (std::size_t j = 0; j < force.size(); ++j)
+      EXPECT_LT((force[j] - expected[j]).norm(), tolerance * domain.spacing);
+  });
 }
 
 } // namespace

@@ -59,17 +59,18 @@ TEST_P(RandomClouds, CellsFillTheDomainAndAreClosed) {
 
     std::vector<Vec2> normals(index_of(cloud.nodes()), Vec2::Zero());
     for (const auto& f : cells.interior) {
-      normals[index_of(f.cell[0])] += right_normal(f.end - f.start);
-      normals[index_of(f.cell[1])] -= right_normal(f.end - f.start);
+      normals[index_of(f.cell[0])] += f.normal();
+      normals[index_of(f.cell[1])] -= f.normal();
     }
     std::vector<double> covered(cloud.facets.size(), 0.0);
     for (const auto& piece : cells.boundary) {
       const auto& [a, b] = cloud.facets[index_of(piece.facet)].node;
-      EXPECT_EQ(piece.s0, covered[index_of(piece.facet)]);
-      EXPECT_LE(piece.s0, piece.s1);
-      covered[index_of(piece.facet)] = piece.s1;
+      EXPECT_EQ(piece.place[0][0], covered[index_of(piece.facet)]);
+      EXPECT_LE(piece.place[0][0], piece.place[1][0]);
+      covered[index_of(piece.facet)] = piece.place[1][0];
       normals[index_of(piece.cell)] +=
-          right_normal(cloud.position[index_of(b)] - cloud.position[index_of(a)]) * (piece.s1 - piece.s0);
+          right_normal(cloud.position[index_of(b)] - cloud.position[index_of(a)]) *
+          (piece.place[1][0] - piece.place[0][0]);
     }
     for (const double s : covered) EXPECT_EQ(s, 1.0);
 
@@ -126,8 +127,8 @@ TEST_P(RandomClouds, FunctionsArePositiveAndLinearlyConsistent) {
       }
       for (const auto& f : cells.interior)
         for (const double s : {0.0, 0.211, 0.5, 1.0}) {
-          const Vec2 x = (1.0 - s) * f.start + s * f.end;
-          at.evaluate_on_facet(functions, x, f.triangle);
+          const Vec2 x = (1.0 - s) * f.corner[0] + s * f.corner[1];
+          at.evaluate_on_facet(functions, x, f.simplex);
           expect_consistent(cloud, at, x);
         }
     }
@@ -252,8 +253,8 @@ TEST_P(RandomClouds, WallsStopAllInfluence) {
       expect_visible(x);
     }
     for (const auto& f : cells.interior) {
-      const Vec2 x = 0.5 * (f.start + f.end);
-      at.evaluate_on_facet(Functions::sibson, x, f.triangle);
+      const Vec2 x = 0.5 * (f.corner[0] + f.corner[1]);
+      at.evaluate_on_facet(Functions::sibson, x, f.simplex);
       expect_visible(x);
     }
   });
@@ -272,7 +273,7 @@ TEST_P(RandomClouds, CellsBelongToTheNearestVisibleNode) {
         }
     };
     for (const auto& f : cells.interior) {
-      const Vec2 x = 0.5 * (f.start + f.end);
+      const Vec2 x = 0.5 * (f.corner[0] + f.corner[1]);
       EXPECT_NEAR((cloud.position[index_of(f.cell[0])] - x).norm(),
                   (cloud.position[index_of(f.cell[1])] - x).norm(), 1e-9);
       expect_nearest(x, f.cell[0]);
@@ -280,7 +281,7 @@ TEST_P(RandomClouds, CellsBelongToTheNearestVisibleNode) {
     for (const auto& piece : cells.boundary) {
       const auto& [a, b] = cloud.facets[index_of(piece.facet)].node;
       const Vec2 edge = cloud.position[index_of(b)] - cloud.position[index_of(a)];
-      const Vec2 x = cloud.position[index_of(a)] + 0.5 * (piece.s0 + piece.s1) * edge;
+      const Vec2 x = cloud.position[index_of(a)] + 0.5 * (piece.place[0][0] + piece.place[1][0]) * edge;
       expect_nearest(x + 1e-10 * left_normal(edge), piece.cell);
     }
   });

@@ -36,10 +36,10 @@ Rows reference_rows(const Cloud<2>& cloud, voronoi::Functions functions) {
   };
   const auto points = sixteen_points();
   for (const auto& facet : cells.interior) {
-    const Vec2 along = facet.end - facet.start;
+    const Vec2 along = facet.corner[1] - facet.corner[0];
     if (along.norm() == 0) continue;
     for (const double s : points) {
-      phi.evaluate(functions, facet.start + s * along, std::max(facet.triangle[0], facet.triangle[1]));
+      phi.evaluate(functions, facet.corner[0] + s * along, std::max(facet.simplex[0], facet.simplex[1]));
       for (std::size_t k = 0; k < phi.nodes().size(); ++k) {
         const Vec2 flux = phi.values()[k] / 16 * right_normal(along);
         add(facet.cell[0], phi.nodes()[k], flux);
@@ -49,10 +49,10 @@ Rows reference_rows(const Cloud<2>& cloud, voronoi::Functions functions) {
   }
   for (const auto& piece : cells.boundary) {
     const auto [a, b] = cloud.facets[std::size_t(piece.facet)].node;
-    const Vec2 normal =
-        (piece.s1 - piece.s0) * right_normal(cloud.position[std::size_t(b)] - cloud.position[std::size_t(a)]);
-    add(piece.cell, a, (1 - 0.5 * (piece.s0 + piece.s1)) * normal);
-    add(piece.cell, b, 0.5 * (piece.s0 + piece.s1) * normal);
+    const Vec2 normal = (piece.place[1][0] - piece.place[0][0]) *
+                        right_normal(cloud.position[std::size_t(b)] - cloud.position[std::size_t(a)]);
+    add(piece.cell, a, (1 - 0.5 * (piece.place[0][0] + piece.place[1][0])) * normal);
+    add(piece.cell, b, 0.5 * (piece.place[0][0] + piece.place[1][0]) * normal);
   }
   return rows;
 }

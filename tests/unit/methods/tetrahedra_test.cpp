@@ -87,9 +87,7 @@ TEST(Tetrahedra, have_a_closed_boundary) {
   double volume = 0.0;
   std::array<double, 6> area{};
   for (const Facet<3>& facet : block.cloud.facets) {
-    std::array<Vec3, 3> corner;
-    for (std::size_t a = 0; a < 3; ++a)
-      corner[a] = block.cloud.position[static_cast<std::size_t>(facet.node[a])];
+    const auto corner = corners_of<3>(facet, block.cloud.position);
     const Vec3 normal = area_normal<3>(corner);
     closed += normal;
     volume += (corner[0] + corner[1] + corner[2]).dot(normal) / 9.0;
@@ -113,6 +111,15 @@ TEST(Tetrahedra, refuse_blocks_that_are_none) {
   TetrahedralBlock block = jittered();
   std::swap(block.tetrahedra[5][0], block.tetrahedra[5][1]);
   EXPECT_THROW(methods::FeTetrahedra(block.tetrahedra).rebuild(block.cloud), GeometryError);
+  std::swap(block.tetrahedra[5][0], block.tetrahedra[5][1]);
+  EXPECT_NO_THROW(methods::FeTetrahedra(block.tetrahedra).rebuild(block.cloud));
+  block.cloud.position.push_back({1e-3, 2e-3, 3e-3});
+  try {
+    methods::FeTetrahedra(block.tetrahedra).rebuild(block.cloud);
+    FAIL() << "a node beside the mesh is taken";
+  } catch (const GeometryError& error) {
+    EXPECT_STREQ(error.what(), "the node at (0.001, 0.002, 0.003) m belongs to no tetrahedron");
+  }
 }
 
 /// The patch test: all boundary nodes follow an affine motion, and so does everything within.

@@ -30,7 +30,7 @@ TEST(Cells, GridHasSquareCellsHalvedAndQuarteredOnTheBoundary) {
   }
   for (const auto& f : cells.interior) {
     const Vec2 link = cloud.position[index_of(f.cell[1])] - cloud.position[index_of(f.cell[0])];
-    EXPECT_GE(right_normal(f.end - f.start).dot(link), 0.0);
+    EXPECT_GE(f.normal().dot(link), 0.0);
   }
 }
 
@@ -38,15 +38,16 @@ TEST(Cells, ThirdNodeOwnsPartOfABoundaryFacet) {
   Cloud<2> cloud; // obtuse at node 2: the circumcentre lies at (2, -3.75), below the long side
   add_loop(cloud, {{0, 0}, {4, 0}, {2, 0.5}});
   const auto cells = cells_of(cloud);
-  std::vector<BoundaryPiece> base;
+  std::vector<BoundaryPart<2>> base;
   for (const auto& piece : cells.boundary)
     if (piece.facet == 0) base.push_back(piece);
   ASSERT_EQ(base.size(), 3u);
   EXPECT_EQ(base[0].cell, 0);
   EXPECT_EQ(base[1].cell, 2);
   EXPECT_EQ(base[2].cell, 1);
-  EXPECT_DOUBLE_EQ(base[0].s1, 1.0625 / 4); // the bisector of (0, 0) and (2, 0.5) meets y = 0 at x = 1.0625
-  EXPECT_DOUBLE_EQ(base[1].s1, 1.0 - 1.0625 / 4);
+  EXPECT_DOUBLE_EQ(base[0].place[1][0],
+                   1.0625 / 4); // the bisector of (0, 0) and (2, 0.5) meets y = 0 at x = 1.0625
+  EXPECT_DOUBLE_EQ(base[1].place[1][0], 1.0 - 1.0625 / 4);
   EXPECT_DOUBLE_EQ(cells.volume[0], 0.5 * 1.0625 * 0.25);
   EXPECT_DOUBLE_EQ(cells.volume[2], 1.0 - 1.0625 * 0.25);
 }
@@ -58,9 +59,9 @@ TEST(Cells, CrackFacesShareNothing) {
   for (const auto& f : cells.interior) {
     EXPECT_FALSE((f.cell[0] == 17 && f.cell[1] == 19) || (f.cell[0] == 19 && f.cell[1] == 17));
     // No facet cuts through the crack 1 < x < 3, y = 2.
-    if ((f.start.y() - 2.0) * (f.end.y() - 2.0) < 0.0) {
-      const double x =
-          f.start.x() + (f.end.x() - f.start.x()) * (2.0 - f.start.y()) / (f.end.y() - f.start.y());
+    const auto& [start, end] = f.corner;
+    if ((start.y() - 2.0) * (end.y() - 2.0) < 0.0) {
+      const double x = start.x() + (end.x() - start.x()) * (2.0 - start.y()) / (end.y() - start.y());
       EXPECT_TRUE(x <= 1.0 || x >= 3.0);
     }
   }

@@ -96,7 +96,7 @@ TEST(NaturalNeighbours, LaplaceIsTheRatioOfFacetToDistance) {
     for (const std::size_t side : {0u, 1u})
       if (f.cell[side] == cloud.nodes()) {
         const std::int32_t i = f.cell[1 - side];
-        expected[i] = (f.end - f.start).norm() / (cloud.position[index_of(i)] - x).norm();
+        expected[i] = f.normal().norm() / (cloud.position[index_of(i)] - x).norm();
         sum += expected[i];
       }
   const auto value = phi(Functions::laplace, x);
