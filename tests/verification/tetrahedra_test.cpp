@@ -3,6 +3,7 @@
 #include "contact/plane_shape.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "methods/fe_simplices.hpp"
+#include "plasticity/hardening_laws.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
