@@ -107,7 +107,7 @@ void blame_place(const input::Case& input, const ExplicitSolver<dim>& solver, st
   if (hardening && hardening->homologous_temperature(state.point.temperature[point]) > 0.95)
     causes.push_back(fmt::format("The material there is at {:.4g} K, where it melts ({:.4g} K) and has no "
                                  "strength left.",
-                                 state.point.temperature[point], hardening->Tmelt));
+                                 state.point.temperature[point], hardening->melting_temperature()));
 }
 
 } // namespace

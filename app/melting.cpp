@@ -13,7 +13,7 @@ namespace {
 /// K; infinite where the material has none.
 double melting_temperature(const plasticity::Material& material) {
   double melting = std::numeric_limits<double>::infinity();
-  if (material.hardening) melting = std::min(melting, material.hardening->Tmelt);
+  if (material.hardening) melting = std::min(melting, material.hardening->melting_temperature());
   if (material.damage) melting = std::min(melting, material.damage->Tmelt);
   return melting;
 }

@@ -3,6 +3,7 @@
 #include "clouds/generate.hpp"
 #include "cnem/scni.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "plasticity/hardening_laws.hpp"
 #include "tests/curves.hpp"
 
 #include <memory>

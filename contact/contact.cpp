@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 #include <utility>
 
 namespace cnem::contact {
@@ -25,11 +24,7 @@ RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space, BodyC
     throw InputError("contact between parts of the workpiece is known in the plane alone");
   for (const Tool<dim>& tool : tools_) {
     if (!tool.shape) throw InputError(fmt::format("tool '{}' has no shape", tool.name));
-    if (!(tool.friction.coulomb >= 0.0) || !(tool.friction.shear_factor >= 0.0))
-      throw InputError(
-          fmt::format("tool '{}': friction coefficient and shear factor must not be negative, got "
-                      "{} and {}",
-                      tool.name, tool.friction.coulomb, tool.friction.shear_factor));
+    tool.friction.check(fmt::format("tool '{}'", tool.name));
     if (tool.drive && !(tool.drive->mass > 0.0))
       throw InputError(
           fmt::format("tool '{}': its mass must be positive, got {}", tool.name, tool.drive->mass));
@@ -68,19 +63,16 @@ template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) 
 }
 
 template<int dim> bool RigidContact<dim>::flow_stress_needed() const {
-  const auto limited = [](const Friction& friction) {
-    return friction.coulomb > 0.0 && std::isfinite(friction.shear_factor);
-  };
-  return (law_.active && limited(law_.friction)) ||
-         std::any_of(tools_.begin(), tools_.end(), [&](const Tool<dim>& t) { return limited(t.friction); });
+  return (law_.active && law_.friction.needs_flow_stress()) ||
+         std::any_of(tools_.begin(), tools_.end(),
+                     [](const Tool<dim>& tool) { return tool.friction.needs_flow_stress(); });
 }
 
 template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) {
   if (flow_stress_needed() && step.flow_stress.size() != surface_.node.size())
-    throw InputError(
-        fmt::format("friction with a shear factor needs the flow stress of all {} boundary nodes, "
-                    "got {}",
-                    surface_.node.size(), step.flow_stress.size()));
+    throw InputError(fmt::format("this friction needs the flow stress of all {} boundary nodes, "
+                                 "got {}",
+                                 surface_.node.size(), step.flow_stress.size()));
   gather(step);
   std::vector<Pose<dim>> poses = motions_.predict(tools_, step.time, step.dt, step.dt_mean);
   tool_reactions_ = motions_.reactions(tools_, poses);
@@ -259,15 +251,23 @@ template<int dim>
 void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const {
   const Friction& friction = friction_of(contact);
   if (contact.tool >= 0) contact.surface = tool_reactions_[index_of(contact.tool)].velocity;
-  contact.coulomb = friction.coulomb;
-  contact.limit = std::numeric_limits<double>::infinity();
-  if (friction.coulomb == 0.0 || std::isinf(friction.shear_factor)) return;
-  double flow_stress = 0.0, opposite = 0.0; // of two bodies the weaker one counts
-  for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-    if (const double w = contact.weight[a]; w != 0.0)
-      (w > 0.0 ? flow_stress : opposite) += std::abs(w) * step.flow_stress[index_of(contact.node[a])];
-  if (contact.tool < 0) flow_stress = std::min(flow_stress, opposite);
-  contact.limit = friction.shear_factor * flow_stress / std::numbers::sqrt3 * area * step.dt_mean;
+  Rubbing rubbing;
+  if (friction.needs_flow_stress()) {
+    double opposite = 0.0; // of two bodies the weaker one counts
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (const double w = contact.weight[a]; w != 0.0)
+        (w > 0.0 ? rubbing.flow_stress : opposite) +=
+            std::abs(w) * step.flow_stress[index_of(contact.node[a])];
+    if (contact.tool < 0) rubbing.flow_stress = std::min(rubbing.flow_stress, opposite);
+  }
+  if (friction.needs_speed()) {
+    const Vec<dim> slip =
+        at_contact(contact, [&](std::size_t b) { return reactions_[b].velocity; }) - contact.surface;
+    rubbing.speed = (slip - slip.dot(contact.normal) * contact.normal).norm();
+  }
+  const FrictionBound bound = friction.bound(rubbing);
+  contact.coulomb = bound.coefficient;
+  contact.limit = std::isinf(bound.shear) ? infinite : bound.shear * area * step.dt_mean;
 }
 
 template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) {

@@ -1,11 +1,11 @@
 #pragma once
 // Rigid tools: shape, motion or mass, friction and what they do to heat.
+#include "contact/friction.hpp"
 #include "contact/tool_shape.hpp"
 #include "core/index.hpp"
 #include "core/time_table.hpp"
 
 #include <array>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,13 +35,6 @@ template<int dim> struct ToolDrive {
   std::array<TimeTable, dim> force;             ///< N/m^(3−dim) (N of revolution); an empty table is zero
   Vec<dim> initial_velocity = Vec<dim>::Zero(); ///< m/s
   Mat<dim> free = Mat<dim>::Identity(); ///< projector on the directions it may move in; guides take the rest
-};
-
-/// F_t = min(stick, μ F_n, m_f σ_y/√3 A): Coulomb friction with the Tresca limit. Frictionless by default;
-/// μ = ∞ with a finite shear factor is pure shear friction.
-struct Friction {
-  double coulomb = 0.0;                                          ///< –, μ ≥ 0
-  double shear_factor = std::numeric_limits<double>::infinity(); ///< –, m_f ≥ 0; infinite: no limit
 };
 
 /// Thermal side of a tool, which is held at one temperature.

@@ -1,6 +1,8 @@
 // Materials and boundary conditions of the case reader.
 #include "input/case_parts.hpp"
+#include "input/constants.hpp"
 #include "input/schema/nearest.hpp"
+#include "plasticity/hardening_laws.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,24 +49,10 @@ void warn_of_brittleness(const plasticity::JohnsonCookDamage& law, const Setting
 
 plasticity::JohnsonCookDamage read_damage(const Setting& table, const Setting& material,
                                           std::vector<std::string>& warnings, Diagnostics& diagnostics) {
-  const auto number = [&](std::string_view key) { return table.get<double>(key); };
-  plasticity::JohnsonCookDamage law{.D1 = number("D1"),
-                                    .D2 = number("D2"),
-                                    .D3 = number("D3"),
-                                    .D4 = number("D4"),
-                                    .D5 = number("D5"),
-                                    .rate0 = number("rate0"),
-                                    .T0 = number("T0"),
-                                    .fracture_energy = number("fracture_energy"),
-                                    .band = number("band")};
-  law.residual_strength = number("residual_strength");
-  if (const auto cut_off = table.maybe<double>("cut_off")) law.cut_off = *cut_off;
-  const Setting* melt = table.find("Tmelt");
-  if (melt) law.Tmelt = std::get<double>(melt->value);
-  if (!(law.Tmelt > law.T0))
-    diagnostics.add(Mistake::range, melt->where, melt->path,
-                    fmt::format("found {:g} K, expected more than T0 = {:g} K", law.Tmelt, law.T0));
-  if (const Setting& share = *table.find("D5"); law.D5 != 0.0 && !melt)
+  plasticity::JohnsonCookDamage law;
+  read_constants(plasticity::JohnsonCookDamage::parameters, table, law);
+  check_constants<plasticity::JohnsonCookDamage>(table, diagnostics);
+  if (const Setting& share = *table.find("D5"); law.D5 != 0.0 && !table.find("Tmelt"))
     diagnostics.add(Mistake::missing_key, share.where, share.path,
                     fmt::format("found {:g} without a melting temperature, expected damage.Tmelt or "
                                 "plastic.Tmelt beside it",
@@ -78,58 +66,18 @@ plasticity::JohnsonCookDamage read_damage(const Setting& table, const Setting& m
   return law;
 }
 
-plasticity::JohnsonCook read_hardening(const Setting& table, Diagnostics& diagnostics) {
-  const auto number = [&](std::string_view key) { return table.get<double>(key); };
-  const std::string law = table.get<std::string>("law");
-  if (law == "perfect") return {.A = number("yield")};
-  if (law == "linear") return {.A = number("yield"), .B = number("hardening")};
-  if (law == "voce") {
-    const double yield = number("yield"), saturation = number("saturation");
-    if (!(saturation >= yield)) {
-      const Setting& setting = *table.find("saturation");
-      diagnostics.add(Mistake::range, setting.where, setting.path,
-                      fmt::format("found {:g} Pa, expected at least yield = {:g} Pa", saturation, yield));
-    }
-    return {.A = yield,
-            .B = number("hardening"),
-            .saturation = saturation - yield,
-            .saturation_exponent = number("exponent")};
-  }
-  plasticity::JohnsonCook jc{.A = number("A"),
-                             .B = number("B"),
-                             .n = number("n"),
-                             .C = number("C"),
-                             .rate0 = number("rate0"),
-                             .m = number("m"),
-                             .T0 = number("T0")};
-  if (const Setting* melt = table.find("Tmelt")) {
-    jc.Tmelt = std::get<double>(melt->value);
-    if (!(jc.Tmelt > jc.T0))
-      diagnostics.add(Mistake::range, melt->where, melt->path,
-                      fmt::format("found {:g} K, expected more than T0 = {:g} K", jc.Tmelt, jc.T0));
-  }
-  if (!(jc.A + jc.B > 0.0))
-    diagnostics.add(Mistake::range, table.where, table.path, "found A = B = 0, expected some strength");
-  return jc;
-}
-
 plasticity::Material read_material(const Setting& table, std::vector<std::string>& warnings,
                                    Diagnostics& diagnostics) {
   plasticity::Material material;
   material.name = table.name;
-  material.density = table.get<double>("density");
-  material.elasticity = {table.get<double>("elastic.young"), table.get<double>("elastic.poisson")};
+  using plasticity::Elasticity, plasticity::Material;
+  read_constants(Material::parameters, table, material);
+  read_constants(Elasticity::parameters, *table.find("elastic"), material.elasticity);
   if (const Setting* plastic = table.find("plastic"))
-    material.hardening = read_hardening(*plastic, diagnostics);
+    material.hardening = read_law<plasticity::Hardening>(plasticity::HardeningLaws{}, *plastic, diagnostics);
   if (const Setting* damage = table.find("damage"))
     material.damage = read_damage(*damage, table, warnings, diagnostics);
-  if (const Setting* heat = table.find("heat")) {
-    material.specific_heat = heat->get<double>("specific_heat");
-    material.conductivity = heat->get<double>("conductivity");
-    material.taylor_quinney = heat->get<double>("taylor_quinney");
-    material.expansion = heat->get<double>("expansion");
-    material.expansion_reference = heat->get<double>("reference_temperature");
-  }
+  if (const Setting* heat = table.find("heat")) read_constants(Material::heat_parameters, *heat, material);
   return material;
 }
 

@@ -1,6 +1,7 @@
 // The geometric part of the case reader: domain, tools, cloud.
 #include "input/case_parts.hpp"
 #include "input/case_walls.hpp"
+#include "input/constants.hpp"
 #include "input/curve_checks.hpp"
 #include "input/outline.hpp"
 
@@ -159,22 +160,12 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   check_points(root, domain, diagnostics);
 }
 
-namespace {
-
-contact::Friction read_friction(const Setting& table) {
-  contact::Friction friction; // none
-  const std::string law = table.get<std::string>("law");
-  if (law != "none") friction.coulomb = table.maybe<double>("coefficient").value_or(0.0);
-  if (law == "tresca-limited") friction.shear_factor = table.maybe<double>("shear_factor").value_or(1.0);
-  return friction;
-}
-
-} // namespace
-
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("contact");
-  result.contact = {table.get<bool>("deformable"), read_friction(*table.find("friction")),
-                    table.get<double>("conductance")};
+  result.contact = {
+      table.get<bool>("deformable"),
+      *read_law<contact::Friction>(contact::FrictionLaws{}, *table.find("friction"), diagnostics),
+      table.get<double>("conductance")};
   const Setting& conductance = *table.find("conductance");
   if (result.contact.conductance > 0.0 && !result.contact.active)
     diagnostics.add(Mistake::conflict, conductance.where, conductance.path,
@@ -203,7 +194,8 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
       check_overlap(table, tool, result, diagnostics);
     tool.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     read_drive(table, result, tool, diagnostics);
-    tool.friction = read_friction(*table.find("friction"));
+    tool.friction =
+        *read_law<contact::Friction>(contact::FrictionLaws{}, *table.find("friction"), diagnostics);
     if (const Setting* heat = table.find("heat")) {
       if (!result.analysis.thermal)
         diagnostics.add(Mistake::conflict, heat->where, heat->path,

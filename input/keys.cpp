@@ -1,6 +1,7 @@
 // Every key of a case file, in the order of the case reference; those of larger tables are in keys_*.cpp.
 #include "input/keys.hpp"
 #include "input/case.hpp"
+#include "input/constants.hpp"
 
 #include <fmt/format.h>
 
@@ -153,17 +154,10 @@ void add_conditions(Keys& k) {
 }
 
 void add_friction(Keys& k, const std::string& at, const std::string& doc) {
+  const std::vector<LawText> laws = law_texts(contact::FrictionLaws{});
   k.add(at, table, doc).always();
-  k.add(at + ".law", choice,
-        "`coulomb`: μ times the pressure; `tresca-limited`: the same, at most m_f σ_y/√3.")
-      .one_of({"none", "coulomb", "tresca-limited"})
-      .fallback("\"none\"");
-  k.add(at + ".coefficient", quantity, "μ.")
-      .in(not_negative)
-      .required()
-      .when("law", {"coulomb", "tresca-limited"})
-      .example("0.1");
-  k.add(at + ".shear_factor", quantity, "m_f.").in(fraction).fallback("1.0").when("law", {"tresca-limited"});
+  add_law_choice(k, at, laws).fallback("\"none\"");
+  add_law_constants(k, at, laws);
 }
 
 void add_tools(Keys& k) {

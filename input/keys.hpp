@@ -47,9 +47,6 @@ public:
   std::vector<Key> all;
 };
 
-inline constexpr Range temperature_range{.low = 0.0};
-inline constexpr Range fraction{.low = 0.0, .high = 1.0};
-
 /// The closed curve of a domain, a hole or a tool: members of the table `at`.
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
 void add_domain(Keys& k);

@@ -144,8 +144,7 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   set_moduli();
   for (std::size_t p = 0; p < points; ++p)
     if (const auto& hardening = body().material_of(p).hardening)
-      point.flow_stress[p] =
-          point.strength[p] * hardening->flow_stress(0.0, hardening->rate0, point.temperature[p]);
+      point.flow_stress[p] = point.strength[p] * hardening->flow_stress(0.0, 0.0, point.temperature[p]);
   each([&](Term<dim>& term) { term.start(body()); });
 }
 

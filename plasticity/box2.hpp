@@ -13,11 +13,11 @@ using namespace ::cnem::CNEM_ISA;
 /// Elastic logarithmic strain beyond which a point is reported as meaningless.
 inline constexpr double largest_strain = 100.0;
 
-/// One step of the points i … i + Number<T>::width − 1. Returns the lanes that mean nothing and were left
-/// alone.
-template<int dim, bool saturating, class T>
-CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const StressPoints<dim>& points,
-                                    std::ptrdiff_t i) {
+/// One step of the points i … i + Number<T>::width − 1 with the hardening of `kernel`. Returns the lanes that
+/// mean nothing and were left alone.
+template<int dim, class T, class Kernel>
+CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Kernel& kernel,
+                                    const StressPoints<dim>& points, std::ptrdiff_t i) {
   constexpr int general = StressPoints<dim>::general, symmetric = StressPoints<dim>::symmetric;
 
   // (i) total deformation gradient
@@ -70,9 +70,9 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Stress
   // (vi) plastic consistency, (vii) plastic corrector
   T increment = T(0.0), reduction = T(1.0), work = T(0.0);
   if (law.plastic) {
-    const PlasticCorrector<T, saturating> corrector(law, plastic_strain, temperature,
-                                                    load<T>(points.strength + i));
-    const Mask<T> yielding = valid & (q > corrector.initial_flow_stress);
+    const PlasticCorrector<T, Kernel> corrector(law, kernel, plastic_strain, temperature,
+                                                load<T>(points.strength + i));
+    const Mask<T> yielding = valid & (q > corrector.initial_flow_stress());
     if (any(yielding)) {
       Mask<T> failed;
       increment = corrector.solve(q, inverse[3], last_rate * T(law.dt), yielding, failed);

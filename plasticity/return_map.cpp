@@ -1,15 +1,13 @@
 #include "plasticity/return_map.hpp"
 
 #include "core/isa.hpp"
+#include "plasticity/hardening_laws.hpp"
 #include "plasticity/return_map_parameters.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace cnem::plasticity {
 
 ReturnMapParameters return_map_parameters(const Material& material, double dt) {
-  const JohnsonCook law = material.hardening.value_or(JohnsonCook{});
+  static const Hardening none = Perfect{};
   const double mu = material.elasticity.mu();
   ReturnMapParameters p{};
   p.kappa = material.elasticity.kappa();
@@ -23,29 +21,7 @@ ReturnMapParameters return_map_parameters(const Material& material, double dt) {
   p.dt = dt;
   p.by_dt = 1.0 / dt;
   p.plastic = material.hardening.has_value() && dt > 0.0;
-  p.A = law.A;
-  p.B = law.B;
-  p.n = law.n;
-  p.C = law.C;
-  p.m = law.m;
-  p.T0 = law.T0;
-  p.saturation = law.saturation;
-  p.saturation_exponent = law.saturation_exponent;
-  p.by_melting_range = 1.0 / (law.Tmelt - law.T0);
-  p.reference_increment = dt * law.rate0;
-  p.by_reference_increment = 1.0 / p.reference_increment;
-  p.by_C = 1.0 / law.C;
-  double coefficient = 1.0;
-  for (int k = 0; k <= series_order; ++k) {
-    p.series[k] = coefficient;
-    coefficient *= (law.n - k) / (k + 1);
-  }
-  // The first term left out bounds the error of the series for 0 ≤ y < 1.
-  constexpr double rounding = 1e-17, longest = 0.05;
-  p.series_range =
-      coefficient == 0.0
-          ? longest
-          : std::min(longest, std::pow(rounding / std::abs(coefficient), 1.0 / (series_order + 1)));
+  p.hardening = (material.hardening ? *material.hardening : none).view();
   return p;
 }
 

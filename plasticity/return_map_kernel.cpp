@@ -1,4 +1,5 @@
 #include "plasticity/box2.hpp"
+#include "plasticity/laws/list.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {
 
@@ -14,10 +15,10 @@ template<int dim> using Points = Pack<dim == 2 ? registers : 1>;
 template<int dim> inline constexpr int width = Number<Points<dim>>::width;
 
 /// Not inlined: whole packs and tails must run the very same instructions, or their bits could differ.
-template<int dim, bool saturating>
-[[gnu::noinline]] Mask<Points<dim>> pack_step(const ReturnMapParameters& parameters,
+template<int dim, class Kernel>
+[[gnu::noinline]] Mask<Points<dim>> pack_step(const ReturnMapParameters& parameters, const Kernel& kernel,
                                               const StressPoints<dim>& points, std::ptrdiff_t i) {
-  return return_map_step<dim, saturating, Points<dim>>(parameters, points, i);
+  return return_map_step<dim, Points<dim>>(parameters, kernel, points, i);
 }
 
 template<class M> int first_lane(M mask, int lanes) {
@@ -42,9 +43,9 @@ template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, V
 }
 
 /// Fewer than `width` points, through buffers padded with the last of them.
-template<int dim, bool saturating>
-Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
-                            std::ptrdiff_t begin, int count) {
+template<int dim, class Kernel>
+Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const Kernel& kernel,
+                            const StressPoints<dim>& points, std::ptrdiff_t begin, int count) {
   constexpr int fields = StressPoints<dim>::general * 2 + StressPoints<dim>::symmetric + 10;
   double buffer[fields][width<dim>];
   StressPoints<dim> local = points, target = points;
@@ -57,7 +58,7 @@ Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const StressP
   const int first_output = used;
   for_each_output(local, copy);
 
-  const auto bad = pack_step<dim, saturating>(parameters, local, 0);
+  const auto bad = pack_step(parameters, kernel, local, 0);
 
   used = first_output;
   for_each_output(target, [&](double* field) {
@@ -67,17 +68,25 @@ Mask<Points<dim>> tail_step(const ReturnMapParameters& parameters, const StressP
   return bad;
 }
 
-template<int dim, bool saturating>
-std::ptrdiff_t update(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
-                      std::ptrdiff_t begin, std::ptrdiff_t end) {
+template<int dim, class Kernel>
+std::ptrdiff_t update(const ReturnMapParameters& parameters, const Kernel& kernel,
+                      const StressPoints<dim>& points, std::ptrdiff_t begin, std::ptrdiff_t end) {
   std::ptrdiff_t first_bad = -1;
   for (std::ptrdiff_t i = begin; i < end; i += width<dim>) {
     const int count = end - i < width<dim> ? static_cast<int>(end - i) : width<dim>;
-    const auto bad = count == width<dim> ? pack_step<dim, saturating>(parameters, points, i)
-                                         : tail_step<dim, saturating>(parameters, points, i, count);
+    const auto bad = count == width<dim> ? pack_step(parameters, kernel, points, i)
+                                         : tail_step(parameters, kernel, points, i, count);
     if (any(bad) && first_bad < 0 && first_lane(bad, count) < count) first_bad = i + first_lane(bad, count);
   }
   return first_bad;
+}
+
+/// f(constants of the law at `index` of the list).
+template<class First, class... Rest, class F>
+auto with_law(Laws<First, Rest...>, int index, const void* constants, const F& f) {
+  if constexpr (sizeof...(Rest) > 0)
+    if (index > 0) return with_law(Laws<Rest...>{}, index - 1, constants, f);
+  return f(*static_cast<const First*>(constants));
 }
 
 } // namespace
@@ -85,8 +94,9 @@ std::ptrdiff_t update(const ReturnMapParameters& parameters, const StressPoints<
 template<int dim>
 std::ptrdiff_t return_map(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
                           std::ptrdiff_t begin, std::ptrdiff_t end) {
-  return parameters.saturation > 0.0 ? update<dim, true>(parameters, points, begin, end)
-                                     : update<dim, false>(parameters, points, begin, end);
+  return with_law(
+      HardeningLaws{}, parameters.hardening.law, parameters.hardening.constants,
+      [&](const auto& law) { return update(parameters, kernel_of(law, parameters.dt), points, begin, end); });
 }
 
 template std::ptrdiff_t return_map<2>(const ReturnMapParameters&, const StressPoints<2>&, std::ptrdiff_t,

@@ -5,10 +5,13 @@
 
 namespace cnem::plasticity {
 
-/// Highest power in the binomial series of (1 + y)ⁿ.
-inline constexpr int series_order = 10;
-
 struct Material;
+
+/// A hardening law by its place in plasticity/laws/list.hpp, with its struct of constants.
+struct HardeningView {
+  int law;
+  const void* constants;
+};
 
 /// Constants of a material and a step. What would cost a division is kept inverted.
 struct ReturnMapParameters {
@@ -17,16 +20,10 @@ struct ReturnMapParameters {
   double three_expansion, reference;    ///< 1/K, K
   double dt, by_dt;                     ///< s, 1/s
   bool plastic;                         ///< has a flow stress and time to flow
-  double A, B, n, C, m, T0;             ///< as in JohnsonCook
-  double saturation;                    ///< Pa   Q
-  double saturation_exponent;           ///< –    δ
-  double by_melting_range;              ///< 1/K  1/(T_m − T0); 0: no thermal softening
-  double by_reference_increment, by_C;  ///< –    1/(ε̄̇p0 dt), 1/C
-  double reference_increment;           ///< –    ε̄̇p0 dt
-  double series[series_order + 1];      ///< –    binomial coefficients: (1 + y)ⁿ = Σ series_k y^k
-  double series_range;                  ///< –    |y| up to which the series is exact to rounding
+  HardeningView hardening;              ///< any where `plastic` is false
 };
 
+/// Valid as long as the material.
 ReturnMapParameters return_map_parameters(const Material& material, double dt);
 
 #define CNEM_RETURN_MAP(isa)                                                                                 \

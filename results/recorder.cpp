@@ -31,10 +31,10 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{}[{}]", name, unit);
 }
 
-std::vector<std::string> names_of(const std::vector<std::pair<std::string, double>>& named) {
+std::vector<std::string> columns_of(const std::vector<Metric>& told) {
   std::vector<std::string> names;
-  names.reserve(named.size());
-  for (const auto& [name, value] : named) names.push_back(name);
+  for (const Metric& metric : told)
+    if (!metric.name.empty()) names.push_back(metric.name);
   return names;
 }
 
@@ -88,87 +88,81 @@ HistoryRecorder<dim>::HistoryRecorder(const input::Case& input, const ExplicitSo
       probes_(probe_weights<dim>(input, solver.approximation(), solver.conditions().cloud)), folder_(folder),
       initial_measure_(enclosed_measure(snapshot(solver))), initial_mass_(total_mass(solver)) {}
 
-template<int dim>
-std::vector<std::pair<std::string, double>>
-HistoryRecorder<dim>::row(const ExplicitSolver<dim>& solver) const {
+template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSolver<dim>& solver) const {
   const MeasureWords measure = measure_words(dim);
   const State<dim>& state = solver.state();
-  std::vector<std::pair<std::string, double>> row{{"time[s]", state.time},
-                                                  {"step", static_cast<double>(state.step)},
-                                                  {"dt[s]", state.step_before},
-                                                  {"nodes", static_cast<double>(state.node.size())}};
+  const std::array<double, 2> balance = solver.mass_balance();
+  std::vector<Metric> row{{"time[s]", state.time},
+                          {"step", static_cast<double>(state.step)},
+                          {"dt[s]", state.step_before},
+                          {"nodes", static_cast<double>(state.node.size())},
+                          {"", kinetic_share(), "kinetic_share"},
+                          {"", balance[0], "mass_balance.low"},
+                          {"", balance[1], "mass_balance.high"}};
+  const auto components = [&](const std::string& name, const Vec<dim>& vector, const std::string& unit) {
+    for (int k = 0; k < dim; ++k)
+      row.push_back({fmt::format("{}_{}{}", name, axis_name(index_of(k)), unit), vector[k]});
+  };
   const auto& contact = solver.conditions().contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t) {
     const std::string& name = contact.tools()[t].name;
     const auto& result = contact.results()[t];
-    const auto components = [&](const char* what, const Vec<dim>& vector, const std::string& unit) {
-      for (int k = 0; k < dim; ++k)
-        row.emplace_back(fmt::format("{}.{}_{}{}", name, what, axis_name(index_of(k)), unit), vector[k]);
-    };
-    components("force", result.force, units_.force);
-    row.emplace_back(name + ".stroke[m]", contact.displacement(t, state.time).norm());
-    components("displacement", contact.displacement(t, state.time), "[m]");
-    components("velocity", contact.velocity(t, state.time), "[m/s]");
-    row.emplace_back(name + ".work" + units_.energy, result.total.tool);
+    components(name + ".force", result.force, units_.force);
+    row.push_back({"", result.force.norm(), "peak_force." + name, Keep::largest});
+    row.push_back({name + ".stroke[m]", contact.displacement(t, state.time).norm()});
+    components(name + ".displacement", contact.displacement(t, state.time), "[m]");
+    components(name + ".velocity", contact.velocity(t, state.time), "[m/s]");
+    row.push_back({name + ".work" + units_.energy, result.total.tool});
   }
   if (contact.bodies_touch())
-    row.emplace_back("body_contact.pressing" + units_.force, contact.body_result().pressing);
+    row.push_back({"body_contact.pressing" + units_.force, contact.body_result().pressing});
   const auto& supports = solver.conditions().supports;
   for (std::size_t s = 0; s < supports.list().size(); ++s) {
     if (s > 0 && supports.list()[s].name == supports.list()[s - 1].name) continue;
     Vec<dim> force = Vec<dim>::Zero();
     for (std::size_t o = s; o < supports.list().size(); ++o)
       if (supports.list()[o].name == supports.list()[s].name) force += supports.reactions()[o];
-    for (int k = 0; k < dim; ++k)
-      row.emplace_back(
-          fmt::format("support.{}.force_{}{}", supports.list()[s].name, axis_name(index_of(k)), units_.force),
-          force[k]);
+    components("support." + supports.list()[s].name + ".force", force, units_.force);
   }
   const EnergyLedger e = solver.ledger();
   for (const Energy& entry : e.entries())
     if (entry.kind != EnergyKind::noted)
-      row.emplace_back(fmt::format("energy.{}{}", entry.name, units_.energy), entry.value);
-  row.emplace_back("energy.residual" + units_.energy, e.residual());
-  row.emplace_back("kinetic_share", e.kinetic_share());
-  for (Metric& metric : solver.metrics()) row.emplace_back(std::move(metric.name), metric.value);
-  for (const char* name : {"plastic_strain", "temperature"}) {
-    const FieldInfo<dim>& info = field_info<dim>(name);
-    row.emplace_back(with_unit(fmt::format("max.{}", name), info.unit),
-                     largest_value(snapshot(solver), name));
-  }
+      row.push_back({fmt::format("energy.{}{}", entry.name, units_.energy), entry.value});
+  row.push_back({"energy.residual" + units_.energy, e.residual()});
+  row.push_back({"kinetic_share", e.kinetic_share()});
+  for (Metric& metric : solver.metrics()) row.push_back(std::move(metric));
+  for (const std::string name : {"plastic_strain", "temperature"})
+    row.push_back({with_unit("max." + name, field_info<dim>(name).unit),
+                   largest_value(snapshot(solver), name), "max_" + name, Keep::largest});
   if (!state.point.damage.empty()) {
-    row.emplace_back("max.damage", *std::max_element(state.point.damage.begin(), state.point.damage.end()));
-    row.emplace_back(measure.broken + measure.unit, broken_measure(snapshot(solver)));
+    row.push_back({"max.damage", *std::max_element(state.point.damage.begin(), state.point.damage.end()),
+                   "max_damage", Keep::largest});
+    row.push_back(
+        {measure.broken + measure.unit, broken_measure(snapshot(solver)), measure.broken, Keep::largest});
   }
   for (const ProbeWeights& probe : probes_)
     for (const std::string& name : probe.fields)
-      row.emplace_back(with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info<dim>(name).unit),
-                       weighted_value(snapshot(solver), name, probe.node, probe.weight));
-  row.emplace_back("mass" + units_.mass, total_mass(solver));
-  row.emplace_back(measure.enclosed + measure.unit, enclosed_measure(snapshot(solver)));
+      row.push_back({with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info<dim>(name).unit),
+                     weighted_value(snapshot(solver), name, probe.node, probe.weight)});
+  const double mass = total_mass(solver), enclosed = enclosed_measure(snapshot(solver));
+  row.push_back({"mass" + units_.mass, mass});
+  row.push_back({"", mass / initial_mass_ - 1.0, "mass_drift"});
+  row.push_back({measure.enclosed + measure.unit, enclosed});
+  row.push_back({"", enclosed / initial_measure_ - 1.0, measure.enclosed + "_drift"});
   return row;
 }
 
-template<int dim>
-void HistoryRecorder<dim>::keep_metric(const std::string& name, double value, bool largest) {
+template<int dim> void HistoryRecorder<dim>::keep(const Metric& metric) {
+  if (metric.kept_as.empty()) return;
   for (auto& [known, kept] : metrics_)
-    if (known == name) {
-      kept = largest ? std::max(kept, value) : value;
+    if (known == metric.kept_as) {
+      kept = metric.keep == Keep::largest ? std::max(kept, metric.value) : metric.value;
       return;
     }
-  metrics_.emplace_back(name, value);
+  metrics_.emplace_back(metric.kept_as, metric.value);
 }
 
 template<int dim> void HistoryRecorder<dim>::record(const ExplicitSolver<dim>& solver) {
-  const MeasureWords measure = measure_words(dim);
-  const auto named = row(solver);
-  if (writer_.empty()) writer_.emplace_back(folder_ / files::history, names_of(named));
-  std::vector<double> values;
-  values.reserve(named.size());
-  for (const auto& [name, value] : named) values.push_back(value);
-  writer_.front().write(values);
-  ++rows_;
-
   const EnergyLedger e = solver.ledger();
   last_residual_ = e.residual();
   worst_residual_ = std::max(worst_residual_, std::abs(last_residual_));
@@ -179,24 +173,16 @@ template<int dim> void HistoryRecorder<dim>::record(const ExplicitSolver<dim>& s
   kinetic_ += e["inertial"] * (now - last_time_);
   deformation_ += e.deformation() * (now - last_time_);
   last_time_ = now;
-  keep_metric("kinetic_share", kinetic_share(), false);
 
-  const auto& contact = solver.conditions().contact;
-  for (std::size_t t = 0; t < contact.tools().size(); ++t)
-    keep_metric("peak_force." + contact.tools()[t].name, contact.results()[t].force.norm(), true);
-  for (const auto& [name, value] : named) {
-    if (name == "max.plastic_strain") keep_metric("max_plastic_strain", value, true);
-    if (name == "volume_drift" || name == "max.volume_drift") keep_metric(name, value, true);
-    if (name == "max.temperature[K]") keep_metric("max_temperature", value, true);
-    if (name == "max.damage") keep_metric("max_damage", value, true);
-    if (name == measure.broken + measure.unit) keep_metric(measure.broken, value, true);
-    if (name == measure.enclosed + measure.unit)
-      keep_metric(measure.enclosed + "_drift", value / initial_measure_ - 1.0, false);
-    if (name == "mass" + units_.mass) keep_metric("mass_drift", value / initial_mass_ - 1.0, false);
-  }
-  const std::array<double, 2> balance = solver.mass_balance();
-  keep_metric("mass_balance.low", balance[0], false);
-  keep_metric("mass_balance.high", balance[1], false);
+  const std::vector<Metric> told = row(solver);
+  for (const Metric& metric : told) keep(metric);
+  if (writer_.empty()) writer_.emplace_back(folder_ / files::history, columns_of(told));
+  std::vector<double> values;
+  values.reserve(told.size());
+  for (const Metric& metric : told)
+    if (!metric.name.empty()) values.push_back(metric.value);
+  writer_.front().write(values);
+  ++rows_;
 }
 
 template<int dim>
@@ -230,7 +216,8 @@ template<int dim> void HistoryRecorder<dim>::archive(Archive& archive) {
   archive.number("run/history/last_time", "s", last_time_);
   archive.number("run/history/kinetic", "J s/m", kinetic_);
   archive.number("run/history/deformation", "J s/m", deformation_);
-  std::vector<std::string> names = names_of(metrics_);
+  std::vector<std::string> names;
+  for (const auto& [name, value] : metrics_) names.push_back(name);
   archive.texts("run/history/metrics", names);
   metrics_.resize(names.size());
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -241,7 +228,7 @@ template<int dim> void HistoryRecorder<dim>::archive(Archive& archive) {
 
 template<int dim> void HistoryRecorder<dim>::resume(const ExplicitSolver<dim>& solver) {
   writer_.clear();
-  writer_.push_back(HistoryWriter::resume(folder_ / files::history, names_of(row(solver)), rows_));
+  writer_.push_back(HistoryWriter::resume(folder_ / files::history, columns_of(row(solver)), rows_));
 }
 
 template<int dim> EnergyScale HistoryRecorder<dim>::energy_scale() const {

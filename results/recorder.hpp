@@ -58,8 +58,9 @@ public:
   std::vector<std::pair<std::string, double>> metrics() const { return metrics_; }
 
 private:
-  std::vector<std::pair<std::string, double>> row(const ExplicitSolver<dim>& solver) const;
-  void keep_metric(const std::string& name, double value, bool largest);
+  /// Everything that is told of the present state, declared where it is computed.
+  std::vector<Metric> row(const ExplicitSolver<dim>& solver) const;
+  void keep(const Metric& metric);
 
   HistoryUnits units_;
   std::vector<ProbeWeights> probes_;

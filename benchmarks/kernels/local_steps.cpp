@@ -19,7 +19,7 @@ contact::Tool<2> tool(const Vec2& low, const Vec2& high, double speed) {
   made.name = "tool";
   made.shape = std::make_shared<contact::CurveShape>(testing::box(low, high));
   made.motion.velocity = {TimeTable(0.0), TimeTable(-speed)};
-  made.friction.coulomb = 0.1;
+  made.friction = contact::Coulomb{0.1};
   return made;
 }
 

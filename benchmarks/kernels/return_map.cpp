@@ -3,6 +3,7 @@
 // (fits L2 and L3 caches).
 #include "plasticity/return_map.hpp"
 #include "core/isa.hpp"
+#include "plasticity/hardening_laws.hpp"
 
 #include <benchmark/benchmark.h>
 

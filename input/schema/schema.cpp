@@ -5,13 +5,8 @@
 
 namespace cnem::input {
 
-bool Range::contains(double value) const {
-  return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
-}
-
-bool Range::bounded() const { return low != anything.low || high != anything.high; }
-
-std::string Range::text(std::string_view unit) const {
+std::string range_text(const Range& range, std::string_view unit) {
+  const auto [low, high, low_open, high_open] = range;
   const std::string suffix = unit.empty() || unit == "1" ? "" : fmt::format(" {}", unit);
   if (low == anything.low) return fmt::format("{} {}{}", high_open ? "<" : "≤", high, suffix);
   if (high == anything.high) return fmt::format("{} {}{}", low_open ? ">" : "≥", low, suffix);

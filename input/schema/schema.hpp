@@ -1,9 +1,9 @@
 #pragma once
 // The one description of what a case file may hold. Checks, JSON Schema, the case reference and the resolved
 // case all come from it.
+#include "core/parameter.hpp"
 #include "input/schema/units.hpp"
 
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,20 +37,8 @@ enum class Scope { everywhere, plane, space };
 /// Whether a key has to be written. For a table, `fallback` means that its own defaults hold without it.
 enum class Presence { required, fallback, optional };
 
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false, high_open = false;
-
-  bool contains(double value) const;
-  bool bounded() const;
-  /// "> 0 m", "in [0, 1]", "≥ 1".
-  std::string text(std::string_view unit) const;
-};
-
-inline constexpr Range anything{};
-inline constexpr Range positive{.low = 0.0, .low_open = true};
-inline constexpr Range not_negative{.low = 0.0};
+/// "> 0 m", "in [0, 1]", "≥ 1".
+std::string range_text(const Range& range, std::string_view unit);
 
 /// A key only makes sense when a sibling has one of these values.
 struct Condition {

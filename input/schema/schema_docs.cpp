@@ -157,7 +157,7 @@ std::string meaning(const Key& key) {
   if (!key.when.sibling.empty())
     parts.push_back(fmt::format("With `{}` = `{}`.", key.when.sibling, fmt::join(key.when.values, "` or `")));
   if (key.range.bounded())
-    parts.push_back(fmt::format("Must be {}.", key.range.text(describe(key.dimension).si_unit)));
+    parts.push_back(fmt::format("Must be {}.", range_text(key.range, describe(key.dimension).si_unit)));
   if (!key.example.empty()) parts.push_back(fmt::format("E.g. `{}`.", key.example));
   return fmt::format("{}", fmt::join(parts, " "));
 }

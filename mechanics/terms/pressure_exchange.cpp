@@ -158,8 +158,9 @@ template<int dim> std::vector<Metric> PressureExchange<dim>::metrics(const BodyV
   }
   return {{"pressure_noise",
            pressure_noise<dim>(body.approximation.links, body.conditions.cloud.facets, body.state.point)},
-          {"volume_drift", drift_.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift_.size()))},
-          {"max.volume_drift", most}};
+          {"volume_drift", drift_.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift_.size())),
+           "volume_drift", Keep::largest},
+          {"max.volume_drift", most, "max.volume_drift", Keep::largest}};
 }
 
 template<int dim> std::unique_ptr<Term<dim>> pressure_exchange(const Model<dim>& model) {

@@ -74,10 +74,15 @@ struct StepLimit {
   double heat = 0.0;             ///< s, of heat where nothing moves
 };
 
-/// A number that a term tells of the present state, a column of histories.
+/// Which value of a run its status keeps.
+enum class Keep { last, largest };
+
+/// A number that is told of the present state: a column of histories, and what the status keeps of it.
 struct Metric {
-  std::string name;
+  std::string name; ///< of the column, with its unit: "area[m^2]"; "": no column
   double value;
+  std::string kept_as = {}; ///< in the status; "": not kept
+  Keep keep = Keep::last;
 };
 
 /// Nothing, but for what a term overrides. Hooks that get a range may write to its points and nodes alone;

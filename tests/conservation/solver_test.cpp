@@ -71,7 +71,7 @@ TEST(Audit, stresses_of_mixed_points_do_not_exceed_the_yield_stress) {
   const Resampling<2> change = resampled(solver, 0.5);
   solver.prepare(change);
   const PointState<2>& point = solver.state().point;
-  const plasticity::JohnsonCook& law = *solver.model().materials[0].hardening;
+  const plasticity::Hardening& law = *solver.model().materials[0].hardening;
   int mixed = 0;
   for (std::size_t p = 0; p < point.size(); ++p) {
     if (change.parcels.begin[p + 1] - change.parcels.begin[p] < 2) continue;

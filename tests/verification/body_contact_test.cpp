@@ -29,8 +29,9 @@ std::vector<Vec2> corners(const Vec2& low, const Vec2& high) {
 }
 
 contact::RigidContact<2> bodies(double friction, std::vector<contact::Tool<2>> tools = {}) {
-  return contact::RigidContact<2>(std::move(tools), Space::plane,
-                                  {.active = true, .friction = {.coulomb = friction}, .conductance = 0.0});
+  return contact::RigidContact<2>(
+      std::move(tools), Space::plane,
+      {.active = true, .friction = contact::Coulomb{friction}, .conductance = 0.0});
 }
 
 /// Mass and momentum of the nodes that pass the test of their initial position.
@@ -206,8 +207,8 @@ ExplicitSolver<2> close_slot(int steps, int every) {
   Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.supports = Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, base}},
                                static_cast<std::size_t>(cloud.nodes()));
-  model.contact =
-      bodies(0.1, {rigid_tool("punch", box({-1e-3, 2e-3}, {5e-3, 3e-3}), {0.0, -30.0}, {.coulomb = 0.1})});
+  model.contact = bodies(
+      0.1, {rigid_tool("punch", box({-1e-3, 2e-3}, {5e-3, 3e-3}), {0.0, -30.0}, contact::Coulomb{0.1})});
   ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
   for (int n = 0; n < steps; ++n) {
     if (n > 0 && n % every == 0) solver.prepare();

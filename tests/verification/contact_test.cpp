@@ -14,7 +14,7 @@ Mat2 rotation(double angle) {
 }
 
 contact::Tool<2> polygon_tool(const std::vector<Vec2>& corners, const Vec2& velocity, double friction) {
-  return rigid_tool("tool", polygon(corners), velocity, {.coulomb = friction});
+  return rigid_tool("tool", polygon(corners), velocity, contact::Coulomb{friction});
 }
 
 class Bar : public ::testing::TestWithParam<Method> {};

@@ -23,7 +23,7 @@ void append(Masses& scene, const Masses& other) {
 
 void let_bodies_touch(Masses& scene, double friction, std::vector<Tool<2>> tools = {}) {
   scene.contact = std::make_shared<RigidContact<2>>(std::move(tools), Space::plane,
-                                                    BodyContactLaw{true, {.coulomb = friction}});
+                                                    BodyContactLaw{true, Coulomb{friction}});
   scene.contact->set_boundary(scene.facets, scene.mass.size(), scene.constraints);
 }
 

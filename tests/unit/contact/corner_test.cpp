@@ -211,8 +211,8 @@ TEST(Corner, ShearStrengthCountsEachAreaOnce) {
   // pure shear friction on a face over one node and on the corner in the middle of the edge beside it
   Masses scene;
   scene.square({0, 0}, 1.0);
-  Tool<2> belt = tool(box({-1, 1}, {0.5, 2}), {1.0, -0.1}, std::numeric_limits<double>::infinity());
-  belt.friction.shear_factor = 0.7;
+  Tool<2> belt = tool(box({-1, 1}, {0.5, 2}), {1.0, -0.1});
+  belt.friction = TrescaLimited{infinite, 0.7};
   scene.start({belt});
   scene.flow_stress.assign(4, 10.0);
   const double dt = 1e-3;

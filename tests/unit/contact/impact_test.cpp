@@ -1,4 +1,5 @@
 // A bar against a wall, impulse against change of momentum, energy books, start-up penetration, ramps.
+#include "core/error.hpp"
 #include "masses.hpp"
 
 #include <gtest/gtest.h>
@@ -196,7 +197,7 @@ TEST(Friction, ForceIsLimitedByTheShearStrength) {
   Masses scene = block(6, 3, 0.1, {0.0, 0.0}, 4e3, 10.0);
   scene.gravity = {0, -9.81};
   Tool<2> belt = tool(box({-200, -1}, {20, 0}), {50.0, 0.0}, 0.5);
-  belt.friction.shear_factor = 0.6;
+  belt.friction = TrescaLimited{0.5, 0.6};
   scene.start({belt});
   EXPECT_TRUE(scene.contact->flow_stress_needed());
   const double flow_stress = 3.0;
@@ -211,10 +212,20 @@ TEST(Friction, ForceIsLimitedByTheShearStrength) {
   EXPECT_LT(drag, 0.5 * 9.81 * 0.9); // below Coulomb
 }
 
+TEST(Friction, OutOfItsRangeIsAnError) {
+  for (const Friction& friction : {Friction(Coulomb{-0.1}), Friction(TrescaLimited{0.1, 1.5})})
+    EXPECT_THROW(RigidContact<2>({[&] {
+                   Tool<2> made = tool(box({0, 0}, {1, 1}));
+                   made.friction = friction;
+                   return made;
+                 }()}),
+                 InputError);
+}
+
 TEST(Friction, AShearFactorWithoutFlowStressIsAnError) {
   Masses scene = block(3, 3, 0.1, {0.0, 0.0}, 100.0);
   Tool<2> belt = tool(box({-20, -1}, {20, 0}), {5.0, 0.0}, 0.5);
-  belt.friction.shear_factor = 0.6;
+  belt.friction = TrescaLimited{0.5, 0.6};
   scene.start({belt});
   EXPECT_ANY_THROW(scene.step(1e-3));
 }

@@ -63,7 +63,7 @@ inline Tool<2> tool(const Curve& curve, const Vec2& velocity = {0, 0}, double fr
   made.name = "tool";
   made.shape = std::make_shared<CurveShape>(curve);
   made.motion.velocity = {TimeTable(velocity.x()), TimeTable(velocity.y())};
-  made.friction.coulomb = friction;
+  made.friction = Coulomb{friction};
   return made;
 }
 

@@ -1,3 +1,4 @@
+#include "plasticity/hardening_laws.hpp"
 #include "tests/unit/input/case_text.hpp"
 
 #include <cmath>
@@ -157,11 +158,11 @@ TEST(CaseReader, FullCaseInSI) {
   ASSERT_EQ(c.materials.size(), 2U);
   EXPECT_EQ(c.materials[0].name, "soft");
   EXPECT_EQ(c.materials[0].density, 2700.0);
-  EXPECT_EQ(c.materials[0].hardening->B, 50e6);
+  EXPECT_EQ(c.materials[0].hardening->as<plasticity::Linear>().hardening, 50e6);
   EXPECT_EQ(c.materials[0].expansion, 23e-6);
   EXPECT_EQ(c.materials[0].taylor_quinney, 0.9);
   EXPECT_EQ(c.materials[0].expansion_reference, 300.0);
-  const plasticity::JohnsonCook& jc = *c.materials[1].hardening;
+  const auto& jc = c.materials[1].hardening->as<plasticity::JohnsonCook>();
   EXPECT_EQ(jc.A, 253e6);
   EXPECT_EQ(jc.C, 0.0);
   EXPECT_EQ(jc.rate0, 1.0);
@@ -189,8 +190,8 @@ TEST(CaseReader, FullCaseInSI) {
     EXPECT_GE(piece.from.x(), -0.002 - 1e-12);
   }
   EXPECT_DOUBLE_EQ(punch.velocity[1].value()(1e-6), -5.5);
-  EXPECT_EQ(punch.friction.coulomb, 0.2);
-  EXPECT_EQ(punch.friction.shear_factor, 0.8);
+  EXPECT_EQ(punch.friction.as<contact::TrescaLimited>().coefficient, 0.2);
+  EXPECT_EQ(punch.friction.as<contact::TrescaLimited>().shear_factor, 0.8);
   EXPECT_EQ(punch.thermal.temperature, 300.0);
   EXPECT_DOUBLE_EQ(punch.thermal.effusivity, std::sqrt(100.0 * 8000.0 * 450.0));
 
@@ -249,7 +250,8 @@ TEST(CaseReader, OverridesReplaceAddAndAddressElements) {
   EXPECT_EQ(read_small("", {"time.end=3 us", "time.end=4 us"}).time.end, 4e-6);
   EXPECT_EQ(read_small("", {"materials.steel.plastic={ law = \"perfect\", yield = \"1 MPa\" }"})
                 .material("steel")
-                .hardening->A,
+                .hardening->as<plasticity::Perfect>()
+                .yield,
             1e6);
   const Case c = read_case_text(full_case, "case.toml",
                                 {"domain.outer.path[1].fillet=2 mm", "tools.punch.velocity=0 -50 m/s",
@@ -384,7 +386,7 @@ TEST(CaseReader, PaperCasesRead) {
     EXPECT_EQ(c.time.end, 60e-6);
     EXPECT_TRUE(c.analysis.thermal);
     EXPECT_EQ(c.materials[0].conductivity, 5.86);
-    EXPECT_EQ(c.material("304L").hardening->C, 0.0973);
+    EXPECT_EQ(c.material("304L").hardening->as<plasticity::JohnsonCook>().C, 0.0973);
     ASSERT_EQ(c.tools.size(), 2U);
     EXPECT_EQ(c.tools[0].velocity[1].value()(0.0), -11.0);
     double right = -1.0, left = 1.0;

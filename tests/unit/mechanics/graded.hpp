@@ -27,7 +27,7 @@ inline Problem<2> graded_shearing(double speed, double coarse = 4e-4) {
   std::vector<Support<2>> axis{{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}};
   Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.supports = Supports<2>(std::move(axis), static_cast<std::size_t>(cloud.nodes()));
-  const contact::Friction friction{.coulomb = 0.1, .shear_factor = 0.5};
+  const contact::Friction friction = contact::TrescaLimited{0.1, 0.5};
   model.contact = contact::RigidContact<2>(
       {warm_box("punch", {-1e-3, 4e-3}, {edge - clearance, 8e-3}, {0, -speed}, friction),
        warm_box("die", {edge + clearance, -4e-3}, {12e-3, 0}, {0, 0}, friction),

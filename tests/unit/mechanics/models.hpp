@@ -4,6 +4,7 @@
 #include "mechanics/explicit_solver.hpp"
 #include "methods/fe_simplices.hpp"
 #include "methods/sph.hpp"
+#include "plasticity/hardening_laws.hpp"
 #include "tests/clouds.hpp"
 
 #include <cmath>

@@ -16,8 +16,8 @@ ExplicitSolver<2> small_shearing(double speed) {
   Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.supports = Supports<2>(std::move(axis), static_cast<std::size_t>(cloud.nodes()));
   model.contact = contact::RigidContact<2>(
-      {warm_box("punch", {-1e-3, 2e-3}, {1.45e-3, 4e-3}, {0, -speed}, {.coulomb = 0.1}),
-       warm_box("die", {1.55e-3, -2e-3}, {5e-3, 0}, {0, 0}, {.coulomb = 0.1})});
+      {warm_box("punch", {-1e-3, 2e-3}, {1.45e-3, 4e-3}, {0, -speed}, contact::Coulomb{0.1}),
+       warm_box("die", {1.55e-3, -2e-3}, {5e-3, 0}, {0, 0}, contact::Coulomb{0.1})});
   model.thermal = true;
   return start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
 }
@@ -134,7 +134,7 @@ TEST(Adiabatic, homogeneous_shear_follows_johnson_cook) {
   const double end = 1.1 / 1e4;
   const int steps = 6000;
   for (int n = 0; n < steps; ++n) solver.advance(end / steps);
-  const plasticity::JohnsonCook jc = *steel_304L().hardening;
+  const plasticity::Hardening jc = *steel_304L().hardening;
   const double reached = solver.state().point.plastic_strain[0];
   double T = 296.0;
   const int pieces = 20000;

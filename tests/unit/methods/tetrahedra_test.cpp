@@ -5,6 +5,7 @@
 #include "core/facets.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "methods/fe_simplices.hpp"
+#include "plasticity/hardening_laws.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -253,7 +254,7 @@ TEST(Tetrahedra, bounce_off_a_plane) {
   contact::Tool<3> wall;
   wall.name = "wall";
   wall.shape = std::make_shared<contact::PlaneShape<3>>(Vec3(0.0, 0.0, -1e-5), Vec3(0.0, 0.0, 2.0), 0.1);
-  wall.friction.coulomb = 0.1;
+  wall.friction = contact::Coulomb{0.1};
   problem.contact = contact::RigidContact<3>({wall});
   ExplicitSolver<3> solver = start(std::move(problem), [](const Vec3&) -> Vec3 { return {3.0, 0.0, -10.0}; });
   const Momenta before = momenta(solver);

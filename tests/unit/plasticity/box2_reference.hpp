@@ -51,7 +51,7 @@ struct Box2Reference {
 
 private:
   /// Bisection, then Newton steps as long as they shrink the residual.
-  double solve(const JohnsonCook& law, double q, double slope, double temperature, double dt) const {
+  double solve(const Hardening& law, double q, double slope, double temperature, double dt) const {
     const auto residual = [&](double x) {
       return q - slope * x - law.flow_stress(plastic_strain + x, x / dt, temperature);
     };

@@ -38,7 +38,7 @@ JohnsonCookDamage law_of(const std::array<double, 5>& d) {
 
 Material perfect_steel(const JohnsonCookDamage& law) {
   Material m = steel();
-  m.hardening = JohnsonCook{.A = 500e6};
+  m.hardening = Perfect{500e6};
   m.damage = law;
   return m;
 }
@@ -154,7 +154,7 @@ TEST(damage, breaking_takes_the_fracture_energy_whatever_size_and_hardening) {
     for (const double hardening : {0.0, 400e6}) {
       Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
       point.length = length;
-      point.material.hardening->B = hardening;
+      point.material.hardening = Linear{500e6, hardening};
       EXPECT_NEAR(cost_of_breaking(point, 2e-4 * 1e-4 / length), 1.0, 2e-3) << length << ' ' << hardening;
     }
 }

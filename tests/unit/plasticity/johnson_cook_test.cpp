@@ -123,7 +123,7 @@ TEST(johnson_cook, return_map_follows_the_table) {
   ASSERT_EQ(paths.size(), 144u);
   for (const auto& [name, rows] : paths) {
     const HeatedMaterial& m = known.at(rows[0][0]);
-    const JohnsonCook& law = *m.material.hardening;
+    const Hardening& law = *m.material.hardening;
     const double rate = std::stod(rows[0][2]), step = 2.5e-4;
     PointState<2> s = points_at_rest<2>(1, std::stod(rows[0][3]));
     double& temperature = s.temperature[0];
@@ -149,7 +149,7 @@ TEST(johnson_cook, return_map_follows_the_table) {
 }
 
 TEST(johnson_cook, moduli_are_derivatives_of_the_flow_stress) {
-  const JohnsonCook law = *steel().hardening;
+  const Hardening law = *steel().hardening;
   for (double e : {1e-4, 0.1, 2.0})
     for (double rate : {0.5, 10.0, 1e5})
       for (double t : {250.0, 500.0, 1500.0, 1800.0}) {
@@ -164,14 +164,14 @@ TEST(johnson_cook, moduli_are_derivatives_of_the_flow_stress) {
 }
 
 TEST(johnson_cook, limits) {
-  const JohnsonCook law = *steel().hardening;
+  const Hardening law = *steel().hardening;
   EXPECT_DOUBLE_EQ(law.flow_stress(0.0, 0.0, 296.0), 253e6);
   EXPECT_DOUBLE_EQ(law.flow_stress(0.0, 0.5, 100.0), 253e6); // clipped below rate0 and below T0
   EXPECT_DOUBLE_EQ(law.flow_stress(1.0, 1.0, 296.0), 253e6 + 685e6);
   EXPECT_DOUBLE_EQ(law.flow_stress(1.0, 1e6, 1698.0), 0.0);
   EXPECT_DOUBLE_EQ(law.flow_stress(1.0, 1e6, 5000.0), 0.0);
   EXPECT_TRUE(std::isinf(law.hardening_modulus(0.0, 1.0, 300.0)));
-  const JohnsonCook linear{1e8, 2e8};
+  const Hardening linear = JohnsonCook{1e8, 2e8};
   EXPECT_DOUBLE_EQ(linear.flow_stress(0.5, 1e8, 4000.0), 2e8);
   EXPECT_DOUBLE_EQ(linear.hardening_modulus(0.0, 0.0, 0.0), 2e8);
   const Elasticity steel_elasticity{210e9, 0.33};

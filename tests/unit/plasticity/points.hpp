@@ -1,5 +1,6 @@
 #pragma once
 // Stress points to try the return map on: states, deformation gradients in and stresses out as 3×3 matrices.
+#include "plasticity/hardening_laws.hpp"
 #include "plasticity/return_map.hpp"
 
 #include <Eigen/Dense>

@@ -24,18 +24,18 @@ public:
     m.elasticity = {log_uniform(50e9, 300e9), uniform(0.1, 0.45)};
     const int kind = static_cast<int>(uniform(0.0, 9.0));
     if (kind == 0)
-      m.hardening = JohnsonCook{log_uniform(1e8, 1e9)}; // perfect
+      m.hardening = Perfect{log_uniform(1e8, 1e9)};
     else if (kind == 1)
-      m.hardening = JohnsonCook{log_uniform(1e8, 1e9), log_uniform(1e7, 1e9)}; // linear
+      m.hardening = Linear{log_uniform(1e8, 1e9), log_uniform(1e7, 1e9)};
     else if (kind == 2)
       m.hardening.reset();
-    else if (kind == 8) // saturating
-      m.hardening = JohnsonCook{.A = log_uniform(1e8, 1e9),
-                                .B = uniform(0.0, 1.0) < 0.5 ? 0.0 : log_uniform(1e7, 1e9),
-                                .C = uniform(0.0, 1.0) < 0.5 ? 0.0 : log_uniform(1e-3, 0.1),
-                                .saturation = log_uniform(1e8, 1e9),
-                                .saturation_exponent = log_uniform(1.0, 100.0)};
-    else
+    else if (kind == 8) {
+      const double yield = log_uniform(1e8, 1e9);
+      m.hardening = Voce{.yield = yield,
+                         .hardening = uniform(0.0, 1.0) < 0.5 ? 0.0 : log_uniform(1e7, 1e9),
+                         .saturation = yield + log_uniform(1e8, 1e9),
+                         .exponent = log_uniform(1.0, 100.0)};
+    } else
       m.hardening = JohnsonCook{log_uniform(1e8, 1e9),
                                 log_uniform(1e8, 1e9),
                                 uniform(0.15, 0.9),

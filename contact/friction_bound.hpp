@@ -1,0 +1,20 @@
+#pragma once
+// What a law of friction is asked, and what it answers: once per contact and step, before the impulses are
+// known.
+#include "core/parameter.hpp"
+
+namespace cnem::contact {
+
+/// A contact as the predictor left it.
+struct Rubbing {
+  double flow_stress = 0.0; ///< Pa, of the weaker of two bodies; 0 unless the law needs it
+  double speed = 0.0;       ///< m/s, of slip; 0 unless the law needs it
+};
+
+/// F_t ≤ min(μ F_n, τ A).
+struct FrictionBound {
+  double coefficient = 0.0; ///< –, μ ≥ 0; may be infinite
+  double shear = infinite;  ///< Pa, τ ≥ 0
+};
+
+} // namespace cnem::contact

@@ -1,0 +1,14 @@
+#pragma once
+// The laws of friction: a file each beside this one. A law is a struct of constants (core/parameter.hpp) with
+//   bound(rubbing)        what friction bears at most at a contact
+//   needs_flow_stress()   where it asks for rubbing.flow_stress
+//   needs_speed()         where it asks for rubbing.speed
+#include "contact/laws/coulomb.hpp"
+#include "contact/laws/frictionless.hpp"
+#include "contact/laws/tresca_limited.hpp"
+
+namespace cnem::contact {
+
+using FrictionLaws = Laws<Frictionless, Coulomb, TrescaLimited>;
+
+} // namespace cnem::contact
