@@ -41,16 +41,6 @@ template<int dim> Vec<dim> area_normal(const std::array<Vec<dim>, dim>& corner) 
     return 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]);
 }
 
-/// Area (m²) or volume (m³) that the boundary of a cloud encloses, by Gauss's theorem.
-template<int dim> double enclosed_measure(const Cloud<dim>& cloud) {
-  double sum = 0.0;
-  for (const Facet<dim>& facet : cloud.facets) {
-    const auto corner = corners_of<dim>(facet, cloud.position);
-    sum += (corner[0] - cloud.position[0]).dot(area_normal<dim>(corner)) / dim;
-  }
-  return sum;
-}
-
 /// Area (m²) or volume (m³) of a simplex; positive for corners that stand as in voronoi::Simplex.
 template<int dim> double measure(const std::array<Vec<dim>, dim + 1>& x) {
   if constexpr (dim == 2)
