@@ -3,11 +3,12 @@
 //   flow_stress(law, strain, rate, temperature)   its formula, Pa, on numbers N of plasticity/jet.hpp and
 //                                                 temperatures T, K; it falls neither with strain nor rate
 // in namespace CNEM_ISA, and where formula and derivatives are too slow a kernel_of(law, dt) of its own.
-#include "plasticity/formula_kernel.hpp"
 #include "plasticity/laws/johnson_cook.hpp"
 #include "plasticity/laws/linear.hpp"
 #include "plasticity/laws/perfect.hpp"
 #include "plasticity/laws/voce.hpp"
+
+#include "plasticity/formula_kernel.hpp" // after the laws, whose formulas it calls
 
 namespace cnem::plasticity {
 
