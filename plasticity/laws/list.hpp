@@ -7,11 +7,12 @@
 #include "plasticity/laws/linear.hpp"
 #include "plasticity/laws/perfect.hpp"
 #include "plasticity/laws/voce.hpp"
+#include "plasticity/laws/zerilli_armstrong_bcc.hpp"
 
 #include "plasticity/formula_kernel.hpp" // after the laws, whose formulas it calls
 
 namespace cnem::plasticity {
 
-using HardeningLaws = Laws<JohnsonCook, Linear, Perfect, Voce>;
+using HardeningLaws = Laws<JohnsonCook, Linear, Perfect, Voce, ZerilliArmstrongBcc>;
 
 } // namespace cnem::plasticity
