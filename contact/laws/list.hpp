@@ -4,11 +4,12 @@
 //   needs_flow_stress()   where it asks for rubbing.flow_stress
 //   needs_speed()         where it asks for rubbing.speed
 #include "contact/laws/coulomb.hpp"
+#include "contact/laws/coulomb_decay.hpp"
 #include "contact/laws/frictionless.hpp"
 #include "contact/laws/tresca_limited.hpp"
 
 namespace cnem::contact {
 
-using FrictionLaws = Laws<Frictionless, Coulomb, TrescaLimited>;
+using FrictionLaws = Laws<Frictionless, Coulomb, TrescaLimited, CoulombDecay>;
 
 } // namespace cnem::contact
