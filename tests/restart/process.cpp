@@ -13,8 +13,8 @@ namespace cnem::app {
 Process::Process(std::vector<std::string> arguments, std::size_t file_limit,
                  std::vector<std::string> environment, const std::function<void()>& prepare)
     : log_(memfd_create("log", 0)) {
-  arguments.insert(arguments.begin(), CNEM_PROGRAM);
-  std::vector<char*> words;
+  std::string program = CNEM_PROGRAM;
+  std::vector<char*> words{program.data()};
   for (std::string& word : arguments) words.push_back(word.data());
   words.push_back(nullptr);
   pid_ = fork();
