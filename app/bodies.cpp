@@ -221,8 +221,8 @@ template std::vector<Facet<3>> facets_of(const Cloud<3>&, const std::vector<std:
 template std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>&);
 template std::vector<std::int32_t> nodes_of(const std::vector<Facet<3>>&);
 template void set_initial_state<2>(const input::Case&, const Cloud<2>&, const std::vector<std::int32_t>&,
-                                Fields<2>&, Field&);
+                                   Fields<2>&, Field&);
 template void set_initial_state<3>(const input::Case&, const Cloud<3>&, const std::vector<std::int32_t>&,
-                                Fields<3>&, Field&);
+                                   Fields<3>&, Field&);
 
 } // namespace cnem::app

@@ -269,13 +269,13 @@ protected:
     results::FieldWriter writer(folder);
     for (const double time : {0.0, 1e-6})
       writer.write<2>(queue, std::make_shared<results::FieldFrame<2>>(results::FieldFrame<2>{
-                              .time = time,
-                              .cells = &cells,
-                              .position = {position[0], position[1]},
-                              .cell_scalars = {{"pressure [Pa]", pressure}},
-                              .cell_vectors = {},
-                              .node_scalars = {{"temperature [K]", temperature}},
-                              .node_vectors = {{"velocity [m/s]", {position[0], position[1], {}}}}}));
+                                 .time = time,
+                                 .cells = &cells,
+                                 .position = {position[0], position[1]},
+                                 .cell_scalars = {{"pressure [Pa]", pressure}},
+                                 .cell_vectors = {},
+                                 .node_scalars = {{"temperature [K]", temperature}},
+                                 .node_vectors = {{"velocity [m/s]", {position[0], position[1], {}}}}}));
     queue.wait();
   }
   vtkSmartPointer<vtkUnstructuredGrid> read(const std::string& file) const {
@@ -328,14 +328,15 @@ TEST_F(VtuFiles, arrays_of_many_blocks_come_back_to_the_bit) {
     noise.push_back(1.0 / static_cast<double>(1 + random()));
   }
   results::FileQueue queue;
-  results::FieldWriter(folder).write<2>(queue, std::make_shared<results::FieldFrame<2>>(results::FieldFrame<2>{
-                                                .time = 0.0,
-                                                .cells = &cells,
-                                                .position = {position[0], position[1]},
-                                                .cell_scalars = {},
-                                                .cell_vectors = {},
-                                                .node_scalars = {{"noise", noise}, {"again", noise}},
-                                                .node_vectors = {}}));
+  results::FieldWriter(folder).write<2>(
+      queue, std::make_shared<results::FieldFrame<2>>(results::FieldFrame<2>{
+                 .time = 0.0,
+                 .cells = &cells,
+                 .position = {position[0], position[1]},
+                 .cell_scalars = {},
+                 .cell_vectors = {},
+                 .node_scalars = {{"noise", noise}, {"again", noise}},
+                 .node_vectors = {}}));
   queue.wait();
   const auto grid = read("fields/nodes_00000.vtu");
   ASSERT_EQ(grid->GetNumberOfPoints(), static_cast<vtkIdType>(count));
