@@ -2,7 +2,7 @@
 #include "app/places.hpp"
 #include "app/run.hpp"
 #include "app/simulation.hpp"
-#include "app/statics.hpp"
+#include "app/statics/statics.hpp"
 #include "app/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/threads.hpp"

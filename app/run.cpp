@@ -3,7 +3,7 @@
 #include "app/process/exhaustion.hpp"
 #include "app/process/run_signals.hpp"
 #include "app/simulation.hpp"
-#include "app/statics.hpp"
+#include "app/statics/statics.hpp"
 #include "core/isa.hpp"
 #include "core/threads.hpp"
 #include "input/case_reader.hpp"

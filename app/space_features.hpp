@@ -1,6 +1,6 @@
 #pragma once
 // What runs in space have of app/plane_features.hpp: no more than their state. What they have not is refused
-// by the reader (input/keys_space.cpp).
+// by the reader (input/keys/space.cpp).
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "results/file_queue.hpp"

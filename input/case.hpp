@@ -176,7 +176,7 @@ struct Plane {
   Vec3 normal{0, 0, 0}; ///< out of the tool, of any length but zero
 };
 
-/// A rigid tool. Its shape is made of that by app/registry.
+/// A rigid tool. Its shape is made of that by app/problem/registry.
 struct Tool : contact::ToolSurface {
   Curve outline;                              ///< in the plane: counter-clockwise, at t = 0, m
   std::optional<Plane> plane;                 ///< in space

@@ -1,7 +1,7 @@
 #pragma once
 // Constants that libraries declare (core/parameter.hpp): their keys in the schema, and their reading.
 #include "core/parameter.hpp"
-#include "input/keys.hpp"
+#include "input/keys/keys.hpp"
 #include "input/schema/settings.hpp"
 
 #include <optional>

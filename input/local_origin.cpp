@@ -27,23 +27,23 @@ Vec3 origin_of(const Case& input) {
 
 class Shift {
 public:
-  explicit Shift(const Vec3& origin) : origin3_(origin), origin_(origin.head<2>()) {}
+  explicit Shift(const Vec3& origin) : origin_(origin), in_plane_(origin.head<2>()) {}
 
-  void operator()(Vec2& x) const { x -= origin_; }
-  void operator()(Vec3& x) const { x -= origin3_; }
+  void operator()(Vec2& x) const { x -= in_plane_; }
+  void operator()(Vec3& x) const { x -= origin_; }
   template<int dim> void operator()(std::vector<Vec<dim>>& points) const {
     for (Vec<dim>& x : points) (*this)(x);
   }
   void operator()(Curve& curve) const {
     for (CurvePiece& piece : curve.pieces) {
-      for (Vec2* x : {&piece.from, &piece.to}) *x -= origin_;
-      if (piece.is_arc()) piece.centre -= origin_;
+      for (Vec2* x : {&piece.from, &piece.to}) *x -= in_plane_;
+      if (piece.is_arc()) piece.centre -= in_plane_;
     }
   }
 
 private:
-  Vec3 origin3_;
-  Vec2 origin_;
+  Vec3 origin_;
+  Vec2 in_plane_;
 };
 
 } // namespace

@@ -89,6 +89,10 @@ private:
         moving = tool;
       }
     }
+    for (const std::string& tool : tools)
+      for (const char* component : {".force_x", ".force_y", ".force_z"})
+        if (const int k = history_.find(tool + component); k >= 0)
+          largest_force_ = std::max(largest_force_, largest(column(k)));
     for (const char* component : {"z", "y", "x"}) force_chart(tools, moving, component);
   }
 
@@ -122,7 +126,8 @@ private:
       chart.series.push_back(std::move(raw));
       chart.series.push_back(std::move(smooth));
     }
-    if (!(most > 0.0)) return;
+    constexpr double rounding = 1e-9;
+    if (!(most > rounding * largest_force_)) return;
     const double cutoff = std::sqrt(std::numbers::ln2) / (2.0 * std::numbers::pi * sigma);
     chart.note = fmt::format(
         "Force of the tool on the workpiece, {}. "
@@ -170,8 +175,9 @@ private:
   }
 
   void conservation() {
-    Chart chart = against_time("Mass and area", "change", "%");
-    for (const char* quantity : {"mass", "area"}) {
+    const bool space = history_.find("enclosed_volume") >= 0;
+    Chart chart = against_time(space ? "Mass and enclosed volume" : "Mass and area", "change", "%");
+    for (const char* quantity : {"mass", space ? "enclosed_volume" : "area"}) {
       const int k = history_.find(quantity);
       if (k < 0) continue;
       use(k);
@@ -221,6 +227,7 @@ private:
   const std::vector<double>& time_;
   std::set<int> used_;
   std::vector<Chart> charts_;
+  double largest_force_ = 0.0; ///< of all tools and components
 };
 
 } // namespace

@@ -134,7 +134,9 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
     history = results::read_history(folder / results::files::history);
   collect_figures(report, status, history ? &*history : nullptr);
   if (history) report.charts = history_charts(*history);
-  if (history && history->find("mass[kg]") >= 0)
+  if (history && history->find("enclosed_volume[m^3]") >= 0)
+    report.subtitle += " · three-dimensional";
+  else if (history && history->find("mass[kg]") >= 0)
     report.subtitle += " · axisymmetric: x is the radius, totals of the whole body";
 
   report.blanking = evaluate::read_blanking(folder);

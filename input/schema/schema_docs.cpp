@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view introduction = R"(# Case reference
 
-<!-- Generated from input/keys*.cpp by `cnem schema --markdown`. -->
+<!-- Generated from input/keys/*.cpp by `cnem schema --markdown`. -->
 
 A case is one [TOML](https://toml.io) file. Keys that are not listed here are errors, and so are values of the
 wrong dimension. Anything can be overridden on the command line: `--set time.end="3 us"`,

@@ -1,6 +1,6 @@
 #include "tables.hpp"
 
-#include "app/static_model.hpp"
+#include "app/statics/static_model.hpp"
 #include "input/case_reader.hpp"
 #include "problems.hpp"
 #include "results/output_folder.hpp"

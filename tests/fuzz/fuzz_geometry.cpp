@@ -2,7 +2,7 @@
 // keep their promises, whose parts are told apart and whose bonded faces match, and which, where it has no
 // faces inside, can be deformed and resampled; or a GeometryError.
 #include "adapt/resample.hpp"
-#include "app/bodies.hpp"
+#include "app/problem/bodies.hpp"
 #include "cnem/scni.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"

@@ -12,9 +12,10 @@ struct SmallCase {
 };
 
 /// Plasticity, heat, contact with friction, re-references, bulk viscosity, loads, supports, bodies of
-/// revolution, finite elements, damage, parts that touch, a failure
-/// that is gone back from.
+/// revolution, finite elements, particles, damage, parts that touch, a failure that is gone back from, space.
 const std::vector<SmallCase>& small_cases();
+/// The one of them that is three-dimensional.
+std::string space_case();
 const std::string& small_case(const std::string& name);
 
 /// Differences of two output folders in history, fields, lines, pictures and in what status.json says of the

@@ -1,6 +1,6 @@
 // Every option of adaptation in whole runs (of separation: separation_test.cpp): what is asked for happens,
 // and nothing is lost by it.
-#include "app/registry.hpp"
+#include "app/problem/registry.hpp"
 #include "app/run.hpp"
 #include "input/case_reader.hpp"
 #include "results/history_writer.hpp"

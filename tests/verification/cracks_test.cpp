@@ -1,5 +1,5 @@
 // Stress intensity factors of whole cases against boundary collocation and handbook values.
-#include "app/static_model.hpp"
+#include "app/statics/static_model.hpp"
 #include "input/case_reader.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Taylor bars on coarse clouds against independent finite-element solutions (cases/verification/taylor_*).
-#include "app/registry.hpp"
+#include "app/problem/registry.hpp"
 #include "app/run.hpp"
 #include "input/case_reader.hpp"
 #include "results/history_writer.hpp"

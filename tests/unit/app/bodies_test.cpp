@@ -1,6 +1,6 @@
 // Interfaces, regions, periodic pieces and imperfections as a user writes them.
-#include "app/bodies.hpp"
-#include "app/registry.hpp"
+#include "app/problem/bodies.hpp"
+#include "app/problem/registry.hpp"
 #include "core/error.hpp"
 #include "input/case_reader.hpp"
 

@@ -1,7 +1,7 @@
 // What a body does must not depend on where it is.
 #include "app/run.hpp"
 #include "app/simulation.hpp"
-#include "app/static_model.hpp"
+#include "app/statics/static_model.hpp"
 #include "input/case_reader.hpp"
 #include "results/fields.hpp"
 #include "results/history_writer.hpp"

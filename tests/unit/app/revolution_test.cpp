@@ -1,5 +1,5 @@
 // Axisymmetric cases as a user writes them.
-#include "app/registry.hpp"
+#include "app/problem/registry.hpp"
 #include "app/run.hpp"
 #include "core/error.hpp"
 #include "input/case_reader.hpp"

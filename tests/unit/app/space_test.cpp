@@ -1,8 +1,9 @@
 // Three-dimensional cases: what the reader and the registry make of blocks, and what the program writes.
-#include "app/registry.hpp"
+#include "app/problem/registry.hpp"
 #include "app/run.hpp"
 #include "input/case_reader.hpp"
 #include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
 #include "results/point_weights.hpp"
 #include "results/status.hpp"
 #include "tests/temporary_folder.hpp"
@@ -125,7 +126,10 @@ lines.axis = { from = "0 0 0 mm", to = "0 0 2 mm", samples = 3, fields = ["displ
   EXPECT_NEAR(last("mass"), 7850 * 2e-9, 1e-15);
   EXPECT_LT(results::read_status(folder.path()).energy_residual, 1e-3);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "lines" / "axis.csv"));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "report.html"));
+  const std::string report = results::read_file(folder.path() / "report.html");
+  EXPECT_NE(report.find("three-dimensional"), std::string::npos);
+  EXPECT_NE(report.find("Mass and enclosed volume"), std::string::npos);
+  EXPECT_EQ(report.find("axisymmetric"), std::string::npos);
 }
 
 } // namespace

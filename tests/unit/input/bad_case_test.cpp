@@ -264,5 +264,11 @@ TEST(BadCase, MutilatedTextNeverCrashes) {
   }
 }
 
+TEST(BadCase, KeysWithoutEndAreRefusedAtOnce) {
+  std::string text = small_case;
+  for (int k = 0; k < 20000; ++k) text += "key_" + std::to_string(k) + " = 1\n";
+  expect_parts(refusal_of(text), {"case.toml:11:1: found a table of 20002 keys, expected at most 10000"});
+}
+
 } // namespace
 } // namespace cnem::input

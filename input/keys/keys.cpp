@@ -1,5 +1,5 @@
 // Every key of a case file, in the order of the case reference; those of larger tables are in keys_*.cpp.
-#include "input/keys.hpp"
+#include "input/keys/keys.hpp"
 #include "input/case.hpp"
 #include "input/constants.hpp"
 
@@ -23,7 +23,7 @@ void add_general(Keys& k) {
         "a body of revolution about x = 0, x the radius and y the axial coordinate; nodes on the axis stay "
         "on it, "
         "and masses, forces and energies are those of the whole body. `three-dimensional`: whole bodies as "
-        "well, vectors have three components (docs/three_dimensions.md).")
+        "well, vectors have three components (docs/user_guide.md).")
       .one_of({"plane strain", "plane stress", "axisymmetric", "three-dimensional"})
       .fallback("\"plane strain\"");
   k.add(

@@ -1,8 +1,8 @@
-#include "app/statics.hpp"
+#include "app/statics/statics.hpp"
 
 #include "app/process/exhaustion.hpp"
 #include "app/profile.hpp"
-#include "app/static_model.hpp"
+#include "app/statics/static_model.hpp"
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"

@@ -1,4 +1,4 @@
-#include "app/bodies.hpp"
+#include "app/problem/bodies.hpp"
 #include "core/index.hpp"
 
 #include "voronoi/triangulation.hpp"

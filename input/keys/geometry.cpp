@@ -1,5 +1,5 @@
 // Keys that describe geometry and nodes: outlines, domain, cloud.
-#include "input/keys.hpp"
+#include "input/keys/keys.hpp"
 
 namespace cnem::input {
 

@@ -1,9 +1,9 @@
-#include "app/registry.hpp"
+#include "app/problem/registry.hpp"
 #include "core/index.hpp"
 
-#include "app/bodies.hpp"
+#include "app/problem/bodies.hpp"
 #include "app/places.hpp"
-#include "app/workpiece.hpp"
+#include "app/problem/workpiece.hpp"
 #include "contact/curve_shape.hpp"
 #include "contact/plane_shape.hpp"
 #include "core/facets.hpp"

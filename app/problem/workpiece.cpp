@@ -1,10 +1,10 @@
-#include "app/workpiece.hpp"
+#include "app/problem/workpiece.hpp"
 
 #include "clouds/generate.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "core/error.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace cnem::app {
@@ -19,8 +19,8 @@ clouds::DomainShape domain_shape(const input::Domain& domain) {
   return shape;
 }
 
-/// The grid of a block: it is cut on `low` to `high`, and `place` takes it to the workpiece.
-clouds::TetrahedralBlock make_block(const input::Block& block, double spacing) {
+/// The grid of a block. Throws clouds::SpacingError when it has too many nodes.
+clouds::TetrahedralBlock make_block(const input::Block& block, double spacing, double nodes_limit) {
   using Part = input::Block::Part;
   const bool box = block.shape == input::Block::Shape::box;
   // A cylinder is bent out of a prism over the square [−1, 1]², its half or its quarter.
@@ -30,9 +30,13 @@ clouds::TetrahedralBlock make_block(const input::Block& block, double spacing) {
           : Vec3(block.part == Part::quarter ? 0.0 : -1.0, block.part == Part::whole ? -1.0 : 0.0, 0.0);
   const Vec3 high = box ? box_high : Vec3(1.0, 1.0, block.length);
   const Vec3 scale = box ? Vec3(1.0, 1.0, 1.0) : Vec3(block.radius, block.radius, 1.0);
+  const Vec3 boxes = (scale.cwiseProduct(high - low) / spacing).array().round().max(1.0);
+  if (const double nodes = (boxes.array() + 1.0).prod(); nodes > nodes_limit)
+    throw clouds::SpacingError(
+        fmt::format("a spacing of {:.3g} m makes about {:.2g} nodes in this block; expected at most {:.2g}",
+                    spacing, nodes, nodes_limit));
   std::array<int, 3> count;
-  for (int k = 0; k < 3; ++k)
-    count[index_of(k)] = std::max(1, static_cast<int>(std::lround(scale[k] * (high[k] - low[k]) / spacing)));
+  for (int k = 0; k < 3; ++k) count[index_of(k)] = static_cast<int>(boxes[k]);
   return clouds::tetrahedral_block(high - low, count, [&](const Vec3& at) -> Vec3 {
     const Vec3 x = low + at;
     if (box) return x;
@@ -59,12 +63,14 @@ template<> Workpiece<2> make_workpiece(const input::Case& input) {
 template<> Workpiece<3> make_workpiece(const input::Case& input) {
   const input::Block& block = *input.domain.block;
   try {
-    clouds::TetrahedralBlock made = make_block(block, input.cloud.spacing);
+    clouds::TetrahedralBlock made = make_block(block, input.cloud.spacing, input.cloud.nodes_limit);
     const auto faces = block.faces();
     made.cloud.piece_names.assign(faces.begin(), faces.end());
     Workpiece<3> workpiece{std::move(made.cloud), input.method.options, {}};
     workpiece.options.tetrahedra = std::move(made.tetrahedra);
     return workpiece;
+  } catch (const clouds::SpacingError& error) {
+    throw input.error("cloud.spacing", error.what());
   } catch (const GeometryError& error) { throw input.error("domain.block", error.what()); }
 }
 

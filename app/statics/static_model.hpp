@@ -1,6 +1,6 @@
 #pragma once
 // A static problem made ready, solved, and looked at.
-#include "app/registry.hpp"
+#include "app/problem/registry.hpp"
 #include "fracture/enrichment.hpp"
 #include "fracture/interaction_integral.hpp"
 #include "mechanics/statics/statics.hpp"

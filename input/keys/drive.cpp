@@ -1,5 +1,5 @@
 // Keys of tools with a mass of their own, and of mass scaling.
-#include "input/keys.hpp"
+#include "input/keys/keys.hpp"
 
 namespace cnem::input {
 

@@ -1,6 +1,6 @@
 // Keys of the method and of adaptation.
 #include "adapt/indicated_fields.hpp"
-#include "input/keys.hpp"
+#include "input/keys/keys.hpp"
 #include "methods/registry.hpp"
 
 namespace cnem::input {

@@ -1,4 +1,4 @@
-#include "app/static_model.hpp"
+#include "app/statics/static_model.hpp"
 
 #include "core/error.hpp"
 #include "core/index.hpp"

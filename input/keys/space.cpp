@@ -1,5 +1,5 @@
 // Keys of three-dimensional analyses, and which keys have a meaning in the plane alone.
-#include "input/keys.hpp"
+#include "input/keys/keys.hpp"
 
 #include <algorithm>
 #include <array>

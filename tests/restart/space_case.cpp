@@ -1,0 +1,46 @@
+// The text of the small case in space.
+#include "tests/restart/runs.hpp"
+#include "tests/steel.hpp"
+
+namespace cnem::app {
+
+// A bar of tetrahedra in flight that hits a warm wall with friction and is pressed from above.
+std::string space_case() {
+  return R"toml(
+[analysis]
+kinematics = "three-dimensional"
+[time]
+end = "12 us"
+[domain]
+material = "steel"
+block = { shape = "cylinder", part = "half", radius = "1 mm", length = "4 mm" }
+[cloud]
+spacing = "0.4 mm"
+[method]
+lagrangian = "total"
+[initial]
+velocity = "20 0 -200 m/s"
+[boundary.symmetry]
+pieces = ["y-"]
+symmetry = true
+[boundary.top]
+pieces = ["top"]
+pressure = { value = "50 MPa", ramp = "3 us" }
+convection = { coefficient = "1e5 W/(m2 K)", ambient = "400 K" }
+[tools.wall]
+plane = { at = "0 0 0 mm", normal = "0 0 1" }
+friction = { law = "tresca-limited", coefficient = 0.2 }
+heat = { conductance = "1e5 W/(m2 K)", effusivity = "1e4 W s^0.5/(m2 K)" }
+[output]
+history_every = "0.1 us"
+fields_every = "4 us"
+probes.corner = { at = "0.9 0 0.1 mm", fields = ["temperature", "plastic_strain", "stress_zx"] }
+lines.axis = { from = "0 0.1 0.1 mm", to = "0 0.1 3.9 mm", samples = 20, fields = ["stress_zz"] }
+[output.checkpoint]
+every_steps = 25
+every_wall = "0 s"
+keep = 3
+)toml" + testing::steel_304l;
+}
+
+} // namespace cnem::app
