@@ -1,9 +1,9 @@
 #include "app/simulation.hpp"
 
+#include "app/problem/registry.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/process/run_signals.hpp"
 #include "app/profile.hpp"
-#include "app/problem/registry.hpp"
 #include "app/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/isa.hpp"

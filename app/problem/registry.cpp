@@ -1,8 +1,8 @@
 #include "app/problem/registry.hpp"
 #include "core/index.hpp"
 
-#include "app/problem/bodies.hpp"
 #include "app/places.hpp"
+#include "app/problem/bodies.hpp"
 #include "app/problem/workpiece.hpp"
 #include "contact/curve_shape.hpp"
 #include "contact/plane_shape.hpp"
