@@ -20,7 +20,7 @@ template<int dim> double spacing_at(const ExplicitSolver<dim>& solver, std::size
     const auto p = index_of(op.point[c]);
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       const auto j = index_of(op.node[e]);
-      const double d = (place_of_node<dim>(X, j) - place_of_node<dim>(X, node)).norm();
+      const double d = (vector_at<dim>(X, j) - vector_at<dim>(X, node)).norm();
       if (j != node && d > 0.0) nearest = std::min(nearest, d);
     }
   }
@@ -150,7 +150,7 @@ void check_energy(double residual, const EnergyScale& scale, double tolerance, c
   // The error of a gentle start falls with the square of the steps while it is compared with next to nothing.
   constexpr std::int64_t first_judged = 10;
   if (state.step < first_judged || share <= tolerance) return;
-  const auto speed = [&](std::size_t i) { return place_of_node<dim>(state.node.velocity, i).norm(); };
+  const auto speed = [&](std::size_t i) { return vector_at<dim>(state.node.velocity, i).norm(); };
   std::size_t fastest = 0;
   for (std::size_t i = 0; i < state.node.size(); ++i)
     if (!(speed(i) <= speed(fastest))) fastest = i;
@@ -182,8 +182,8 @@ template<int dim> Place<dim> place_of(const ExplicitSolver<dim>& solver, std::si
   const NodeState<dim>& nodes = solver.state().node;
   constexpr double cells_around = 8.0, lost = 30.0;
   const double spacing = spacing_at(solver, node);
-  const Vec<dim> reference = place_of_node<dim>(nodes.reference, node);
-  const Vec<dim> now = place_of_node<dim>(nodes.position, node);
+  const Vec<dim> reference = vector_at<dim>(nodes.reference, node);
+  const Vec<dim> now = vector_at<dim>(nodes.position, node);
   // A node that has flown away shows nothing: then the place is where it came from.
   return {now.allFinite() && (now - reference).norm() < lost * spacing ? now : reference,
           cells_around * spacing};
@@ -202,7 +202,7 @@ results::PostMortem post_mortem(const DivergenceError& error, const input::Case&
   blame_settings(input, error.field, dead.causes);
   if (error.node >= 0) {
     const auto node = index_of(error.node);
-    const Vec<dim> place = input.origin.head<dim>() + place_of_node<dim>(state.node.position, node);
+    const Vec<dim> place = input.origin.head<dim>() + vector_at<dim>(state.node.position, node);
     dead.x = place.x();
     dead.y = place.y();
     if constexpr (dim == 3) dead.z = place.z();

@@ -32,7 +32,7 @@ std::vector<Vec<dim>> approaches_of(const input::Case& input, const State<dim>& 
   const Vec<dim> start = list.front();
   Vec<dim> fastest = start;
   for (std::size_t i = 0; i < state.node.size(); ++i) {
-    const Vec<dim> seen = start - place_of_node<dim>(state.node.velocity, i);
+    const Vec<dim> seen = start - vector_at<dim>(state.node.velocity, i);
     if (seen.squaredNorm() > fastest.squaredNorm()) fastest = seen;
   }
   list.push_back(fastest);
@@ -132,7 +132,7 @@ void check_moving_tools(const input::Case& input, const ExplicitSolver<dim>& sol
     int nearest = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < state.node.size(); ++i)
-      if (const double d = (place_of_node<dim>(state.node.position, i) - centre).norm(); d < least) {
+      if (const double d = (vector_at<dim>(state.node.position, i) - centre).norm(); d < least) {
         least = d;
         nearest = static_cast<int>(i);
       }

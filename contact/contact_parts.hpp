@@ -1,15 +1,12 @@
 #pragma once
 // What the parts of contact share.
 #include "contact/impulse_solver.hpp"
-#include "core/aligned.hpp"
-#include "core/index.hpp"
+#include "core/vector_at.hpp"
 
 namespace cnem::contact {
 
 template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
-  Vec<dim> x;
-  for (int k = 0; k < dim; ++k) x[k] = field[index_of(k)][index_of(node)];
-  return x;
+  return vector_at<dim>(field, index_of(node));
 }
 
 /// Velocity of the point where a contact acts, from one vector per boundary node.

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "core/parallel.hpp"
+#include "core/vector_at.hpp"
 #include "mechanics/kinematics.hpp"
 
 #include <algorithm>
@@ -72,11 +73,8 @@ double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::s
 }
 
 template<int dim> double enclosed_measure(const Snapshot<dim>& shot) {
-  const Fields<dim>& x = shot.state.node.position;
   return cnem::enclosed_measure(shot.cloud.facets, [&](std::int32_t node) {
-    Vec<dim> place;
-    for (int k = 0; k < dim; ++k) place[k] = x[index_of(k)][index_of(node)];
-    return place;
+    return vector_at<dim>(shot.state.node.position, index_of(node));
   });
 }
 

@@ -88,14 +88,13 @@ void add_condition(const input::Case& input, const input::BoundaryCondition& spe
     for (const std::string& piece : spec.pieces) {
       const std::vector<Facet<dim>> straight = facets_of(cloud, {piece});
       if (straight.empty()) continue;
-      std::array<Vec<dim>, dim> corner;
-      for (std::size_t a = 0; a < dim; ++a) corner[a] = cloud.position[index_of(straight.front().node[a])];
-      all.supports.push_back({spec.name,
-                              Kind::symmetry,
-                              area_normal<dim>(corner).normalized(),
-                              {},
-                              nodes_of(straight),
-                              pieces_of(std::span<const Facet<dim>>(straight))});
+      all.supports.push_back(
+          {spec.name,
+           Kind::symmetry,
+           area_normal<dim>(corners_of<dim>(straight.front(), cloud.position)).normalized(),
+           {},
+           nodes_of(straight),
+           pieces_of(std::span<const Facet<dim>>(straight))});
     }
   }
   for (std::size_t k = 0; k < dim; ++k) {

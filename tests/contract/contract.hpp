@@ -1,6 +1,7 @@
 #pragma once
 // The fixture of the contract suite: one method, run on every domain of its dimension. Checks are written
 // once, as templates on the dimension.
+#include "core/vector_at.hpp"
 #include "methods.hpp"
 
 #include <gtest/gtest.h>
@@ -8,13 +9,6 @@
 namespace cnem::testing {
 
 inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-/// A vector of a field [component][entry].
-template<int dim> Vec<dim> vector_at(const Fields<dim>& field, std::size_t entry) {
-  Vec<dim> v;
-  for (std::size_t k = 0; k < dim; ++k) v[static_cast<Eigen::Index>(k)] = field[k][entry];
-  return v;
-}
 
 template<int dim> Vec<dim> gradient(const DiscreteOperators<dim>& op, std::size_t entry) {
   return vector_at<dim>(op.gradient, entry);

@@ -6,6 +6,7 @@
 #include "plasticity/box2.hpp"
 #include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
+#include "tests/each_isa.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/unit/plasticity/points.hpp"
 
@@ -62,16 +63,8 @@ TEST(zerilli_armstrong, slopes_and_curvature_are_derivatives) {
       }
 }
 
-struct Kernel : ::testing::TestWithParam<Isa> {
-  void SetUp() override {
-    if (!isa_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << isa_name(GetParam());
-    set_isa(GetParam());
-  }
-  void TearDown() override { set_isa(isa_before); }
-  Isa isa_before = active_isa();
-};
-INSTANTIATE_TEST_SUITE_P(zerilli_armstrong, Kernel, ::testing::Values(Isa::baseline, Isa::avx2, Isa::avx512),
-                         [](const auto& p) { return std::string(isa_name(p.param)); });
+using Kernel = cnem::testing::EachIsa;
+INSTANTIATE_TEST_SUITE_P(zerilli_armstrong, Kernel, cnem::testing::every_isa(), cnem::testing::name_of_isa);
 
 /// Shears of 83 points at unlike rates and temperatures, with returns to rest; step k of a path.
 template<int dim> void shear(PointState<dim>& s, int k) {

@@ -1,6 +1,7 @@
 // The vector kernels against the same template on double, their lanes, and what must not break them.
 #include "core/isa.hpp"
 #include "plasticity/box2.hpp"
+#include "tests/each_isa.hpp"
 #include "tests/unit/plasticity/points.hpp"
 
 #include <gtest/gtest.h>
@@ -12,16 +13,8 @@
 namespace cnem::plasticity::test {
 namespace {
 
-struct Kernel : ::testing::TestWithParam<Isa> {
-  void SetUp() override {
-    if (!isa_supported(GetParam())) GTEST_SKIP() << "this machine lacks " << isa_name(GetParam());
-    set_isa(GetParam());
-  }
-  void TearDown() override { set_isa(isa_before); }
-  Isa isa_before = active_isa();
-};
-INSTANTIATE_TEST_SUITE_P(each, Kernel, ::testing::Values(Isa::baseline, Isa::avx2, Isa::avx512),
-                         [](const auto& p) { return std::string(isa_name(p.param)); });
+using Kernel = cnem::testing::EachIsa;
+INSTANTIATE_TEST_SUITE_P(each, Kernel, cnem::testing::every_isa(), cnem::testing::name_of_isa);
 
 /// Points that yield, unload, yield again or stay elastic, at unlike rates and temperatures; step k of a
 /// path.
