@@ -1,6 +1,6 @@
 #pragma once
 // The fields that refinement can follow: a new one is a line in indicated_fields.cpp.
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
 
 #include <span>
 #include <string_view>

@@ -2,8 +2,8 @@
 // Where the cloud is too coarse for a field: the indicator of Zienkiewicz and Zhu on the cells (paper 004,
 // (80)-(82)).
 #include "adapt/structure.hpp"
-#include "core/cell_complex.hpp"
-#include "core/parallel.hpp"
+#include "core/geometry/cell_complex.hpp"
+#include "core/machine/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>

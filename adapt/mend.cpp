@@ -1,7 +1,7 @@
 // What has to be put right before a cloud can be triangulated at all.
 #include "adapt/resample.hpp"
 #include "core/index.hpp"
-#include "core/parallel.hpp"
+#include "core/machine/parallel.hpp"
 #include "voronoi/edge_tree.hpp"
 
 #include <algorithm>

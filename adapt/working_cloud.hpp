@@ -2,7 +2,7 @@
 // A cloud while it is being resampled: nodes come and go, and mass goes with them in parcels.
 #include "adapt/structure.hpp"
 #include "core/index.hpp"
-#include "core/resampling.hpp"
+#include "core/operators/resampling.hpp"
 
 #include <cstdint>
 #include <span>

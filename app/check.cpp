@@ -5,7 +5,7 @@
 #include "app/statics/statics.hpp"
 #include "app/tool_speed.hpp"
 #include "core/index.hpp"
-#include "core/threads.hpp"
+#include "core/machine/threads.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
 #include "results/recorder.hpp"

@@ -4,7 +4,7 @@
 #include "app/run.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "input/case_reader.hpp"
 #include "input/schema/schema.hpp"
 #include "report/report.hpp"

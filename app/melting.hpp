@@ -1,6 +1,6 @@
 #pragma once
 // Whether metal has become hotter than its law reaches.
-#include "core/archive.hpp"
+#include "core/fields/archive.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 // Places of nodes in messages.
-#include "core/vector_at.hpp"
+#include "core/fields/vector_at.hpp"
 
 #include <fmt/format.h>
 #include <string>

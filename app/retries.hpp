@@ -1,7 +1,7 @@
 #pragma once
 // A run that diverges goes back to its last pass and renews the reference sooner, before it is given up.
 #include "core/error.hpp"
-#include "core/memory_archive.hpp"
+#include "core/fields/memory_archive.hpp"
 
 #include <functional>
 #include <string>

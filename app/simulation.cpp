@@ -6,7 +6,7 @@
 #include "app/profile.hpp"
 #include "app/tool_speed.hpp"
 #include "core/index.hpp"
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "report/report.hpp"
 #include "results/checkpoint_folder.hpp"
 #include "results/output_folder.hpp"

@@ -1,7 +1,7 @@
 // What of a run is kept and taken up again: checkpoints, restarts, going back after a failure.
 #include "app/process/exhaustion.hpp"
 #include "app/simulation.hpp"
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "results/checkpoint_folder.hpp"
 #include "results/output_folder.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // Wall time by phase.
-#include "core/clock.hpp"
+#include "core/machine/clock.hpp"
 
 #include <map>
 #include <string>

@@ -1,8 +1,8 @@
 #include "app/time_control.hpp"
 
 #include "app/divergence.hpp"
-#include "core/clock.hpp"
 #include "core/error.hpp"
+#include "core/machine/clock.hpp"
 
 #include <algorithm>
 #include <cmath>

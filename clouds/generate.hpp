@@ -2,9 +2,9 @@
 // Clouds of nodes from a described domain: what a case file says about geometry and spacing becomes a
 // Cloud<2>. Every result is a function of its arguments alone, bit for bit, on any machine and any number of
 // threads.
-#include "core/cloud.hpp"
-#include "core/curve.hpp"
 #include "core/error.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/geometry/curve.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 // A block of tetrahedra on a structured grid, and what is bent out of it.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <array>
 #include <functional>

@@ -32,7 +32,7 @@ function(cnem_library folder)
 endfunction()
 
 # Compiles one kernel file for the baseline, AVX2 and AVX-512, each in its own namespace CNEM_ISA;
-# core/isa.hpp chooses at run time, so that the binary runs on any x86-64. Kernel files include only headers whose
+# core/machine/isa.hpp chooses at run time, so that the binary runs on any x86-64. Kernel files include only headers whose
 # every function lives in namespace CNEM_ISA: an inline function of a common header, compiled here with AVX,
 # could be the copy the linker keeps for everyone. Hence no Eigen, no fmt and no std containers in them. Vectors are
 # passed to inlined functions alone, so that how an ABI passes them does not matter (-Wno-psabi).

@@ -1,8 +1,8 @@
 #pragma once
 // Functions integrated along the faces between cells, each face once for its two cells.
-#include "core/cell_complex.hpp"
-#include "core/parallel.hpp"
-#include "core/revolution.hpp"
+#include "core/geometry/cell_complex.hpp"
+#include "core/geometry/revolution.hpp"
+#include "core/machine/parallel.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/natural_neighbours.hpp"
 

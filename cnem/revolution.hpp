@@ -1,7 +1,7 @@
 #pragma once
 // What the smoothed gradients of a body of revolution need beside the facets: centroids of the cells and the
 // functions there.
-#include "core/discretisation.hpp"
+#include "core/operators/discretisation.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/natural_neighbours.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 // The constrained natural element method: smoothed gradients on constrained Voronoi cells by stabilised
 // conforming nodal integration (paper 004, section 5.3 and (75)–(79)).
-#include "core/discretisation.hpp"
-#include "core/revolution.hpp"
+#include "core/geometry/revolution.hpp"
+#include "core/operators/discretisation.hpp"
 #include "voronoi/natural_neighbours.hpp"
 
 namespace cnem::scni {
@@ -21,7 +21,7 @@ struct Options {
 ///   b_iJ = 1/V_i ∮ φ_J n dΓ
 /// over the boundary of cell i. Every Voronoi edge is integrated once and serves its two cells with either
 /// sign; on the boundary of the domain φ is linear between the ends of each facet and integrated exactly.
-/// Of revolution integrals are weighted with the radius (core/operators.hpp).
+/// Of revolution integrals are weighted with the radius (core/operators/operators.hpp).
 /// Links are the Delaunay edges; heat conducts with the linear operators of the Delaunay triangles.
 class Cnem final : public Discretisation<2> {
 public:

@@ -1,8 +1,8 @@
 #include "cnem/smoothing.hpp"
 
 #include "core/index.hpp"
-#include "core/operator_checks.hpp"
-#include "core/parallel.hpp"
+#include "core/machine/parallel.hpp"
+#include "core/operators/operator_checks.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -3,15 +3,15 @@
 // (75)–(79)), and the links that stabilise them.
 #include "cnem/quadrature.hpp"
 #include "cnem/revolution.hpp"
-#include "core/cell_complex.hpp"
-#include "core/discretisation.hpp"
+#include "core/geometry/cell_complex.hpp"
+#include "core/operators/discretisation.hpp"
 
 namespace cnem::scni {
 
 /// b_iJ = (1/V_i) ∮ φ_J n dΓ, rows sorted by node, transpose built; on the boundary φ is linear on each
 /// facet. Linear fields are reproduced because each cell is closed and φ has linear precision at every
 /// quadrature point. `faces`: faces_of_cells. With `revolution` and means of r φ, in the plane: b and h of a
-/// body of revolution (core/operators.hpp).
+/// body of revolution (core/operators/operators.hpp).
 template<int dim>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
                                           const CellLists& faces, const FaceMeans& means,

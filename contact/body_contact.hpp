@@ -2,7 +2,7 @@
 // Where the boundary of the workpiece touches itself or another body of the cloud: nodes against facets.
 #include "contact/surface.hpp"
 #include "contact/tool.hpp"
-#include "core/archive.hpp"
+#include "core/fields/archive.hpp"
 
 #include <span>
 #include <vector>

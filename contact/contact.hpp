@@ -3,9 +3,9 @@
 #include "contact/body_contact.hpp"
 #include "contact/surface.hpp"
 #include "contact/tool_motions.hpp"
-#include "core/aligned.hpp"
-#include "core/archive.hpp"
-#include "core/cloud.hpp"
+#include "core/fields/aligned.hpp"
+#include "core/fields/archive.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 // What the parts of contact share.
 #include "contact/impulse_solver.hpp"
-#include "core/vector_at.hpp"
+#include "core/fields/vector_at.hpp"
 
 namespace cnem::contact {
 

@@ -1,7 +1,7 @@
 #pragma once
 // A 2D tool bounded by a closed curve of segments and arcs.
 #include "contact/tool_shape.hpp"
-#include "core/curve.hpp"
+#include "core/geometry/curve.hpp"
 
 namespace cnem::contact {
 

@@ -1,6 +1,6 @@
 #include "contact/surface.hpp"
 
-#include "core/facets.hpp"
+#include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 
 #include <Eigen/Geometry>

@@ -1,8 +1,8 @@
 #pragma once
 // The boundary of the workpiece as contact sees it, and where ridges of tools press on its facets.
 #include "contact/tool_shape.hpp"
-#include "core/cloud.hpp"
-#include "core/revolution.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/geometry/revolution.hpp"
 
 #include <array>
 #include <span>

@@ -3,7 +3,7 @@
 // and what the workpiece does to them.
 #include "contact/impulse_solver.hpp"
 #include "contact/tool.hpp"
-#include "core/archive.hpp"
+#include "core/fields/archive.hpp"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 // Cofactors of deformation gradients inside kernels.
-#include "core/simd.hpp"
+#include "core/machine/simd.hpp"
 #include "core/small_vector.hpp"
 
 namespace cnem::CNEM_ISA {
@@ -19,7 +19,7 @@ CNEM_INLINE double cofactor(const Small<3> (&f)[3], Small<3> (&c)[3]) {
   return f[0][0] * c[0][0] + f[0][1] * c[0][1] + f[0][2] * c[0][2];
 }
 
-/// The same by components as in core/state.hpp: in the plane xx, xy, yx, yy, zz.
+/// The same by components as in core/fields/state.hpp: in the plane xx, xy, yx, yy, zz.
 template<class T> CNEM_INLINE T cofactor(const T (&f)[5], T (&c)[5]) {
   const T plane = f[0] * f[3] - f[1] * f[2];
   c[0] = f[3] * f[4];

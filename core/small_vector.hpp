@@ -1,7 +1,8 @@
 #pragma once
 // A position, force or column of a tensor inside kernels: dim doubles side by side, in the plane one 16-byte
-// register of any x86-64. For kernel files only (core/simd.hpp says why nothing common may be used there).
-#include "core/simd.hpp"
+// register of any x86-64. For kernel files only (core/machine/simd.hpp says why nothing common may be used
+// there).
+#include "core/machine/simd.hpp"
 
 #include <cstddef>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Springback: how far a body moves when all that pressed on it is taken away.
-#include "core/discretisation.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/discretisation.hpp"
 #include "mechanics/supports.hpp"
 #include "plasticity/material.hpp"
 

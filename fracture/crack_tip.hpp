@@ -1,6 +1,6 @@
 #pragma once
 // Tips of the cracks of a cloud, each with its own frame.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 #include "core/vec.hpp"
 
 #include <array>

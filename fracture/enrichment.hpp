@@ -1,7 +1,7 @@
 #pragma once
 // Enrichment of the natural-neighbour functions at crack tips in the partition-of-unity setting (paper 004,
 // (74)), with the branch functions that carry both modes.
-#include "core/discretisation.hpp"
+#include "core/operators/discretisation.hpp"
 #include "fracture/crack_tip.hpp"
 #include "fracture/williams.hpp"
 #include "voronoi/natural_neighbours.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // Stress intensity factors from the interaction integral in domain form (paper 004, 5.4.1).
-#include "core/operators.hpp"
+#include "core/operators/operators.hpp"
 #include "fracture/crack_tip.hpp"
 #include "fracture/williams.hpp"
 

@@ -60,7 +60,8 @@ struct Unmet {
 };
 std::vector<Unmet> unmet_needs(const Case& input, const Promises& promises);
 
-/// What the case asks for and its method does not promise (core/promises.hpp). Expects everything else.
+/// What the case asks for and its method does not promise (core/operators/promises.hpp). Expects everything
+/// else.
 void check_promises(const Setting& root, const Case& result, Diagnostics& diagnostics);
 
 /// What the kind of analysis does not allow; defaults of such keys are dropped. Expects everything else.

@@ -1,7 +1,7 @@
 #pragma once
 // Whether outlines are simple, and where points lie relative to them. Pieces are exact segments and arcs of
 // at most half a turn.
-#include "core/curve.hpp"
+#include "core/geometry/curve.hpp"
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 // Closed curves from the outline of a domain, a hole or a tool as written in a case.
-#include "core/curve.hpp"
+#include "core/geometry/curve.hpp"
 #include "input/schema/settings.hpp"
 
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // What a checkpoint keeps of the solver. Operators are not kept: they follow from the reference positions.
-#include "core/archive.hpp"
 #include "core/error.hpp"
+#include "core/fields/archive.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 #include <algorithm>

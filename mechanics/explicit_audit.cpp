@@ -1,5 +1,5 @@
 // What a run of the explicit solver is audited by: energies, mass, strain since the last reference.
-#include "core/parallel.hpp"
+#include "core/machine/parallel.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 #include <algorithm>

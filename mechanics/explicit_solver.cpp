@@ -1,9 +1,9 @@
 #include "mechanics/explicit_solver.hpp"
 
-#include "core/clock.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "core/parallel.hpp"
+#include "core/machine/clock.hpp"
+#include "core/machine/parallel.hpp"
 #include "mechanics/explicit_reactions.hpp"
 #include "plasticity/return_map.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
 // The coupled explicit solver: central differences with a variable step (paper 004, 5.1.4) and staggered
 // heat.
-#include "core/archive.hpp"
-#include "core/resampling.hpp"
-#include "core/state.hpp"
+#include "core/fields/archive.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/resampling.hpp"
 #include "mechanics/energy_ledger.hpp"
 #include "mechanics/model.hpp"
 #include "mechanics/stable_step.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // The fields that users ask for by name, in pictures, probes, lines and files: those that are declared as
-// shown (core/state.hpp), and those derived from the state, one line each (field_catalogue.cpp).
-#include "core/state.hpp"
+// shown (core/fields/state.hpp), and those derived from the state, one line each (field_catalogue.cpp).
+#include "core/fields/state.hpp"
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 #include "mechanics/kinematics.hpp"
 
 #include "core/index.hpp"
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "mechanics/step_kernels.hpp"
 
 #include <algorithm>

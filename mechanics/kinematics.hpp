@@ -1,8 +1,8 @@
 #pragma once
 // Deformation gradient at stress points and forces at nodes: the two products with the gradient operator.
-#include "core/operators.hpp"
-#include "core/side_by_side.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/operators.hpp"
+#include "core/operators/side_by_side.hpp"
 
 namespace cnem {
 

@@ -1,7 +1,7 @@
 #include "mechanics/local_steps.hpp"
 
 #include "core/index.hpp"
-#include "core/parallel.hpp"
+#include "core/machine/parallel.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -50,7 +50,7 @@ double finest_step(const std::vector<std::int8_t>& level, const Field& stable, s
   return finest;
 }
 
-/// Runs of whole blocks that agree in level and mark, cut where the blocks of core/parallel.hpp are.
+/// Runs of whole blocks that agree in level and mark, cut where the blocks of core/machine/parallel.hpp are.
 void append(std::vector<LevelRange>& list, std::size_t begin, std::size_t end, int level, bool marked) {
   if (!list.empty()) {
     LevelRange& last = list.back();

@@ -1,11 +1,11 @@
 #pragma once
 // Local time steps: which stress points and nodes are due in each sub-step (docs/theory.md, "Local time
 // steps").
-#include "core/archive.hpp"
-#include "core/discretisation.hpp"
+#include "core/fields/archive.hpp"
 #include "core/index.hpp"
-#include "core/parallel.hpp"
-#include "core/resampling.hpp"
+#include "core/machine/parallel.hpp"
+#include "core/operators/discretisation.hpp"
+#include "core/operators/resampling.hpp"
 
 #include <algorithm>
 #include <cstddef>

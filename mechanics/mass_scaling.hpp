@@ -1,7 +1,7 @@
 #pragma once
 // More inertia than mass, so that slow processes can take longer steps.
-#include "core/operators.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/operators.hpp"
 
 namespace cnem {
 

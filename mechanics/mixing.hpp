@@ -1,7 +1,7 @@
 #pragma once
 // The elastic state of nodes that resampling made of the matter of several.
-#include "core/resampling.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/resampling.hpp"
 #include "plasticity/material.hpp"
 
 #include <vector>

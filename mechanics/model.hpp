@@ -2,7 +2,7 @@
 // What a run is made of: the model that stays as it is, the conditions that move and change with the cloud,
 // and the values it starts from.
 #include "contact/contact.hpp"
-#include "core/discretisation.hpp"
+#include "core/operators/discretisation.hpp"
 #include "mechanics/local_steps.hpp"
 #include "mechanics/mass_scaling.hpp"
 #include "mechanics/supports.hpp"

@@ -1,9 +1,9 @@
 #include "mechanics/stable_step.hpp"
 
 #include "core/index.hpp"
-#include "core/isa.hpp"
-#include "core/parallel.hpp"
-#include "core/side_by_side.hpp"
+#include "core/machine/isa.hpp"
+#include "core/machine/parallel.hpp"
+#include "core/operators/side_by_side.hpp"
 #include "mechanics/step_kernels.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // The largest step central differences can take, from a rigorous bound on the highest frequency.
-#include "core/operators.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/operators.hpp"
 
 #include <vector>
 

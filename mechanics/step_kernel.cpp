@@ -1,9 +1,9 @@
 #include "mechanics/step_kernels.hpp"
 
 #include "core/cofactor.hpp"
-#include "core/simd.hpp"
+#include "core/machine/simd.hpp"
+#include "core/operators/sparse_rows.hpp"
 #include "core/small_vector.hpp"
-#include "core/sparse_rows.hpp"
 
 namespace cnem::CNEM_ISA {
 

@@ -5,7 +5,7 @@
 // What is gathered lies side by side, one record per node or point, so that a neighbour costs one cache line:
 // positions [node][k]; stresses by columns [point][k][i] = P_ik; edge records [node]: F by columns [k][i],
 // then the penalty's modulus of this step and of the step before.
-#include "core/sparse_rows.hpp"
+#include "core/operators/sparse_rows.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #pragma once
 // Prescribed motion of boundary nodes: symmetry planes, velocities, displacements.
 #include "contact/contact.hpp"
-#include "core/archive.hpp"
-#include "core/resampling.hpp"
-#include "core/state.hpp"
+#include "core/fields/archive.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/resampling.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // Nodes that move as one: the two faces of a bonded interface, the two sides of a periodic strip.
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
 #include "core/vec.hpp"
 
 #include <array>

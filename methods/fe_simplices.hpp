@@ -1,8 +1,8 @@
 #pragma once
 // Linear finite elements behind the same contract as C-NEM, the method it is compared with: triangles in the
 // plane, tetrahedra in space.
-#include "core/discretisation.hpp"
-#include "core/revolution.hpp"
+#include "core/geometry/revolution.hpp"
+#include "core/operators/discretisation.hpp"
 #include "voronoi/linear_simplices.hpp"
 
 #include <vector>

@@ -2,7 +2,7 @@
 // Every discretisation a case can name, with what it promises and the dimensions it exists in: the one place
 // a new one is entered.
 #include "cnem/scni.hpp"
-#include "core/revolution.hpp"
+#include "core/geometry/revolution.hpp"
 #include "methods/sph.hpp"
 #include "voronoi/linear_simplices.hpp"
 

@@ -3,8 +3,8 @@
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "core/operator_checks.hpp"
-#include "core/parallel.hpp"
+#include "core/machine/parallel.hpp"
+#include "core/operators/operator_checks.hpp"
 #include "voronoi/cells.hpp"
 #include "voronoi/linear_simplices.hpp"
 

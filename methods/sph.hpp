@@ -1,6 +1,6 @@
 #pragma once
 // Total-Lagrangian corrected smoothed particle hydrodynamics behind the same contract as C-NEM.
-#include "core/discretisation.hpp"
+#include "core/operators/discretisation.hpp"
 
 namespace cnem::methods {
 

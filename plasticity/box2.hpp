@@ -1,7 +1,7 @@
 #pragma once
-// Paper 004, Box 2, in terms of b_e, on a number type T (core/simd.hpp). The F^p form of the paper gives the
-// same numbers (tests/unit/plasticity); b_e needs neither polar decomposition nor F^p.
-#include "core/simd.hpp"
+// Paper 004, Box 2, in terms of b_e, on a number type T (core/machine/simd.hpp). The F^p form of the paper
+// gives the same numbers (tests/unit/plasticity); b_e needs neither polar decomposition nor F^p.
+#include "core/machine/simd.hpp"
 #include "plasticity/plastic_corrector.hpp"
 #include "plasticity/return_map_parameters.hpp"
 #include "plasticity/spectral.hpp"

@@ -1,6 +1,6 @@
 #include "plasticity/damage.hpp"
 
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "plasticity/return_map.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // Ductile damage of Johnson and Cook (Eng. Fract. Mech. 21, 1985) with softening regularised by the fracture
 // energy (Hillerborg, Modéer, Petersson 1976), as a pass of its own after the return map.
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
 #include "plasticity/damage_points.hpp"
 #include "plasticity/material.hpp"
 

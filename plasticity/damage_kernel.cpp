@@ -1,5 +1,5 @@
 #include "core/cofactor.hpp"
-#include "core/simd.hpp"
+#include "core/machine/simd.hpp"
 #include "plasticity/damage_points.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {

@@ -2,7 +2,7 @@
 // Numbers with derivatives and the functions of formulas on them, so that a law is written once, as its
 // formula, and has slope and curvature. In kernels T is a pack; elsewhere it is double with the functions of
 // the C library.
-#include "core/simd.hpp"
+#include "core/machine/simd.hpp"
 
 #ifndef CNEM_PACK
 #include <cmath>

@@ -1,12 +1,13 @@
 #pragma once
 // Logarithm and exponential of symmetric tensors, for the averaging of elastic states (paper 004, (31)).
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
 
 #include <Eigen/Core>
 
 namespace cnem::plasticity {
 
-/// Components of a symmetric tensor as in core/state.hpp: 2D xx, yy, zz, xy; 3D xx, yy, zz, xy, yz, zx.
+/// Components of a symmetric tensor as in core/fields/state.hpp: 2D xx, yy, zz, xy; 3D xx, yy, zz, xy, yz,
+/// zx.
 template<int dim> using Symmetric = Eigen::Matrix<double, symmetric_size<dim>, 1>;
 
 /// The tensor of point p.

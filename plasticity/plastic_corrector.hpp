@@ -1,6 +1,7 @@
 #pragma once
-// Step (vii) of Box 2: the plastic increment Δγ of any hardening law, on a number type T (core/simd.hpp).
-#include "core/simd.hpp"
+// Step (vii) of Box 2: the plastic increment Δγ of any hardening law, on a number type T
+// (core/machine/simd.hpp).
+#include "core/machine/simd.hpp"
 #include "plasticity/return_map_parameters.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {

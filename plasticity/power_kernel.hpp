@@ -3,8 +3,8 @@
 //   σ_y = (A + B ε̄pⁿ + Q (1 − e^{−δ ε̄p})) (1 + C ln⁺(ε̄̇p/ε̄̇0)) (1 − T*ᵐ),
 // T* = clip((T − T0)/(T_m − T0), 0, 1), ln⁺ zero below the reference rate: Johnson and Cook with Q = 0, Voce
 // with C = 0 and without T*, linear and perfect plasticity. Most runs spend their time here.
+#include "core/machine/simd.hpp"
 #include "core/parameter.hpp"
-#include "core/simd.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {
 

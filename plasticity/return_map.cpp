@@ -1,6 +1,6 @@
 #include "plasticity/return_map.hpp"
 
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "plasticity/hardening_laws.hpp"
 #include "plasticity/return_map_parameters.hpp"
 

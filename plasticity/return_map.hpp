@@ -1,6 +1,6 @@
 #pragma once
 // Finite-strain return mapping in logarithmic strain, paper 004 Box 2, for ranges of stress points.
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
 #include "plasticity/material.hpp"
 #include "plasticity/stress_points.hpp"
 
@@ -17,7 +17,7 @@ template<int dim> StressPoints<dim> stress_points(PointState<dim>& state);
 ///
 /// dt > 0 in s; dt = 0 evaluates the stress of the state as it is, without flow, and keeps plastic_rate.
 /// The result at a point depends on that point alone, to the last bit, however ranges are cut (for one
-/// instruction set, core/isa.hpp).
+/// instruction set, core/machine/isa.hpp).
 /// Returns the first point whose input or result means nothing (det F ≤ 0, C_p⁻¹ not positive definite,
 /// negative temperature or strain, any NaN), or −1. Such points are left as they were; the others are
 /// updated.

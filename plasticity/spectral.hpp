@@ -1,7 +1,7 @@
 #pragma once
 // Spectral forms of symmetric tensors and the maps between configurations, on a number type T
-// (core/simd.hpp).
-#include "core/simd.hpp"
+// (core/machine/simd.hpp).
+#include "core/machine/simd.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {
 
@@ -86,7 +86,7 @@ private:
   }
 };
 
-/// A deformation gradient and the transport of tensors with it; components as in core/state.hpp.
+/// A deformation gradient and the transport of tensors with it; components as in core/fields/state.hpp.
 template<int dim, class T> struct Deformation;
 
 template<class T> struct Deformation<2, T> {

@@ -5,9 +5,9 @@
 
 namespace cnem::plasticity {
 
-/// Pointers to the fields of stress points, indexed [point]; tensor components as in core/state.hpp: general
-/// 2D xx, xy, yx, yy, zz, 3D row by row; symmetric 2D xx, yy, zz, xy, 3D xx, yy, zz, xy, yz, zx. No alignment
-/// or padding is needed.
+/// Pointers to the fields of stress points, indexed [point]; tensor components as in core/fields/state.hpp:
+/// general 2D xx, xy, yx, yy, zz, 3D row by row; symmetric 2D xx, yy, zz, xy, 3D xx, yy, zz, xy, yz, zx. No
+/// alignment or padding is needed.
 template<int dim> struct StressPoints {
   static constexpr int general = dim == 2 ? 5 : 9;
   static constexpr int symmetric = dim == 2 ? 4 : 6;

@@ -1,7 +1,7 @@
 #pragma once
 // Raster pictures of a run, drawn in memory: cells coloured by a field, tools, colour bar, scale bar.
-#include "core/curve.hpp"
-#include "core/discretisation.hpp"
+#include "core/geometry/curve.hpp"
+#include "core/operators/discretisation.hpp"
 #include "report/colour_map.hpp"
 
 #include <array>

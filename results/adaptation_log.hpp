@@ -1,7 +1,7 @@
 #pragma once
 // The audit of each change of the cloud: what there is before and after.
 #include "adapt/resample.hpp"
-#include "core/archive.hpp"
+#include "core/fields/archive.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "results/history_writer.hpp"
 

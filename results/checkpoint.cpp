@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "core/memory.hpp"
+#include "core/machine/memory.hpp"
 
 #include <fmt/format.h>
 

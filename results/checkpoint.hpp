@@ -1,7 +1,7 @@
 #pragma once
 // One checkpoint: an HDF5 file behind 512 bytes that say what it is, how long it has to be and its checksum.
 // HDF5 tools skip those bytes, so h5dump and h5py open the file as it is.
-#include "core/archive.hpp"
+#include "core/fields/archive.hpp"
 
 #include <cstdint>
 #include <memory>

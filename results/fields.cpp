@@ -1,9 +1,9 @@
 #include "results/fields.hpp"
 
 #include "core/error.hpp"
+#include "core/fields/vector_at.hpp"
 #include "core/index.hpp"
-#include "core/parallel.hpp"
-#include "core/vector_at.hpp"
+#include "core/machine/parallel.hpp"
 #include "mechanics/kinematics.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // Material points between nodes, for probes and lines.
-#include "core/cloud.hpp"
-#include "core/discretisation.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/operators/discretisation.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 // What fields, pictures and files are made from, whichever solver it comes from.
-#include "core/discretisation.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/discretisation.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 namespace cnem::results {

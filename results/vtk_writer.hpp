@@ -1,7 +1,7 @@
 #pragma once
 // Fields for ParaView and VTK: fields.pvd, a time series whose every time has two parts: the cells of the
 // stress points, polygons or tetrahedra, with cell data, and the nodes as points with point data.
-#include "core/discretisation.hpp"
+#include "core/operators/discretisation.hpp"
 #include "results/file_queue.hpp"
 
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "core/threads.hpp"
+#include "core/machine/threads.hpp"
 #include "input/case_reader.hpp"
 #include "input/schema/nearest.hpp"
 #include "results/checkpoint_folder.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // Clouds of nodes for tests: outlines divided at a spacing, filled with a lattice that may be jittered.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 // Outlines of straight sides for tests and benchmarks.
-#include "core/curve.hpp"
+#include "core/geometry/curve.hpp"
 
 #include <cstddef>
 #include <string>

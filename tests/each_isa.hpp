@@ -1,6 +1,6 @@
 #pragma once
 // Tests that run with each instruction set this machine has.
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 
 #include <gtest/gtest.h>
 #include <string>

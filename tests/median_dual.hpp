@@ -1,6 +1,6 @@
 #pragma once
 // A cell complex in space: the median dual of a mesh of tetrahedra, and the linear functions on it.
-#include "core/cell_complex.hpp"
+#include "core/geometry/cell_complex.hpp"
 #include "voronoi/linear_simplices.hpp"
 
 #include <Eigen/LU>

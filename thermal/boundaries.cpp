@@ -1,6 +1,6 @@
 #include "thermal/boundaries.hpp"
 
-#include "core/facets.hpp"
+#include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>

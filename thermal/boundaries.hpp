@@ -1,10 +1,10 @@
 #pragma once
 // Heat through the boundary: prescribed temperature, flux, convection, conductance to tools.
-#include "core/archive.hpp"
-#include "core/cloud.hpp"
-#include "core/resampling.hpp"
-#include "core/revolution.hpp"
-#include "core/state.hpp"
+#include "core/fields/archive.hpp"
+#include "core/fields/state.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/geometry/revolution.hpp"
+#include "core/operators/resampling.hpp"
 #include "core/time_table.hpp"
 
 #include <cstdint>

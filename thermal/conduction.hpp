@@ -1,7 +1,7 @@
 #pragma once
 // Explicit heat conduction on the deformed configuration, (57)–(61) with J F⁻¹ F⁻ᵀ in the kernel.
-#include "core/operators.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/operators.hpp"
 
 namespace cnem {
 
@@ -13,7 +13,7 @@ public:
   void set_operators(const DiscreteOperators<dim>& operators, Field conductivity);
 
   /// flow_J += −Σ_p V_p k J (F⁻¹F⁻ᵀ ∇_X T)·b_pJ: heat that arrives at node J, W/m^(3−dim). The flows of all
-  /// nodes add up to zero. Positions are the current ones, side by side (core/side_by_side.hpp).
+  /// nodes add up to zero. Positions are the current ones, side by side (core/operators/side_by_side.hpp).
   void add_flow(const Field& position, const Field& temperature, Field& flow);
 
   /// The decay rate no mode exceeds, 1/s: explicit steps are stable below 2 over it.

@@ -1,7 +1,7 @@
 #include "thermal/conduction_kernels.hpp"
 
 #include "core/cofactor.hpp"
-#include "core/sparse_rows.hpp"
+#include "core/operators/sparse_rows.hpp"
 
 namespace cnem::CNEM_ISA {
 

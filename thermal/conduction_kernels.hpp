@@ -1,6 +1,6 @@
 #pragma once
 // The two passes of conduction, one entry per instruction set; raw pointers only (cmake/cnem.cmake,
-// cnem_kernel). Vectors side by side (core/side_by_side.hpp).
+// cnem_kernel). Vectors side by side (core/operators/side_by_side.hpp).
 #include <cstddef>
 #include <cstdint>
 

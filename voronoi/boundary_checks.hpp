@@ -1,6 +1,6 @@
 #pragma once
 // What can be said about a cloud's boundary before (and, for the message, after) it is triangulated.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <cstdint>
 #include <string>

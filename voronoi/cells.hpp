@@ -1,7 +1,7 @@
 #pragma once
 // Constrained Voronoi cells clipped by the domain: the integration cells of the method (paper 004, (70)).
-#include "core/cell_complex.hpp"
-#include "core/discretisation.hpp"
+#include "core/geometry/cell_complex.hpp"
+#include "core/operators/discretisation.hpp"
 #include "voronoi/circumcircles.hpp"
 #include "voronoi/triangulation.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // Where a point stands to the boundary of a cloud: inside or outside, and how far away.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <array>
 #include <cstdint>

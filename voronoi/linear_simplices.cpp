@@ -1,9 +1,9 @@
 #include "voronoi/linear_simplices.hpp"
 
 #include "core/error.hpp"
-#include "core/facets.hpp"
+#include "core/geometry/facets.hpp"
 #include "core/index.hpp"
-#include "core/operator_checks.hpp"
+#include "core/operators/operator_checks.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

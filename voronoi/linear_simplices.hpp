@@ -3,9 +3,9 @@
 // discretisation of their own (methods/fe_simplices), and on the constrained Delaunay triangles the operators
 // C-NEM conducts heat with: GᵀV k G of nodal integration lets checkerboards of temperature stand, the
 // triangles do not.
-#include "core/cloud.hpp"
-#include "core/operators.hpp"
-#include "core/revolution.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/geometry/revolution.hpp"
+#include "core/operators/operators.hpp"
 
 #include <array>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 // Space-filling order of nodes, so that neighbours in space are neighbours in memory.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 // Constrained Delaunay triangulation of a cloud, as plain arrays. CGAL stays behind triangulation.cpp.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <array>
 #include <cstdint>

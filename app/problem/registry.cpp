@@ -6,7 +6,7 @@
 #include "app/problem/workpiece.hpp"
 #include "contact/curve_shape.hpp"
 #include "contact/plane_shape.hpp"
-#include "core/facets.hpp"
+#include "core/geometry/facets.hpp"
 #include "methods/registry.hpp"
 
 #include <algorithm>

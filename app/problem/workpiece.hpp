@@ -1,6 +1,6 @@
 #pragma once
 // The cloud of a case: outlines of the plane are filled, blocks of space are cut into tetrahedra.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 #include "input/case.hpp"
 
 #include <string>

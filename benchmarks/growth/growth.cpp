@@ -4,8 +4,8 @@
 // is. One thread is timed by its processor time, which others on the machine disturb least, several by the
 // wall.
 #include "benchmarks/sheared_block.hpp"
-#include "core/clock.hpp"
 #include "core/error.hpp"
+#include "core/machine/clock.hpp"
 #include "report/chart.hpp"
 #include "results/output_folder.hpp"
 #include "results/status.hpp"

@@ -2,7 +2,7 @@
 // strain and space, for every instruction set of this machine. The number of points is that of a small run
 // (fits L2 and L3 caches).
 #include "plasticity/return_map.hpp"
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "plasticity/hardening_laws.hpp"
 
 #include <benchmark/benchmark.h>

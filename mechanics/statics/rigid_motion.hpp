@@ -1,6 +1,6 @@
 #pragma once
 // Which rigid body motions a set of supports leaves free.
-#include "core/operators.hpp"
+#include "core/operators/operators.hpp"
 #include "core/vec.hpp"
 #include "mechanics/supports.hpp"
 

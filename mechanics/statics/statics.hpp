@@ -1,8 +1,8 @@
 #pragma once
 // Linear statics: small-strain isotropic elasticity on the same operators as the explicit solver.
-#include "core/cloud.hpp"
-#include "core/discretisation.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/operators/discretisation.hpp"
 #include "mechanics/supports.hpp"
 #include "plasticity/material.hpp"
 

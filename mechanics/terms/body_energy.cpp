@@ -1,5 +1,5 @@
 // What the body itself holds and has dissipated, and what changes in that where references are renewed.
-#include "core/parallel.hpp"
+#include "core/machine/parallel.hpp"
 #include "mechanics/terms/list.hpp"
 
 namespace cnem {

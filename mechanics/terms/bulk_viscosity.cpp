@@ -1,6 +1,6 @@
 #include "mechanics/terms/bulk_viscosity.hpp"
 
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "mechanics/terms/list.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // Bulk viscosity: spreads shocks over a few cells.
-#include "core/operators.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/operators/operators.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/step_kernels.hpp"
 

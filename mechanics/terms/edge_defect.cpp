@@ -1,7 +1,7 @@
 #include "mechanics/terms/edge_defect.hpp"
 
 #include "core/index.hpp"
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "mechanics/terms/list.hpp"
 
 namespace cnem {

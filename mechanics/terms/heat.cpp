@@ -1,7 +1,7 @@
 // The thermal half of a step: plastic and friction heat, conduction and what boundaries exchange, staggered
 // behind the mechanics (paper 004, 5.1.4).
 #include "core/index.hpp"
-#include "core/parallel.hpp"
+#include "core/machine/parallel.hpp"
 #include "mechanics/terms/list.hpp"
 #include "thermal/conduction.hpp"
 

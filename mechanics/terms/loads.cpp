@@ -1,6 +1,6 @@
 #include "mechanics/terms/loads.hpp"
 
-#include "core/facets.hpp"
+#include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 
 namespace cnem {

@@ -1,9 +1,9 @@
 #pragma once
 // Applied forces: tractions and pressures on boundary pieces, body forces.
-#include "core/cloud.hpp"
-#include "core/resampling.hpp"
-#include "core/revolution.hpp"
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/geometry/revolution.hpp"
+#include "core/operators/resampling.hpp"
 #include "core/time_table.hpp"
 
 #include <string>
@@ -34,7 +34,7 @@ public:
         std::array<TimeTable, dim> acceleration, const std::vector<Vec<dim>>& initial,
         Space space = Space::plane);
 
-  /// Acts on a changed cloud. initial: labels of the nodes (core/resampling.hpp).
+  /// Acts on a changed cloud. initial: labels of the nodes (core/operators/resampling.hpp).
   void resample(const Cloud<dim>& cloud, const Fields<dim>& initial);
 
   bool empty() const { return tractions_.empty() && pressures_.empty() && !body_force_; }

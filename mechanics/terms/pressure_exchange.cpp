@@ -1,7 +1,7 @@
 #include "mechanics/terms/pressure_exchange.hpp"
 
 #include "core/index.hpp"
-#include "core/parallel.hpp"
+#include "core/machine/parallel.hpp"
 #include "mechanics/terms/list.hpp"
 
 #include <algorithm>

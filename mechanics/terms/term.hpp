@@ -23,7 +23,7 @@ template<int dim, bool constant> struct BodyOf {
   Seen<State<dim>>& state;
   const Approximation<dim>& approximation;
   const LocalSteps<dim>& levels;
-  const Field& reference;          ///< [node] m, side by side (core/side_by_side.hpp)
+  const Field& reference;          ///< [node] m, side by side (core/operators/side_by_side.hpp)
   const Field& position;           ///< [node] m, side by side
   Seen<ColumnStress<dim>>& stress; ///< P with viscosity and penalty: what forces are made from
   Seen<EdgePoints>& edge;          ///< what the edge defect has renewed with each stress

@@ -1,7 +1,7 @@
 #pragma once
 // The fixture of the contract suite: one method, run on every domain of its dimension. Checks are written
 // once, as templates on the dimension.
-#include "core/vector_at.hpp"
+#include "core/fields/vector_at.hpp"
 #include "methods.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ template<int dim, class Body> void for_each_entry(const DiscreteOperators<dim>& 
     for (auto e = index(op.row_begin[p]); e < index(op.row_begin[p + 1]); ++e) body(p, e, index(op.node[e]));
 }
 
-/// What conduction operators keep, whatever the method (core/discretisation.hpp).
+/// What conduction operators keep, whatever the method (core/operators/discretisation.hpp).
 inline constexpr Promises conduction_promises{Promise::non_negative_values, Promise::tiling_cells,
                                               Promise::balanced_constant_stress};
 

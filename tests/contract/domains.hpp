@@ -2,7 +2,7 @@
 // The domains that the contract suite runs on: those of tests/clouds.hpp in the plane, meshed blocks and what
 // is bent out of them in space.
 #include "clouds/tetrahedral_block.hpp"
-#include "core/facets.hpp"
+#include "core/geometry/facets.hpp"
 #include "tests/clouds.hpp"
 #include "voronoi/linear_simplices.hpp"
 

@@ -1,8 +1,8 @@
-// What every discretisation keeps (core/operators.hpp, core/discretisation.hpp) and what each promises beyond
-// (core/promises.hpp), to rounding, on convex and non-convex domains. Gradients are compared after
-// multiplication with the spacing.
+// What every discretisation keeps (core/operators/operators.hpp, core/operators/discretisation.hpp) and what
+// each promises beyond (core/operators/promises.hpp), to rounding, on convex and non-convex domains.
+// Gradients are compared after multiplication with the spacing.
 #include "contract.hpp"
-#include "core/operator_checks.hpp"
+#include "core/operators/operator_checks.hpp"
 
 namespace cnem::testing {
 namespace {
@@ -68,7 +68,7 @@ TEST_P(Contract, rows_are_complete_and_sorted_by_node) {
   });
 }
 
-/// What builds with assertions check of all operators (core/operator_checks.hpp).
+/// What builds with assertions check of all operators (core/operators/operator_checks.hpp).
 TEST_P(Contract, checks_for_assertions_pass_operators_and_see_damaged_ones) {
   on_all_operators([]<int dim>(const Domain<dim>& domain, const DiscreteOperators<dim>& op) {
     EXPECT_TRUE(rows_are_complete(op));

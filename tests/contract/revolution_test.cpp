@@ -2,7 +2,7 @@
 // that touch the axis and on domains away from it.
 #include "contract.hpp"
 #include "core/error.hpp"
-#include "core/revolution.hpp"
+#include "core/geometry/revolution.hpp"
 
 namespace cnem::testing {
 namespace {

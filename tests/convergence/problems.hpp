@@ -1,7 +1,7 @@
 #pragma once
 // Linear problems with known solutions, on clouds of any spacing.
-#include "core/cloud.hpp"
-#include "core/discretisation.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/operators/discretisation.hpp"
 #include "mechanics/statics/statics.hpp"
 
 #include <functional>

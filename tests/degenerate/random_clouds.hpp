@@ -1,7 +1,7 @@
 #pragma once
 // Adversarial random clouds: every family of domain and of node pattern that has broken a Voronoi code
 // before.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <cstdint>
 #include <random>

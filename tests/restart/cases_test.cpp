@@ -1,6 +1,6 @@
 // The same bits for any number of threads, and after a restart: every case in the repository, its first
 // steps, or whole runs with all threads when CNEM_WHOLE_RUNS is set.
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "input/case_reader.hpp"
 #include "results/output_folder.hpp"
 #include "tests/restart/process.hpp"

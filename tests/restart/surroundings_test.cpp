@@ -1,6 +1,6 @@
 // What the program does when memory, threads, standard output or the terminal go away, when several start at
 // once, and when files have strange names.
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "results/output_folder.hpp"
 #include "results/status.hpp"
 #include "tests/restart/process.hpp"

@@ -1,7 +1,7 @@
 // The law of Zerilli and Armstrong for body-centred metals: its formula, its derivatives, the return map on
 // it, and a case.
 #include "app/run.hpp"
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "input/case_reader.hpp"
 #include "plasticity/box2.hpp"
 #include "results/history_writer.hpp"

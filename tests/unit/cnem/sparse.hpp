@@ -1,6 +1,6 @@
 #pragma once
 // Operators as Eigen matrices, for small static problems.
-#include "core/discretisation.hpp"
+#include "core/operators/discretisation.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

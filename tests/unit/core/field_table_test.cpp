@@ -1,5 +1,5 @@
 // Fields declared once: what follows from the line of a field.
-#include "core/state.hpp"
+#include "core/fields/state.hpp"
 
 #include <gtest/gtest.h>
 #include <map>

@@ -1,4 +1,4 @@
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 
 #include "core/error.hpp"
 

@@ -1,5 +1,5 @@
 // An archive in memory: what goes in comes out with its bits, through another archive too.
-#include "core/memory_archive.hpp"
+#include "core/fields/memory_archive.hpp"
 
 #include "core/error.hpp"
 

@@ -1,5 +1,5 @@
 // The elementary functions of the kernels on double; packs run the same template (tests/unit/plasticity).
-#include "core/simd.hpp"
+#include "core/machine/simd.hpp"
 
 #include <gtest/gtest.h>
 

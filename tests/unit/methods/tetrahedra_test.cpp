@@ -2,7 +2,7 @@
 #include "clouds/tetrahedral_block.hpp"
 #include "contact/plane_shape.hpp"
 #include "core/error.hpp"
-#include "core/facets.hpp"
+#include "core/geometry/facets.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "methods/fe_simplices.hpp"
 #include "plasticity/hardening_laws.hpp"

@@ -1,5 +1,5 @@
 // The vector kernels against the same template on double, their lanes, and what must not break them.
-#include "core/isa.hpp"
+#include "core/machine/isa.hpp"
 #include "plasticity/box2.hpp"
 #include "tests/each_isa.hpp"
 #include "tests/unit/plasticity/points.hpp"

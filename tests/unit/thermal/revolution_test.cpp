@@ -1,6 +1,6 @@
 // Conduction and boundaries in bodies of revolution.
 #include "cnem/scni.hpp"
-#include "core/side_by_side.hpp"
+#include "core/operators/side_by_side.hpp"
 #include "tests/clouds.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // Small clouds that the unit tests of the geometry share.
-#include "core/cloud.hpp"
+#include "core/geometry/cloud.hpp"
 
 #include <initializer_list>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
-// What must hold of operators whatever the method (core/operators.hpp), for assertions: the contract suite
-// tests it to rounding.
-#include "core/operators.hpp"
+// What must hold of operators whatever the method (core/operators/operators.hpp), for assertions: the
+// contract suite tests it to rounding.
+#include "core/operators/operators.hpp"
 #include "core/vec.hpp"
 
 #include <vector>

@@ -1,4 +1,4 @@
-#include "core/resampling.hpp"
+#include "core/operators/resampling.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>

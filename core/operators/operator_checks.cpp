@@ -1,4 +1,4 @@
-#include "core/operator_checks.hpp"
+#include "core/operators/operator_checks.hpp"
 
 #include "core/index.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/promises.hpp"
+#include "core/operators/promises.hpp"
 
 #include "core/error.hpp"
 

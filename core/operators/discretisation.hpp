@@ -1,9 +1,9 @@
 #pragma once
 // What a method has to provide to be solved with: one virtual call per rebuild, none inside a loop over
 // nodes.
-#include "core/cloud.hpp"
-#include "core/operators.hpp"
-#include "core/promises.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/operators/operators.hpp"
+#include "core/operators/promises.hpp"
 
 #include <memory>
 #include <string>
@@ -55,8 +55,9 @@ public:
 
   virtual std::string name() const = 0;
 
-  /// What `Approximation::mechanics` keeps beyond the invariants of core/operators.hpp. The operators of
-  /// conduction have non-negative values, tile the domain and balance constant fluxes, whatever the method.
+  /// What `Approximation::mechanics` keeps beyond the invariants of core/operators/operators.hpp. The
+  /// operators of conduction have non-negative values, tile the domain and balance constant fluxes, whatever
+  /// the method.
   virtual Promises promises() const = 0;
 };
 

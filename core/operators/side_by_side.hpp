@@ -1,8 +1,8 @@
 #pragma once
 // Vector fields with their components side by side, [node · dim + component]: what passes that gather over
 // neighbours read, so that a neighbour costs one cache line.
-#include "core/aligned.hpp"
-#include "core/sparse_rows.hpp"
+#include "core/fields/aligned.hpp"
+#include "core/operators/sparse_rows.hpp"
 
 #include <cstdint>
 

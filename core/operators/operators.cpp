@@ -1,4 +1,4 @@
-#include "core/operators.hpp"
+#include "core/operators/operators.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>

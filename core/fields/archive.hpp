@@ -1,6 +1,6 @@
 #pragma once
 // How a checkpoint is described: an object lists what evolves in it once, and the same list writes and reads.
-#include "core/aligned.hpp"
+#include "core/fields/aligned.hpp"
 #include "core/index.hpp"
 #include "core/vec.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/curve.hpp"
+#include "core/geometry/curve.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 // Measures of the facets of a boundary: edges in the plane, triangles in space.
-#include "core/aligned.hpp"
-#include "core/cloud.hpp"
+#include "core/fields/aligned.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/geometry/revolution.hpp"
 #include "core/index.hpp"
-#include "core/revolution.hpp"
 
 #include <Eigen/Geometry>
 

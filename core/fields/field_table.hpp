@@ -2,9 +2,9 @@
 // Fields declared once: each field of a group is one line that says its name and unit, how it goes over to a
 // resampled cloud, whether a checkpoint keeps it and how users see it. Allocation, checkpoint, transfer,
 // files, pictures and the reference of names follow from that line.
-#include "core/aligned.hpp"
-#include "core/archive.hpp"
-#include "core/resampling.hpp"
+#include "core/fields/aligned.hpp"
+#include "core/fields/archive.hpp"
+#include "core/operators/resampling.hpp"
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace cnem {
 
-/// How a field goes over to the nodes of a resampled cloud (core/resampling.hpp).
+/// How a field goes over to the nodes of a resampled cloud (core/operators/resampling.hpp).
 enum class Carry {
   sum,              ///< what adds up: mass, heat capacity
   mass_mean,        ///< mean by mass

@@ -1,6 +1,6 @@
 #pragma once
 // An archive that stays in memory: a state to go back to.
-#include "core/archive.hpp"
+#include "core/fields/archive.hpp"
 
 #include <map>
 #include <string>

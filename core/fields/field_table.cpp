@@ -1,4 +1,4 @@
-#include "core/field_table.hpp"
+#include "core/fields/field_table.hpp"
 
 #include <fmt/format.h>
 

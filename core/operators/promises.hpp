@@ -19,7 +19,7 @@ enum class Promise : std::uint8_t {
   tiling_cells,             ///< cells of the points are disjoint and fill the domain: Σ V_p = |Ω|
   balanced_constant_stress, ///< constant stress loads the boundary nodes alone, with the tractions of their
                             ///< facets
-  hoop_rows,                ///< rows of bodies of revolution (core/operators.hpp)
+  hoop_rows,                ///< rows of bodies of revolution (core/operators/operators.hpp)
 };
 
 inline constexpr std::array all_promises{Promise::one_point_per_node,

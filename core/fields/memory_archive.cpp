@@ -1,4 +1,4 @@
-#include "core/memory_archive.hpp"
+#include "core/fields/memory_archive.hpp"
 
 #include "core/error.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Everything that evolves in a run: one line per field says its name, unit, how it goes over to a resampled
 // cloud, whether checkpoints hold it, its value at rest and how users see it.
-#include "core/field_table.hpp"
+#include "core/fields/field_table.hpp"
 
 #include <cstdint>
 #include <limits>

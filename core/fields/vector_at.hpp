@@ -1,6 +1,6 @@
 #pragma once
 // One vector out of a field that is stored by components.
-#include "core/aligned.hpp"
+#include "core/fields/aligned.hpp"
 #include "core/index.hpp"
 #include "core/vec.hpp"
 

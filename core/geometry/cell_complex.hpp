@@ -2,9 +2,9 @@
 // What stands between the geometry of a cloud and its operators: a cell for each node, the faces between
 // cells and the parts of the boundary. Smoothed gradients and links (cnem/smoothing.hpp) and the error
 // indicator (adapt/indicator.hpp) are written on it, once for all dimensions.
-#include "core/aligned.hpp"
-#include "core/cloud.hpp"
-#include "core/facets.hpp"
+#include "core/fields/aligned.hpp"
+#include "core/geometry/cloud.hpp"
+#include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 
 #include <array>

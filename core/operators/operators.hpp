@@ -2,7 +2,7 @@
 // The contract of the whole design: a discretisation is a pair of rectangular sparse operators, gradient G
 // and values N, whose rows are stress points and whose columns are nodes. Solver, heat and contact see
 // nothing else.
-#include "core/aligned.hpp"
+#include "core/fields/aligned.hpp"
 #include "core/index.hpp"
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace cnem {
 ///
 /// Row p holds b_pJ = ∇φ_J averaged over the volume V_p of stress point p (paper 004, (75)–(79)) and N_pJ, on
 /// the same pattern. Invariants (tests/contract): Σ_J b_pJ = 0; Σ_J x_J ⊗ b_pJ = 1; Σ_J N_pJ = 1. What else
-/// holds a method promises (core/promises.hpp).
+/// holds a method promises (core/operators/promises.hpp).
 ///
 /// Bodies of revolution add the hoop rows h_pJ = N_pJ/r̄_p, N_pJ = φ_J at the centroid of the cell: Σ_J h_pJ
 /// r_J = r/R. There V_p = 2π r̄_p A_p, and b_pJ is weighted with the radius: V_p b_pJ = 2π (∮ r φ_J n dΓ − e_r

@@ -1,4 +1,4 @@
-#include "core/cell_complex.hpp"
+#include "core/geometry/cell_complex.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // How the nodes of a new cloud are made of those of an old one, and what is carried over with them.
-#include "core/aligned.hpp"
-#include "core/cloud.hpp"
+#include "core/fields/aligned.hpp"
+#include "core/geometry/cloud.hpp"
 #include "core/index.hpp"
 
 #include <cstdint>
