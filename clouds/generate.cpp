@@ -4,6 +4,7 @@
 #include "clouds/generate_boundary.hpp"
 #include "clouds/generate_interior.hpp"
 #include "clouds/generate_list.hpp"
+#include "core/geometry/place_text.hpp"
 #include "voronoi/edge_tree.hpp"
 #include "voronoi/order.hpp"
 
@@ -15,8 +16,6 @@
 namespace cnem::clouds {
 
 namespace {
-
-std::string at(const Vec2& x) { return fmt::format("({:.6g}, {:.6g})", x.x(), x.y()); }
 
 void check_options(const SpacingField& spacing, const CloudOptions& options) {
   if (options.pattern == Pattern::list) {
@@ -61,10 +60,10 @@ void warn_of_short_edges(const Cloud<2>& cloud, const SpacingField& spacing,
       worst[f.piece] = {ratio, length, 0.5 * (a + b)};
   }
   for (const auto& [piece, edge] : worst)
-    warnings.push_back(
-        fmt::format("boundary piece '{}' has an edge of {:.3g} m near {}, where the spacing is "
-                    "{:.3g} m: refine there, or the stable step suffers",
-                    cloud.piece_names[index_of(piece)], edge.length, at(edge.where), spacing.at(edge.where)));
+    warnings.push_back(fmt::format(
+        "boundary piece '{}' has an edge of {:.3g} m near {}, where the spacing is "
+        "{:.3g} m: refine there, or the stable step suffers",
+        cloud.piece_names[index_of(piece)], edge.length, place_text(edge.where), spacing.at(edge.where)));
 }
 
 void warn_of_necks(const Necks& necks, std::vector<std::string>& warnings) {
@@ -72,7 +71,7 @@ void warn_of_necks(const Necks& necks, std::vector<std::string>& warnings) {
     warnings.push_back(
         fmt::format("the domain is only {:.3g} m wide near {}: no node lies between its two sides "
                     "(so at {} pairs of boundary nodes); refine there",
-                    necks.width, at(necks.where), necks.pairs));
+                    necks.width, place_text(necks.where), necks.pairs));
 }
 
 Cloud<2> listed(const DomainShape& domain, const CloudOptions& options) {
@@ -85,7 +84,7 @@ Cloud<2> listed(const DomainShape& domain, const CloudOptions& options) {
       throw GeometryError(fmt::format(
           "node {} of the list at {} lies outside the domain; expected nodes in or on the polygon "
           "through the nodes on the boundary",
-          k, at(options.nodes[k])));
+          k, place_text(options.nodes[k])));
   return cloud;
 }
 

@@ -1,6 +1,7 @@
 #include "clouds/generate_boundary.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,6 @@ namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
-std::string at(const Vec2& x) { return fmt::format("({:.6g}, {:.6g})", x.x(), x.y()); }
-
 void check_curve(const Curve& curve, const std::string& what, double size) {
   if (curve.pieces.empty()) throw GeometryError(what + " has no pieces; expected segments or arcs");
   for (std::size_t k = 0; k < curve.pieces.size(); ++k) {
@@ -29,17 +28,18 @@ void check_curve(const Curve& curve, const std::string& what, double size) {
       throw GeometryError(
           fmt::format("{} is open: piece {} ('{}') ends at {} but the next one starts at {}; expected pieces "
                       "joined end to end",
-                      what, k + 1, piece.name, at(piece.to), at(next.from)));
+                      what, k + 1, piece.name, place_text(piece.to), place_text(next.from)));
     if (piece.length() <= 1e-9 * size)
-      throw GeometryError(
-          fmt::format("{}: piece {} ('{}') at {} has no length", what, k + 1, piece.name, at(piece.from)));
+      throw GeometryError(fmt::format("{}: piece {} ('{}') at {} has no length", what, k + 1, piece.name,
+                                      place_text(piece.from)));
     if (!piece.is_arc()) continue;
     for (const Vec2& end : {piece.from, piece.to})
       if (std::abs((end - piece.centre).norm() - piece.radius) > 1e-6 * size)
         throw GeometryError(fmt::format(
             "{}: arc {} ('{}') has its end {} at {:.6g} m from its centre {}; expected its radius, "
             "{:.6g} m",
-            what, k + 1, piece.name, at(end), (end - piece.centre).norm(), at(piece.centre), piece.radius));
+            what, k + 1, piece.name, place_text(end), (end - piece.centre).norm(), place_text(piece.centre),
+            piece.radius));
   }
   if (std::abs(curve.area()) <= 1e-12 * size * size)
     throw GeometryError(fmt::format("{} encloses no area", what));
@@ -129,7 +129,7 @@ DomainShape checked_and_oriented(const DomainShape& domain) {
         throw GeometryError(fmt::format("crack '{}': point {} is not finite", crack.name, k + 1));
       if (k > 0 && (crack.path[k] - crack.path[k - 1]).norm() <= 1e-9 * size)
         throw GeometryError(fmt::format("crack '{}': its points {} and {} coincide at {}", crack.name, k,
-                                        k + 1, at(crack.path[k])));
+                                        k + 1, place_text(crack.path[k])));
     }
   }
   return result;
@@ -297,10 +297,10 @@ Cloud<2> assemble_boundary(const BoundaryChains& chains) {
     nodes.push_back(node);
     HalfEdge& next = edges[std::size_t(edge.next)];
     if (next.start_node >= 0)
-      throw GeometryError(
-          fmt::format("the boundary '{}' runs over another part of itself at {}; expected curves "
-                      "that meet nothing",
-                      chains.piece_names[std::size_t(next.piece)], at(chains.vertex[std::size_t(edge.to)])));
+      throw GeometryError(fmt::format(
+          "the boundary '{}' runs over another part of itself at {}; expected curves "
+          "that meet nothing",
+          chains.piece_names[std::size_t(next.piece)], place_text(chains.vertex[std::size_t(edge.to)])));
     next.start_node = node;
   }
   std::vector<bool> done(edges.size(), false);

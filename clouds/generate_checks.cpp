@@ -1,5 +1,6 @@
 #include "clouds/generate_boundary.hpp"
 #include "core/error.hpp"
+#include "core/geometry/place_text.hpp"
 #include "voronoi/edge_tree.hpp"
 
 #include <algorithm>
@@ -45,8 +46,6 @@ std::vector<Segment> segments(const Crack& crack) {
   return result;
 }
 
-std::string at(const Vec2& x) { return fmt::format("({:.6g}, {:.6g})", x.x(), x.y()); }
-
 /// Shortens a segment by one spacing, at most half its length, from its end a.
 Segment without_start(const Segment& s, const SpacingField& spacing) {
   const double length = (s.b - s.a).norm();
@@ -71,11 +70,13 @@ void check_against_boundary(const Crack& crack, const std::array<bool, 2>& open,
             "({:.3g} m) away, or to end exactly on it, not at a small angle",
             crack.name,
             gap.distance > 0.0 ? fmt::format("comes within {:.3g} m of", gap.distance) : "crosses",
-            outline.piece_names[std::size_t(f.piece)], at(gap.where), clearance * spacing.at(gap.where)));
+            outline.piece_names[std::size_t(f.piece)], place_text(gap.where),
+            clearance * spacing.at(gap.where)));
     }
     for (const Vec2& x : {part.a, part.b})
       if (!tree.inside(x))
-        throw GeometryError(fmt::format("crack '{}' leaves the domain: {} is outside", crack.name, at(x)));
+        throw GeometryError(
+            fmt::format("crack '{}' leaves the domain: {} is outside", crack.name, place_text(x)));
   }
 }
 
@@ -89,7 +90,7 @@ void check_itself(const Crack& crack, const SpacingField& spacing) {
         throw GeometryError(
             fmt::format("crack '{}' touches or nearly touches itself at {}; expected a simple, "
                         "open polyline without sharp turns",
-                        crack.name, at(gap.where)));
+                        crack.name, place_text(gap.where)));
     }
 }
 
@@ -103,7 +104,7 @@ void check_holes(const DomainShape& domain) {
     const CurvePiece& piece = domain.holes[k].pieces.front();
     if (!outline.inside(piece.from))
       throw GeometryError(fmt::format("hole {} ('{}') is not inside the outline: its point {} is outside",
-                                      k + 1, piece.name, at(piece.from)));
+                                      k + 1, piece.name, place_text(piece.from)));
   }
 }
 
@@ -125,7 +126,7 @@ void check_cracks(const DomainShape& domain, const SpacingField& spacing, const 
             throw GeometryError(fmt::format(
                 "cracks '{}' and '{}' cross, touch or nearly touch at {}; expected separate cracks "
                 "(describe branches as notches of the outline)",
-                domain.cracks[d].name, crack.name, at(gap.where)));
+                domain.cracks[d].name, crack.name, place_text(gap.where)));
         }
   }
 }

@@ -1,6 +1,7 @@
 #include "clouds/generate_list.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/place_text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,8 +11,6 @@
 namespace cnem::clouds {
 
 namespace {
-
-std::string at(const Vec2& x) { return fmt::format("({:.9g}, {:.9g})", x.x(), x.y()); }
 
 void check_distinct(const std::vector<Vec2>& nodes, double tolerance) {
   std::vector<std::size_t> order(nodes.size());
@@ -31,7 +30,7 @@ void check_distinct(const std::vector<Vec2>& nodes, double tolerance) {
         throw GeometryError(
             fmt::format("nodes {} and {} of the list coincide at {}; expected each node once, also "
                         "on cracks, whose faces are doubled automatically",
-                        first, second, at(nodes[second])));
+                        first, second, place_text(nodes[second], 9)));
     }
   }
 }
@@ -93,7 +92,7 @@ BoundaryChains list_boundary(const DomainShape& domain, const std::vector<Vec2>&
         throw GeometryError(
             fmt::format("{}: no node of the list lies at {}; expected one at every corner, at "
                         "every end of a boundary piece and at the tips and kinks of cracks",
-                        where, at(x)));
+                        where, place_text(x, 9)));
     chain.vertex.push_back(*first);
     for (const OnPiece& node : on)
       if (node.node != *first && node.node != *last) chain.vertex.push_back(node.node);

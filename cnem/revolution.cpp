@@ -8,8 +8,6 @@
 namespace cnem::scni {
 namespace {
 
-std::size_t index(std::int32_t i) { return index_of(i); }
-
 /// ∮ ½ (ρ_x² n_x, ρ_y² n_y) ds over a segment, ρ from `origin`, n ds the right normal of the segment: its
 /// share of the first moments of area.
 Vec2 first_moment(const Vec2& origin, const std::array<Vec2, 2>& end) {
@@ -21,14 +19,14 @@ Vec2 first_moment(const Vec2& origin, const std::array<Vec2, 2>& end) {
 std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) {
   std::vector<Vec2> moment(cloud.position.size(), Vec2::Zero());
   for (const InnerFace<2>& face : cells.interior) {
-    const std::size_t i = index(face.cell[0]), j = index(face.cell[1]);
+    const std::size_t i = index_of(face.cell[0]), j = index_of(face.cell[1]);
     moment[i] += first_moment(cloud.position[i], face.corner);
     moment[j] -= first_moment(cloud.position[j], face.corner);
   }
   for (const BoundaryPart<2>& part : cells.boundary) {
-    const std::size_t i = index(part.cell);
+    const std::size_t i = index_of(part.cell);
     moment[i] += first_moment(cloud.position[i],
-                              part.on(corners_of<2>(cloud.facets[index(part.facet)], cloud.position)));
+                              part.on(corners_of<2>(cloud.facets[index_of(part.facet)], cloud.position)));
   }
   for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = cloud.position[i] + moment[i] / cells.volume[i];
   return moment;
@@ -38,7 +36,7 @@ std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) 
 std::vector<std::int32_t> triangle_at_nodes(std::size_t nodes, const voronoi::Triangulation& triangulation) {
   std::vector<std::int32_t> triangle(nodes, 0);
   for (std::size_t t = 0; t < triangulation.node.size(); ++t)
-    for (const std::int32_t i : triangulation.node[t]) triangle[index(i)] = static_cast<std::int32_t>(t);
+    for (const std::int32_t i : triangulation.node[t]) triangle[index_of(i)] = static_cast<std::int32_t>(t);
   return triangle;
 }
 
@@ -69,8 +67,8 @@ CentroidValues centroid_values(const Cloud<2>& cloud, const voronoi::Triangulati
 void revolve(const Field& radius, StabilisationLinks<2>& links) {
   assert(radius.size() + 1 == links.begin.size());
   for (std::size_t i = 0; i + 1 < links.begin.size(); ++i)
-    for (auto e = index(links.begin[i]); e < index(links.begin[i + 1]); ++e)
-      links.weight[e] *= std::numbers::pi * (radius[i] + radius[index(links.neighbour[e])]);
+    for (auto e = index_of(links.begin[i]); e < index_of(links.begin[i + 1]); ++e)
+      links.weight[e] *= std::numbers::pi * (radius[i] + radius[index_of(links.neighbour[e])]);
 }
 
 } // namespace cnem::scni

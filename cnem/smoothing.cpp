@@ -13,21 +13,19 @@
 namespace cnem::scni {
 namespace {
 
-std::size_t index(std::int32_t i) { return index_of(i); }
-
 /// One row while it is summed up: entries are found through a table over all nodes.
 template<int dim> class RowAccumulator {
 public:
-  explicit RowAccumulator(int nodes) : slot_(index(nodes), -1) {}
+  explicit RowAccumulator(int nodes) : slot_(index_of(nodes), -1) {}
 
   void add(std::int32_t node, const Vec<dim>& b, double value = 0.0) {
-    std::int32_t& slot = slot_[index(node)];
+    std::int32_t& slot = slot_[index_of(node)];
     if (slot < 0) {
       slot = static_cast<std::int32_t>(entry_.size());
       entry_.push_back({node, b, value});
     } else {
-      entry_[index(slot)].b += b;
-      entry_[index(slot)].value += value;
+      entry_[index_of(slot)].b += b;
+      entry_[index_of(slot)].value += value;
     }
   }
 
@@ -43,7 +41,7 @@ public:
   }
 
   void clear() {
-    for (const Entry& e : entry_) slot_[index(e.node)] = -1;
+    for (const Entry& e : entry_) slot_[index_of(e.node)] = -1;
     entry_.clear();
   }
 
@@ -74,7 +72,7 @@ template<int dim>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
                                           const CellLists& faces, const FaceMeans& means,
                                           const CentroidValues* revolution) {
-  const auto nodes = index(cloud.nodes());
+  const auto nodes = index_of(cloud.nodes());
   assert(cells.cells() == nodes && faces.begin.size() == nodes + 1);
   const CellLists boundary = parts_of_cells(cells);
 
@@ -102,17 +100,17 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
     for (auto& g : block.gradient) g.reserve(11 * (last - first));
     for (std::size_t i = first; i < last; ++i) {
       for (const std::int32_t item : faces.of(i)) {
-        const auto f = index(item);
+        const auto f = index_of(item);
         const InnerFace<dim>& face = cells.interior[f];
-        const double sign = index(face.cell[0]) == i ? 1.0 : -1.0;
+        const double sign = index_of(face.cell[0]) == i ? 1.0 : -1.0;
         const Vec<dim> normal = sign * face.normal();
         const auto node = means.nodes(f);
         const auto value = means.values(f);
         for (std::size_t e = 0; e < node.size(); ++e) row.add(node[e], value[e] * normal);
       }
       for (const std::int32_t item : boundary.of(i)) {
-        const BoundaryPart<dim>& part = cells.boundary[index(item)];
-        const Facet<dim>& facet = cloud.facets[index(part.facet)];
+        const BoundaryPart<dim>& part = cells.boundary[index_of(item)];
+        const Facet<dim>& facet = cloud.facets[index_of(part.facet)];
         const auto corner = corners_of<dim>(facet, cloud.position);
         const Vec<dim> normal = area_normal<dim>(corner);
         const auto share = shares_of(part, corner);
@@ -120,7 +118,7 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
       }
       double measure = cells.volume[i];
       if (revolution) {
-        for (auto e = index(revolution->begin[i]); e < index(revolution->begin[i + 1]); ++e) {
+        for (auto e = index_of(revolution->begin[i]); e < index_of(revolution->begin[i + 1]); ++e) {
           Vec<dim> radial = Vec<dim>::Zero();
           radial[0] = -cells.volume[i] * revolution->value[e];
           row.add(revolution->node[e], radial, revolution->value[e]);
@@ -153,9 +151,9 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
   std::vector<std::int32_t> offset(blocks.size() + 1, 0);
   for (std::size_t k = 0; k < blocks.size(); ++k)
     offset[k + 1] = offset[k] + static_cast<std::int32_t>(blocks[k].node.size());
-  op.node.resize(index(offset.back()));
-  for (Field& g : op.gradient) g.resize(index(offset.back()));
-  if (revolution) op.hoop.resize(index(offset.back()));
+  op.node.resize(index_of(offset.back()));
+  for (Field& g : op.gradient) g.resize(index_of(offset.back()));
+  if (revolution) op.hoop.resize(index_of(offset.back()));
 #pragma omp parallel for schedule(static)
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const std::size_t first = k * block_size, last = std::min(first + block_size, nodes);
@@ -184,14 +182,14 @@ StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellC
     const auto linked = cells.neighbours.of(i);
     double* const weight = links.weight.data() + links.begin[i];
     for (const std::int32_t item : faces.of(i)) {
-      const InnerFace<dim>& face = cells.interior[index(item)];
-      const std::int32_t other = face.cell[index(face.cell[0]) == i ? 1 : 0];
+      const InnerFace<dim>& face = cells.interior[index_of(item)];
+      const std::int32_t other = face.cell[index_of(face.cell[0]) == i ? 1 : 0];
       const auto link = std::find(linked.begin(), linked.end(), other);
       assert(link != linked.end());
       weight[link - linked.begin()] += face.normal().norm();
     }
     for (std::size_t k = 0; k < linked.size(); ++k) {
-      const double distance = (cloud.position[index(linked[k])] - cloud.position[i]).norm();
+      const double distance = (cloud.position[index_of(linked[k])] - cloud.position[i]).norm();
       if constexpr (dim == 2)
         weight[k] = std::clamp(weight[k] / distance, least, most);
       else

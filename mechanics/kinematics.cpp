@@ -10,8 +10,6 @@ namespace cnem {
 
 namespace {
 
-std::size_t at(const std::vector<std::int32_t>& v, std::size_t i) { return index_of(v[i]); }
-
 template<int dim>
 void deformation_rows_of(const DiscreteOperators<dim>& op, const double* position, double* const* deformation,
                          std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -37,8 +35,8 @@ void deformation_gradient(const DiscreteOperators<dim>& operators, const Field& 
     if (!operators.of_revolution()) return;
     for (std::size_t p = begin; p < end; ++p) {
       double stretch = 0.0;
-      for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e)
-        stretch += operators.hoop[e] * position[dim * at(operators.node, e)];
+      for (std::size_t e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e)
+        stretch += operators.hoop[e] * position[dim * index_of(operators.node[e])];
       deformation[4][p] = stretch;
     }
   }
@@ -55,8 +53,8 @@ void interpolate(const DiscreteOperators<dim>& operators, const Field& nodal, Fi
   }
   for (std::size_t p = begin; p < end; ++p) {
     double sum = 0.0;
-    for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e)
-      sum += operators.value[e] * nodal[at(operators.node, e)];
+    for (std::size_t e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e)
+      sum += operators.value[e] * nodal[index_of(operators.node[e])];
     at_points[p] = sum;
   }
 }
@@ -65,8 +63,9 @@ template<int dim>
 double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, std::size_t node) {
   if (operators.nodal) return at_points[node];
   double sum = 0.0, weight = 0.0;
-  for (std::size_t e = at(operators.col_begin, node); e < at(operators.col_begin, node + 1); ++e) {
-    sum += operators.weighted_value[e] * at_points[at(operators.point, e)];
+  for (std::size_t e = index_of(operators.col_begin[node]); e < index_of(operators.col_begin[node + 1]);
+       ++e) {
+    sum += operators.weighted_value[e] * at_points[index_of(operators.point[e])];
     weight += operators.weighted_value[e];
   }
   return sum / weight;
@@ -96,8 +95,8 @@ void subtract_internal_force(const DiscreteOperators<dim>& operators, const Colu
     if (!operators.of_revolution()) return;
     for (std::size_t j = begin; j < end; ++j) {
       double f = 0.0;
-      for (std::size_t e = at(operators.col_begin, j); e < at(operators.col_begin, j + 1); ++e)
-        f += stress.out_of_plane[at(operators.point, e)] * operators.weighted_hoop[e];
+      for (std::size_t e = index_of(operators.col_begin[j]); e < index_of(operators.col_begin[j + 1]); ++e)
+        f += stress.out_of_plane[index_of(operators.point[e])] * operators.weighted_hoop[e];
       force[0][j] -= f;
     }
   }

@@ -17,8 +17,6 @@ template<int dim> double block_norm(const Fields<dim>& gradient, const Field& ho
   return std::sqrt(square);
 }
 
-std::size_t at(const std::vector<std::int32_t>& list, std::size_t i) { return index_of(list[i]); }
-
 } // namespace
 
 template<int dim>
@@ -27,17 +25,17 @@ Field scales_for_frequency(const DiscreteOperators<dim>& operators, const Field&
   const auto points = index_of(operators.points);
   Field transfer(mass.size(), 0.0), scale(mass.size(), 1.0);
   for (std::size_t j = 0; j < mass.size(); ++j) {
-    for (std::size_t e = at(operators.col_begin, j); e < at(operators.col_begin, j + 1); ++e)
+    for (std::size_t e = index_of(operators.col_begin[j]); e < index_of(operators.col_begin[j + 1]); ++e)
       transfer[j] += block_norm<dim>(operators.weighted_gradient, operators.weighted_hoop, e);
     transfer[j] /= mass[j];
   }
   for (std::size_t p = 0; p < points; ++p) {
     double sum = 0.0;
-    for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e)
-      sum += block_norm<dim>(operators.gradient, operators.hoop, e) * transfer[at(operators.node, e)];
+    for (std::size_t e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e)
+      sum += block_norm<dim>(operators.gradient, operators.hoop, e) * transfer[index_of(operators.node[e])];
     const double excess = wave_modulus[p] * sum / most;
-    for (std::size_t e = at(operators.row_begin, p); e < at(operators.row_begin, p + 1); ++e) {
-      double& own = scale[at(operators.node, e)];
+    for (std::size_t e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e) {
+      double& own = scale[index_of(operators.node[e])];
       own = std::max(own, excess);
     }
   }

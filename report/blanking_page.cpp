@@ -14,11 +14,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-std::string words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 std::string degrees(double angle) { return fmt::format("{:.2f}°", angle / degree + 0.0); }
 
 struct Height {

@@ -1,6 +1,7 @@
 #include "core/index.hpp"
 #include "evaluate/force_stroke.hpp"
 #include "report/chart.hpp"
+#include "report/html.hpp"
 #include "results/si_format.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +15,6 @@
 
 namespace cnem::report {
 namespace {
-
-std::string words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 double largest(const std::vector<double>& values) {
   double size = 0.0;

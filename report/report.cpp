@@ -3,6 +3,7 @@
 
 #include "input/schema/document.hpp"
 #include "report/blanking_page.hpp"
+#include "report/html.hpp"
 #include "report/picture_album.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
@@ -15,11 +16,6 @@
 namespace cnem::report {
 namespace fs = std::filesystem;
 namespace {
-
-std::string words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 std::string grouped(std::int64_t count) {
   std::string digits = std::to_string(count);

@@ -33,7 +33,7 @@ install_packages() {
 
 # Configures build/ once; afterwards only when an option changes.
 configure() {
-  local options=(-DCMAKE_BUILD_TYPE=Release "$@") wanted="$root/build/.configured"
+  local options=(-DCMAKE_BUILD_TYPE=Release -DCNEM_UNITY=ON "$@") wanted="$root/build/.configured"
   if [ "$(cat "$wanted" 2>/dev/null)" != "${options[*]}" ]; then
     say "configuring build/"
     cmake -S "$root" -B "$root/build" -G Ninja "${options[@]}" >"$root/build.log" 2>&1 || {

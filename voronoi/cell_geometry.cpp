@@ -6,8 +6,6 @@ namespace cnem::voronoi {
 
 namespace {
 
-std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
-
 /// Polygons of the cells, each from one round through the triangles of its node.
 class PolygonBuilder {
 public:
@@ -37,11 +35,11 @@ private:
     while (mesh_.node[index_of(t)][index_of(k)] != node) ++k;
     if (on_boundary) {
       result_.index.push_back(new_vertex(cloud_.position[index_of(node)], {{node, 1.0}}));
-      leave_wall(t, next(next(k)));
+      leave_wall(t, next_corner(next_corner(k)));
     }
     while (true) {
       if (cells_.hidden_of_triangle[index_of(t)] < 0) result_.index.push_back(centre_vertex(t));
-      const std::int32_t exit = next(k), across = mesh_.neighbour[index_of(t)][index_of(exit)];
+      const std::int32_t exit = next_corner(k), across = mesh_.neighbour[index_of(t)][index_of(exit)];
       if (across < 0) {
         reach_wall(t, exit);
         return;
@@ -51,7 +49,7 @@ private:
       cross_edge(t, exit, across, back);
       if (across == first) return;
       t = across;
-      k = next(back);
+      k = next_corner(back);
     }
   }
 

@@ -13,8 +13,6 @@ namespace cnem::voronoi {
 
 namespace {
 
-std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
-
 class CellBuilder {
 public:
   CellBuilder(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles)
@@ -85,7 +83,7 @@ private:
     hide(first, facet);
     std::int32_t owner = a;
     double s = 0.0;
-    stack_ = {{first, next(entry)}, {first, next(next(entry))}};
+    stack_ = {{first, next_corner(entry)}, {first, next_corner(next_corner(entry))}};
     while (!stack_.empty()) {
       const auto [t, k] = stack_.back();
       stack_.pop_back();
@@ -94,11 +92,11 @@ private:
         hide(across, facet);
         std::int32_t back = 0;
         while (mesh_.neighbour[index_of(across)][index_of(back)] != t) ++back;
-        stack_.emplace_back(across, next(back));
-        stack_.emplace_back(across, next(next(back)));
+        stack_.emplace_back(across, next_corner(back));
+        stack_.emplace_back(across, next_corner(next_corner(back)));
         continue;
       }
-      const std::int32_t to = mesh_.node[index_of(t)][index_of(next(k))];
+      const std::int32_t to = mesh_.node[index_of(t)][index_of(next_corner(k))];
       const double end =
           std::clamp(crossing_parameter(facet, owner, to, circles_.centre[index_of(t)]), s, 1.0);
       cells_.hidden[index_of(cells_.hidden_of_triangle[index_of(t)])].crossing[index_of(k)] =
@@ -153,8 +151,8 @@ private:
           start = end_point(across, back);
         }
         const Vec2 end = end_point(t, k);
-        const std::int32_t i = mesh_.node[index_of(t)][index_of(next(k))],
-                           j = mesh_.node[index_of(t)][index_of(next(next(k)))];
+        const std::int32_t i = mesh_.node[index_of(t)][index_of(next_corner(k))],
+                           j = mesh_.node[index_of(t)][index_of(next_corner(next_corner(k)))];
         cells_.interior.push_back({{i, j}, {across, t}, {start, end}});
         cells_.volume[index_of(i)] += 0.5 * cross(start - at(i), end - start);
         cells_.volume[index_of(j)] -= 0.5 * cross(start - at(j), end - start);

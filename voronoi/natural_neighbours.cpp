@@ -13,8 +13,6 @@ namespace cnem::voronoi {
 
 namespace {
 
-std::int32_t next(std::int32_t k) { return k == 2 ? 0 : k + 1; }
-
 /// Sine below which x counts as lying on an edge.
 constexpr double on_edge = 1e-14;
 
@@ -80,14 +78,14 @@ NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, std::int32_
       continue;
     }
     const std::int32_t t = frame.triangle, k = frame.edge;
-    frame.edge = next(k);
+    frame.edge = next_corner(k);
     --frame.left;
     const std::int32_t across = mesh_.neighbour[index_of(t)][index_of(k)];
     const auto descend = [&] {
       const auto& back = mesh_.neighbour[index_of(across)];
       const std::int32_t entry = back[0] == t ? 0 : back[1] == t ? 1 : 2;
       if (++depth == frame_.size()) frame_.resize(2 * depth);
-      frame_[depth] = {across, next(entry), 2};
+      frame_[depth] = {across, next_corner(entry), 2};
       const Vec2 down = circles_.centre[index_of(across)] - x;
       path += cross(c, down);
       c = down;
@@ -100,7 +98,7 @@ NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, std::int32_
     }
 
     const std::size_t here = count_++;
-    push(mesh_.node[index_of(t)][index_of(next(next(k)))], x);
+    push(mesh_.node[index_of(t)][index_of(next_corner(next_corner(k)))], x);
     Neighbour& a = ring_[here];
     const Neighbour& b = ring_[here + 1];
     const double aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y, ab = a.x * b.x + a.y * b.y;
