@@ -3,18 +3,18 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "core/machine/memory.hpp"
-#include "results/hdf5_handle.hpp"
 
 #include <fmt/format.h>
 
+#include <hdf5.h>
+
 #include <atomic>
 #include <charconv>
+#include <new>
 #include <utility>
 
 namespace cnem::results {
 namespace {
-
-using hdf5::check, hdf5::fail, hdf5::Handle;
 
 constexpr std::size_t head_size = 512; // where HDF5 looks for its signature next after the first byte
 constexpr std::string_view signature = "cnem checkpoint, format ";
@@ -60,6 +60,40 @@ std::string_view checked_body(std::string_view content) {
   if (content.substr(0, head_size) != head_of(body))
     throw IoError("it is damaged: the checksum does not fit the content");
   return body;
+}
+
+extern "C" herr_t note_lack_of_memory(unsigned, const H5E_error2_t* error, void* lacking) {
+  if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC)
+    *static_cast<bool*>(lacking) = true;
+  return 0;
+}
+
+/// A file that lives in memory fails for lack of memory, or because it holds something else than expected.
+[[noreturn]] void fail(const std::string& message) {
+  bool lacking = false;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, note_lack_of_memory, &lacking);
+  if (lacking) throw std::bad_alloc();
+  throw IoError(message);
+}
+
+/// An HDF5 object that closes itself.
+class Handle {
+public:
+  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
+    if (id < 0) fail(fmt::format("HDF5 failed at {}", what));
+  }
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void check(herr_t result, const std::string& what) {
+  if (result < 0) fail(fmt::format("HDF5 failed at {}", what));
 }
 
 /// Properties of a file that lives in memory alone. HDF5 itself does not outlive a lack of memory for the
