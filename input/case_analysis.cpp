@@ -103,7 +103,7 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
   for (const char* path :
        {"time.step", "time.max_steps", "time.mass_scaling", "tools", "contact", "initial.velocity",
         "initial.spin", "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",
-        "domain.regions", "periodic", "output.checkpoint", "report"})
+        "domain.regions", "periodic", "output.checkpoint", "output.probes", "report"})
     refuse(root, path, dynamic, diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))

@@ -97,6 +97,11 @@ std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::C
     const double outer =
         spec.integral_outer.value_or(std::max(list.back().outer, 2.0 * spec.integral_inner.value_or(0.0)));
     const double inner = spec.integral_inner.value_or(0.5 * outer);
+    if (constexpr double fewest = 2.0; outer < fewest * tip.spacing)
+      throw InputError(fmt::format("fracture.integral.outer is {:.3g} m, expected at least {:g} spacings of "
+                                   "the cloud at tip '{}', {:.3g} m: "
+                                   "within fewer the stress is not known",
+                                   outer, fewest, tip.name, fewest * tip.spacing));
     const double share = inner / outer;
     for (fracture::Ring& ring : list) ring = {share * ring.outer, ring.outer};
     std::erase_if(list, [&](const fracture::Ring& ring) { return ring.outer >= outer; });
