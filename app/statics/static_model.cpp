@@ -207,6 +207,24 @@ std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSol
   return warnings;
 }
 
+std::string beyond_yield(const StaticModel& model, const StaticSolution& solution) {
+  const plasticity::Material& material = model.setup.problem.materials.front();
+  if (!material.hardening) return "";
+  const double yield = material.hardening->flow_stress(0.0, 0.0, model.input.initial.temperature);
+  const Field& volume = model.enriched.operators.volume;
+  double all = 0.0, beyond = 0.0;
+  for (std::size_t p = 0; p < volume.size(); ++p) {
+    const auto s = [&](std::size_t k) { return solution.stress[k][p]; };
+    const double deviator = std::pow(s(0) - s(1), 2) + std::pow(s(1) - s(2), 2) + std::pow(s(2) - s(0), 2);
+    all += volume[p];
+    if (std::sqrt(0.5 * deviator + 3.0 * s(3) * s(3)) > yield) beyond += volume[p];
+  }
+  if (beyond == 0.0) return "";
+  return fmt::format("static analyses are elastic: the stress is above the yield stress of {}, {:.3g} Pa, in "
+                     "{:.2g}% of the body",
+                     material.name, yield, 100.0 * beyond / all);
+}
+
 State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
   const DiscreteOperators<2>& op = model.approximation.mechanics;
   State<2> state;

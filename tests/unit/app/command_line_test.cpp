@@ -209,6 +209,36 @@ TEST_F(CommandLine, the_energy_is_judged_at_the_end_too) {
             3);
 }
 
+TEST_F(CommandLine, statics_beyond_yield_is_told) {
+  std::ofstream(folder / "bar.toml") << R"toml(
+[analysis]
+type = "static"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "1 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "100 MPa" }
+[boundary.base]
+pieces = "bottom"
+displacement = { x = "0 m", y = "0 m" }
+[boundary.top]
+pieces = "top"
+traction = "0 40 MPa"
+)toml";
+  const std::string bar = (folder / "bar.toml").string();
+  EXPECT_EQ(call({"run", bar, "--output", results()}), 0) << message;
+  EXPECT_TRUE(results::read_status(results()).warnings.empty());
+  EXPECT_EQ(call({"run", bar, "--output", results(), "--force", "--set", "boundary.top.traction=0 400 MPa"}),
+            0);
+  ASSERT_EQ(results::read_status(results()).warnings.size(), 1U);
+  EXPECT_NE(results::read_status(results()).warnings[0].find("above the yield stress of steel, 1e+08 Pa"),
+            std::string::npos);
+}
+
 TEST_F(CommandLine, an_integral_within_a_spacing_of_the_tip_is_refused) {
   std::ofstream(folder / "crack.toml") << R"toml(
 [analysis]
