@@ -274,7 +274,7 @@ TEST_F(CommandLine, no_number_of_threads_is_told_in_words) {
 
 TEST_F(CommandLine, a_forced_run_leaves_no_file_of_the_run_before) {
   EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "time.max_steps=1"}), 0) << message;
-  const auto log = std::filesystem::path(results()) / results::files::adaptation;
+  const auto log = std::filesystem::path(results()) / "adaptation.csv";
   std::ofstream(log) << "of another run\n";
   EXPECT_EQ(call({"run", file(), "--output", results(), "--force", "--set", "time.max_steps=1"}), 0)
       << message;
