@@ -11,6 +11,7 @@
 #include "study/sweep.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <fmt/format.h>
 #include <new>
@@ -20,6 +21,16 @@
 namespace cnem::app {
 
 namespace {
+
+const CLI::Validator at_least_one(
+    [](const std::string& given) {
+      int number = 0;
+      const char* end = given.data() + given.size();
+      const bool whole = std::from_chars(given.data(), end, number).ptr == end;
+      return whole && number >= 1 ? std::string()
+                                  : fmt::format("found {}, expected a whole number of at least 1", given);
+    },
+    "POSITIVE");
 
 /// What `run` and `check` share.
 struct CaseOptions {
@@ -35,7 +46,7 @@ struct CaseOptions {
         ->allow_extra_args(false);
     command.add_option("--output", output, "folder of results (default: results/<case name>)");
     command.add_flag("--force", force, "replace a run that the folder holds");
-    command.add_option("--threads", threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
+    command.add_option("--threads", threads, "number of threads (default: all)")->check(at_least_one);
   }
   input::Case read() const {
     std::filesystem::path file = path;
@@ -68,7 +79,7 @@ int act(CLI::App& program, int argc, char** argv) {
   RunOptions restart_options;
   restart_command->add_option("folder", restart_options.output, "folder of results")->required();
   restart_command->add_option("--threads", restart_options.threads, "number of threads (default: all)")
-      ->check(CLI::PositiveNumber);
+      ->check(at_least_one);
   CLI::App* schema_command = program.add_subcommand("schema", "print the JSON Schema of case files");
   bool markdown = false;
   schema_command->add_flag("--markdown", markdown,
@@ -87,7 +98,7 @@ int act(CLI::App& program, int argc, char** argv) {
   sweep_command->add_flag("--force", sweep_options.force, "run all again, also what is done");
   sweep_command
       ->add_option("--processes", sweep_options.processes, "runs at a time (default: as the study says)")
-      ->check(CLI::PositiveNumber);
+      ->check(at_least_one);
 
   for (CLI::App* command : {run_command, check_command, restart_command, sweep_command})
     command->footer("CNEM_ISA=baseline, avx2 or avx512 in the environment chooses the instruction set of the "

@@ -140,6 +140,15 @@ template<int dim> void check_finite(const State<dim>& state) {
             static_cast<int>(i), name);
   };
   check("temperature", node.temperature);
+  constexpr double rounding = 1.0; // K
+  for (std::size_t i = 0; i < node.temperature.size(); ++i)
+    if (node.temperature[i] < -rounding)
+      throw DivergenceError(
+          fmt::format(
+              "node {} at {} is at {:.5g} K, below absolute zero, at step {}, t = {:.6g} s: more heat "
+              "is taken from it than it has",
+              i, show_place<dim>(node.position, i), node.temperature[i], state.step, state.time),
+          static_cast<int>(i), "temperature");
   for (const Field& component : node.velocity) check("velocity", component);
   for (const Field& component : node.position) check("position", component);
 }

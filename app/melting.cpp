@@ -35,12 +35,11 @@ template<int dim> void MeltingWatch::look(const ExplicitSolver<dim>& solver) {
       most = above, hottest = i, of_hottest = material;
   }
   if (!(most > 0.0)) return;
-  warning_ = fmt::format(
-      "node {} at {} is at {:.5g} K, above the melting temperature {:.5g} K of {}, at step "
-      "{}, "
-      "t = {:.6g} s: its metal has no strength left, and what melting itself takes is not counted",
-      hottest, show_place<dim>(state.node.position, hottest), state.node.temperature[hottest],
-      melting[of_hottest], model.materials[of_hottest].name, state.step, state.time);
+  warning_ =
+      fmt::format("node {} at {} is at {:.5g} K, above the melting temperature {:.5g} K of {}, at step "
+                  "{}, t = {:.6g} s: its law does not reach there, and the heat of melting is not counted",
+                  hottest, show_place<dim>(state.node.position, hottest), state.node.temperature[hottest],
+                  melting[of_hottest], model.materials[of_hottest].name, state.step, state.time);
 }
 
 template void MeltingWatch::look(const ExplicitSolver<2>&);

@@ -95,11 +95,14 @@ template<int dim> Exit run_explicit(const input::Case& input, const RunOptions& 
   // A new folder is taken before the set-up, so that a run killed meanwhile can be restarted; one that holds
   // a run loses it only when the set-up has succeeded.
   if (fresh || !options.force) take_folder(input, options);
-  const auto set_up = [&] { return std::make_unique<Simulation<dim>>(input, options); };
+  const auto set_up = [&] {
+    auto simulation = std::make_unique<Simulation<dim>>(input, options);
+    simulation->check_tools();
+    return simulation;
+  };
   std::unique_ptr<Simulation<dim>> simulation;
   try {
     simulation = fresh ? before_steps(input, options, set_up) : set_up();
-    simulation->check_tools();
   } catch (const InputError&) {
     std::error_code ignored;
     if (fresh) fs::remove(options.output / results::files::resolved_case, ignored);

@@ -122,13 +122,14 @@ template<int dim> void Simulation<dim>::loop() {
       unload();
       record_due();
     });
+    if (at_end()) check_finite(solver_.state());
+    judge_energy();
     if (finished()) {
       melting_.look(solver_);
       return;
     }
     check_reserve();
     const State<dim>& state = solver_.state();
-    check_energy(history_.last_residual(), history_.energy_scale(), input_.method.energy_tolerance, state);
     const char* signal = RunSignals::stop();
     if (RunSignals::take_checkpoint() || signal || checkpoints_.due(state.step, state.time)) {
       check_finite(state);
@@ -152,8 +153,14 @@ template<int dim> bool Simulation<dim>::finished() {
     return true;
   }
   watch_.time("output", [&] { record_last(); });
+  judge_energy();
   stop(Exit::done, "reached time.max_steps");
   return true;
+}
+/// By the last row of the history.
+template<int dim> void Simulation<dim>::judge_energy() const {
+  check_energy(history_.last_residual(), history_.energy_scale(), input_.method.energy_tolerance,
+               solver_.state());
 }
 template<int dim> void Simulation<dim>::record_due() {
   const State<dim>& state = solver_.state();

@@ -59,6 +59,7 @@ private:
   bool finished();
   void record_due();
   void record_last();
+  void judge_energy() const;
   /// Whether no step follows.
   bool at_end() const;
   void unload();

@@ -10,11 +10,11 @@ namespace cnem::contact {
 template<int dim>
 PlaneShape<dim>::PlaneShape(const Vec<dim>& point, const Vec<dim>& normal, double reach)
     : point_(point), normal_(normal), reach_(reach) {
-  if (!(normal.norm() > 0.0))
+  if (!(normal.stableNorm() > 0.0))
     throw InputError(
         fmt::format("a plane needs a normal, got ({:g})", fmt::join(normal.begin(), normal.end(), ", ")));
   if (!(reach > 0.0)) throw InputError(fmt::format("a plane needs a reach, got {:g} m", reach));
-  normal_.normalize();
+  normal_.stableNormalize();
 }
 
 template<int dim> SurfacePoint<dim> PlaneShape<dim>::closest(const Vec<dim>& x) const {

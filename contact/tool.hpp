@@ -3,9 +3,11 @@
 #include "contact/friction.hpp"
 #include "contact/tool_shape.hpp"
 #include "core/index.hpp"
+#include "core/parameter.hpp"
 #include "core/time_table.hpp"
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,9 +41,44 @@ template<int dim> struct ToolDrive {
 
 /// Thermal side of a tool, which is held at one temperature.
 struct ToolThermal {
-  double effusivity = 0.0;  ///< W √s/(m² K), √(kρc): its share of the friction heat is e_t/(e_t + e_w)
-  double conductance = 0.0; ///< W/(m² K), across the contact; 0 insulates
-  double temperature = 293.15; ///< K
+  double conductance = 0.0;
+  double temperature = 293.15;
+  double effusivity = 0.0; ///< its share of the friction heat is e_t/(e_t + e_w)
+
+  static constexpr Parameter<ToolThermal> parameters[] = {
+      {&ToolThermal::conductance,
+       {.name = "conductance",
+        .unit = "W/(m2 K)",
+        .range = not_negative,
+        .meaning = "Of the closed contact; 0 insulates."}},
+      {&ToolThermal::temperature,
+       {.name = "temperature",
+        .unit = "K",
+        .range = temperature_range,
+        .meaning = "Of the tool.",
+        .example = "296 K",
+        .computed = "`initial.temperature`"}},
+      {&ToolThermal::effusivity,
+       {.name = "effusivity",
+        .unit = "W s^0.5/(m2 K)",
+        .range = not_negative,
+        .meaning = "√(kρc), which decides the tool's share of the friction heat; or give the next three.",
+        .computed = "0: all of it goes to the workpiece"}}};
+};
+
+/// What the effusivity of a tool can be made of.
+struct ToolMetal {
+  double conductivity = infinite, density = infinite, specific_heat = infinite;
+
+  static constexpr Parameter<ToolMetal> parameters[] = {
+      {&ToolMetal::conductivity,
+       {.name = "conductivity", .unit = "W/(m K)", .range = not_negative, .meaning = "Of the tool."}},
+      {&ToolMetal::density,
+       {.name = "density", .unit = "kg/m3", .range = positive, .meaning = "Of the tool."}},
+      {&ToolMetal::specific_heat,
+       {.name = "specific_heat", .unit = "J/(kg K)", .range = positive, .meaning = "Of the tool."}}};
+
+  double effusivity() const { return std::sqrt(conductivity * density * specific_heat); } ///< W √s/(m² K)
 };
 
 /// What a tool does to what touches it, whatever its shape and motion.

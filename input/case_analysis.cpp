@@ -103,8 +103,14 @@ void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics)
   for (const char* path :
        {"time.step", "time.max_steps", "time.mass_scaling", "tools", "contact", "initial.velocity",
         "initial.spin", "initial.velocity_gradient", "initial.imperfections", "domain.interfaces",
-        "domain.regions", "periodic", "output.checkpoint", "report"})
+        "domain.regions", "periodic", "output.checkpoint", "output.probes", "report"})
     refuse(root, path, dynamic, diagnostics);
+  for (const plasticity::Material& material : result.materials)
+    if (material.expansion != 0.0 && material.expansion_reference != result.initial.temperature)
+      refuse(root, "materials." + material.name + ".heat.expansion",
+             "found a thermal strain in a static analysis, which does not apply it, expected "
+             "heat.reference_temperature = initial.temperature",
+             diagnostics);
   for (const BoundaryCondition& condition : result.boundary)
     if (moves(condition.velocity))
       refuse(root, "boundary." + condition.name + ".velocity",

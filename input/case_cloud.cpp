@@ -155,6 +155,13 @@ void read_grid(const Setting& table, Case& result, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, spacing->where, spacing->path,
                     fmt::format("found {:g} m, expected less than the size of the block, {:.3g} m",
                                 result.cloud.spacing, size));
+  const Block& block = *result.domain.block;
+  if (block.shape == Block::Shape::cylinder && result.cloud.spacing > 0.5 * block.radius)
+    diagnostics.add(
+        Mistake::range, spacing->where, spacing->path,
+        fmt::format("found {:g} m, expected at most half of the radius of the cylinder, {:.3g} m: "
+                    "facets would cut off more than a fortieth of it",
+                    result.cloud.spacing, 0.5 * block.radius));
 }
 
 void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, const Domain& domain,

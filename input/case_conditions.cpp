@@ -166,6 +166,19 @@ private:
   std::map<std::string, std::vector<std::pair<std::string, std::string>>> claims_;
 };
 
+/// Motion begins in the initial position: a jump at time 0 would have no speed.
+void check_start(const Setting& table, const BoundaryCondition& condition, const Analysis& analysis,
+                 Diagnostics& diagnostics) {
+  if (analysis.type == Analysis::Type::statics) return;
+  for (std::size_t k = 0; k < condition.displacement.size(); ++k)
+    if (const auto& function = condition.displacement[k]; function && (*function)(0.0) != 0.0)
+      diagnostics.add(
+          Mistake::conflict, table.find("displacement")->where, table.find("displacement")->path,
+          fmt::format("found {:g} m along {} at time 0, expected a displacement that begins with 0, "
+                      "such as {{ value = \"{:g} m\", ramp = \"1 us\" }}",
+                      (*function)(0.0), axis_name(k), (*function)(0.0)));
+}
+
 void claim_all(const Setting& table, const BoundaryCondition& condition, Claims& claims) {
   const auto components = [&](const char* key, const std::string& what, const VectorFunction& function) {
     for (std::size_t k = 0; k < function.size(); ++k)
@@ -237,6 +250,7 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics) 
                           "found in a condition with points, expected velocity or displacement there");
     condition.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     condition.displacement = table.maybe<VectorFunction>("displacement").value_or(VectorFunction{});
+    check_start(table, condition, result.analysis, diagnostics);
     condition.traction = table.maybe<VectorFunction>("traction").value_or(VectorFunction{});
     condition.pressure = table.maybe<TimeTable>("pressure");
     condition.temperature = table.maybe<TimeTable>("temperature");

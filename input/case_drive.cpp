@@ -30,7 +30,7 @@ void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics
   const Setting* direction = table.find("direction");
   if (!direction) return;
   Vec2 line = std::get<Vec2>(direction->value);
-  if (!(line.norm() > 0.0))
+  if (!(line.stableNorm() > 0.0))
     return diagnostics.add(Mistake::range, direction->where, direction->path,
                            "found \"0 0\", expected a direction such as \"0 1\"");
   if (input.analysis.kinematics == Analysis::Kinematics::axisymmetric && line.x() != 0.0)
@@ -38,7 +38,7 @@ void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics
         Mistake::conflict, direction->where, direction->path,
         "found a radial direction, expected \"0 1\": a rigid body of revolution moves along its "
         "axis alone");
-  line.normalize();
+  line.stableNormalize();
   drive.free = line * line.transpose();
   // What a guide would take without a trace was not meant.
   const Vec2 across(-line.y(), line.x());

@@ -200,18 +200,18 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
       if (!result.analysis.thermal)
         diagnostics.add(Mistake::conflict, heat->where, heat->path,
                         "found the thermal side of a tool, expected it with analysis.thermal = true only");
-      tool.thermal.conductance = heat->get<double>("conductance");
-      tool.thermal.temperature = heat->get<double>("temperature");
-      const auto effusivity = heat->maybe<double>("effusivity");
-      tool.thermal.effusivity = effusivity.value_or(0.0);
-      const auto k = heat->maybe<double>("conductivity"), density = heat->maybe<double>("density"),
-                 c = heat->maybe<double>("specific_heat");
-      const int parts = int(k.has_value()) + int(density.has_value()) + int(c.has_value());
-      if (parts > 0 && (parts < 3 || effusivity))
+      read_constants(contact::ToolThermal::parameters, *heat, tool.thermal);
+      contact::ToolMetal metal;
+      read_constants(contact::ToolMetal::parameters, *heat, metal);
+      const auto given = [&](const auto& parameter) {
+        return heat->maybe<double>(parameter.info.name).has_value();
+      };
+      const auto parts = std::ranges::count_if(contact::ToolMetal::parameters, given);
+      if (parts > 0 && (parts < 3 || heat->maybe<double>("effusivity")))
         diagnostics.add(Mistake::conflict, heat->where, heat->path,
                         "expected either effusivity, or conductivity, density and specific_heat together");
       else if (parts == 3)
-        tool.thermal.effusivity = std::sqrt(*k * *density * *c);
+        tool.thermal.effusivity = metal.effusivity();
     }
     result.tools.push_back(std::move(tool));
   }

@@ -234,8 +234,9 @@ template<int dim> void HistoryRecorder<dim>::resume(const ExplicitSolver<dim>& s
 template<int dim> EnergyScale HistoryRecorder<dim>::energy_scale() const {
   constexpr double rest = 1e-7; // m/s
   const double resting = 0.5 * initial_mass_ * rest * rest;
+  // What heat does by expansion is in no entry of the ledger: it is small beside the heat.
+  if (heat_ > std::max(scale_, resting)) return {heat_, "the heat taken up, more than the work done"};
   if (scale_ > resting) return {scale_, "the work done"};
-  if (heat_ > resting) return {heat_, "the heat taken up, where nothing has done work"};
   return {resting, "the energy of a body at rest, where nothing has done work"};
 }
 

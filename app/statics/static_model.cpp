@@ -97,6 +97,11 @@ std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::C
     const double outer =
         spec.integral_outer.value_or(std::max(list.back().outer, 2.0 * spec.integral_inner.value_or(0.0)));
     const double inner = spec.integral_inner.value_or(0.5 * outer);
+    if (constexpr double fewest = 2.0; outer < fewest * tip.spacing)
+      throw InputError(fmt::format("fracture.integral.outer is {:.3g} m, expected at least {:g} spacings of "
+                                   "the cloud at tip '{}', {:.3g} m: "
+                                   "within fewer the stress is not known",
+                                   outer, fewest, tip.name, fewest * tip.spacing));
     const double share = inner / outer;
     for (fracture::Ring& ring : list) ring = {share * ring.outer, ring.outer};
     std::erase_if(list, [&](const fracture::Ring& ring) { return ring.outer >= outer; });
@@ -200,6 +205,24 @@ std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSol
                       crack.name, closed, pairs, overlap, where.x(), where.y()));
   }
   return warnings;
+}
+
+std::string beyond_yield(const StaticModel& model, const StaticSolution& solution) {
+  const plasticity::Material& material = model.setup.problem.materials.front();
+  if (!material.hardening) return "";
+  const double yield = material.hardening->flow_stress(0.0, 0.0, model.input.initial.temperature);
+  const Field& volume = model.enriched.operators.volume;
+  double all = 0.0, beyond = 0.0;
+  for (std::size_t p = 0; p < volume.size(); ++p) {
+    const auto s = [&](std::size_t k) { return solution.stress[k][p]; };
+    const double deviator = std::pow(s(0) - s(1), 2) + std::pow(s(1) - s(2), 2) + std::pow(s(2) - s(0), 2);
+    all += volume[p];
+    if (std::sqrt(0.5 * deviator + 3.0 * s(3) * s(3)) > yield) beyond += volume[p];
+  }
+  if (beyond == 0.0) return "";
+  return fmt::format("static analyses are elastic: the stress is above the yield stress of {}, {:.3g} Pa, in "
+                     "{:.2g}% of the body",
+                     material.name, yield, 100.0 * beyond / all);
 }
 
 State<2> as_state(const StaticModel& model, const StaticSolution& solution) {

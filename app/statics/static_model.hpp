@@ -51,6 +51,9 @@ std::string doubt(const TipResult& tip);
 /// tip out agree with each other by discrete equilibrium, however badly the cells there follow √r.
 std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::CrackTip& tip);
 
+/// Says how much of the body would flow; empty while nothing does.
+std::string beyond_yield(const StaticModel& model, const StaticSolution& solution);
+
 /// One sentence for each crack whose faces overlap: linear statics lets them.
 std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution& solution);
 

@@ -100,6 +100,8 @@ results::RunStatus make_status(const StaticModel& model, const StaticSolution& s
   status.energy_residual = solution.residual;
   for (const std::string& warning : closed_cracks(model, solution))
     status.warnings.push_back(model.input.placed(warning));
+  if (std::string text = beyond_yield(model, solution); !text.empty())
+    status.warnings.push_back(std::move(text));
   for (const TipResult& tip : tips) {
     status.metrics.emplace_back("K_I." + tip.name, tip.intensity.K_I);
     status.metrics.emplace_back("K_II." + tip.name, tip.intensity.K_II);

@@ -177,23 +177,8 @@ void add_tools(Keys& k) {
   add_drive(k, at);
   add_friction(k, at + "friction", "Friction on the workpiece.");
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
-  k.add(at + "heat.conductance", quantity, "Of the closed contact.")
-      .unit(d::heat_transfer)
-      .in(not_negative)
-      .fallback("\"0 W/(m2 K)\"");
-  k.add(at + "heat.temperature", quantity, "Of the tool.")
-      .unit(d::temperature)
-      .in(temperature_range)
-      .example("\"296 K\"")
-      .computed("`initial.temperature`");
-  k.add(at + "heat.effusivity", quantity,
-        "√(kρc), which decides the tool's share of the friction heat; or give the next three. Without, all "
-        "of it goes to the workpiece.")
-      .unit(d::effusivity)
-      .in(not_negative);
-  k.add(at + "heat.conductivity", quantity, "Of the tool.").unit(d::conductivity).in(not_negative);
-  k.add(at + "heat.density", quantity, "Of the tool.").unit(d::density).in(positive);
-  k.add(at + "heat.specific_heat", quantity, "Of the tool.").unit(d::specific_heat).in(positive);
+  add_constants(k, at + "heat", constant_texts<contact::ToolThermal>(contact::ToolThermal::parameters));
+  add_constants(k, at + "heat", constant_texts<contact::ToolMetal>(contact::ToolMetal::parameters));
 }
 
 void add_contact(Keys& k) {

@@ -78,7 +78,7 @@ const DimensionName named_dimensions[] = {
     {dimension::heat_transfer, "a heat transfer coefficient", "W/(m2 K)", "5000 W/(m2 K)"},
     {dimension::conductivity, "a conductivity", "W/(m K)", "5.86 W/(m K)"},
     {dimension::specific_heat, "a specific heat", "J/(kg K)", "500 J/(kg K)"},
-    {dimension::expansion, "a thermal expansion", "1/K", "1.7e-5 1/K"},
+    {dimension::expansion, "a number per temperature", "1/K", "1.7e-5 1/K"},
     {dimension::effusivity, "an effusivity", "W s^0.5/(m2 K)", "14000 W s^0.5/(m2 K)"},
     {dimension::force, "a force", "N", "10 N"},
     {dimension::force_per_length, "a force per length", "N/m", "10 N/m"},

@@ -198,6 +198,89 @@ TEST_F(CommandLine, an_energy_residual_beyond_the_key_is_a_divergence) {
   EXPECT_NE(post.causes.front().find("method.energy_tolerance"), std::string::npos) << post.causes.front();
 }
 
+TEST_F(CommandLine, the_energy_is_judged_at_the_end_too) {
+  const auto ends_after = [&](const std::string& steps) {
+    return call({"run", file(), "--output", results(), "--force", "--set", "method.energy_tolerance=1e-12",
+                 "--set", "output.history_every=1 s", "--set", "time.max_steps=" + steps});
+  };
+  EXPECT_EQ(ends_after("20"), 3) << "the last row of a history with no other";
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--force", "--set", "method.energy_tolerance=1e-12",
+                  "--set", "output.history_every=1 s"}),
+            3);
+}
+
+TEST_F(CommandLine, statics_beyond_yield_is_told) {
+  std::ofstream(folder / "bar.toml") << R"toml(
+[analysis]
+type = "static"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "1 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "100 MPa" }
+[boundary.base]
+pieces = "bottom"
+displacement = { x = "0 m", y = "0 m" }
+[boundary.top]
+pieces = "top"
+traction = "0 40 MPa"
+)toml";
+  const std::string bar = (folder / "bar.toml").string();
+  EXPECT_EQ(call({"run", bar, "--output", results()}), 0) << message;
+  EXPECT_TRUE(results::read_status(results()).warnings.empty());
+  EXPECT_EQ(call({"run", bar, "--output", results(), "--force", "--set", "boundary.top.traction=0 400 MPa"}),
+            0);
+  ASSERT_EQ(results::read_status(results()).warnings.size(), 1U);
+  EXPECT_NE(results::read_status(results()).warnings[0].find("above the yield stress of steel, 1e+08 Pa"),
+            std::string::npos);
+}
+
+TEST_F(CommandLine, an_integral_within_a_spacing_of_the_tip_is_refused) {
+  std::ofstream(folder / "crack.toml") << R"toml(
+[analysis]
+type = "static"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 -10 mm", to = "10 10 mm" }
+cracks.c.points = ["0 0 mm", "4 0 mm"]
+[cloud]
+spacing = "1 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+[boundary.base]
+pieces = "bottom"
+displacement = { x = "0 m", y = "0 m" }
+[boundary.top]
+pieces = "top"
+traction = "0 100 MPa"
+[fracture]
+integral = { inner = "0.1 mm", outer = "0.3 mm" }
+)toml";
+  EXPECT_EQ(call({"run", (folder / "crack.toml").string(), "--output", results()}), 2);
+  EXPECT_NE(message.find("fracture.integral.outer is 0.0003 m, expected at least 2 spacings"),
+            std::string::npos)
+      << message;
+}
+
+TEST_F(CommandLine, no_number_of_threads_is_told_in_words) {
+  EXPECT_EQ(call({"run", file(), "--threads", "0"}), 2);
+  EXPECT_NE(message.find("found 0, expected a whole number of at least 1"), std::string::npos) << message;
+}
+
+TEST_F(CommandLine, a_forced_run_leaves_no_file_of_the_run_before) {
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "time.max_steps=1"}), 0) << message;
+  const auto log = std::filesystem::path(results()) / "adaptation.csv";
+  std::ofstream(log) << "of another run\n";
+  EXPECT_EQ(call({"run", file(), "--output", results(), "--force", "--set", "time.max_steps=1"}), 0)
+      << message;
+  EXPECT_FALSE(std::filesystem::exists(log));
+}
+
 TEST_F(CommandLine, a_body_at_rest_is_no_divergence) {
   EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "tools.punch.velocity=0 0 m/s"}), 0)
       << message;

@@ -37,6 +37,21 @@ TEST(Divergence, is_any_value_that_is_not_a_number) {
     }
 }
 
+TEST(Divergence, is_a_temperature_below_absolute_zero) {
+  State<2> state = three_nodes();
+  state.node.temperature[1] = -1e-9; // rounding at 0 K
+  EXPECT_NO_THROW(check_finite(state));
+  state.node.temperature[1] = -40.0;
+  try {
+    check_finite(state);
+    ADD_FAILURE();
+  } catch (const DivergenceError& error) {
+    EXPECT_EQ(error.node, 1);
+    EXPECT_NE(std::string(error.what()).find("-40 K, below absolute zero"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Divergence, is_an_energy_residual_beyond_the_tolerance) {
   State<2> state = three_nodes();
   const EnergyScale work{1.0, "the work done"};

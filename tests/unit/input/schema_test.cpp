@@ -66,6 +66,9 @@ TEST(Schema, JsonHoldsEveryKey) {
   EXPECT_EQ(at_key(json, "cloud.pattern").at("default"), "hexagonal");
   EXPECT_EQ(at_key(json, "domain.outer.path[].to").at("x-si-unit"), "m");
   EXPECT_EQ(at_key(json, "method.gauss_points").at("maximum"), 3);
+  const nlohmann::json& domain = json.at("properties").at("domain");
+  EXPECT_EQ(domain.at("anyOf").at(0).at("required"), nlohmann::json::array({"outer"}));
+  EXPECT_EQ(domain.at("anyOf").at(1).at("required"), nlohmann::json::array({"block"}));
 }
 
 TEST(Schema, ReferenceMentionsEveryKey) {

@@ -249,6 +249,13 @@ TEST(Tetrahedra, conduct_heat_and_balance_it) {
 }
 
 /// A block that hits a wall leaves it again: impulses balance, no node is left inside.
+TEST(Plane, may_have_a_normal_of_any_length) {
+  for (const double length : {1e-200, 1.0, 1e200}) {
+    const contact::PlaneShape<3> plane(Vec3::Zero(), Vec3(0.0, 0.6 * length, 0.8 * length), 1.0);
+    EXPECT_NEAR(plane.closest(Vec3(0.0, 0.0, 1.0)).distance, 0.8, 1e-15) << length;
+  }
+}
+
 TEST(Tetrahedra, bounce_off_a_plane) {
   Problem<3> problem = problem_of(jittered(), steel());
   contact::Tool<3> wall;
