@@ -54,7 +54,7 @@ template<int dim> void Supports<dim>::resolve(std::size_t nodes) {
       free -= p.direction * p.direction.transpose();
       prescribed_.push_back(p);
     }
-    constraints_.push_back({static_cast<std::int32_t>(i), free});
+    constraints_.push_back({as<NodeIndex>(i), free});
   }
 }
 

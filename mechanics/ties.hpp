@@ -1,6 +1,7 @@
 #pragma once
 // Nodes that move as one: the two faces of a bonded interface, the two sides of a periodic strip.
 #include "core/fields/state.hpp"
+#include "core/indexed.hpp"
 #include "core/vec.hpp"
 
 #include <array>
@@ -22,8 +23,8 @@ public:
   Ties(const std::vector<std::array<std::int32_t, 2>>& pairs, const std::vector<Vec<dim>>& position);
 
   bool empty() const { return node_.empty(); }
-  /// [node] number of its group, −1: free; empty when there are no ties.
-  const std::vector<std::int32_t>& group() const { return group_; }
+  /// The number of its group, −1: free; empty when there are no ties.
+  const IndexedVector<NodeIndex, std::int32_t>& group() const { return group_; }
   /// Tied nodes, group by group.
   const std::vector<std::int32_t>& nodes() const { return node_; }
   /// The list with all nodes tied to its members, each once, given ones first.
@@ -36,10 +37,10 @@ public:
   double share_motion(const Field& mass, double dt, Fields<dim>& velocity, Fields<dim>& position) const;
 
 private:
-  std::vector<std::int32_t> begin_; ///< [group + 1]
-  std::vector<std::int32_t> node_;  ///< members, in increasing order
-  std::vector<Vec<dim>> offset_;    ///< [member] m, from the first member of the group
-  std::vector<std::int32_t> group_; ///< [node] −1: free
+  std::vector<std::int32_t> begin_;              ///< [group + 1]
+  std::vector<std::int32_t> node_;               ///< members, in increasing order
+  std::vector<Vec<dim>> offset_;                 ///< [member] m, from the first member of the group
+  IndexedVector<NodeIndex, std::int32_t> group_; ///< −1: free
 };
 
 extern template class Ties<2>;

@@ -82,7 +82,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
 
 template<int dim> double HeatContacts<dim>::fastest_decay(const Field& heat_capacity) const {
   // Gershgorin: a node's row of exchange is twice what it gives; one node may stand in many
-  std::map<std::int32_t, double> given;
+  std::map<NodeIndex, double> given;
   for (const ToolConductance& tool : tools) given[tool.node] += tool.conductance * tool.area;
   for (const BodyConductance<dim>& body : bodies) {
     given[body.node] += 2.0 * body.conductance * body.area;

@@ -46,7 +46,7 @@ template<int dim> struct ContactConductance {
 
 /// Exchange of one boundary node with a tool it touches, over the given area (m^(dim−1)).
 struct ToolConductance {
-  std::int32_t node;
+  NodeIndex node;
   double conductance; ///< W/(m² K)
   double area;
   double tool_temperature; ///< K
@@ -54,11 +54,11 @@ struct ToolConductance {
 
 /// Exchange of one boundary node with a place on a facet of the workpiece that it touches.
 template<int dim> struct BodyConductance {
-  std::int32_t node;
-  std::array<std::int32_t, dim> facet; ///< its nodes
-  std::array<double, dim> weight;      ///< of these
-  double conductance;                  ///< W/(m² K)
-  double area;                         ///< m^(dim−1)
+  NodeIndex node;
+  std::array<NodeIndex, dim> facet; ///< its nodes
+  std::array<double, dim> weight;   ///< of these
+  double conductance;               ///< W/(m² K)
+  double area;                      ///< m^(dim−1)
 };
 
 /// What touches in a step.

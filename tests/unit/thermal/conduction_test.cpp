@@ -2,6 +2,7 @@
 #include "cnem/scni.hpp"
 #include "core/operators/side_by_side.hpp"
 #include "tests/clouds.hpp"
+#include "tests/index_literals.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
 
@@ -11,6 +12,8 @@
 
 namespace cnem::testing {
 namespace {
+
+using namespace literals;
 
 constexpr double k = 50.0, rho = 7850.0, c = 477.0; // benchmarks of the field: steel
 constexpr double diffusivity = k / (rho * c);
@@ -134,7 +137,7 @@ TEST(Conduction, conductance_to_a_tool_relaxes_as_a_lump) {
   const double conductance = 100.0, tool = 300.0;
   HeatContacts<2> touch;
   for (const std::int32_t i : nodes_at_x(body.cloud, 0.0))
-    touch.tools.push_back({i, conductance, 1e-4 / 3, tool});
+    touch.tools.push_back({as<NodeIndex>(i), conductance, 1e-4 / 3, tool});
   ASSERT_EQ(touch.tools.size(), 3U);
   double capacity = 0.0;
   for (const double value : body.capacity) capacity += value;
@@ -150,10 +153,10 @@ TEST(Conduction, exchange_between_faces_keeps_heat_and_stays_below_its_bound) {
   Field temperature{400.0, 300.0, 320.0, 350.0, 310.0};
   const Field capacity{2.0, 1.0, 3.0, 0.5, 1.5};
   HeatContacts<2> touching; // nodes 0 and 3 on the facet 1 2, node 1 on the facet 3 0
-  touching.bodies = {{0, {1, 2}, {0.25, 0.75}, 1e3, 1e-3},
-                     {3, {1, 2}, {0.9, 0.1}, 1e3, 2e-3},
-                     {1, {3, 0}, {0.5, 0.5}, 1e3, 5e-4}};
-  touching.tools = {{4, 1e3, 1e-3, 500.0}};
+  touching.bodies = {{0_node, {1_node, 2_node}, {0.25, 0.75}, 1e3, 1e-3},
+                     {3_node, {1_node, 2_node}, {0.9, 0.1}, 1e3, 2e-3},
+                     {1_node, {3_node, 0_node}, {0.5, 0.5}, 1e3, 5e-4}};
+  touching.tools = {{4_node, 1e3, 1e-3, 500.0}};
   const auto rate = [&](const Field& t) {
     Field flow(t.size(), 0.0);
     ThermalBoundaries<2>().add_flow(0.0, {}, t, touching, flow);
