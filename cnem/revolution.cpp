@@ -8,7 +8,7 @@
 namespace cnem::scni {
 namespace {
 
-std::size_t index(std::int32_t i) { return index_of(i); }
+template<class Number> std::size_t index(Number i) { return index_of(i); }
 
 /// ∮ ½ (ρ_x² n_x, ρ_y² n_y) ds over a segment, ρ from `origin`, n ds the right normal of the segment: its
 /// share of the first moments of area.
@@ -38,7 +38,7 @@ std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) 
 std::vector<std::int32_t> triangle_at_nodes(std::size_t nodes, const voronoi::Triangulation& triangulation) {
   std::vector<std::int32_t> triangle(nodes, 0);
   for (std::size_t t = 0; t < triangulation.node.size(); ++t)
-    for (const std::int32_t i : triangulation.node[t]) triangle[index(i)] = static_cast<std::int32_t>(t);
+    for (const NodeIndex i : triangulation.node[t]) triangle[index(i)] = static_cast<std::int32_t>(t);
   return triangle;
 }
 

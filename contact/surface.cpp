@@ -13,7 +13,7 @@ namespace cnem::contact {
 template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes) {
   IndexedVector<NodeIndex, BoundaryNodeIndex> number(nodes, BoundaryNodeIndex::none);
   for (const Facet<dim>& facet : boundary)
-    for (const std::int32_t i : facet.node) number[as<NodeIndex>(i)] = {};
+    for (const NodeIndex i : facet.node) number[i] = {};
   for (const NodeIndex i : number.indices()) {
     if (!exists(number[i])) continue;
     number[i] = node.next();
@@ -28,7 +28,7 @@ template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary,
   for (const Facet<dim>& facet : boundary) {
     const FacetIndex f = facets.next();
     auto& corner = facets.emplace_back();
-    for (std::size_t a = 0; a < dim; ++a) corner[a] = number[as<NodeIndex>(facet.node[a])];
+    for (std::size_t a = 0; a < dim; ++a) corner[a] = number[facet.node[a]];
     if constexpr (dim == 2)
       leaving[corner[0]] = entering[corner[1]] = f;
     else

@@ -17,7 +17,9 @@ template<int dim> double block_norm(const Fields<dim>& gradient, const Field& ho
   return std::sqrt(square);
 }
 
-std::size_t at(const std::vector<std::int32_t>& list, std::size_t i) { return index_of(list[i]); }
+template<class Number> std::size_t at(const std::vector<Number>& list, std::size_t i) {
+  return index_of(list[i]);
+}
 
 } // namespace
 

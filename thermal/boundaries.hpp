@@ -17,7 +17,7 @@ namespace cnem {
 struct FixedTemperature {
   std::string name;
   TimeTable value;
-  std::vector<std::int32_t> nodes;
+  std::vector<NodeIndex> nodes;
   std::vector<std::int32_t> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
 };
 
@@ -40,8 +40,8 @@ template<int dim> struct Convection : ConvectionLaw { std::vector<Facet<dim>> fa
 template<int dim> struct ContactConductance {
   std::string name;
   double conductance = 0.0;
-  std::vector<Facet<dim>> facets;                      ///< of one face
-  std::vector<std::array<std::int32_t, dim>> opposite; ///< [facet] the nodes of the other face at its ends
+  std::vector<Facet<dim>> facets;                   ///< of one face
+  std::vector<std::array<NodeIndex, dim>> opposite; ///< [facet] the nodes of the other face at its ends
 };
 
 /// Exchange of one boundary node with a tool it touches, over the given area (m^(dim−1)).

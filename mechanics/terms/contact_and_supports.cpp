@@ -35,7 +35,7 @@ public:
     for (int a = 0; a <= body.levels.highest(); ++a) {
       IndexedVector<BoundaryNodeIndex, double>& window = window_.emplace_back();
       for (const NodeIndex i : contact.boundary_nodes())
-        window.push_back(body.levels.window(body.operators(), index_of(i), a));
+        window.push_back(body.levels.window(body.operators(), i, a));
     }
   }
 
@@ -65,13 +65,12 @@ private:
     if (contact.flow_stress_needed()) {
       flow_stress.reserve(boundary.size());
       for (const NodeIndex i : boundary)
-        flow_stress.push_back(
-            average_at_node<dim>(body.operators(), body.state.point.flow_stress, index_of(i)));
+        flow_stress.push_back(average_at_node<dim>(body.operators(), body.state.point.flow_stress, i));
     }
     IndexedVector<BoundaryNodeIndex, double> effusivity;
     if (body.model.thermal)
       for (const NodeIndex i : boundary) {
-        const plasticity::Material& material = body.material_of_node(index_of(i));
+        const plasticity::Material& material = body.material_of_node(i);
         effusivity.push_back(std::sqrt(material.conductivity * material.density * material.specific_heat));
       }
     contact.correct({.time = body.state.time,

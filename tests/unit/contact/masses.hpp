@@ -94,6 +94,7 @@ struct Masses {
     mass.push_back(m);
     return static_cast<int>(mass.size()) - 1;
   }
+  Vec2 position(NodeIndex i) const { return position(as<int>(i)); }
   Vec2 position(int i) const { return {x[0][std::size_t(i)], x[1][std::size_t(i)]}; }
   Vec2 velocity(int i) const { return {v[0][std::size_t(i)], v[1][std::size_t(i)]}; }
   void link(int a, int b, double stiffness, double damping = 0.0) {
@@ -101,7 +102,7 @@ struct Masses {
   }
   void loop(const std::vector<int>& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      facets.push_back({{nodes[i], nodes[(i + 1) % nodes.size()]}, 0});
+      facets.push_back({{as<NodeIndex>(nodes[i]), as<NodeIndex>(nodes[(i + 1) % nodes.size()])}, 0});
   }
   /// Four masses of 1 kg/m at the corners of a square body.
   void square(const Vec2& low, double side) {

@@ -81,10 +81,10 @@ std::vector<Facet<2>> facets_at_x(const Cloud<2>& cloud, double x) {
   return facets;
 }
 
-std::vector<std::int32_t> nodes_at_x(const Cloud<2>& cloud, double x) {
-  std::vector<std::int32_t> nodes;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-    if (std::abs(cloud.position[static_cast<std::size_t>(i)].x() - x) < 1e-12) nodes.push_back(i);
+std::vector<NodeIndex> nodes_at_x(const Cloud<2>& cloud, double x) {
+  std::vector<NodeIndex> nodes;
+  for (const NodeIndex i : cloud.position.indices())
+    if (std::abs(cloud.position[i].x() - x) < 1e-12) nodes.push_back(i);
   return nodes;
 }
 
@@ -115,7 +115,7 @@ TEST(Conduction, flux_into_a_half_space) {
   const double end = 1e-3, h = 10e-6;
   Body body(strip(0.8e-3, 4 * h, h));
   body.run(end, ThermalBoundaries<2>({}, {{"face", TimeTable(1e8), facets_at_x(body.cloud, 0.0)}}, {}));
-  for (const std::int32_t i : nodes_at_x(body.cloud, 0.0))
+  for (const NodeIndex i : nodes_at_x(body.cloud, 0.0))
     EXPECT_NEAR(body.temperature[static_cast<std::size_t>(i)], 260.781, 0.5); // 2q √(αt/π)/k
 }
 
@@ -127,7 +127,7 @@ TEST(Conduction, convection_settles_to_the_series_resistance) {
       {{"hot", TimeTable(100.0), nodes_at_x(body.cloud, 0.0)}}, {},
       {{"cold", TimeTable(h), TimeTable(0.0), facets_at_x(body.cloud, length)}});
   body.run(0.6, boundaries);
-  for (const std::int32_t i : nodes_at_x(body.cloud, length))
+  for (const NodeIndex i : nodes_at_x(body.cloud, length))
     EXPECT_NEAR(body.temperature[static_cast<std::size_t>(i)], 100.0 / (1.0 + h * length / k), 1e-3);
 }
 
@@ -136,8 +136,8 @@ TEST(Conduction, conductance_to_a_tool_relaxes_as_a_lump) {
   std::fill(body.temperature.begin(), body.temperature.end(), 400.0);
   const double conductance = 100.0, tool = 300.0;
   HeatContacts<2> touch;
-  for (const std::int32_t i : nodes_at_x(body.cloud, 0.0))
-    touch.tools.push_back({as<NodeIndex>(i), conductance, 1e-4 / 3, tool});
+  for (const NodeIndex i : nodes_at_x(body.cloud, 0.0))
+    touch.tools.push_back({i, conductance, 1e-4 / 3, tool});
   ASSERT_EQ(touch.tools.size(), 3U);
   double capacity = 0.0;
   for (const double value : body.capacity) capacity += value;
