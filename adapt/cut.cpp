@@ -11,13 +11,13 @@ namespace cnem::adapt {
 namespace {
 
 /// Moves the inner nodes of a cut towards a smooth line, so that its two faces do not interlock.
-void straighten(WorkingCloud& work, std::span<const std::int32_t> path, double most) {
+void straighten(WorkingCloud& work, std::span<const NodeIndex> path, double most) {
   constexpr int sweeps = 10;
   std::vector<Vec2> place;
-  for (const std::int32_t i : path) place.push_back(work.cloud().position[index_of(i)]);
+  for (const NodeIndex i : path) place.push_back(work.cloud().position[i]);
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (std::size_t k = 1; k + 1 < path.size(); ++k) {
-      const Vec2& start = work.cloud().position[index_of(path[k])];
+      const Vec2& start = work.cloud().position[path[k]];
       const Vec2 moved = 0.5 * place[k] + 0.25 * (place[k - 1] + place[k + 1]) - start;
       const double limit = most * work.node().size[index_of(path[k])];
       place[k] = start + moved * std::min(1.0, limit / std::max(moved.norm(), 1e-300));
@@ -29,36 +29,36 @@ void straighten(WorkingCloud& work, std::span<const std::int32_t> path, double m
 
 BoundaryLoops::BoundaryLoops(const WorkingCloud& work)
     : loop_(work.size(), -1), along_(work.size(), 0.0), order_(work.size(), 0) {
-  const std::vector<Vec2>& at = work.cloud().position;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i) {
-    if (!work.on_boundary(i) || loop_[index_of(i)] >= 0) continue;
+  const IndexedVector<NodeIndex, Vec2>& at = work.cloud().position;
+  for (const NodeIndex i : work.nodes()) {
+    if (!work.on_boundary(i) || loop_[i] >= 0) continue;
     double length = 0.0;
     int nodes = 0;
-    for (std::int32_t k = i; loop_[index_of(k)] < 0; k = work.next(k)) {
-      loop_[index_of(k)] = static_cast<std::int32_t>(length_.size());
+    for (NodeIndex k = i; loop_[k] < 0; k = work.next(k)) {
+      loop_[k] = as<std::int32_t>(length_.size());
       along_[index_of(k)] = length;
-      order_[index_of(k)] = nodes++;
-      length += (at[index_of(work.next(k))] - at[index_of(k)]).norm();
+      order_[k] = nodes++;
+      length += (at[work.next(k)] - at[k]).norm();
     }
     length_.push_back(length);
     nodes_.push_back(nodes);
   }
 }
 
-bool BoundaryLoops::parts(std::int32_t from, std::int32_t to, double length, int nodes) const {
-  if (loop_[index_of(from)] != loop_[index_of(to)]) return true;
-  const auto loop = index_of(loop_[index_of(from)]);
+bool BoundaryLoops::parts(NodeIndex from, NodeIndex to, double length, int nodes) const {
+  if (loop_[from] != loop_[to]) return true;
+  const auto loop = index_of(loop_[from]);
   const double one = std::abs(along_[index_of(from)] - along_[index_of(to)]);
-  const int some = std::abs(order_[index_of(from)] - order_[index_of(to)]);
+  const int some = std::abs(order_[from] - order_[to]);
   return std::min(one, length_[loop] - one) >= length && std::min(some, nodes_[loop] - some) > nodes;
 }
 
-bool open_cut(WorkingCloud& work, Structure& structure, std::span<const std::int32_t> path,
+bool open_cut(WorkingCloud& work, Structure& structure, std::span<const NodeIndex> path,
               const SplitRules& rules, double smoothed) {
   WorkingCloud opened = work;
   straighten(opened, path, smoothed);
   const double gap = rules.gap * work.size_between(path.front(), path.back());
-  const std::vector<std::array<std::int32_t, 2>> doubled = opened.open(path, rules.piece, gap);
+  const std::vector<std::array<NodeIndex, 2>> doubled = opened.open(path, rules.piece, gap);
   opened.refresh_facets();
   std::optional<Structure> after = structure_if_valid(opened.cloud());
   if (!after) return false;

@@ -12,20 +12,20 @@ public:
   explicit BoundaryLoops(const WorkingCloud& work);
   /// Whether a cut between two boundary nodes takes off a part and no crumb or skin: each side has at least
   /// `length` (m) of the loop, and more than `nodes` nodes. Between two loops nothing comes off.
-  bool parts(std::int32_t from, std::int32_t to, double length, int nodes) const;
+  bool parts(NodeIndex from, NodeIndex to, double length, int nodes) const;
 
 private:
-  std::vector<std::int32_t> loop_; ///< [node] −1: inside
-  Field along_;                    ///< [node] m
-  std::vector<int> order_;         ///< [node] number along its loop
-  Field length_;                   ///< [loop] m
-  std::vector<int> nodes_;         ///< [loop]
+  IndexedVector<NodeIndex, std::int32_t> loop_; ///< −1: inside
+  Field along_;                                 ///< [node] m
+  IndexedVector<NodeIndex, int> order_;         ///< number along its loop
+  Field length_;                                ///< [loop] m
+  std::vector<int> nodes_;                      ///< [loop]
 };
 
 /// Opens the cloud along a path between two boundary nodes, over interior ones, which may be moved by
 /// `smoothed` spacings to straighten it. Doubled nodes share their matter by the volumes of their cells.
 /// False when the cloud would have no valid structure: then nothing has changed.
-bool open_cut(WorkingCloud& work, Structure& structure, std::span<const std::int32_t> path,
+bool open_cut(WorkingCloud& work, Structure& structure, std::span<const NodeIndex> path,
               const SplitRules& rules, double smoothed);
 
 } // namespace cnem::adapt

@@ -13,7 +13,7 @@ namespace {
 
 struct Gap {
   double length;                        ///< over its limit
-  std::array<std::int32_t, 2> node;     ///< between these; −1, −1: at a Voronoi vertex
+  std::array<NodeIndex, 2> node;        ///< between these; none: at a Voronoi vertex
   std::array<std::int32_t, 2> triangle; ///< that the new node lies in or between
   Vec2 x;
   bool of_film = false; ///< an edge so long that the nodes of the other face are no hindrance
@@ -41,14 +41,14 @@ public:
   bool clear(const Gap& gap, bool on_boundary, const Thresholds& limit) const {
     for (const std::int32_t t : triangle_)
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t i = structure_.mesh.node[index_of(t)][k];
+        const NodeIndex i = structure_.mesh.node[index_of(t)][k];
         const double h = work_.node().size[index_of(i)];
-        const Vec2& x = work_.cloud().position[index_of(i)];
+        const Vec2& x = work_.cloud().position[i];
         const bool across = gap.of_film && work_.on_boundary(i); // a film is as thin as it is
         if (!across && (x - gap.x).norm() < limit.clear_node * h) return false;
         if (on_boundary || structure_.mesh.facet[index_of(t)][k] < 0) continue;
-        const Vec2 &a = work_.cloud().position[index_of(structure_.mesh.node[index_of(t)][(k + 1) % 3])],
-                   &b = work_.cloud().position[index_of(structure_.mesh.node[index_of(t)][(k + 2) % 3])];
+        const Vec2 &a = work_.cloud().position[structure_.mesh.node[index_of(t)][(k + 1) % 3]],
+                   &b = work_.cloud().position[structure_.mesh.node[index_of(t)][(k + 2) % 3]];
         if (cross(b - a, gap.x - a) < limit.clear_edge * h * (b - a).norm()) return false;
       }
     return true;
@@ -81,7 +81,7 @@ public:
   const std::vector<Gap>& gaps() const { return gaps_; }
 
 private:
-  const Vec2& at(std::int32_t i) const { return work_.cloud().position[index_of(i)]; }
+  const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
 
   void edges(bool interior) {
     const auto& mesh = structure_.mesh;
@@ -89,7 +89,7 @@ private:
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t across = mesh.neighbour[index_of(t)][k];
         if (across > t || (across >= 0 && !interior)) continue;
-        const std::int32_t a = mesh.node[index_of(t)][(k + 1) % 3], b = mesh.node[index_of(t)][(k + 2) % 3];
+        const NodeIndex a = mesh.node[index_of(t)][(k + 1) % 3], b = mesh.node[index_of(t)][(k + 2) % 3];
         const double limit = (across < 0 ? limit_.split_edge : limit_.long_edge) * work_.size_between(a, b);
         const double squared = (at(b) - at(a)).squaredNorm();
         if (squared <= limit * limit) continue;
@@ -109,14 +109,14 @@ private:
     for (std::int32_t t = 0; t < mesh.triangles(); ++t) {
       if (structure_.cells.hidden_of_triangle[index_of(t)] >= 0) continue;
       double h = 0.0;
-      for (const std::int32_t i : mesh.node[index_of(t)]) h += work_.node().size[index_of(i)] / 3.0;
+      for (const NodeIndex i : mesh.node[index_of(t)]) h += work_.node().size[index_of(i)] / 3.0;
       const Vec2& centre = structure_.circles.centre[index_of(t)];
       const double radius = (centre - at(mesh.node[index_of(t)][0])).norm();
       const double limit = limit_.long_edge / std::sqrt(3.0) * h;
       if (radius <= limit) continue;
       const auto end = voronoi::walk(work_.cloud(), mesh, t, centre);
       if (end.facet >= 0) continue;
-      gaps_.push_back({radius / limit, {-1, -1}, {end.triangle, t}, centre});
+      gaps_.push_back({radius / limit, {NodeIndex::none, NodeIndex::none}, {end.triangle, t}, centre});
     }
   }
 
@@ -129,7 +129,7 @@ private:
 } // namespace
 
 std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
-                           const std::vector<char>& made) {
+                           const IndexedVector<NodeIndex, char>& made) {
   std::vector<Contribution> list = contributions(cloud, after.cells, made);
   Field claimed(made.size(), 0.0);
   for (const Contribution& c : list) claimed[index_of(c.other)] += c.area;
@@ -153,7 +153,7 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   std::int32_t stamp = 0;
   for (const Gap& gap : filling.gaps()) {
     cavity.collect(gap, stamp++);
-    const bool edge = gap.node[0] >= 0, on_boundary = gap.triangle[1] < 0;
+    const bool edge = exists(gap.node[0]), on_boundary = gap.triangle[1] < 0;
     const auto& triangles = cavity.triangles();
     if (std::any_of(triangles.begin(), triangles.end(),
                     [&](std::int32_t t) { return taken[index_of(t)] != 0; }) ||
@@ -175,7 +175,7 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
     ++report.undone;
     return false;
   }
-  std::vector<char> made(filled.size(), 0);
+  IndexedVector<NodeIndex, char> made(filled.size(), 0);
   std::fill(made.begin() + static_cast<std::ptrdiff_t>(work.size()), made.end(), 1);
   filled.move(stolen(filled.cloud(), structure, *after, made));
   for (std::size_t i = work.size(); i < filled.size(); ++i)

@@ -18,27 +18,27 @@ namespace cnem::adapt {
 namespace {
 
 struct Waist {
-  double thickness;   ///< in units of the wanted spacing
-  std::int32_t node;  ///< at one face
-  std::int32_t start; ///< at the other: the node, or the start of the facet that has none yet
-  double place;       ///< on that facet; 0: at its start
+  double thickness; ///< in units of the wanted spacing
+  NodeIndex node;   ///< at one face
+  NodeIndex start;  ///< at the other: the node, or the start of the facet that has none yet
+  double place;     ///< on that facet; 0: at its start
 };
 
 /// Between broken boundary nodes across films thinner than `film`, or between one and the foot of it on a
 /// facet, the thinnest first.
 std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, double film) {
   const auto& mesh = structure.mesh;
-  const auto at = [&](std::int32_t i) -> const Vec2& { return work.cloud().position[index_of(i)]; };
-  const auto ends_cut = [&](std::int32_t i) {
+  const auto at = [&](NodeIndex i) -> const Vec2& { return work.cloud().position[i]; };
+  const auto ends_cut = [&](NodeIndex i) {
     return work.on_boundary(i) && work.node().broken[index_of(i)] >= 1.0;
   };
   std::vector<Waist> list;
-  const auto consider = [&](std::int32_t i, std::int32_t start, double place, double distance) {
+  const auto consider = [&](NodeIndex i, NodeIndex start, double place, double distance) {
     const double thickness = distance / work.size_between(i, start);
     if (thickness < film) list.push_back({thickness, i, start, place});
   };
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i)
-    for (const std::int32_t k : structure.neighbours(i))
+  for (const NodeIndex i : work.nodes())
+    for (const NodeIndex k : structure.neighbours(i))
       if (i < k && ends_cut(i) && ends_cut(k) && work.next(i) != k && work.previous(i) != k)
         consider(i, k, 0.0, (at(k) - at(i)).norm());
   for (std::size_t t = 0; t < mesh.node.size(); ++t)
@@ -46,7 +46,7 @@ std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, 
       const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
       // with two facets it is a corner
       if (mesh.facet[t][k] < 0 || mesh.facet[t][next] >= 0 || mesh.facet[t][last] >= 0) continue;
-      const std::int32_t i = mesh.node[t][k], a = mesh.node[t][next], b = mesh.node[t][last];
+      const NodeIndex i = mesh.node[t][k], a = mesh.node[t][next], b = mesh.node[t][last];
       if (!ends_cut(i) || !ends_cut(a) || !ends_cut(b)) continue;
       const Foot foot = foot_on(at(i), at(a), at(b));
       const double length = (at(b) - at(a)).norm();
@@ -60,30 +60,30 @@ std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, 
   return list;
 }
 
-/// Puts a node on a facet, with the matter of the cell it takes. Returns its number; −1, with nothing
+/// Puts a node on a facet, with the matter of the cell it takes. Returns its number; none, with nothing
 /// changed, when there is no room for one.
-std::int32_t insert_foot(WorkingCloud& work, Structure& structure, const Waist& waist) {
+NodeIndex insert_foot(WorkingCloud& work, Structure& structure, const Waist& waist) {
   WorkingCloud changed = work;
-  const std::int32_t made = changed.insert_between(waist.start, work.next(waist.start), true, waist.place);
+  const NodeIndex made = changed.insert_between(waist.start, work.next(waist.start), true, waist.place);
   changed.refresh_facets();
   std::optional<Structure> after = structure_if_valid(changed.cloud());
-  if (!after) return -1;
-  std::vector<char> is_made(changed.size(), 0);
-  is_made[index_of(made)] = 1;
+  if (!after) return NodeIndex::none;
+  IndexedVector<NodeIndex, char> is_made(changed.size(), 0);
+  is_made[made] = 1;
   changed.move(stolen(changed.cloud(), structure, *after, is_made));
-  if (!(changed.node().mass[index_of(made)] > 0.0)) return -1;
+  if (!(changed.node().mass[index_of(made)] > 0.0)) return NodeIndex::none;
   work = std::move(changed);
   structure = std::move(*after);
   return made;
 }
 
 /// The cut leaves the boundary at one of its ends nearly along it: the two faces would cross it.
-bool shaves(const WorkingCloud& work, std::int32_t from, std::int32_t to, double steepest) {
-  const auto direction = [&](std::int32_t a, std::int32_t b) {
-    return Vec2((work.cloud().position[index_of(b)] - work.cloud().position[index_of(a)]).normalized());
+bool shaves(const WorkingCloud& work, NodeIndex from, NodeIndex to, double steepest) {
+  const auto direction = [&](NodeIndex a, NodeIndex b) {
+    return Vec2((work.cloud().position[b] - work.cloud().position[a]).normalized());
   };
   for (const auto& [one, other] : {std::pair(from, to), std::pair(to, from)})
-    for (const std::int32_t beside : {work.next(one), work.previous(one)})
+    for (const NodeIndex beside : {work.next(one), work.previous(one)})
       if (direction(one, other).dot(direction(one, beside)) > steepest) return true;
   return false;
 }
@@ -91,8 +91,8 @@ bool shaves(const WorkingCloud& work, std::int32_t from, std::int32_t to, double
 bool cut_at(WorkingCloud& work, Structure& structure, const Waist& waist, const SplitRules& rules) {
   WorkingCloud opened = work;
   Structure after = structure;
-  const std::int32_t to = waist.place > 0.0 ? insert_foot(opened, after, waist) : waist.start;
-  if (to < 0 || shaves(opened, waist.node, to, std::cos(rules.least_angle * std::numbers::pi / 180.0)) ||
+  const NodeIndex to = waist.place > 0.0 ? insert_foot(opened, after, waist) : waist.start;
+  if (!exists(to) || shaves(opened, waist.node, to, std::cos(rules.least_angle * std::numbers::pi / 180.0)) ||
       !open_cut(opened, after, std::array{waist.node, to}, rules, 0.0))
     return false;
   work = std::move(opened);

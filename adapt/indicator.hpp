@@ -60,7 +60,7 @@ Indicator indicator(const Cloud<dim>& cloud, const CellComplex<dim>& cells, cons
     for (std::size_t i = begin; i < end; ++i) {
       const auto around = cells.neighbours.of(i);
       if (std::all_of(around.begin(), around.end(),
-                      [&](std::int32_t k) { return value[index_of(k)] == value[i]; }))
+                      [&](NodeIndex k) { return value[index_of(k)] == value[i]; }))
         continue;
       double squared = 0.0;
       for (const std::int32_t f : faces.of(i)) {

@@ -64,15 +64,15 @@ Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator&
 }
 
 void limit_growth(const Cloud<2>& cloud, const Structure& structure, double growth, Field& size) {
-  using Entry = std::pair<double, std::int32_t>;
+  using Entry = std::pair<double, NodeIndex>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  for (std::size_t i = 0; i < size.size(); ++i) front.emplace(size[i], static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < size.size(); ++i) front.emplace(size[i], as<NodeIndex>(i));
   while (!front.empty()) {
     const auto [h, i] = front.top();
     front.pop();
     const auto at = index_of(i);
     if (h > size[at]) continue; // lowered since
-    for (const std::int32_t k : structure.neighbours(i)) {
+    for (const NodeIndex k : structure.neighbours(i)) {
       const auto other = index_of(k);
       const double limit = h + growth * (cloud.position[other] - cloud.position[at]).norm();
       if (limit < size[other] * (1.0 - 1e-12)) {

@@ -25,14 +25,14 @@ class Mending {
 public:
   explicit Mending(const WorkingCloud& work) : work_(work) {}
 
-  bool may_go(std::int32_t i) const {
-    const std::int32_t a = work_.previous(i), c = work_.next(i);
+  bool may_go(NodeIndex i) const {
+    const NodeIndex a = work_.previous(i), c = work_.next(i);
     return !work_.held(i) && !work_.ends_piece(i) && work_.next(c) != a;
   }
 
   /// The boundary comes back along itself: the body has an angle below 3 degrees there. The tip of an open
   /// crack, round which the body lies, is none.
-  bool turns_back(std::int32_t i) const {
+  bool turns_back(NodeIndex i) const {
     constexpr double cosine = 0.9986, open = -1e-6;
     const Vec2 back = at(work_.previous(i)) - at(i), ahead = at(work_.next(i)) - at(i);
     const double lengths = back.norm() * ahead.norm();
@@ -40,11 +40,11 @@ public:
   }
 
   /// How many nodes, from this one on, make a loop: the facets before and behind them cross. 0: none.
-  int loop(std::int32_t i) const {
-    const std::int32_t before = work_.previous(i);
-    std::int32_t last = work_.next(i);
+  int loop(NodeIndex i) const {
+    const NodeIndex before = work_.previous(i);
+    NodeIndex last = work_.next(i);
     for (int nodes = 2; nodes <= longest_fold; ++nodes, last = work_.next(last)) {
-      const std::int32_t behind = work_.next(last);
+      const NodeIndex behind = work_.next(last);
       if (last == before || behind == before) return 0;
       if (crosses(at(before), at(i), at(last), at(behind)))
         return nodes == 2 || longer(behind, before, nodes) ? nodes : 0;
@@ -53,10 +53,10 @@ public:
   }
 
 private:
-  const Vec2& at(std::int32_t i) const { return work_.cloud().position[index_of(i)]; }
+  const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
   /// Whether the boundary has more nodes than that from one node to another: what is cut off is the smaller
   /// part.
-  bool longer(std::int32_t from, std::int32_t to, int nodes) const {
+  bool longer(NodeIndex from, NodeIndex to, int nodes) const {
     for (; nodes > 0; --nodes, from = work_.next(from))
       if (from == to) return false;
     return true;
@@ -68,35 +68,34 @@ private:
 
 void mend_boundary(WorkingCloud& work, PassReport& report) {
   const Mending mending(work);
-  std::vector<char> gone(work.size(), 0);
+  IndexedVector<NodeIndex, char> gone(work.size(), 0);
   bool any = false;
-  const auto bypass = [&](std::int32_t i) {
-    const Vec2& x = work.cloud().position[index_of(i)];
-    const std::int32_t a = work.previous(i), c = work.next(i);
-    const bool to_a =
-        (work.cloud().position[index_of(a)] - x).norm() < (work.cloud().position[index_of(c)] - x).norm();
+  const auto bypass = [&](NodeIndex i) {
+    const Vec2& x = work.cloud().position[i];
+    const NodeIndex a = work.previous(i), c = work.next(i);
+    const bool to_a = (work.cloud().position[a] - x).norm() < (work.cloud().position[c] - x).norm();
     work.move_now(i, to_a ? a : c, 1.0);
     work.bypass(i);
-    gone[index_of(i)] = 1;
+    gone[i] = 1;
     any = true;
     ++report.folded;
   };
   for (int round = 0; round < longest_fold; ++round) {
     const int before = report.folded;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i) {
+    for (const NodeIndex i : work.nodes()) {
       if (!work.on_boundary(i)) continue;
       if (mending.turns_back(i)) {
         if (mending.may_go(i)) bypass(i);
       } else if (const int nodes = mending.loop(i); nodes == 2) {
-        const std::int32_t next = work.next(i);
+        const NodeIndex next = work.next(i);
         if (mending.may_go(i))
           bypass(i);
         else if (mending.may_go(next))
           bypass(next);
       } else if (nodes > 2) { // a film that has been drawn through itself
-        std::int32_t k = i;
+        NodeIndex k = i;
         for (int n = 0; n < nodes; ++n) {
-          const std::int32_t next = work.next(k);
+          const NodeIndex next = work.next(k);
           if (mending.may_go(k)) bypass(k);
           k = next;
         }
@@ -112,10 +111,10 @@ void mend_boundary(WorkingCloud& work, PassReport& report) {
 void drop_outside(WorkingCloud& work, PassReport& report) {
   const Cloud<2>& cloud = work.cloud();
   const voronoi::EdgeTree tree(cloud);
-  std::vector<char> gone(work.size(), 0);
+  IndexedVector<NodeIndex, char> gone(work.size(), 0);
   for_each_block(work.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (work.on_boundary(static_cast<std::int32_t>(i))) continue;
+      if (work.on_boundary(as<NodeIndex>(i))) continue;
       const Vec2& x = cloud.position[i];
       const double touching = 1e-6 * work.node().size[i];
       gone[i] = tree.distance(x, touching) < touching || !tree.inside(x);
@@ -125,10 +124,10 @@ void drop_outside(WorkingCloud& work, PassReport& report) {
   for (std::size_t i = 0; i < gone.size(); ++i) {
     if (!gone[i]) continue;
     double best = std::numeric_limits<double>::max();
-    Parcel to_start{static_cast<std::int32_t>(i), -1, 1.0}, to_end = to_start;
+    Parcel to_start{as<NodeIndex>(i), NodeIndex::none, 1.0}, to_end = to_start;
     for (const Facet<2>& facet : cloud.facets) {
       const auto [a, b] = facet.node;
-      const Foot foot = foot_on(cloud.position[i], cloud.position[index_of(a)], cloud.position[index_of(b)]);
+      const Foot foot = foot_on(cloud.position[i], cloud.position[a], cloud.position[b]);
       if (foot.distance >= best) continue;
       best = foot.distance;
       const double place = std::clamp(foot.place, 0.0, 1.0);

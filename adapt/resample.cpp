@@ -19,7 +19,7 @@ PassReport& PassReport::operator+=(const PassReport& other) {
   return *this;
 }
 
-double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node) {
+double volume_ratio(const WorkingCloud& work, const Structure& structure, NodeIndex node) {
   const NodeProperties& p = work.node();
   return p.density[index_of(node)] * structure.cells.volume[index_of(node)] /
          (p.mass[index_of(node)] * p.jacobian[index_of(node)]);
@@ -28,24 +28,24 @@ double volume_ratio(const WorkingCloud& work, const Structure& structure, std::i
 /// Neighbours whose ratios differ exchange half of what would make them equal, the worst nodes first.
 void balance(WorkingCloud& work, const Structure& structure, const Thresholds& thresholds,
              PassReport& report) {
-  std::vector<std::pair<double, std::int32_t>> out;
+  std::vector<std::pair<double, NodeIndex>> out;
   const auto distance = [](double r) { return std::max(r, 1.0 / r); };
   for (int sweep = 0; sweep < thresholds.rounds; ++sweep) {
     out.clear();
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i) {
+    for (const NodeIndex i : work.nodes()) {
       const double r = volume_ratio(work, structure, i);
       if (r < thresholds.light || r > thresholds.heavy) out.emplace_back(-distance(r), i);
     }
     if (out.empty()) return;
     std::sort(out.begin(), out.end());
     for (const auto& [order, i] : out) {
-      for (const std::int32_t j : structure.neighbours(i)) {
+      for (const NodeIndex j : structure.neighbours(i)) {
         const double mine = volume_ratio(work, structure, i), other = volume_ratio(work, structure, j);
         if (mine >= thresholds.light && mine <= thresholds.heavy) break;
         // the ratio falls as mass comes: who has the larger one takes
         const bool takes = mine > thresholds.heavy;
         if (takes ? other >= mine : other <= mine) continue;
-        const std::int32_t from = takes ? j : i, to = takes ? i : j;
+        const NodeIndex from = takes ? j : i, to = takes ? i : j;
         const NodeProperties& p = work.node();
         const double wanted_from = p.mass[index_of(from)] * volume_ratio(work, structure, from),
                      wanted_to = p.mass[index_of(to)] * volume_ratio(work, structure, to);

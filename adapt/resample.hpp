@@ -105,9 +105,9 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
 /// Parcels for nodes that were `made` without matter: what the cells beside them lost in volume since
 /// `before` goes to the new cells at them.
 std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
-                           const std::vector<char>& made);
+                           const IndexedVector<NodeIndex, char>& made);
 
 /// r_i = ρ₀ V_i/(m_i J_i) of one node.
-double volume_ratio(const WorkingCloud& work, const Structure& structure, std::int32_t node);
+double volume_ratio(const WorkingCloud& work, const Structure& structure, NodeIndex node);
 
 } // namespace cnem::adapt

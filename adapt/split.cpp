@@ -18,7 +18,7 @@ namespace {
 double cosine(const Vec2& a, const Vec2& b) { return a.dot(b) / (a.norm() * b.norm()); }
 
 /// Two boundary nodes and the interior ones between them.
-using Path = std::vector<std::int32_t>;
+using Path = std::vector<NodeIndex>;
 
 class Cutting {
 public:
@@ -32,9 +32,8 @@ public:
   Path best() const {
     Path best;
     double least = std::numeric_limits<double>::infinity();
-    for (std::int32_t from = 0; from < count(); ++from) {
-      if (chain_[index_of(from)] < 0 || chain_[index_of(from)] == longest_)
-        continue; // from its other end then
+    for (const NodeIndex from : work_.nodes()) {
+      if (chain_[from] < 0 || chain_[from] == longest_) continue; // from its other end then
       const auto [path, cost] = from_node(from, least);
       if (cost < least) {
         least = cost;
@@ -45,49 +44,48 @@ public:
   }
 
 private:
-  std::int32_t count() const { return static_cast<std::int32_t>(work_.size()); }
-  const Vec2& at(std::int32_t i) const { return work_.cloud().position[index_of(i)]; }
-  bool broken(std::int32_t i) const { return broken_[index_of(i)] >= 1.0; }
+  const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
+  bool broken(NodeIndex i) const { return broken_[index_of(i)] >= 1.0; }
 
   /// Broken boundary nodes that follow each other make a chain: a cut leads from one to another.
   void number_chains() {
     chain_.assign(work_.size(), -1);
     std::vector<std::int32_t> length;
-    for (std::int32_t i = 0; i < count(); ++i) {
-      if (!work_.on_boundary(i) || !broken(i) || chain_[index_of(i)] >= 0) continue;
-      std::int32_t begin = i;
+    for (const NodeIndex i : work_.nodes()) {
+      if (!work_.on_boundary(i) || !broken(i) || chain_[i] >= 0) continue;
+      NodeIndex begin = i;
       while (broken(work_.previous(begin)) && work_.previous(begin) != i) begin = work_.previous(begin);
       length.push_back(0);
-      for (std::int32_t k = begin; broken(k) && chain_[index_of(k)] < 0; k = work_.next(k)) {
-        chain_[index_of(k)] = static_cast<std::int32_t>(length.size()) - 1;
+      for (NodeIndex k = begin; broken(k) && chain_[k] < 0; k = work_.next(k)) {
+        chain_[k] = as<std::int32_t>(length.size()) - 1;
         ++length.back();
       }
     }
-    longest_ = static_cast<std::int32_t>(std::max_element(length.begin(), length.end()) - length.begin());
+    longest_ = as<std::int32_t>(std::max_element(length.begin(), length.end()) - length.begin());
   }
 
   /// The edge leaves a boundary node nearly along one of its facets.
-  bool shaves(std::int32_t from, std::int32_t to) const {
+  bool shaves(NodeIndex from, NodeIndex to) const {
     const Vec2 along = at(to) - at(from);
     return std::max(cosine(along, at(work_.next(from)) - at(from)),
                     cosine(along, at(work_.previous(from)) - at(from))) > steepest_;
   }
 
   /// Cuts run inside, not in the layer of nodes beside the boundary.
-  double detour(std::int32_t i) const {
+  double detour(NodeIndex i) const {
     constexpr double beside = 4.0;
     const auto around = structure_.neighbours(i);
-    return std::any_of(around.begin(), around.end(), [&](std::int32_t k) { return work_.on_boundary(k); })
+    return std::any_of(around.begin(), around.end(), [&](NodeIndex k) { return work_.on_boundary(k); })
                ? beside
                : 1.0;
   }
 
   /// The cheapest cut from a boundary node to another chain, and its cost (Dijkstra's algorithm).
-  std::pair<Path, double> from_node(std::int32_t from, double limit) const {
+  std::pair<Path, double> from_node(NodeIndex from, double limit) const {
     constexpr double far = std::numeric_limits<double>::infinity();
     Field cost(work_.size(), far), length(work_.size(), 0.0);
-    std::vector<std::int32_t> came(work_.size(), -1);
-    using Entry = std::pair<double, std::int32_t>;
+    IndexedVector<NodeIndex, NodeIndex> came(work_.size(), NodeIndex::none);
+    using Entry = std::pair<double, NodeIndex>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
     cost[index_of(from)] = 0.0;
     front.emplace(0.0, from);
@@ -99,21 +97,21 @@ private:
       if (i != from && work_.on_boundary(i)) {
         if (!loops_.parts(from, i, rules_.part * length[index_of(i)], rules_.least_loop)) continue;
         Path path;
-        for (std::int32_t k = i; k >= 0; k = came[index_of(k)]) path.push_back(k);
+        for (NodeIndex k = i; exists(k); k = came[k]) path.push_back(k);
         std::reverse(path.begin(), path.end());
         return {path, known};
       }
-      for (const std::int32_t k : structure_.neighbours(i)) {
+      for (const NodeIndex k : structure_.neighbours(i)) {
         if (!broken(k)) continue;
         if (i == from && (work_.on_boundary(k) || shaves(from, k))) continue;
-        if (work_.on_boundary(k) && (chain_[index_of(k)] == chain_[index_of(from)] || shaves(k, i))) continue;
+        if (work_.on_boundary(k) && (chain_[k] == chain_[from] || shaves(k, i))) continue;
         const double step = (at(k) - at(i)).norm();
         const double reached = known + step * (work_.on_boundary(k) ? 1.0 : detour(k)) * 2.0 /
                                            (broken_[index_of(i)] + broken_[index_of(k)]);
         if (reached >= cost[index_of(k)]) continue;
         cost[index_of(k)] = reached;
         length[index_of(k)] = length[index_of(i)] + step;
-        came[index_of(k)] = i;
+        came[k] = i;
         front.emplace(reached, k);
       }
     }
@@ -126,7 +124,7 @@ private:
   const SplitRules& rules_;
   BoundaryLoops loops_;
   double steepest_;
-  std::vector<std::int32_t> chain_; ///< [node] −1: none
+  IndexedVector<NodeIndex, std::int32_t> chain_; ///< −1: none
   std::int32_t longest_ = -1;
 };
 

@@ -22,30 +22,29 @@ std::optional<Structure> structure_if_valid(const Cloud<2>& cloud) {
   } catch (const GeometryError&) { return std::nullopt; }
 }
 
-double spacing_at(const Cloud<2>& cloud, const Structure& structure, std::int32_t node) {
+double spacing_at(const Cloud<2>& cloud, const Structure& structure, NodeIndex node) {
   const auto around = structure.neighbours(node);
   double sum = 0.0;
-  for (const std::int32_t k : around)
-    sum += (cloud.position[index_of(k)] - cloud.position[index_of(node)]).norm();
+  for (const NodeIndex k : around) sum += (cloud.position[k] - cloud.position[node]).norm();
   return sum / static_cast<double>(around.size());
 }
 
 Field spacing_of(const Cloud<2>& cloud, const Structure& structure) {
   Field spacing(cloud.position.size());
   for (std::size_t i = 0; i < spacing.size(); ++i)
-    spacing[i] = spacing_at(cloud, structure, static_cast<std::int32_t>(i));
+    spacing[i] = spacing_at(cloud, structure, as<NodeIndex>(i));
   return spacing;
 }
 
 std::vector<Contribution> contributions(const Cloud<2>& cloud, const CellComplex<2>& cells,
-                                        const std::vector<char>& marked) {
+                                        const IndexedVector<NodeIndex, char>& marked) {
   std::vector<Contribution> list;
   for (const InnerFace<2>& face : cells.interior) {
     const auto [i, j] = face.cell;
-    if (marked[index_of(i)] == marked[index_of(j)]) continue;
-    const std::int32_t inside = marked[index_of(i)] ? i : j, other = marked[index_of(i)] ? j : i;
-    const double area = 0.5 * std::abs(cross(face.corner[0] - cloud.position[index_of(inside)],
-                                             face.corner[1] - face.corner[0]));
+    if (marked[i] == marked[j]) continue;
+    const NodeIndex inside = marked[i] ? i : j, other = marked[i] ? j : i;
+    const double area =
+        0.5 * std::abs(cross(face.corner[0] - cloud.position[inside], face.corner[1] - face.corner[0]));
     list.push_back({inside, other, area});
   }
   std::sort(list.begin(), list.end(), [](const Contribution& a, const Contribution& b) {

@@ -19,9 +19,7 @@ struct Structure {
   voronoi::Cells cells;
 
   /// Delaunay neighbours, in increasing order.
-  std::span<const std::int32_t> neighbours(std::int32_t node) const {
-    return cells.neighbours.of(index_of(node));
-  }
+  std::span<const NodeIndex> neighbours(NodeIndex node) const { return cells.neighbours.of(node); }
 };
 
 /// Throws GeometryError as voronoi::triangulate and voronoi::constrained_cells do.
@@ -30,19 +28,19 @@ Structure build_structure(const Cloud<2>& cloud);
 std::optional<Structure> structure_if_valid(const Cloud<2>& cloud);
 
 /// Mean distance of a node to its neighbours, m.
-double spacing_at(const Cloud<2>& cloud, const Structure& structure, std::int32_t node);
+double spacing_at(const Cloud<2>& cloud, const Structure& structure, NodeIndex node);
 /// That of all nodes.
 Field spacing_of(const Cloud<2>& cloud, const Structure& structure);
 
 /// The face of two cells, where one of the two nodes is marked: area of the triangle of that face and the
 /// marked node, m²: how much of the marked cell lies towards the other.
 struct Contribution {
-  std::int32_t marked, other;
+  NodeIndex marked, other;
   double area;
 };
 /// All faces between a marked and an unmarked node, by marked node and then by the other.
 std::vector<Contribution> contributions(const Cloud<2>& cloud, const CellComplex<2>& cells,
-                                        const std::vector<char>& marked);
+                                        const IndexedVector<NodeIndex, char>& marked);
 
 /// Distance from x to the segment ab, and where its foot is on the line: 0 at a, 1 at b.
 struct Foot {

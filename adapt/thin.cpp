@@ -13,16 +13,16 @@ namespace cnem::adapt {
 namespace {
 
 struct Candidate {
-  std::int32_t node;
-  double badness;               ///< the smaller the worse: a length over its limit
-  std::int32_t promote_to = -1; ///< becomes part of the facet that leaves this node
+  NodeIndex node;
+  double badness;                         ///< the smaller the worse: a length over its limit
+  NodeIndex promote_to = NodeIndex::none; ///< becomes part of the facet that leaves this node
 };
 
 class Thinning {
 public:
   Thinning(const WorkingCloud& work, const Structure& structure, const Thresholds& thresholds)
       : work_(work), structure_(structure), limit_(thresholds) {
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work.size()); ++i)
+    for (const NodeIndex i : work.nodes())
       if (work.on_boundary(i)) boundary_.push_back(i);
   }
 
@@ -40,14 +40,14 @@ public:
 
   /// A node that touches the boundary from outside, moved back.
   struct Shift {
-    std::int32_t node;
+    NodeIndex node;
     Vec2 to;
   };
   /// What it takes for the boundary to go straight from the node before to the node after; nothing if it may
   /// not: but for what touches it and gives way a little, nothing else may lie in or at the triangle between
   /// them.
-  std::optional<std::vector<Shift>> bypass(std::int32_t node) const {
-    const std::int32_t a = work_.previous(node), c = work_.next(node);
+  std::optional<std::vector<Shift>> bypass(NodeIndex node) const {
+    const NodeIndex a = work_.previous(node), c = work_.next(node);
     if (work_.next(c) == a || stays(node)) return std::nullopt;
     const Vec2 &xa = at(a), &xc = at(c);
     const bool convex = cross(at(node) - xa, xc - xa) > 0.0;
@@ -56,14 +56,14 @@ public:
       return std::nullopt;
     std::vector<Shift> shifts;
     if (!convex)
-      for (const std::int32_t k : boundary_) {
+      for (const NodeIndex k : boundary_) {
         if (k == a || k == node || k == c || !within(at(k), xa, xc, at(node))) continue;
         const Vec2 along = (xc - xa).normalized(), outwards(along.y(), -along.x());
         const double depth = -outwards.dot(at(k) - xa);
         if (depth > limit_.gives_way * work_.node().size[index_of(k)] || work_.held(k)) return std::nullopt;
         shifts.push_back({k, at(k) + (depth + 1e-6 * (xc - xa).norm()) * outwards});
       }
-    for (const std::int32_t k : structure_.neighbours(node)) {
+    for (const NodeIndex k : structure_.neighbours(node)) {
       if (k == a || k == c) continue;
       const double side = cross(xc - xa, at(k) - xa) / (xc - xa).norm();
       const double h = work_.size_between(node, k);
@@ -74,7 +74,7 @@ public:
   }
 
 private:
-  const Vec2& at(std::int32_t i) const { return work_.cloud().position[index_of(i)]; }
+  const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
   /// Whether a point lies in or on a triangle, corners counter-clockwise, which may be as flat as rounding.
   static bool within(const Vec2& x, const Vec2& a, const Vec2& b, const Vec2& c) {
     const Vec2 along = b - a;
@@ -82,27 +82,27 @@ private:
     return place >= std::min(0.0, top) && place <= std::max(size, top) && cross(along, x - a) >= 0.0 &&
            cross(c - b, x - b) >= 0.0 && cross(a - c, x - c) >= 0.0;
   }
-  bool stays(std::int32_t i) const { return work_.held(i) || work_.ends_piece(i); }
+  bool stays(NodeIndex i) const { return work_.held(i) || work_.ends_piece(i); }
 
   void near_edges() {
     const auto& mesh = structure_.mesh;
     for (std::size_t t = 0; t < mesh.node.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         if (mesh.facet[t][k] < 0) continue;
-        const std::int32_t i = mesh.node[t][k], a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
+        const NodeIndex i = mesh.node[t][k], a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
         if (work_.on_boundary(i) || work_.held(i)) continue;
         const double h = work_.size_between(a, b);
         const Foot foot = foot_on(at(i), at(a), at(b));
         if (foot.distance >= limit_.boundary_gap * h || foot.place <= 0.0 || foot.place >= 1.0) continue;
         const double length = (at(b) - at(a)).norm();
         const bool room = std::min(foot.place, 1.0 - foot.place) * length >= limit_.clear_node * h;
-        list_.push_back({i, foot.distance / (limit_.boundary_gap * h), room ? a : -1});
+        list_.push_back({i, foot.distance / (limit_.boundary_gap * h), room ? a : NodeIndex::none});
       }
   }
 
   void close_pairs() {
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work_.size()); ++i)
-      for (const std::int32_t j : structure_.neighbours(i)) {
+    for (const NodeIndex i : work_.nodes())
+      for (const NodeIndex j : structure_.neighbours(i)) {
         if (j < i) continue;
         const double limit = limit_.pair * work_.size_between(i, j);
         const double squared = (at(j) - at(i)).squaredNorm();
@@ -110,10 +110,10 @@ private:
         const bool keep_i = work_.on_boundary(i) || work_.held(i),
                    keep_j = work_.on_boundary(j) || work_.held(j);
         if (keep_i && keep_j) continue;
-        const std::int32_t goes = keep_i                                                            ? j
-                                  : keep_j                                                          ? i
-                                  : work_.node().mass[index_of(j)] < work_.node().mass[index_of(i)] ? j
-                                                                                                    : i;
+        const NodeIndex goes = keep_i                                                            ? j
+                               : keep_j                                                          ? i
+                               : work_.node().mass[index_of(j)] < work_.node().mass[index_of(i)] ? j
+                                                                                                 : i;
         list_.push_back({goes, std::sqrt(squared) / limit});
       }
   }
@@ -121,7 +121,7 @@ private:
   void boundary_nodes() {
     const double spike = std::cos(limit_.spike * std::numbers::pi / 180.0),
                  notch = std::cos(limit_.notch * std::numbers::pi / 180.0);
-    for (std::int32_t b = 0; b < static_cast<std::int32_t>(work_.size()); ++b) {
+    for (const NodeIndex b : work_.nodes()) {
       if (!work_.on_boundary(b)) continue;
       const Turn turn = turn_at(b);
       const double h = work_.node().size[index_of(b)], shortest = std::min(turn.back, turn.ahead);
@@ -142,25 +142,26 @@ private:
     double area;        ///< m², of the triangle with them
     bool reflex;
   };
-  Turn turn_at(std::int32_t b) const {
+  Turn turn_at(NodeIndex b) const {
     const Vec2 back = at(work_.previous(b)) - at(b), ahead = at(work_.next(b)) - at(b);
     const double lengths = back.norm() * ahead.norm(), twice = cross(ahead, back);
     return {back.norm(), ahead.norm(), back.dot(ahead) / lengths, 0.5 * std::abs(twice), twice < 0.0};
   }
 
   /// A tip too small for the step: it goes, or the bottom of the notch beside it where that changes less.
-  void sliver(std::int32_t tip) {
-    std::int32_t goes = -1;
-    for (const std::int32_t i : {tip, work_.previous(tip), work_.next(tip)})
-      if (!stays(i) && (i == tip || turn_at(i).reflex) && (goes < 0 || turn_at(i).area < turn_at(goes).area))
+  void sliver(NodeIndex tip) {
+    NodeIndex goes = NodeIndex::none;
+    for (const NodeIndex i : {tip, work_.previous(tip), work_.next(tip)})
+      if (!stays(i) && (i == tip || turn_at(i).reflex) &&
+          (!exists(goes) || turn_at(i).area < turn_at(goes).area))
         goes = i;
-    if (goes >= 0) list_.push_back({goes, 0.5});
+    if (exists(goes)) list_.push_back({goes, 0.5});
   }
 
   /// What coarsening leaves to remove: after all that crowds.
   void dense_nodes() {
     constexpr double after_others = 1.0;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(work_.size()); ++i) {
+    for (const NodeIndex i : work_.nodes()) {
       if (work_.held(i)) continue;
       const double h = work_.node().size[index_of(i)];
       double spacing = 0.0;
@@ -179,13 +180,14 @@ private:
   const WorkingCloud& work_;
   const Structure& structure_;
   const Thresholds& limit_;
-  std::vector<std::int32_t> boundary_;
+  std::vector<NodeIndex> boundary_;
   std::vector<Candidate> list_;
 };
 
 /// What the removed nodes leave behind goes to the neighbours that gained volume, in proportion.
 std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& before, const Structure& after,
-                                const std::vector<char>& gone, const std::vector<std::int32_t>& number) {
+                                const IndexedVector<NodeIndex, char>& gone,
+                                const IndexedVector<NodeIndex, NodeIndex>& number) {
   std::vector<Contribution> list = contributions(work.cloud(), before.cells, gone);
   Field claimed(work.size(), 0.0);
   for (const Contribution& c : list) claimed[index_of(c.other)] += c.area;
@@ -195,9 +197,9 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
     double gained = 0.0, area = 0.0;
     std::vector<double> gain;
     for (; last < list.size() && list[last].marked == list[first].marked; ++last) {
-      const std::int32_t k = list[last].other;
+      const NodeIndex k = list[last].other;
       const double growth =
-          std::max(0.0, after.cells.volume[index_of(number[index_of(k)])] - before.cells.volume[index_of(k)]);
+          std::max(0.0, after.cells.volume[index_of(number[k])] - before.cells.volume[index_of(k)]);
       gain.push_back(claimed[index_of(k)] > 0.0 ? growth * list[last].area / claimed[index_of(k)] : 0.0);
       gained += gain.back();
       area += list[last].area;
@@ -218,51 +220,50 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report) {
   Thinning thinning(work, structure, thresholds);
   WorkingCloud changed = work;
-  std::vector<char> gone(work.size(), 0), touched(work.size(), 0);
+  IndexedVector<NodeIndex, char> gone(work.size(), 0), touched(work.size(), 0);
   PassReport done = report;
   for (const Candidate& candidate : thinning.candidates()) {
-    const std::int32_t i = candidate.node;
+    const NodeIndex i = candidate.node;
     const auto around = structure.neighbours(i);
-    if (touched[index_of(i)] ||
-        std::any_of(around.begin(), around.end(), [&](std::int32_t k) { return touched[index_of(k)] != 0; }))
+    if (touched[i] || std::any_of(around.begin(), around.end(), [&](NodeIndex k) { return touched[k] != 0; }))
       continue;
-    if (candidate.promote_to >= 0) {
-      const Vec2 &a = work.cloud().position[index_of(candidate.promote_to)],
-                 &b = work.cloud().position[index_of(work.next(candidate.promote_to))];
-      const double place = foot_on(work.cloud().position[index_of(i)], a, b).place;
+    if (exists(candidate.promote_to)) {
+      const Vec2 &a = work.cloud().position[candidate.promote_to],
+                 &b = work.cloud().position[work.next(candidate.promote_to)];
+      const double place = foot_on(work.cloud().position[i], a, b).place;
       changed.promote(i, candidate.promote_to, a + place * (b - a));
       ++done.promoted;
     } else if (work.on_boundary(i)) {
       const auto shifts = thinning.bypass(i);
       if (!shifts || std::any_of(shifts->begin(), shifts->end(),
-                                 [&](const auto& shift) { return touched[index_of(shift.node)] != 0; }))
+                                 [&](const auto& shift) { return touched[shift.node] != 0; }))
         continue;
       for (const auto& shift : *shifts) {
         changed.place(shift.node, shift.to);
-        touched[index_of(shift.node)] = 1;
+        touched[shift.node] = 1;
       }
       changed.bypass(i);
-      gone[index_of(i)] = 1;
+      gone[i] = 1;
       ++done.removed_boundary;
     } else {
-      gone[index_of(i)] = 1;
+      gone[i] = 1;
       ++done.removed;
     }
-    touched[index_of(i)] = 1;
-    for (const std::int32_t k : around) touched[index_of(k)] = 1;
+    touched[i] = 1;
+    for (const NodeIndex k : around) touched[k] = 1;
   }
   if (done.removed == report.removed && done.removed_boundary == report.removed_boundary &&
       done.promoted == report.promoted)
     return false;
 
   WorkingCloud emptied = changed;
-  const std::vector<std::int32_t> number = emptied.drop(gone);
+  const IndexedVector<NodeIndex, NodeIndex> number = emptied.drop(gone);
   emptied.refresh_facets();
   std::optional<Structure> after = structure_if_valid(emptied.cloud());
   std::vector<Parcel> parcels;
-  std::vector<char> orphaned = gone;
+  IndexedVector<NodeIndex, char> orphaned = gone;
   if (after) parcels = inheritance(work, structure, *after, gone, number);
-  for (const Parcel& parcel : parcels) orphaned[index_of(parcel.from)] = 0;
+  for (const Parcel& parcel : parcels) orphaned[parcel.from] = 0;
   if (!after || std::find(orphaned.begin(), orphaned.end(), 1) != orphaned.end()) {
     ++report.undone;
     return false;

@@ -24,16 +24,17 @@ std::int32_t fracture_piece(Cloud<2>& cloud) {
 }
 
 /// Nodes at which the boundary turns by more than 30 degrees.
-std::vector<std::int32_t> corners(const Cloud<2>& cloud) {
+IndexedVector<NodeIndex, std::int32_t> corners(const Cloud<2>& cloud) {
   constexpr double least_cosine = 0.866;
-  std::vector<std::int32_t> corner(cloud.position.size(), 0), next(corner.size(), -1);
-  for (const Facet<2>& facet : cloud.facets) next[index_of(facet.node[0])] = facet.node[1];
+  IndexedVector<NodeIndex, std::int32_t> corner(cloud.position.size(), 0);
+  IndexedVector<NodeIndex, NodeIndex> next(corner.size(), NodeIndex::none);
+  for (const Facet<2>& facet : cloud.facets) next[facet.node[0]] = facet.node[1];
   for (const Facet<2>& facet : cloud.facets) {
     const auto [a, b] = facet.node;
-    const std::int32_t c = next[index_of(b)];
-    const Vec2 in = (cloud.position[index_of(b)] - cloud.position[index_of(a)]).normalized(),
-               out = (cloud.position[index_of(c)] - cloud.position[index_of(b)]).normalized();
-    if (in.dot(out) < least_cosine) corner[index_of(b)] = 1;
+    const NodeIndex c = next[b];
+    const Vec2 in = (cloud.position[b] - cloud.position[a]).normalized(),
+               out = (cloud.position[c] - cloud.position[b]).normalized();
+    if (in.dot(out) < least_cosine) corner[b] = 1;
   }
   return corner;
 }
@@ -163,10 +164,10 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
 void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
   for (Field* label : {&error_, &size_, &wanted_, &birth_})
     if (!label->empty()) carry_label(change.labels, *label);
-  std::vector<std::int32_t> corner(change.old_of.size(), 0);
+  IndexedVector<NodeIndex, std::int32_t> corner(change.old_of.size(), 0);
   for (std::size_t p = 0; p < corner.size(); ++p)
-    if (change.old_of[p] >= 0)
-      corner[p] = corner_[index_of(change.old_of[p])];
+    if (exists(change.old_of[p]))
+      corner[p] = corner_[change.old_of[p]];
     else
       birth_[p] = time;
   corner_ = std::move(corner);

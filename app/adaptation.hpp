@@ -54,10 +54,10 @@ private:
   Field wanted_;          ///< [node] m, wanted spacing of the last pass
   Field error_;           ///< [node] indicator at the last new reference; empty before the first estimate
   double coarsest_ = 0.0; ///< m, the spacing of level 0
-  std::vector<std::vector<Vec2>> tips_;         ///< [tool] m, points of its corners and arcs at time 0
-  double error_total_ = 0.0, error_norm_ = 0.0; ///< of the last estimate
-  std::int64_t refined_ = 0, coarsened_ = 0;    ///< cells marked so far
-  std::vector<std::int32_t> corner_;            ///< [node] 1: stays
+  std::vector<std::vector<Vec2>> tips_;           ///< [tool] m, points of its corners and arcs at time 0
+  double error_total_ = 0.0, error_norm_ = 0.0;   ///< of the last estimate
+  std::int64_t refined_ = 0, coarsened_ = 0;      ///< cells marked so far
+  IndexedVector<NodeIndex, std::int32_t> corner_; ///< 1: stays
   adapt::PassReport total_;
   std::int64_t passes_ = 0;
   results::AdaptationLog log_;

@@ -46,10 +46,10 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
   } else {
     fmt::print("tools       {} places where a tool overlaps the workpiece, the deepest:\n", overlaps.size());
     for (std::size_t k = 0; k < std::min<std::size_t>(overlaps.size(), 3); ++k)
-      fmt::print("            {}\n", input.placed(fmt::format(
-                                         "{} by {:.3g} m at {}",
-                                         solver.conditions().contact.tools()[index_of(overlaps[k].tool)].name,
-                                         overlaps[k].depth, show_place<dim>(overlaps[k].position))));
+      fmt::print("            {}\n",
+                 input.placed(fmt::format("{} by {:.3g} m at {}",
+                                          solver.conditions().contact.tools()[overlaps[k].tool].name,
+                                          overlaps[k].depth, show_place<dim>(overlaps[k].position))));
   }
   const std::filesystem::path folder = options.output / "initial";
   results::prepare_output_folder(folder, true);

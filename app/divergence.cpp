@@ -83,8 +83,7 @@ void blame_place(const input::Case& input, const ExplicitSolver<dim>& solver, st
   }
   const auto& facets = solver.conditions().cloud.facets;
   if (std::any_of(facets.begin(), facets.end(), [&](const Facet<dim>& facet) {
-        return std::find(facet.node.begin(), facet.node.end(), static_cast<std::int32_t>(node)) !=
-               facet.node.end();
+        return std::find(facet.node.begin(), facet.node.end(), as<NodeIndex>(node)) != facet.node.end();
       }))
     causes.push_back("It lies on the boundary, which folds over itself where it stretches or buckles most: "
                      "refine there (cloud.refine), or end the run earlier.");
@@ -113,7 +112,7 @@ void blame_place(const input::Case& input, const ExplicitSolver<dim>& solver, st
 } // namespace
 
 template<int dim> std::size_t node_of(const ExplicitSolver<dim>& solver, std::size_t point) {
-  return solver.approximation().mechanics.first_node(point);
+  return index_of(solver.approximation().mechanics.first_node(point));
 }
 
 template<int dim>

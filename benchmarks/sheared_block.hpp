@@ -18,8 +18,8 @@ inline ExplicitSolver<2> sheared_block(int nodes) {
   const double rate = 1e5;
   std::vector<Support<2>> supports;
   for (const Facet<2>& facet : model.cloud.facets) {
-    const std::int32_t i = facet.node[0];
-    const double vx = rate * model.cloud.position[static_cast<std::size_t>(i)].y();
+    const NodeIndex i = facet.node[0];
+    const double vx = rate * model.cloud.position[i].y();
     supports.push_back({"side", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(vx), {i}});
     supports.push_back({"side", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(0.0), {i}});
   }

@@ -54,7 +54,7 @@ void warn_of_short_edges(const Cloud<2>& cloud, const SpacingField& spacing,
   };
   std::map<std::int32_t, Worst> worst;
   for (const Facet<2>& f : cloud.facets) {
-    const Vec2 a = cloud.position[index_of(f.node[0])], b = cloud.position[index_of(f.node[1])];
+    const Vec2 a = cloud.position[f.node[0]], b = cloud.position[f.node[1]];
     const double length = (b - a).norm(), ratio = length / spacing.at(0.5 * (a + b));
     if (ratio < Worst{}.ratio && ratio < worst[f.piece].ratio)
       worst[f.piece] = {ratio, length, 0.5 * (a + b)};

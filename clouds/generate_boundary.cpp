@@ -249,7 +249,7 @@ Cloud<2> assemble_boundary(const BoundaryChains& chains) {
     std::int32_t from, to, piece;
     std::int32_t opposite = -1; ///< the other face of the same crack edge
     std::int32_t next = -1;
-    std::int32_t start_node = -1;
+    NodeIndex start_node = NodeIndex::none;
   };
   std::vector<HalfEdge> edges;
   for (const Chain& chain : chains.chains)
@@ -267,12 +267,12 @@ Cloud<2> assemble_boundary(const BoundaryChains& chains) {
     leaving[std::size_t(edges[e].from)].push_back(static_cast<std::int32_t>(e));
 
   Cloud<2> cloud;
-  cloud.position = chains.vertex;
+  cloud.position = IndexedVector<NodeIndex, Vec2>(chains.vertex);
   cloud.piece_names = chains.piece_names;
   const auto direction = [&](const HalfEdge& e) {
     return Vec2(chains.vertex[std::size_t(e.to)] - chains.vertex[std::size_t(e.from)]);
   };
-  std::vector<std::vector<std::int32_t>> copies(chains.vertex.size());
+  std::vector<std::vector<NodeIndex>> copies(chains.vertex.size());
   for (HalfEdge& edge : edges) {
     // The wedge of material at the end of an edge lies clockwise of the way back, up to the next edge out.
     double smallest = 2.0 * full_turn;
@@ -288,15 +288,15 @@ Cloud<2> assemble_boundary(const BoundaryChains& chains) {
       edge.next = out;
     }
     auto& nodes = copies[std::size_t(edge.to)];
-    std::int32_t node = edge.to;
+    auto node = as<NodeIndex>(edge.to);
     if (!nodes.empty()) {
-      node = static_cast<std::int32_t>(cloud.position.size());
+      node = cloud.position.next();
       cloud.position.push_back(chains.vertex[std::size_t(edge.to)]);
-      for (const std::int32_t twin : nodes) cloud.twins.push_back({twin, node});
+      for (const NodeIndex twin : nodes) cloud.twins.push_back({twin, node});
     }
     nodes.push_back(node);
     HalfEdge& next = edges[std::size_t(edge.next)];
-    if (next.start_node >= 0)
+    if (exists(next.start_node))
       throw GeometryError(fmt::format(
           "the boundary '{}' runs over another part of itself at {}; expected curves "
           "that meet nothing",

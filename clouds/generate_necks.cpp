@@ -8,29 +8,28 @@
 namespace cnem::clouds {
 
 Necks find_necks(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
-  std::vector<std::int32_t> loop(index_of(cloud.nodes()), -1), place(index_of(cloud.nodes()), -1), loop_size;
+  IndexedVector<NodeIndex, std::int32_t> loop(cloud.position.size(), -1), place(cloud.position.size(), -1);
+  std::vector<std::int32_t> loop_size;
   for (const Facet<2>& f : cloud.facets) { // they come loop after loop
-    if (loop[index_of(f.node[0])] < 0) loop_size.push_back(0);
+    if (loop[f.node[0]] < 0) loop_size.push_back(0);
     const auto current = static_cast<std::int32_t>(loop_size.size()) - 1;
-    for (const std::int32_t i : f.node) loop[index_of(i)] = current;
-    place[index_of(f.node[0])] = loop_size.back()++;
+    for (const NodeIndex i : f.node) loop[i] = current;
+    place[f.node[0]] = loop_size.back()++;
   }
   constexpr std::int32_t near = 8; // facets: across a corner, even an acute one, is no neck
   Necks necks;
   for (std::size_t t = 0; t < mesh.node.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
-      if (mesh.neighbour[t][k] < static_cast<std::int32_t>(t) || place[index_of(a)] < 0 ||
-          place[index_of(b)] < 0)
-        continue;
-      if (loop[index_of(a)] == loop[index_of(b)]) {
-        const std::int32_t apart = std::abs(place[index_of(a)] - place[index_of(b)]);
-        if (std::min(apart, loop_size[index_of(loop[index_of(a)])] - apart) <= near) continue;
+      const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
+      if (mesh.neighbour[t][k] < static_cast<std::int32_t>(t) || place[a] < 0 || place[b] < 0) continue;
+      if (loop[a] == loop[b]) {
+        const std::int32_t apart = std::abs(place[a] - place[b]);
+        if (std::min(apart, loop_size[index_of(loop[a])] - apart) <= near) continue;
       }
-      const double width = (cloud.position[index_of(a)] - cloud.position[index_of(b)]).norm();
+      const double width = (cloud.position[a] - cloud.position[b]).norm();
       if (necks.pairs++ > 0 && width >= necks.width) continue;
       necks.width = width;
-      necks.where = 0.5 * (cloud.position[index_of(a)] + cloud.position[index_of(b)]);
+      necks.where = 0.5 * (cloud.position[a] + cloud.position[b]);
     }
   return necks;
 }

@@ -14,29 +14,30 @@ CloudQuality measure_quality(const Cloud<2>& cloud, const SpacingField& spacing)
   CloudQuality quality;
   quality.nearest_min = std::numeric_limits<double>::infinity();
   quality.angle_min = std::numbers::pi;
-  std::vector<double> length_sum(cloud.position.size(), 0.0), valence(cloud.position.size(), 0.0);
+  IndexedVector<NodeIndex, double> length_sum(cloud.position.size(), 0.0),
+      valence(cloud.position.size(), 0.0);
   double sum = 0.0, count = 0.0;
-  const auto at = [&](std::int32_t i) { return cloud.position[index_of(i)]; };
+  const auto at = [&](NodeIndex i) { return cloud.position[i]; };
   const auto each_edge = [&](auto&& visit) { // each edge once
     for (std::size_t t = 0; t < mesh.node.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k)
         if (mesh.neighbour[t][k] < static_cast<std::int32_t>(t))
           visit(mesh.node[t][(k + 1) % 3], mesh.node[t][(k + 2) % 3]);
   };
-  each_edge([&](std::int32_t a, std::int32_t b) {
+  each_edge([&](NodeIndex a, NodeIndex b) {
     const double length = (at(b) - at(a)).norm(), ratio = length / spacing.at(0.5 * (at(a) + at(b)));
     quality.nearest_min = std::min(quality.nearest_min, ratio);
     quality.edge_max = std::max(quality.edge_max, ratio);
     sum += ratio;
     count += 1.0;
-    for (const std::int32_t i : {a, b}) {
-      length_sum[index_of(i)] += length;
-      valence[index_of(i)] += 1.0;
+    for (const NodeIndex i : {a, b}) {
+      length_sum[i] += length;
+      valence[i] += 1.0;
     }
   });
   quality.edge_mean = sum / count;
-  each_edge([&](std::int32_t a, std::int32_t b) {
-    const auto mean = [&](std::int32_t i) { return length_sum[index_of(i)] / valence[index_of(i)]; };
+  each_edge([&](NodeIndex a, NodeIndex b) {
+    const auto mean = [&](NodeIndex i) { return length_sum[i] / valence[i]; };
     quality.grading_max = std::max({quality.grading_max, mean(a) / mean(b), mean(b) / mean(a)});
   });
   for (const auto& n : mesh.node) {

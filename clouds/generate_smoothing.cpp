@@ -105,12 +105,12 @@ private:
     for (bool again = true; again;) {
       again = false;
       for (const auto& n : mesh_.node) {
-        const Vec2 b = cloud_.position[index_of(n[1])] - cloud_.position[index_of(n[0])];
-        const Vec2 c = cloud_.position[index_of(n[2])] - cloud_.position[index_of(n[0])];
+        const Vec2 b = cloud_.position[n[1]] - cloud_.position[n[0]];
+        const Vec2 c = cloud_.position[n[2]] - cloud_.position[n[0]];
         if (cross(b, c) > 1e-3 * (b.squaredNorm() + c.squaredNorm())) continue;
-        for (const std::int32_t i : n) {
-          again = again || cloud_.position[index_of(i)] != before[index_of(i)];
-          cloud_.position[index_of(i)] = before[index_of(i)];
+        for (const NodeIndex i : n) {
+          again = again || cloud_.position[i] != before[index_of(i)];
+          cloud_.position[i] = before[index_of(i)];
         }
       }
     }
@@ -119,8 +119,8 @@ private:
   /// Circumcentre relative to the first node.
   Vec2 circumcentre(std::size_t t) const {
     const auto& n = mesh_.node[t];
-    const Vec2 b = cloud_.position[index_of(n[1])] - cloud_.position[index_of(n[0])];
-    const Vec2 c = cloud_.position[index_of(n[2])] - cloud_.position[index_of(n[0])];
+    const Vec2 b = cloud_.position[n[1]] - cloud_.position[n[0]];
+    const Vec2 c = cloud_.position[n[2]] - cloud_.position[n[0]];
     return (c.squaredNorm() * right_normal(b) - b.squaredNorm() * right_normal(c)) / (-2.0 * cross(b, c));
   }
 
@@ -131,7 +131,7 @@ private:
     const auto& n = mesh_.node[t];
     if (!movable_[index_of(n[0])] && !movable_[index_of(n[1])] && !movable_[index_of(n[2])]) return;
     std::array<Vec2, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[index_of(n[k])];
+    for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[n[k]];
     const Vec2 origin = x[0];
     Vec2 centre = circumcentre(t);
     for (Vec2& point : x) point -= origin;
@@ -151,7 +151,7 @@ private:
                             1.5 * std::max({h_[index_of(n[0])], h_[index_of(n[1])], h_[index_of(n[2])]}));
     }
     bool wall = false;
-    for (const std::int32_t i : n) wall = wall || index_of(i) < fixed_;
+    for (const NodeIndex i : n) wall = wall || index_of(i) < fixed_;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t i = index_of(n[k]);
       if (wall) by_wall[i] = true;
@@ -179,10 +179,10 @@ private:
     for (std::size_t t = 0; t < mesh_.node.size(); ++t) {
       const auto& n = mesh_.node[t];
       if (!movable_[index_of(n[0])] && !movable_[index_of(n[1])] && !movable_[index_of(n[2])] &&
-          std::ranges::any_of(n, [&](std::int32_t i) { return index_of(i) >= fixed_; }))
+          std::ranges::any_of(n, [&](NodeIndex i) { return index_of(i) >= fixed_; }))
         continue;
       const Vec2 radius = circumcentre(t);
-      const Vec2 centre = cloud_.position[index_of(n[0])] + radius;
+      const Vec2 centre = cloud_.position[n[0]] + radius;
       const double low = std::min({h_[index_of(n[0])], h_[index_of(n[1])], h_[index_of(n[2])]});
       if (radius.norm() < hole * low) continue;
       const double h = spacing_.at(centre);

@@ -17,7 +17,7 @@ TetrahedralBlock tetrahedral_block(const Vec<3>& size, const std::array<int, 3>&
                                     count[0], count[1], count[2], size.x(), size.y(), size.z()));
   TetrahedralBlock block;
   const auto index = [&](int i, int j, int k) {
-    return static_cast<std::int32_t>((k * (count[1] + 1) + j) * (count[0] + 1) + i);
+    return as<NodeIndex>((k * (count[1] + 1) + j) * (count[0] + 1) + i);
   };
   for (int k = 0; k <= count[2]; ++k)
     for (int j = 0; j <= count[1]; ++j)
@@ -33,13 +33,13 @@ TetrahedralBlock tetrahedral_block(const Vec<3>& size, const std::array<int, 3>&
       for (int i = 0; i < count[0]; ++i)
         for (int o = 0; o < 6; ++o) {
           std::array<int, 3> at{i, j, k};
-          std::array<std::int32_t, 4> corner{index(i, j, k)};
+          std::array<NodeIndex, 4> corner{index(i, j, k)};
           for (int step = 0; step < 3; ++step) {
             ++at[index_of(orders[o][step])];
             corner[index_of(step + 1)] = index(at[0], at[1], at[2]);
           }
           if (o >= 3) std::swap(corner[1], corner[2]);
-          const auto x = [&](int c) { return block.cloud.position[index_of(corner[index_of(c)])]; };
+          const auto x = [&](int c) { return block.cloud.position[corner[index_of(c)]]; };
           if (!((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) > 0.0))
             throw GeometryError(
                 fmt::format("a tetrahedron of the block at ({:g}, {:g}, {:g}) m has no volume", x(0).x(),
@@ -61,8 +61,8 @@ TetrahedralBlock tetrahedral_block(const Vec<3>& size, const std::array<int, 3>&
         };
         const std::int32_t piece = 2 * axis + (high ? 1 : 0);
         for (const bool upper : {false, true}) {
-          std::array<std::int32_t, 3> corner{node(0, 0), upper ? node(1, 1) : node(1, 0),
-                                             upper ? node(0, 1) : node(1, 1)};
+          std::array<NodeIndex, 3> corner{node(0, 0), upper ? node(1, 1) : node(1, 0),
+                                          upper ? node(0, 1) : node(1, 1)};
           if (!high) std::swap(corner[1], corner[2]);
           block.cloud.facets.push_back({corner, piece});
         }

@@ -12,7 +12,7 @@ namespace cnem::clouds {
 /// (voronoi/linear_simplices.hpp).
 struct TetrahedralBlock {
   Cloud<3> cloud; ///< pieces x-, x+, y-, y+, z-, z+
-  std::vector<std::array<std::int32_t, 4>> tetrahedra;
+  std::vector<std::array<NodeIndex, 4>> tetrahedra;
 };
 
 /// [0, size] cut into count[0] × count[1] × count[2] boxes of six tetrahedra around a diagonal each (Kuhn),

@@ -21,13 +21,13 @@ public:
   static constexpr std::size_t block_size = 512;
   struct Block {
     std::vector<std::int32_t> begin; ///< [face of the block + 1]
-    std::vector<std::int32_t> node;
+    std::vector<NodeIndex> node;
     std::vector<double> value;
   };
   explicit FaceMeans(std::vector<Block> blocks) : blocks_(std::move(blocks)) {}
 
   /// Stencil of an inner face; empty for faces without area.
-  std::span<const std::int32_t> nodes(std::size_t face) const {
+  std::span<const NodeIndex> nodes(std::size_t face) const {
     const Block& block = blocks_[face / block_size];
     const auto* begin = &block.begin[face % block_size];
     return {block.node.data() + begin[0], block.node.data() + begin[1]};
@@ -56,8 +56,7 @@ FaceMeans face_means(const Cloud<dim>& cloud, const CellComplex<dim>& cells, int
 
   const auto is_skipped = [&](const InnerFace<dim>& face) {
     constexpr double smallest = 1e-14;
-    const double distance =
-        (cloud.position[index_of(face.cell[1])] - cloud.position[index_of(face.cell[0])]).squaredNorm();
+    const double distance = (cloud.position[face.cell[1]] - cloud.position[face.cell[0]]).squaredNorm();
     return !(face.normal().squaredNorm() > smallest * smallest * (dim == 2 ? distance : distance * distance));
   };
   const auto integrate = [&](std::size_t b, auto& functions) {

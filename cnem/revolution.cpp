@@ -36,7 +36,7 @@ std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) 
 std::vector<std::int32_t> triangle_at_nodes(std::size_t nodes, const voronoi::Triangulation& triangulation) {
   std::vector<std::int32_t> triangle(nodes, 0);
   for (std::size_t t = 0; t < triangulation.node.size(); ++t)
-    for (const std::int32_t i : triangulation.node[t]) triangle[index_of(i)] = static_cast<std::int32_t>(t);
+    for (const NodeIndex i : triangulation.node[t]) triangle[index_of(i)] = static_cast<std::int32_t>(t);
   return triangle;
 }
 

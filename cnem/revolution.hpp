@@ -11,7 +11,7 @@ namespace cnem::scni {
 struct CentroidValues {
   Field radius;                    ///< [cell] r̄ of the centroid, m
   std::vector<std::int32_t> begin; ///< [cell + 1]
-  std::vector<std::int32_t> node;
+  std::vector<NodeIndex> node;
   std::vector<double> value; ///< sums to 1 over a row
 };
 

@@ -18,8 +18,8 @@ template<int dim> class RowAccumulator {
 public:
   explicit RowAccumulator(int nodes) : slot_(index_of(nodes), -1) {}
 
-  void add(std::int32_t node, const Vec<dim>& b, double value = 0.0) {
-    std::int32_t& slot = slot_[index_of(node)];
+  void add(NodeIndex node, const Vec<dim>& b, double value = 0.0) {
+    std::int32_t& slot = slot_[node];
     if (slot < 0) {
       slot = static_cast<std::int32_t>(entry_.size());
       entry_.push_back({node, b, value});
@@ -30,7 +30,7 @@ public:
   }
 
   struct Entry {
-    std::int32_t node;
+    NodeIndex node;
     Vec<dim> b;
     double value; ///< at the centroid, of revolution
   };
@@ -41,18 +41,18 @@ public:
   }
 
   void clear() {
-    for (const Entry& e : entry_) slot_[index_of(e.node)] = -1;
+    for (const Entry& e : entry_) slot_[e.node] = -1;
     entry_.clear();
   }
 
 private:
-  std::vector<std::int32_t> slot_; ///< [node] index into entry_, −1: none
+  IndexedVector<NodeIndex, std::int32_t> slot_; ///< index into entry_, −1: none
   std::vector<Entry> entry_;
 };
 
 /// Finished rows of consecutive cells.
 template<int dim> struct RowBlock {
-  std::vector<std::int32_t> node;
+  std::vector<NodeIndex> node;
   std::array<std::vector<double>, dim> gradient;
   std::vector<double> hoop;
 };
@@ -70,11 +70,11 @@ std::array<double, 2> revolved_shares(const BoundaryPart<2>& part, const std::ar
 
 template<int dim>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
-                                          const CellLists& faces, const FaceMeans& means,
+                                          const CellLists<std::int32_t>& faces, const FaceMeans& means,
                                           const CentroidValues* revolution) {
   const auto nodes = index_of(cloud.nodes());
   assert(cells.cells() == nodes && faces.begin.size() == nodes + 1);
-  const CellLists boundary = parts_of_cells(cells);
+  const CellLists<std::int32_t> boundary = parts_of_cells(cells);
 
   DiscreteOperators<dim> op;
   op.points = op.nodes = cloud.nodes();
@@ -171,7 +171,7 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
 
 template<int dim>
 StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
-                                            const CellLists& faces) {
+                                            const CellLists<std::int32_t>& faces) {
   constexpr double least = 0.1, most = 2.0;
   StabilisationLinks<dim> links;
   links.begin = cells.neighbours.begin;
@@ -183,13 +183,13 @@ StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellC
     double* const weight = links.weight.data() + links.begin[i];
     for (const std::int32_t item : faces.of(i)) {
       const InnerFace<dim>& face = cells.interior[index_of(item)];
-      const std::int32_t other = face.cell[index_of(face.cell[0]) == i ? 1 : 0];
+      const NodeIndex other = face.cell[index_of(face.cell[0]) == i ? 1 : 0];
       const auto link = std::find(linked.begin(), linked.end(), other);
       assert(link != linked.end());
       weight[link - linked.begin()] += face.normal().norm();
     }
     for (std::size_t k = 0; k < linked.size(); ++k) {
-      const double distance = (cloud.position[index_of(linked[k])] - cloud.position[i]).norm();
+      const double distance = (cloud.position[linked[k]] - cloud.position[i]).norm();
       if constexpr (dim == 2)
         weight[k] = std::clamp(weight[k] / distance, least, most);
       else
@@ -199,11 +199,15 @@ StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellC
   return links;
 }
 
-template DiscreteOperators<2> smoothed_gradients(const Cloud<2>&, const CellComplex<2>&, const CellLists&,
-                                                 const FaceMeans&, const CentroidValues*);
-template DiscreteOperators<3> smoothed_gradients(const Cloud<3>&, const CellComplex<3>&, const CellLists&,
-                                                 const FaceMeans&, const CentroidValues*);
-template StabilisationLinks<2> stabilisation_links(const Cloud<2>&, const CellComplex<2>&, const CellLists&);
-template StabilisationLinks<3> stabilisation_links(const Cloud<3>&, const CellComplex<3>&, const CellLists&);
+template DiscreteOperators<2> smoothed_gradients(const Cloud<2>&, const CellComplex<2>&,
+                                                 const CellLists<std::int32_t>&, const FaceMeans&,
+                                                 const CentroidValues*);
+template DiscreteOperators<3> smoothed_gradients(const Cloud<3>&, const CellComplex<3>&,
+                                                 const CellLists<std::int32_t>&, const FaceMeans&,
+                                                 const CentroidValues*);
+template StabilisationLinks<2> stabilisation_links(const Cloud<2>&, const CellComplex<2>&,
+                                                   const CellLists<std::int32_t>&);
+template StabilisationLinks<3> stabilisation_links(const Cloud<3>&, const CellComplex<3>&,
+                                                   const CellLists<std::int32_t>&);
 
 } // namespace cnem::scni

@@ -16,7 +16,7 @@ namespace {
 namespace bg = boost::geometry;
 using TreePoint = bg::model::point<double, 2, bg::cs::cartesian>;
 using TreeBox = bg::model::box<TreePoint>;
-using Tree = bg::index::rtree<std::pair<TreeBox, std::int32_t>, bg::index::quadratic<16>>;
+using Tree = bg::index::rtree<std::pair<TreeBox, FacetIndex>, bg::index::quadratic<16>>;
 
 constexpr double skin_of_facets = 0.5; ///< skin over the mean length of facets
 constexpr double clearance = 1e-6;     ///< of a facet's length: what stays between bodies that touch
@@ -32,9 +32,9 @@ struct FacetView {
   Vec2 a, edge, normal;
   double length;
 
-  FacetView(const Surface<2>& surface, std::int32_t facet, std::span<const Vec2> position)
-      : a(position[index_of(surface.facets[index_of(facet)][0])]),
-        edge(position[index_of(surface.facets[index_of(facet)][1])] - a), length(edge.norm()) {
+  FacetView(const Surface<2>& surface, FacetIndex facet, PlacesOnBoundary<2> position)
+      : a(position[surface.facets[facet][0]]), edge(position[surface.facets[facet][1]] - a),
+        length(edge.norm()) {
     normal = right_normal(edge) / length;
   }
   double gap(const Vec2& x) const { return normal.dot(x - a); }
@@ -46,18 +46,19 @@ struct FacetView {
 /// else a body that slides on another would be stopped by the nodes ahead of the dent it makes.
 constexpr double facing = -0.25;
 
-bool faces(const Surface<2>& surface, std::size_t node, const Vec2& normal, std::span<const Vec2> position) {
-  const auto against = [&](std::int32_t facet) {
-    return facet >= 0 && FacetView(surface, facet, position).normal.dot(normal) < facing;
+bool faces(const Surface<2>& surface, BoundaryNodeIndex node, const Vec2& normal,
+           PlacesOnBoundary<2> position) {
+  const auto against = [&](FacetIndex facet) {
+    return exists(facet) && FacetView(surface, facet, position).normal.dot(normal) < facing;
   };
   return against(surface.entering[node]) || against(surface.leaving[node]);
 }
 
 /// How often the boundary runs round x: the number of bodies there.
-int winding_number(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x) {
+int winding_number(const Surface<2>& surface, PlacesOnBoundary<2> position, const Vec2& x) {
   int turns = 0;
   for (const auto& facet : surface.facets) {
-    const Vec2 &a = position[index_of(facet[0])], &b = position[index_of(facet[1])];
+    const Vec2 &a = position[facet[0]], &b = position[facet[1]];
     const double side = cross(b - a, x - a);
     if (a.y() <= x.y() && b.y() > x.y() && side > 0.0) ++turns;
     if (a.y() > x.y() && b.y() <= x.y() && side < 0.0) --turns;
@@ -72,11 +73,11 @@ struct Candidate {
 };
 
 /// Of two facets that meet at a convex corner of their body, a node came in through the one it passed last.
-void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
+void keep_last_passed(const Surface<2>& surface, PlacesOnBoundary<2> position,
                       std::vector<Candidate>& of_node) {
   const auto beaten = [&](const Candidate& c) {
     return std::any_of(of_node.begin(), of_node.end(), [&](const Candidate& other) {
-      const auto &f = surface.facets[index_of(c.hit.facet)], &g = surface.facets[index_of(other.hit.facet)];
+      const auto &f = surface.facets[c.hit.facet], &g = surface.facets[other.hit.facet];
       const bool before = f[1] == g[0], after = f[0] == g[1];
       if (c.hit.facet == other.hit.facet || (!before && !after)) return false;
       const Vec2 e = FacetView(surface, c.hit.facet, position).edge,
@@ -94,23 +95,23 @@ void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
 } // namespace
 
 template<int dim>
-void BodyContact<dim>::set_boundary(const Surface<dim>& surface, std::span<const std::int32_t> group) {
+void BodyContact<dim>::set_boundary(const Surface<dim>& surface,
+                                    IndexedSpan<NodeIndex, const std::int32_t> group) {
   group_.assign(surface.node.size(), -1);
   if (!group.empty())
-    for (std::size_t b = 0; b < group_.size(); ++b) group_[b] = group[index_of(surface.node[b])];
+    for (const BoundaryNodeIndex b : group_.indices()) group_[b] = group[surface.node[b]];
   listed_.clear();
 }
 
-template<int dim> bool BodyContact<dim>::bonded(const Surface<dim>& surface, std::int32_t facet) const {
-  if (facet < 0) return true;
-  const auto& ends = surface.facets[index_of(facet)];
-  return std::all_of(ends.begin(), ends.end(), [&](std::int32_t b) { return group_[index_of(b)] >= 0; });
+template<int dim> bool BodyContact<dim>::bonded(const Surface<dim>& surface, FacetIndex facet) const {
+  if (!exists(facet)) return true;
+  const auto& ends = surface.facets[facet];
+  return std::all_of(ends.begin(), ends.end(), [&](BoundaryNodeIndex b) { return group_[b] >= 0; });
 }
 
 template<int dim>
-bool BodyContact<dim>::related(const Surface<dim>& surface, std::size_t node, std::size_t facet) const {
-  return std::any_of(surface.facets[facet].begin(), surface.facets[facet].end(), [&](std::int32_t b) {
-    const auto end = index_of(b);
+bool BodyContact<dim>::related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet) const {
+  return std::any_of(surface.facets[facet].begin(), surface.facets[facet].end(), [&](BoundaryNodeIndex end) {
     return end == node || (group_[node] >= 0 && group_[end] == group_[node]);
   });
 }
@@ -121,24 +122,24 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
   Vec2 low = listed_.front(), high = low;
   for (const Vec2& x : listed_) low = low.cwiseMin(x), high = high.cwiseMax(x);
   size_ = (high - low).norm();
-  std::vector<std::pair<TreeBox, std::int32_t>> boxes;
+  std::vector<std::pair<TreeBox, FacetIndex>> boxes;
   double total = 0.0;
-  for (std::int32_t f = 0; f < std::ssize(surface.facets); ++f) {
-    const auto& ends = surface.facets[index_of(f)];
-    const Vec2 &a = listed_[index_of(ends[0])], &b = listed_[index_of(ends[1])];
+  for (const FacetIndex f : surface.facets.indices()) {
+    const auto& ends = surface.facets[f];
+    const Vec2 &a = listed_[ends[0]], &b = listed_[ends[1]];
     total += (b - a).norm();
     if (!bonded(surface, f)) boxes.emplace_back(box_around(a.cwiseMin(b), a.cwiseMax(b), 0.0), f);
   }
   skin_ = skin_of_facets * total / static_cast<double>(std::max<std::size_t>(surface.facets.size(), 1));
   const Tree tree(boxes);
-  std::vector<std::pair<TreeBox, std::int32_t>> near;
-  for (std::size_t b = 0; b < listed_.size(); ++b) {
+  std::vector<std::pair<TreeBox, FacetIndex>> near;
+  for (const BoundaryNodeIndex b : listed_.indices()) {
     if (bonded(surface, surface.entering[b]) && bonded(surface, surface.leaving[b])) continue;
     near.clear();
     tree.query(bg::index::intersects(box_around(listed_[b], listed_[b], skin_)), std::back_inserter(near));
     std::sort(near.begin(), near.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
     for (const auto& [box, f] : near) {
-      if (related(surface, b, index_of(f))) continue;
+      if (related(surface, b, f)) continue;
       const FacetView facet(surface, f, listed_);
       const Vec2 foot = facet.nearest(listed_[b]);
       if ((foot - listed_[b]).norm() > skin_) continue;
@@ -148,18 +149,19 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
         const bool round_a_corner = bodies == 0 && (place < 0.0 || place > 1.0);
         if (bodies < 2 && !round_a_corner) continue;
       }
-      pairs_.push_back({static_cast<std::int32_t>(b), f});
+      pairs_.push_back({b, f});
     }
   }
 }
 
 template<int dim>
-void BodyContact<dim>::look(const Surface<dim>& surface, std::span<const Vec<dim>> start,
-                            std::span<const Vec<dim>> end) {
+void BodyContact<dim>::look(const Surface<dim>& surface, PlacesOnBoundary<dim> start,
+                            PlacesOnBoundary<dim> end) {
   if (start.empty()) return;
   if (!listed_.empty()) {
     double moved = 0.0;
-    for (std::size_t b = 0; b < end.size(); ++b) moved = std::max(moved, (end[b] - listed_[b]).squaredNorm());
+    for (const BoundaryNodeIndex b : end.indices())
+      moved = std::max(moved, (end[b] - listed_[b]).squaredNorm());
     if (2.0 * std::sqrt(moved) <= skin_) return;
   }
   listed_.assign(start.begin(), start.end());
@@ -167,17 +169,16 @@ void BodyContact<dim>::look(const Surface<dim>& surface, std::span<const Vec<dim
 }
 
 template<>
-void BodyContact<2>::find(const Surface<2>& surface, std::span<const Vec2> start, std::span<const Vec2> end,
+void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, PlacesOnBoundary<2> end,
                           std::vector<FacetHit<2>>& hits) const {
   std::vector<Candidate> crossed;
   for (std::size_t first = 0; first < pairs_.size();) {
-    const std::int32_t node = pairs_[first].node;
-    const auto b = index_of(node);
+    const BoundaryNodeIndex b = pairs_[first].node;
     crossed.clear();
     FacetHit<2> inside;
     double depth = std::numeric_limits<double>::infinity();
-    for (; first < pairs_.size() && pairs_[first].node == node; ++first) {
-      const std::int32_t f = pairs_[first].facet;
+    for (; first < pairs_.size() && pairs_[first].node == b; ++first) {
+      const FacetIndex f = pairs_[first].facet;
       const FacetView now(surface, f, end);
       const double kept = clearance * now.length, gap = now.gap(end[b]) - kept;
       if (gap >= 0.0) continue;
@@ -185,7 +186,7 @@ void BodyContact<2>::find(const Surface<2>& surface, std::span<const Vec2> start
       if (!faces(surface, b, before.normal, start)) continue;
       const double gap_before = before.gap(start[b]) - kept, place = now.place(end[b]);
       const double s = std::clamp(place, 0.0, 1.0);
-      FacetHit<2> hit{node, f, {1.0 - s, s}, now.normal, std::min(gap_before, 0.0), kept};
+      FacetHit<2> hit{b, f, {1.0 - s, s}, now.normal, std::min(gap_before, 0.0), kept};
       if (gap_before >= -kept - rounding * before.length) {
         const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;
         const double there = (1.0 - when) * before.place(start[b]) + when * place;

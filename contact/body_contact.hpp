@@ -18,8 +18,8 @@ struct BodyContactLaw {
 
 /// A node that has gone through a facet of the workpiece.
 template<int dim> struct FacetHit {
-  std::int32_t node = 0; ///< boundary node
-  std::int32_t facet = 0;
+  BoundaryNodeIndex node{};
+  FacetIndex facet{};
   std::array<double, dim> weight{};   ///< of the facet's nodes
   Vec<dim> normal = Vec<dim>::Zero(); ///< out of the facet's body
   double start = 0.0;     ///< m, gap less clearance at the start of the step where that was < 0, else 0
@@ -33,17 +33,17 @@ template<int dim> struct FacetHit {
 /// the node may yet come round a corner onto the facet.
 template<int dim> class BodyContact {
 public:
-  /// Takes a boundary. group[node of the cloud], ≥ 0: nodes that are tied have the same number; facets
+  /// Takes a boundary. group, ≥ 0: nodes that are tied have the same number; facets
   /// between tied nodes are no surface. Empty: none is tied.
-  void set_boundary(const Surface<dim>& surface, std::span<const std::int32_t> group);
+  void set_boundary(const Surface<dim>& surface, IndexedSpan<NodeIndex, const std::int32_t> group);
 
   /// Lists pairs anew where the list does not cover nodes at `end` any more; start, end [boundary node], m.
-  void look(const Surface<dim>& surface, std::span<const Vec<dim>> start, std::span<const Vec<dim>> end);
+  void look(const Surface<dim>& surface, PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end);
 
   /// Appends the hits of a step that goes start → end, in the order of nodes and facets. A node counts when
   /// it crossed a facet that faces it; one that was inside already counts for the facet it is least deep
   /// under. After `look`.
-  void find(const Surface<dim>& surface, std::span<const Vec<dim>> start, std::span<const Vec<dim>> end,
+  void find(const Surface<dim>& surface, PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end,
             std::vector<FacetHit<dim>>& hits) const;
 
   double size() const { return size_; } ///< m, extent of the boundary as listed: the scale of rounding
@@ -54,23 +54,24 @@ public:
 
 private:
   struct Pair {
-    std::int32_t node, facet;
+    BoundaryNodeIndex node;
+    FacetIndex facet;
   };
   void list(const Surface<dim>& surface);
-  bool related(const Surface<dim>& surface, std::size_t node, std::size_t facet) const;
-  bool bonded(const Surface<dim>& surface, std::int32_t facet) const;
+  bool related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet) const;
+  bool bonded(const Surface<dim>& surface, FacetIndex facet) const;
 
-  std::vector<std::int32_t> group_; ///< [boundary node] −1: free
-  std::vector<Vec<dim>> listed_;    ///< [boundary node] m; empty: no list yet
-  std::vector<Pair> pairs_;         ///< by node, then facet
-  double skin_ = 0.0;               ///< m
+  IndexedVector<BoundaryNodeIndex, std::int32_t> group_; ///< −1: free
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> listed_;    ///< m; empty: no list yet
+  std::vector<Pair> pairs_;                              ///< by node, then facet
+  double skin_ = 0.0;                                    ///< m
   double size_ = 0.0;
   int listings_ = 0;
 };
 
 template<> void BodyContact<2>::list(const Surface<2>& surface);
 template<>
-void BodyContact<2>::find(const Surface<2>& surface, std::span<const Vec2> start, std::span<const Vec2> end,
+void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, PlacesOnBoundary<2> end,
                           std::vector<FacetHit<2>>& hits) const;
 extern template class BodyContact<2>;
 

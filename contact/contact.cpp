@@ -37,7 +37,7 @@ RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space, BodyC
 template<int dim>
 void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
                                      const std::vector<NodeConstraint<dim>>& constraints,
-                                     std::span<const std::int32_t> group) {
+                                     IndexedSpan<NodeIndex, const std::int32_t> group) {
   surface_ = Surface<dim>(facets, nodes);
   if constexpr (dim == 2)
     if (law_.active) bodies_.set_boundary(surface_, group);
@@ -59,7 +59,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
 }
 
 template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) {
-  for (std::size_t b = 0; b < before_.size(); ++b) before_[b] = at<dim>(velocity, surface_.node[b]);
+  for (const BoundaryNodeIndex b : before_.indices()) before_[b] = at<dim>(velocity, surface_.node[b]);
 }
 
 template<int dim> bool RigidContact<dim>::flow_stress_needed() const {
@@ -74,7 +74,7 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
                                  "got {}",
                                  surface_.node.size(), step.flow_stress.size()));
   gather(step);
-  std::vector<Pose<dim>> poses = motions_.predict(tools_, step.time, step.dt, step.dt_mean);
+  Poses<dim> poses = motions_.predict(tools_, step.time, step.dt, step.dt_mean);
   tool_reactions_ = motions_.reactions(tools_, poses);
   if constexpr (dim == 2)
     if (law_.active) {
@@ -87,9 +87,9 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
                bodies = find_on_bodies(poses, step);
     if (!faces && !ridges && !bodies) break;
     solve_impulses(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps);
-    for (std::size_t b = 0; b < end_.size(); ++b)
+    for (const BoundaryNodeIndex b : end_.indices())
       end_[b] = reactions_[b].position + step.dt * reactions_[b].change;
-    for (std::size_t t = 0; t < poses.size(); ++t) {
+    for (const ToolIndex t : poses.indices()) {
       poses[t].end = tool_reactions_[t].position + step.dt * tool_reactions_[t].change;
       poses[t].velocity = tool_reactions_[t].velocity + tool_reactions_[t].change;
     }
@@ -103,8 +103,8 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
 }
 
 template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
-  for (std::size_t b = 0; b < reactions_.size(); ++b) {
-    const std::int32_t node = surface_.node[b];
+  for (const BoundaryNodeIndex b : reactions_.indices()) {
+    const NodeIndex node = surface_.node[b];
     Reaction<dim>& reaction = reactions_[b];
     reaction.inverse = free_[b] / step.mass[index_of(node)];
     reaction.position = end_[b] = at<dim>(step.position, node);
@@ -113,7 +113,7 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
     start_[b] = reaction.position - step.dt * reaction.velocity;
   }
   rubbing_ = area_ = surface_.areas(end_, space_);
-  for (std::size_t b = 0; b < step.window.size(); ++b) rubbing_[b] *= step.window[b];
+  for (const BoundaryNodeIndex b : step.window.indices()) rubbing_[b] *= step.window[b];
   contacts_.clear();
   std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec<dim>::Zero());
@@ -125,8 +125,8 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
 template<int dim>
 bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
                             double dt) {
-  const auto mean = [&](const std::vector<Vec<dim>>& list) {
-    return at_contact(contact, [&](std::size_t b) { return list[b]; });
+  const auto mean = [&](const IndexedVector<BoundaryNodeIndex, Vec<dim>>& list) {
+    return at_contact(contact, [&](BoundaryNodeIndex b) { return list[b]; });
   };
   contact.level = level;
   if (start < 0.0) {
@@ -135,8 +135,7 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   }
   const double gap = contact.normal.dot(mean(end_)) - contact.level;
   if (gap >= 0.0) return false;
-  if (contact.tool >= 0)
-    contact.level -= dt * contact.normal.dot(tool_reactions_[index_of(contact.tool)].change);
+  if (exists(contact.tool)) contact.level -= dt * contact.normal.dot(tool_reactions_[contact.tool].change);
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
   const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
@@ -152,30 +151,30 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
 }
 
 template<int dim>
-bool RigidContact<dim>::find_on_faces(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
+bool RigidContact<dim>::find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step) {
   bool any = false;
-  std::vector<std::int32_t> inside;
+  std::vector<BoundaryNodeIndex> inside;
   std::vector<Vec<dim>> from, to;
   std::vector<Entry<dim>> entries;
-  for (std::size_t t = 0; t < tools_.size(); ++t) {
+  for (const ToolIndex t : tools_.indices()) {
     const Tool<dim>& tool = tools_[t];
     const Box<dim> box = tool.shape->bounds();
     inside.clear(), from.clear(), to.clear(), entries.clear();
-    for (std::size_t b = 0; b < end_.size(); ++b) {
+    for (const BoundaryNodeIndex b : end_.indices()) {
       const Vec<dim> x = end_[b] - poses[t].end;
       if (!box.contains(x)) continue;
-      inside.push_back(static_cast<std::int32_t>(b));
+      inside.push_back(b);
       from.push_back(start_[b] - poses[t].start);
       to.push_back(x);
     }
     if (inside.empty()) continue;
     tool.shape->entries(from, to, entries);
     for (const Entry<dim>& entry : entries) {
-      const auto b = index_of(inside[index_of(entry.index)]);
+      const BoundaryNodeIndex b = inside[index_of(entry.index)];
       Contact<dim> contact;
-      contact.tool = static_cast<std::int32_t>(t);
+      contact.tool = t;
       contact.feature = entry.at.feature;
-      contact.node[0] = static_cast<std::int32_t>(b);
+      contact.node[0] = b;
       contact.weight[0] = 1.0;
       contact.normal = entry.at.normal;
       set_friction(contact, rubbing_[b], step);
@@ -187,30 +186,30 @@ bool RigidContact<dim>::find_on_faces(const std::vector<Pose<dim>>& poses, const
 }
 
 template<int dim>
-bool RigidContact<dim>::find_on_ridges(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
+bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step) {
   bool any = false;
   std::vector<RidgeHit<dim>> hits;
-  for (std::size_t t = 0; t < tools_.size(); ++t) {
+  for (const ToolIndex t : tools_.indices()) {
     hits.clear();
     ridge_hits<dim>(surface_, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
     for (const RidgeHit<dim>& hit : hits) {
       Contact<dim> contact;
-      contact.tool = static_cast<std::int32_t>(t);
+      contact.tool = t;
       contact.feature = hit.ridge;
       contact.facet = hit.facet;
-      const auto& ends = surface_.facets[index_of(hit.facet)];
+      const auto& ends = surface_.facets[hit.facet];
       std::copy(ends.begin(), ends.end(), contact.node.begin());
       std::copy(hit.weight.begin(), hit.weight.end(), contact.weight.begin());
       contact.normal = hit.normal;
       double area = 0.0; // of nodes that do not rub on a face themselves
       for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
         const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<dim>& c) {
-          return c.tool == contact.tool && c.facet < 0 && c.node[0] == contact.node[a];
+          return c.tool == contact.tool && !exists(c.facet) && c.node[0] == contact.node[a];
         });
-        if (!on_face) area += contact.weight[a] * rubbing_[index_of(contact.node[a])];
+        if (!on_face) area += contact.weight[a] * rubbing_[contact.node[a]];
       }
       set_friction(contact, area, step);
-      const Vec<dim> x = at_contact(contact, [&](std::size_t b) { return end_[b]; });
+      const Vec<dim> x = at_contact(contact, [&](BoundaryNodeIndex b) { return end_[b]; });
       any |= add(contact, hit.start, hit.normal.dot(x) - hit.gap, poses[t], step.dt);
     }
   }
@@ -218,7 +217,7 @@ bool RigidContact<dim>::find_on_ridges(const std::vector<Pose<dim>>& poses, cons
 }
 
 template<int dim>
-bool RigidContact<dim>::find_on_bodies(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
+bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step) {
   if (!law_.active) return false;
   bool any = false;
   Pose<dim> rest;
@@ -226,9 +225,8 @@ bool RigidContact<dim>::find_on_bodies(const std::vector<Pose<dim>>& poses, cons
   std::vector<FacetHit<dim>> hits;
   if constexpr (dim == 2) bodies_.find(surface_, start_, end_, hits);
   for (const FacetHit<dim>& hit : hits) {
-    const auto& ends = surface_.facets[index_of(hit.facet)];
+    const auto& ends = surface_.facets[hit.facet];
     Contact<dim> contact;
-    contact.tool = -1;
     contact.facet = hit.facet;
     contact.node[0] = hit.node;
     contact.weight[0] = 1.0;
@@ -237,32 +235,31 @@ bool RigidContact<dim>::find_on_bodies(const std::vector<Pose<dim>>& poses, cons
       contact.weight[a + 1] = -hit.weight[a];
     }
     contact.normal = hit.normal;
-    set_friction(contact, rubbing_[index_of(hit.node)], step);
+    set_friction(contact, rubbing_[hit.node], step);
     any |= add(contact, hit.start, hit.clearance, rest, step.dt);
   }
   return any;
 }
 
 template<int dim> const Friction& RigidContact<dim>::friction_of(const Contact<dim>& contact) const {
-  return contact.tool < 0 ? law_.friction : tools_[index_of(contact.tool)].friction;
+  return exists(contact.tool) ? tools_[contact.tool].friction : law_.friction;
 }
 
 template<int dim>
 void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const {
   const Friction& friction = friction_of(contact);
-  if (contact.tool >= 0) contact.surface = tool_reactions_[index_of(contact.tool)].velocity;
+  if (exists(contact.tool)) contact.surface = tool_reactions_[contact.tool].velocity;
   Rubbing rubbing;
   if (friction.needs_flow_stress()) {
     double opposite = 0.0; // of two bodies the weaker one counts
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (const double w = contact.weight[a]; w != 0.0)
-        (w > 0.0 ? rubbing.flow_stress : opposite) +=
-            std::abs(w) * step.flow_stress[index_of(contact.node[a])];
-    if (contact.tool < 0) rubbing.flow_stress = std::min(rubbing.flow_stress, opposite);
+        (w > 0.0 ? rubbing.flow_stress : opposite) += std::abs(w) * step.flow_stress[contact.node[a]];
+    if (!exists(contact.tool)) rubbing.flow_stress = std::min(rubbing.flow_stress, opposite);
   }
   if (friction.needs_speed()) {
     const Vec<dim> slip =
-        at_contact(contact, [&](std::size_t b) { return reactions_[b].velocity; }) - contact.surface;
+        at_contact(contact, [&](BoundaryNodeIndex b) { return reactions_[b].velocity; }) - contact.surface;
     rubbing.speed = (slip - slip.dot(contact.normal) * contact.normal).norm();
   }
   const FrictionBound bound = friction.bound(rubbing);
@@ -271,7 +268,7 @@ void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const C
 }
 
 template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) {
-  for (std::size_t b = 0; b < reactions_.size(); ++b) {
+  for (const BoundaryNodeIndex b : reactions_.indices()) {
     const Vec<dim>& change = reactions_[b].change;
     if (change.squaredNorm() == 0.0) continue;
     const auto node = index_of(surface_.node[b]);

@@ -16,23 +16,26 @@ namespace cnem::contact {
 /// A node that may not move freely: `free` projects a vector onto the directions it may be pushed in (zero
 /// for a fully prescribed node, 1 − n⊗n on a symmetry plane).
 template<int dim> struct NodeConstraint {
-  std::int32_t node;
+  NodeIndex node;
   Mat<dim> free;
 };
+
+/// One value per boundary node.
+using BoundaryValues = IndexedSpan<BoundaryNodeIndex, const double>;
 
 /// One step as the predictor left it: x* = x_n + Δt₂ v*.
 template<int dim> struct ContactStep {
   double time = 0.0; ///< s, t_n (the start of the step)
   double dt = 0.0;   ///< s, Δt₂ = t_{n+1} − t_n
   double dt_mean = 0.0; ///< s, Δt̄ = (Δt₁ + Δt₂)/2; Δt₁ = 0 in the first step, when v_{n−½} means v_0
-  Fields<dim>& position;                    ///< m, [node], at t_{n+1}; corrected in place
-  Fields<dim>& velocity;                    ///< m/s, [node], at t_{n+½}; corrected in place
-  const Field& mass;                        ///< kg/m^(3−dim), [node]
-  std::span<const double> flow_stress = {}; ///< Pa, [boundary node]; needed where flow_stress_needed()
-  std::span<const double> effusivity = {};  ///< W √s/(m² K), [boundary node], of the workpiece; empty: it
-                                            ///< keeps all friction heat
-  std::span<const double> window = {}; ///< –, [boundary node], over how many Δt̄ the forces that arrive in
-                                       ///< this step have gathered; empty: one
+  Fields<dim>& position;           ///< m, [node], at t_{n+1}; corrected in place
+  Fields<dim>& velocity;           ///< m/s, [node], at t_{n+½}; corrected in place
+  const Field& mass;               ///< kg/m^(3−dim), [node]
+  BoundaryValues flow_stress = {}; ///< Pa; needed where flow_stress_needed()
+  BoundaryValues effusivity = {};  ///< W √s/(m² K), of the workpiece; empty: it keeps all friction
+                                   ///< heat
+  BoundaryValues window = {}; ///< –, over how many Δt̄ the forces that arrive in this step have gathered;
+                              ///< empty: one
 };
 
 /// Energies of contact, J per unit thickness in 2D, all but the first two ≥ 0. They balance exactly:
@@ -66,9 +69,9 @@ template<int dim> struct BodyResult {
 
 /// A boundary node that touches a tool (directly or through an edge that a corner presses on).
 template<int dim> struct ContactPoint {
-  std::int32_t node = 0;
-  std::int32_t boundary = 0; ///< its index among boundary_nodes()
-  std::int32_t tool = 0;
+  NodeIndex node{};
+  BoundaryNodeIndex boundary{}; ///< the same node among boundary_nodes()
+  ToolIndex tool{};
   double gap = 0.0;                  ///< m, signed distance from the tool after the correction
   double area = 0.0;                 ///< m^(dim−1), tributary, current
   double pressure = 0.0;             ///< Pa, normal force over area
@@ -77,17 +80,17 @@ template<int dim> struct ContactPoint {
 
 /// A boundary node that touches a facet of the workpiece, another body's or its own.
 template<int dim> struct BodyTouch {
-  std::int32_t node = 0;
-  std::array<std::int32_t, dim> facet{}; ///< nodes of the facet
-  std::array<double, dim> weight{};      ///< of these at the place of the node
+  NodeIndex node{};
+  std::array<NodeIndex, dim> facet{}; ///< nodes of the facet
+  std::array<double, dim> weight{};   ///< of these at the place of the node
   double area = 0.0; ///< m^(dim−1), of the touching surfaces: half of what is tributary to the node, as both
                      ///< sides are listed
 };
 
 /// A node inside a tool, or a ridge of a tool inside the workpiece (then node is the nearer end of the edge).
 template<int dim> struct Overlap {
-  std::int32_t tool = 0;
-  std::int32_t node = 0;
+  ToolIndex tool{};
+  NodeIndex node{};
   double depth = 0.0; ///< m, > 0
   Vec<dim> position = Vec<dim>::Zero();
   bool ridge = false;
@@ -112,7 +115,7 @@ public:
   /// O(nodes + facets).
   void set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
                     const std::vector<NodeConstraint<dim>>& constraints,
-                    std::span<const std::int32_t> group = {});
+                    IndexedSpan<NodeIndex, const std::int32_t> group = {});
 
   /// Keeps v_{n−½} of the boundary nodes for the work of this step.
   void remember(const Fields<dim>& velocity);
@@ -127,7 +130,7 @@ public:
   void begin_sub_steps();
   void end_sub_steps(double duration);
 
-  const std::vector<Tool<dim>>& tools() const { return tools_; }
+  const Tools<dim>& tools() const { return tools_; }
   /// Displacement since t = 0, m, of a tool at `time`, which is that of the last step for free tools.
   Vec<dim> displacement(std::size_t tool, double time) const {
     return motions_.displacement(tools_[tool], tool, time);
@@ -139,19 +142,19 @@ public:
   /// Of all free tools at t_{n−½}.
   DriveEnergy drive_energy() const { return motions_.energy(tools_); }
   bool flow_stress_needed() const;
-  /// Nodes of the boundary in increasing order; the lists marked [boundary node] follow it.
-  const std::vector<std::int32_t>& boundary_nodes() const { return surface_.node; }
+  /// Nodes of the boundary in increasing order.
+  const IndexedVector<BoundaryNodeIndex, NodeIndex>& boundary_nodes() const { return surface_.node; }
 
-  const std::vector<ToolResult<dim>>& results() const { return results_; } ///< [tool]
+  const IndexedVector<ToolIndex, ToolResult<dim>>& results() const { return results_; }
   const BodyResult<dim>& body_result() const { return body_result_; }
   const BodyContact<dim>& bodies() const { return bodies_; }
   const std::vector<ContactPoint<dim>>& points() const { return points_; } ///< touching in the last step
   /// In the last step; listed where the law has a conductance.
   const std::vector<BodyTouch<dim>>& touches() const { return touches_; }
-  /// Workpiece's share of the friction heat of the last step, J/m^(3−dim), [boundary node].
-  const std::vector<double>& friction_heat() const { return heat_; }
-  /// Contact impulse of the last step, N s/m^(3−dim), [boundary node], before constraints take their part.
-  const std::vector<Vec<dim>>& nodal_impulse() const { return nodal_impulse_; }
+  /// Workpiece's share of the friction heat of the last step, J/m^(3−dim).
+  const IndexedVector<BoundaryNodeIndex, double>& friction_heat() const { return heat_; }
+  /// Contact impulse of the last step, N s/m^(3−dim), before constraints take their part.
+  const IndexedVector<BoundaryNodeIndex, Vec<dim>>& nodal_impulse() const { return nodal_impulse_; }
 
   /// Penetrations at a time, deepest first: what `check` prints. Only for a boundary that has been set.
   std::vector<Overlap<dim>> overlaps(const Fields<dim>& position, double time) const;
@@ -161,55 +164,55 @@ public:
 
 private:
   void gather(const ContactStep<dim>& step);
-  bool find_on_faces(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
-  bool find_on_ridges(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
-  bool find_on_bodies(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  bool find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step);
+  bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);
+  bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose, double dt);
   void set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const;
   const Friction& friction_of(const Contact<dim>& contact) const;
   void share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step);
   void scatter(const ContactStep<dim>& step);
-  void book(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
-  void list_points(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step);
+  void book(const Poses<dim>& poses, const ContactStep<dim>& step);
+  void list_points(const Poses<dim>& poses, const ContactStep<dim>& step);
   void list_touches();
   void merge_points();
   void add_sub_step(double dt_mean);
 
-  std::vector<Tool<dim>> tools_;
+  Tools<dim> tools_;
   ToolMotions<dim> motions_;
   Space space_ = Space::plane;
   BodyContactLaw law_;
   BodyContact<dim> bodies_;
   Surface<dim> surface_;
-  std::vector<Mat<dim>> free_; ///< [boundary node]
-  double size_ = 0.0;          ///< m, of the largest tool, or of the workpiece: the scale of rounding
+  IndexedVector<BoundaryNodeIndex, Mat<dim>> free_;
+  double size_ = 0.0; ///< m, of the largest tool, or of the workpiece: the scale of rounding
 
-  // The step in hand, [boundary node].
-  std::vector<Vec<dim>> before_; ///< m/s, v_{n−½}
-  std::vector<Vec<dim>> start_;  ///< m, x_n
-  std::vector<Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
-  std::vector<Reaction<dim>> reactions_;
-  std::vector<Reaction<dim>> tool_reactions_; ///< [tool]
-  std::vector<double> area_;
-  std::vector<double> rubbing_; ///< m^(dim−1), areas times windows
+  // The step in hand.
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> before_; ///< m/s, v_{n−½}
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> start_;  ///< m, x_n
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
+  ReactionsOfNodes<dim> reactions_;
+  ReactionsOfTools<dim> tool_reactions_;
+  IndexedVector<BoundaryNodeIndex, double> area_;
+  IndexedVector<BoundaryNodeIndex, double> rubbing_; ///< m^(dim−1), areas times windows
   std::vector<Contact<dim>> contacts_;
   std::size_t from_earlier_passes_ = 0; ///< how many of them
 
-  std::vector<ToolResult<dim>> results_;
+  IndexedVector<ToolIndex, ToolResult<dim>> results_;
   BodyResult<dim> body_result_;
   std::vector<ContactPoint<dim>> points_;
   std::vector<BodyTouch<dim>> touches_;
-  std::vector<double> heat_;
-  std::vector<Vec<dim>> nodal_impulse_;
+  IndexedVector<BoundaryNodeIndex, double> heat_;
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> nodal_impulse_;
 
   /// What several steps that are reported as one have added up to.
   struct SubSteps {
-    std::vector<ToolResult<dim>> start;    ///< [tool]
+    IndexedVector<ToolIndex, ToolResult<dim>> start;
     ContactWork bodies;                    ///< at their start
     double pressing = 0.0;                 ///< N s/m^(3−dim), between bodies
     std::vector<ContactPoint<dim>> points; ///< with impulses for forces
-    std::vector<double> heat;
-    std::vector<Vec<dim>> nodal_impulse;
+    IndexedVector<BoundaryNodeIndex, double> heat;
+    IndexedVector<BoundaryNodeIndex, Vec<dim>> nodal_impulse;
   };
   bool in_sub_steps_ = false;
   SubSteps sub_steps_;

@@ -19,9 +19,8 @@ ContactWork& operator+=(ContactWork& a, const ContactWork& b) {
 
 /// Work of each contact with the mean of the velocities before and after (design: with the predicted velocity
 /// it would be wrong by its own size), split so that each part has one sign.
-template<int dim>
-void RigidContact<dim>::book(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
-  for (std::size_t t = 0; t < tools_.size(); ++t) {
+template<int dim> void RigidContact<dim>::book(const Poses<dim>& poses, const ContactStep<dim>& step) {
+  for (const ToolIndex t : tools_.indices()) {
     results_[t].displacement = poses[t].end;
     results_[t].force.setZero();
     results_[t].step = {};
@@ -30,12 +29,12 @@ void RigidContact<dim>::book(const std::vector<Pose<dim>>& poses, const ContactS
   body_result_.step = {};
   const Pose<dim> rest;
   for (const Contact<dim>& contact : contacts_) {
-    const bool on_tool = contact.tool >= 0;
-    const std::size_t t = on_tool ? index_of(contact.tool) : 0;
+    const bool on_tool = exists(contact.tool);
+    const ToolIndex t = contact.tool;
     const Pose<dim>& pose = on_tool ? poses[t] : rest;
     const Vec<dim> impulse = contact.impulse();
     if (impulse.squaredNorm() == 0.0) continue;
-    const Vec<dim> node = at_contact(contact, [&](std::size_t b) {
+    const Vec<dim> node = at_contact(contact, [&](BoundaryNodeIndex b) {
       return Vec<dim>(0.5 * (before_[b] + reactions_[b].velocity + reactions_[b].change));
     });
     const Vec<dim> tool = 0.5 * (pose.before + pose.velocity);
@@ -55,7 +54,7 @@ void RigidContact<dim>::book(const std::vector<Pose<dim>>& poses, const ContactS
       body_result_.pressing += contact.pressing / step.dt_mean;
     }
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (contact.weight[a] != 0.0) nodal_impulse_[index_of(contact.node[a])] += contact.weight[a] * impulse;
+      if (contact.weight[a] != 0.0) nodal_impulse_[contact.node[a]] += contact.weight[a] * impulse;
     share_heat(contact, std::max(0.0, tangential), step);
   }
   for (ToolResult<dim>& result : results_) result.total += result.step;
@@ -70,23 +69,23 @@ void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, con
     double mean = 0.0;
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (const double w = contact.weight[a]; of_node ? w > 0.0 : w < 0.0)
-        mean += std::abs(w) * step.effusivity[index_of(contact.node[a])];
+        mean += std::abs(w) * step.effusivity[contact.node[a]];
     return mean;
   };
-  if (contact.tool < 0) {
+  if (!exists(contact.tool)) {
     const double one = step.effusivity.empty() ? 1.0 : effusivity(true),
                  other = step.effusivity.empty() ? 1.0 : effusivity(false);
     const double share = one + other > 0.0 ? one / (one + other) : 0.5;
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (const double w = contact.weight[a]; w != 0.0)
-        heat_[index_of(contact.node[a])] += std::abs(w) * (w > 0.0 ? share : 1.0 - share) * heat;
+        heat_[contact.node[a]] += std::abs(w) * (w > 0.0 ? share : 1.0 - share) * heat;
     return;
   }
-  const auto t = index_of(contact.tool);
+  const ToolIndex t = contact.tool;
   const double e_tool = tools_[t].thermal.effusivity;
   for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
     if (contact.weight[a] == 0.0) continue;
-    const auto b = index_of(contact.node[a]);
+    const BoundaryNodeIndex b = contact.node[a];
     const double share =
         step.effusivity.empty() || e_tool == 0.0 ? 1.0 : step.effusivity[b] / (step.effusivity[b] + e_tool);
     heat_[b] += share * contact.weight[a] * heat;
@@ -94,16 +93,15 @@ void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, con
   }
 }
 
-template<int dim>
-void RigidContact<dim>::list_points(const std::vector<Pose<dim>>& poses, const ContactStep<dim>& step) {
+template<int dim> void RigidContact<dim>::list_points(const Poses<dim>& poses, const ContactStep<dim>& step) {
   points_.clear();
   for (const Contact<dim>& contact : contacts_)
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
-      if (contact.weight[a] == 0.0 || contact.pressing == 0.0 || contact.tool < 0) continue;
-      const auto b = index_of(contact.node[a]);
+      if (contact.weight[a] == 0.0 || contact.pressing == 0.0 || !exists(contact.tool)) continue;
+      const BoundaryNodeIndex b = contact.node[a];
       ContactPoint<dim> point;
       point.node = surface_.node[b];
-      point.boundary = contact.node[a];
+      point.boundary = b;
       point.tool = contact.tool;
       point.area = area_[b];
       point.force = contact.weight[a] / step.dt_mean * contact.impulse();
@@ -112,9 +110,8 @@ void RigidContact<dim>::list_points(const std::vector<Pose<dim>>& poses, const C
     }
   merge_points();
   for (ContactPoint<dim>& point : points_) {
-    const auto t = index_of(point.tool);
-    const Vec<dim> x = end_[index_of(point.boundary)] - poses[t].end;
-    point.gap = tools_[t].shape->closest(x).distance;
+    const Vec<dim> x = end_[point.boundary] - poses[point.tool].end;
+    point.gap = tools_[point.tool].shape->closest(x).distance;
   }
 }
 
@@ -125,16 +122,16 @@ template<int dim> void RigidContact<dim>::list_touches() {
   if (law_.conductance == 0.0) return;
   constexpr double closed = 1e-3; // of the facet
   for (const Contact<dim>& contact : contacts_) {
-    if (contact.tool >= 0) continue;
+    if (exists(contact.tool)) continue;
     BodyTouch<dim> touch;
     for (std::size_t a = 0; a < dim; ++a) {
-      touch.facet[a] = surface_.node[index_of(contact.node[a + 1])];
+      touch.facet[a] = surface_.node[contact.node[a + 1]];
       touch.weight[a] = -contact.weight[a + 1];
     }
-    const double length = (end_[index_of(contact.node[1])] - end_[index_of(contact.node[2])]).norm();
-    const double gap = contact.normal.dot(at_contact(contact, [&](std::size_t b) { return end_[b]; }));
+    const double length = (end_[contact.node[1]] - end_[contact.node[2]]).norm();
+    const double gap = contact.normal.dot(at_contact(contact, [&](BoundaryNodeIndex b) { return end_[b]; }));
     if (gap > closed * length) continue;
-    const auto node = index_of(contact.node[0]);
+    const BoundaryNodeIndex node = contact.node[0];
     touch.node = surface_.node[node];
     touch.area = 0.5 * surface_.area_against(node, contact.normal, end_, space_);
     touches_.push_back(touch);
@@ -152,24 +149,24 @@ template<int dim> void RigidContact<dim>::list_touches() {
 template<int dim>
 std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& position, double time) const {
   std::vector<Overlap<dim>> found;
-  std::vector<Vec<dim>> all, local;
-  for (const std::int32_t node : surface_.node) all.push_back(at<dim>(position, node));
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> all;
+  std::vector<Vec<dim>> local;
+  for (const NodeIndex node : surface_.node) all.push_back(at<dim>(position, node));
   const double rounding = 1e-9 * size_;
-  for (std::size_t t = 0; t < tools_.size(); ++t) {
-    const Vec<dim> shift = displacement(t, time);
+  for (const ToolIndex t : tools_.indices()) {
+    const Vec<dim> shift = displacement(index_of(t), time);
     local = all;
     for (Vec<dim>& x : local) x -= shift;
     std::vector<Entry<dim>> entries;
     tools_[t].shape->entries(local, local, entries);
     for (const Entry<dim>& entry : entries) {
-      const auto b = index_of(entry.index);
+      const auto b = as<BoundaryNodeIndex>(entry.index);
       if (entry.at.distance < -rounding)
-        found.push_back({static_cast<std::int32_t>(t), surface_.node[b], -entry.at.distance, all[b], false});
+        found.push_back({t, surface_.node[b], -entry.at.distance, all[b], false});
     }
     for (const RidgeDepth<dim>& ridge : ridges_inside<dim>(surface_, *tools_[t].shape, all, shift))
       if (ridge.depth > rounding)
-        found.push_back({static_cast<std::int32_t>(t), surface_.node[index_of(ridge.node)], ridge.depth,
-                         ridge.position, true});
+        found.push_back({t, surface_.node[ridge.node], ridge.depth, ridge.position, true});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Overlap<dim>& a, const Overlap<dim>& b) { return a.depth > b.depth; });
@@ -201,16 +198,16 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
   archive.number("solver/body_contact/energy/impact", "J/m", body_result_.total.impact);
 }
 
-template void RigidContact<2>::book(const std::vector<Pose<2>>&, const ContactStep<2>&);
+template void RigidContact<2>::book(const Poses<2>&, const ContactStep<2>&);
 template void RigidContact<2>::share_heat(const Contact<2>&, double, const ContactStep<2>&);
 template void RigidContact<2>::list_touches();
-template void RigidContact<2>::list_points(const std::vector<Pose<2>>&, const ContactStep<2>&);
+template void RigidContact<2>::list_points(const Poses<2>&, const ContactStep<2>&);
 template std::vector<Overlap<2>> RigidContact<2>::overlaps(const Fields<2>&, double) const;
 template void RigidContact<2>::archive(Archive&);
-template void RigidContact<3>::book(const std::vector<Pose<3>>&, const ContactStep<3>&);
+template void RigidContact<3>::book(const Poses<3>&, const ContactStep<3>&);
 template void RigidContact<3>::share_heat(const Contact<3>&, double, const ContactStep<3>&);
 template void RigidContact<3>::list_touches();
-template void RigidContact<3>::list_points(const std::vector<Pose<3>>&, const ContactStep<3>&);
+template void RigidContact<3>::list_points(const Poses<3>&, const ContactStep<3>&);
 template std::vector<Overlap<3>> RigidContact<3>::overlaps(const Fields<3>&, double) const;
 template void RigidContact<3>::archive(Archive&);
 

@@ -5,7 +5,7 @@
 
 namespace cnem::contact {
 
-template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
+template<int dim> Vec<dim> at(const Fields<dim>& field, NodeIndex node) {
   return vector_at<dim>(field, index_of(node));
 }
 
@@ -13,7 +13,7 @@ template<int dim> Vec<dim> at(const Fields<dim>& field, std::int32_t node) {
 template<int dim, class PerNode> Vec<dim> at_contact(const Contact<dim>& contact, PerNode&& value) {
   Vec<dim> sum = Vec<dim>::Zero();
   for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-    if (contact.weight[a] != 0.0) sum += contact.weight[a] * value(index_of(contact.node[a]));
+    if (contact.weight[a] != 0.0) sum += contact.weight[a] * value(contact.node[a]);
   return sum;
 }
 

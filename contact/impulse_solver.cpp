@@ -11,7 +11,7 @@ namespace {
 
 template<int dim> class Sweeper {
 public:
-  Sweeper(Contact<dim>& contact, std::vector<Reaction<dim>>& nodes, Reaction<dim>& tool, double dt)
+  Sweeper(Contact<dim>& contact, ReactionsOfNodes<dim>& nodes, Reaction<dim>& tool, double dt)
       : contact_(contact), nodes_(nodes), tool_(tool), dt_(dt) {}
 
   double gap() {
@@ -72,7 +72,7 @@ public:
   }
 
 private:
-  Reaction<dim>& at(std::size_t a) { return nodes_[index_of(contact_.node[a])]; }
+  Reaction<dim>& at(std::size_t a) { return nodes_[contact_.node[a]]; }
 
   /// The same of nodes against tool.
   double along(const Vec<dim>& u) {
@@ -87,7 +87,7 @@ private:
   }
 
   Contact<dim>& contact_;
-  std::vector<Reaction<dim>>& nodes_;
+  ReactionsOfNodes<dim>& nodes_;
   Reaction<dim>& tool_;
   double dt_;
 };
@@ -95,20 +95,21 @@ private:
 /// Moves a free tool together with all nodes that press on its faces so that their gaps close: exact when the
 /// same nodes go on pressing without friction. Returns how far it moved anything, m.
 template<int dim>
-double shift_tool(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes, Reaction<dim>& tool,
-                  std::int32_t index, double dt) {
+double shift_tool(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes, Reaction<dim>& tool,
+                  ToolIndex index, double dt) {
   struct Pressing {
     Sweeper<dim> sweeper;
     Vec<dim> normal;
     double gap, mobility;
   };
   std::vector<Pressing> list;
-  std::vector<char> taken(nodes.size(), 0); // a node between two faces of the tool counts once
+  IndexedVector<BoundaryNodeIndex, char> taken(nodes.size(),
+                                               0); // a node between two faces of the tool counts once
   Mat<dim> stiffness = Mat<dim>::Zero();
   Vec<dim> drive = Vec<dim>::Zero();
   for (Contact<dim>& contact : contacts) {
-    if (contact.tool != index || contact.pressing <= 0.0 || contact.facet >= 0) continue;
-    if (char& known = taken[index_of(contact.node[0])]; known)
+    if (contact.tool != index || contact.pressing <= 0.0 || exists(contact.facet)) continue;
+    if (char& known = taken[contact.node[0]]; known)
       continue;
     else
       known = 1;
@@ -134,27 +135,27 @@ double shift_tool(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>
 } // namespace
 
 template<int dim>
-void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes,
-                    std::vector<Reaction<dim>>& tools, double dt, double tolerance, int sweeps) {
+void solve_impulses(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
+                    ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps) {
   Reaction<dim> none; // the tool of contacts between nodes alone: it takes no impulse
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double moved = 0.0;
     for (Contact<dim>& contact : contacts) {
-      Reaction<dim>& tool = contact.tool < 0 ? none : tools[index_of(contact.tool)];
+      Reaction<dim>& tool = exists(contact.tool) ? tools[contact.tool] : none;
       Sweeper<dim> sweeper(contact, nodes, tool, dt);
       moved = std::max(moved, sweeper.press());
       moved = std::max(moved, sweeper.rub());
     }
-    for (std::size_t t = 0; t < tools.size(); ++t)
+    for (const ToolIndex t : tools.indices())
       if (!tools[t].inverse.isZero(0.0))
-        moved = std::max(moved, shift_tool(contacts, nodes, tools[t], static_cast<std::int32_t>(t), dt));
+        moved = std::max(moved, shift_tool(contacts, nodes, tools[t], t, dt));
     if (moved <= tolerance) return;
   }
 }
 
-template void solve_impulses<2>(std::vector<Contact<2>>&, std::vector<Reaction<2>>&,
-                                std::vector<Reaction<2>>&, double, double, int);
-template void solve_impulses<3>(std::vector<Contact<3>>&, std::vector<Reaction<3>>&,
-                                std::vector<Reaction<3>>&, double, double, int);
+template void solve_impulses<2>(std::vector<Contact<2>>&, ReactionsOfNodes<2>&, ReactionsOfTools<2>&, double,
+                                double, int);
+template void solve_impulses<3>(std::vector<Contact<3>>&, ReactionsOfNodes<3>&, ReactionsOfTools<3>&, double,
+                                double, int);
 
 } // namespace cnem::contact

@@ -1,6 +1,7 @@
 #pragma once
 // Unilateral contacts with friction between weighted nodes and planes of rigid tools or facets of other
 // nodes, solved for impulses by projected Gauss-Seidel.
+#include "core/indexed.hpp"
 #include "core/vec.hpp"
 
 #include <array>
@@ -17,6 +18,9 @@ template<int dim> struct Reaction {
   Vec<dim> change = Vec<dim>::Zero();   ///< m/s, correction found so far
 };
 
+template<int dim> using ReactionsOfNodes = IndexedVector<BoundaryNodeIndex, Reaction<dim>>;
+template<int dim> using ReactionsOfTools = IndexedVector<ToolIndex, Reaction<dim>>;
+
 /// n·(Σ w_a x_a − Δt Δv_tool) ≥ level at the end of the step, with friction against a plane that moves at
 /// `surface` + Δv_tool. Against a tool w are the values N_a of shape functions; a node against a facet of the
 /// workpiece has w = 1 and the facet's nodes −N_a, so that the impulses on both sides are equal and opposite;
@@ -24,16 +28,16 @@ template<int dim> struct Reaction {
 template<int dim> struct Contact {
   static constexpr std::size_t slots = dim + 1;
 
-  std::int32_t tool = 0;                  ///< −1: the workpiece itself
-  std::int32_t feature = 0;               ///< piece of the tool's surface, or ridge
-  std::int32_t facet = -1;                ///< facet under a ridge or a node; −1 for a node on a tool's face
-  std::array<std::int32_t, slots> node{}; ///< indices into the list of reactions
-  std::array<double, slots> weight{};     ///< w_a; 0 for unused nodes
-  Vec<dim> normal = Vec<dim>::Zero();     ///< out of the tool
-  double level = 0.0;                     ///< m, where the tool is predicted
-  Vec<dim> surface = Vec<dim>::Zero();    ///< m/s, predicted velocity of the tool at t_{n+½}
-  double coulomb = 0.0;                   ///< –
-  double limit = 0.0;                     ///< N s, largest tangential impulse (Tresca)
+  ToolIndex tool = ToolIndex::none;    ///< none: the workpiece itself
+  std::int32_t feature = 0;            ///< piece of the tool's surface, or ridge
+  FacetIndex facet = FacetIndex::none; ///< under a ridge or a node; none for a node on a tool's face
+  std::array<BoundaryNodeIndex, slots> node{};
+  std::array<double, slots> weight{};  ///< w_a; 0 for unused nodes
+  Vec<dim> normal = Vec<dim>::Zero();  ///< out of the tool
+  double level = 0.0;                  ///< m, where the tool is predicted
+  Vec<dim> surface = Vec<dim>::Zero(); ///< m/s, predicted velocity of the tool at t_{n+½}
+  double coulomb = 0.0;                ///< –
+  double limit = 0.0;                  ///< N s, largest tangential impulse (Tresca)
 
   double pressing = 0.0;               ///< N s, normal impulse ≥ 0
   Vec<dim> sliding = Vec<dim>::Zero(); ///< N s, tangential impulse
@@ -45,10 +49,10 @@ template<int dim> struct Contact {
 /// press on one free tool, each sweep also moves the tool together with all of them, as Gauss-Seidel alone
 /// would need as many sweeps as the contacting nodes are heavier than the tool.
 template<int dim>
-void solve_impulses(std::vector<Contact<dim>>& contacts, std::vector<Reaction<dim>>& nodes,
-                    std::vector<Reaction<dim>>& tools, double dt, double tolerance, int sweeps);
+void solve_impulses(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
+                    ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps);
 
-extern template void solve_impulses<2>(std::vector<Contact<2>>&, std::vector<Reaction<2>>&,
-                                       std::vector<Reaction<2>>&, double, double, int);
+extern template void solve_impulses<2>(std::vector<Contact<2>>&, ReactionsOfNodes<2>&, ReactionsOfTools<2>&,
+                                       double, double, int);
 
 } // namespace cnem::contact

@@ -55,7 +55,7 @@ template<int dim> void RigidContact<dim>::add_sub_step(double dt_mean) {
     point.pressure *= dt_mean;
     sub_steps_.points.push_back(point);
   }
-  for (std::size_t b = 0; b < heat_.size(); ++b) {
+  for (const BoundaryNodeIndex b : heat_.indices()) {
     sub_steps_.heat[b] += heat_[b];
     sub_steps_.nodal_impulse[b] += nodal_impulse_[b];
   }
@@ -63,7 +63,7 @@ template<int dim> void RigidContact<dim>::add_sub_step(double dt_mean) {
 
 template<int dim> void RigidContact<dim>::end_sub_steps(double duration) {
   in_sub_steps_ = false;
-  for (std::size_t t = 0; t < results_.size(); ++t) {
+  for (const ToolIndex t : results_.indices()) {
     ToolResult<dim>& result = results_[t];
     const ToolResult<dim>& start = sub_steps_.start[t];
     result.force = (result.impulse - start.impulse) / duration;

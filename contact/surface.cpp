@@ -11,71 +11,72 @@
 namespace cnem::contact {
 
 template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes) {
-  std::vector<std::int32_t> number(nodes, -1);
+  IndexedVector<NodeIndex, BoundaryNodeIndex> number(nodes, BoundaryNodeIndex::none);
   for (const Facet<dim>& facet : boundary)
-    for (const std::int32_t i : facet.node) number[index_of(i)] = 0;
-  for (std::size_t i = 0; i < nodes; ++i) {
-    if (number[i] < 0) continue;
-    number[i] = static_cast<std::int32_t>(node.size());
-    node.push_back(static_cast<std::int32_t>(i));
+    for (const NodeIndex i : facet.node) number[i] = {};
+  for (const NodeIndex i : number.indices()) {
+    if (!exists(number[i])) continue;
+    number[i] = node.next();
+    node.push_back(i);
   }
   if constexpr (dim == 2) {
-    leaving.assign(node.size(), -1);
-    entering.assign(node.size(), -1);
+    leaving.assign(node.size(), FacetIndex::none);
+    entering.assign(node.size(), FacetIndex::none);
   } else {
     around.resize(node.size());
   }
   for (const Facet<dim>& facet : boundary) {
-    const auto f = static_cast<std::int32_t>(facets.size());
+    const FacetIndex f = facets.next();
     auto& corner = facets.emplace_back();
-    for (std::size_t a = 0; a < dim; ++a) corner[a] = number[index_of(facet.node[a])];
+    for (std::size_t a = 0; a < dim; ++a) corner[a] = number[facet.node[a]];
     if constexpr (dim == 2)
-      leaving[index_of(corner[0])] = entering[index_of(corner[1])] = f;
+      leaving[corner[0]] = entering[corner[1]] = f;
     else
-      for (const std::int32_t a : corner) around[index_of(a)].push_back(f);
+      for (const BoundaryNodeIndex a : corner) around[a].push_back(f);
   }
 }
 
 namespace {
 
 template<int dim>
-std::array<Vec<dim>, dim> corners(const std::array<std::int32_t, dim>& facet,
-                                  std::span<const Vec<dim>> position) {
+std::array<Vec<dim>, dim> corners(const std::array<BoundaryNodeIndex, dim>& facet,
+                                  PlacesOnBoundary<dim> position) {
   std::array<Vec<dim>, dim> corner;
-  for (std::size_t a = 0; a < dim; ++a) corner[a] = position[index_of(facet[a])];
+  for (std::size_t a = 0; a < dim; ++a) corner[a] = position[facet[a]];
   return corner;
 }
 
 } // namespace
 
 template<int dim>
-std::vector<double> Surface<dim>::areas(std::span<const Vec<dim>> position, Space space) const {
-  std::vector<double> area(node.size(), 0.0);
+IndexedVector<BoundaryNodeIndex, double> Surface<dim>::areas(PlacesOnBoundary<dim> position,
+                                                             Space space) const {
+  IndexedVector<BoundaryNodeIndex, double> area(node.size(), 0.0);
   for (const auto& facet : facets) {
     const auto share = corner_areas<dim>(space, corners<dim>(facet, position));
-    for (std::size_t a = 0; a < dim; ++a) area[index_of(facet[a])] += share[a];
+    for (std::size_t a = 0; a < dim; ++a) area[facet[a]] += share[a];
   }
   return area;
 }
 
 template<int dim>
-double Surface<dim>::area_against(std::size_t at, const Vec<dim>& normal, std::span<const Vec<dim>> position,
-                                  Space space) const {
+double Surface<dim>::area_against(BoundaryNodeIndex at, const Vec<dim>& normal,
+                                  PlacesOnBoundary<dim> position, Space space) const {
   double area = 0.0;
-  const auto add = [&](std::int32_t f) {
-    if (f < 0) return;
-    const auto& facet = facets[index_of(f)];
+  const auto add = [&](FacetIndex f) {
+    if (!exists(f)) return;
+    const auto& facet = facets[f];
     const auto corner = corners<dim>(facet, position);
     const Vec<dim> outwards = area_normal<dim>(corner);
     if (!(outwards.dot(normal) < -0.5 * outwards.norm())) return;
-    const auto own = std::find(facet.begin(), facet.end(), static_cast<std::int32_t>(at)) - facet.begin();
+    const auto own = std::find(facet.begin(), facet.end(), at) - facet.begin();
     area += corner_areas<dim>(space, corner)[index_of(own)];
   };
   if constexpr (dim == 2) {
     add(entering[at]);
     add(leaving[at]);
   } else {
-    for (const std::int32_t f : around[at]) add(f);
+    for (const FacetIndex f : around[at]) add(f);
   }
   return area;
 }
@@ -83,10 +84,10 @@ double Surface<dim>::area_against(std::size_t at, const Vec<dim>& normal, std::s
 template struct Surface<2>;
 template struct Surface<3>;
 
-bool encloses(const Surface<2>& surface, std::span<const Vec2> position, const Vec2& x) {
+bool encloses(const Surface<2>& surface, PlacesOnBoundary<2> position, const Vec2& x) {
   bool inside = false;
   for (const auto& facet : surface.facets) {
-    const Vec2 &a = position[index_of(facet[0])], &b = position[index_of(facet[1])];
+    const Vec2 &a = position[facet[0]], &b = position[facet[1]];
     if ((a.y() > x.y()) == (b.y() > x.y())) continue;
     // the ray towards +x meets the edge where the point is on the inner side of its direction
     const double side = cross(b - a, x - a);
@@ -104,9 +105,8 @@ struct EdgeView {
   Vec2 normal{0, 0}; ///< unit, into the workpiece: out of a tool that presses on it
   double length = 0.0;
 
-  EdgeView(const Surface<2>& surface, std::size_t facet, std::span<const Vec2> position)
-      : a(position[index_of(surface.facets[facet][0])]), b(position[index_of(surface.facets[facet][1])]),
-        length((b - a).norm()) {
+  EdgeView(const Surface<2>& surface, FacetIndex facet, PlacesOnBoundary<2> position)
+      : a(position[surface.facets[facet][0]]), b(position[surface.facets[facet][1]]), length((b - a).norm()) {
     along = (b - a) / length;
     normal = left_normal(along);
   }
@@ -118,12 +118,12 @@ struct EdgeView {
 
 /// Beyond an end at which the workpiece is concave, a ridge that is also beyond the neighbouring edge presses
 /// on the node between them.
-bool presses_on_notch(const Surface<2>& surface, const EdgeView& edge, std::size_t facet,
-                      std::span<const Vec2> position, const Vec2& tip, bool at_end) {
-  const auto vertex = index_of(surface.facets[facet][at_end ? 1 : 0]);
-  const std::int32_t other = at_end ? surface.leaving[vertex] : surface.entering[vertex];
-  if (other < 0) return false;
-  const EdgeView neighbour(surface, index_of(other), position);
+bool presses_on_notch(const Surface<2>& surface, const EdgeView& edge, FacetIndex facet,
+                      PlacesOnBoundary<2> position, const Vec2& tip, bool at_end) {
+  const BoundaryNodeIndex vertex = surface.facets[facet][at_end ? 1 : 0];
+  const FacetIndex other = at_end ? surface.leaving[vertex] : surface.entering[vertex];
+  if (!exists(other)) return false;
+  const EdgeView neighbour(surface, other, position);
   const double turn = at_end ? cross(edge.along, neighbour.along) : cross(neighbour.along, edge.along);
   if (turn >= 0.0 || (tip - position[vertex]).norm() > 0.5 * edge.length) return false;
   const double place = neighbour.place(tip);
@@ -135,20 +135,20 @@ double fraction_passed(const RidgeHit<2>& hit) {
 }
 
 /// Of two facets that meet at a convex node the ridge came in through the one it passed last.
-void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
-                      std::vector<RidgeHit<2>>& hits, std::size_t first) {
+void keep_last_passed(const Surface<2>& surface, PlacesOnBoundary<2> position, std::vector<RidgeHit<2>>& hits,
+                      std::size_t first) {
   const auto beaten = [&](const RidgeHit<2>& hit) {
-    return std::any_of(
-        hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(), [&](const RidgeHit<2>& o) {
-          if (&o == &hit) return false;
-          const auto &f = surface.facets[index_of(hit.facet)], &g = surface.facets[index_of(o.facet)];
-          if (f[0] != g[1] && f[1] != g[0]) return false;
-          const EdgeView e(surface, index_of(hit.facet), position), n(surface, index_of(o.facet), position);
-          const double turn = f[1] == g[0] ? cross(e.along, n.along) : cross(n.along, e.along);
-          if (turn <= 0.0) return false;
-          const double mine = fraction_passed(hit), others = fraction_passed(o);
-          return others > mine || (others == mine && o.facet < hit.facet);
-        });
+    return std::any_of(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
+                       [&](const RidgeHit<2>& o) {
+                         if (&o == &hit) return false;
+                         const auto &f = surface.facets[hit.facet], &g = surface.facets[o.facet];
+                         if (f[0] != g[1] && f[1] != g[0]) return false;
+                         const EdgeView e(surface, hit.facet, position), n(surface, o.facet, position);
+                         const double turn = f[1] == g[0] ? cross(e.along, n.along) : cross(n.along, e.along);
+                         if (turn <= 0.0) return false;
+                         const double mine = fraction_passed(hit), others = fraction_passed(o);
+                         return others > mine || (others == mine && o.facet < hit.facet);
+                       });
   };
   std::vector<RidgeHit<2>> kept;
   for (std::size_t i = first; i < hits.size(); ++i)
@@ -160,15 +160,15 @@ void keep_last_passed(const Surface<2>& surface, std::span<const Vec2> position,
 } // namespace
 
 template<>
-void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, std::span<const Vec2> start,
-                   std::span<const Vec2> end, const Vec2& shift_start, const Vec2& shift_end,
+void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, PlacesOnBoundary<2> start,
+                   PlacesOnBoundary<2> end, const Vec2& shift_start, const Vec2& shift_end,
                    std::vector<RidgeHit<2>>& hits) {
   const std::vector<Ridge<2>>& ridges = shape.ridges();
   const Box<2> box = shape.bounds();
   const Vec2 low = box.low + shift_end, high = box.high + shift_end;
-  std::vector<std::size_t> near;
-  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
-    const Vec2 &a = end[index_of(surface.facets[f][0])], &b = end[index_of(surface.facets[f][1])];
+  std::vector<FacetIndex> near;
+  for (const FacetIndex f : surface.facets.indices()) {
+    const Vec2 &a = end[surface.facets[f][0]], &b = end[surface.facets[f][1]];
     const double margin = (b - a).lpNorm<1>();
     if (((a.cwiseMax(b) - low).array() < -margin).any() || ((high - a.cwiseMin(b)).array() < -margin).any())
       continue;
@@ -177,8 +177,8 @@ void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, std::sp
   for (std::size_t r = 0; r < ridges.size(); ++r) {
     const Ridge<2>& ridge = ridges[r];
     const std::size_t first = hits.size();
-    for (const std::size_t f : near) {
-      const Vec2 &a = end[index_of(surface.facets[f][0])], &b = end[index_of(surface.facets[f][1])];
+    for (const FacetIndex f : near) {
+      const Vec2 &a = end[surface.facets[f][0]], &b = end[surface.facets[f][1]];
       const double reach = ridge.radius + 1.5 * (b - a).lpNorm<1>();
       if ((ridge.centre + shift_end - a).squaredNorm() > reach * reach) continue;
       const EdgeView now(surface, f, end);
@@ -198,12 +198,7 @@ void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, std::sp
         passed = std::max(passed, 0.0);
       }
       const double s = std::clamp(place, 0.0, 1.0);
-      hits.push_back({static_cast<std::int32_t>(r),
-                      static_cast<std::int32_t>(f),
-                      {1.0 - s, s},
-                      now.normal,
-                      gap,
-                      passed});
+      hits.push_back({as<std::int32_t>(r), f, {1.0 - s, s}, now.normal, gap, passed});
     }
     keep_last_passed(surface, end, hits, first);
   }
@@ -211,15 +206,15 @@ void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, std::sp
 
 template<>
 std::vector<RidgeDepth<2>> ridges_inside<2>(const Surface<2>& surface, const ToolShape<2>& shape,
-                                            std::span<const Vec2> position, const Vec2& shift) {
+                                            PlacesOnBoundary<2> position, const Vec2& shift) {
   std::vector<RidgeDepth<2>> found;
   for (const Ridge<2>& ridge : shape.ridges()) {
     const Vec2 middle = Eigen::Rotation2Dd(0.5 * ridge.angle) * ridge.first;
     const Vec2 tip = ridge.extreme(middle) + shift;
     if (!encloses(surface, position, tip)) continue;
-    RidgeDepth<2> inside{0, std::numeric_limits<double>::infinity(), tip};
+    RidgeDepth<2> inside{{}, std::numeric_limits<double>::infinity(), tip};
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    for (const FacetIndex f : surface.facets.indices()) {
       const EdgeView edge(surface, f, position);
       const double place = std::clamp(edge.place(tip), 0.0, 1.0);
       const double distance = (edge.a + place * edge.length * edge.along - tip).norm();
@@ -234,11 +229,11 @@ std::vector<RidgeDepth<2>> ridges_inside<2>(const Surface<2>& surface, const Too
 }
 
 template<>
-void ridge_hits<3>(const Surface<3>&, const ToolShape<3>&, std::span<const Vec<3>>, std::span<const Vec<3>>,
+void ridge_hits<3>(const Surface<3>&, const ToolShape<3>&, PlacesOnBoundary<3>, PlacesOnBoundary<3>,
                    const Vec<3>&, const Vec<3>&, std::vector<RidgeHit<3>>&) {}
 
 template<>
-std::vector<RidgeDepth<3>> ridges_inside<3>(const Surface<3>&, const ToolShape<3>&, std::span<const Vec<3>>,
+std::vector<RidgeDepth<3>> ridges_inside<3>(const Surface<3>&, const ToolShape<3>&, PlacesOnBoundary<3>,
                                             const Vec<3>&) {
   return {};
 }

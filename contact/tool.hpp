@@ -2,7 +2,7 @@
 // Rigid tools: shape, motion or mass, friction and what they do to heat.
 #include "contact/friction.hpp"
 #include "contact/tool_shape.hpp"
-#include "core/index.hpp"
+#include "core/indexed.hpp"
 #include "core/parameter.hpp"
 #include "core/time_table.hpp"
 
@@ -93,5 +93,7 @@ template<int dim> struct Tool : ToolSurface {
   ToolMotion<dim> motion; ///< prescribed, when there is no drive
   std::optional<ToolDrive<dim>> drive;
 };
+
+template<int dim> using Tools = IndexedVector<ToolIndex, Tool<dim>>;
 
 } // namespace cnem::contact

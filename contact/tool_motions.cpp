@@ -20,18 +20,17 @@ template<int dim> Vec<dim> impulse(const ToolDrive<dim>& drive, double from, dou
 
 } // namespace
 
-template<int dim> ToolMotions<dim>::ToolMotions(const std::vector<Tool<dim>>& tools) : body_(tools.size()) {
-  for (std::size_t t = 0; t < tools.size(); ++t)
+template<int dim> ToolMotions<dim>::ToolMotions(const Tools<dim>& tools) : body_(tools.size()) {
+  for (const ToolIndex t : tools.indices())
     if (tools[t].drive) body_[t].velocity = tools[t].drive->free * tools[t].drive->initial_velocity;
 }
 
 template<int dim>
-std::vector<Pose<dim>> ToolMotions<dim>::predict(const std::vector<Tool<dim>>& tools, double time, double dt,
-                                                 double dt_mean) {
-  std::vector<Pose<dim>> all;
+Poses<dim> ToolMotions<dim>::predict(const Tools<dim>& tools, double time, double dt, double dt_mean) {
+  Poses<dim> all;
   const double dt_before = 2.0 * dt_mean - dt;
   double fastest = 0.0;
-  for (std::size_t t = 0; t < tools.size(); ++t) {
+  for (const ToolIndex t : tools.indices()) {
     const Tool<dim>& tool = tools[t];
     Pose<dim> pose;
     if (tool.drive) {
@@ -57,10 +56,9 @@ std::vector<Pose<dim>> ToolMotions<dim>::predict(const std::vector<Tool<dim>>& t
 }
 
 template<int dim>
-std::vector<Reaction<dim>> ToolMotions<dim>::reactions(const std::vector<Tool<dim>>& tools,
-                                                       const std::vector<Pose<dim>>& poses) const {
-  std::vector<Reaction<dim>> all(tools.size());
-  for (std::size_t t = 0; t < tools.size(); ++t) {
+ReactionsOfTools<dim> ToolMotions<dim>::reactions(const Tools<dim>& tools, const Poses<dim>& poses) const {
+  ReactionsOfTools<dim> all(tools.size());
+  for (const ToolIndex t : tools.indices()) {
     if (tools[t].drive) all[t].inverse = tools[t].drive->free / tools[t].drive->mass;
     all[t].position = poses[t].end;
     all[t].velocity = poses[t].velocity;
@@ -68,9 +66,8 @@ std::vector<Reaction<dim>> ToolMotions<dim>::reactions(const std::vector<Tool<di
   return all;
 }
 
-template<int dim>
-void ToolMotions<dim>::accept(const std::vector<Tool<dim>>& tools, const std::vector<Pose<dim>>& poses) {
-  for (std::size_t t = 0; t < tools.size(); ++t) {
+template<int dim> void ToolMotions<dim>::accept(const Tools<dim>& tools, const Poses<dim>& poses) {
+  for (const ToolIndex t : tools.indices()) {
     if (!tools[t].drive) continue;
     Body& body = body_[t];
     body.work += 0.5 * body.impulse.dot(poses[t].before + poses[t].velocity);
@@ -89,9 +86,9 @@ Vec<dim> ToolMotions<dim>::velocity(const Tool<dim>& tool, std::size_t t, double
   return tool.drive ? body_[t].velocity : tool.motion.velocity_at(time);
 }
 
-template<int dim> DriveEnergy ToolMotions<dim>::energy(const std::vector<Tool<dim>>& tools) const {
+template<int dim> DriveEnergy ToolMotions<dim>::energy(const Tools<dim>& tools) const {
   DriveEnergy sum;
-  for (std::size_t t = 0; t < tools.size(); ++t) {
+  for (const ToolIndex t : tools.indices()) {
     if (!tools[t].drive) continue;
     sum.kinetic += 0.5 * tools[t].drive->mass * body_[t].velocity.squaredNorm();
     sum.work += body_[t].work;

@@ -16,6 +16,8 @@ template<int dim> struct Pose {
   double recovery = 0.0; ///< m/s, half the speed of the fastest tool
 };
 
+template<int dim> using Poses = IndexedVector<ToolIndex, Pose<dim>>;
+
 /// What free tools hold and have received, J/m^(3−dim).
 struct DriveEnergy {
   double kinetic = 0.0; ///< Σ ½ M V² at t_{n−½}
@@ -27,22 +29,21 @@ struct DriveEnergy {
 template<int dim> class ToolMotions {
 public:
   ToolMotions() = default;
-  explicit ToolMotions(const std::vector<Tool<dim>>& tools);
+  explicit ToolMotions(const Tools<dim>& tools);
 
   /// Poses of the step [time, time + dt] without contact; dt_mean = (Δt₁ + Δt₂)/2.
-  std::vector<Pose<dim>> predict(const std::vector<Tool<dim>>& tools, double time, double dt, double dt_mean);
+  Poses<dim> predict(const Tools<dim>& tools, double time, double dt, double dt_mean);
   /// How tools answer impulses: not at all where their motion is prescribed.
-  std::vector<Reaction<dim>> reactions(const std::vector<Tool<dim>>& tools,
-                                       const std::vector<Pose<dim>>& poses) const;
+  ReactionsOfTools<dim> reactions(const Tools<dim>& tools, const Poses<dim>& poses) const;
   /// Takes over the motion of free tools, with contact, and books the work of their forces.
-  void accept(const std::vector<Tool<dim>>& tools, const std::vector<Pose<dim>>& poses);
+  void accept(const Tools<dim>& tools, const Poses<dim>& poses);
 
   /// Displacement since t = 0, m, of the tool of index t; `time` is that of the present state for free ones.
   Vec<dim> displacement(const Tool<dim>& tool, std::size_t t, double time) const;
   /// Velocity, m/s: prescribed at `time`, of free tools at t_{n−½}.
   Vec<dim> velocity(const Tool<dim>& tool, std::size_t t, double time) const;
   /// At t_{n−½}: the force of contact at t_n, which would carry it on, is known only with the next step.
-  DriveEnergy energy(const std::vector<Tool<dim>>& tools) const;
+  DriveEnergy energy(const Tools<dim>& tools) const;
 
   void archive(Archive& archive, std::size_t t);
 
@@ -52,7 +53,7 @@ private:
     Vec<dim> impulse = Vec<dim>::Zero(); ///< N s/m^(3−dim), of the force in the step in hand
     double work = 0.0;                   ///< J/m^(3−dim)
   };
-  std::vector<Body> body_; ///< [tool]; unused where motion is prescribed
+  IndexedVector<ToolIndex, Body> body_; ///< unused where motion is prescribed
 };
 
 extern template class ToolMotions<2>;

@@ -50,23 +50,23 @@ std::int32_t part_in(const CutTools& tools, const CutSheet& sheet, double from, 
 
 /// Nodes of the longest boundary of a part, in order, and whether the facet that leaves each is new.
 struct Loop {
-  std::vector<std::int32_t> node;
+  std::vector<NodeIndex> node;
   std::vector<char> fracture;
 };
 Loop outline_of(const CutSheet& sheet, std::int32_t part) {
-  std::vector<std::int32_t> leaving(sheet.position.size(), -1);
+  IndexedVector<NodeIndex, std::int32_t> leaving(sheet.position.size(), -1);
   for (std::size_t f = 0; f < sheet.facets.size(); ++f)
-    leaving[index_of(sheet.facets[f].node[0])] = static_cast<std::int32_t>(f);
-  std::vector<char> seen(sheet.position.size(), 0);
+    leaving[sheet.facets[f].node[0]] = as<std::int32_t>(f);
+  IndexedVector<NodeIndex, char> seen(sheet.position.size(), 0);
   Loop longest;
   double most = -1.0;
   for (const Facet<2>& first : sheet.facets) {
-    if (seen[index_of(first.node[0])] || sheet.part[index_of(first.node[0])] != part) continue;
+    if (seen[first.node[0]] || sheet.part[index_of(first.node[0])] != part) continue;
     Loop loop;
     double length = 0.0;
-    for (std::int32_t i = first.node[0]; !seen[index_of(i)];) {
-      const Facet<2>& facet = sheet.facets[index_of(leaving[index_of(i)])];
-      seen[index_of(i)] = 1;
+    for (NodeIndex i = first.node[0]; !seen[i];) {
+      const Facet<2>& facet = sheet.facets[index_of(leaving[i])];
+      seen[i] = 1;
       loop.node.push_back(i);
       loop.fracture.push_back(facet.piece == sheet.fracture_piece);
       length += (sheet.position[index_of(facet.node[1])] - sheet.position[index_of(i)]).norm();
@@ -103,7 +103,7 @@ ShearedFace measure_side(const Cut& cut, const CutTools& tools, const CutSheet& 
     const Loop loop = outline_of(sheet, part);
     FaceOutline outline;
     outline.fracture = loop.fracture;
-    for (const std::int32_t i : loop.node)
+    for (const NodeIndex i : loop.node)
       outline.point.emplace_back(outwards * across(tools, sheet.position[index_of(i)]),
                                  into * along(tools, sheet.position[index_of(i)]));
     FaceRules rules;
@@ -180,7 +180,7 @@ std::vector<char> nodes_on_planes(const Supports<2>& supports, const Vec2& direc
   std::vector<char> on(nodes, 0);
   for (const Support<2>& support : supports.list())
     if (support.kind == Support<2>::Kind::symmetry && std::abs(support.direction.dot(direction)) < 1e-6)
-      for (const std::int32_t i : support.nodes) on[index_of(i)] = 1;
+      for (const NodeIndex i : support.nodes) on[index_of(i)] = 1;
   return on;
 }
 

@@ -67,7 +67,7 @@ public:
     std::vector<std::int32_t> number(position.size(), -1);
     for (std::size_t i = 0; i < position.size(); ++i) {
       if (root[i] == i) {
-        number[i] = static_cast<std::int32_t>(list_.size());
+        number[i] = as<std::int32_t>(list_.size());
         list_.emplace_back();
       }
       of_node_.push_back(number[root[i]]);
@@ -98,7 +98,7 @@ public:
   std::vector<Support<2>> pins() const {
     struct Best {
       double gain = 0.0;
-      std::int32_t node = 0;
+      NodeIndex node{};
       Vec2 direction{0, 0};
       Mode felt = Mode::Zero();
     };
@@ -111,8 +111,7 @@ public:
         const auto part = index_of(of_node_[i]);
         for (const Vec2& direction : {Vec2(1, 0), Vec2(0, 1)}) {
           const Mode felt = left[part] * list_[part].felt(position_[i], direction);
-          if (felt.norm() > best[part].gain)
-            best[part] = {felt.norm(), static_cast<std::int32_t>(i), direction, felt};
+          if (felt.norm() > best[part].gain) best[part] = {felt.norm(), as<NodeIndex>(i), direction, felt};
         }
       }
       for (std::size_t part = 0; part < best.size(); ++part) {
@@ -177,7 +176,7 @@ Springback springback(const StressedBody& body) {
     if (support.kind == Support<2>::Kind::symmetry) held.push_back(support);
   const Parts parts(op, position, Supports<2>(held, n));
   const std::vector<Support<2>> pins = parts.pins();
-  const auto first_pin = static_cast<std::int32_t>(held.size());
+  const auto first_pin = as<std::int32_t>(held.size());
   held.insert(held.end(), pins.begin(), pins.end());
   const Supports<2> supports(std::move(held), n);
 

@@ -19,11 +19,10 @@ double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
   return (a + s * d - x).norm();
 }
 
-std::int32_t nearest_node(const Cloud<2>& cloud, const Vec2& x) {
-  std::int32_t best = 0;
-  for (std::int32_t i = 1; i < cloud.nodes(); ++i)
-    if ((cloud.position[index_of(i)] - x).squaredNorm() < (cloud.position[index_of(best)] - x).squaredNorm())
-      best = i;
+NodeIndex nearest_node(const Cloud<2>& cloud, const Vec2& x) {
+  NodeIndex best{};
+  for (const NodeIndex i : cloud.position.indices())
+    if ((cloud.position[i] - x).squaredNorm() < (cloud.position[best] - x).squaredNorm()) best = i;
   return best;
 }
 
@@ -38,12 +37,11 @@ double CrackTip::angle(const Vec2& x) const {
   return std::atan2(l.y(), l.x());
 }
 
-double CrackTip::angle_of_node(std::int32_t i, const Vec2& x) const {
-  if (face[index_of(i)] != 0) {
+double CrackTip::angle_of_node(NodeIndex i, const Vec2& x) const {
+  if (face[i] != 0) {
     // Beyond a kink the faces leave the line θ = ±π; the side still tells which way round to go.
     const double theta = angle(x);
-    return std::abs(theta) > 0.5 * std::numbers::pi ? std::copysign(std::abs(theta), face[index_of(i)])
-                                                    : theta;
+    return std::abs(theta) > 0.5 * std::numbers::pi ? std::copysign(std::abs(theta), face[i]) : theta;
   }
   return angle(x);
 }
@@ -68,9 +66,9 @@ std::array<FacetPoint, 4> facet_points(const CrackTip& tip, const FacetLoad& fac
 }
 
 std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPath>& cracks) {
-  std::vector<bool> twinned(index_of(cloud.nodes()), false);
+  IndexedVector<NodeIndex, bool> twinned(index_of(cloud.nodes()), false);
   for (const auto& pair : cloud.twins)
-    for (const std::int32_t i : pair) twinned[index_of(i)] = true;
+    for (const NodeIndex i : pair) twinned[i] = true;
   std::vector<CrackTip> tips;
   for (const CrackPath& crack : cracks) {
     double length = 0.0;
@@ -84,11 +82,11 @@ std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPa
       tip.name = crack.tip_names[last ? 1 : 0];
       tip.crack = crack.name;
       tip.node = nearest_node(cloud, end);
-      tip.position = cloud.position[index_of(tip.node)];
+      tip.position = cloud.position[tip.node];
       if ((tip.position - end).norm() > 1e-6 * length)
         throw GeometryError(fmt::format("the crack '{}' ends at ({:g}, {:g}) m, where there is no node",
                                         crack.name, end.x(), end.y()));
-      if (twinned[index_of(tip.node)]) continue; // a mouth
+      if (twinned[tip.node]) continue; // a mouth
       tip.direction = (end - before).normalized();
       tip.straight = (end - before).norm();
       tip.face.assign(index_of(cloud.nodes()), 0);
@@ -96,17 +94,17 @@ std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPa
       double edges = 0.0;
       for (const Facet<2>& facet : cloud.facets) {
         const std::string& piece = cloud.piece_names[index_of(facet.piece)];
-        const Vec2 &a = cloud.position[index_of(facet.node[0])], &b = cloud.position[index_of(facet.node[1])];
+        const Vec2 &a = cloud.position[facet.node[0]], &b = cloud.position[facet.node[1]];
         if (!is_face(piece, crack.name)) {
           tip.clearance = std::min(tip.clearance, distance_to_segment(tip.position, a, b));
           continue;
         }
-        for (const std::int32_t i : facet.node) {
+        for (const NodeIndex i : facet.node) {
           if (i == tip.node) {
             edges += 0.5;
             tip.spacing += 0.5 * (b - a).norm();
           } else {
-            tip.face[index_of(i)] = static_cast<std::int8_t>((piece.back() == '+') == last ? 1 : -1);
+            tip.face[i] = static_cast<std::int8_t>((piece.back() == '+') == last ? 1 : -1);
           }
         }
       }

@@ -22,14 +22,14 @@ struct CrackPath {
 struct CrackTip {
   std::string name;
   std::string crack; ///< name of the crack it belongs to
-  std::int32_t node = -1;
-  Vec2 position{0, 0};           ///< m
-  Vec2 direction{1, 0};          ///< unit vector, tangent to the crack and away from it
-  double half_length = 0.0;      ///< m, a: half the length of a crack with two tips, the whole of an open one
-  double straight = 0.0;         ///< m, length of the straight piece that ends here
-  double clearance = 0.0;        ///< m, to the nearest boundary that is not this crack
-  double spacing = 0.0;          ///< m, mean distance to the neighbours on the crack
-  std::vector<std::int8_t> face; ///< [node] +1, −1: on the face θ = +π, −π; 0 elsewhere
+  NodeIndex node = NodeIndex::none;
+  Vec2 position{0, 0};      ///< m
+  Vec2 direction{1, 0};     ///< unit vector, tangent to the crack and away from it
+  double half_length = 0.0; ///< m, a: half the length of a crack with two tips, the whole of an open one
+  double straight = 0.0;    ///< m, length of the straight piece that ends here
+  double clearance = 0.0;   ///< m, to the nearest boundary that is not this crack
+  double spacing = 0.0;     ///< m, mean distance to the neighbours on the crack
+  IndexedVector<NodeIndex, std::int8_t> face; ///< +1, −1: on the face θ = +π, −π; 0 elsewhere
 
   /// Position in the frame of the tip.
   Vec2 local(const Vec2& x) const {
@@ -38,12 +38,12 @@ struct CrackTip {
   }
   /// Polar angle of a point of the domain; nodes on the faces need angle_of_node.
   double angle(const Vec2& x) const;
-  double angle_of_node(std::int32_t i, const Vec2& x) const;
+  double angle_of_node(NodeIndex i, const Vec2& x) const;
 };
 
 /// A traction on a boundary facet, uniform along it.
 struct FacetLoad {
-  std::array<std::int32_t, 2> node;
+  std::array<NodeIndex, 2> node;
   Vec2 from{0, 0}, to{0, 0}; ///< m, of these nodes; material on the left
   Vec2 traction{0, 0};       ///< Pa
 };

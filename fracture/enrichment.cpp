@@ -85,9 +85,9 @@ Layout lay_out(const Cloud<2>& cloud, const Approximation<2>& base, const std::v
   layout.enriched.assign(nodes, false);
   layout.tip_distance.assign(nodes, 1e9);
   layout.columns = cloud.nodes();
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+  for (const NodeIndex i : cloud.position.indices())
     for (std::size_t t = 0; t < tips.size(); ++t) {
-      const Vec2& x = cloud.position[index_of(i)];
+      const Vec2& x = cloud.position[i];
       const double r = (x - tips[t].position).norm();
       layout.tip_distance[index_of(i)] = std::min(layout.tip_distance[index_of(i)], r / tips[t].spacing);
       if (r > radius[t] || radius[t] <= 0.0) continue;
@@ -112,7 +112,7 @@ struct Rows {
   EnrichedOperators& result;
   DiscreteOperators<2>& op = result.operators;
 
-  void entry(std::int32_t column, double value, const Vec2& b) {
+  void entry(NodeIndex column, double value, const Vec2& b) {
     op.node.push_back(column);
     op.value.push_back(value);
     op.gradient[0].push_back(b.x());
@@ -144,7 +144,7 @@ Vec2 centroid(const CellGeometry<2>& cells, std::size_t cell) {
 /// Functions and gradients at the points of one cell.
 struct Sample {
   QuadraturePoint point;
-  std::vector<std::int32_t> node;
+  std::vector<NodeIndex> node;
   std::vector<double> value;
   std::vector<Vec2> gradient;
 };
@@ -158,7 +158,7 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
   for (const QuadraturePoint& point : points) area += point.weight;
   const double to_volume = op.volume[cell] / area;
   std::vector<Sample> samples;
-  std::map<std::int32_t, Vec2> correction; // V b − ∫ ∇φ, then per volume
+  std::map<NodeIndex, Vec2> correction; // V b − ∫ ∇φ, then per volume
   for (auto e = index_of(op.row_begin[cell]); e < index_of(op.row_begin[cell + 1]); ++e)
     correction[op.node[e]] = op.volume[cell] * Vec2(op.gradient[0][e], op.gradient[1][e]);
   for (QuadraturePoint point : points) {
@@ -177,7 +177,7 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
   for (auto& [node, sum] : correction) sum /= op.volume[cell];
 
   for (const Sample& sample : samples) {
-    std::map<std::int32_t, std::pair<double, Vec2>> phi;
+    std::map<NodeIndex, std::pair<double, Vec2>> phi;
     for (const auto& [node, constant] : correction) phi[node] = {0.0, constant};
     for (std::size_t k = 0; k < sample.node.size(); ++k) {
       phi[sample.node[k]].first = sample.value[k];
@@ -194,7 +194,7 @@ void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& t
         for (std::size_t k = 0; k < branch_count; ++k) {
           const Vec2 slope = dF[k].x() * tip.direction + dF[k].y() * left_normal(tip.direction);
           const double shifted = F[k] - function.shift[k];
-          rows.entry(function.column + static_cast<std::int32_t>(k), sample.value[j] * shifted,
+          rows.entry(as<NodeIndex>(index_of(function.column) + k), sample.value[j] * shifted,
                      sample.gradient[j] * shifted + sample.value[j] * slope);
         }
       }
@@ -212,7 +212,7 @@ void make_consistent(const Cloud<2>& cloud, const std::vector<CrackTip>& tips,
   for (const auto& function : functions)
     for (const Facet<2>& facet : cloud.facets) {
       if (facet.node[0] != function.node && facet.node[1] != function.node) continue;
-      const Vec2 &a = cloud.position[index_of(facet.node[0])], &b = cloud.position[index_of(facet.node[1])];
+      const Vec2 &a = cloud.position[facet.node[0]], &b = cloud.position[facet.node[1]];
       const Vec2 outward = -left_normal(b - a).normalized();
       const FacetLoad load{facet.node, a, b, outward};
       for (const FacetPoint& point : facet_points(tips[function.tip], load)) {
@@ -267,9 +267,8 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
   op.nodes = layout.columns;
   op.row_begin.push_back(0);
   for (std::size_t i = 0; i < index_of(cloud.nodes()); ++i) {
-    const bool at_tip = std::any_of(tips.begin(), tips.end(), [&](const CrackTip& tip) {
-      return tip.node == static_cast<std::int32_t>(i);
-    });
+    const bool at_tip = std::any_of(tips.begin(), tips.end(),
+                                    [&](const CrackTip& tip) { return tip.node == as<NodeIndex>(i); });
     try {
       integrate_cell(base, tips, layout, i,
                      fan(base.cells, i, cloud.position[i], at_tip,
@@ -292,7 +291,7 @@ EnrichedOperators enrich(const Cloud<2>& cloud, const Approximation<2>& base,
 }
 
 int EnrichedOperators::enriched_nodes() const {
-  std::set<std::int32_t> nodes;
+  std::set<NodeIndex> nodes;
   for (const Function& function : functions) nodes.insert(function.node);
   return static_cast<int>(nodes.size());
 }

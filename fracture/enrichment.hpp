@@ -28,7 +28,7 @@ struct EnrichedOperators {
 
   /// The functions of one node and tip: columns `column` to `column + 3`.
   struct Function {
-    std::int32_t node;
+    NodeIndex node;
     std::size_t tip;
     std::array<double, branch_count> shift; ///< F_k(x_J), √m
     std::int32_t column;

@@ -14,7 +14,7 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
   NodeState<dim>& node = state_.node;
   std::vector<std::int32_t> facets;
   for (const Facet<dim>& facet : conditions_.cloud.facets) {
-    facets.insert(facets.end(), facet.node.begin(), facet.node.end());
+    for (const NodeIndex i : facet.node) facets.push_back(as<std::int32_t>(i));
     facets.push_back(facet.piece);
   }
   std::size_t n = node.size();
@@ -25,7 +25,7 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
     conditions_.cloud.facets.clear();
     for (std::size_t at = 0; at + dim < facets.size(); at += dim + 1) {
       Facet<dim> facet;
-      std::copy_n(facets.begin() + static_cast<std::ptrdiff_t>(at), dim, facet.node.begin());
+      for (std::size_t a = 0; a < dim; ++a) facet.node[a] = as<NodeIndex>(facets[at + a]);
       facet.piece = facets[at + dim];
       conditions_.cloud.facets.push_back(facet);
     }

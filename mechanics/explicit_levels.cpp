@@ -28,9 +28,9 @@ template<int dim> void ExplicitSolver<dim>::set_levels(typename LocalSteps<dim>:
     std::vector<bool> finest(state_.node.size(), false);
     if (conditions_.contact.active() || !conditions_.loads.empty())
       for (const Facet<dim>& facet : conditions_.cloud.facets)
-        for (const std::int32_t i : facet.node) finest[index_of(i)] = true;
+        for (const NodeIndex i : facet.node) finest[index_of(i)] = true;
     for (const auto& held : conditions_.supports.prescribed()) finest[index_of(held.node)] = true;
-    for (const std::int32_t i : conditions_.ties.nodes()) finest[index_of(i)] = true;
+    for (const NodeIndex i : conditions_.ties.nodes()) finest[index_of(i)] = true;
     local_.set_levels(std::move(level), approximation_.mechanics, approximation_.links, finest);
   } else {
     local_.set_one_level(state_.point.size(), state_.node.size());

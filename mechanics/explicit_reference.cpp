@@ -132,7 +132,7 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   const auto points = index_of(op.points);
   node.mass = op.node_volume();
   for (std::size_t i = 0; i < node.mass.size(); ++i) {
-    const plasticity::Material& material = body().material_of_node(i);
+    const plasticity::Material& material = body().material_of_node(as<NodeIndex>(i));
     node.mass[i] *= material.density;
     node.heat_capacity[i] = node.mass[i] * material.specific_heat;
   }
@@ -140,7 +140,7 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
   interpolate<dim>(op, node.temperature, point.temperature, 0, points);
   if (std::any_of(node.strength.begin(), node.strength.end(), [](double s) { return s != 1.0; }))
     interpolate<dim>(op, node.strength, point.strength, 0, points);
-  for (std::size_t p = 0; p < points; ++p) point.material[p] = node.material[op.first_node(p)];
+  for (std::size_t p = 0; p < points; ++p) point.material[p] = node.material[index_of(op.first_node(p))];
   set_moduli();
   for (std::size_t p = 0; p < points; ++p)
     if (const auto& hardening = body().material_of(p).hardening)

@@ -166,7 +166,7 @@ template<int dim> BodyView<dim> ExplicitSolver<dim>::body() const {
 
 template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
   const DiscreteOperators<dim>& op = approximation_.mechanics;
-  const std::size_t node = op.first_node(point);
+  const std::size_t node = index_of(op.first_node(point));
   std::array<double, dim> place;
   for (std::size_t k = 0; k < dim; ++k) place[k] = state_.node.position[k][node];
   throw DivergenceError(

@@ -60,11 +60,11 @@ void interpolate(const DiscreteOperators<dim>& operators, const Field& nodal, Fi
 }
 
 template<int dim>
-double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, std::size_t node) {
-  if (operators.nodal) return at_points[node];
+double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, NodeIndex node) {
+  if (operators.nodal) return at_points[index_of(point_of(node))];
   double sum = 0.0, weight = 0.0;
-  for (std::size_t e = index_of(operators.col_begin[node]); e < index_of(operators.col_begin[node + 1]);
-       ++e) {
+  const std::size_t j = index_of(node);
+  for (std::size_t e = index_of(operators.col_begin[j]); e < index_of(operators.col_begin[j + 1]); ++e) {
     sum += operators.weighted_value[e] * at_points[index_of(operators.point[e])];
     weight += operators.weighted_value[e];
   }
@@ -73,7 +73,8 @@ double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_
 
 template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators, const Field& at_points) {
   Field nodal(index_of(operators.nodes));
-  for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = average_at_node(operators, at_points, i);
+  for (std::size_t i = 0; i < nodal.size(); ++i)
+    nodal[i] = average_at_node(operators, at_points, as<NodeIndex>(i));
   return nodal;
 }
 
@@ -165,7 +166,7 @@ template<> double jacobian<3>(const Fields<9>& f, std::size_t p) {
                                           Fields<tensor_size<dim>>&, std::size_t, std::size_t);              \
   template void interpolate<dim>(const DiscreteOperators<dim>&, const Field&, Field&, std::size_t,           \
                                  std::size_t);                                                               \
-  template double average_at_node<dim>(const DiscreteOperators<dim>&, const Field&, std::size_t);            \
+  template double average_at_node<dim>(const DiscreteOperators<dim>&, const Field&, NodeIndex);              \
   template Field average_at_nodes<dim>(const DiscreteOperators<dim>&, const Field&);                         \
   template void copy_stress_columns<dim>(const Fields<tensor_size<dim>>&, ColumnStress<dim>&);               \
   template void subtract_internal_force<dim>(const DiscreteOperators<dim>&, const ColumnStress<dim>&,        \

@@ -21,7 +21,7 @@ void interpolate(const DiscreteOperators<dim>& operators, const Field& nodal, Fi
 /// Mean at node J of a field of stress points, weighted by the volume each shares with it; the field itself
 /// for nodal operators.
 template<int dim>
-double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, std::size_t node);
+double average_at_node(const DiscreteOperators<dim>& operators, const Field& at_points, NodeIndex node);
 template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators, const Field& at_points);
 
 /// Stresses as forces are made from them.

@@ -192,8 +192,8 @@ template<int dim> void LocalSteps<dim>::split(const StabilisationLinks<dim>& lin
       part.weight.push_back(coarser > 0 ? links.weight[e] * (1 << coarser) : links.weight[e]);
       if (coarser > 0) has_coarse_[i / block] = true;
     }
-    own_.begin[i + 1] = static_cast<std::int32_t>(own_.neighbour.size());
-    coarse_.begin[i + 1] = static_cast<std::int32_t>(coarse_.neighbour.size());
+    own_.begin[i + 1] = as<std::int32_t>(own_.neighbour.size());
+    coarse_.begin[i + 1] = as<std::int32_t>(coarse_.neighbour.size());
   }
 }
 
@@ -227,9 +227,10 @@ template<int dim> int LocalSteps<dim>::activity(int s) const {
 }
 
 template<int dim>
-double LocalSteps<dim>::window(const DiscreteOperators<dim>& op, std::size_t node, int activity) const {
+double LocalSteps<dim>::window(const DiscreteOperators<dim>& op, NodeIndex node, int activity) const {
   double sum = 0.0, whole = 0.0;
-  for (std::size_t e = index_of(op.col_begin[node]); e < index_of(op.col_begin[node + 1]); ++e) {
+  const std::size_t j = index_of(node);
+  for (std::size_t e = index_of(op.col_begin[j]); e < index_of(op.col_begin[j + 1]); ++e) {
     double square = 0.0;
     for (std::size_t k = 0; k < dim; ++k) square += op.weighted_gradient[k][e] * op.weighted_gradient[k][e];
     const double share = std::sqrt(square);

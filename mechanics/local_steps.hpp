@@ -107,7 +107,7 @@ public:
     return highest_ == 0 ? 1.0 : static_cast<double>(1 << kick_[node / block]);
   }
   /// Over how many finest steps the forces reach a node at an activity, as a mean over its points.
-  double window(const DiscreteOperators<dim>& operators, std::size_t node, int activity) const;
+  double window(const DiscreteOperators<dim>& operators, NodeIndex node, int activity) const;
 
 private:
   struct Due {

@@ -7,8 +7,8 @@ namespace {
 
 /// Norm of what an entry does to its point: |F⁻ᵀ b|, of revolution with the hoop entry h
 /// (mechanics/stable_step.hpp).
-template<int dim>
-CNEM_INLINE double block_norm(const double* inverse, const SparseRows<dim>& rows, const double* hoop,
+template<int dim, class Index>
+CNEM_INLINE double block_norm(const double* inverse, const SparseRows<dim, Index>& rows, const double* hoop,
                               std::int32_t e) {
   auto b = Small<dim>::load(inverse) * rows.weight[0][e];
   for (int k = 1; k < dim; ++k) b += Small<dim>::load(inverse + k * dim) * rows.weight[k][e];
@@ -59,7 +59,8 @@ SpectralMaximum spectral_rows(const SpectralView<dim>& view, const double* modul
     const double* inverse = view.inverse + SpectralView<dim>::stride * p;
     double sum = 0.0;
     for (std::int32_t e = view.rows.begin[p]; e < view.rows.begin[p + 1]; ++e)
-      sum += block_norm<dim>(inverse, view.rows, view.hoop, e) * view.transfer[view.rows.index[e]];
+      sum += block_norm<dim>(inverse, view.rows, view.hoop, e) *
+             view.transfer[static_cast<std::ptrdiff_t>(view.rows.index[e])];
     const double value = modulus[p] * sum;
     if (!(value <= best.value)) best = {value, p};
     if (value != value) break; // NaN: whoever asked must see it

@@ -8,7 +8,7 @@
 namespace cnem::CNEM_ISA {
 
 template<int dim>
-void deformation_rows(const SparseRows<dim>& rows, const double* position, double* const* deformation,
+void deformation_rows(const OperatorRows<dim>& rows, const double* position, double* const* deformation,
                       std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t p = begin; p < end; ++p) {
     Small<dim> column[dim];
@@ -23,7 +23,7 @@ void deformation_rows(const SparseRows<dim>& rows, const double* position, doubl
 }
 
 template<int dim>
-void force_columns(const SparseRows<dim>& columns, const double* stress, double* const* force,
+void force_columns(const OperatorColumns<dim>& columns, const double* stress, double* const* force,
                    std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t j = begin; j < end; ++j) {
     auto f = Small<dim>::zero();
@@ -66,7 +66,8 @@ EdgeEnergy plane_edge_defect(const LinkRows& links, double alpha, const double* 
     const std::int32_t last = links.begin[i + 1];
     for (std::int32_t e = links.begin[i]; e < last; e += 2) {
       const bool single = e + 1 == last;
-      const std::ptrdiff_t a = links.neighbour[e], b = single ? i : links.neighbour[e + 1];
+      const auto a = static_cast<std::ptrdiff_t>(links.neighbour[e]);
+      const auto b = single ? i : static_cast<std::ptrdiff_t>(links.neighbour[e + 1]);
       const double *other_a = record + stride * a, *other_b = record + stride * b;
       const Pair dX = load_pair(reference + 2 * a, reference + 2 * b) - X;
       const Pair dX0 = first_of_each(dX), dX1 = second_of_each(dX);
@@ -114,7 +115,7 @@ EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume
     }
     auto pull = Small<dim>::zero();
     for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e) {
-      const std::ptrdiff_t j = links.neighbour[e];
+      const auto j = static_cast<std::ptrdiff_t>(links.neighbour[e]);
       const double* other = record + stride * j;
       const auto dX = Small<dim>::load(reference + dim * j) - X;
       auto r = Small<dim>::load(position + dim * j) - x;
@@ -233,10 +234,10 @@ ViscousSums viscous_stress(const ViscousPoints<dim>& points, double quadratic, d
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \
-  template void deformation_rows<dim>(const SparseRows<dim>&, const double*, double* const*, std::ptrdiff_t, \
-                                      std::ptrdiff_t);                                                       \
-  template void force_columns<dim>(const SparseRows<dim>&, const double*, double* const*, std::ptrdiff_t,    \
-                                   std::ptrdiff_t);                                                          \
+  template void deformation_rows<dim>(const OperatorRows<dim>&, const double*, double* const*,               \
+                                      std::ptrdiff_t, std::ptrdiff_t);                                       \
+  template void force_columns<dim>(const OperatorColumns<dim>&, const double*, double* const*,               \
+                                   std::ptrdiff_t, std::ptrdiff_t);                                          \
   template EdgeEnergy edge_defect<dim>(const LinkRows&, double, const double*, const double*, const double*, \
                                        const double*, double*, double* const*, std::ptrdiff_t,               \
                                        std::ptrdiff_t);                                                      \

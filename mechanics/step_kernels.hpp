@@ -15,7 +15,7 @@ namespace cnem {
 /// Neighbour links of the stabilisation, each in the lists of both its ends.
 struct LinkRows {
   const std::int32_t* begin;
-  const std::int32_t* neighbour;
+  const NodeIndex* neighbour;
   const double* weight;
 };
 
@@ -55,11 +55,12 @@ template<int dim> struct ViscousPoints {
 /// What the bound on the highest frequency reads; hoop entries are null but of revolution.
 template<int dim> struct SpectralView {
   static constexpr int stride = dim * dim + 2;
-  SparseRows<dim> rows, columns; ///< b_pJ; V_p b_pJ
-  const double* hoop;            ///< of `rows`
-  const double* weighted_hoop;   ///< of `columns`
-  double* inverse;               ///< [point][stride] F⁻ᵀ by columns, det F, 1/F_θθ
-  double* transfer;              ///< [node] s_J
+  OperatorRows<dim> rows;       ///< b_pJ
+  OperatorColumns<dim> columns; ///< V_p b_pJ
+  const double* hoop;           ///< of `rows`
+  const double* weighted_hoop;  ///< of `columns`
+  double* inverse;              ///< [point][stride] F⁻ᵀ by columns, det F, 1/F_θθ
+  double* transfer;             ///< [node] s_J
 };
 struct SpectralMaximum {
   double value;
@@ -73,10 +74,10 @@ struct ViscousSums {
 #define CNEM_STEP_KERNELS(isa)                                                                               \
   namespace isa {                                                                                            \
   template<int dim>                                                                                          \
-  void deformation_rows(const SparseRows<dim>& rows, const double* position, double* const* deformation,     \
+  void deformation_rows(const OperatorRows<dim>& rows, const double* position, double* const* deformation,   \
                         std::ptrdiff_t begin, std::ptrdiff_t end);                                           \
   template<int dim>                                                                                          \
-  void force_columns(const SparseRows<dim>& columns, const double* stress, double* const* force,             \
+  void force_columns(const OperatorColumns<dim>& columns, const double* stress, double* const* force,        \
                      std::ptrdiff_t begin, std::ptrdiff_t end);                                              \
   template<int dim>                                                                                          \
   EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* reference, \

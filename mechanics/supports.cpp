@@ -16,7 +16,7 @@ Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
 
 template<int dim> void Supports<dim>::resample(const Resampling<dim>& change) {
   for (Support<dim>& support : support_)
-    support.nodes = renumbered(change, std::span<const std::int32_t>(support.nodes),
+    support.nodes = renumbered(change, std::span<const NodeIndex>(support.nodes),
                                std::span<const std::int32_t>(support.pieces));
   resolve(change.cloud.position.size());
 }
@@ -24,11 +24,11 @@ template<int dim> void Supports<dim>::resample(const Resampling<dim>& change) {
 template<int dim> void Supports<dim>::resolve(std::size_t nodes) {
   prescribed_.clear();
   constraints_.clear();
-  std::vector<std::vector<Prescribed>> held(nodes);
+  IndexedVector<NodeIndex, std::vector<Prescribed>> held(nodes);
   for (std::size_t s = 0; s < support_.size(); ++s) {
     const bool moving = support_[s].kind != Support<dim>::Kind::symmetry;
-    for (const std::int32_t node : support_[s].nodes) {
-      auto& mine = held[index_of(node)];
+    for (const NodeIndex node : support_[s].nodes) {
+      auto& mine = held[node];
       Vec<dim> rest = support_[s].direction;
       bool oblique_to_moving = false;
       for (const Prescribed& other : mine) {
@@ -44,17 +44,17 @@ template<int dim> void Supports<dim>::resolve(std::size_t nodes) {
             "prescribed motion that are equal or at right angles",
             support_[s].name, support_[index_of(mine.front().support)].name));
       if (rest.norm() < 1e-9) continue;
-      mine.push_back({node, static_cast<std::int32_t>(s), rest.normalized()});
+      mine.push_back({node, as<std::int32_t>(s), rest.normalized()});
     }
   }
-  for (std::size_t i = 0; i < nodes; ++i) {
+  for (const NodeIndex i : held.indices()) {
     if (held[i].empty()) continue;
     Mat<dim> free = Mat<dim>::Identity();
     for (const Prescribed& p : held[i]) {
       free -= p.direction * p.direction.transpose();
       prescribed_.push_back(p);
     }
-    constraints_.push_back({static_cast<std::int32_t>(i), free});
+    constraints_.push_back({i, free});
   }
 }
 

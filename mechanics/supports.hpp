@@ -21,7 +21,7 @@ template<int dim> struct Support {
   Kind kind = Kind::symmetry;
   Vec<dim> direction; ///< unit vector of the prescribed component
   TimeTable value;    ///< m/s or m along `direction`; unused for symmetry
-  std::vector<std::int32_t> nodes;
+  std::vector<NodeIndex> nodes;
   std::vector<std::int32_t> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
 };
 
@@ -49,7 +49,7 @@ public:
 
   /// A direction in which a node is held; those of one node are orthonormal.
   struct Prescribed {
-    std::int32_t node;
+    NodeIndex node;
     std::int32_t support; ///< index into list()
     Vec<dim> direction;
   };

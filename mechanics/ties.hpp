@@ -1,6 +1,7 @@
 #pragma once
 // Nodes that move as one: the two faces of a bonded interface, the two sides of a periodic strip.
 #include "core/fields/state.hpp"
+#include "core/indexed.hpp"
 #include "core/vec.hpp"
 
 #include <array>
@@ -18,16 +19,17 @@ namespace cnem {
 template<int dim> class Ties {
 public:
   Ties() = default;
-  /// Pairs that share a node are merged. position: of all nodes of the cloud at the start, m.
-  Ties(const std::vector<std::array<std::int32_t, 2>>& pairs, const std::vector<Vec<dim>>& position);
+  /// Pairs that share a node are merged. position: at the start, m.
+  Ties(const std::vector<std::array<NodeIndex, 2>>& pairs,
+       const IndexedVector<NodeIndex, Vec<dim>>& position);
 
   bool empty() const { return node_.empty(); }
-  /// [node] number of its group, −1: free; empty when there are no ties.
-  const std::vector<std::int32_t>& group() const { return group_; }
+  /// The number of its group, −1: free; empty when there are no ties.
+  const IndexedVector<NodeIndex, std::int32_t>& group() const { return group_; }
   /// Tied nodes, group by group.
-  const std::vector<std::int32_t>& nodes() const { return node_; }
+  const std::vector<NodeIndex>& nodes() const { return node_; }
   /// The list with all nodes tied to its members, each once, given ones first.
-  std::vector<std::int32_t> with_partners(std::vector<std::int32_t> nodes) const;
+  std::vector<NodeIndex> with_partners(std::vector<NodeIndex> nodes) const;
 
   /// Every group's values become Σ w v / Σ w.
   void share(const Field& weight, Field& value) const;
@@ -36,10 +38,10 @@ public:
   double share_motion(const Field& mass, double dt, Fields<dim>& velocity, Fields<dim>& position) const;
 
 private:
-  std::vector<std::int32_t> begin_; ///< [group + 1]
-  std::vector<std::int32_t> node_;  ///< members, in increasing order
-  std::vector<Vec<dim>> offset_;    ///< [member] m, from the first member of the group
-  std::vector<std::int32_t> group_; ///< [node] −1: free
+  std::vector<std::int32_t> begin_;              ///< [group + 1]
+  std::vector<NodeIndex> node_;                  ///< members, in increasing order
+  std::vector<Vec<dim>> offset_;                 ///< [member] m, from the first member of the group
+  IndexedVector<NodeIndex, std::int32_t> group_; ///< −1: free
 };
 
 extern template class Ties<2>;

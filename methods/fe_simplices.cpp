@@ -19,12 +19,13 @@ CellGeometry<dim> simplex_cells(const Cloud<dim>& cloud, std::span<const voronoi
   cells.index.reserve((dim + 1) * simplices.size());
   cells.begin.push_back(0);
   for (const auto& corner : simplices) {
-    cells.index.insert(cells.index.end(), corner.begin(), corner.end());
+    for (const NodeIndex i : corner) cells.index.push_back(as<std::int32_t>(i));
     cells.begin.push_back(static_cast<std::int32_t>(cells.index.size()));
   }
   cells.vertex_begin.resize(cloud.position.size() + 1);
   std::iota(cells.vertex_begin.begin(), cells.vertex_begin.end(), 0);
-  cells.vertex_node.assign(cells.vertex_begin.begin(), cells.vertex_begin.end() - 1);
+  cells.vertex_node.reserve(cloud.position.size());
+  for (const NodeIndex i : cloud.position.indices()) cells.vertex_node.push_back(i);
   cells.vertex_weight.assign(cloud.position.size(), 1.0);
   return cells;
 }

@@ -23,8 +23,8 @@ Field distances(const Cloud<2>& cloud, const CellComplex<2>& cells) {
   Field length(cloud.position.size(), 0.0), distance(length);
   for (const InnerFace<2>& face : cells.interior) {
     const double l = face.normal().norm();
-    const double d = (cloud.position[index_of(face.cell[1])] - cloud.position[index_of(face.cell[0])]).norm();
-    for (const std::int32_t i : face.cell) {
+    const double d = (cloud.position[face.cell[1]] - cloud.position[face.cell[0]]).norm();
+    for (const NodeIndex i : face.cell) {
       length[index_of(i)] += l;
       distance[index_of(i)] += l * d;
     }
@@ -41,7 +41,7 @@ public:
   /// Nodes nearer than `support`, the node itself among them, in increasing order. Every node within a circle
   /// is reached by Delaunay edges within it (each has a neighbour nearer to the centre), unless a wall is
   /// between.
-  const std::vector<std::int32_t>& around(std::int32_t centre, double support) {
+  const std::vector<NodeIndex>& around(NodeIndex centre, double support) {
     constexpr double detour =
         1.5; // paths along edges of clouds are up to 1.42 (squares) of the straight line
     reached_ = {{centre, 0.0}};
@@ -61,15 +61,13 @@ public:
 
 private:
   struct Reached {
-    std::int32_t node;
+    NodeIndex node;
     double path; ///< m, shortest along edges
   };
 
-  double straight(std::int32_t i, std::int32_t j) const {
-    return (cloud_.position[index_of(j)] - cloud_.position[index_of(i)]).norm();
-  }
+  double straight(NodeIndex i, NodeIndex j) const { return (cloud_.position[j] - cloud_.position[i]).norm(); }
 
-  void relax(std::int32_t centre, double support, double longest, const Reached& from, std::int32_t node) {
+  void relax(NodeIndex centre, double support, double longest, const Reached& from, NodeIndex node) {
     if (straight(centre, node) >= support) return;
     const double path = from.path + straight(from.node, node);
     if (path > longest) return;
@@ -88,12 +86,13 @@ private:
   const StabilisationLinks<2>& links_;
   std::vector<Reached> reached_;
   std::vector<std::size_t> open_; ///< of reached_, whose neighbours are to be looked at
-  std::vector<std::int32_t> found_;
+  std::vector<NodeIndex> found_;
 };
 
 /// Rows of consecutive nodes.
 struct RowBlock {
-  std::vector<std::int32_t> node, size;
+  std::vector<NodeIndex> node;
+  std::vector<std::int32_t> size;
   Fields<2> gradient;
 };
 
@@ -103,10 +102,10 @@ public:
       : cloud_(cloud), volume_(volume), kernel_(kernel) {}
 
   /// Appends the row of a node; false when its neighbours are too few or too much in one line.
-  bool append(std::int32_t i, const std::vector<std::int32_t>& around, double support, RowBlock& rows) const {
+  bool append(NodeIndex i, const std::vector<NodeIndex>& around, double support, RowBlock& rows) const {
     constexpr double narrowest = 1e-3; // of moments, beyond which rounding would show in linear fields
     Mat2 moment = Mat2::Zero();
-    for (const std::int32_t j : around)
+    for (const NodeIndex j : around)
       if (j != i) moment += weight(i, j, support) * to(i, j) * to(i, j).transpose();
     const double half = 0.5 * moment.trace();
     if (!(moment.determinant() > narrowest * half * half)) return false;
@@ -114,7 +113,7 @@ public:
     const std::size_t first = rows.node.size();
     std::size_t own = first;
     Vec2 sum = Vec2::Zero();
-    for (const std::int32_t j : around) {
+    for (const NodeIndex j : around) {
       if (j == i) own = rows.node.size();
       const Vec2 b = j == i ? Vec2(0, 0) : Vec2(weight(i, j, support) * correction * to(i, j));
       rows.node.push_back(j);
@@ -122,15 +121,13 @@ public:
       sum += b;
     }
     for (std::size_t k = 0; k < 2; ++k) rows.gradient[k][own] = -sum[static_cast<Eigen::Index>(k)];
-    rows.size.push_back(static_cast<std::int32_t>(rows.node.size() - first));
+    rows.size.push_back(as<std::int32_t>(rows.node.size() - first));
     return true;
   }
 
 private:
-  Vec2 to(std::int32_t i, std::int32_t j) const {
-    return cloud_.position[index_of(j)] - cloud_.position[index_of(i)];
-  }
-  double weight(std::int32_t i, std::int32_t j, double support) const {
+  Vec2 to(NodeIndex i, NodeIndex j) const { return cloud_.position[j] - cloud_.position[i]; }
+  double weight(NodeIndex i, NodeIndex j, double support) const {
     const double r = to(i, j).norm();
     return -volume_[index_of(j)] * kernel_slope(kernel_, r, support) / r;
   }
@@ -149,7 +146,7 @@ DiscreteOperators<2> corrected_gradients(const Cloud<2>& cloud, const Field& vol
     constexpr double growth = 1.25;
     Neighbourhood neighbourhood(cloud, links);
     for (std::size_t k = begin; k < end; ++k) {
-      const auto i = static_cast<std::int32_t>(k);
+      const auto i = as<NodeIndex>(k);
       double reach = support[k];
       int attempt = 0;
       while (!rows_of.append(i, neighbourhood.around(i, reach), reach, rows[begin / block_size])) {

@@ -57,7 +57,7 @@ template<int dim> double largest_value(const Snapshot<dim>& shot, const std::str
 }
 
 template<int dim>
-double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::span<const std::int32_t> node,
+double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::span<const NodeIndex> node,
                       std::span<const double> weight) {
   const FieldInfo<dim>& e = field_info<dim>(name);
   const DiscreteOperators<dim>& op = shot.approximation.mechanics;
@@ -67,13 +67,12 @@ double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::s
     return sum;
   }
   const Field values = own_values(shot, e);
-  for (std::size_t k = 0; k < node.size(); ++k)
-    sum += weight[k] * average_at_node<dim>(op, values, index_of(node[k]));
+  for (std::size_t k = 0; k < node.size(); ++k) sum += weight[k] * average_at_node<dim>(op, values, node[k]);
   return sum;
 }
 
 template<int dim> double enclosed_measure(const Snapshot<dim>& shot) {
-  return cnem::enclosed_measure(shot.cloud.facets, [&](std::int32_t node) {
+  return cnem::enclosed_measure(shot.cloud.facets, [&](NodeIndex node) {
     return vector_at<dim>(shot.state.node.position, index_of(node));
   });
 }
@@ -95,9 +94,9 @@ template Field values_at_nodes(const Snapshot<2>&, const std::string&);
 template Field values_at_nodes(const Snapshot<3>&, const std::string&);
 template double largest_value(const Snapshot<2>&, const std::string&);
 template double largest_value(const Snapshot<3>&, const std::string&);
-template double weighted_value(const Snapshot<2>&, const std::string&, std::span<const std::int32_t>,
+template double weighted_value(const Snapshot<2>&, const std::string&, std::span<const NodeIndex>,
                                std::span<const double>);
-template double weighted_value(const Snapshot<3>&, const std::string&, std::span<const std::int32_t>,
+template double weighted_value(const Snapshot<3>&, const std::string&, std::span<const NodeIndex>,
                                std::span<const double>);
 template double enclosed_measure(const Snapshot<2>&);
 template double enclosed_measure(const Snapshot<3>&);

@@ -22,7 +22,7 @@ template<int dim> double largest_value(const Snapshot<dim>& shot, const std::str
 /// Σ weight · value of a field over some nodes, as of values_at_nodes(), without laying out the field where
 /// it lives at these nodes.
 template<int dim>
-double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::span<const std::int32_t> node,
+double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::span<const NodeIndex> node,
                       std::span<const double> weight);
 
 /// Area or volume enclosed by the boundary as it stands, m^dim.

@@ -41,16 +41,16 @@ template<> PointWeights PointLocator<2>::weights(const Vec2& x) const {
 template<> PointWeights PointLocator<3>::weights(const Vec3& x) const {
   constexpr double outside = -0.05;
   const CellGeometry<3>& cells = structure_->cells;
-  PointWeights best{std::vector<std::int32_t>(4), std::vector<double>(4)};
+  PointWeights best{std::vector<NodeIndex>(4), std::vector<double>(4)};
   double depth = -std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
-    std::array<std::int32_t, 4> corner;
+    std::array<NodeIndex, 4> corner;
     for (std::size_t k = 0; k < 4; ++k)
       corner[k] = cells.vertex_node[index_of(cells.index[index_of(cells.begin[c]) + k])];
-    const Vec3& first = cloud_.position[index_of(corner[0])];
+    const Vec3& first = cloud_.position[corner[0]];
     Mat<3> edges;
     for (std::size_t k = 1; k < 4; ++k)
-      edges.col(static_cast<Eigen::Index>(k) - 1) = cloud_.position[index_of(corner[k])] - first;
+      edges.col(static_cast<Eigen::Index>(k) - 1) = cloud_.position[corner[k]] - first;
     const Vec3 share = edges.inverse() * (x - first);
     const double least = std::min(share.minCoeff(), 1.0 - share.sum());
     if (!(least > depth)) continue;
@@ -68,7 +68,7 @@ template<int dim> PointWeights PointLocator<dim>::nearest_node(const Vec<dim>& x
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < cloud_.position.size(); ++i)
     if ((cloud_.position[i] - x).squaredNorm() < (cloud_.position[nearest] - x).squaredNorm()) nearest = i;
-  return {{static_cast<std::int32_t>(nearest)}, {1.0}};
+  return {{as<NodeIndex>(nearest)}, {1.0}};
 }
 
 template class PointLocator<2>;

@@ -11,7 +11,7 @@ namespace cnem::results {
 
 /// A point as a weighted mean of nodes; weights sum to 1 and reproduce its position.
 struct PointWeights {
-  std::vector<std::int32_t> node;
+  std::vector<NodeIndex> node;
   std::vector<double> weight; ///< –
 };
 

@@ -32,7 +32,7 @@ enum class Lattice { square, hexagonal };
 /// that are travelled both ways (cracks) get nodes at bitwise equal positions.
 inline void add_loop(Cloud<2>& cloud, const std::vector<Vec2>& corners, double spacing) {
   if (cloud.piece_names.empty()) cloud.piece_names = {"boundary"};
-  const auto first = cloud.nodes();
+  const NodeIndex first = cloud.position.next();
   for (std::size_t c = 0; c < corners.size(); ++c) {
     const Vec2 a = corners[c], b = corners[(c + 1) % corners.size()];
     const int n = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing - 1e-9)));
@@ -42,15 +42,16 @@ inline void add_loop(Cloud<2>& cloud, const std::vector<Vec2>& corners, double s
       cloud.position.push_back(k == 0 ? a : x);
     }
   }
-  for (int i = first; i < cloud.nodes(); ++i)
-    cloud.facets.push_back({{i, i + 1 < cloud.nodes() ? i + 1 : first}, 0});
+  for (std::size_t i = index_of(first); i < cloud.position.size(); ++i)
+    cloud.facets.push_back(
+        {{as<NodeIndex>(i), i + 1 < cloud.position.size() ? as<NodeIndex>(i + 1) : first}, 0});
 }
 
 /// Declares coincident boundary nodes as twins.
 inline void declare_twins(Cloud<2>& cloud) {
-  std::map<std::pair<double, double>, std::int32_t> seen;
-  for (int i = 0; i < cloud.nodes(); ++i) {
-    const Vec2& x = cloud.position[static_cast<std::size_t>(i)];
+  std::map<std::pair<double, double>, NodeIndex> seen;
+  for (const NodeIndex i : cloud.position.indices()) {
+    const Vec2& x = cloud.position[i];
     const auto [it, fresh] = seen.emplace(std::pair(x.x(), x.y()), i);
     if (!fresh) cloud.twins.push_back({it->second, i});
   }
@@ -61,8 +62,7 @@ inline double area(const Cloud<2>& cloud) {
   double twice = 0.0;
   const Vec2 origin = cloud.position[0];
   for (const auto& f : cloud.facets)
-    twice += cross(cloud.position[static_cast<std::size_t>(f.node[0])] - origin,
-                   cloud.position[static_cast<std::size_t>(f.node[1])] - origin);
+    twice += cross(cloud.position[f.node[0]] - origin, cloud.position[f.node[1]] - origin);
   return 0.5 * twice;
 }
 
@@ -75,8 +75,8 @@ inline double distance_to_segment(const Vec2& x, const Vec2& a, const Vec2& b) {
 inline bool inside(const Cloud<2>& cloud, const Vec2& x, double margin) {
   double winding = 0.0;
   for (const auto& f : cloud.facets) {
-    const Vec2 a = cloud.position[static_cast<std::size_t>(f.node[0])];
-    const Vec2 b = cloud.position[static_cast<std::size_t>(f.node[1])];
+    const Vec2 a = cloud.position[f.node[0]];
+    const Vec2 b = cloud.position[f.node[1]];
     if (distance_to_segment(x, a, b) < margin) return false;
     winding += std::atan2(cross(a - x, b - x), (a - x).dot(b - x));
   }
@@ -170,15 +170,14 @@ inline std::vector<NamedCloud> domains() {
 
 /// Closed loops that the boundary consists of.
 inline int loops(const Cloud<2>& cloud) {
-  const auto u = [](std::int32_t i) { return static_cast<std::size_t>(i); };
-  std::vector<std::int32_t> next(cloud.position.size(), -1);
-  for (const Facet<2>& facet : cloud.facets) next[u(facet.node[0])] = facet.node[1];
-  std::vector<char> seen(next.size(), 0);
+  IndexedVector<NodeIndex, NodeIndex> next(cloud.position.size(), NodeIndex::none);
+  for (const Facet<2>& facet : cloud.facets) next[facet.node[0]] = facet.node[1];
+  IndexedVector<NodeIndex, char> seen(next.size(), 0);
   int count = 0;
   for (const Facet<2>& facet : cloud.facets) {
-    if (seen[u(facet.node[0])]) continue;
+    if (seen[facet.node[0]]) continue;
     ++count;
-    for (std::int32_t i = facet.node[0]; !seen[u(i)]; i = next[u(i)]) seen[u(i)] = 1;
+    for (NodeIndex i = facet.node[0]; !seen[i]; i = next[i]) seen[i] = 1;
   }
   return count;
 }

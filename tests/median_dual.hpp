@@ -21,16 +21,16 @@ inline CellComplex<3> median_dual(const Cloud<3>& cloud, const Tetrahedra& tetra
                                         {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
   CellComplex<3> cells;
   cells.volume.assign(cloud.position.size(), 0.0);
-  std::vector<std::array<std::int32_t, 2>> edges;
+  std::vector<std::array<NodeIndex, 2>> edges;
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     std::array<V, 4> x;
-    for (std::size_t k = 0; k < 4; ++k) x[k] = cloud.position[index_of(tetrahedra[t][k])];
-    for (const std::int32_t i : tetrahedra[t]) cells.volume[index_of(i)] += 0.25 * measure<3>(x);
+    for (std::size_t k = 0; k < 4; ++k) x[k] = cloud.position[tetrahedra[t][k]];
+    for (const NodeIndex i : tetrahedra[t]) cells.volume[index_of(i)] += 0.25 * measure<3>(x);
     const V centre = (x[0] + x[1] + x[2] + x[3]) / 4.0;
     for (const auto& [a, b, c, d] : orders) {
       const V middle = (x[a] + x[b]) / 2.0, one = (x[a] + x[b] + x[c]) / 3.0,
               other = (x[a] + x[b] + x[d]) / 3.0;
-      const std::array<std::int32_t, 2> edge{tetrahedra[t][a], tetrahedra[t][b]};
+      const std::array<NodeIndex, 2> edge{tetrahedra[t][a], tetrahedra[t][b]};
       const auto in = static_cast<std::int32_t>(t);
       cells.interior.push_back({edge, {in, in}, {middle, one, centre}});
       cells.interior.push_back({edge, {in, in}, {middle, centre, other}});
@@ -82,21 +82,21 @@ public:
     }
     return best > -1e-9;
   }
-  std::span<const std::int32_t> nodes() const { return node_; }
+  std::span<const NodeIndex> nodes() const { return node_; }
   std::span<const double> values() const { return value_; }
 
 private:
   std::array<double, 4> barycentric(const Vec<3>& x, const voronoi::Simplex<3>& corner) const {
-    const Vec<3>& origin = cloud_.position[index_of(corner[0])];
+    const Vec<3>& origin = cloud_.position[corner[0]];
     Mat<3> edges;
-    for (int k = 0; k < 3; ++k) edges.col(k) = cloud_.position[index_of(corner[index_of(k + 1)])] - origin;
+    for (int k = 0; k < 3; ++k) edges.col(k) = cloud_.position[corner[index_of(k + 1)]] - origin;
     const Vec<3> place = edges.inverse() * (x - origin);
     return {1.0 - place.sum(), place[0], place[1], place[2]};
   }
 
   const Cloud<3>& cloud_;
   const Tetrahedra& tetrahedra_;
-  CellLists around_;
+  CellLists<std::int32_t> around_;
   voronoi::Simplex<3> node_{};
   std::array<double, 4> value_{};
 };

@@ -20,7 +20,7 @@ std::array<double, dim> areas(Space space, const Facet<dim>& facet, const Fields
 
 template<int dim> void ThermalBoundaries<dim>::resample(const Resampling<dim>& change) {
   for (FixedTemperature& fixed : fixed_)
-    fixed.nodes = renumbered(change, std::span<const std::int32_t>(fixed.nodes),
+    fixed.nodes = renumbered(change, std::span<const NodeIndex>(fixed.nodes),
                              std::span<const std::int32_t>(fixed.pieces));
   resample(change.cloud);
 }
@@ -82,7 +82,7 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
 
 template<int dim> double HeatContacts<dim>::fastest_decay(const Field& heat_capacity) const {
   // Gershgorin: a node's row of exchange is twice what it gives; one node may stand in many
-  std::map<std::int32_t, double> given;
+  std::map<NodeIndex, double> given;
   for (const ToolConductance& tool : tools) given[tool.node] += tool.conductance * tool.area;
   for (const BodyConductance<dim>& body : bodies) {
     given[body.node] += 2.0 * body.conductance * body.area;
@@ -99,7 +99,7 @@ double ThermalBoundaries<dim>::hold(double time, const Field& heat_capacity, Fie
   double heat = 0.0;
   for (const FixedTemperature& fixed : fixed_) {
     const double value = fixed.value(time);
-    for (const std::int32_t node : fixed.nodes) {
+    for (const NodeIndex node : fixed.nodes) {
       const auto i = index_of(node);
       heat += heat_capacity[i] * (value - temperature[i]);
       temperature[i] = value;
@@ -123,7 +123,7 @@ double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& pos
     for (std::size_t f = 0; f < interface.facets.size(); ++f) {
       const auto area = areas<dim>(space_, interface.facets[f], position);
       for (std::size_t end = 0; end < dim; ++end)
-        for (const std::int32_t node : {interface.facets[f].node[end], interface.opposite[f][end]})
+        for (const NodeIndex node : {interface.facets[f].node[end], interface.opposite[f][end]})
           worst = std::max(worst, 4.0 * interface.conductance * area[end] / heat_capacity[index_of(node)]);
     }
   return worst;

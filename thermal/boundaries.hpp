@@ -17,7 +17,7 @@ namespace cnem {
 struct FixedTemperature {
   std::string name;
   TimeTable value;
-  std::vector<std::int32_t> nodes;
+  std::vector<NodeIndex> nodes;
   std::vector<std::int32_t> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
 };
 
@@ -40,13 +40,13 @@ template<int dim> struct Convection : ConvectionLaw { std::vector<Facet<dim>> fa
 template<int dim> struct ContactConductance {
   std::string name;
   double conductance = 0.0;
-  std::vector<Facet<dim>> facets;                      ///< of one face
-  std::vector<std::array<std::int32_t, dim>> opposite; ///< [facet] the nodes of the other face at its ends
+  std::vector<Facet<dim>> facets;                   ///< of one face
+  std::vector<std::array<NodeIndex, dim>> opposite; ///< [facet] the nodes of the other face at its ends
 };
 
 /// Exchange of one boundary node with a tool it touches, over the given area (m^(dim−1)).
 struct ToolConductance {
-  std::int32_t node;
+  NodeIndex node;
   double conductance; ///< W/(m² K)
   double area;
   double tool_temperature; ///< K
@@ -54,11 +54,11 @@ struct ToolConductance {
 
 /// Exchange of one boundary node with a place on a facet of the workpiece that it touches.
 template<int dim> struct BodyConductance {
-  std::int32_t node;
-  std::array<std::int32_t, dim> facet; ///< its nodes
-  std::array<double, dim> weight;      ///< of these
-  double conductance;                  ///< W/(m² K)
-  double area;                         ///< m^(dim−1)
+  NodeIndex node;
+  std::array<NodeIndex, dim> facet; ///< its nodes
+  std::array<double, dim> weight;   ///< of these
+  double conductance;               ///< W/(m² K)
+  double area;                      ///< m^(dim−1)
 };
 
 /// What touches in a step.

@@ -51,7 +51,7 @@ void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Fie
 namespace {
 
 template<int dim>
-void flux(const SparseRows<dim>& rows, const double* hoop, const Field& position, const Field& temperature,
+void flux(const OperatorRows<dim>& rows, const double* hoop, const Field& position, const Field& temperature,
           const Field& conductivity, Field& flux, std::size_t begin, std::size_t end) {
   CNEM_ON_ACTIVE_ISA(conduction_flux(rows, hoop, position.data(), temperature.data(), conductivity.data(),
                                      flux.data(), static_cast<std::ptrdiff_t>(begin),
@@ -59,7 +59,7 @@ void flux(const SparseRows<dim>& rows, const double* hoop, const Field& position
 }
 
 template<int dim>
-void subtract_flow(const SparseRows<dim>& columns, const Field& flux, Field& flow, std::size_t begin,
+void subtract_flow(const OperatorColumns<dim>& columns, const Field& flux, Field& flow, std::size_t begin,
                    std::size_t end) {
   CNEM_ON_ACTIVE_ISA(conduction_flow(columns, flux.data(), flow.data(), static_cast<std::ptrdiff_t>(begin),
                                      static_cast<std::ptrdiff_t>(end)));
@@ -78,7 +78,7 @@ template<int dim> bool Conduction<dim>::linear_triangles() const {
 
 namespace {
 
-void triangle_heat(const std::vector<std::int32_t>& triangle, const Field& position, const Field& temperature,
+void triangle_heat(const std::vector<NodeIndex>& triangle, const Field& position, const Field& temperature,
                    const Field& conductivity, Field& heat, std::size_t begin, std::size_t end) {
   CNEM_ON_ACTIVE_ISA(conduction_triangles(
       triangle.data(), position.data(), temperature.data(), conductivity.data(), heat.data(),
@@ -105,7 +105,7 @@ template<int dim> void Conduction<dim>::number_corners() {
     const bool clockwise = bx[first] * by[first + 1] - by[first] * bx[first + 1] < 0.0;
     if (clockwise) std::swap(triangle_[first + 1], triangle_[first + 2]);
     for (std::size_t e = first; e < first + 3; ++e)
-      corner_[index_of(next[index_of(triangle_[e])]++)] = static_cast<std::int32_t>(e);
+      corner_[index_of(next[index_of(triangle_[e])]++)] = as<std::int32_t>(e);
   }
 }
 

@@ -25,7 +25,7 @@ private:
   void add_triangle_flow(const Field& position, const Field& temperature, Field& flow);
 
   const DiscreteOperators<dim>* operators_ = nullptr;
-  std::vector<std::int32_t> triangle_; ///< [3 · triangle + corner] node, counter-clockwise
+  std::vector<NodeIndex> triangle_;  ///< [3 · triangle + corner] node, counter-clockwise
   std::vector<std::int32_t> corner_; ///< [column entry] 3 · triangle + corner; empty but for plane triangles
   Field conductivity_;
   Field flux_; ///< [row][k] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned; of plane

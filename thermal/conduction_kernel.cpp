@@ -6,7 +6,7 @@
 namespace cnem::CNEM_ISA {
 
 template<int dim>
-void conduction_flux(const SparseRows<dim>& rows, const double* hoop, const double* position,
+void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const double* position,
                      const double* temperature, const double* conductivity, double* flux,
                      std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t p = begin; p < end; ++p) {
@@ -14,7 +14,7 @@ void conduction_flux(const SparseRows<dim>& rows, const double* hoop, const doub
     double gradient[dim] = {}, stretch = hoop ? 0.0 : 1.0;
     for (int k = 0; k < dim; ++k) F[k] = Small<dim>::zero();
     for (std::int32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
-      const std::ptrdiff_t j = rows.index[e];
+      const auto j = static_cast<std::ptrdiff_t>(rows.index[e]);
       const auto x = Small<dim>::load(position + dim * j);
       if (hoop) stretch += hoop[e] * x[0];
       for (int k = 0; k < dim; ++k) {
@@ -31,8 +31,8 @@ void conduction_flux(const SparseRows<dim>& rows, const double* hoop, const doub
 }
 
 template<int dim>
-void conduction_flow(const SparseRows<dim>& columns, const double* flux, double* flow, std::ptrdiff_t begin,
-                     std::ptrdiff_t end) {
+void conduction_flow(const OperatorColumns<dim>& columns, const double* flux, double* flow,
+                     std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t j = begin; j < end; ++j) {
     double sum = 0.0;
     for (std::int32_t e = columns.begin[j]; e < columns.begin[j + 1]; ++e) {
@@ -43,11 +43,12 @@ void conduction_flow(const SparseRows<dim>& columns, const double* flux, double*
   }
 }
 
-void conduction_triangles(const std::int32_t* node, const double* position, const double* temperature,
+void conduction_triangles(const NodeIndex* node, const double* position, const double* temperature,
                           const double* conductivity, double* heat, std::ptrdiff_t begin,
                           std::ptrdiff_t end) {
   for (std::ptrdiff_t t = begin; t < end; ++t) {
-    const std::ptrdiff_t a = node[3 * t], b = node[3 * t + 1], c = node[3 * t + 2];
+    const auto a = static_cast<std::ptrdiff_t>(node[3 * t]), b = static_cast<std::ptrdiff_t>(node[3 * t + 1]),
+               c = static_cast<std::ptrdiff_t>(node[3 * t + 2]);
     const auto A = Small<2>::load(position + 2 * a), B = Small<2>::load(position + 2 * b),
                C = Small<2>::load(position + 2 * c);
     const Small<2> opposite_a = C - B, opposite_b = A - C, opposite_c = B - A;
@@ -72,9 +73,9 @@ void conduction_corners(const std::int32_t* first, const std::int32_t* corner, c
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \
-  template void conduction_flux<dim>(const SparseRows<dim>&, const double*, const double*, const double*,    \
+  template void conduction_flux<dim>(const OperatorRows<dim>&, const double*, const double*, const double*,  \
                                      const double*, double*, std::ptrdiff_t, std::ptrdiff_t);                \
-  template void conduction_flow<dim>(const SparseRows<dim>&, const double*, double*, std::ptrdiff_t,         \
+  template void conduction_flow<dim>(const OperatorColumns<dim>&, const double*, double*, std::ptrdiff_t,    \
                                      std::ptrdiff_t);
 CNEM_INSTANTIATE(2)
 CNEM_INSTANTIATE(3)

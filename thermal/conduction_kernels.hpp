@@ -1,22 +1,21 @@
 #pragma once
 // The two passes of conduction, one entry per instruction set; raw pointers only (cmake/cnem.cmake,
 // cnem_kernel). Vectors side by side (core/operators/side_by_side.hpp).
+#include "core/operators/sparse_rows.hpp"
+
 #include <cstddef>
-#include <cstdint>
 
 namespace cnem {
-
-template<int dim> struct SparseRows;
 
 #define CNEM_CONDUCTION_KERNELS(isa)                                                                         \
   namespace isa {                                                                                            \
   /* flux [point][k] = k J F⁻¹F⁻ᵀ ∇_X T; hoop [entry] of revolution, else null */                   \
   template<int dim>                                                                                          \
-  void conduction_flux(const SparseRows<dim>& rows, const double* hoop, const double* position,              \
+  void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const double* position,            \
                        const double* temperature, const double* conductivity, double* flux,                  \
                        std::ptrdiff_t begin, std::ptrdiff_t end);                                            \
   /* linear triangles: heat [triangle][3] into their nodes, from present positions alone */                  \
-  void conduction_triangles(const std::int32_t* node, const double* position, const double* temperature,     \
+  void conduction_triangles(const NodeIndex* node, const double* position, const double* temperature,        \
                             const double* conductivity, double* heat, std::ptrdiff_t begin,                  \
                             std::ptrdiff_t end);                                                             \
   /* flow += heat of the node's corners */                                                                   \
@@ -24,7 +23,7 @@ template<int dim> struct SparseRows;
                           double* flow, std::ptrdiff_t begin, std::ptrdiff_t end);                           \
   /* flow −= Σ V b · flux */                                                                             \
   template<int dim>                                                                                          \
-  void conduction_flow(const SparseRows<dim>& columns, const double* flux, double* flow,                     \
+  void conduction_flow(const OperatorColumns<dim>& columns, const double* flux, double* flow,                \
                        std::ptrdiff_t begin, std::ptrdiff_t end);                                            \
   }
 CNEM_CONDUCTION_KERNELS(baseline)

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace cnem::voronoi {
 
@@ -13,18 +12,18 @@ namespace {
 
 std::string describe_point(const Vec2& x) { return fmt::format("({:.9g}, {:.9g}) m", x.x(), x.y()); }
 
-const Vec2& at(const Cloud<2>& cloud, std::int32_t node) { return cloud.position[index_of(node)]; }
+const Vec2& at(const Cloud<2>& cloud, NodeIndex node) { return cloud.position[node]; }
 
-void check_node_index(const Cloud<2>& cloud, std::int32_t node, const std::string& who) {
-  if (node < 0 || node >= cloud.nodes())
-    throw GeometryError(
-        fmt::format("{} names node {}, but the cloud has nodes 0 to {}", who, node, cloud.nodes() - 1));
+void check_node_index(const Cloud<2>& cloud, NodeIndex node, const std::string& who) {
+  if (node < NodeIndex{} || node >= cloud.position.next())
+    throw GeometryError(fmt::format("{} names node {}, but the cloud has nodes 0 to {}", who, as<int>(node),
+                                    cloud.nodes() - 1));
 }
 
 } // namespace
 
-std::string describe_node(const Cloud<2>& cloud, std::int32_t node) {
-  return fmt::format("node {} at {}", node, describe_point(at(cloud, node)));
+std::string describe_node(const Cloud<2>& cloud, NodeIndex node) {
+  return fmt::format("node {} at {}", index_of(node), describe_point(at(cloud, node)));
 }
 
 std::string describe_facet(const Cloud<2>& cloud, std::int32_t facet) {
@@ -33,18 +32,18 @@ std::string describe_facet(const Cloud<2>& cloud, std::int32_t facet) {
                      describe_point(at(cloud, b)));
 }
 
-std::vector<std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+IndexedVector<NodeIndex, std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
+  for (const NodeIndex i : cloud.position.indices())
     if (!at(cloud, i).allFinite())
       throw GeometryError(fmt::format("{}: the position is not finite", describe_node(cloud, i)));
   if (cloud.facets.empty())
     throw GeometryError("empty domain: the cloud has no boundary facets, expected at least one closed loop");
 
   const auto n = index_of(cloud.nodes());
-  std::vector<std::int32_t> leaving(n, -1), arriving(n, -1);
-  const auto claim = [&](std::vector<std::int32_t>& of_node, std::int32_t node, std::int32_t facet,
+  IndexedVector<NodeIndex, std::int32_t> leaving(n, -1), arriving(n, -1);
+  const auto claim = [&](IndexedVector<NodeIndex, std::int32_t>& of_node, NodeIndex node, std::int32_t facet,
                          const char* verb) {
-    auto& slot = of_node[index_of(node)];
+    auto& slot = of_node[node];
     if (slot >= 0)
       throw GeometryError(
           fmt::format("boundary branches at {}: facets {} and {} both {} it, expected one (loops that touch "
@@ -58,14 +57,14 @@ std::vector<std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
     check_node_index(cloud, a, fmt::format("facet {}", f));
     check_node_index(cloud, b, fmt::format("facet {}", f));
     if (at(cloud, a) == at(cloud, b))
-      throw GeometryError(
-          fmt::format("{} has zero length (nodes {} and {})", describe_facet(cloud, facet), a, b));
+      throw GeometryError(fmt::format("{} has zero length (nodes {} and {})", describe_facet(cloud, facet),
+                                      index_of(a), index_of(b)));
     claim(leaving, a, facet, "leave");
     claim(arriving, b, facet, "arrive at");
   }
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    const bool leaves = leaving[index_of(i)] >= 0;
-    if (leaves != (arriving[index_of(i)] >= 0))
+  for (const NodeIndex i : cloud.position.indices()) {
+    const bool leaves = leaving[i] >= 0;
+    if (leaves != (arriving[i] >= 0))
       throw GeometryError(fmt::format("open boundary: at {} a facet {} but none {}, expected closed loops",
                                       describe_node(cloud, i), leaves ? "leaves" : "arrives",
                                       leaves ? "arrives" : "leaves"));
@@ -73,14 +72,14 @@ std::vector<std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
   return leaving;
 }
 
-std::vector<std::int32_t> twin_groups(const Cloud<2>& cloud) {
+IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<2>& cloud) {
   if (cloud.twins.empty()) return {};
-  std::vector<std::int32_t> parent(index_of(cloud.nodes()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t i) {
-    while (parent[index_of(i)] != i) {
-      auto& up = parent[index_of(i)];
-      i = up = parent[index_of(up)];
+  IndexedVector<NodeIndex, NodeIndex> parent(cloud.position.size());
+  for (const NodeIndex i : parent.indices()) parent[i] = i;
+  const auto root = [&](NodeIndex i) {
+    while (parent[i] != i) {
+      auto& up = parent[i];
+      i = up = parent[up];
     }
     return i;
   };
@@ -88,9 +87,9 @@ std::vector<std::int32_t> twin_groups(const Cloud<2>& cloud) {
     const auto& [a, b] = cloud.twins[t];
     check_node_index(cloud, a, fmt::format("twin pair {}", t));
     check_node_index(cloud, b, fmt::format("twin pair {}", t));
-    parent[index_of(root(a))] = root(b);
+    parent[root(a)] = root(b);
   }
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) parent[index_of(i)] = root(i);
+  for (const NodeIndex i : cloud.position.indices()) parent[i] = root(i);
   return parent;
 }
 
@@ -113,16 +112,16 @@ void throw_crossing(const Cloud<2>& cloud) {
 void throw_node_on_facet(const Cloud<2>& cloud, std::int32_t facet) {
   const auto& [a, b] = cloud.facets[index_of(facet)].node;
   const Vec2 along = at(cloud, b) - at(cloud, a);
-  std::int32_t nearest = -1;
+  NodeIndex nearest = NodeIndex::none;
   double best = 0.0;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+  for (const NodeIndex i : cloud.position.indices()) {
     const Vec2 r = at(cloud, i) - at(cloud, a);
     const double s = r.dot(along) / along.squaredNorm();
     if (s <= 0.0 || s >= 1.0 || r == along) continue;
     const double distance = std::abs(cross(along, r));
-    if (nearest < 0 || distance < best) nearest = i, best = distance;
+    if (!exists(nearest) || distance < best) nearest = i, best = distance;
   }
-  if (nearest < 0)
+  if (!exists(nearest))
     throw GeometryError(fmt::format("{} overlaps another facet", describe_facet(cloud, facet)));
   throw GeometryError(fmt::format("{} lies on {}, which is not its own: expected the facet to be split there "
                                   "or the node moved",

@@ -9,7 +9,7 @@
 namespace cnem::voronoi {
 
 /// "node 12 at (0.001, 0.002) m".
-std::string describe_node(const Cloud<2>& cloud, std::int32_t node);
+std::string describe_node(const Cloud<2>& cloud, NodeIndex node);
 
 /// "facet 7 from (0, 0) m to (1, 0) m".
 std::string describe_facet(const Cloud<2>& cloud, std::int32_t facet);
@@ -17,10 +17,10 @@ std::string describe_facet(const Cloud<2>& cloud, std::int32_t facet);
 /// The facet that leaves each node; −1 for interior nodes.
 /// Throws GeometryError for non-finite positions, twins or facets that name absent nodes, an empty boundary
 /// and loops that are open or branch.
-std::vector<std::int32_t> outgoing_facets(const Cloud<2>& cloud);
+IndexedVector<NodeIndex, std::int32_t> outgoing_facets(const Cloud<2>& cloud);
 
 /// Union of the declared twins: two nodes may coincide when their groups are the same. Empty without twins.
-std::vector<std::int32_t> twin_groups(const Cloud<2>& cloud);
+IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<2>& cloud);
 
 /// Throws the GeometryError that explains why facets cross. O(facets²): for the error path only.
 [[noreturn]] void throw_crossing(const Cloud<2>& cloud);

@@ -15,26 +15,26 @@ public:
         vertex_of_triangle_(mesh.node.size(), -1), vertex_of_crossing_(cells.crossing.size(), -1) {}
 
   CellGeometry<2> build() {
-    std::vector<bool> on_boundary(index_of(cloud_.nodes()), false);
-    for (const auto& facet : cloud_.facets) on_boundary[index_of(facet.node[0])] = true;
+    IndexedVector<NodeIndex, bool> on_boundary(index_of(cloud_.nodes()), false);
+    for (const auto& facet : cloud_.facets) on_boundary[facet.node[0]] = true;
     result_.index.reserve(7 * index_of(cloud_.nodes()));
     result_.vertex.reserve(mesh_.node.size() + 2 * cloud_.facets.size());
     result_.vertex_begin.push_back(0);
     result_.begin.push_back(0);
-    for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
-      add_cell(i, on_boundary[index_of(i)]);
+    for (const NodeIndex i : cloud_.position.indices()) {
+      add_cell(i, on_boundary[i]);
       result_.begin.push_back(static_cast<std::int32_t>(result_.index.size()));
     }
     return std::move(result_);
   }
 
 private:
-  void add_cell(std::int32_t node, bool on_boundary) {
-    const std::int32_t first = mesh_.triangle_of_node[index_of(node)];
+  void add_cell(NodeIndex node, bool on_boundary) {
+    const std::int32_t first = mesh_.triangle_of_node[node];
     std::int32_t t = first, k = 0;
     while (mesh_.node[index_of(t)][index_of(k)] != node) ++k;
     if (on_boundary) {
-      result_.index.push_back(new_vertex(cloud_.position[index_of(node)], {{node, 1.0}}));
+      result_.index.push_back(new_vertex(cloud_.position[node], {{node, 1.0}}));
       leave_wall(t, next_corner(next_corner(k)));
     }
     while (true) {
@@ -90,8 +90,8 @@ private:
     if (vertex >= 0) return vertex;
     const auto& [facet, s] = cells_.crossing[index_of(crossing)];
     const auto& [a, b] = cloud_.facets[index_of(facet)].node;
-    return vertex = new_vertex((1.0 - s) * cloud_.position[index_of(a)] + s * cloud_.position[index_of(b)],
-                               {{a, 1.0 - s}, {b, s}});
+    return vertex =
+               new_vertex((1.0 - s) * cloud_.position[a] + s * cloud_.position[b], {{a, 1.0 - s}, {b, s}});
   }
 
   std::int32_t centre_vertex(std::int32_t t) {
@@ -104,7 +104,7 @@ private:
     return vertex = new_vertex(x, {{nodes[0], weight[0]}, {nodes[1], weight[1]}, {nodes[2], weight[2]}});
   }
 
-  std::int32_t new_vertex(const Vec2& x, std::initializer_list<std::pair<std::int32_t, double>> weights) {
+  std::int32_t new_vertex(const Vec2& x, std::initializer_list<std::pair<NodeIndex, double>> weights) {
     result_.vertex.push_back(x);
     for (const auto& [node, weight] : weights) {
       result_.vertex_node.push_back(node);

@@ -35,7 +35,7 @@ public:
   }
 
 private:
-  const Vec2& at(std::int32_t node) const { return cloud_.position[index_of(node)]; }
+  const Vec2& at(NodeIndex node) const { return cloud_.position[node]; }
 
   /// The circumcentre of t is on the far side of the facet's line. For the triangle at the facet, and from
   /// there for each neighbour of a hidden triangle, this means hidden by the facet itself: the bisector of
@@ -46,7 +46,7 @@ private:
   }
 
   /// The part of the facet that belongs to `cell` ends at s.
-  void end_piece(std::int32_t facet, std::int32_t cell, double s0, double s1) {
+  void end_piece(std::int32_t facet, NodeIndex cell, double s0, double s1) {
     cells_.boundary.push_back({cell, facet, {{{s0}, {s1}}}});
     const auto& [a, b] = cloud_.facets[index_of(facet)].node;
     const Vec2 edge = at(b) - at(a);
@@ -56,7 +56,7 @@ private:
   /// Where the bisector of nodes i and j, which passes through the hidden `centre`, meets the facet. Both
   /// nodes are on the near side and the centre is beyond, so that this is always between the midpoint and the
   /// centre.
-  double crossing_parameter(std::int32_t facet, std::int32_t i, std::int32_t j, const Vec2& centre) const {
+  double crossing_parameter(std::int32_t facet, NodeIndex i, NodeIndex j, const Vec2& centre) const {
     const auto& [a, b] = cloud_.facets[index_of(facet)].node;
     const Vec2 edge = at(b) - at(a), middle = 0.5 * (at(i) + at(j));
     const double near = std::max(cross(edge, middle - at(a)), 0.0), beyond = -cross(edge, centre - at(a));
@@ -81,7 +81,7 @@ private:
     std::int32_t entry = 0;
     while (mesh_.facet[index_of(first)][index_of(entry)] != facet) ++entry;
     hide(first, facet);
-    std::int32_t owner = a;
+    NodeIndex owner = a;
     double s = 0.0;
     stack_ = {{first, next_corner(entry)}, {first, next_corner(next_corner(entry))}};
     while (!stack_.empty()) {
@@ -96,7 +96,7 @@ private:
         stack_.emplace_back(across, next_corner(next_corner(back)));
         continue;
       }
-      const std::int32_t to = mesh_.node[index_of(t)][index_of(next_corner(k))];
+      const NodeIndex to = mesh_.node[index_of(t)][index_of(next_corner(k))];
       const double end =
           std::clamp(crossing_parameter(facet, owner, to, circles_.centre[index_of(t)]), s, 1.0);
       cells_.hidden[index_of(cells_.hidden_of_triangle[index_of(t)])].crossing[index_of(k)] =
@@ -151,8 +151,8 @@ private:
           start = end_point(across, back);
         }
         const Vec2 end = end_point(t, k);
-        const std::int32_t i = mesh_.node[index_of(t)][index_of(next_corner(k))],
-                           j = mesh_.node[index_of(t)][index_of(next_corner(next_corner(k)))];
+        const NodeIndex i = mesh_.node[index_of(t)][index_of(next_corner(k))],
+                        j = mesh_.node[index_of(t)][index_of(next_corner(next_corner(k)))];
         cells_.interior.push_back({{i, j}, {across, t}, {start, end}});
         cells_.volume[index_of(i)] += 0.5 * cross(start - at(i), end - start);
         cells_.volume[index_of(j)] -= 0.5 * cross(start - at(j), end - start);
@@ -161,7 +161,7 @@ private:
   }
 
   void add_neighbours() {
-    std::vector<std::array<std::int32_t, 2>> edges;
+    std::vector<std::array<NodeIndex, 2>> edges;
     edges.reserve(3 * cloud_.position.size());
     for (std::size_t t = 0; t < mesh_.node.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k)
@@ -191,7 +191,7 @@ private:
 
 Cells constrained_cells(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles) {
   Cells cells = CellBuilder(cloud, mesh, circles).build();
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+  for (const NodeIndex i : cloud.position.indices())
     if (!(cells.volume[index_of(i)] > 0.0))
       throw GeometryError(
           fmt::format("the cell of {} has no area (V = {:.3g} m²): its neighbours are too close "

@@ -14,9 +14,9 @@ Circumcircles circumcircles(const Cloud<2>& cloud, const Triangulation& mesh) {
   circles.limit.resize(mesh.node.size());
   for (std::size_t t = 0; t < mesh.node.size(); ++t) {
     const auto& [i, j, k] = mesh.node[t];
-    const Vec2& p = cloud.position[index_of(i)];
-    const Vec2 a = cloud.position[index_of(j)] - p;
-    const Vec2 b = cloud.position[index_of(k)] - p;
+    const Vec2& p = cloud.position[i];
+    const Vec2 a = cloud.position[j] - p;
+    const Vec2 b = cloud.position[k] - p;
     const double aa = a.squaredNorm(), bb = b.squaredNorm();
     // The triangle is counter-clockwise (exact predicates), but its area may round to nothing.
     const double twice_area = std::max(cross(a, b), 4.0 * epsilon * std::max(aa, bb));

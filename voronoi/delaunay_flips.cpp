@@ -24,7 +24,7 @@ std::size_t place_in(const std::array<std::int32_t, 3>& values, std::int32_t val
 
 } // namespace
 
-void restore_delaunay(Triangulation& mesh, const std::vector<Vec2>& position) {
+void restore_delaunay(Triangulation& mesh, const IndexedVector<NodeIndex, Vec2>& position) {
   std::vector<std::int32_t> waiting(mesh.node.size());
   std::iota(waiting.rbegin(), waiting.rend(), 0);
   while (!waiting.empty()) {
@@ -35,12 +35,10 @@ void restore_delaunay(Triangulation& mesh, const std::vector<Vec2>& position) {
       if (o < 0) continue;
       const std::size_t k1 = (k + 1) % 3, k2 = (k + 2) % 3;
       const std::size_t m = place_in(mesh.neighbour[index_of(o)], t), m1 = (m + 1) % 3, m2 = (m + 2) % 3;
-      const std::int32_t p = mesh.node[index_of(t)][k], a = mesh.node[index_of(t)][k1],
-                         b = mesh.node[index_of(t)][k2];
-      const std::int32_t q = mesh.node[index_of(o)][m];
-      if (!opposite_angles_too_large(position[index_of(p)], position[index_of(a)], position[index_of(b)],
-                                     position[index_of(q)]))
-        continue;
+      const NodeIndex p = mesh.node[index_of(t)][k], a = mesh.node[index_of(t)][k1],
+                      b = mesh.node[index_of(t)][k2];
+      const NodeIndex q = mesh.node[index_of(o)][m];
+      if (!opposite_angles_too_large(position[p], position[a], position[b], position[q])) continue;
 
       // pab and qba become paq and pqb.
       const std::int32_t beyond_aq = mesh.neighbour[index_of(o)][m1],

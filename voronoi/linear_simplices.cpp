@@ -21,8 +21,8 @@ template<int dim> using Corners = std::array<Vec<dim>, dim + 1>;
 
 template<int dim> [[noreturn]] void throw_flat(const Cloud<dim>& cloud, const Simplex<dim>& simplex) {
   std::string places;
-  for (const std::int32_t i : simplex) {
-    const Vec<dim>& x = cloud.position[index_of(i)];
+  for (const NodeIndex i : simplex) {
+    const Vec<dim>& x = cloud.position[i];
     places += fmt::format(" ({:g})", fmt::join(x.begin(), x.end(), ", "));
   }
   if constexpr (dim == 2)
@@ -81,13 +81,13 @@ DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const
   for (std::size_t t = 0; t < count; ++t) {
     const Simplex<dim> corner = from_lowest<dim>(simplices[t]);
     Corners<dim> x;
-    for (std::size_t k = 0; k < corners; ++k) x[k] = cloud.position[index_of(corner[k])];
+    for (std::size_t k = 0; k < corners; ++k) x[k] = cloud.position[corner[k]];
     op.volume[t] = measure<dim>(x);
     op.row_begin[t] = static_cast<std::int32_t>(corners * t);
     for (std::size_t k = 0; k < corners; ++k) {
       const Vec<dim> b = -area_normal<dim>(opposite<dim>(x, k)) / (dim * op.volume[t]);
-      const auto place = index_of(
-          std::count_if(corner.begin(), corner.end(), [&](std::int32_t i) { return i < corner[k]; }));
+      const auto place =
+          index_of(std::count_if(corner.begin(), corner.end(), [&](NodeIndex i) { return i < corner[k]; }));
       const std::size_t e = corners * t + place;
       op.node[e] = corner[k];
       for (std::size_t c = 0; c < dim; ++c) op.gradient[c][e] = b[static_cast<Eigen::Index>(c)];
@@ -101,7 +101,7 @@ DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const
     op.hoop.resize(corners * count);
     for (std::size_t t = 0; t < count; ++t) {
       double sum = 0.0;
-      for (const std::int32_t i : simplices[t]) sum += cloud.position[index_of(i)].x();
+      for (const NodeIndex i : simplices[t]) sum += cloud.position[i].x();
       op.radius[t] = sum / 3.0;
       op.volume[t] *= 2.0 * std::numbers::pi * op.radius[t];
       for (std::size_t e = corners * t; e < corners * (t + 1); ++e) op.hoop[e] = op.value[e] / op.radius[t];

@@ -14,7 +14,7 @@ namespace cnem::voronoi {
 
 /// Corners of a simplex: triangles counter-clockwise; of tetrahedra the first three clockwise as seen from
 /// the fourth, so that (x₁ − x₀, x₂ − x₀, x₃ − x₀) is right-handed.
-template<int dim> using Simplex = std::array<std::int32_t, dim + 1>;
+template<int dim> using Simplex = std::array<NodeIndex, dim + 1>;
 
 /// One stress point per simplex, V = its measure (m² or m³), b = the constant gradients of the linear shape
 /// functions (1/m), N = 1/(dim + 1) each; of revolution V = 2π r̄ A and h = N/r̄. Rows are sorted by node; the

@@ -19,7 +19,7 @@ std::array<double, 3> barycentric(const Cloud<2>& cloud, const Triangulation& me
 
 WalkEnd walk(const Cloud<2>& cloud, const Triangulation& mesh, std::int32_t from, const Vec2& x) {
   const auto at = [&](std::size_t t, std::size_t k) -> const Vec2& {
-    return cloud.position[index_of(mesh.node[t][k % 3])];
+    return cloud.position[mesh.node[t][k % 3]];
   };
   std::size_t t = index_of(from);
   const Vec2 origin = (at(t, 0) + at(t, 1) + at(t, 2)) / 3.0;

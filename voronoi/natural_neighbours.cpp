@@ -47,9 +47,9 @@ NaturalNeighbours::Outcome NaturalNeighbours::degenerate_edge(const Neighbour& a
   return a.x * b.x + a.y * b.y <= 0.0 ? Outcome::on_wall : Outcome::lost;
 }
 
-void NaturalNeighbours::push(std::int32_t node, const Vec2& x) {
+void NaturalNeighbours::push(NodeIndex node, const Vec2& x) {
   if (count_ == ring_.size()) ring_.resize(2 * count_);
-  const Vec2& p = cloud_.position[index_of(node)];
+  const Vec2& p = cloud_.position[node];
   ring_[count_].node = node;
   ring_[count_].x = p.x() - x.x();
   ring_[count_].y = p.y() - x.y();
@@ -202,7 +202,7 @@ void NaturalNeighbours::linear_gradients_on(std::int32_t triangle) {
       if (nodes[k] == node_[i]) value[k] = value_[i];
   linear_on({triangle, value, true});
   std::array<Vec2, 3> x;
-  for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[index_of(nodes[k])];
+  for (std::size_t k = 0; k < 3; ++k) x[k] = cloud_.position[nodes[k]];
   const double twice_area = cross(x[1] - x[0], x[2] - x[0]);
   gradient_.resize(3);
   for (std::size_t k = 0; k < 3; ++k)

@@ -34,7 +34,7 @@ public:
   void evaluate_with_gradients(Functions functions, const Vec2& x, std::int32_t hint = 0);
 
   // Results of the last evaluation.
-  std::span<const std::int32_t> nodes() const {
+  std::span<const NodeIndex> nodes() const {
     return node_;
   }                                                         ///< natural neighbours, counter-clockwise about x
   std::span<const double> values() const { return value_; } ///< φ
@@ -43,7 +43,7 @@ public:
 private:
   /// A natural neighbour during an evaluation; positions relative to x.
   struct Neighbour {
-    std::int32_t node;
+    NodeIndex node;
     double x, y;     ///< of the node
     double cx, cy;   ///< circumcentre of x, this and the next neighbour
     double stolen;   ///< twice the stolen area, less the part between `centre` and its predecessor
@@ -61,7 +61,7 @@ private:
 
   Outcome collect(const Vec2& x, std::int32_t start, bool located);
   Outcome degenerate_edge(const Neighbour& a, const Neighbour& b, bool wall, bool located) const;
-  void push(std::int32_t node, const Vec2& x);
+  void push(NodeIndex node, const Vec2& x);
   bool in_circle(std::int32_t triangle, const Vec2& x) const;
   void weigh(Functions functions);
   void weigh_gradients(Functions functions);
@@ -75,7 +75,7 @@ private:
   std::vector<Frame> frame_;
   std::vector<Neighbour> ring_; ///< the first `count_` are in use
   std::size_t count_ = 0;
-  std::vector<std::int32_t> node_;
+  std::vector<NodeIndex> node_;
   std::vector<double> value_;
   std::vector<Vec2> gradient_;
 };

@@ -51,14 +51,14 @@ std::vector<std::int32_t> hilbert_order(const std::vector<Vec2>& position) {
 }
 
 Cloud<2> renumber(const Cloud<2>& cloud, const std::vector<std::int32_t>& order) {
-  std::vector<std::int32_t> new_of_old(order.size());
+  IndexedVector<NodeIndex, NodeIndex> new_of_old(order.size());
   Cloud<2> result = cloud;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const auto old = index_of(order[i]);
-    new_of_old[old] = static_cast<std::int32_t>(i);
+    new_of_old[old] = as<NodeIndex>(i);
     result.position[i] = cloud.position[old];
   }
-  const auto rename = [&](std::int32_t& node) { node = new_of_old[index_of(node)]; };
+  const auto rename = [&](NodeIndex& node) { node = new_of_old[node]; };
   for (auto& facet : result.facets)
     for (auto& node : facet.node) rename(node);
   for (auto& pair : result.twins)

@@ -27,7 +27,7 @@ struct FaceInfo {
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<NodeIndex, Kernel>;
 using FaceBase =
     CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel,
                                               CGAL::Constrained_triangulation_face_base_2<Kernel>>;
@@ -55,8 +55,8 @@ public:
   }
 
 private:
-  const Vec2& at(std::int32_t node) const { return cloud_.position[index_of(node)]; }
-  bool on_boundary(std::int32_t node) const { return leaving_[index_of(node)] >= 0; }
+  const Vec2& at(NodeIndex node) const { return cloud_.position[node]; }
+  bool on_boundary(NodeIndex node) const { return leaving_[node] >= 0; }
 
   /// Nodes at the same position share one CGAL vertex, which is allowed to declared twins only. The nodes go
   /// into an unconstrained triangulation, whose flips are cheaper; the constrained one takes over its
@@ -67,21 +67,21 @@ private:
     is_merged_.assign(index_of(cloud_.nodes()), false);
     Unconstrained nodes;
     Face hint;
-    for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
+    for (const NodeIndex i : cloud_.position.indices()) {
       const std::size_t before = nodes.number_of_vertices();
       const Vertex v = nodes.insert({at(i).x(), at(i).y()}, hint);
       hint = v->face();
-      vertex_[index_of(i)] = v;
+      vertex_[i] = v;
       if (nodes.number_of_vertices() > before) {
         v->info() = i;
         continue;
       }
-      const std::int32_t first = v->info();
-      if (group.empty() || group[index_of(first)] != group[index_of(i)])
+      const NodeIndex first = v->info();
+      if (group.empty() || group[first] != group[i])
         throw GeometryError(fmt::format("{} coincides with node {}: expected distinct positions, or a "
                                         "declared pair of twins on the two faces of a crack",
-                                        describe_node(cloud_, i), first));
-      is_merged_[index_of(first)] = is_merged_[index_of(i)] = merged_ = true;
+                                        describe_node(cloud_, i), index_of(first)));
+      is_merged_[first] = is_merged_[i] = merged_ = true;
     }
     if (nodes.dimension() < 2)
       throw GeometryError(fmt::format("empty domain: the {} nodes lie on one line", cloud_.nodes()));
@@ -93,13 +93,12 @@ private:
   void insert_facets() {
     try {
       for (const auto& facet : cloud_.facets)
-        delaunay_.insert_constraint(vertex_[index_of(facet.node[0])], vertex_[index_of(facet.node[1])]);
+        delaunay_.insert_constraint(vertex_[facet.node[0]], vertex_[facet.node[1]]);
     } catch (const Delaunay::Intersection_of_constraints_exception&) { throw_crossing(cloud_); }
     left_of_.resize(cloud_.facets.size());
     for (std::size_t f = 0; f < cloud_.facets.size(); ++f) {
       const auto facet = static_cast<std::int32_t>(f);
-      const Vertex a = vertex_[index_of(cloud_.facets[f].node[0])],
-                   b = vertex_[index_of(cloud_.facets[f].node[1])];
+      const Vertex a = vertex_[cloud_.facets[f].node[0]], b = vertex_[cloud_.facets[f].node[1]];
       Face face;
       int k = 0;
       if (!delaunay_.is_edge(a, b, face, k)) throw_node_on_facet(cloud_, facet);
@@ -186,8 +185,8 @@ private:
   /// Gives every sector of triangles between two facets at a merged vertex the node of these facets.
   void separate_merged_nodes() {
     for (std::size_t f = 0; f < left_of_.size(); ++f) {
-      const std::int32_t node = cloud_.facets[f].node[0];
-      if (!is_merged_[index_of(node)]) continue;
+      const NodeIndex node = cloud_.facets[f].node[0];
+      if (!is_merged_[node]) continue;
       std::int32_t t = left_of_[f].first->info().triangle;
       int k = Delaunay::ccw(left_of_[f].second);
       while (true) {
@@ -214,27 +213,26 @@ private:
   void record_triangle_of_node() {
     result_.triangle_of_node.assign(index_of(cloud_.nodes()), -1);
     for (std::size_t t = 0; t < result_.node.size(); ++t)
-      for (const std::int32_t i : result_.node[t])
-        if (result_.triangle_of_node[index_of(i)] < 0)
-          result_.triangle_of_node[index_of(i)] = static_cast<std::int32_t>(t);
+      for (const NodeIndex i : result_.node[t])
+        if (result_.triangle_of_node[i] < 0) result_.triangle_of_node[i] = static_cast<std::int32_t>(t);
     for (std::size_t f = 0; f < left_of_.size(); ++f)
-      result_.triangle_of_node[index_of(cloud_.facets[f].node[0])] = left_of_[f].first->info().triangle;
-    for (std::int32_t i = 0; i < cloud_.nodes(); ++i) {
-      if (is_merged_[index_of(i)] && !on_boundary(i))
+      result_.triangle_of_node[cloud_.facets[f].node[0]] = left_of_[f].first->info().triangle;
+    for (const NodeIndex i : cloud_.position.indices()) {
+      if (is_merged_[i] && !on_boundary(i))
         throw GeometryError(
             fmt::format("{} is declared a twin but belongs to no facet: expected the nodes of "
                         "the two faces of a crack",
                         describe_node(cloud_, i)));
-      if (result_.triangle_of_node[index_of(i)] < 0)
+      if (result_.triangle_of_node[i] < 0)
         throw GeometryError(fmt::format("{} lies outside the domain", describe_node(cloud_, i)));
     }
   }
 
   const Cloud<2>& cloud_;
-  std::vector<std::int32_t> leaving_; ///< [node] facet that leaves it
+  IndexedVector<NodeIndex, std::int32_t> leaving_; ///< facet that leaves it
   Delaunay delaunay_;
-  std::vector<Vertex> vertex_;                ///< [node]
-  std::vector<bool> is_merged_;               ///< [node] shares its CGAL vertex
+  IndexedVector<NodeIndex, Vertex> vertex_;
+  IndexedVector<NodeIndex, bool> is_merged_;  ///< shares its CGAL vertex
   bool merged_ = false;                       ///< any of them
   std::vector<std::pair<Face, int>> left_of_; ///< [facet] the face on its left and the edge's index there
   std::vector<Face> stack_;
@@ -247,7 +245,7 @@ private:
   std::vector<int> seen(cloud.facets.size(), 0);
   for (std::size_t t = 0; t < mesh.node.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
+      const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
       const std::int32_t across = mesh.neighbour[t][k], facet = mesh.facet[t][k];
       if ((across < 0) != (facet >= 0)) return false;
       if (facet >= 0) {
@@ -264,8 +262,8 @@ private:
     }
   for (const int count : seen)
     if (count != 1) return false;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    const auto& corner = mesh.node[index_of(mesh.triangle_of_node[index_of(i)])];
+  for (const NodeIndex i : cloud.position.indices()) {
+    const auto& corner = mesh.node[index_of(mesh.triangle_of_node[i])];
     if (std::find(corner.begin(), corner.end(), i) == corner.end()) return false;
   }
   return true;

@@ -8,37 +8,35 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
-#include <numeric>
 
 namespace cnem::app {
 
 namespace {
 
-/// The part of the domain each node is in: parts are connected through triangles.
-std::vector<std::int32_t> parts(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
-  std::vector<std::int32_t> root(index_of(cloud.nodes()));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](std::int32_t i) {
-    while (root[index_of(i)] != i) i = root[index_of(i)] = root[index_of(root[index_of(i)])];
+/// The part of the domain each node is in, by one of its nodes: parts are connected through triangles.
+IndexedVector<NodeIndex, NodeIndex> parts(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
+  IndexedVector<NodeIndex, NodeIndex> root(cloud.position.size());
+  for (const NodeIndex i : root.indices()) root[i] = i;
+  const auto find = [&](NodeIndex i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
     return i;
   };
   for (const auto& [a, b, c] : mesh.node) {
-    root[index_of(find(b))] = find(a);
-    root[index_of(find(c))] = find(a);
+    root[find(b)] = find(a);
+    root[find(c)] = find(a);
   }
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) root[index_of(i)] = find(i);
+  for (const NodeIndex i : root.indices()) root[i] = find(i);
   return root;
 }
 
 /// A node of the triangle that holds the point, or of the nearest one.
-std::int32_t node_at(const Cloud<2>& cloud, const voronoi::Triangulation& mesh, const Vec2& x) {
-  std::int32_t best = 0;
+NodeIndex node_at(const Cloud<2>& cloud, const voronoi::Triangulation& mesh, const Vec2& x) {
+  NodeIndex best{};
   double depth = -std::numeric_limits<double>::infinity();
   for (const auto& triangle : mesh.node) {
     double inside = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 &a = cloud.position[index_of(triangle[k])],
-                 &b = cloud.position[index_of(triangle[(k + 1) % 3])];
+      const Vec2 &a = cloud.position[triangle[k]], &b = cloud.position[triangle[(k + 1) % 3]];
       inside = std::min(inside, cross(b - a, x - a) / (b - a).norm());
     }
     if (inside > depth) depth = inside, best = triangle[0];
@@ -57,13 +55,13 @@ double distance_to(const std::vector<Vec2>& polyline, const Vec2& x) {
 }
 
 /// The nodes on the two faces of an interface, face + first.
-std::vector<std::array<std::int32_t, 2>> face_pairs(const Cloud<2>& cloud, const std::string& name) {
-  const std::vector<std::int32_t> left = nodes_of<2>(facets_of<2>(cloud, {name + "+"}));
-  const std::vector<std::int32_t> right = nodes_of<2>(facets_of<2>(cloud, {name + "-"}));
-  const auto on = [](const std::vector<std::int32_t>& face, std::int32_t node) {
+std::vector<std::array<NodeIndex, 2>> face_pairs(const Cloud<2>& cloud, const std::string& name) {
+  const std::vector<NodeIndex> left = nodes_of<2>(facets_of<2>(cloud, {name + "+"}));
+  const std::vector<NodeIndex> right = nodes_of<2>(facets_of<2>(cloud, {name + "-"}));
+  const auto on = [](const std::vector<NodeIndex>& face, NodeIndex node) {
     return std::binary_search(face.begin(), face.end(), node);
   };
-  std::vector<std::array<std::int32_t, 2>> pairs;
+  std::vector<std::array<NodeIndex, 2>> pairs;
   for (const auto& [a, b] : cloud.twins) {
     if (on(left, a) && on(right, b)) pairs.push_back({a, b});
     if (on(left, b) && on(right, a)) pairs.push_back({b, a});
@@ -71,10 +69,10 @@ std::vector<std::array<std::int32_t, 2>> face_pairs(const Cloud<2>& cloud, const
   return pairs;
 }
 
-std::vector<std::array<std::int32_t, 2>>
-matching_nodes(const input::Case& input, const input::Periodicity& spec, const Cloud<2>& cloud) {
-  const std::vector<std::int32_t> first = nodes_of<2>(facets_of<2>(cloud, {spec.pieces[0]}));
-  std::vector<std::int32_t> second = nodes_of<2>(facets_of<2>(cloud, {spec.pieces[1]}));
+std::vector<std::array<NodeIndex, 2>> matching_nodes(const input::Case& input, const input::Periodicity& spec,
+                                                     const Cloud<2>& cloud) {
+  const std::vector<NodeIndex> first = nodes_of<2>(facets_of<2>(cloud, {spec.pieces[0]}));
+  std::vector<NodeIndex> second = nodes_of<2>(facets_of<2>(cloud, {spec.pieces[1]}));
   const auto fail = [&](const std::string& what) {
     return input.error(fmt::format("periodic.{}.pieces", spec.name),
                        fmt::format("{}, expected '{}' to be a shifted copy of '{}' with the same nodes", what,
@@ -83,26 +81,25 @@ matching_nodes(const input::Case& input, const input::Periodicity& spec, const C
   if (first.size() != second.size())
     throw fail(fmt::format("found {} nodes on '{}' and {} on '{}'", first.size(), spec.pieces[0],
                            second.size(), spec.pieces[1]));
-  const auto mean = [&](const std::vector<std::int32_t>& nodes) {
+  const auto mean = [&](const std::vector<NodeIndex>& nodes) {
     Vec2 sum = Vec2::Zero();
-    for (const std::int32_t i : nodes) sum += cloud.position[index_of(i)];
+    for (const NodeIndex i : nodes) sum += cloud.position[i];
     return Vec2(sum / static_cast<double>(nodes.size()));
   };
   const Vec2 shift = mean(second) - mean(first);
   double spacing = std::numeric_limits<double>::infinity();
   for (const Facet<2>& facet : facets_of<2>(cloud, {spec.pieces[0]}))
-    spacing = std::min(
-        spacing, (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm());
-  std::vector<std::array<std::int32_t, 2>> pairs;
-  for (const std::int32_t i : first) {
-    const Vec2 wanted = cloud.position[index_of(i)] + shift;
-    const auto nearest = std::min_element(second.begin(), second.end(), [&](std::int32_t a, std::int32_t b) {
-      return (cloud.position[index_of(a)] - wanted).norm() < (cloud.position[index_of(b)] - wanted).norm();
+    spacing = std::min(spacing, (cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).norm());
+  std::vector<std::array<NodeIndex, 2>> pairs;
+  for (const NodeIndex i : first) {
+    const Vec2 wanted = cloud.position[i] + shift;
+    const auto nearest = std::min_element(second.begin(), second.end(), [&](NodeIndex a, NodeIndex b) {
+      return (cloud.position[a] - wanted).norm() < (cloud.position[b] - wanted).norm();
     });
-    const double gap = (cloud.position[index_of(*nearest)] - wanted).norm();
+    const double gap = (cloud.position[*nearest] - wanted).norm();
     if (gap > 1e-3 * spacing || *nearest == i)
-      throw fail(fmt::format("found no partner of the node at ({:g}, {:g}) m",
-                             cloud.position[index_of(i)].x(), cloud.position[index_of(i)].y()));
+      throw fail(fmt::format("found no partner of the node at ({:g}, {:g}) m", cloud.position[i].x(),
+                             cloud.position[i].y()));
     pairs.push_back({i, *nearest});
     second.erase(nearest);
   }
@@ -125,31 +122,31 @@ std::vector<Facet<dim>> facets_of(const Cloud<dim>& cloud, const std::vector<std
   return facets;
 }
 
-template<int dim> std::vector<std::int32_t> nodes_of(const std::vector<Facet<dim>>& facets) {
-  std::vector<std::int32_t> nodes;
+template<int dim> std::vector<NodeIndex> nodes_of(const std::vector<Facet<dim>>& facets) {
+  std::vector<NodeIndex> nodes;
   for (const Facet<dim>& facet : facets) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
-std::vector<std::int32_t> region_of_nodes(const input::Case& input, const Cloud<2>& cloud) {
+IndexedVector<NodeIndex, std::int32_t> region_of_nodes(const input::Case& input, const Cloud<2>& cloud) {
   const std::vector<input::Region>& regions = input.domain.regions;
   if (regions.empty()) return {};
   const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
-  const std::vector<std::int32_t> part = parts(cloud, mesh);
-  std::map<std::int32_t, std::int32_t> region_of_part;
+  const IndexedVector<NodeIndex, NodeIndex> part = parts(cloud, mesh);
+  std::map<NodeIndex, std::int32_t> region_of_part;
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    const auto [entry, fresh] = region_of_part.emplace(part[index_of(node_at(cloud, mesh, regions[r].at))],
-                                                       static_cast<std::int32_t>(r));
+    const auto [entry, fresh] =
+        region_of_part.emplace(part[node_at(cloud, mesh, regions[r].at)], as<std::int32_t>(r));
     if (!fresh)
       throw input.error("domain.regions." + regions[r].name,
                         fmt::format("lies in the same part of the domain as domain.regions.{}, expected an "
                                     "interface between them",
                                     regions[index_of(entry->second)].name));
   }
-  std::vector<std::int32_t> region(part.size(), -1);
-  for (std::size_t i = 0; i < part.size(); ++i)
+  IndexedVector<NodeIndex, std::int32_t> region(part.size(), -1);
+  for (const NodeIndex i : part.indices())
     if (const auto found = region_of_part.find(part[i]); found != region_of_part.end())
       region[i] = found->second;
   return region;
@@ -174,7 +171,7 @@ std::vector<ContactConductance<2>> conductances(const input::Case& input, const 
   std::vector<ContactConductance<2>> list;
   for (const input::Interface& interface : input.domain.interfaces) {
     if (!interface.conductance) continue;
-    std::map<std::int32_t, std::int32_t> opposite;
+    std::map<NodeIndex, NodeIndex> opposite;
     for (const auto& [a, b] : face_pairs(cloud, interface.name)) opposite[a] = b;
     ContactConductance<2> exchange{
         interface.name, *interface.conductance, facets_of<2>(cloud, {interface.name + "+"}), {}};
@@ -198,7 +195,8 @@ Field strength(const input::Case& input, const Cloud<2>& cloud) {
 
 template<int dim>
 void set_initial_state(const input::Case& input, const Cloud<dim>& cloud,
-                       const std::vector<std::int32_t>& region, Fields<dim>& velocity, Field& temperature) {
+                       const IndexedVector<NodeIndex, std::int32_t>& region, Fields<dim>& velocity,
+                       Field& temperature) {
   const input::InitialState& initial = input.initial;
   resize_all(velocity, index_of(cloud.nodes()));
   temperature.assign(index_of(cloud.nodes()), initial.temperature);
@@ -218,11 +216,11 @@ void set_initial_state(const input::Case& input, const Cloud<dim>& cloud,
 
 template std::vector<Facet<2>> facets_of(const Cloud<2>&, const std::vector<std::string>&);
 template std::vector<Facet<3>> facets_of(const Cloud<3>&, const std::vector<std::string>&);
-template std::vector<std::int32_t> nodes_of(const std::vector<Facet<2>>&);
-template std::vector<std::int32_t> nodes_of(const std::vector<Facet<3>>&);
-template void set_initial_state<2>(const input::Case&, const Cloud<2>&, const std::vector<std::int32_t>&,
-                                   Fields<2>&, Field&);
-template void set_initial_state<3>(const input::Case&, const Cloud<3>&, const std::vector<std::int32_t>&,
-                                   Fields<3>&, Field&);
+template std::vector<NodeIndex> nodes_of(const std::vector<Facet<2>>&);
+template std::vector<NodeIndex> nodes_of(const std::vector<Facet<3>>&);
+template void set_initial_state<2>(const input::Case&, const Cloud<2>&,
+                                   const IndexedVector<NodeIndex, std::int32_t>&, Fields<2>&, Field&);
+template void set_initial_state<3>(const input::Case&, const Cloud<3>&,
+                                   const IndexedVector<NodeIndex, std::int32_t>&, Fields<3>&, Field&);
 
 } // namespace cnem::app

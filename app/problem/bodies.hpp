@@ -16,16 +16,16 @@ template<int dim>
 std::vector<Facet<dim>> facets_of(const Cloud<dim>& cloud, const std::vector<std::string>& pieces);
 
 /// The nodes of facets, each once, in increasing order.
-template<int dim> std::vector<std::int32_t> nodes_of(const std::vector<Facet<dim>>& facets);
+template<int dim> std::vector<NodeIndex> nodes_of(const std::vector<Facet<dim>>& facets);
 
 /// For each node the region of the case it belongs to, −1 where none was given; empty without regions.
 /// Throws InputError when two regions lie in one part of the domain.
-std::vector<std::int32_t> region_of_nodes(const input::Case& input, const Cloud<2>& cloud);
+IndexedVector<NodeIndex, std::int32_t> region_of_nodes(const input::Case& input, const Cloud<2>& cloud);
 
 /// Pairs of nodes that move as one, and those of them that have one temperature.
 struct Pairs {
-  std::vector<std::array<std::int32_t, 2>> motion;
-  std::vector<std::array<std::int32_t, 2>> heat;
+  std::vector<std::array<NodeIndex, 2>> motion;
+  std::vector<std::array<NodeIndex, 2>> heat;
 };
 
 /// Faces of interfaces and periodic pieces. Throws InputError when the nodes of two periodic pieces do not
@@ -42,6 +42,7 @@ Field strength(const input::Case& input, const Cloud<2>& cloud);
 /// it.
 template<int dim>
 void set_initial_state(const input::Case& input, const Cloud<dim>& cloud,
-                       const std::vector<std::int32_t>& region, Fields<dim>& velocity, Field& temperature);
+                       const IndexedVector<NodeIndex, std::int32_t>& region, Fields<dim>& velocity,
+                       Field& temperature);
 
 } // namespace cnem::app

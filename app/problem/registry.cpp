@@ -19,7 +19,8 @@ namespace {
 
 /// The materials in use and which node is of which. region: as region_of_nodes gives it.
 template<int dim>
-void set_materials(const input::Case& input, const std::vector<std::int32_t>& region, Problem<dim>& model) {
+void set_materials(const input::Case& input, const IndexedVector<NodeIndex, std::int32_t>& region,
+                   Problem<dim>& model) {
   std::vector<std::string> names;
   const auto number_of = [&](const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -27,7 +28,7 @@ void set_materials(const input::Case& input, const std::vector<std::int32_t>& re
       names.push_back(name);
       model.materials.push_back(input.material(name));
     }
-    return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    return as<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
   const std::int32_t everywhere = number_of(input.domain.material);
   std::vector<std::int32_t> of_region;
@@ -48,14 +49,14 @@ template<int dim> struct Conditions {
 
 /// The nodes nearest to the points of a condition.
 template<int dim>
-std::vector<std::int32_t> nodes_at(const input::Case& input, const input::BoundaryCondition& spec,
-                                   const Cloud<dim>& cloud) {
-  std::vector<std::int32_t> nodes;
+std::vector<NodeIndex> nodes_at(const input::Case& input, const input::BoundaryCondition& spec,
+                                const Cloud<dim>& cloud) {
+  std::vector<NodeIndex> nodes;
   for (const Vec3& given : spec.points) {
     const Vec<dim> point = given.head<dim>();
-    std::int32_t best = 0;
-    const auto distance = [&](std::int32_t i) { return (cloud.position[index_of(i)] - point).norm(); };
-    for (std::int32_t i = 1; i < cloud.nodes(); ++i)
+    NodeIndex best{};
+    const auto distance = [&](NodeIndex i) { return (cloud.position[i] - point).norm(); };
+    for (const NodeIndex i : cloud.position.indices())
       if (distance(i) < distance(best)) best = i;
     if (input.cloud.spacing > 0.0 && distance(best) > input.cloud.spacing)
       throw input.error(
@@ -78,8 +79,8 @@ template<int dim>
 void add_condition(const input::Case& input, const input::BoundaryCondition& spec, const Cloud<dim>& cloud,
                    Conditions<dim>& all) {
   const std::vector<Facet<dim>> facets = facets_of(cloud, spec.pieces);
-  std::vector<std::int32_t> nodes = nodes_of(facets);
-  for (const std::int32_t node : nodes_at(input, spec, cloud))
+  std::vector<NodeIndex> nodes = nodes_of(facets);
+  for (const NodeIndex node : nodes_at(input, spec, cloud))
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
   const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(facets));
   using Kind = typename Support<dim>::Kind;
@@ -118,9 +119,9 @@ void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>
                std::vector<std::string>& warnings) {
   double size = 0.0;
   for (const Vec2& x : cloud.position) size = std::max(size, x.norm());
-  std::vector<std::int32_t> axis;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    double& r = cloud.position[index_of(i)].x();
+  std::vector<NodeIndex> axis;
+  for (const NodeIndex i : cloud.position.indices()) {
+    double& r = cloud.position[i].x();
     if (std::abs(r) <= 1e-12 * size) {
       r = 0.0;
       axis.push_back(i);
@@ -136,7 +137,7 @@ void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>
     const bool moves = support.direction.x() != 0.0 &&
                        std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
     if (moves && std::any_of(support.nodes.begin(), support.nodes.end(),
-                             [&](std::int32_t i) { return std::binary_search(axis.begin(), axis.end(), i); }))
+                             [&](NodeIndex i) { return std::binary_search(axis.begin(), axis.end(), i); }))
       warnings.push_back(fmt::format("boundary.{} moves nodes on the axis along x, where the axis holds them",
                                      support.name));
   }
@@ -176,7 +177,7 @@ void check_overlap(const input::Case& input, const contact::Tool<3>& tool, const
 }
 
 /// What only workpieces of the plane have: regions, imperfections, ties.
-void set_parts(const input::Case& input, Problem<2>& model, std::vector<std::int32_t>& region) {
+void set_parts(const input::Case& input, Problem<2>& model, IndexedVector<NodeIndex, std::int32_t>& region) {
   region = region_of_nodes(input, model.cloud);
   model.strength = strength(input, model.cloud);
   const Pairs pairs = tied_pairs(input, model.cloud);
@@ -200,7 +201,7 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   model.contact = contact::RigidContact<dim>(std::move(tools), space, input.contact);
   model.cloud = std::move(workpiece.cloud);
   model.method = methods::make<dim>(input.method.name, workpiece.options);
-  std::vector<std::int32_t> region;
+  IndexedVector<NodeIndex, std::int32_t> region;
   if constexpr (dim == 2) set_parts(input, model, region);
   set_materials(input, region, model);
   model.stabilisation = input.method.stabilisation;

@@ -68,8 +68,8 @@ StaticModel::StaticModel(const input::Case& in) : input(in), setup(build<2>(in))
     for (std::size_t k = 0; k < 2; ++k) position[k][i] = cloud.position[i][static_cast<Eigen::Index>(k)];
   model.loads.evaluate(input.time.end, position, mass);
   for (const auto& load : model.loads.facet_tractions(input.time.end, position))
-    loads.push_back({load.facet.node, cloud.position[index_of(load.facet.node[0])],
-                     cloud.position[index_of(load.facet.node[1])], load.traction});
+    loads.push_back({load.facet.node, cloud.position[load.facet.node[0]], cloud.position[load.facet.node[1]],
+                     load.traction});
   Vec2 body_force = Vec2::Zero();
   for (std::size_t k = 0; k < 2; ++k)
     if (const auto& acceleration = input.loads.body_force[k])
@@ -167,25 +167,24 @@ std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSol
   const Cloud<2>& cloud = model.setup.problem.cloud;
   std::vector<std::string> warnings;
   for (const input::Crack& crack : model.input.domain.cracks) {
-    std::map<std::int32_t, Vec2> normal; // of nodes on the left face, out of the right one
+    std::map<NodeIndex, Vec2> normal; // of nodes on the left face, out of the right one
     for (const Facet<2>& facet : cloud.facets)
       if (cloud.piece_names[index_of(facet.piece)] == crack.name + "+")
-        for (const std::int32_t i : facet.node)
+        for (const NodeIndex i : facet.node)
           normal.try_emplace(i, Vec2::Zero()).first->second +=
-              left_normal(cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])])
-                  .normalized();
+              left_normal(cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).normalized();
     double largest = 0.0, overlap = 0.0;
     int pairs = 0, closed = 0;
     std::vector<std::pair<double, Vec2>> openings;
     for (const auto& twin : cloud.twins)
       for (const bool swap : {false, true}) {
-        const std::int32_t left = twin[swap ? 1 : 0], right = twin[swap ? 0 : 1];
+        const NodeIndex left = twin[swap ? 1 : 0], right = twin[swap ? 0 : 1];
         const auto found = normal.find(left);
         if (found == normal.end()) continue;
         const Vec2 jump(solution.displacement[0][index_of(left)] - solution.displacement[0][index_of(right)],
                         solution.displacement[1][index_of(left)] - solution.displacement[1][index_of(right)]);
         largest = std::max(largest, jump.norm());
-        openings.emplace_back(jump.dot(found->second.normalized()), cloud.position[index_of(left)]);
+        openings.emplace_back(jump.dot(found->second.normalized()), cloud.position[left]);
         break;
       }
     Vec2 where = Vec2::Zero();

@@ -47,6 +47,14 @@ public:
     carry(name, std::span<std::int64_t>(wide));
     values.assign(wide.begin(), wide.end());
   }
+  template<IndexKind Index> void integers(const std::string& name, std::vector<Index>& values) {
+    std::vector<std::int64_t> wide;
+    for (const Index value : values) wide.push_back(as<std::int64_t>(value));
+    if (loading()) wide.resize(extent(name));
+    carry(name, std::span<std::int64_t>(wide));
+    values.clear();
+    for (const std::int64_t value : wide) values.push_back(as<Index>(value));
+  }
   void integers(const std::string& name, std::vector<std::int64_t>& values) {
     if (loading()) values.resize(extent(name));
     carry(name, std::span<std::int64_t>(values));

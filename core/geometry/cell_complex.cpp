@@ -47,18 +47,13 @@ template<> std::span<const FacePoint<3>> face_rule<3>(int points) {
   return three;
 }
 
-CellLists other_ends(std::size_t cells, std::span<const std::array<std::int32_t, 2>> edges) {
-  CellLists lists = group_by_cell(
-      cells, edges.size(), [&](std::size_t e) -> const auto& { return edges[e]; });
+CellLists<NodeIndex> other_ends(std::size_t cells, std::span<const std::array<NodeIndex, 2>> edges) {
+  CellLists<NodeIndex> lists = group_by_cell(
+      cells, edges.size(), [&](std::size_t e) -> const auto& { return edges[e]; },
+      [&](std::size_t e, NodeIndex i) { return edges[e][edges[e][0] == i ? 1 : 0]; });
 #pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < cells; ++i) {
-    const auto first = lists.item.begin() + lists.begin[i], last = lists.item.begin() + lists.begin[i + 1];
-    for (auto item = first; item < last; ++item) {
-      const auto& ends = edges[index_of(*item)];
-      *item = ends[index_of(ends[0]) == i ? 1 : 0];
-    }
-    std::sort(first, last);
-  }
+  for (std::size_t i = 0; i < cells; ++i)
+    std::sort(lists.item.begin() + lists.begin[i], lists.item.begin() + lists.begin[i + 1]);
   return lists;
 }
 
@@ -67,10 +62,10 @@ template<int dim> bool is_closed(const Cloud<dim>& cloud, const CellComplex<dim>
     Vec<dim> normal = Vec<dim>::Zero();
     double volume = 0.0, size = 0.0, reach = 0.0; ///< m: largest coordinate, largest distance to the node
   };
-  std::vector<Sums> sums(complex.cells());
-  const auto add = [&](std::int32_t cell, const std::array<Vec<dim>, dim>& corner, double sign) {
-    Sums& sum = sums[index_of(cell)];
-    const Vec<dim>& node = cloud.position[index_of(cell)];
+  IndexedVector<NodeIndex, Sums> sums(complex.cells());
+  const auto add = [&](NodeIndex cell, const std::array<Vec<dim>, dim>& corner, double sign) {
+    Sums& sum = sums[cell];
+    const Vec<dim>& node = cloud.position[cell];
     const Vec<dim> normal = sign * area_normal<dim>(corner);
     sum.normal += normal;
     sum.volume += normal.dot(corner[0] - node) / dim;

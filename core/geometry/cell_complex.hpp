@@ -5,7 +5,7 @@
 #include "core/fields/aligned.hpp"
 #include "core/geometry/cloud.hpp"
 #include "core/geometry/facets.hpp"
-#include "core/index.hpp"
+#include "core/indexed.hpp"
 
 #include <array>
 #include <cassert>
@@ -18,7 +18,7 @@ namespace cnem {
 /// A face between two cells: a segment in the plane, a triangle in space, where faces with more corners are
 /// divided.
 template<int dim> struct InnerFace {
-  std::array<std::int32_t, 2> cell; ///< i, j
+  std::array<NodeIndex, 2> cell; ///< i, j
   /// Where to look for its points from, in the plane to both sides of its edge; −1: the edge is on the
   /// boundary.
   std::array<std::int32_t, 2> simplex;
@@ -31,7 +31,7 @@ template<int dim> struct InnerFace {
 /// The part of a boundary facet that bounds a cell, which need not be that of a corner of the facet. A
 /// segment in the plane, a triangle in space, turned like its facet.
 template<int dim> struct BoundaryPart {
-  std::int32_t cell;
+  NodeIndex cell;
   std::int32_t facet; ///< index into Cloud::facets
   /// [corner] t, x = x_0 + Σ_k t_k (x_(k+1) − x_0) with the corners x_a of the facet.
   std::array<std::array<double, dim - 1>, dim> place;
@@ -58,15 +58,16 @@ template<int dim> struct FacePoint {
 /// space the centroid or, for 2 and 3, three points, exact for degree 1 and 2.
 template<int dim> std::span<const FacePoint<dim>> face_rule(int points);
 
-/// Lists of items for each cell.
-struct CellLists {
+/// Lists of items for each cell: faces or parts by their number, other cells.
+template<class Item> struct CellLists {
   std::vector<std::int32_t> begin; ///< [cell + 1]
-  std::vector<std::int32_t> item;  ///< in increasing order within a cell
+  std::vector<Item> item;          ///< in increasing order within a cell
 
-  std::span<const std::int32_t> of(std::size_t cell) const {
+  std::span<const Item> of(std::size_t cell) const {
     assert(cell + 1 < begin.size());
     return {item.data() + begin[cell], item.data() + begin[cell + 1]};
   }
+  std::span<const Item> of(NodeIndex cell) const { return of(index_of(cell)); }
 };
 
 /// Cells of all nodes of a cloud. Each is closed: the normals of its faces and parts sum to zero, and by the
@@ -76,39 +77,44 @@ template<int dim> struct CellComplex {
   std::vector<InnerFace<dim>> interior;
   std::vector<BoundaryPart<dim>> boundary; ///< facet after facet
   /// The cells that each is linked with: the ends of the edges of the simplices. All that share a face are.
-  CellLists neighbours;
+  CellLists<NodeIndex> neighbours;
 
   std::size_t cells() const { return volume.size(); }
 };
 
-/// Counts the items of each cell and lists them: cells_of(item) gives the cells that have it.
-template<class CellsOf> CellLists group_by_cell(std::size_t cells, std::size_t items, CellsOf&& cells_of) {
-  CellLists lists;
+/// Counts the items of each cell and lists them: cells_of(k) gives the cells that have item k, item_of(k,
+/// cell) what stands for it in the list of one.
+template<class CellsOf, class ItemOf>
+auto group_by_cell(std::size_t cells, std::size_t items, CellsOf&& cells_of, ItemOf&& item_of) {
+  CellLists<decltype(item_of(items, NodeIndex::none))> lists;
   lists.begin.assign(cells + 1, 0);
   for (std::size_t k = 0; k < items; ++k)
-    for (const std::int32_t i : cells_of(k)) ++lists.begin[index_of(i) + 1];
+    for (const NodeIndex i : cells_of(k)) ++lists.begin[index_of(i) + 1];
   for (std::size_t i = 0; i < cells; ++i) lists.begin[i + 1] += lists.begin[i];
   lists.item.resize(index_of(lists.begin.back()));
   std::vector<std::int32_t> next(lists.begin.begin(), lists.begin.end() - 1);
   for (std::size_t k = 0; k < items; ++k)
-    for (const std::int32_t i : cells_of(k))
-      lists.item[index_of(next[index_of(i)]++)] = static_cast<std::int32_t>(k);
+    for (const NodeIndex i : cells_of(k)) lists.item[index_of(next[index_of(i)]++)] = item_of(k, i);
   return lists;
+}
+/// The same with the numbers of the items.
+template<class CellsOf> auto group_by_cell(std::size_t cells, std::size_t items, CellsOf&& cells_of) {
+  return group_by_cell(cells, items, cells_of, [](std::size_t k, NodeIndex) { return as<std::int32_t>(k); });
 }
 
 /// The inner faces of each cell.
-template<int dim> CellLists faces_of_cells(const CellComplex<dim>& complex) {
+template<int dim> CellLists<std::int32_t> faces_of_cells(const CellComplex<dim>& complex) {
   return group_by_cell(
       complex.cells(),
       complex.interior.size(), [&](std::size_t f) -> const auto& { return complex.interior[f].cell; });
 }
 /// The parts of the boundary of each cell.
-template<int dim> CellLists parts_of_cells(const CellComplex<dim>& complex) {
+template<int dim> CellLists<std::int32_t> parts_of_cells(const CellComplex<dim>& complex) {
   return group_by_cell(complex.cells(), complex.boundary.size(),
                        [&](std::size_t f) { return std::array{complex.boundary[f].cell}; });
 }
 /// The other ends of the edges at each cell; each edge is given once.
-CellLists other_ends(std::size_t cells, std::span<const std::array<std::int32_t, 2>> edges);
+CellLists<NodeIndex> other_ends(std::size_t cells, std::span<const std::array<NodeIndex, 2>> edges);
 
 /// Whether each cell is closed and has the volume that its faces and parts enclose, to rounding: 1e-13 of the
 /// coordinates in the sum of normals. For assertions; O(N).

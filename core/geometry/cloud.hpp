@@ -1,6 +1,6 @@
 #pragma once
 // The cloud of nodes with its boundary: all that a discretisation is built from.
-#include "core/index.hpp"
+#include "core/indexed.hpp"
 #include "core/vec.hpp"
 
 #include <array>
@@ -14,7 +14,7 @@ namespace cnem {
 /// A piece of boundary between `dim` nodes. In 2D a directed edge node[0] → node[1] with the domain on its
 /// left; in 3D a triangle whose normal points outwards.
 template<int dim> struct Facet {
-  std::array<std::int32_t, dim> node;
+  std::array<NodeIndex, dim> node;
   std::int32_t piece = 0; ///< index into Cloud::piece_names
 };
 
@@ -26,10 +26,10 @@ template<int dim> struct Facet {
 /// positions, declared in `twins`; the nodes at its tips are single. Coincident nodes that are not declared
 /// are an error.
 template<int dim> struct Cloud {
-  std::vector<Vec<dim>> position;                 ///< [node], m
-  std::vector<Facet<dim>> facets;                 ///< the whole boundary, loop after loop
-  std::vector<std::string> piece_names;           ///< names of boundary pieces
-  std::vector<std::array<std::int32_t, 2>> twins; ///< pairs of nodes that coincide on purpose
+  IndexedVector<NodeIndex, Vec<dim>> position; ///< m
+  std::vector<Facet<dim>> facets;              ///< the whole boundary, loop after loop
+  std::vector<std::string> piece_names;        ///< names of boundary pieces
+  std::vector<std::array<NodeIndex, 2>> twins; ///< pairs of nodes that coincide on purpose
 
   int nodes() const { return static_cast<int>(position.size()); }
 };
@@ -51,8 +51,7 @@ double enclosed_measure(const std::vector<Facet<dim>>& facets, const Position& p
   return dim == 2 ? 0.5 * sum : sum / 6.0;
 }
 template<int dim> double enclosed_measure(const Cloud<dim>& cloud) {
-  return enclosed_measure(cloud.facets,
-                          [&](std::int32_t i) -> const Vec<dim>& { return cloud.position[index_of(i)]; });
+  return enclosed_measure(cloud.facets, [&](NodeIndex i) -> const Vec<dim>& { return cloud.position[i]; });
 }
 
 } // namespace cnem

@@ -9,7 +9,7 @@
 
 namespace cnem {
 
-/// The corners of a facet, m; positions [component][node] or [node].
+/// The corners of a facet, m; positions [component][node] or by node.
 template<int dim> std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet, const Fields<dim>& position) {
   std::array<Vec<dim>, dim> corner;
   for (std::size_t a = 0; a < dim; ++a)
@@ -19,9 +19,10 @@ template<int dim> std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet, 
 }
 
 template<int dim>
-std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet, const std::vector<Vec<dim>>& position) {
+std::array<Vec<dim>, dim> corners_of(const Facet<dim>& facet,
+                                     const IndexedVector<NodeIndex, Vec<dim>>& position) {
   std::array<Vec<dim>, dim> corner;
-  for (std::size_t a = 0; a < dim; ++a) corner[a] = position[index_of(facet.node[a])];
+  for (std::size_t a = 0; a < dim; ++a) corner[a] = position[facet.node[a]];
   return corner;
 }
 

@@ -14,8 +14,8 @@ namespace cnem {
 /// Neighbour links on which nodal integration is stabilised (docs/theory.md, "edge defect"), node by node:
 /// each link stands in the lists of both its ends. Empty for methods that need none.
 template<int dim> struct StabilisationLinks {
-  std::vector<std::int32_t> begin;     ///< [node + 1]
-  std::vector<std::int32_t> neighbour; ///< [link]
+  std::vector<std::int32_t> begin;  ///< [node + 1]
+  std::vector<NodeIndex> neighbour; ///< [link]
   /// [link] area of the face between two cells over their distance: in the plane L_ij/d_ij, clamped to
   /// [0.1, 2], –, of revolution times 2π r, m; in space A_ij/d_ij, clamped to [0.1, 2] d_ij, m.
   Field weight;
@@ -29,7 +29,7 @@ template<int dim> struct CellGeometry {
 
   // How a vertex moves with the nodes: x_v = Σ weight x_node. Rows on the pattern below.
   std::vector<std::int32_t> vertex_begin; ///< [vertex + 1]
-  std::vector<std::int32_t> vertex_node;
+  std::vector<NodeIndex> vertex_node;
   std::vector<double> vertex_weight;
 };
 

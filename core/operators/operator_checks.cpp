@@ -21,14 +21,15 @@ template<int dim> bool rows_are_complete(const DiscreteOperators<dim>& op) {
   for (std::size_t p = 0; p < points; ++p) {
     if (!(op.volume[p] > 0.0) || op.row_begin[p + 1] - op.row_begin[p] <= dim) return false;
     const auto first = op.node.begin() + op.row_begin[p], last = op.node.begin() + op.row_begin[p + 1];
-    if (*first < 0 || *(last - 1) >= op.nodes) return false;
+    if (!exists(*first) || *(last - 1) >= as<NodeIndex>(op.nodes)) return false;
     if (std::adjacent_find(first, last, std::greater_equal<>()) != last) return false;
   }
   return true;
 }
 
 template<int dim>
-bool reproduces_linear_fields(const DiscreteOperators<dim>& op, const std::vector<Vec<dim>>& position) {
+bool reproduces_linear_fields(const DiscreteOperators<dim>& op,
+                              const IndexedVector<NodeIndex, Vec<dim>>& position) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon(), relative = 1e-9;
   for (std::size_t p = 0; p < index_of(op.points); ++p) {
     const Vec<dim>& origin = position[op.first_node(p)];
@@ -36,7 +37,7 @@ bool reproduces_linear_fields(const DiscreteOperators<dim>& op, const std::vecto
     Mat<dim> identity = Mat<dim>::Zero();
     double terms = 0.0, moments = 1.0, width = 0.0, size = 0.0;
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
-      const Vec<dim>& x = position[index_of(op.node[e])];
+      const Vec<dim>& x = position[op.node[e]];
       Vec<dim> b;
       for (std::size_t k = 0; k < dim; ++k) b[static_cast<Eigen::Index>(k)] = op.gradient[k][e];
       sum += b;
@@ -58,7 +59,7 @@ bool reproduces_linear_fields(const DiscreteOperators<dim>& op, const std::vecto
 
 template bool rows_are_complete(const DiscreteOperators<2>&);
 template bool rows_are_complete(const DiscreteOperators<3>&);
-template bool reproduces_linear_fields(const DiscreteOperators<2>&, const std::vector<Vec<2>>&);
-template bool reproduces_linear_fields(const DiscreteOperators<3>&, const std::vector<Vec<3>>&);
+template bool reproduces_linear_fields(const DiscreteOperators<2>&, const IndexedVector<NodeIndex, Vec<2>>&);
+template bool reproduces_linear_fields(const DiscreteOperators<3>&, const IndexedVector<NodeIndex, Vec<3>>&);
 
 } // namespace cnem

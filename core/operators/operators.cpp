@@ -10,9 +10,10 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
   const std::size_t entries = node.size();
   assert(row_begin.size() == index_of(points) + 1 && index_of(row_begin.back()) == entries);
   assert(volume.size() == index_of(points) && (value.empty() || value.size() == entries));
-  assert(std::all_of(node.begin(), node.end(), [&](std::int32_t j) { return j >= 0 && j < nodes; }));
+  assert(std::all_of(node.begin(), node.end(),
+                     [&](NodeIndex j) { return exists(j) && j < as<NodeIndex>(nodes); }));
   col_begin.assign(index_of(nodes) + 1, 0);
-  for (const std::int32_t j : node) ++col_begin[index_of(j) + 1];
+  for (const NodeIndex j : node) ++col_begin[index_of(j) + 1];
   for (std::size_t j = 0; j < index_of(nodes); ++j) col_begin[j + 1] += col_begin[j];
 
   point.resize(entries);
@@ -21,11 +22,11 @@ template<int dim> void DiscreteOperators<dim>::build_transpose() {
   weighted_hoop.resize(hoop.size());
 
   std::vector<std::int32_t> next(col_begin.begin(), col_begin.end() - 1);
-  for (std::int32_t p = 0; p < points; ++p) {
-    const double v = volume[index_of(p)];
-    for (auto e = index_of(row_begin[index_of(p)]); e < index_of(row_begin[index_of(p) + 1]); ++e) {
+  for (std::size_t p = 0; p < index_of(points); ++p) {
+    const double v = volume[p];
+    for (auto e = index_of(row_begin[p]); e < index_of(row_begin[p + 1]); ++e) {
       const auto t = index_of(next[index_of(node[e])]++);
-      point[t] = p;
+      point[t] = as<PointIndex>(p);
       for (std::size_t k = 0; k < dim; ++k) weighted_gradient[k][t] = v * gradient[k][e];
       if (!value.empty()) weighted_value[t] = v * value[e];
       if (!hoop.empty()) weighted_hoop[t] = v * hoop[e];

@@ -3,12 +3,17 @@
 // and values N, whose rows are stress points and whose columns are nodes. Solver, heat and contact see
 // nothing else.
 #include "core/fields/aligned.hpp"
-#include "core/index.hpp"
+#include "core/indexed.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace cnem {
+
+/// The stress point of a node and the node of a stress point where row p is node p: with nodal operators and
+/// methods of one point per node (core/operators/promises.hpp).
+constexpr PointIndex point_of(NodeIndex node) { return as<PointIndex>(index_of(node)); }
+constexpr NodeIndex node_of(PointIndex point) { return as<NodeIndex>(index_of(point)); }
 
 /// Sparse gradient G and value N operators in CSR form, and their transpose for gather-only assembly.
 ///
@@ -26,7 +31,7 @@ template<int dim> struct DiscreteOperators {
 
   Field volume; ///< [point] V_p in the reference: m² (per unit thickness), m³ in 3D and of revolution
   std::vector<std::int32_t> row_begin; ///< [point + 1]
-  std::vector<std::int32_t> node;      ///< [entry]
+  std::vector<NodeIndex> node;         ///< [entry]
   Fields<dim> gradient;                ///< [k][entry] b_pJ,k, 1/m
   Field value;                         ///< [entry] N_pJ; empty when nodal, and in statics
   Field radius;                        ///< [point] r̄_p of the centroid, m; empty in plane problems
@@ -34,7 +39,7 @@ template<int dim> struct DiscreteOperators {
 
   // The transpose, weighted by volume. Entries of a column are in increasing order of the point.
   std::vector<std::int32_t> col_begin; ///< [node + 1]
-  std::vector<std::int32_t> point;     ///< [entry]
+  std::vector<PointIndex> point;       ///< [entry]
   Fields<dim> weighted_gradient;       ///< [k][entry] V_p b_pJ,k
   Field weighted_value;                ///< [entry] V_p N_pJ; empty when nodal
   Field weighted_hoop;                 ///< [entry] V_p h_pJ; empty in plane problems
@@ -42,7 +47,9 @@ template<int dim> struct DiscreteOperators {
   bool of_revolution() const { return !radius.empty(); }
 
   /// A node of the row of a point, its own for nodal rows: all of a row are of one body and one material.
-  std::size_t first_node(std::size_t p) const { return nodal ? p : index_of(node[index_of(row_begin[p])]); }
+  NodeIndex first_node(std::size_t p) const {
+    return nodal ? node_of(as<PointIndex>(p)) : node[index_of(row_begin[p])];
+  }
 
   /// Fills the transpose from the rows. To be called once the rows are complete.
   void build_transpose();

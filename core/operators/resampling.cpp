@@ -26,7 +26,7 @@ NodeRows NodeRows::identity(std::size_t n) {
   rows.begin.resize(n + 1);
   std::iota(rows.begin.begin(), rows.begin.end(), 0);
   rows.node.resize(n);
-  std::iota(rows.node.begin(), rows.node.end(), 0);
+  for (std::size_t i = 0; i < n; ++i) rows.node[i] = as<NodeIndex>(i);
   rows.weight.assign(n, 1.0);
   return rows;
 }
@@ -71,11 +71,11 @@ std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<cons
 }
 
 template<int dim>
-std::vector<std::int32_t> renumbered(const Resampling<dim>& change, std::span<const std::int32_t> nodes,
-                                     std::span<const std::int32_t> pieces) {
-  std::vector<std::int32_t> list;
-  for (const std::int32_t i : nodes)
-    if (change.new_of[index_of(i)] >= 0) list.push_back(change.new_of[index_of(i)]);
+std::vector<NodeIndex> renumbered(const Resampling<dim>& change, std::span<const NodeIndex> nodes,
+                                  std::span<const std::int32_t> pieces) {
+  std::vector<NodeIndex> list;
+  for (const NodeIndex i : nodes)
+    if (exists(change.new_of[i])) list.push_back(change.new_of[i]);
   for (const Facet<dim>& facet : facets_of_pieces(change.cloud, pieces))
     list.insert(list.end(), facet.node.begin(), facet.node.end());
   std::sort(list.begin(), list.end());
@@ -97,12 +97,12 @@ template<int dim> void renew_facets(const Cloud<dim>& cloud, std::vector<Facet<d
 }
 
 template std::vector<Facet<2>> facets_of_pieces(const Cloud<2>&, std::span<const std::int32_t>);
-template std::vector<std::int32_t> renumbered(const Resampling<2>&, std::span<const std::int32_t>,
-                                              std::span<const std::int32_t>);
+template std::vector<NodeIndex> renumbered(const Resampling<2>&, std::span<const NodeIndex>,
+                                           std::span<const std::int32_t>);
 template std::vector<std::int32_t> pieces_of(std::span<const Facet<2>>);
 template std::vector<Facet<3>> facets_of_pieces(const Cloud<3>&, std::span<const std::int32_t>);
-template std::vector<std::int32_t> renumbered(const Resampling<3>&, std::span<const std::int32_t>,
-                                              std::span<const std::int32_t>);
+template std::vector<NodeIndex> renumbered(const Resampling<3>&, std::span<const NodeIndex>,
+                                           std::span<const std::int32_t>);
 template std::vector<std::int32_t> pieces_of(std::span<const Facet<3>>);
 template void renew_facets(const Cloud<2>&, std::vector<Facet<2>>&);
 template void renew_facets(const Cloud<3>&, std::vector<Facet<3>>&);

@@ -2,7 +2,7 @@
 // How the nodes of a new cloud are made of those of an old one, and what is carried over with them.
 #include "core/fields/aligned.hpp"
 #include "core/geometry/cloud.hpp"
-#include "core/index.hpp"
+#include "core/indexed.hpp"
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@ namespace cnem {
 /// Sparse rows of weights: row n of the new cloud over nodes of the old one.
 struct NodeRows {
   std::vector<std::int32_t> begin; ///< [new + 1]
-  std::vector<std::int32_t> node;  ///< old node
+  std::vector<NodeIndex> node;     ///< of the old cloud
   Field weight;                    ///< –
 
   std::size_t size() const { return begin.size() - 1; }
@@ -28,12 +28,12 @@ struct NodeRows {
 /// row {itself, 1} and keeps its bits. Labels are positions in a sense: initial positions, sizes; they are
 /// interpolated where a node is inserted and otherwise stay with the node.
 template<int dim> struct Resampling {
-  Cloud<dim> cloud;                   ///< the new nodes, at their present positions
-  NodeRows parcels;                   ///< f_pk, fractions of old nodes
-  NodeRows labels;                    ///< weights that sum to 1 over each row
-  std::vector<Vec<dim>> old_position; ///< [old node] m, present
-  std::vector<std::int32_t> new_of;   ///< [old node] the new node that continues it; −1: removed
-  std::vector<std::int32_t> old_of;   ///< [new node] the old node that it continues; −1: inserted
+  Cloud<dim> cloud;                                ///< the new nodes, at their present positions
+  NodeRows parcels;                                ///< f_pk, fractions of old nodes
+  NodeRows labels;                                 ///< weights that sum to 1 over each row
+  IndexedVector<NodeIndex, Vec<dim>> old_position; ///< [old node] m, present
+  IndexedVector<NodeIndex, NodeIndex> new_of; ///< [old node] the new node that continues it; none: removed
+  IndexedVector<NodeIndex, NodeIndex> old_of; ///< [new node] the old node that it continues; none: inserted
 
   /// Whether node p is other matter than one old node.
   bool mixed(std::size_t p) const {
@@ -57,8 +57,8 @@ template<int dim>
 std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<const std::int32_t> pieces);
 /// Old nodes that are still there, and all nodes of the given pieces; in increasing order.
 template<int dim>
-std::vector<std::int32_t> renumbered(const Resampling<dim>& change, std::span<const std::int32_t> nodes,
-                                     std::span<const std::int32_t> pieces);
+std::vector<NodeIndex> renumbered(const Resampling<dim>& change, std::span<const NodeIndex> nodes,
+                                  std::span<const std::int32_t> pieces);
 /// The pieces of a list of facets, each once, in increasing order.
 template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>> facets);
 /// Replaces the facets that a condition holds by those of a new cloud on the same pieces.

@@ -9,10 +9,10 @@
 namespace cnem {
 
 /// An operator as kernels read it.
-template<int dim>
-SparseRows<dim> sparse_rows(const std::vector<std::int32_t>& begin, const std::vector<std::int32_t>& index,
-                            const Fields<dim>& weight) {
-  SparseRows<dim> rows{begin.data(), index.data(), {}};
+template<int dim, class Index>
+SparseRows<dim, Index> sparse_rows(const std::vector<std::int32_t>& begin, const std::vector<Index>& index,
+                                   const Fields<dim>& weight) {
+  SparseRows<dim, Index> rows{begin.data(), index.data(), {}};
   for (std::size_t k = 0; k < dim; ++k) rows.weight[k] = weight[k].data();
   return rows;
 }

@@ -1,5 +1,5 @@
 // What holds, ties and guides nodes: supports, ties, and contact with tools and other bodies.
-#include "core/index.hpp"
+#include "core/indexed.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/terms/list.hpp"
 
@@ -33,9 +33,9 @@ public:
     window_.clear();
     if (!body.levels.on() || !contact.flow_stress_needed()) return;
     for (int a = 0; a <= body.levels.highest(); ++a) {
-      std::vector<double>& window = window_.emplace_back();
-      for (const std::int32_t i : contact.boundary_nodes())
-        window.push_back(body.levels.window(body.operators(), index_of(i), a));
+      IndexedVector<BoundaryNodeIndex, double>& window = window_.emplace_back();
+      for (const NodeIndex i : contact.boundary_nodes())
+        window.push_back(body.levels.window(body.operators(), i, a));
     }
   }
 
@@ -51,27 +51,26 @@ public:
   void correct(const Body<dim>& body, int activity, double dt, double dt_mean) override {
     NodeState<dim>& node = body.state.node;
     if (body.conditions.contact.active())
-      touch(body, window_.empty() ? std::span<const double>() : window_[index_of(activity)], dt, dt_mean);
+      touch(body, window_.empty() ? contact::BoundaryValues() : window_[index_of(activity)], dt, dt_mean);
     if (!body.conditions.ties.empty())
       tie_loss_ += body.conditions.ties.share_motion(node.inertia(), dt, node.velocity, node.position);
   }
 
 private:
-  void touch(const Body<dim>& body, std::span<const double> window, double dt, double dt_mean) {
+  void touch(const Body<dim>& body, contact::BoundaryValues window, double dt, double dt_mean) {
     contact::RigidContact<dim>& contact = body.conditions.contact;
     NodeState<dim>& node = body.state.node;
-    const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
-    std::vector<double> flow_stress;
+    const IndexedVector<BoundaryNodeIndex, NodeIndex>& boundary = contact.boundary_nodes();
+    IndexedVector<BoundaryNodeIndex, double> flow_stress;
     if (contact.flow_stress_needed()) {
       flow_stress.reserve(boundary.size());
-      for (const std::int32_t i : boundary)
-        flow_stress.push_back(
-            average_at_node<dim>(body.operators(), body.state.point.flow_stress, index_of(i)));
+      for (const NodeIndex i : boundary)
+        flow_stress.push_back(average_at_node<dim>(body.operators(), body.state.point.flow_stress, i));
     }
-    std::vector<double> effusivity;
+    IndexedVector<BoundaryNodeIndex, double> effusivity;
     if (body.model.thermal)
-      for (const std::int32_t i : boundary) {
-        const plasticity::Material& material = body.material_of_node(index_of(i));
+      for (const NodeIndex i : boundary) {
+        const plasticity::Material& material = body.material_of_node(i);
         effusivity.push_back(std::sqrt(material.conductivity * material.density * material.specific_heat));
       }
     contact.correct({.time = body.state.time,
@@ -105,7 +104,7 @@ private:
   Energy recovery_{"contact_recovery", EnergyKind::received}; ///< pushing nodes out of tools
   Energy supports_{"support_work", EnergyKind::received};     ///< of prescribed boundary motion
   double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
-  std::vector<std::vector<double>> window_; ///< [activity][boundary node], as contact takes it
+  std::vector<IndexedVector<BoundaryNodeIndex, double>> window_; ///< [activity] as contact takes it
 };
 
 } // namespace

@@ -89,12 +89,12 @@ private:
   void collect_from_contact(const Body<dim>& body) {
     const contact::RigidContact<dim>& contact = body.conditions.contact;
     if (!contact.active()) return;
-    const std::vector<std::int32_t>& boundary = contact.boundary_nodes();
-    for (std::size_t b = 0; b < boundary.size(); ++b)
+    const IndexedVector<BoundaryNodeIndex, NodeIndex>& boundary = contact.boundary_nodes();
+    for (const BoundaryNodeIndex b : boundary.indices())
       body.state.node.contact_heat[index_of(boundary[b])] = contact.friction_heat()[b];
     contacts_.clear();
     for (const contact::ContactPoint<dim>& touch : contact.points()) {
-      const contact::ToolThermal& thermal = contact.tools()[index_of(touch.tool)].thermal;
+      const contact::ToolThermal& thermal = contact.tools()[touch.tool].thermal;
       if (thermal.conductance > 0.0)
         contacts_.tools.push_back({touch.node, thermal.conductance, touch.area, thermal.temperature});
     }

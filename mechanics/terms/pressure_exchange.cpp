@@ -13,7 +13,7 @@ namespace {
 template<int dim> std::vector<char> boundary_nodes(const std::vector<Facet<dim>>& facets, std::size_t nodes) {
   std::vector<char> on_boundary(nodes, 0);
   for (const Facet<dim>& facet : facets)
-    for (const std::int32_t node : facet.node) on_boundary[index_of(node)] = 1;
+    for (const NodeIndex node : facet.node) on_boundary[index_of(node)] = 1;
   return on_boundary;
 }
 
@@ -68,8 +68,8 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
                              ColumnStress<dim>& stress) {
   constexpr std::size_t stride = dim + 4, increment = dim + 1, strength = dim + 2, room = dim + 3;
   const std::size_t n = point.size();
-  const std::int32_t *row = operators.row_begin.data(), *node = operators.node.data();
-  const std::int32_t *first = links.begin.data(), *neighbour = links.neighbour.data();
+  const std::int32_t *row = operators.row_begin.data(), *first = links.begin.data();
+  const NodeIndex *node = operators.node.data(), *neighbour = links.neighbour.data();
   const double *pressure = point.pressure.data(), *weight = links.weight.data();
   const auto gradient = pointers(operators.gradient);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
@@ -79,7 +79,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       if (boundary_[i] || !(point.plastic_rate[i] > 0.0)) continue;
       double g[dim] = {};
       for (std::int32_t e = row[i]; e < row[i + 1]; ++e) {
-        const double jump = pressure[node[e]] - pressure[i];
+        const double jump = pressure[index_of(point_of(node[e]))] - pressure[i];
         for (std::size_t k = 0; k < dim; ++k) g[k] += gradient[k][e] * jump;
       }
       for (std::size_t k = 0; k < dim; ++k) own[1 + k] = g[k];
@@ -180,7 +180,7 @@ double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Fa
     if (on_boundary[i] || !(point.plastic_rate[i] > 0.0)) continue;
     double mean = 0.0;
     for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e)
-      mean += point.pressure[index_of(links.neighbour[index_of(e)])];
+      mean += point.pressure[index_of(point_of(links.neighbour[index_of(e)]))];
     mean /= links.begin[i + 1] - links.begin[i];
     sum += std::pow((point.pressure[i] - mean) / point.equivalent_stress[i], 2);
     ++count;

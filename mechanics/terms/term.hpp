@@ -40,8 +40,8 @@ template<int dim, bool constant> struct BodyOf {
   const plasticity::Material& material_of(std::size_t point) const {
     return model.materials[index_of(state.point.material[point])];
   }
-  const plasticity::Material& material_of_node(std::size_t node) const {
-    return model.materials[index_of(state.node.material[node])];
+  const plasticity::Material& material_of_node(NodeIndex node) const {
+    return model.materials[index_of(state.node.material[index_of(node)])];
   }
   /// Finest steps over which the loads on a node act.
   double load_weight(std::size_t node) const {

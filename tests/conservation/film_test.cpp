@@ -64,7 +64,7 @@ TEST(Film, broken_and_thin_is_cut_at_its_waist) {
   expect_all_handed_on(change, b.node.mass.size());
   for (const Facet<2>& facet : change.cloud.facets) {
     if (facet.piece != 1) continue;
-    for (const std::int32_t i : facet.node) EXPECT_NEAR(change.cloud.position[index_of(i)].x(), 1.0, 1e-3);
+    for (const NodeIndex i : facet.node) EXPECT_NEAR(change.cloud.position[i].x(), 1.0, 1e-3);
   }
 }
 
@@ -78,7 +78,7 @@ TEST(Film, is_cut_straight_across_where_a_node_stands_over_a_facet) {
   expect_all_handed_on(change, b.node.mass.size());
   for (const Facet<2>& facet : change.cloud.facets) {
     if (facet.piece != 1) continue;
-    for (const std::int32_t i : facet.node) EXPECT_NEAR(change.cloud.position[index_of(i)].x(), 1.0, 1e-3);
+    for (const NodeIndex i : facet.node) EXPECT_NEAR(change.cloud.position[i].x(), 1.0, 1e-3);
   }
 }
 
@@ -135,8 +135,7 @@ Blank drawn_out(double edge, double thickness) {
 double longest_edge(const Cloud<2>& cloud) {
   double longest = 0.0;
   for (const Facet<2>& facet : cloud.facets)
-    longest = std::max(
-        longest, (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm());
+    longest = std::max(longest, (cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).norm());
   return longest;
 }
 

@@ -184,8 +184,8 @@ TEST(Marking, spacing_grows_no_faster_than_asked) {
   Marked m;
   m.size[10] = 0.005;
   limit_growth(m.cloud, m.structure, 0.3, m.size);
-  for (std::int32_t i = 0; i < m.cloud.nodes(); ++i)
-    for (const std::int32_t k : m.structure.neighbours(i)) {
+  for (const NodeIndex i : m.cloud.position.indices())
+    for (const NodeIndex k : m.structure.neighbours(i)) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
       EXPECT_LE(m.size[b], m.size[a] + 0.3 * (m.cloud.position[b] - m.cloud.position[a]).norm() + 1e-12);
     }

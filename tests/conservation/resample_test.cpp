@@ -6,10 +6,13 @@
 #include "core/index.hpp"
 #include "tests/clouds.hpp"
 #include "tests/conservation/blank.hpp"
+#include "tests/index_literals.hpp"
 
 #include <gtest/gtest.h>
 
 namespace cnem::adapt {
+
+using namespace testing::literals;
 namespace {
 
 using cnem::testing::Random;
@@ -46,7 +49,7 @@ struct Motion {
 
 struct Carried {
   Field mass, momentum, heat, jacobian, size;
-  std::vector<char> held;
+  IndexedVector<NodeIndex, char> held;
 };
 
 void expect_exact_patch(const Cloud<2>& cloud) {
@@ -59,7 +62,7 @@ void expect_exact_patch(const Cloud<2>& cloud) {
     double largest = 0.0;
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       const Vec2 b(op.gradient[0][e], op.gradient[1][e]);
-      const Vec2 x = cloud.position[index_of(op.node[e])] - cloud.position[p];
+      const Vec2 x = cloud.position[op.node[e]] - cloud.position[p];
       gradient += x * b.transpose();
       sum += b;
       largest = std::max(largest, b.norm() * x.norm());
@@ -170,7 +173,7 @@ TEST(Resample, a_good_cloud_is_left_alone_to_the_bit) {
   for (std::size_t i = 0; i < b.cloud.position.size(); ++i) {
     EXPECT_EQ(change.cloud.position[i], b.cloud.position[i]);
     EXPECT_FALSE(change.mixed(i));
-    EXPECT_EQ(change.old_of[i], static_cast<std::int32_t>(i));
+    EXPECT_EQ(change.old_of[i], as<NodeIndex>(i));
   }
 }
 
@@ -203,8 +206,8 @@ TEST(Resample, doubling_the_spacing_removes_most_nodes_and_keeps_the_boundary) {
     carry_mean(change.parcels, b.node.mass, b.node.jacobian);
     for (Field* field : {&b.node.mass}) carry_sum(change.parcels, *field);
     for (Field* field : {&b.node.size, &b.node.density}) carry_label(change.labels, *field);
-    std::vector<char> held;
-    for (const std::int32_t old : change.old_of) held.push_back(old < 0 ? 0 : b.node.held[index_of(old)]);
+    IndexedVector<NodeIndex, char> held;
+    for (const NodeIndex old : change.old_of) held.push_back(exists(old) ? b.node.held[old] : 0);
     b.node.held = held;
   }
   EXPECT_LT(static_cast<double>(b.cloud.nodes()),
@@ -215,17 +218,17 @@ TEST(Resample, doubling_the_spacing_removes_most_nodes_and_keeps_the_boundary) {
 
 TEST(Resample, a_node_that_left_the_domain_gives_its_mass_to_the_nearest_edge) {
   Blank b = blank(0.1);
-  std::int32_t inner = -1;
-  for (std::int32_t i = 0; i < b.cloud.nodes(); ++i) {
-    const Vec2& x = b.cloud.position[index_of(i)];
+  NodeIndex inner = NodeIndex::none;
+  for (const NodeIndex i : b.cloud.position.indices()) {
+    const Vec2& x = b.cloud.position[i];
     if (x.y() > 0.05 && x.y() < 0.15 && x.x() > 0.45 && x.x() < 0.55) inner = i;
   }
-  ASSERT_GE(inner, 0);
-  b.cloud.position[index_of(inner)].y() = -0.01;
+  ASSERT_TRUE(exists(inner));
+  b.cloud.position[inner].y() = -0.01;
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
   EXPECT_EQ(report.outside, 1);
-  EXPECT_EQ(change.new_of[index_of(inner)], -1);
+  EXPECT_EQ(change.new_of[inner], NodeIndex::none);
   Field mass = b.node.mass;
   carry_sum(change.parcels, mass);
   double sum = 0.0;
@@ -236,33 +239,33 @@ TEST(Resample, a_node_that_left_the_domain_gives_its_mass_to_the_nearest_edge) {
 TEST(Resample, an_inner_node_at_a_long_edge_becomes_part_of_it) {
   Blank b = blank(0.1);
   // the boundary node at (0.5, 0) gone and an inner one near its place
-  std::int32_t inner = -1;
-  for (std::int32_t i = 0; i < b.cloud.nodes(); ++i) {
-    const Vec2& x = b.cloud.position[index_of(i)];
-    if (x.y() > 0.05 && x.y() < 0.15 && std::abs(x.x() - 0.55) < 0.051 && inner < 0) inner = i;
+  NodeIndex inner = NodeIndex::none;
+  for (const NodeIndex i : b.cloud.position.indices()) {
+    const Vec2& x = b.cloud.position[i];
+    if (x.y() > 0.05 && x.y() < 0.15 && std::abs(x.x() - 0.55) < 0.051 && !exists(inner)) inner = i;
   }
-  ASSERT_GE(inner, 0);
-  b.cloud.position[index_of(inner)] = {0.55, 0.02};
+  ASSERT_TRUE(exists(inner));
+  b.cloud.position[inner] = {0.55, 0.02};
   for (double& h : b.node.size) h = 0.08;
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
   EXPECT_EQ(report.promoted, 1);
-  const std::int32_t now = change.new_of[index_of(inner)];
-  ASSERT_GE(now, 0);
-  EXPECT_NEAR(change.cloud.position[index_of(now)].y(), 0.0, 1e-15);
+  const NodeIndex now = change.new_of[inner];
+  ASSERT_TRUE(exists(now));
+  EXPECT_NEAR(change.cloud.position[now].y(), 0.0, 1e-15);
   EXPECT_NEAR(testing::area(change.cloud), 0.6, 1e-14);
 }
 
 // On the side of a punch nodes slide along one line, and one may be carried past the next.
 TEST(Resample, a_boundary_that_turns_back_on_itself_is_mended) {
   Blank b = blank(0.1);
-  std::int32_t first = -1;
+  NodeIndex first = NodeIndex::none;
   for (const Facet<2>& facet : b.cloud.facets)
-    if (std::abs(b.cloud.position[index_of(facet.node[0])].x() - 0.4) < 1e-9 &&
-        b.cloud.position[index_of(facet.node[0])].y() == 0.0)
+    if (std::abs(b.cloud.position[facet.node[0]].x() - 0.4) < 1e-9 &&
+        b.cloud.position[facet.node[0]].y() == 0.0)
       first = facet.node[0];
-  ASSERT_GE(first, 0);
-  b.cloud.position[index_of(first)].x() = 0.53; // beyond the one at 0.5
+  ASSERT_TRUE(exists(first));
+  b.cloud.position[first].x() = 0.53; // beyond the one at 0.5
   EXPECT_THROW(build_structure(b.cloud), GeometryError);
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
@@ -277,14 +280,14 @@ TEST(Resample, a_boundary_that_turns_back_on_itself_is_mended) {
 
 TEST(Resample, a_small_loop_of_the_boundary_is_cut_off) {
   Blank b = blank(0.1);
-  std::int32_t left = -1;
+  NodeIndex left = NodeIndex::none;
   for (const Facet<2>& facet : b.cloud.facets) {
-    const Vec2& x = b.cloud.position[index_of(facet.node[0])];
+    const Vec2& x = b.cloud.position[facet.node[0]];
     if (std::abs(x.x() - 0.4) < 1e-9 && x.y() == 0.0) left = facet.node[0];
   }
-  ASSERT_GE(left, 0);
-  b.cloud.position[index_of(left)] = {0.55, 0.01};
-  b.cloud.position[index_of(left + 1)] = {0.45, 0.02};
+  ASSERT_TRUE(exists(left));
+  b.cloud.position[left] = {0.55, 0.01};
+  b.cloud.position[index_of(left) + 1] = {0.45, 0.02};
   EXPECT_THROW(build_structure(b.cloud), GeometryError);
   PassReport report;
   const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
@@ -293,7 +296,7 @@ TEST(Resample, a_small_loop_of_the_boundary_is_cut_off) {
 
 TEST(Resample, cracks_are_refused) {
   Blank b = blank(0.1);
-  b.cloud.twins.push_back({0, 1});
+  b.cloud.twins.push_back({0_node, 1_node});
   PassReport report;
   EXPECT_THROW(resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report), GeometryError);
 }

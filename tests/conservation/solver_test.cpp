@@ -107,7 +107,7 @@ TEST(Audit, damage_goes_with_the_mass_and_limits_mixed_stresses) {
       const auto first = change.parcels.node.begin() + change.parcels.begin[p],
                  last = change.parcels.node.begin() + change.parcels.begin[p + 1];
       if (last - first < 2) continue;
-      if (std::all_of(first, last, [&](std::int32_t i) { return old_damage[std::size_t(i)] == 1.0; })) {
+      if (std::all_of(first, last, [&](NodeIndex i) { return old_damage[std::size_t(i)] == 1.0; })) {
         ++initiated;
         EXPECT_EQ(point.damage[p], 1.0) << "to the bit: else it would initiate again";
         EXPECT_GT(point.initiation_strain[p], 0.0049);
@@ -177,7 +177,7 @@ TEST(Audit, a_uniform_state_stays_uniform) {
   const Mat2 F = (Mat2() << 1.002, 0.001, -0.0005, 0.998).finished();
   std::vector<Support<2>> supports;
   const double time = 1e-7;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+  for (const NodeIndex i : cloud.position.indices()) {
     const Vec2 u = (F - Mat2::Identity()) * cloud.position[static_cast<std::size_t>(i)];
     for (int k = 0; k < 2; ++k)
       supports.push_back({k == 0 ? "x" : "y",
@@ -203,7 +203,7 @@ TEST(Audit, a_uniform_state_stays_uniform) {
   }
   std::vector<char> boundary(state.node.size(), 0);
   for (const Facet<2>& facet : solver.conditions().cloud.facets)
-    for (const std::int32_t i : facet.node) boundary[static_cast<std::size_t>(i)] = 1;
+    for (const NodeIndex i : facet.node) boundary[static_cast<std::size_t>(i)] = 1;
   for (std::size_t i = 0; i < state.node.size(); ++i) {
     if (boundary[i]) continue;
     EXPECT_NEAR(std::hypot(state.node.force[0][i], state.node.force[1][i]), 0.0, 1e-9 * stress * 1e-4);

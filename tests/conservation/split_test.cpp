@@ -77,10 +77,10 @@ TEST(Split, takes_the_body_apart_where_it_is_broken_through) {
   scni::Cnem method{scni::Options{}};
   const DiscreteOperators<2> op = method.rebuild(change.cloud).mechanics;
   std::vector<int> side(mass.size(), 0);
-  std::vector<std::int32_t> front{0};
+  std::vector<NodeIndex> front{NodeIndex{}};
   side[0] = 1;
   while (!front.empty()) {
-    const std::int32_t i = front.back();
+    const NodeIndex i = front.back();
     front.pop_back();
     for (auto e = index_of(op.row_begin[index_of(i)]); e < index_of(op.row_begin[index_of(i) + 1]); ++e)
       if (!side[index_of(op.node[e])]) {
@@ -125,14 +125,14 @@ TEST(Split, faces_are_smooth_and_end_on_the_boundary) {
     const Facet<2>& next = *leaving[index_of(facet.node[1])];
     if (facet.piece != 1) {
       if (next.piece == 1) {
-        const double y = cloud.position[index_of(facet.node[1])].y();
+        const double y = cloud.position[facet.node[1]].y();
         EXPECT_NEAR(std::min(std::abs(y), std::abs(y - 0.6)), 0.0, 1e-15);
       }
       continue;
     }
     if (next.piece != 1) continue;
-    const Vec2 in = cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])],
-               out = cloud.position[index_of(next.node[1])] - cloud.position[index_of(next.node[0])];
+    const Vec2 in = cloud.position[facet.node[1]] - cloud.position[facet.node[0]],
+               out = cloud.position[next.node[1]] - cloud.position[next.node[0]];
     EXPECT_GT(in.dot(out), 0.85 * in.norm() * out.norm()); // a path of the lattice turns by 60 degrees
     ++turns;
   }

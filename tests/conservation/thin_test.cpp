@@ -28,8 +28,7 @@ std::array<std::size_t, 3> cut_slit(Blank& b, double depth, double mouth = 0.006
 double shortest_facet(const Cloud<2>& cloud) {
   double shortest = 1.0;
   for (const Facet<2>& facet : cloud.facets)
-    shortest = std::min(
-        shortest, (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm());
+    shortest = std::min(shortest, (cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).norm());
   return shortest;
 }
 
@@ -41,7 +40,7 @@ TEST(Thin, shallow_slits_are_closed) {
     const std::size_t bottom = cut_slit(b, depth, mouth)[1];
     PassReport report;
     const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
-    EXPECT_EQ(change.new_of[bottom], -1) << depth;
+    EXPECT_EQ(change.new_of[bottom], NodeIndex::none) << depth;
     EXPECT_GT(shortest_facet(change.cloud), 0.03) << depth;
     EXPECT_NEAR(testing::area(change.cloud), 0.6, 1e-3 * 0.6) << depth;
   }
@@ -55,7 +54,7 @@ TEST(Thin, slits_stay_where_they_are_deep_or_blunt_or_their_lips_must_stay) {
     if (held) b.node.held[before] = b.node.held[after] = 1;
     PassReport report;
     const Resampling<2> change = resample(b.cloud, structure_if_valid(b.cloud), b.node, {}, report);
-    EXPECT_GE(change.new_of[bottom], 0) << depth << ' ' << mouth << ' ' << held;
+    EXPECT_TRUE(exists(change.new_of[bottom])) << depth << ' ' << mouth << ' ' << held;
   }
 }
 
@@ -77,8 +76,8 @@ TEST(Thin, slivers_at_the_boundary_go) {
     ASSERT_LT(structure->cells.volume[tip], 0.05 * 0.01);
     PassReport report;
     const Resampling<2> change = resample(b.cloud, structure, b.node, {}, report);
-    EXPECT_EQ(change.new_of[tip] < 0, outline == single);
-    EXPECT_EQ(change.new_of[bottom] < 0, outline == notched);
+    EXPECT_EQ(!exists(change.new_of[tip]), outline == single);
+    EXPECT_EQ(!exists(change.new_of[bottom]), outline == notched);
   }
 }
 
@@ -138,10 +137,9 @@ TEST(Mend, what_is_cut_off_is_the_smaller_part) {
 TEST(WorkingCloud, ends_of_the_free_piece_may_go) {
   Blank b = blank(0.1, 0.0);
   b.cloud.piece_names = {"boundary", "fracture"};
-  std::int32_t start = -1;
+  NodeIndex start = NodeIndex::none;
   for (Facet<2>& facet : b.cloud.facets) {
-    const double x = b.cloud.position[index_of(facet.node[0])].x(),
-                 y = b.cloud.position[index_of(facet.node[0])].y();
+    const double x = b.cloud.position[facet.node[0]].x(), y = b.cloud.position[facet.node[0]].y();
     if (y == 0.0 && x > 0.39 && x < 0.59) facet.piece = 1;
     if (y == 0.0 && std::abs(x - 0.4) < 1e-9) start = facet.node[0];
   }
@@ -149,7 +147,7 @@ TEST(WorkingCloud, ends_of_the_free_piece_may_go) {
   EXPECT_TRUE(named.ends_piece(start));
   WorkingCloud work(b.cloud, b.node, 1);
   EXPECT_FALSE(work.ends_piece(start));
-  const std::int32_t before = work.previous(start);
+  const NodeIndex before = work.previous(start);
   EXPECT_EQ(work.piece(before), 0);
   work.bypass(start);
   EXPECT_EQ(work.piece(before), 1) << "the named piece does not grow";
@@ -185,8 +183,8 @@ TEST(Thin, the_boundary_is_not_laid_across_what_touches_it_but_for_a_little) {
     PassReport report;
     const Resampling<2> change = resample(b.cloud, structure, b.node, {}, report);
     EXPECT_EQ(report.undone, 0);
-    EXPECT_EQ(change.new_of[twin], -1);
-    EXPECT_EQ(change.new_of[bottom] < 0, reach < 0.005) << reach;
+    EXPECT_EQ(change.new_of[twin], NodeIndex::none);
+    EXPECT_EQ(!exists(change.new_of[bottom]), reach < 0.005) << reach;
     EXPECT_TRUE(structure_if_valid(change.cloud));
   }
 }

@@ -8,7 +8,7 @@
 
 namespace cnem::testing {
 
-inline std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+template<class Number> std::size_t index(Number i) { return index_of(i); }
 
 template<int dim> Vec<dim> gradient(const DiscreteOperators<dim>& op, std::size_t entry) {
   return vector_at<dim>(op.gradient, entry);

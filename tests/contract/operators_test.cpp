@@ -81,7 +81,7 @@ TEST_P(Contract, checks_for_assertions_pass_operators_and_see_damaged_ones) {
     const auto is_complete = [&](auto&& damage) { return rows_are_complete(damaged(damage)); };
     EXPECT_FALSE(is_complete([](auto& o) { o.volume.back() = 0.0; }));
     EXPECT_FALSE(is_complete([](auto& o) { std::swap(o.node[0], o.node[1]); }));
-    EXPECT_FALSE(is_complete([](auto& o) { o.node[index(o.row_begin[1]) - 1] = o.nodes; }));
+    EXPECT_FALSE(is_complete([](auto& o) { o.node[index(o.row_begin[1]) - 1] = as<NodeIndex>(o.nodes); }));
     EXPECT_FALSE(is_complete([](auto& o) { o.gradient[dim - 1].pop_back(); }));
     EXPECT_FALSE(is_complete([](auto& o) { o.hoop.push_back(1.0); }));
     const auto reproduces = [&](auto&& damage) {

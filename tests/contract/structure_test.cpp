@@ -93,7 +93,7 @@ TEST_P(Contract, promised_interpolation_cell_vertices_at_nodes_move_with_them) {
           EXPECT_EQ(cells.vertex_weight[e], 1.0);
           ++at_nodes;
         }
-    std::set<std::int32_t> boundary;
+    std::set<NodeIndex> boundary;
     for (const Facet<dim>& facet : domain.cloud.facets) boundary.insert(facet.node.begin(), facet.node.end());
     EXPECT_GE(at_nodes, boundary.size());
   });

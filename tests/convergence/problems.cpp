@@ -78,7 +78,7 @@ Fields<2> forces(const Problem& problem, const Cloud<2>& cloud) {
   constexpr std::array<double, 3> s{0.1127016653792583, 0.5, 0.8872983346207417},
       w{5.0 / 18, 8.0 / 18, 5.0 / 18};
   for (const Facet<2>& facet : cloud.facets) {
-    const Vec2 &a = cloud.position[index_of(facet.node[0])], &b = cloud.position[index_of(facet.node[1])];
+    const Vec2 &a = cloud.position[facet.node[0]], &b = cloud.position[facet.node[1]];
     for (std::size_t g = 0; g < 3; ++g) {
       const Vec2 t = w[g] * problem.exact(a + s[g] * (b - a)).stress * right_normal(b - a);
       for (std::size_t k = 0; k < 2; ++k) {
@@ -92,17 +92,17 @@ Fields<2> forces(const Problem& problem, const Cloud<2>& cloud) {
 
 Supports<2> supports(const Problem& problem, const Cloud<2>& cloud) {
   std::vector<Support<2>> list;
-  std::set<std::pair<std::int32_t, Eigen::Index>> done;
+  std::set<std::pair<NodeIndex, Eigen::Index>> done;
   for (const Problem::Held& held : problem.held)
     for (const Facet<2>& facet : cloud.facets)
       if (cloud.piece_names[index_of(facet.piece)] == held.piece)
-        for (const std::int32_t i : facet.node)
+        for (const NodeIndex i : facet.node)
           for (const Eigen::Index k : held.components)
             if (done.emplace(i, k).second)
               list.push_back({held.piece,
                               Support<2>::Kind::displacement,
                               Vec2::Unit(k),
-                              TimeTable(problem.exact(cloud.position[index_of(i)]).displacement[k]),
+                              TimeTable(problem.exact(cloud.position[i]).displacement[k]),
                               {i}});
   return Supports<2>(std::move(list), index_of(cloud.nodes()));
 }
@@ -272,21 +272,20 @@ Errors solve(const Problem& problem, const Method& method, double spacing) {
 double cook_tip(const Method& method, const plasticity::Elasticity& elasticity, int n) {
   const Cloud<2> cloud = cook_cloud(n);
   const Approximation<2> approximation = method.method->rebuild(cloud);
-  std::vector<std::int32_t> left;
+  std::vector<NodeIndex> left;
   Fields<2> force;
   resize_all(force, index_of(cloud.nodes()));
-  std::int32_t tip = 0;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    const Vec2& x = cloud.position[index_of(i)];
+  NodeIndex tip{};
+  for (const NodeIndex i : cloud.position.indices()) {
+    const Vec2& x = cloud.position[i];
     if (x.x() == 0.0) left.push_back(i);
-    if ((x - Vec2(48, 52)).norm() < (cloud.position[index_of(tip)] - Vec2(48, 52)).norm()) tip = i;
+    if ((x - Vec2(48, 52)).norm() < (cloud.position[tip] - Vec2(48, 52)).norm()) tip = i;
   }
   for (const Facet<2>& facet : cloud.facets)
     if (cloud.piece_names[index_of(facet.piece)] == "right")
-      for (const std::int32_t i : facet.node)
+      for (const NodeIndex i : facet.node)
         force[1][index_of(i)] +=
-            0.5 / 16.0 *
-            (cloud.position[index_of(facet.node[1])] - cloud.position[index_of(facet.node[0])]).norm();
+            0.5 / 16.0 * (cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).norm();
   const Supports<2> held({{"left", Support<2>::Kind::displacement, Vec2(1, 0), TimeTable(0.0), left},
                           {"left", Support<2>::Kind::displacement, Vec2(0, 1), TimeTable(0.0), left}},
                          index_of(cloud.nodes()));

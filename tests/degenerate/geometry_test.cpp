@@ -37,8 +37,7 @@ std::vector<std::pair<std::int32_t, Vec2>> sample_points(const Cloud<2>& cloud, 
   const std::int32_t stride = std::max(1, mesh.triangles() / 60);
   for (std::int32_t t = 0; t < mesh.triangles(); t += stride) {
     const auto& [i, j, k] = mesh.node[index_of(t)];
-    const Vec2 &a = cloud.position[index_of(i)], &b = cloud.position[index_of(j)],
-               &c = cloud.position[index_of(k)];
+    const Vec2 &a = cloud.position[i], &b = cloud.position[j], &c = cloud.position[k];
     points.emplace_back(t, (a + b + c) / 3.0);
     points.emplace_back(t, 0.3 * a + 0.699 * b + 0.001 * c);
     points.emplace_back(t, 0.9999 * a + 0.00006 * b + 0.00004 * c);
@@ -69,24 +68,22 @@ TEST_P(RandomClouds, CellsFillTheDomainAndAreClosed) {
       EXPECT_LE(piece.place[0][0], piece.place[1][0]);
       covered[index_of(piece.facet)] = piece.place[1][0];
       normals[index_of(piece.cell)] +=
-          right_normal(cloud.position[index_of(b)] - cloud.position[index_of(a)]) *
-          (piece.place[1][0] - piece.place[0][0]);
+          right_normal(cloud.position[b] - cloud.position[a]) * (piece.place[1][0] - piece.place[0][0]);
     }
     for (const double s : covered) EXPECT_EQ(s, 1.0);
 
-    for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-      EXPECT_GT(cells.volume[index_of(i)], 0.0) << "node " << i;
-      EXPECT_LT(normals[index_of(i)].norm(), 1e-13) << "node " << i;
+    for (const NodeIndex i : cloud.position.indices()) {
+      EXPECT_GT(cells.volume[index_of(i)], 0.0) << "node " << index_of(i);
+      EXPECT_LT(normals[index_of(i)].norm(), 1e-13) << "node " << index_of(i);
       double area = 0.0;
       const std::int32_t begin = polygons.begin[index_of(i)], end = polygons.begin[index_of(i) + 1];
       ASSERT_GE(end - begin, 3);
       for (std::int32_t k = begin; k < end; ++k) {
         const std::int32_t l = k + 1 == end ? begin : k + 1;
-        area +=
-            0.5 * cross(polygons.vertex[index_of(polygons.index[index_of(k)])] - cloud.position[index_of(i)],
-                        polygons.vertex[index_of(polygons.index[index_of(l)])] - cloud.position[index_of(i)]);
+        area += 0.5 * cross(polygons.vertex[index_of(polygons.index[index_of(k)])] - cloud.position[i],
+                            polygons.vertex[index_of(polygons.index[index_of(l)])] - cloud.position[i]);
       }
-      EXPECT_NEAR(area, cells.volume[index_of(i)], 1e-13 * random.area) << "node " << i;
+      EXPECT_NEAR(area, cells.volume[index_of(i)], 1e-13 * random.area) << "node " << index_of(i);
     }
     for (std::size_t v = 0; v < polygons.vertex.size(); ++v) {
       Vec2 x = Vec2::Zero();
@@ -140,8 +137,8 @@ TEST_P(RandomClouds, FunctionsInterpolateTheNodes) {
     const Cloud<2>& cloud = random.cloud;
     NaturalNeighbours at(cloud, mesh, circles);
     for (const auto functions : {Functions::sibson, Functions::laplace})
-      for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-        at.evaluate(functions, cloud.position[index_of(i)], mesh.triangle_of_node[index_of(i)]);
+      for (const NodeIndex i : cloud.position.indices()) {
+        at.evaluate(functions, cloud.position[i], mesh.triangle_of_node[index_of(i)]);
         ASSERT_EQ(at.nodes().size(), 1u);
         EXPECT_EQ(at.nodes()[0], i);
         EXPECT_EQ(at.values()[0], 1.0);
@@ -157,13 +154,12 @@ TEST_P(RandomClouds, GradientsAreThoseOfTheValues) {
     for (const auto functions : {Functions::sibson, Functions::laplace})
       for (std::int32_t t = 0; t < mesh.triangles(); t += stride) {
         const auto& [i, j, k] = mesh.node[index_of(t)];
-        const Vec2 &a = cloud.position[index_of(i)], &b = cloud.position[index_of(j)],
-                   &c = cloud.position[index_of(k)];
+        const Vec2 &a = cloud.position[i], &b = cloud.position[j], &c = cloud.position[k];
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
         const double step = 1e-5 * cross(b - a, c - a) / longest;
         if (step < 1e-9) continue; // differences drown in rounding
         const Vec2 x = 0.37 * a + 0.34 * b + 0.29 * c;
-        std::map<std::int32_t, Vec2> error;
+        std::map<NodeIndex, Vec2> error;
         at.evaluate_with_gradients(functions, x, t);
         Vec2 sum = Vec2::Zero();
         Mat2 moment = Mat2::Zero();
@@ -185,7 +181,7 @@ TEST_P(RandomClouds, GradientsAreThoseOfTheValues) {
           }
         if (functions == Functions::laplace && !same_stencil) continue; // they have kinks on the circles
         for (const auto& [node, e] : error)
-          EXPECT_LT(e.norm() * step, 1e-9) << "triangle " << t << ", node " << node;
+          EXPECT_LT(e.norm() * step, 1e-9) << "triangle " << t << ", node " << index_of(node);
       }
   });
 }
@@ -194,7 +190,7 @@ TEST_P(RandomClouds, GradientsAreThoseOfTheValues) {
 bool crosses_wall(const Cloud<2>& cloud, const Vec2& a, const Vec2& b) {
   const double small = 1e-12 * (b - a).norm();
   for (const auto& facet : cloud.facets) {
-    const Vec2 &p = cloud.position[index_of(facet.node[0])], &q = cloud.position[index_of(facet.node[1])];
+    const Vec2 &p = cloud.position[facet.node[0]], &q = cloud.position[facet.node[1]];
     const double scale = small * (q - p).norm();
     const double side_p = cross(b - a, p - a), side_q = cross(b - a, q - a);
     const double side_a = cross(q - p, a - p), side_b = cross(q - p, b - p);
@@ -217,18 +213,18 @@ std::vector<std::array<std::int32_t, 2>> facets_of_nodes(const Cloud<2>& cloud) 
 
 /// x lies in the material angle of the boundary node: counter-clockwise from the facet that leaves it to the
 /// one that arrives. Tells the two faces of a crack apart.
-bool in_sector(const Cloud<2>& cloud, std::int32_t node, const std::array<std::int32_t, 2>& facets,
+bool in_sector(const Cloud<2>& cloud, NodeIndex node, const std::array<std::int32_t, 2>& facets,
                const Vec2& x) {
   if (facets[0] < 0) return true;
-  const Vec2& origin = cloud.position[index_of(node)];
-  const Vec2 out = cloud.position[index_of(cloud.facets[index_of(facets[0])].node[1])] - origin;
-  const Vec2 in = cloud.position[index_of(cloud.facets[index_of(facets[1])].node[0])] - origin;
+  const Vec2& origin = cloud.position[node];
+  const Vec2 out = cloud.position[cloud.facets[index_of(facets[0])].node[1]] - origin;
+  const Vec2 in = cloud.position[cloud.facets[index_of(facets[1])].node[0]] - origin;
   const auto angle = [&](const Vec2& d) {
     const double phi = std::atan2(cross(out, d), out.dot(d));
     return phi < -1e-9 ? phi + 2.0 * std::numbers::pi : phi;
   };
-  const bool tip = cloud.position[index_of(cloud.facets[index_of(facets[0])].node[1])] ==
-                   cloud.position[index_of(cloud.facets[index_of(facets[1])].node[0])];
+  const bool tip = cloud.position[cloud.facets[index_of(facets[0])].node[1]] ==
+                   cloud.position[cloud.facets[index_of(facets[1])].node[0]];
   return tip || angle(x - origin) <= angle(in) + 1e-9;
 }
 
@@ -239,16 +235,16 @@ TEST_P(RandomClouds, WallsStopAllInfluence) {
     const Cells cells = constrained_cells(cloud, mesh, circles);
     NaturalNeighbours at(cloud, mesh, circles);
     const auto expect_visible = [&](const Vec2& x) {
-      for (const std::int32_t i : at.nodes()) {
-        EXPECT_FALSE(crosses_wall(cloud, x, cloud.position[index_of(i)]))
-            << "node " << i << " from " << x.transpose();
-        EXPECT_TRUE(in_sector(cloud, i, facets[index_of(i)], x)) << "node " << i << " from " << x.transpose();
+      for (const NodeIndex i : at.nodes()) {
+        EXPECT_FALSE(crosses_wall(cloud, x, cloud.position[i]))
+            << "node " << index_of(i) << " from " << x.transpose();
+        EXPECT_TRUE(in_sector(cloud, i, facets[index_of(i)], x))
+            << "node " << index_of(i) << " from " << x.transpose();
       }
     };
     for (std::int32_t t = 0; t < mesh.triangles(); ++t) {
       const auto& [i, j, k] = mesh.node[index_of(t)];
-      const Vec2 x = 0.4 * cloud.position[index_of(i)] + 0.35 * cloud.position[index_of(j)] +
-                     0.25 * cloud.position[index_of(k)];
+      const Vec2 x = 0.4 * cloud.position[i] + 0.35 * cloud.position[j] + 0.25 * cloud.position[k];
       at.evaluate(Functions::sibson, x, t);
       expect_visible(x);
     }
@@ -264,24 +260,24 @@ TEST_P(RandomClouds, CellsBelongToTheNearestVisibleNode) {
   for_each_cloud([](const RandomCloud& random, const Triangulation& mesh, const Circumcircles& circles) {
     const Cloud<2>& cloud = random.cloud;
     const Cells cells = constrained_cells(cloud, mesh, circles);
-    const auto expect_nearest = [&](const Vec2& x, std::int32_t owner) {
-      const double distance = (cloud.position[index_of(owner)] - x).norm();
-      for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-        if ((cloud.position[index_of(i)] - x).norm() < distance - 1e-9) {
-          EXPECT_TRUE(crosses_wall(cloud, x, cloud.position[index_of(i)]))
-              << "node " << i << " is nearer to " << x.transpose() << " than node " << owner;
+    const auto expect_nearest = [&](const Vec2& x, NodeIndex owner) {
+      const double distance = (cloud.position[owner] - x).norm();
+      for (const NodeIndex i : cloud.position.indices())
+        if ((cloud.position[i] - x).norm() < distance - 1e-9) {
+          EXPECT_TRUE(crosses_wall(cloud, x, cloud.position[i]))
+              << "node " << index_of(i) << " is nearer to " << x.transpose() << " than node "
+              << index_of(owner);
         }
     };
     for (const auto& f : cells.interior) {
       const Vec2 x = 0.5 * (f.corner[0] + f.corner[1]);
-      EXPECT_NEAR((cloud.position[index_of(f.cell[0])] - x).norm(),
-                  (cloud.position[index_of(f.cell[1])] - x).norm(), 1e-9);
+      EXPECT_NEAR((cloud.position[f.cell[0]] - x).norm(), (cloud.position[f.cell[1]] - x).norm(), 1e-9);
       expect_nearest(x, f.cell[0]);
     }
     for (const auto& piece : cells.boundary) {
       const auto& [a, b] = cloud.facets[index_of(piece.facet)].node;
-      const Vec2 edge = cloud.position[index_of(b)] - cloud.position[index_of(a)];
-      const Vec2 x = cloud.position[index_of(a)] + 0.5 * (piece.place[0][0] + piece.place[1][0]) * edge;
+      const Vec2 edge = cloud.position[b] - cloud.position[a];
+      const Vec2 x = cloud.position[a] + 0.5 * (piece.place[0][0] + piece.place[1][0]) * edge;
       expect_nearest(x + 1e-10 * left_normal(edge), piece.cell);
     }
   });

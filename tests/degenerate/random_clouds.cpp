@@ -52,15 +52,16 @@ void add_loop(Cloud<2>& cloud, const Loop& loop) {
   const auto first = static_cast<std::int32_t>(cloud.nodes());
   const auto n = static_cast<std::int32_t>(loop.size());
   for (const Vec2& x : loop) cloud.position.push_back(x);
-  for (std::int32_t k = 0; k < n; ++k) cloud.facets.push_back({{first + k, first + (k + 1) % n}, 0});
+  for (std::int32_t k = 0; k < n; ++k)
+    cloud.facets.push_back({{as<NodeIndex>(first + k), as<NodeIndex>(first + (k + 1) % n)}, 0});
 }
 
 /// Declares all coincident nodes twins: the faces of cracks.
 void declare_twins(Cloud<2>& cloud) {
-  std::vector<std::int32_t> order(cloud.position.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
-  const auto at = [&](std::int32_t i) -> const Vec2& { return cloud.position[static_cast<std::size_t>(i)]; };
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+  std::vector<NodeIndex> order;
+  for (const NodeIndex i : cloud.position.indices()) order.push_back(i);
+  const auto at = [&](NodeIndex i) -> const Vec2& { return cloud.position[i]; };
+  std::sort(order.begin(), order.end(), [&](NodeIndex a, NodeIndex b) {
     return at(a).x() != at(b).x() ? at(a).x() < at(b).x() : at(a).y() < at(b).y();
   });
   for (std::size_t k = 1; k < order.size(); ++k)

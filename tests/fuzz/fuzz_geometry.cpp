@@ -30,8 +30,7 @@ double polygon_area(const Cloud<2>& cloud) {
   const Vec2 origin = cloud.position[index_of(cloud.facets.front().node[0])];
   double area = 0.0;
   for (const Facet<2>& f : cloud.facets)
-    area += 0.5 *
-            cross(cloud.position[index_of(f.node[0])] - origin, cloud.position[index_of(f.node[1])] - origin);
+    area += 0.5 * cross(cloud.position[f.node[0]] - origin, cloud.position[f.node[1]] - origin);
   return area;
 }
 
@@ -52,8 +51,7 @@ double last_bit(const Cloud<2>& cloud) {
 double thinness(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
   double least = 1.0;
   for (const auto& [i, j, k] : mesh.node) {
-    const Vec2 a = cloud.position[index_of(j)] - cloud.position[index_of(i)],
-               b = cloud.position[index_of(k)] - cloud.position[index_of(i)];
+    const Vec2 a = cloud.position[j] - cloud.position[i], b = cloud.position[k] - cloud.position[i];
     least = std::min(least, std::abs(cross(a, b)) / std::max({a.norm(), b.norm(), (b - a).norm()}));
   }
   return least / extent(cloud);
@@ -85,7 +83,7 @@ void check_operators(const Cloud<2>& cloud, const DiscreteOperators<2>& op) {
     Mat2 identity = Mat2::Zero();
     double total = 0.0, scale = 1.0;
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
-      const Vec2 b(op.gradient[0][e], op.gradient[1][e]), r = cloud.position[index_of(op.node[e])] - origin;
+      const Vec2 b(op.gradient[0][e], op.gradient[1][e]), r = cloud.position[op.node[e]] - origin;
       sum += b;
       identity += r * b.transpose();
       total += b.norm();
@@ -129,7 +127,7 @@ input::Case case_of(const fuzz::Shape& shape) {
 /// A region is bounded by loops of its own: they enclose what its cells make up. Its triangles lie in it as a
 /// whole.
 void check_regions(const input::Case& input, const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
-  std::vector<std::int32_t> region;
+  IndexedVector<NodeIndex, std::int32_t> region;
   try {
     region = app::region_of_nodes(input, cloud);
   } catch (const InputError&) { return; } // two in one part
@@ -144,8 +142,7 @@ void check_regions(const input::Case& input, const Cloud<2>& cloud, const vorono
     double enclosed = 0.0, cells = 0.0;
     for (const Facet<2>& f : cloud.facets)
       if (region[index_of(f.node[0])] == r)
-        enclosed += 0.5 * cross(cloud.position[index_of(f.node[0])] - origin,
-                                cloud.position[index_of(f.node[1])] - origin);
+        enclosed += 0.5 * cross(cloud.position[f.node[0]] - origin, cloud.position[f.node[1]] - origin);
     for (std::size_t i = 0; i < volume.size(); ++i)
       if (region[i] == r) cells += volume[i];
     if (!(cells > 0.0)) fail("cells of a region", cells, enclosed);
@@ -158,8 +155,8 @@ void check_regions(const input::Case& input, const Cloud<2>& cloud, const vorono
 void check_interfaces(const input::Case& input, const Cloud<2>& cloud) {
   const app::Pairs pairs = app::tied_pairs(input, cloud);
   for (const auto& [a, b] : pairs.motion)
-    if (cloud.position[index_of(a)] != cloud.position[index_of(b)])
-      fail("distance of tied nodes", (cloud.position[index_of(a)] - cloud.position[index_of(b)]).norm(), 0.0);
+    if (cloud.position[a] != cloud.position[b])
+      fail("distance of tied nodes", (cloud.position[a] - cloud.position[b]).norm(), 0.0);
   const Ties<2> ties(pairs.motion, cloud.position);
   const std::vector<ContactConductance<2>> heat = app::conductances(input, cloud);
   std::size_t crossed = 0;
@@ -169,14 +166,13 @@ void check_interfaces(const input::Case& input, const Cloud<2>& cloud) {
     if (front.empty() || front.size() != back.size())
       fail("facets of the faces of an interface", double(front.size()), double(back.size()));
     for (const auto& facets : {front, back})
-      for (const std::int32_t i : app::nodes_of(facets))
+      for (const NodeIndex i : app::nodes_of(facets))
         if (ties.group()[index_of(i)] < 0) fail("group of a node on an interface", -1.0, 0.0);
     if (!face.conductance) continue;
     const ContactConductance<2>& exchange = heat[crossed++];
     for (std::size_t f = 0; f < exchange.facets.size(); ++f)
       for (std::size_t k = 0; k < 2; ++k) {
-        const Vec2 gap = cloud.position[index_of(exchange.opposite[f][k])] -
-                         cloud.position[index_of(exchange.facets[f].node[k])];
+        const Vec2 gap = cloud.position[exchange.opposite[f][k]] - cloud.position[exchange.facets[f].node[k]];
         if (gap != Vec2::Zero()) fail("gap of a conductance", gap.norm(), 0.0);
       }
   }
@@ -195,17 +191,16 @@ public:
   Resampled(const Cloud<2>& cloud, bool smooth) : cloud_(cloud), smooth_(smooth) {
     const adapt::Structure structure = adapt::build_structure(cloud);
     mass_ = structure.cells.volume;
-    for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
+    for (const NodeIndex i : cloud.position.indices()) {
       double sum = 0.0;
-      for (const std::int32_t k : structure.neighbours(i))
-        sum += (cloud.position[index_of(k)] - cloud.position[index_of(i)]).norm();
+      for (const NodeIndex k : structure.neighbours(i)) sum += (cloud.position[k] - cloud.position[i]).norm();
       size_.push_back(sum / static_cast<double>(structure.neighbours(i).size()));
     }
   }
 
   void deform_and_resample(const fuzz::Deformation& change) {
     deform(change);
-    std::vector<char> held(mass_.size(), 0);
+    IndexedVector<NodeIndex, char> held(mass_.size(), 0);
     for (std::size_t f = 0; f < cloud_.facets.size(); ++f)
       held[index_of(cloud_.facets[f].node[0])] =
           change.held > 0 && f % static_cast<std::size_t>(change.held) == 0;
@@ -219,10 +214,10 @@ public:
     check_rows(made);
     for (std::size_t i = 0; i < held.size(); ++i) {
       if (!held[i]) continue;
-      if (made.new_of[i] < 0) fail("new number of a node that has to stay", made.new_of[i], 0.0);
-      if (made.cloud.position[index_of(made.new_of[i])] != cloud_.position[i])
+      if (!exists(made.new_of[i])) fail("new number of a node that has to stay", -1.0, 0.0);
+      if (made.cloud.position[made.new_of[i]] != cloud_.position[i])
         fail("motion of a node that has to stay",
-             (made.cloud.position[index_of(made.new_of[i])] - cloud_.position[i]).norm(), 0.0);
+             (made.cloud.position[made.new_of[i]] - cloud_.position[i]).norm(), 0.0);
     }
     const double before = sum_of(mass_);
     carry_sum(made.parcels, mass_);

@@ -17,7 +17,7 @@ Cloud<2> two_blocks(const std::vector<Vec2>& first, const std::vector<Vec2>& sec
   fill(other, Lattice::square, h_second, 0.0, 0.5 * h_second, 1);
   const std::int32_t offset = cloud.nodes();
   for (Facet<2> facet : other.facets) {
-    for (std::int32_t& node : facet.node) node += offset;
+    for (NodeIndex& node : facet.node) node = as<NodeIndex>(as<int>(node) + offset);
     cloud.facets.push_back(facet);
   }
   cloud.position.insert(cloud.position.end(), other.position.begin(), other.position.end());
@@ -55,7 +55,7 @@ template<class Test> Share share_of(const ExplicitSolver<2>& solver, Test&& test
 /// Do two facets without a common node cross?
 bool crosses_itself(const ExplicitSolver<2>& solver) {
   const NodeState<2>& node = solver.state().node;
-  const auto at = [&](std::int32_t i) {
+  const auto at = [&](NodeIndex i) {
     return Vec2(node.position[0][static_cast<std::size_t>(i)], node.position[1][static_cast<std::size_t>(i)]);
   };
   const auto& facets = solver.conditions().cloud.facets;
@@ -102,9 +102,9 @@ TEST(SlidingBlock, decelerates_by_mu_g_and_heats_both_sides_alike) {
   Cloud<2> cloud =
       two_blocks(corners({0, -1e-3}, {1e-2, 0}), corners({1e-3, gap}, {3e-3, gap + 1e-3}), h, 0.8 * h);
   const auto upper = [=](const Vec2& x) { return x.y() > 0.5 * gap; };
-  std::vector<std::int32_t> base;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-    if (cloud.position[static_cast<std::size_t>(i)].y() < -1e-3 + 1e-9) base.push_back(i);
+  std::vector<NodeIndex> base;
+  for (const NodeIndex i : cloud.position.indices())
+    if (cloud.position[i].y() < -1e-3 + 1e-9) base.push_back(i);
   plasticity::Material material = steel();
   material.conductivity = 1e-6; // heat stays where it is made
   Problem<2> model = model_of(cloud, Method::cnem, material);
@@ -141,9 +141,9 @@ TEST(RestingBlock, passes_its_heat_on_at_the_rate_of_the_conductance) {
   for (const double ratio : {1.0, 0.7, 1.6}) {
     const Cloud<2> cloud = two_blocks(corners({-ledge, -height}, {width + ledge, 0}),
                                       corners({0, gap}, {width, gap + height}), h, ratio * h);
-    std::vector<std::int32_t> base;
-    for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-      if (cloud.position[static_cast<std::size_t>(i)].y() < -height + 1e-9) base.push_back(i);
+    std::vector<NodeIndex> base;
+    for (const NodeIndex i : cloud.position.indices())
+      if (cloud.position[i].y() < -height + 1e-9) base.push_back(i);
     plasticity::Material material = steel();
     material.conductivity = 1e6;
     Problem<2> model = model_of(cloud, Method::cnem, material);
@@ -201,9 +201,9 @@ ExplicitSolver<2> close_slot(int steps, int every) {
             {0, 2e-3}},
            h);
   fill(cloud, Lattice::hexagonal, h, 0.1, 0.5 * h, 3);
-  std::vector<std::int32_t> base;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-    if (cloud.position[static_cast<std::size_t>(i)].y() == 0.0) base.push_back(i);
+  std::vector<NodeIndex> base;
+  for (const NodeIndex i : cloud.position.indices())
+    if (cloud.position[i].y() == 0.0) base.push_back(i);
   Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.supports = Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, base}},
                                static_cast<std::size_t>(cloud.nodes()));

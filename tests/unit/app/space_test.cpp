@@ -62,8 +62,8 @@ TEST(Space, parts_of_a_cylinder_are_cut_where_they_say) {
     EXPECT_GT(found, 0.98) << part; // a polygon of 16 corners a quarter of the way round
     for (const Facet<3>& facet : cloud.facets) {
       const std::string& piece = cloud.piece_names[index_of(facet.piece)];
-      for (const std::int32_t i : facet.node) {
-        const Vec3& x = cloud.position[index_of(i)];
+      for (const NodeIndex i : facet.node) {
+        const Vec3& x = cloud.position[i];
         const double off = piece == "bottom" ? x.z()
                            : piece == "top"  ? x.z() - 3e-3
                            : piece == "x-"   ? x.x()
@@ -84,7 +84,7 @@ TEST(Space, weights_of_a_point_reproduce_it) {
     const results::PointWeights point = locator.weights(x);
     Vec3 found = Vec3::Zero();
     for (std::size_t k = 0; k < point.node.size(); ++k) {
-      found += point.weight[k] * cloud.position[index_of(point.node[k])];
+      found += point.weight[k] * cloud.position[point.node[k]];
       EXPECT_GT(point.weight[k], -1e-9);
     }
     EXPECT_LT((found - x).norm(), 1e-16);

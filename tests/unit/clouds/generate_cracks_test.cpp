@@ -12,19 +12,19 @@ DomainShape plate_with(std::vector<Crack> cracks) { return {rectangle(2, 1), {},
 int count_loops(const Cloud<2>& cloud) {
   std::vector<int> starts(cloud.position.size(), 0), ends(cloud.position.size(), 0);
   int loops = 0;
-  std::int32_t first = -1;
+  NodeIndex first = NodeIndex::none;
   for (std::size_t f = 0; f < cloud.facets.size(); ++f) {
     const auto [a, b] = cloud.facets[f].node;
     ++starts[std::size_t(a)];
     ++ends[std::size_t(b)];
-    if (first < 0) first = a;
+    if (!exists(first)) first = a;
     if (b == first) {
       ++loops;
-      first = -1;
+      first = NodeIndex::none;
     } else
       EXPECT_EQ(cloud.facets[f + 1].node[0], b);
   }
-  EXPECT_EQ(first, -1);
+  EXPECT_EQ(first, NodeIndex::none);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     EXPECT_LE(starts[i], 1);
     EXPECT_EQ(starts[i], ends[i]);

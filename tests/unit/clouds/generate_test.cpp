@@ -73,7 +73,7 @@ TEST(GenerateCloud, BoundaryPiecesKeepTheirNamesAndLengths) {
   EXPECT_NEAR(piece_length(cloud, "fillet"), quarter, 2e-3 * quarter);
   for (const Facet<2>& f : cloud.facets)
     if (cloud.piece_names[std::size_t(f.piece)] == "fillet") {
-      for (const std::int32_t i : f.node)
+      for (const NodeIndex i : f.node)
         EXPECT_NEAR((cloud.position[std::size_t(i)] - Vec2(0.7, 0.7)).norm(), 0.3, 1e-14);
     }
 }

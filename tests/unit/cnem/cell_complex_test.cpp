@@ -3,12 +3,15 @@
 #include "cnem/scni.hpp"
 #include "cnem/smoothing.hpp"
 #include "tests/contract/domains.hpp"
+#include "tests/index_literals.hpp"
 #include "tests/median_dual.hpp"
 #include "voronoi/linear_simplices.hpp"
 
 #include <gtest/gtest.h>
 
 namespace cnem::testing {
+using namespace literals;
+
 namespace {
 
 constexpr double tolerance = 1e-12;
@@ -29,7 +32,7 @@ struct Smoothed {
         links(scni::stabilisation_links(domain.cloud, cells, faces)) {}
 
   CellComplex<3> cells;
-  CellLists faces;
+  CellLists<std::int32_t> faces;
   DiscreteOperators<3> op;
   StabilisationLinks<3> links;
 };
@@ -129,7 +132,7 @@ TEST(CellComplex, smoothed_gradients_of_the_median_dual_are_means_over_the_tetra
     const auto u = nodal(domain.cloud, [&](const Vec<3>&) { return random.uniform(-1, 1); });
     std::vector<Vec<3>> mean(u.size(), Vec<3>::Zero());
     for (std::size_t t = 0; t < domain.mesh.size(); ++t)
-      for (const std::int32_t i : domain.mesh[t])
+      for (const NodeIndex i : domain.mesh[t])
         mean[index_of(i)] +=
             0.25 * tetrahedra.volume[t] / smoothed.cells.volume[index_of(i)] * gradient_of(tetrahedra, t, u);
     for (std::size_t i = 0; i < u.size(); ++i)
@@ -143,7 +146,7 @@ TEST(CellComplex, constant_stress_in_space_loads_the_boundary_only) {
     const DiscreteOperators<3> op = Smoothed(domain).op;
     std::vector<Vec<3>> expected(domain.cloud.position.size(), Vec<3>::Zero());
     for (const Facet<3>& facet : domain.cloud.facets)
-      for (const std::int32_t i : facet.node)
+      for (const NodeIndex i : facet.node)
         expected[index_of(i)] += area_normal<3>(corners_of<3>(facet, domain.cloud.position)) / 3.0;
     for (std::size_t j = 0; j < expected.size(); ++j) {
       Vec<3> sum = Vec<3>::Zero();
@@ -202,11 +205,13 @@ TEST(CellComplex, links_in_space_weigh_area_over_distance) {
   CellComplex<3> cells;
   cells.volume.assign(3, h * h * h);
   const double x = 0.5 * h, a = 0.5 * h;
-  cells.interior.push_back({{0, 1}, {-1, -1}, {Vec<3>(x, -a, -a), Vec<3>(x, a, -a), Vec<3>(x, a, a)}});
-  cells.interior.push_back({{0, 1}, {-1, -1}, {Vec<3>(x, -a, -a), Vec<3>(x, a, a), Vec<3>(x, -a, a)}});
-  cells.neighbours = other_ends(3, std::vector<std::array<std::int32_t, 2>>{{1, 0}, {1, 2}});
+  cells.interior.push_back(
+      {{0_node, 1_node}, {-1, -1}, {Vec<3>(x, -a, -a), Vec<3>(x, a, -a), Vec<3>(x, a, a)}});
+  cells.interior.push_back(
+      {{0_node, 1_node}, {-1, -1}, {Vec<3>(x, -a, -a), Vec<3>(x, a, a), Vec<3>(x, -a, a)}});
+  cells.neighbours = other_ends(3, std::vector<std::array<NodeIndex, 2>>{{1_node, 0_node}, {1_node, 2_node}});
   const auto links = scni::stabilisation_links(cloud, cells, faces_of_cells(cells));
-  EXPECT_EQ(links.neighbour, (std::vector<std::int32_t>{1, 0, 2, 1}));
+  EXPECT_EQ(links.neighbour, (std::vector{1_node, 0_node, 2_node, 1_node}));
   EXPECT_NEAR(links.weight[0], h, 1e-15); // h²/h
   EXPECT_NEAR(links.weight[1], h, 1e-15);
   EXPECT_NEAR(links.weight[2], 0.1 * 2 * h, 1e-15);

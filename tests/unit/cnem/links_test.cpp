@@ -14,15 +14,15 @@ namespace {
 TEST(Links, are_the_delaunay_edges) {
   for (const NamedCloud& domain : domains()) {
     SCOPED_TRACE(domain.name);
-    std::set<std::pair<std::int32_t, std::int32_t>> edges, linked;
+    std::set<std::pair<NodeIndex, NodeIndex>> edges, linked;
     for (const auto& node : voronoi::triangulate(domain.cloud).node)
       for (std::size_t k = 0; k < 3; ++k) {
         edges.emplace(node[k], node[(k + 1) % 3]);
         edges.emplace(node[(k + 1) % 3], node[k]);
       }
     const auto links = scni::Cnem().rebuild(domain.cloud).links;
-    for (std::int32_t i = 0; i < domain.cloud.nodes(); ++i)
-      for (auto l = links.begin[std::size_t(i)]; l < links.begin[std::size_t(i) + 1]; ++l)
+    for (const NodeIndex i : domain.cloud.position.indices())
+      for (auto l = links.begin[index_of(i)]; l < links.begin[index_of(i) + 1]; ++l)
         linked.emplace(i, links.neighbour[std::size_t(l)]);
     EXPECT_EQ(linked, edges);
   }

@@ -13,7 +13,7 @@
 namespace cnem::testing {
 namespace {
 
-using Rows = std::vector<std::map<std::int32_t, Vec2>>;
+using Rows = std::vector<std::map<NodeIndex, Vec2>>;
 
 /// Composite Gauss rule on [0, 1]: eight pieces with two points each.
 std::vector<double> sixteen_points() {
@@ -30,7 +30,7 @@ Rows reference_rows(const Cloud<2>& cloud, voronoi::Functions functions) {
   const auto cells = voronoi::constrained_cells(cloud, triangulation, circles);
   voronoi::NaturalNeighbours phi(cloud, triangulation, circles);
   Rows rows(cloud.position.size());
-  const auto add = [&](std::int32_t cell, std::int32_t node, const Vec2& flux) {
+  const auto add = [&](NodeIndex cell, NodeIndex node, const Vec2& flux) {
     rows[std::size_t(cell)].try_emplace(node, Vec2::Zero()).first->second +=
         flux / cells.volume[std::size_t(cell)];
   };

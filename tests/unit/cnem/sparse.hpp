@@ -21,7 +21,7 @@ inline std::array<Sparse, 2> gradient_matrices(const DiscreteOperators<2>& op) {
     std::vector<Eigen::Triplet<double>> entries;
     for (std::int32_t p = 0; p < op.points; ++p)
       for (auto e = op.row_begin[std::size_t(p)]; e < op.row_begin[std::size_t(p) + 1]; ++e)
-        entries.emplace_back(p, op.node[std::size_t(e)], op.gradient[k][std::size_t(e)]);
+        entries.emplace_back(p, as<int>(op.node[std::size_t(e)]), op.gradient[k][std::size_t(e)]);
     g[k].resize(op.points, op.nodes);
     g[k].setFromTriplets(entries.begin(), entries.end());
   }
@@ -37,7 +37,7 @@ inline Sparse defect_matrix(const Approximation<2>& approximation, const std::ve
   int row = 0;
   for (std::int32_t i = 0; i < op.nodes; ++i)
     for (auto l = links.begin[std::size_t(i)]; l < links.begin[std::size_t(i) + 1]; ++l) {
-      const std::int32_t j = links.neighbour[std::size_t(l)];
+      const auto j = as<int>(links.neighbour[std::size_t(l)]);
       if (j < i) continue;
       const double root = std::sqrt(links.weight[std::size_t(l)]);
       const Vec2 x = position[std::size_t(j)] - position[std::size_t(i)];
@@ -46,7 +46,7 @@ inline Sparse defect_matrix(const Approximation<2>& approximation, const std::ve
       for (const auto p : {i, j})
         for (auto e = std::size_t(op.row_begin[std::size_t(p)]);
              e < std::size_t(op.row_begin[std::size_t(p) + 1]); ++e)
-          entries.emplace_back(row, op.node[e],
+          entries.emplace_back(row, as<int>(op.node[e]),
                                -0.5 * root * (op.gradient[0][e] * x.x() + op.gradient[1][e] * x.y()));
       ++row;
     }
@@ -59,20 +59,20 @@ inline Vector as_vector(const Field& field) {
   return Eigen::Map<const Vector>(field.data(), Eigen::Index(field.size()));
 }
 
-/// Nodes on the boundary of the cloud.
-inline std::set<std::int32_t> boundary_nodes(const Cloud<2>& cloud) {
-  std::set<std::int32_t> nodes;
-  for (const auto& f : cloud.facets) nodes.insert(f.node[0]);
+/// Numbers of the nodes on the boundary of the cloud.
+inline std::set<int> boundary_nodes(const Cloud<2>& cloud) {
+  std::set<int> nodes;
+  for (const auto& f : cloud.facets) nodes.insert(as<int>(f.node[0]));
   return nodes;
 }
 
 /// Solves K u = f with u given at the fixed unknowns.
 inline Vector solve(const Sparse& stiffness, const Vector& load, const Vector& given,
-                    const std::set<std::int32_t>& fixed) {
+                    const std::set<int>& fixed) {
   std::vector<Eigen::Triplet<double>> entries;
   int unknowns = 0;
   for (Eigen::Index i = 0; i < given.size(); ++i)
-    if (!fixed.contains(std::int32_t(i))) entries.emplace_back(i, unknowns++, 1.0);
+    if (!fixed.contains(as<int>(i))) entries.emplace_back(i, unknowns++, 1.0);
   Sparse free(given.size(), unknowns);
   free.setFromTriplets(entries.begin(), entries.end());
   Vector u = given;

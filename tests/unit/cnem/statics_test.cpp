@@ -41,7 +41,7 @@ TEST(StaticPatch, patch_elastic_interior_follows_the_linear_boundary) {
       exact[i] = u.x();
       exact[n + i] = u.y();
     }
-    std::set<std::int32_t> fixed;
+    std::set<int> fixed;
     for (const auto i : boundary_nodes(domain.cloud)) fixed.insert({i, n + i});
     const Vector u = solve(stiffness, Vector::Zero(2 * n), exact, fixed);
     EXPECT_LT((u - exact).lpNorm<Eigen::Infinity>(), 1e-11);

@@ -16,7 +16,7 @@ void append(Masses& scene, const Masses& other) {
     scene.springs.push_back(s);
   }
   for (Facet<2> f : other.facets) {
-    for (int& node : f.node) node += offset;
+    for (NodeIndex& node : f.node) node = as<NodeIndex>(as<int>(node) + offset);
     scene.facets.push_back(f);
   }
 }
@@ -76,7 +76,8 @@ TEST(Bodies, a_corner_that_slides_over_a_ridge_is_stopped_by_the_facet_behind_it
   scene.add({0.57, 1.118}, 1.0, {1.0, -0.5});
   scene.add({0.37, 1.118}, 1.0, {1.0, -0.5});
   const int corner = 25;
-  for (int k = 0; k < 3; ++k) scene.facets.push_back({{corner + k, corner + (k + 1) % 3}, 0});
+  for (int k = 0; k < 3; ++k)
+    scene.facets.push_back({{as<NodeIndex>(corner + k), as<NodeIndex>(corner + (k + 1) % 3)}, 0});
   let_bodies_touch(scene, 0.0);
   for (int n = 0; n < 50; ++n) {
     for (std::size_t i = corner; i < scene.mass.size(); ++i) scene.v[0][i] = 1.0, scene.v[1][i] = -0.5;

@@ -125,7 +125,7 @@ TEST(Corner, ImpulseIsSpreadByTheShapeFunctionsOfTheEdge) {
   EXPECT_NEAR(scene.velocity(3).y(), -0.75 * impulse / 3.0, 1e-9);
   EXPECT_NEAR(scene.velocity(2).y(), -0.25 * impulse / 2.0, 1e-9);
   ASSERT_EQ(scene.contact->points().size(), 2U);
-  EXPECT_EQ(scene.contact->points()[0].node, 2);
+  EXPECT_EQ(scene.contact->points()[0].node, 2_node);
 }
 
 TEST(Corner, TwoEdgesOfANotchAreSolvedTogether) {
@@ -154,7 +154,7 @@ TEST(Corner, OfTheWorkpieceIsPushedByTheFaceItMeets) {
   scene.start({tool(box({-1, -1}, {1, lowest}), {0, 0.5})});
   scene.step(1e-3);
   ASSERT_EQ(scene.contact->points().size(), 1U);
-  EXPECT_EQ(scene.contact->points()[0].node, 0);
+  EXPECT_EQ(scene.contact->points()[0].node, 0_node);
   EXPECT_NEAR(scene.velocity(0).y(), 0.5, 1e-12);
 }
 

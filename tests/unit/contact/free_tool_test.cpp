@@ -125,7 +125,7 @@ TEST(FreeTool, MovesAlongItsGuideOnly) {
 
 TEST(FreeTool, StopsOnNodesThatAreHeld) {
   Masses scene = block(4, 3, 0.1, {0.0, 0.0}, 100.0);
-  for (int i = 0; i < 12; ++i) scene.constraints.push_back({i, Mat2::Zero()});
+  for (int i = 0; i < 12; ++i) scene.constraints.push_back({as<NodeIndex>(i), Mat2::Zero()});
   scene.start({free_tool(box({-1, 0.25}, {2, 1}), 2.0, {0, -1.0}, {0, -5.0})});
   for (int i = 0; i < 200; ++i) scene.step(1e-3);
   EXPECT_NEAR(scene.contact->displacement(0, scene.time).y(), -0.05, 1e-12);

@@ -146,7 +146,7 @@ TEST(StartUp, PenetrationIsPushedOutAtHalfTheToolSpeed) {
   scene.start({tool(box({-1, 0.1 - depth}, {1, 1}), {0, -1})});
   const auto found = scene.contact->overlaps(scene.x, 0.0);
   ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].tool, 0);
+  EXPECT_EQ(found[0].tool, 0_tool);
   EXPECT_NEAR(found[0].depth, depth, 1e-14);
   scene.step(dt);
   EXPECT_NEAR(scene.velocity(2).y(), -1.5, 1e-9);
@@ -175,7 +175,7 @@ TEST(Constraint, OfSymmetryIsNeverViolated) {
   Masses scene = block(5, 4, 0.1, {0.0, 0.0}, 200.0, 2.0);
   Mat2 vertical = Mat2::Zero();
   vertical(1, 1) = 1.0;
-  for (int j = 0; j < 4; ++j) scene.constraints.push_back({5 * j, vertical});
+  for (int j = 0; j < 4; ++j) scene.constraints.push_back({as<NodeIndex>(5 * j), vertical});
   scene.start({tool(rotated(box({-3, 0.3}, {3, 1}), 0.3), {0, -0.2}, 0.2), tool(box({-1, -1}, {2, -0.05}))});
   for (int i = 0; i < 5000; ++i) scene.step(2e-4);
   for (int j = 0; j < 4; ++j) EXPECT_EQ(scene.position(5 * j).x(), 0.0);
@@ -185,7 +185,7 @@ TEST(Constraint, OfSymmetryIsNeverViolated) {
 
 TEST(Constraint, NodesThatCannotMoveAreLeftAlone) {
   Masses scene = block(3, 3, 0.1, {0.0, 0.0}, 100.0);
-  for (int i = 0; i < 9; ++i) scene.constraints.push_back({i, Mat2::Zero()});
+  for (int i = 0; i < 9; ++i) scene.constraints.push_back({as<NodeIndex>(i), Mat2::Zero()});
   scene.start({tool(box({-1, 0.15}, {2, 1}), {0, -1}, 0.5)});
   for (int i = 0; i < 10; ++i) scene.step(1e-3);
   for (int i = 0; i < 9; ++i) EXPECT_EQ(scene.velocity(i).norm(), 0.0);

@@ -3,6 +3,7 @@
 #include "contact/contact.hpp"
 #include "contact/curve_shape.hpp"
 #include "tests/curves.hpp"
+#include "tests/index_literals.hpp"
 
 #include <cmath>
 #include <functional>
@@ -34,6 +35,7 @@ inline CurvePiece arc(const Vec2& from, const Vec2& to, const Vec2& centre, bool
   return piece;
 }
 
+using namespace cnem::testing::literals;
 using cnem::testing::box;
 using cnem::testing::polygon;
 
@@ -82,7 +84,7 @@ struct Masses {
   double time = 0.0, dt_before = 0.0;
   double applied_work = 0.0; ///< by gravity and springs on the nodes, same measure as contact's
   std::shared_ptr<RigidContact<2>> contact;
-  std::vector<double> flow_stress, effusivity;
+  IndexedVector<BoundaryNodeIndex, double> flow_stress, effusivity;
 
   int add(const Vec2& at, double m, const Vec2& velocity = {0, 0}) {
     for (std::size_t k = 0; k < 2; ++k) {
@@ -92,6 +94,7 @@ struct Masses {
     mass.push_back(m);
     return static_cast<int>(mass.size()) - 1;
   }
+  Vec2 position(NodeIndex i) const { return position(as<int>(i)); }
   Vec2 position(int i) const { return {x[0][std::size_t(i)], x[1][std::size_t(i)]}; }
   Vec2 velocity(int i) const { return {v[0][std::size_t(i)], v[1][std::size_t(i)]}; }
   void link(int a, int b, double stiffness, double damping = 0.0) {
@@ -99,7 +102,7 @@ struct Masses {
   }
   void loop(const std::vector<int>& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      facets.push_back({{nodes[i], nodes[(i + 1) % nodes.size()]}, 0});
+      facets.push_back({{as<NodeIndex>(nodes[i]), as<NodeIndex>(nodes[(i + 1) % nodes.size()])}, 0});
   }
   /// Four masses of 1 kg/m at the corners of a square body.
   void square(const Vec2& low, double side) {
@@ -123,8 +126,7 @@ struct Masses {
       force[std::size_t(s.a)] += pull * e;
       force[std::size_t(s.b)] -= pull * e;
     }
-    for (const NodeConstraint<2>& c : constraints)
-      force[std::size_t(c.node)] = c.free * force[std::size_t(c.node)];
+    for (const NodeConstraint<2>& c : constraints) force[index_of(c.node)] = c.free * force[index_of(c.node)];
     std::vector<Vec2> before;
     for (int i = 0; i < int(mass.size()); ++i) before.push_back(velocity(i));
     contact->remember(v);

@@ -1,10 +1,14 @@
 // Fields declared once: what follows from the line of a field.
 #include "core/fields/state.hpp"
+#include "tests/index_literals.hpp"
 
 #include <gtest/gtest.h>
 #include <map>
 
 namespace cnem {
+
+using namespace testing::literals;
+
 namespace {
 
 struct Group {
@@ -82,7 +86,8 @@ TEST(FieldTable, carries_each_field_by_its_rule) {
   Group group = three();
   group.tensor[0] = {7.0, 7.0, 7.0};
   // the first node, and one of half the second and all of the third
-  const NodeRows parcels{{0, 1, 3}, {0, 1, 2}, {1.0, 0.5, 1.0}}, labels{{0, 1, 2}, {0, 2}, {1.0, 1.0}};
+  const NodeRows parcels{{0, 1, 3}, {0_node, 1_node, 2_node}, {1.0, 0.5, 1.0}},
+      labels{{0, 1, 2}, {0_node, 2_node}, {1.0, 1.0}};
   group.table.carry_over({parcels, labels, group.mass, {1.0, 1.0, 4.0}, {1.0, 2.0, 3.0}});
   group.table.rest_renewed(2);
   EXPECT_EQ(group.mass, (Field{1.0, 3.5}));

@@ -34,12 +34,12 @@ struct Blank {
   /// Corners counter-clockwise; facets between the two given heights near |x| = 2 are fracture.
   void add(const std::vector<Vec2>& corner, const std::vector<std::size_t>& broken) {
     const auto number = static_cast<std::int32_t>(part.empty() ? 0 : part.back() + 1);
-    const std::int32_t first = cloud.nodes();
+    const NodeIndex first = cloud.position.next();
     testing::add_loop(cloud, corner, spacing);
     std::size_t side = 0;
     for (Facet<2>& facet : cloud.facets) {
       if (facet.node[0] < first) continue;
-      const Vec2& x = cloud.position[index_of(facet.node[0])];
+      const Vec2& x = cloud.position[facet.node[0]];
       while (side + 1 < corner.size() && (x - corner[side + 1]).norm() < 1e-12) ++side;
       facet.piece = std::find(broken.begin(), broken.end(), side) != broken.end() ? 1 : 0;
     }
@@ -84,7 +84,8 @@ struct Blank {
                std::sin(angle) * x.x() + std::cos(angle) * x.y());
       if (mirrored) x.x() = -x.x();
     };
-    for (auto* list : {&cloud.position, &tools.punch, &tools.die, &outline})
+    for (Vec2& x : cloud.position) moved(x);
+    for (auto* list : {&tools.punch, &tools.die, &outline})
       for (Vec2& x : *list) moved(x);
     moved(tools.direction);
     if (mirrored) // the domain stays on the left of its facets

@@ -71,7 +71,7 @@ struct Loaded {
     if (op.nodal) return cloud.position[p];
     double count = 0.0;
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e, count += 1.0)
-      x += cloud.position[index_of(op.node[e])];
+      x += cloud.position[op.node[e]];
     return x / count;
   }
   Springback unload() const {
@@ -234,7 +234,7 @@ TEST(Springback, each_body_returns_for_itself) {
   const auto first = cloud.nodes();
   for (const Vec2& x : other.position) cloud.position.push_back(x + Vec2(2.5, 0.0));
   for (Facet<2> facet : other.facets) {
-    for (std::int32_t& node : facet.node) node += first;
+    for (NodeIndex& node : facet.node) node = as<NodeIndex>(as<int>(node) + first);
     cloud.facets.push_back(facet);
   }
   Loaded two(std::move(cloud), Method::cnem);

@@ -71,9 +71,9 @@ TEST(CrackTips, know_their_frame_faces_and_room) {
   EXPECT_NEAR(last.clearance, 0.7, 1e-12);
   // A node of the upper face: θ = +π seen from the last tip, −π from the first.
   for (std::size_t i = 0; i < model.cloud.position.size(); ++i) {
-    if (last.face[i] == 0 || static_cast<std::int32_t>(i) == first.node) continue;
+    if (last.face[i] == 0 || as<NodeIndex>(i) == first.node) continue;
     EXPECT_EQ(last.face[i], -first.face[i]);
-    const double theta = last.angle_of_node(static_cast<std::int32_t>(i), model.cloud.position[i]);
+    const double theta = last.angle_of_node(as<NodeIndex>(i), model.cloud.position[i]);
     EXPECT_NEAR(std::abs(theta), std::numbers::pi, 1e-9);
     EXPECT_EQ(theta > 0, last.face[i] > 0);
   }
@@ -129,11 +129,11 @@ TEST_P(Enriched, patch_linear_displacement_is_solved_exactly) {
   const Vec2 t = model.tips[1].direction, n = left_normal(t);
   const Mat2 strain = t * t.transpose() - nu * n * n.transpose();
   std::vector<Support<2>> supports;
-  std::set<std::int32_t> held;
+  std::set<NodeIndex> held;
   for (const Facet<2>& facet : model.cloud.facets)
     if (model.cloud.piece_names[static_cast<std::size_t>(facet.piece)] == "side")
       held.insert(facet.node.begin(), facet.node.end());
-  for (const std::int32_t i : held)
+  for (const NodeIndex i : held)
     for (Eigen::Index k = 0; k < 2; ++k)
       supports.push_back({"side",
                           Support<2>::Kind::displacement,

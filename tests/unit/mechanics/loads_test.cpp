@@ -75,25 +75,25 @@ TEST(Supports, ramps_and_displacement_tables_are_followed_exactly) {
   ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
   while (solver.state().time < 3e-6) solver.advance(1.3e-8);
   const double t = solver.state().time;
-  const auto moved = [&](std::int32_t i, std::size_t k) {
+  const auto moved = [&](NodeIndex i, std::size_t k) {
     const auto n = static_cast<std::size_t>(i);
     return solver.state().node.position[k][n] - solver.state().node.initial_position[k][n];
   };
-  for (const std::int32_t i : nodes_on(cloud, 1)) EXPECT_NEAR(moved(i, 0), ramp.integral(t), 1e-15);
-  for (const std::int32_t i : nodes_on(cloud, 0)) EXPECT_NEAR(moved(i, 1), path(t), 1e-15);
-  for (const std::int32_t i : nodes_on(cloud, 3)) EXPECT_EQ(moved(i, 0), 0.0);
+  for (const NodeIndex i : nodes_on(cloud, 1)) EXPECT_NEAR(moved(i, 0), ramp.integral(t), 1e-15);
+  for (const NodeIndex i : nodes_on(cloud, 0)) EXPECT_NEAR(moved(i, 1), path(t), 1e-15);
+  for (const NodeIndex i : nodes_on(cloud, 3)) EXPECT_EQ(moved(i, 0), 0.0);
   EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * std::abs(solver.ledger()["support_work"]));
 }
 
 TEST(Supports, oblique_moving_supports_are_refused) {
   using Kind = Support<2>::Kind;
-  EXPECT_THROW(Supports<2>({{"a", Kind::velocity, Vec2(1, 0), TimeTable(1.0), {0}},
-                            {"b", Kind::symmetry, Vec2(1, 1).normalized(), {}, {0}}},
+  EXPECT_THROW(Supports<2>({{"a", Kind::velocity, Vec2(1, 0), TimeTable(1.0), {0_node}},
+                            {"b", Kind::symmetry, Vec2(1, 1).normalized(), {}, {0_node}}},
                            1),
                InputError);
-  const Supports<2> two_planes(
-      {{"a", Kind::symmetry, Vec2(1, 0), {}, {0}}, {"b", Kind::symmetry, Vec2(1, 1).normalized(), {}, {0}}},
-      1);
+  const Supports<2> two_planes({{"a", Kind::symmetry, Vec2(1, 0), {}, {0_node}},
+                                {"b", Kind::symmetry, Vec2(1, 1).normalized(), {}, {0_node}}},
+                               1);
   ASSERT_EQ(two_planes.constraints().size(), 1U);
   EXPECT_LT(two_planes.constraints()[0].free.norm(), 1e-12) << "two planes hold a corner altogether";
 }
@@ -102,8 +102,8 @@ TEST(BulkViscosity, calms_a_shock_books_its_heat_and_shortens_the_step) {
   const auto shock = [](BulkViscosity viscosity, double& overshoot, double& step) {
     Cloud<2> cloud = rectangle(2e-2, 1e-3, 2e-4, Lattice::square, 0.0);
     std::vector<Support<2>> wall{{"wall", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}};
-    std::vector<std::int32_t> all(static_cast<std::size_t>(cloud.nodes()));
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
+    std::vector<NodeIndex> all(static_cast<std::size_t>(cloud.nodes()));
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = as<NodeIndex>(i);
     wall.push_back({"guide", Support<2>::Kind::symmetry, Vec2(0, 1), {}, all});
     Problem<2> model = model_of(cloud, Method::cnem, steel());
     model.supports = Supports<2>(std::move(wall), all.size());

@@ -62,7 +62,7 @@ TEST(LocalSteps, levels_keep_to_stable_steps_and_to_their_neighbours) {
   for (std::size_t b = 0; b < each.size(); ++b)
     EXPECT_LE(finest * (1 << local.level()[b]),
               stable_wave_step(each[b].value, solver.model().stabilisation, 0.0) * (1.0 + 1e-12));
-  const auto level_of = [&](std::int32_t i) {
+  const auto level_of = [&](PointIndex i) {
     return local.level()[static_cast<std::size_t>(i) / LocalSteps<2>::block];
   };
   for (int j = 0; j < op.nodes; ++j) {
@@ -190,8 +190,8 @@ struct PulseError {
 PulseError pulse_error(double h, bool local) {
   const double length = 4e-2, width = 3e-3, centre = 1e-2, half_width = 3e-3, v0 = 1.0;
   const Cloud<2> cloud = graded_rectangle(length, width, h, h / 4.0, {{1.8e-2, 1.5e-3}, {2.2e-2, 1.5e-3}});
-  std::vector<std::int32_t> all(static_cast<std::size_t>(cloud.nodes()));
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
+  std::vector<NodeIndex> all(static_cast<std::size_t>(cloud.nodes()));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = as<NodeIndex>(i);
   Problem<2> model = model_of(cloud, Method::cnem, steel());
   model.supports = Supports<2>({{"lateral", Support<2>::Kind::symmetry, Vec2(0, 1), {}, all}}, all.size());
   model.local = {.on = local, .least_gain = 0.0};

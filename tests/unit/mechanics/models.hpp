@@ -6,12 +6,15 @@
 #include "methods/sph.hpp"
 #include "plasticity/hardening_laws.hpp"
 #include "tests/clouds.hpp"
+#include "tests/index_literals.hpp"
 
 #include <cmath>
 #include <functional>
 #include <ostream>
 
 namespace cnem::testing {
+
+using namespace literals;
 
 enum class Method { cnem, triangles, sph };
 inline void PrintTo(Method method, std::ostream* out) {
@@ -64,8 +67,8 @@ inline Cloud<2> rectangle(double a, double b, double spacing, Lattice lattice = 
   return cloud;
 }
 
-inline std::vector<std::int32_t> nodes_on(const Cloud<2>& cloud, std::int32_t piece) {
-  std::vector<std::int32_t> nodes;
+inline std::vector<NodeIndex> nodes_on(const Cloud<2>& cloud, std::int32_t piece) {
+  std::vector<NodeIndex> nodes;
   for (const Facet<2>& facet : cloud.facets)
     if (facet.piece == piece) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());
   std::sort(nodes.begin(), nodes.end());

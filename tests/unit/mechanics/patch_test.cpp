@@ -12,10 +12,9 @@ class Patch : public ::testing::TestWithParam<Method> {};
 ExplicitSolver<2> driven(Method method, const Mat2& H, double end, plasticity::Material material) {
   Cloud<2> cloud = rectangle(1e-2, 0.8e-2, 1e-3, Lattice::hexagonal, 0.2);
   std::vector<Support<2>> supports;
-  const auto boundary = static_cast<std::int32_t>(cloud.facets.size());
-  for (std::int32_t i = 0; i < boundary; ++i)
+  for (const NodeIndex i : IndexRange<NodeIndex>(cloud.facets.size()))
     for (int k = 0; k < 2; ++k) {
-      const double speed = H.row(k).dot(cloud.position[static_cast<std::size_t>(i)]) / end;
+      const double speed = H.row(k).dot(cloud.position[i]) / end;
       supports.push_back(
           {"side", Support<2>::Kind::velocity, k == 0 ? Vec2(1, 0) : Vec2(0, 1), TimeTable(speed), {i}});
     }

@@ -28,7 +28,7 @@ struct Block {
     resize_all(position, n);
     on_boundary.assign(n, 0);
     for (const Facet<2>& facet : cloud.facets)
-      for (const std::int32_t node : facet.node) on_boundary[std::size_t(node)] = 1;
+      for (const NodeIndex node : facet.node) on_boundary[std::size_t(node)] = 1;
     resize_all(point.deformation, n, 0.0);
     resize_all(point.inverse_plastic_cauchy_green, n, 0.0);
     resize_all(point.piola, n, 0.0);

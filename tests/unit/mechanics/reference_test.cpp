@@ -115,11 +115,11 @@ TEST(Adiabatic, homogeneous_shear_follows_johnson_cook) {
   // Whole block in simple shear at 1e4 /s equivalent: no gradients, no waves; flow stress and temperature
   // against the integral of the law itself.
   Cloud<2> cloud = rectangle(1e-3, 1e-3, 2e-4, Lattice::hexagonal, 0.2);
-  std::vector<std::int32_t> all(static_cast<std::size_t>(cloud.nodes()));
+  std::vector<NodeIndex> all(static_cast<std::size_t>(cloud.nodes()));
   std::vector<Support<2>> supports;
   const double rate = std::sqrt(3.0) * 1e4;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto node = static_cast<std::int32_t>(i);
+    const auto node = as<NodeIndex>(i);
     supports.push_back(
         {"x", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(rate * cloud.position[i].y()), {node}});
     supports.push_back({"y", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(0.0), {node}});

@@ -23,7 +23,7 @@ Problem<2> solid(Cloud<2> cloud, Method method, plasticity::Material material) {
 
 Support<2> held_axis(const Cloud<2>& cloud) {
   Support<2> axis{"axis", Support<2>::Kind::symmetry, Vec2(1, 0), {}, {}};
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+  for (const NodeIndex i : cloud.position.indices())
     if (cloud.position[static_cast<std::size_t>(i)].x() == 0.0) axis.nodes.push_back(i);
   return axis;
 }
@@ -33,7 +33,7 @@ ExplicitSolver<2> stretched(Method method, double radius, double a, double b, do
                             plasticity::Material material) {
   const Cloud<2> cloud = moved(rectangle(1e-2, 0.8e-2, 1e-3, Lattice::hexagonal, 0.2), radius);
   std::vector<Support<2>> supports;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(cloud.facets.size()); ++i) {
+  for (const NodeIndex i : IndexRange<NodeIndex>(cloud.facets.size())) {
     const Vec2& x = cloud.position[static_cast<std::size_t>(i)];
     supports.push_back({"side", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(a * x.x() / end), {i}});
     supports.push_back({"side", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(b * x.y() / end), {i}});

@@ -5,12 +5,16 @@
 #include "mechanics/statics/statics.hpp"
 #include "methods/fe_simplices.hpp"
 #include "tests/clouds.hpp"
+#include "tests/index_literals.hpp"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
 namespace cnem::testing {
+
+using namespace literals;
+
 namespace {
 
 using Kind = Support<2>::Kind;
@@ -45,9 +49,9 @@ std::vector<std::unique_ptr<Discretisation<2>>> methods() {
   return list;
 }
 
-std::vector<std::int32_t> nodes_where(const Cloud<2>& cloud, auto&& wanted) {
-  std::vector<std::int32_t> nodes;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+std::vector<NodeIndex> nodes_where(const Cloud<2>& cloud, auto&& wanted) {
+  std::vector<NodeIndex> nodes;
+  for (const NodeIndex i : cloud.position.indices())
     if (wanted(cloud.position[static_cast<std::size_t>(i)])) nodes.push_back(i);
   return nodes;
 }
@@ -64,8 +68,7 @@ Body pulled_square(Discretisation<2>& method) {
     const Vec2 a = body.cloud.position[static_cast<std::size_t>(facet.node[0])],
                b = body.cloud.position[static_cast<std::size_t>(facet.node[1])];
     if (a.x() == 1.0 && b.x() == 1.0)
-      for (const std::int32_t i : facet.node)
-        body.force[0][static_cast<std::size_t>(i)] += 0.5 * (b - a).norm();
+      for (const NodeIndex i : facet.node) body.force[0][static_cast<std::size_t>(i)] += 0.5 * (b - a).norm();
   }
   return body;
 }
@@ -178,7 +181,7 @@ TEST(MissingSupport, of_a_body_of_revolution_is_the_axial_one_alone) {
   EXPECT_NE(missing_support(loose.approximation.mechanics, loose.cloud.position, loose.supports)
                 .find("translation along (0, 1)"),
             std::string::npos);
-  const Body held(cloud, method, {{"node", Kind::displacement, Vec2(0, 1), TimeTable(0.0), {0}, {}}});
+  const Body held(cloud, method, {{"node", Kind::displacement, Vec2(0, 1), TimeTable(0.0), {0_node}, {}}});
   EXPECT_EQ(missing_support(held.approximation.mechanics, held.cloud.position, held.supports), "");
 }
 

@@ -13,8 +13,8 @@ double pulse(double s) { return std::exp(-s * s); }
 double pulse_error(Method method, double h, double& residual) {
   const double length = 4e-2, width = 3e-3, centre = 2e-2, half_width = 4e-3, v0 = 1.0;
   Cloud<2> cloud = rectangle(length, width, h, Lattice::hexagonal, 0.1);
-  std::vector<std::int32_t> all(static_cast<std::size_t>(cloud.nodes()));
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int32_t>(i);
+  std::vector<NodeIndex> all(static_cast<std::size_t>(cloud.nodes()));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = as<NodeIndex>(i);
   Problem<2> model = model_of(cloud, method, steel());
   model.supports = Supports<2>({{"lateral", Support<2>::Kind::symmetry, Vec2(0, 1), {}, all}}, all.size());
   const plasticity::Material material = model.materials.front();

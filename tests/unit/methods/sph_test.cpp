@@ -39,7 +39,7 @@ TEST_P(Kernels, hardly_need_correction_inside_a_lattice) {
     const Vec2& x = cloud.position[i];
     if (x.cwiseMin(Vec2(1, 1) - x).minCoeff() < 0.35) continue;
     for (auto e = index_of(op.row_begin[i]); e < index_of(op.row_begin[i + 1]); ++e) {
-      const Vec2 to = cloud.position[index_of(op.node[e])] - x, b(op.gradient[0][e], op.gradient[1][e]);
+      const Vec2 to = cloud.position[op.node[e]] - x, b(op.gradient[0][e], op.gradient[1][e]);
       if (to.norm() == 0.0 || to.norm() > 0.11) continue;
       const double bare =
           -op.volume[index_of(op.node[e])] * methods::kernel_slope(GetParam(), to.norm(), 0.24);
@@ -62,8 +62,8 @@ TEST_P(Kernels, do_not_reach_across_a_slit) {
     if (x.y() > 0.25 || std::abs(x.x() - 0.5) > 0.2) continue;
     double left = x.x(), right = x.x();
     for (auto e = index_of(op.row_begin[i]); e < index_of(op.row_begin[i + 1]); ++e) {
-      left = std::min(left, cloud.position[index_of(op.node[e])].x());
-      right = std::max(right, cloud.position[index_of(op.node[e])].x());
+      left = std::min(left, cloud.position[op.node[e]].x());
+      right = std::max(right, cloud.position[op.node[e]].x());
     }
     EXPECT_TRUE(left >= 0.5 || right <= 0.5) << "node at " << x.transpose();
     ++rows;
@@ -112,12 +112,12 @@ double patch_error(double spacing, int rereference_every) {
   const double end = 2e-5, width = 1e-2;
   Cloud<2> cloud = rectangle(width, 0.8 * width, spacing, Lattice::hexagonal, 0.1);
   std::vector<Support<2>> supports;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(cloud.facets.size()); ++i)
+  for (const NodeIndex i : IndexRange<NodeIndex>(cloud.facets.size()))
     for (int k = 0; k < 2; ++k)
       supports.push_back({"side",
                           Support<2>::Kind::velocity,
                           k == 0 ? Vec2(1, 0) : Vec2(0, 1),
-                          TimeTable(H.row(k).dot(cloud.position[index_of(i)]) / end),
+                          TimeTable(H.row(k).dot(cloud.position[i]) / end),
                           {i}});
   Problem<2> model = model_of(cloud, Method::sph, steel());
   model.supports = Supports<2>(std::move(supports), index_of(cloud.nodes()));

@@ -130,7 +130,7 @@ TEST(Tetrahedra, pass_the_patch_test_at_finite_strain) {
   rate << 200.0, 150.0, -80.0, 90.0, -250.0, 60.0, -40.0, 110.0, 180.0;
   std::vector<bool> boundary(problem.cloud.position.size(), false);
   for (const Facet<3>& facet : problem.cloud.facets)
-    for (const std::int32_t i : facet.node) boundary[static_cast<std::size_t>(i)] = true;
+    for (const NodeIndex i : facet.node) boundary[static_cast<std::size_t>(i)] = true;
   std::vector<Support<3>> supports;
   for (std::size_t i = 0; i < boundary.size(); ++i)
     if (boundary[i])
@@ -140,7 +140,7 @@ TEST(Tetrahedra, pass_the_patch_test_at_finite_strain) {
                             Support<3>::Kind::velocity,
                             Vec3::Unit(k),
                             TimeTable(speed),
-                            {static_cast<std::int32_t>(i)},
+                            {as<NodeIndex>(i)},
                             {}});
       }
   problem.supports = Supports<3>(std::move(supports), boundary.size());

@@ -159,7 +159,7 @@ CellGeometry<2> three_cells() {
   cells.vertex_begin = {0};
   for (std::int32_t v = 0; v < 9; ++v) { // vertices move with nodes at them
     cells.vertex_begin.push_back(v + 1);
-    cells.vertex_node.push_back(v);
+    cells.vertex_node.push_back(as<NodeIndex>(v));
     cells.vertex_weight.push_back(1.0);
   }
   return cells;

@@ -2,6 +2,7 @@
 #include "cnem/scni.hpp"
 #include "core/operators/side_by_side.hpp"
 #include "tests/clouds.hpp"
+#include "tests/index_literals.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
 
@@ -11,6 +12,8 @@
 
 namespace cnem::testing {
 namespace {
+
+using namespace literals;
 
 constexpr double k = 50.0, rho = 7850.0, c = 477.0; // benchmarks of the field: steel
 constexpr double diffusivity = k / (rho * c);
@@ -78,10 +81,10 @@ std::vector<Facet<2>> facets_at_x(const Cloud<2>& cloud, double x) {
   return facets;
 }
 
-std::vector<std::int32_t> nodes_at_x(const Cloud<2>& cloud, double x) {
-  std::vector<std::int32_t> nodes;
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
-    if (std::abs(cloud.position[static_cast<std::size_t>(i)].x() - x) < 1e-12) nodes.push_back(i);
+std::vector<NodeIndex> nodes_at_x(const Cloud<2>& cloud, double x) {
+  std::vector<NodeIndex> nodes;
+  for (const NodeIndex i : cloud.position.indices())
+    if (std::abs(cloud.position[i].x() - x) < 1e-12) nodes.push_back(i);
   return nodes;
 }
 
@@ -112,7 +115,7 @@ TEST(Conduction, flux_into_a_half_space) {
   const double end = 1e-3, h = 10e-6;
   Body body(strip(0.8e-3, 4 * h, h));
   body.run(end, ThermalBoundaries<2>({}, {{"face", TimeTable(1e8), facets_at_x(body.cloud, 0.0)}}, {}));
-  for (const std::int32_t i : nodes_at_x(body.cloud, 0.0))
+  for (const NodeIndex i : nodes_at_x(body.cloud, 0.0))
     EXPECT_NEAR(body.temperature[static_cast<std::size_t>(i)], 260.781, 0.5); // 2q √(αt/π)/k
 }
 
@@ -124,7 +127,7 @@ TEST(Conduction, convection_settles_to_the_series_resistance) {
       {{"hot", TimeTable(100.0), nodes_at_x(body.cloud, 0.0)}}, {},
       {{"cold", TimeTable(h), TimeTable(0.0), facets_at_x(body.cloud, length)}});
   body.run(0.6, boundaries);
-  for (const std::int32_t i : nodes_at_x(body.cloud, length))
+  for (const NodeIndex i : nodes_at_x(body.cloud, length))
     EXPECT_NEAR(body.temperature[static_cast<std::size_t>(i)], 100.0 / (1.0 + h * length / k), 1e-3);
 }
 
@@ -133,7 +136,7 @@ TEST(Conduction, conductance_to_a_tool_relaxes_as_a_lump) {
   std::fill(body.temperature.begin(), body.temperature.end(), 400.0);
   const double conductance = 100.0, tool = 300.0;
   HeatContacts<2> touch;
-  for (const std::int32_t i : nodes_at_x(body.cloud, 0.0))
+  for (const NodeIndex i : nodes_at_x(body.cloud, 0.0))
     touch.tools.push_back({i, conductance, 1e-4 / 3, tool});
   ASSERT_EQ(touch.tools.size(), 3U);
   double capacity = 0.0;
@@ -150,10 +153,10 @@ TEST(Conduction, exchange_between_faces_keeps_heat_and_stays_below_its_bound) {
   Field temperature{400.0, 300.0, 320.0, 350.0, 310.0};
   const Field capacity{2.0, 1.0, 3.0, 0.5, 1.5};
   HeatContacts<2> touching; // nodes 0 and 3 on the facet 1 2, node 1 on the facet 3 0
-  touching.bodies = {{0, {1, 2}, {0.25, 0.75}, 1e3, 1e-3},
-                     {3, {1, 2}, {0.9, 0.1}, 1e3, 2e-3},
-                     {1, {3, 0}, {0.5, 0.5}, 1e3, 5e-4}};
-  touching.tools = {{4, 1e3, 1e-3, 500.0}};
+  touching.bodies = {{0_node, {1_node, 2_node}, {0.25, 0.75}, 1e3, 1e-3},
+                     {3_node, {1_node, 2_node}, {0.9, 0.1}, 1e3, 2e-3},
+                     {1_node, {3_node, 0_node}, {0.5, 0.5}, 1e3, 5e-4}};
+  touching.tools = {{4_node, 1e3, 1e-3, 500.0}};
   const auto rate = [&](const Field& t) {
     Field flow(t.size(), 0.0);
     ThermalBoundaries<2>().add_flow(0.0, {}, t, touching, flow);

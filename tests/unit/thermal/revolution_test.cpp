@@ -69,9 +69,9 @@ double cooling_error(double h, const Vec2& stretch) {
   const double J = stretch.x() * stretch.x() * stretch.y();
   for (double& value : body.capacity) value *= J;
   body.temperature.assign(body.capacity.size(), 1.0);
-  std::vector<std::int32_t> skin;
+  std::vector<NodeIndex> skin;
   for (std::size_t i = 0; i < body.capacity.size(); ++i)
-    if (std::abs(body.position[0][i] - a) < 1e-9 * a) skin.push_back(static_cast<std::int32_t>(i));
+    if (std::abs(body.position[0][i] - a) < 1e-9 * a) skin.push_back(as<NodeIndex>(i));
   body.run(end, ThermalBoundaries<2>({{"skin", TimeTable(0.0), skin}}, {}, {}, Space::revolution));
   double worst = 0.0;
   for (std::size_t i = 0; i < body.capacity.size(); ++i)

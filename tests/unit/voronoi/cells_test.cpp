@@ -23,13 +23,13 @@ CellGeometry<2> polygons_of(const Cloud<2>& cloud) {
 TEST(Cells, GridHasSquareCellsHalvedAndQuarteredOnTheBoundary) {
   const auto cloud = grid(4);
   const auto cells = cells_of(cloud);
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i) {
-    const Vec2& x = cloud.position[index_of(i)];
+  for (const NodeIndex i : cloud.position.indices()) {
+    const Vec2& x = cloud.position[i];
     const double half_x = x.x() == 0 || x.x() == 4 ? 0.5 : 1.0, half_y = x.y() == 0 || x.y() == 4 ? 0.5 : 1.0;
-    EXPECT_DOUBLE_EQ(cells.volume[index_of(i)], half_x * half_y) << "node " << i;
+    EXPECT_DOUBLE_EQ(cells.volume[index_of(i)], half_x * half_y) << "node " << index_of(i);
   }
   for (const auto& f : cells.interior) {
-    const Vec2 link = cloud.position[index_of(f.cell[1])] - cloud.position[index_of(f.cell[0])];
+    const Vec2 link = cloud.position[f.cell[1]] - cloud.position[f.cell[0]];
     EXPECT_GE(f.normal().dot(link), 0.0);
   }
 }
@@ -42,9 +42,9 @@ TEST(Cells, ThirdNodeOwnsPartOfABoundaryFacet) {
   for (const auto& piece : cells.boundary)
     if (piece.facet == 0) base.push_back(piece);
   ASSERT_EQ(base.size(), 3u);
-  EXPECT_EQ(base[0].cell, 0);
-  EXPECT_EQ(base[1].cell, 2);
-  EXPECT_EQ(base[2].cell, 1);
+  EXPECT_EQ(base[0].cell, 0_node);
+  EXPECT_EQ(base[1].cell, 2_node);
+  EXPECT_EQ(base[2].cell, 1_node);
   EXPECT_DOUBLE_EQ(base[0].place[1][0],
                    1.0625 / 4); // the bisector of (0, 0) and (2, 0.5) meets y = 0 at x = 1.0625
   EXPECT_DOUBLE_EQ(base[1].place[1][0], 1.0 - 1.0625 / 4);
@@ -57,7 +57,8 @@ TEST(Cells, CrackFacesShareNothing) {
   const auto cells = cells_of(cloud);
   EXPECT_DOUBLE_EQ(cells.volume[17], cells.volume[19]); // mirror images
   for (const auto& f : cells.interior) {
-    EXPECT_FALSE((f.cell[0] == 17 && f.cell[1] == 19) || (f.cell[0] == 19 && f.cell[1] == 17));
+    EXPECT_FALSE((f.cell[0] == 17_node && f.cell[1] == 19_node) ||
+                 (f.cell[0] == 19_node && f.cell[1] == 17_node));
     // No facet cuts through the crack 1 < x < 3, y = 2.
     const auto& [start, end] = f.corner;
     if ((start.y() - 2.0) * (end.y() - 2.0) < 0.0) {

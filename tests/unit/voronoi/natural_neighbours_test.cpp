@@ -19,9 +19,9 @@ public:
       : cloud_(std::move(cloud)), mesh_(triangulate(cloud_)), circles_(circumcircles(cloud_, mesh_)),
         at_(cloud_, mesh_, circles_) {}
 
-  std::map<std::int32_t, double> operator()(Functions functions, const Vec2& x, std::int32_t hint = 0) {
+  std::map<NodeIndex, double> operator()(Functions functions, const Vec2& x, std::int32_t hint = 0) {
     at_.evaluate(functions, x, hint);
-    std::map<std::int32_t, double> result;
+    std::map<NodeIndex, double> result;
     for (std::size_t k = 0; k < at_.nodes().size(); ++k) result[at_.nodes()[k]] = at_.values()[k];
     return result;
   }
@@ -50,7 +50,8 @@ TEST(NaturalNeighbours, CentreOfASquareBelongsToAllCornersAlike) {
   for (const auto functions : {Functions::sibson, Functions::laplace})
     for (std::int32_t hint : {0, 1}) {
       const auto value = phi(functions, {0.5, 0.5}, hint);
-      for (std::int32_t i = 0; i < 4; ++i) EXPECT_NEAR(value.contains(i) ? value.at(i) : 0.0, 0.25, 1e-15);
+      for (const NodeIndex i : IndexRange<NodeIndex>(4))
+        EXPECT_NEAR(value.contains(i) ? value.at(i) : 0.0, 0.25, 1e-15);
     }
 }
 
@@ -61,7 +62,7 @@ TEST(NaturalNeighbours, EdgeMidpointOfAStructuredGrid) { // where Watson's form 
     const auto value = phi(Functions::sibson, {1.5, 2.0}, hint);
     EXPECT_EQ(value.size(), 6u);
     for (const auto& [i, v] : value)
-      EXPECT_NEAR(v, phi.cloud().position[index_of(i)].y() == 2.0 ? 4.0 / 9.0 : 1.0 / 36.0, 1e-15);
+      EXPECT_NEAR(v, phi.cloud().position[i].y() == 2.0 ? 4.0 / 9.0 : 1.0 / 36.0, 1e-15);
   }
 }
 
@@ -76,10 +77,10 @@ TEST(NaturalNeighbours, SibsonIsTheRatioOfStolenAreas) {
     const auto mesh = triangulate(with_x);
     const auto after = constrained_cells(with_x, mesh, circumcircles(with_x, mesh)).volume;
     const auto value = phi(Functions::sibson, x);
-    for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+    for (const NodeIndex i : cloud.position.indices())
       EXPECT_NEAR(value.contains(i) ? value.at(i) : 0.0,
                   (before[index_of(i)] - after[index_of(i)]) / after.back(), 1e-13)
-          << "node " << i << " at " << x.transpose();
+          << "node " << index_of(i) << " at " << x.transpose();
   }
 }
 
@@ -90,13 +91,13 @@ TEST(NaturalNeighbours, LaplaceIsTheRatioOfFacetToDistance) {
   auto with_x = cloud;
   with_x.position.push_back(x);
   const auto mesh = triangulate(with_x);
-  std::map<std::int32_t, double> expected;
+  std::map<NodeIndex, double> expected;
   double sum = 0.0;
   for (const auto& f : constrained_cells(with_x, mesh, circumcircles(with_x, mesh)).interior)
     for (const std::size_t side : {0u, 1u})
-      if (f.cell[side] == cloud.nodes()) {
-        const std::int32_t i = f.cell[1 - side];
-        expected[i] = f.normal().norm() / (cloud.position[index_of(i)] - x).norm();
+      if (f.cell[side] == cloud.position.next()) {
+        const NodeIndex i = f.cell[1 - side];
+        expected[i] = f.normal().norm() / (cloud.position[i] - x).norm();
         sum += expected[i];
       }
   const auto value = phi(Functions::laplace, x);
@@ -115,8 +116,7 @@ TEST(NaturalNeighbours, LinearOnConcaveBoundaries) {
     for (const auto& facet : cloud.facets)
       for (const double s : {0.1, 0.5, 0.77}) {
         const auto [a, b] = facet.node;
-        const auto value =
-            phi(functions, (1.0 - s) * cloud.position[index_of(a)] + s * cloud.position[index_of(b)]);
+        const auto value = phi(functions, (1.0 - s) * cloud.position[a] + s * cloud.position[b]);
         EXPECT_EQ(value.size(), 2u);
         EXPECT_NEAR(value.at(a), 1.0 - s, 1e-14);
         EXPECT_NEAR(value.at(b), s, 1e-14);
@@ -129,10 +129,10 @@ TEST(NaturalNeighbours, TendToLinearNearTheBoundary) {
   for (const double depth : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const Vec2 x(3.3, depth);
     const auto value = phi(Functions::sibson, x);
-    EXPECT_NEAR(value.at(3), 0.7, 3.0 * depth);
-    EXPECT_NEAR(value.at(4), 0.3, 3.0 * depth);
+    EXPECT_NEAR(value.at(3_node), 0.7, 3.0 * depth);
+    EXPECT_NEAR(value.at(4_node), 0.3, 3.0 * depth);
     Vec2 mean = Vec2::Zero();
-    for (const auto& [i, v] : value) mean += v * cloud.position[index_of(i)];
+    for (const auto& [i, v] : value) mean += v * cloud.position[i];
     EXPECT_LT((mean - x).norm(), 1e-14) << "depth " << depth;
   }
 }
@@ -140,12 +140,12 @@ TEST(NaturalNeighbours, TendToLinearNearTheBoundary) {
 TEST(NaturalNeighbours, NoInfluenceThroughACrack) {
   Evaluated phi(embedded_crack());
   for (const auto& [i, v] : phi(Functions::sibson, {2.0, 2.1})) {
-    EXPECT_NE(i, 19); // the lower face
-    EXPECT_GE(phi.cloud().position[index_of(i)].y(), 2.0);
+    EXPECT_NE(i, 19_node); // the lower face
+    EXPECT_GE(phi.cloud().position[i].y(), 2.0);
   }
   for (const auto& [i, v] : phi(Functions::sibson, {2.0, 1.9})) {
-    EXPECT_NE(i, 17); // the upper face
-    EXPECT_LE(phi.cloud().position[index_of(i)].y(), 2.0);
+    EXPECT_NE(i, 17_node); // the upper face
+    EXPECT_LE(phi.cloud().position[i].y(), 2.0);
   }
 }
 
@@ -177,8 +177,8 @@ TEST(Locate, FindsPointsFromAnyHintAlsoBehindWalls) {
 TEST(Locate, OnACrackTheHintChoosesTheFace) {
   const auto cloud = embedded_crack();
   const auto mesh = triangulate(cloud);
-  for (const std::int32_t face : {17, 19}) {
-    const Location here = locate(cloud, mesh, {1.5, 2.0}, mesh.triangle_of_node[index_of(face)]);
+  for (const NodeIndex face : {17_node, 19_node}) {
+    const Location here = locate(cloud, mesh, {1.5, 2.0}, mesh.triangle_of_node[face]);
     EXPECT_TRUE(here.inside);
     const auto& nodes = mesh.node[index_of(here.triangle)];
     EXPECT_TRUE(nodes[0] == face || nodes[1] == face || nodes[2] == face);

@@ -1,11 +1,14 @@
 #pragma once
 // Small clouds that the unit tests of the geometry share.
 #include "core/geometry/cloud.hpp"
+#include "tests/index_literals.hpp"
 
 #include <initializer_list>
 #include <utility>
 
 namespace cnem::voronoi::test {
+
+using namespace testing::literals;
 
 /// Appends the nodes of a closed loop (counter-clockwise: outer, clockwise: hole) and its facets.
 inline void add_loop(Cloud<2>& cloud, std::initializer_list<Vec2> corners) {
@@ -13,7 +16,8 @@ inline void add_loop(Cloud<2>& cloud, std::initializer_list<Vec2> corners) {
   const auto n = static_cast<std::int32_t>(corners.size());
   for (const Vec2& x : corners) cloud.position.push_back(x);
   if (cloud.piece_names.empty()) cloud.piece_names.push_back("boundary");
-  for (std::int32_t k = 0; k < n; ++k) cloud.facets.push_back({{first + k, first + (k + 1) % n}, 0});
+  for (std::int32_t k = 0; k < n; ++k)
+    cloud.facets.push_back({{as<NodeIndex>(first + k), as<NodeIndex>(first + (k + 1) % n)}, 0});
 }
 
 /// The unit square with its four corners as the only nodes.
@@ -31,7 +35,8 @@ inline Cloud<2> grid(int n) {
   for (int k = 0; k < n; ++k) cloud.position.emplace_back(n, k);
   for (int k = 0; k < n; ++k) cloud.position.emplace_back(n - k, n);
   for (int k = 0; k < n; ++k) cloud.position.emplace_back(0, n - k);
-  for (int k = 0; k < 4 * n; ++k) cloud.facets.push_back({{k, (k + 1) % (4 * n)}, 0});
+  for (int k = 0; k < 4 * n; ++k)
+    cloud.facets.push_back({{as<NodeIndex>(k), as<NodeIndex>((k + 1) % (4 * n))}, 0});
   for (int y = 1; y < n; ++y)
     for (int x = 1; x < n; ++x) cloud.position.emplace_back(x, y);
   return cloud;
@@ -60,7 +65,7 @@ inline Cloud<2> embedded_crack() {
   // Seen from the material the loop runs clockwise about the (empty) crack: along the upper face to the
   // right.
   add_loop(cloud, {{1, 2}, {2, 2}, {3, 2}, {2, 2}});
-  cloud.twins = {{17, 19}};
+  cloud.twins = {{17_node, 19_node}};
   for (const Vec2& x : {Vec2(1, 1), Vec2(3, 1), Vec2(1, 3), Vec2(3, 3)}) cloud.position.push_back(x);
   return cloud;
 }
@@ -70,7 +75,7 @@ inline Cloud<2> embedded_crack() {
 inline Cloud<2> open_crack() {
   Cloud<2> cloud;
   add_loop(cloud, {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}, {1, 1}, {0, 1}});
-  cloud.twins = {{7, 9}};
+  cloud.twins = {{7_node, 9_node}};
   return cloud;
 }
 

@@ -14,8 +14,7 @@ namespace {
 double area(const Cloud<2>& cloud, const Triangulation& mesh) {
   double sum = 0.0;
   for (const auto& [a, b, c] : mesh.node)
-    sum += 0.5 * cross(cloud.position[index_of(b)] - cloud.position[index_of(a)],
-                       cloud.position[index_of(c)] - cloud.position[index_of(a)]);
+    sum += 0.5 * cross(cloud.position[b] - cloud.position[a], cloud.position[c] - cloud.position[a]);
   return sum;
 }
 
@@ -32,7 +31,7 @@ void expect_error(const Cloud<2>& cloud, std::initializer_list<const char*> part
     EXPECT_NE(message.find(part), std::string::npos) << message << "; expected: " << part;
 }
 
-bool has(const std::array<std::int32_t, 3>& nodes, std::int32_t i) {
+bool has(const std::array<NodeIndex, 3>& nodes, NodeIndex i) {
   return std::find(nodes.begin(), nodes.end(), i) != nodes.end();
 }
 
@@ -41,7 +40,7 @@ void expect_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
   std::vector<int> seen(cloud.facets.size(), 0);
   for (std::size_t t = 0; t < mesh.node.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
+      const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
       const std::int32_t next = mesh.neighbour[t][k], facet = mesh.facet[t][k];
       ASSERT_EQ(next < 0, facet >= 0);
       if (facet >= 0) {
@@ -57,7 +56,7 @@ void expect_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
       EXPECT_EQ(mesh.node[index_of(next)][(back + 2) % 3], a);
     }
   for (const int count : seen) EXPECT_EQ(count, 1);
-  for (std::int32_t i = 0; i < cloud.nodes(); ++i)
+  for (const NodeIndex i : cloud.position.indices())
     EXPECT_TRUE(has(mesh.node[index_of(mesh.triangle_of_node[index_of(i)])], i));
 }
 
@@ -91,12 +90,12 @@ TEST(Triangulation, SeparateBodiesMayTouchAtTwins) {
   Cloud<2> cloud;
   add_loop(cloud, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
   add_loop(cloud, {{1, 0}, {2, 0}, {2, 1}, {1, 1}});
-  cloud.twins = {{1, 4}, {2, 7}};
+  cloud.twins = {{1_node, 4_node}, {2_node, 7_node}};
   const auto mesh = triangulate(cloud);
   EXPECT_DOUBLE_EQ(area(cloud, mesh), 2.0);
   expect_consistent(cloud, mesh);
   for (const auto& nodes : mesh.node) // no triangle mixes the nodes of the two bodies
-    EXPECT_EQ(nodes[0] < 4, nodes[1] < 4) << nodes[0] << ' ' << nodes[1];
+    EXPECT_EQ(nodes[0] < 4_node, nodes[1] < 4_node) << index_of(nodes[0]) << ' ' << index_of(nodes[1]);
 }
 
 TEST(Triangulation, EmbeddedCrackHasTwoFaces) {
@@ -106,10 +105,10 @@ TEST(Triangulation, EmbeddedCrackHasTwoFaces) {
   expect_consistent(cloud, mesh);
   for (const auto& nodes : mesh.node) {
     double y = 0.0;
-    for (const auto i : nodes) y += cloud.position[index_of(i)].y() / 3.0;
+    for (const auto i : nodes) y += cloud.position[i].y() / 3.0;
     for (const auto i : nodes) {
-      if (i == 17) { EXPECT_GT(y, 2.0); }
-      if (i == 19) { EXPECT_LT(y, 2.0); }
+      if (i == 17_node) { EXPECT_GT(y, 2.0); }
+      if (i == 19_node) { EXPECT_LT(y, 2.0); }
     }
   }
 }
@@ -119,7 +118,7 @@ TEST(Triangulation, CrackOpenToTheBoundaryHasTwoFaces) {
   const auto mesh = triangulate(cloud);
   EXPECT_DOUBLE_EQ(area(cloud, mesh), 4.0);
   expect_consistent(cloud, mesh);
-  for (const auto& nodes : mesh.node) EXPECT_FALSE(has(nodes, 7) && has(nodes, 9));
+  for (const auto& nodes : mesh.node) EXPECT_FALSE(has(nodes, 7_node) && has(nodes, 9_node));
 }
 
 TEST(Triangulation, OpenedCrackNeedsNoCoincidence) {
@@ -143,7 +142,7 @@ TEST(TriangulationErrors, CoincidentNodes) {
 TEST(TriangulationErrors, TwinWithoutFacet) {
   auto cloud = grid(2);
   cloud.position.push_back({1, 1});
-  cloud.twins = {{8, 9}};
+  cloud.twins = {{8_node, 9_node}};
   expect_error(cloud, {"belongs to no facet"});
 }
 
@@ -162,11 +161,11 @@ TEST(TriangulationErrors, LoopsThatCrossEachOther) {
 TEST(TriangulationErrors, LoopsThatCrossAtTwins) {
   Cloud<2> neck; // a neck of no width: its strands meet at (1, 1)
   add_loop(neck, {{0, 0}, {1, 1}, {2, 0}, {2, 2}, {1, 1}, {0, 2}});
-  neck.twins = {{1, 4}};
+  neck.twins = {{1_node, 4_node}};
   expect_error(neck, {"touches or crosses itself at node 1 at (1, 1) m"});
   Cloud<2> eight;
   add_loop(eight, {{0, 0}, {1, 1}, {2, 2}, {2, 0}, {1, 1}, {0, 2}});
-  eight.twins = {{1, 4}};
+  eight.twins = {{1_node, 4_node}};
   expect_error(eight, {"facet"});
 }
 
@@ -210,7 +209,7 @@ TEST(TriangulationErrors, OpenAndBranchingLoops) {
   open.facets.pop_back();
   expect_error(open, {"open boundary"});
   auto branching = unit_square();
-  branching.facets.push_back({{0, 2}, 0});
+  branching.facets.push_back({{0_node, 2_node}, 0});
   expect_error(branching, {"branches"});
 }
 
@@ -219,7 +218,7 @@ TEST(TriangulationErrors, NonFiniteAndAbsentNodes) {
   cloud.position[2].x() = std::numeric_limits<double>::quiet_NaN();
   expect_error(cloud, {"node 2", "not finite"});
   auto absent = unit_square();
-  absent.facets[1].node[1] = 7;
+  absent.facets[1].node[1] = 7_node;
   expect_error(absent, {"names node 7"});
 }
 

@@ -1,0 +1,10 @@
+#pragma once
+// Indices in tests: 3_node is NodeIndex{3}.
+#include "core/index.hpp"
+
+namespace cnem::testing::literals {
+
+constexpr NodeIndex operator""_node(unsigned long long number) { return as<NodeIndex>(number); }
+constexpr ToolIndex operator""_tool(unsigned long long number) { return as<ToolIndex>(number); }
+
+} // namespace cnem::testing::literals
