@@ -213,14 +213,22 @@ std::vector<StudyRun> read_runs(const input::Value& list, const std::vector<inpu
   return runs;
 }
 
-/// Runs of one name would share a folder.
+/// Runs of one name would share a folder, and files of the study lie beside the folders.
 void check_names(const Study& study, const std::string& key, input::Diagnostics& diagnostics) {
   std::map<std::string_view, const StudyRun*> first;
-  for (const StudyRun& run : study.runs)
+  for (const StudyRun& run : study.runs) {
+    for (const char* own : {".csv", ".html", ".json", ".log"})
+      if (run.name.ends_with(own))
+        diagnostics.add(
+            input::Mistake::conflict, run.where, key,
+            fmt::format("found a run named '{}', expected a name that does not end with {}: files of "
+                        "the study do",
+                        run.name, own));
     if (const auto [other, fresh] = first.emplace(run.name, &run); !fresh)
       diagnostics.add(input::Mistake::conflict, run.where, key,
                       fmt::format("found two runs named '{}', the other one at {}, expected different ones",
                                   run.name, other->second->where.text()));
+  }
 }
 
 void check_column(const std::string& name, const input::Location& where, const std::string& key,
