@@ -20,7 +20,7 @@ inline contact::Tool<2> rigid_tool(const std::string& name, const Curve& outline
 inline contact::Tool<2> warm_box(const std::string& name, const Vec2& low, const Vec2& high,
                                  const Vec2& velocity, const contact::Friction& friction) {
   contact::Tool<2> tool = rigid_tool(name, box(low, high), velocity, friction);
-  tool.thermal = {.effusivity = 1e4, .conductance = 1e4, .temperature = 296.0};
+  tool.thermal = {.conductance = 1e4, .temperature = 296.0, .effusivity = 1e4};
   return tool;
 }
 
