@@ -2,7 +2,6 @@
 #include "core/index.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace cnem {
 
@@ -20,16 +19,6 @@ template<class RowValue> void carry(const NodeRows& rows, Field& value, const Ro
 }
 
 } // namespace
-
-NodeRows NodeRows::identity(std::size_t n) {
-  NodeRows rows;
-  rows.begin.resize(n + 1);
-  std::iota(rows.begin.begin(), rows.begin.end(), 0);
-  rows.node.resize(n);
-  for (std::size_t i = 0; i < n; ++i) rows.node[i] = as<NodeIndex>(i);
-  rows.weight.assign(n, 1.0);
-  return rows;
-}
 
 void carry_sum(const NodeRows& parcels, Field& value) {
   carry(parcels, value, [&](std::size_t first, std::size_t last) {

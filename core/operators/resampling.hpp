@@ -17,8 +17,6 @@ struct NodeRows {
   Field weight;                    ///< –
 
   std::size_t size() const { return begin.size() - 1; }
-  /// Row of one entry of weight 1 for each of n nodes.
-  static NodeRows identity(std::size_t n);
 };
 
 /// A change of the cloud by insertion, removal and exchange of mass between neighbours.
