@@ -14,6 +14,7 @@
 #include <charconv>
 #include <cstdio>
 #include <fmt/format.h>
+#include <limits>
 #include <new>
 #include <sstream>
 #include <system_error>
@@ -28,7 +29,8 @@ const CLI::Validator at_least_one(
       const char* end = given.data() + given.size();
       const bool whole = std::from_chars(given.data(), end, number).ptr == end;
       return whole && number >= 1 ? std::string()
-                                  : fmt::format("found {}, expected a whole number of at least 1", given);
+                                  : fmt::format("found {}, expected a whole number from 1 to {}", given,
+                                                std::numeric_limits<int>::max());
     },
     "POSITIVE");
 

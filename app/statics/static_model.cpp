@@ -56,7 +56,16 @@ StaticModel::StaticModel(const input::Case& in) : input(in), setup(build<2>(in))
     approximation = model.method->rebuild(cloud);
   } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
   tips = tips_of(input, cloud);
-  for (const fracture::CrackTip& tip : tips) enrichment_radius.push_back(app::enrichment_radius(input, tip));
+  for (const fracture::CrackTip& tip : tips) {
+    enrichment_radius.push_back(app::enrichment_radius(input, tip));
+    constexpr double fewest = 2.0; // spacings
+    if (const double outer = rings(input.fracture, tip).back().outer; outer < fewest * tip.spacing)
+      throw input.error(
+          "fracture.integral.outer",
+          fmt::format("found {:.3g} m, expected at least {:g} spacings of the cloud at tip '{}', "
+                      "{:.3g} m: within fewer the stress is not known",
+                      outer, fewest, tip.name, fewest * tip.spacing));
+  }
   try {
     enriched =
         fracture::enrich(cloud, approximation, tips, enrichment_radius, input.method.options.functions);
@@ -97,11 +106,6 @@ std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::C
     const double outer =
         spec.integral_outer.value_or(std::max(list.back().outer, 2.0 * spec.integral_inner.value_or(0.0)));
     const double inner = spec.integral_inner.value_or(0.5 * outer);
-    if (constexpr double fewest = 2.0; outer < fewest * tip.spacing)
-      throw InputError(fmt::format("fracture.integral.outer is {:.3g} m, expected at least {:g} spacings of "
-                                   "the cloud at tip '{}', {:.3g} m: "
-                                   "within fewer the stress is not known",
-                                   outer, fewest, tip.name, fewest * tip.spacing));
     const double share = inner / outer;
     for (fracture::Ring& ring : list) ring = {share * ring.outer, ring.outer};
     std::erase_if(list, [&](const fracture::Ring& ring) { return ring.outer >= outer; });
