@@ -1,4 +1,5 @@
 #include "input/curve_checks.hpp"
+#include "core/geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -63,9 +64,9 @@ constexpr double touching = 1e-9; ///< relative distance at which curves count a
 
 } // namespace
 
-std::string show(const Vec3& x) { return fmt::format("({:g}, {:g}, {:g}) m", x.x(), x.y(), x.z()); }
+std::string show(const Vec3& x) { return place_text(x) + " m"; }
 
-std::string show(const Vec2& x) { return fmt::format("({:g}, {:g}) m", x.x(), x.y()); }
+std::string show(const Vec2& x) { return place_text(x) + " m"; }
 
 std::array<Vec2, 2> bounds(const Curve& curve) {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::max()), high = -low;

@@ -1,6 +1,7 @@
 #include "voronoi/boundary_checks.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
 
 #include <cmath>
@@ -10,7 +11,7 @@ namespace cnem::voronoi {
 
 namespace {
 
-std::string describe_point(const Vec2& x) { return fmt::format("({:.9g}, {:.9g}) m", x.x(), x.y()); }
+std::string describe_point(const Vec2& x) { return place_text(x, 9) + " m"; }
 
 const Vec2& at(const Cloud<2>& cloud, NodeIndex node) { return cloud.position[node]; }
 

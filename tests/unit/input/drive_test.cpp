@@ -51,6 +51,8 @@ TEST(Tools, MassAndForceArePerThicknessOrOfTheWholeBody) {
   EXPECT_EQ(drive.force[0](1.0), 0.0);
   EXPECT_EQ(drive.free, Mat2(Vec2(0, 1).asDiagonal()));
   EXPECT_EQ(drive.initial_velocity, Vec2(0, -2));
+  const Case far = read_case_text(with_press("mass = \"2 t/m\"\ndirection = \"0 -1e200\""), "x");
+  EXPECT_EQ(far.tools.front().drive->free, drive.free) << "of any length";
   const std::string round = "[analysis]\nkinematics = \"axisymmetric\"\n";
   const Case body = read_case_text(with_press("mass = \"2 kg\"\nforce = \"0 -5 kN\"", round), "x");
   EXPECT_EQ(body.tools.front().drive->mass, 2.0);
