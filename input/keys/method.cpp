@@ -63,7 +63,8 @@ void add_method(Keys& k) {
       .fallback("1.2");
   k.add("method.energy_tolerance", quantity,
         "The run has diverged when, from step 10 on, the energy residual exceeds this part of work done and "
-        "initial energy; where there is neither, of the energy of a body at rest.")
+        "initial energy; where there is neither, of the energy of a body at rest. Judged with every row "
+        "of the history and at the end.")
       .in(positive)
       .fallback("0.05");
 }
