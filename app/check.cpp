@@ -3,7 +3,7 @@
 #include "app/run.hpp"
 #include "app/simulation.hpp"
 #include "app/statics/statics.hpp"
-#include "app/tool_speed.hpp"
+#include "app/watches/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/machine/threads.hpp"
 #include "results/fields.hpp"

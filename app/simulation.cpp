@@ -4,7 +4,7 @@
 #include "app/process/exhaustion.hpp"
 #include "app/process/run_signals.hpp"
 #include "app/profile.hpp"
-#include "app/tool_speed.hpp"
+#include "app/watches/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/machine/isa.hpp"
 #include "report/report.hpp"
@@ -126,6 +126,7 @@ template<int dim> void Simulation<dim>::loop() {
     judge_energy();
     if (finished()) {
       melting_.look(solver_);
+      penetration_.look(solver_);
       return;
     }
     check_reserve();
@@ -221,13 +222,11 @@ template<int dim> bool Simulation<dim>::new_reference() {
 template<int dim> void Simulation<dim>::look_at_step() {
   check_finite(solver_.state());
   melting_.look(solver_);
+  penetration_.look(solver_);
   refresh_step();
   last_check_ = solver_.state().step;
 }
-template<int dim> void Simulation<dim>::refresh_step() {
-  control_.refresh(solver_);
-  check_moving_tools(input_, solver_, control_.limit() / solver_.sub_steps());
-}
+template<int dim> void Simulation<dim>::refresh_step() { control_.refresh(solver_); }
 template<int dim> void Simulation<dim>::stop(Exit exit, std::string reason) {
   exit_ = exit;
   reason_ = std::move(reason);
@@ -252,8 +251,8 @@ template<int dim> Exit Simulation<dim>::fail(const std::string& message) {
   return Exit::io_failed;
 }
 template<int dim> std::vector<std::string> Simulation<dim>::late_warnings() const {
-  std::vector<std::string> list{melting_.warning(), retries_.warning(), renewal_.warning(),
-                                history_.kinetic_warning(input_)};
+  std::vector<std::string> list{melting_.warning(), penetration_.warning(), retries_.warning(),
+                                renewal_.warning(), history_.kinetic_warning(input_)};
   std::erase(list, "");
   for (std::string& warning : list) warning = input_.placed(warning);
   return list;

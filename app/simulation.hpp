@@ -2,13 +2,14 @@
 // An explicit run from its set-up to its report: the time loop in a fixed order, output, checkpoint, adapt,
 // step.
 #include "app/divergence.hpp"
-#include "app/melting.hpp"
 #include "app/plane_features.hpp"
 #include "app/retries.hpp"
 #include "app/run.hpp"
 #include "app/space_features.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
+#include "app/watches/melting.hpp"
+#include "app/watches/penetration.hpp"
 #include "results/checkpoint.hpp"
 #include "results/file_queue.hpp"
 #include "results/progress.hpp"
@@ -93,6 +94,7 @@ private:
   ReferenceRenewal renewal_;
   Retries retries_;
   MeltingWatch melting_;
+  PenetrationWatch penetration_;
   std::conditional_t<dim == 2, PlaneFeatures, SpaceFeatures> features_;
   CheckpointTimer checkpoints_;
   results::Progress progress_;

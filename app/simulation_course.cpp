@@ -39,6 +39,7 @@ template<int dim> int Simulation<dim>::archive_course(Archive& archive, int fram
   control_.archive(archive);
   renewal_.archive(archive);
   melting_.archive(archive);
+  penetration_.archive(archive);
   features_.archive(archive);
   history_.archive(archive);
   archive.integer("run/last_check", last_check_);

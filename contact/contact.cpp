@@ -76,6 +76,7 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
   gather(step);
   Poses<dim> poses = motions_.predict(tools_, step.time, step.dt, step.dt_mean);
   tool_reactions_ = motions_.reactions(tools_, poses);
+  look_for_passages(poses, step);
   if constexpr (dim == 2)
     if (law_.active) {
       bodies_.look(surface_, start_, end_);
@@ -117,6 +118,27 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
   contacts_.clear();
   std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec<dim>::Zero());
+}
+
+template<int dim>
+void RigidContact<dim>::look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step) const {
+  for (const ToolIndex t : tools_.indices()) {
+    const ToolShape<dim>& shape = *tools_[t].shape;
+    const double least = shape.least_thickness();
+    for (const BoundaryNodeIndex b : end_.indices()) {
+      const Vec<dim> from = start_[b] - poses[t].start, to = end_[b] - poses[t].end;
+      if ((to - from).squaredNorm() < least * least) continue;
+      const double thickness = shape.passed(from, to);
+      if (thickness == 0.0) continue;
+      const int node = static_cast<int>(index_of(surface_.node[b]));
+      throw DivergenceError(
+          fmt::format("node {} went through tool '{}' unseen, from one side to the other, between t = {:.9g} "
+                      "s and {:.9g} s: {:.3g} m past each other, and the tool is {:.3g} m thick there; make "
+                      "it thicker, or the step shorter with time.step.max",
+                      node, tools_[t].name, step.time, step.time + step.dt, (to - from).norm(), thickness),
+          node, "tool velocity");
+    }
+  }
 }
 
 /// Takes a contact into the list; where it is there already and the surface is curved, or the facet has

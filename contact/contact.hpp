@@ -91,8 +91,9 @@ template<int dim> struct BodyTouch {
 template<int dim> struct Overlap {
   ToolIndex tool{};
   NodeIndex node{};
-  double depth = 0.0; ///< m, > 0
-  Vec<dim> position = Vec<dim>::Zero();
+  double depth = 0.0;                   ///< m, > 0
+  Vec<dim> position = Vec<dim>::Zero(); ///< m
+  double spacing = 0.0;                 ///< m, of the boundary nodes there
   bool ridge = false;
 };
 
@@ -122,7 +123,8 @@ public:
 
   /// Corrects x_{n+1} and v_{n+½} so that nothing that was outside a tool or another part of the workpiece is
   /// inside, with friction, and existing penetration shrinks at no more than half the tool's (or the node's
-  /// slip) speed. Throws InputError when a shear factor is set and no flow stress given.
+  /// slip) speed. Throws InputError when a shear factor is set and no flow stress given, DivergenceError when
+  /// a node would go through a tool in this step.
   void correct(const ContactStep<dim>& step);
 
   /// Between these two calls `correct` is called once in each of several steps, and then all results are
@@ -156,14 +158,19 @@ public:
   /// Contact impulse of the last step, N s/m^(3−dim), before constraints take their part.
   const IndexedVector<BoundaryNodeIndex, Vec<dim>>& nodal_impulse() const { return nodal_impulse_; }
 
-  /// Penetrations at a time, deepest first: what `check` prints. Only for a boundary that has been set.
+  /// Nodes inside tools at a time, tool by tool.
+  std::vector<Overlap<dim>> nodes_inside(const Fields<dim>& position, double time) const;
+  /// These and ridges inside the workpiece, deepest first: what `check` prints. Both only for a boundary that
+  /// has been set.
   std::vector<Overlap<dim>> overlaps(const Fields<dim>& position, double time) const;
 
   /// Carries the totals and last forces of the tools out or in; all else is made anew in each step.
   void archive(Archive& archive);
 
 private:
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> places(const Fields<dim>& position) const;
   void gather(const ContactStep<dim>& step);
+  void look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step) const;
   bool find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);

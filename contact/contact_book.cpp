@@ -146,27 +146,55 @@ template<int dim> void RigidContact<dim>::list_touches() {
   }
 }
 
+namespace {
+
+constexpr double least_penetration = 1e-9; ///< of the size
+
+/// m, of boundary nodes, from the area around one.
+template<int dim> double spacing_of(double area) { return dim == 2 ? area : std::sqrt(area); }
+
+} // namespace
+
 template<int dim>
-std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& position, double time) const {
-  std::vector<Overlap<dim>> found;
+IndexedVector<BoundaryNodeIndex, Vec<dim>> RigidContact<dim>::places(const Fields<dim>& position) const {
   IndexedVector<BoundaryNodeIndex, Vec<dim>> all;
-  std::vector<Vec<dim>> local;
   for (const NodeIndex node : surface_.node) all.push_back(at<dim>(position, node));
-  const double rounding = 1e-9 * size_;
+  return all;
+}
+
+template<int dim>
+std::vector<Overlap<dim>> RigidContact<dim>::nodes_inside(const Fields<dim>& position, double time) const {
+  std::vector<Overlap<dim>> found;
+  const auto all = places(position);
+  std::vector<Vec<dim>> local;
+  std::vector<Entry<dim>> entries;
+  IndexedVector<BoundaryNodeIndex, double> area;
   for (const ToolIndex t : tools_.indices()) {
     const Vec<dim> shift = displacement(index_of(t), time);
-    local = all;
-    for (Vec<dim>& x : local) x -= shift;
-    std::vector<Entry<dim>> entries;
+    local.clear(), entries.clear();
+    for (const Vec<dim>& x : all) local.push_back(x - shift);
     tools_[t].shape->entries(local, local, entries);
     for (const Entry<dim>& entry : entries) {
       const auto b = as<BoundaryNodeIndex>(entry.index);
-      if (entry.at.distance < -rounding)
-        found.push_back({t, surface_.node[b], -entry.at.distance, all[b], false});
+      if (entry.at.distance >= -least_penetration * size_) continue;
+      if (area.empty()) area = surface_.areas(all, Space::plane);
+      found.push_back({t, surface_.node[b], -entry.at.distance, all[b], spacing_of<dim>(area[b]), false});
     }
+  }
+  return found;
+}
+
+template<int dim>
+std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& position, double time) const {
+  std::vector<Overlap<dim>> found = nodes_inside(position, time);
+  const auto all = places(position);
+  const auto area = surface_.areas(all, Space::plane);
+  for (const ToolIndex t : tools_.indices()) {
+    const Vec<dim> shift = displacement(index_of(t), time);
     for (const RidgeDepth<dim>& ridge : ridges_inside<dim>(surface_, *tools_[t].shape, all, shift))
-      if (ridge.depth > rounding)
-        found.push_back({t, surface_.node[ridge.node], ridge.depth, ridge.position, true});
+      if (ridge.depth > least_penetration * size_)
+        found.push_back({t, surface_.node[ridge.node], ridge.depth, ridge.position,
+                         spacing_of<dim>(area[ridge.node]), true});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Overlap<dim>& a, const Overlap<dim>& b) { return a.depth > b.depth; });
@@ -202,12 +230,14 @@ template void RigidContact<2>::book(const Poses<2>&, const ContactStep<2>&);
 template void RigidContact<2>::share_heat(const Contact<2>&, double, const ContactStep<2>&);
 template void RigidContact<2>::list_touches();
 template void RigidContact<2>::list_points(const Poses<2>&, const ContactStep<2>&);
+template std::vector<Overlap<2>> RigidContact<2>::nodes_inside(const Fields<2>&, double) const;
 template std::vector<Overlap<2>> RigidContact<2>::overlaps(const Fields<2>&, double) const;
 template void RigidContact<2>::archive(Archive&);
 template void RigidContact<3>::book(const Poses<3>&, const ContactStep<3>&);
 template void RigidContact<3>::share_heat(const Contact<3>&, double, const ContactStep<3>&);
 template void RigidContact<3>::list_touches();
 template void RigidContact<3>::list_points(const Poses<3>&, const ContactStep<3>&);
+template std::vector<Overlap<3>> RigidContact<3>::nodes_inside(const Fields<3>&, double) const;
 template std::vector<Overlap<3>> RigidContact<3>::overlaps(const Fields<3>&, double) const;
 template void RigidContact<3>::archive(Archive&);
 

@@ -16,7 +16,7 @@ constexpr double full_turn = 2.0 * std::numbers::pi;
 
 double angle_between(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
 
-void check(const Curve& curve) {
+Curve checked(Curve curve) {
   if (curve.pieces.empty()) throw InputError("a tool needs a closed curve, got one without pieces");
   double size = 0.0;
   for (const CurvePiece& piece : curve.pieces) size += piece.length();
@@ -40,6 +40,7 @@ void check(const Curve& curve) {
     throw InputError(fmt::format("a tool's curve must run counter-clockwise round the solid, got one that "
                                  "encloses {:.6g} m²",
                                  curve.area()));
+  return curve;
 }
 
 } // namespace
@@ -115,8 +116,7 @@ double CurveShape::Face::crossing(const Vec2& a, const Vec2& b, double start, do
   return std::clamp(s, 0.0, 1.0);
 }
 
-CurveShape::CurveShape(Curve curve) : curve_(std::move(curve)) {
-  check(curve_);
+CurveShape::CurveShape(Curve curve) : curve_(checked(std::move(curve))), thickness_(curve_) {
   bounds_ = {curve_.pieces[0].from, curve_.pieces[0].from};
   const auto include = [&](const Vec2& x) {
     bounds_.low = bounds_.low.cwiseMin(x);

@@ -1,5 +1,6 @@
 #pragma once
 // A 2D tool bounded by a closed curve of segments and arcs.
+#include "contact/thickness.hpp"
 #include "contact/tool_shape.hpp"
 #include "core/geometry/curve.hpp"
 
@@ -16,6 +17,9 @@ public:
                std::vector<Entry<2>>& found) const override;
   const std::vector<Ridge<2>>& ridges() const override { return ridges_; }
   Box<2> bounds() const override { return bounds_; }
+  double least_thickness() const override { return thickness_.least(); }
+  double thickness_along(const Vec2& direction) const override { return thickness_.along(direction); }
+  double passed(const Vec2& from, const Vec2& to) const override { return thickness_.passed(from, to); }
   const Curve& curve() const { return curve_; }
 
 private:
@@ -38,6 +42,7 @@ private:
   };
 
   Curve curve_;
+  Thickness thickness_;
   std::vector<Face> faces_;
   std::vector<Vec2> corner_normal_; ///< [piece] sum of the outward normals on both sides of its `from`
   std::vector<Ridge<2>> ridges_;

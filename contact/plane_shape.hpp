@@ -2,6 +2,8 @@
 // A tool bounded by a plane: a wall, an anvil.
 #include "contact/tool_shape.hpp"
 
+#include <limits>
+
 namespace cnem::contact {
 
 /// The half-space behind a plane: solid where n·(x − point) < 0.
@@ -16,6 +18,10 @@ public:
                std::vector<Entry<dim>>& found) const override;
   const std::vector<Ridge<dim>>& ridges() const override { return ridges_; }
   Box<dim> bounds() const override;
+  /// A half-space has no other side.
+  double least_thickness() const override { return std::numeric_limits<double>::infinity(); }
+  double thickness_along(const Vec<dim>&) const override { return least_thickness(); }
+  double passed(const Vec<dim>&, const Vec<dim>&) const override { return 0.0; }
 
 private:
   double distance(const Vec<dim>& x) const { return normal_.dot(x - point_); }

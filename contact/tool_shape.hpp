@@ -66,6 +66,13 @@ public:
 
   virtual const std::vector<Ridge<dim>>& ridges() const = 0;
   virtual Box<dim> bounds() const = 0;
+
+  /// m; no path shorter than it goes through the solid (contact/thickness.hpp).
+  virtual double least_thickness() const = 0;
+  /// m, where it is thinnest along a unit vector; infinite where no path along it goes through.
+  virtual double thickness_along(const Vec<dim>& direction) const = 0;
+  /// m, thickness where the straight path from → to goes through the solid; 0 where it does not.
+  virtual double passed(const Vec<dim>& from, const Vec<dim>& to) const = 0;
 };
 
 } // namespace cnem::contact

@@ -1,4 +1,4 @@
-#include "app/melting.hpp"
+#include "app/watches/melting.hpp"
 
 #include "app/places.hpp"
 #include "core/index.hpp"
