@@ -66,6 +66,21 @@ void warn_of_short_edges(const Cloud<2>& cloud, const SpacingField& spacing,
         cloud.piece_names[index_of(piece)], edge.length, place_text(edge.where), spacing.at(edge.where)));
 }
 
+/// Arcs that are so few chords that the body is another one.
+void warn_of_coarse_arcs(const DomainShape& shape, const Cloud<2>& cloud,
+                         std::vector<std::string>& warnings) {
+  double area = std::abs(shape.outer.area()), enclosed = 0.0;
+  for (const Curve& hole : shape.holes) area -= std::abs(hole.area());
+  for (const Facet<2>& f : cloud.facets)
+    enclosed += 0.5 * cross(cloud.position[f.node[0]], cloud.position[f.node[1]]);
+  const double change = enclosed / area - 1.0;
+  if (std::abs(change) < 0.01) return;
+  warnings.push_back(
+      fmt::format("the nodes on the boundary enclose {:.4g} m², {:.2g}% {} than the domain: its "
+                  "arcs are few chords; refine along them",
+                  enclosed, 100.0 * std::abs(change), change < 0.0 ? "less" : "more"));
+}
+
 void warn_of_necks(const Necks& necks, std::vector<std::string>& warnings) {
   if (necks.pairs > 0)
     warnings.push_back(
@@ -108,6 +123,7 @@ GeneratedCloud generate_cloud(const DomainShape& domain, const SpacingField& spa
   Cloud<2> cloud = assemble_boundary(discretise_boundary(shape, spacing));
   voronoi::triangulate(cloud); // loops that cross are reported before anything relies on them
   warn_of_short_edges(cloud, spacing, result.warnings);
+  warn_of_coarse_arcs(shape, cloud, result.warnings);
 
   const voronoi::EdgeTree tree(cloud);
   std::vector<Vec2> interior = spacing.uniform()

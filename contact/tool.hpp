@@ -63,6 +63,7 @@ struct ToolThermal {
         .unit = "W s^0.5/(m2 K)",
         .range = not_negative,
         .meaning = "√(kρc), which decides the tool's share of the friction heat; or give the next three.",
+        .source = "Carslaw and Jaeger 1959",
         .computed = "0: all of it goes to the workpiece"}}};
 };
 

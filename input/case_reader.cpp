@@ -8,13 +8,19 @@
 #include <fmt/format.h>
 
 namespace cnem::input {
-namespace {
 
-std::string case_name(const std::string& path) {
+std::string name_after(const std::string& path, const std::string& generic) {
   const std::filesystem::path file = std::filesystem::absolute(path).lexically_normal();
-  if (file.filename().string().starts_with("case.")) return file.parent_path().filename().string();
-  return file.stem().string();
+  const std::string name = file.filename().string().starts_with(generic + ".")
+                               ? file.parent_path().filename().string()
+                               : file.stem().string();
+  if (name.empty() || name == "." || name == "..")
+    throw InputError(
+        fmt::format("{}: found the name '{}', expected one that a folder of results can have", path, name));
+  return name;
 }
+
+namespace {
 
 /// Defaults that depend on other keys.
 void compute_defaults(Setting& root) {
@@ -175,7 +181,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
 
   Case result;
   result.path = path;
-  result.name = case_name(path);
+  result.name = name_after(path, "case");
   result.title = root.get<std::string>("title");
   result.analysis = {root.choice<Analysis::Type>("analysis.type"),
                      root.choice<Analysis::Kinematics>("analysis.kinematics"),

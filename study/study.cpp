@@ -1,6 +1,7 @@
 #include "study/study.hpp"
 
 #include "core/error.hpp"
+#include "input/case_reader.hpp"
 #include "input/schema/diagnostics.hpp"
 #include "input/schema/nearest.hpp"
 #include "results/output_folder.hpp"
@@ -284,11 +285,6 @@ void read_charts(const input::Value& list, Study& study, input::Diagnostics& dia
   }
 }
 
-std::string study_name(const fs::path& path) {
-  const fs::path file = fs::absolute(path).lexically_normal();
-  return file.stem() == "study" ? file.parent_path().filename().string() : file.stem().string();
-}
-
 } // namespace
 
 std::vector<input::Override> StudyRun::changes() const {
@@ -311,7 +307,7 @@ Study read_study_text(std::string_view text, const fs::path& path) {
       {"title", "case", "set", "grid", "run", "processes", "threads", "columns", "charts", "history"},
       diagnostics);
   Study study;
-  study.name = study_name(path);
+  study.name = input::name_after(path, "study");
   study.text = text;
   study.title = table.text("title");
   if (const input::Value* name = table.require("case", Kind::text, "the case file or its folder")) {

@@ -172,7 +172,7 @@ void fail_before_steps(const input::Case& input, const RunOptions& options, cons
     results::write_status(options.output, status);
   } catch (const std::exception&) {} // there may be no room for this either
   const std::string how = how_to_go_on(input, options);
-  throw IoError(how.empty() ? reason : fmt::format("{}\n{}", reason, how));
+  throw ToldIoError(how.empty() ? reason : fmt::format("{}\n{}", reason, how));
 }
 
 } // namespace cnem::app

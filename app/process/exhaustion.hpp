@@ -1,6 +1,7 @@
 #pragma once
 // What a run does when memory or threads run out: it says so, and its last checkpoint stays.
 #include "app/run.hpp"
+#include "core/error.hpp"
 #include "input/case.hpp"
 #include "results/status.hpp"
 
@@ -35,7 +36,12 @@ void forget_last_words();
 /// The same for a run that has not come to its first step.
 void set_last_words_before_steps(const input::Case& input, const RunOptions& options);
 
-/// Writes the status of such a run, as far as that is possible, and throws IoError with the reason.
+/// A failure that the status tells already.
+struct ToldIoError : IoError {
+  using IoError::IoError;
+};
+
+/// Writes the status of such a run, as far as that is possible, and throws ToldIoError with the reason.
 [[noreturn]] void fail_before_steps(const input::Case& input, const RunOptions& options,
                                     const std::string& reason);
 
@@ -46,7 +52,11 @@ template<class Act> auto before_steps(const input::Case& input, const RunOptions
     return act();
   } catch (const std::bad_alloc&) {
     fail_before_steps(input, options, memory_exhausted());
-  } catch (const std::system_error& error) { fail_before_steps(input, options, error.what()); }
+  } catch (const std::system_error& error) {
+    fail_before_steps(input, options, error.what());
+  } catch (const ToldIoError&) { throw; } catch (const IoError& error) {
+    fail_before_steps(input, options, error.what());
+  }
 }
 
 } // namespace cnem::app

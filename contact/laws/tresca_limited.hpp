@@ -12,7 +12,7 @@ struct TrescaLimited {
 
   static constexpr const char* name = "tresca-limited";
   static constexpr const char* formula = "the same, at most `shear_factor` σ_y/√3";
-  static constexpr const char* source = "";
+  static constexpr const char* source = "Orowan 1943";
   static constexpr Parameter<TrescaLimited> parameters[] = {
       {&TrescaLimited::coefficient, Coulomb::parameters[0].info},
       {&TrescaLimited::shear_factor, {.name = "shear_factor", .range = fraction, .meaning = "m_f."}}};

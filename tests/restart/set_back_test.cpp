@@ -1,5 +1,6 @@
 // A run that goes back after a failure: what it leaves is that of one course, counted, and given up in the
 // end.
+#include "results/checkpoint_folder.hpp"
 #include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
 #include "results/status.hpp"
@@ -52,6 +53,27 @@ TEST_F(SetBack, a_run_that_gets_past_a_failure_is_counted_and_leaves_one_course)
   const std::string series = results::read_file(folder / "run" / results::files::fields);
   for (std::size_t at = 0; (at = series.find("part=\"0\"", at)) != std::string::npos; ++at) ++frames;
   EXPECT_EQ(frames, 31U);
+}
+
+TEST_F(SetBack, it_ends_with_the_same_bits_from_every_checkpoint_before_and_after_a_failure) {
+  const std::vector<std::string> often{
+      "--threads", "1", "--set", "output.checkpoint.every_steps=60", "--set", "output.checkpoint.keep=1000"};
+  ASSERT_EQ(run("run", often).code, 0);
+  const std::size_t kept = results::list_checkpoints(folder / "run").size();
+  ASSERT_GT(kept, 5U);
+  int again = 0;
+  for (std::size_t k = 0; k < kept; k += kept / 5) {
+    const fs::path copy = folder / std::to_string(k);
+    fs::copy(folder / "run", copy, fs::copy_options::recursive);
+    const std::vector<fs::path> checkpoints = results::list_checkpoints(copy); // the newest first
+    for (std::size_t newer = 0; newer < k; ++newer) fs::remove(checkpoints[newer]);
+    fs::remove(copy / results::files::status);
+    const Ending ending = run_cnem({"restart", copy.string(), "--threads", "2"});
+    EXPECT_EQ(ending.code, 0) << ending.printed;
+    EXPECT_EQ(difference(folder / "run", copy), "") << "from " << checkpoints[k];
+    again += ending.printed.find("back to step") != std::string::npos;
+  }
+  EXPECT_GT(again, 0) << "no checkpoint was from before the failure";
 }
 
 TEST_F(SetBack, a_failure_that_always_returns_ends_the_run_with_3) {

@@ -137,6 +137,16 @@ TEST_F(Surroundings, memory_exhausted_in_a_static_analysis_ends_with_4) {
   EXPECT_EQ(results::read_status(folder / "static").exit, 4);
 }
 
+TEST_F(Surroundings, files_that_may_not_grow_end_a_static_analysis_with_4) {
+  const fs::path plate = fs::path(CNEM_SOURCE_DIR) / "cases" / "paper" / "crack_straight";
+  const Ending ending = run_cnem({"run", plate.string(), "--output", at("static"), "--threads", "1"}, 30000);
+  EXPECT_EQ(ending.code, 4) << ending.signal << ending.printed;
+  const results::RunStatus status = results::read_status(folder / "static");
+  EXPECT_EQ(status.exit, 4);
+  expect_part(status.reason, "File too large");
+  expect_part(ending.printed, status.reason);
+}
+
 TEST_F(Surroundings, threads_that_the_system_does_not_give_end_with_4) {
   if (sanitized) GTEST_SKIP();
   const Ending ending = run_cnem(run_of("punched.toml", "many", {"--threads", "64"}), 0, {}, [] {
