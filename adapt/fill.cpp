@@ -14,7 +14,7 @@ namespace {
 struct Gap {
   double length;                        ///< over its limit
   std::array<NodeIndex, 2> node;        ///< between these; none: at a Voronoi vertex
-  std::array<std::int32_t, 2> triangle; ///< that the new node lies in or between
+  std::array<SimplexIndex, 2> triangle; ///< that the new node lies in or between
   Vec2 x;
   bool of_film = false; ///< an edge so long that the nodes of the other face are no hindrance
 };
@@ -27,44 +27,44 @@ public:
 
   void collect(const Gap& gap, std::int32_t stamp) {
     triangle_.clear();
-    for (const std::int32_t t : gap.triangle)
-      if (t >= 0) visit(t, stamp);
+    for (const SimplexIndex t : gap.triangle)
+      if (exists(t)) visit(t, stamp);
     for (std::size_t k = 0; k < triangle_.size(); ++k)
-      for (const std::int32_t across : structure_.mesh.neighbour[index_of(triangle_[k])])
-        if (across >= 0 && (structure_.circles.centre[index_of(across)] - gap.x).squaredNorm() <
-                               structure_.circles.limit[index_of(across)])
+      for (const SimplexIndex across : structure_.mesh.neighbour[triangle_[k]])
+        if (exists(across) &&
+            (structure_.circles.centre[across] - gap.x).squaredNorm() < structure_.circles.limit[across])
           visit(across, stamp);
   }
-  const std::vector<std::int32_t>& triangles() const { return triangle_; }
+  const std::vector<SimplexIndex>& triangles() const { return triangle_; }
 
   /// Nothing is nearer to x than it should be.
   bool clear(const Gap& gap, bool on_boundary, const Thresholds& limit) const {
-    for (const std::int32_t t : triangle_)
+    for (const SimplexIndex t : triangle_)
       for (std::size_t k = 0; k < 3; ++k) {
-        const NodeIndex i = structure_.mesh.node[index_of(t)][k];
+        const NodeIndex i = structure_.mesh.node[t][k];
         const double h = work_.node().size[index_of(i)];
         const Vec2& x = work_.cloud().position[i];
         const bool across = gap.of_film && work_.on_boundary(i); // a film is as thin as it is
         if (!across && (x - gap.x).norm() < limit.clear_node * h) return false;
-        if (on_boundary || structure_.mesh.facet[index_of(t)][k] < 0) continue;
-        const Vec2 &a = work_.cloud().position[structure_.mesh.node[index_of(t)][(k + 1) % 3]],
-                   &b = work_.cloud().position[structure_.mesh.node[index_of(t)][(k + 2) % 3]];
+        if (on_boundary || structure_.mesh.facet[t][k] < 0) continue;
+        const Vec2 &a = work_.cloud().position[structure_.mesh.node[t][(k + 1) % 3]],
+                   &b = work_.cloud().position[structure_.mesh.node[t][(k + 2) % 3]];
         if (cross(b - a, gap.x - a) < limit.clear_edge * h * (b - a).norm()) return false;
       }
     return true;
   }
 
 private:
-  void visit(std::int32_t t, std::int32_t stamp) {
-    if (seen_[index_of(t)] == stamp) return;
-    seen_[index_of(t)] = stamp;
+  void visit(SimplexIndex t, std::int32_t stamp) {
+    if (seen_[t] == stamp) return;
+    seen_[t] = stamp;
     triangle_.push_back(t);
   }
 
   const WorkingCloud& work_;
   const Structure& structure_;
-  std::vector<std::int32_t> seen_; ///< [triangle] by which gap
-  std::vector<std::int32_t> triangle_;
+  IndexedVector<SimplexIndex, std::int32_t> seen_; ///< by which gap
+  std::vector<SimplexIndex> triangle_;
 };
 
 class Filling {
@@ -85,33 +85,34 @@ private:
 
   void edges(bool interior) {
     const auto& mesh = structure_.mesh;
-    for (std::int32_t t = 0; t < mesh.triangles(); ++t)
+    for (const SimplexIndex t : mesh.node.indices())
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t across = mesh.neighbour[index_of(t)][k];
-        if (across > t || (across >= 0 && !interior)) continue;
-        const NodeIndex a = mesh.node[index_of(t)][(k + 1) % 3], b = mesh.node[index_of(t)][(k + 2) % 3];
-        const double limit = (across < 0 ? limit_.split_edge : limit_.long_edge) * work_.size_between(a, b);
+        const SimplexIndex across = mesh.neighbour[t][k];
+        if (across > t || (exists(across) && !interior)) continue;
+        const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
+        const double limit =
+            (exists(across) ? limit_.long_edge : limit_.split_edge) * work_.size_between(a, b);
         const double squared = (at(b) - at(a)).squaredNorm();
         if (squared <= limit * limit) continue;
         // boundary edges first
         const double length = std::sqrt(squared) / limit;
-        gaps_.push_back({across < 0 ? 1e3 * length : length,
+        gaps_.push_back({exists(across) ? length : 1e3 * length,
                          {a, b},
                          {t, across},
                          0.5 * (at(a) + at(b)),
-                         across < 0 && length * limit_.split_edge > limit_.film_edge});
+                         !exists(across) && length * limit_.split_edge > limit_.film_edge});
       }
   }
 
   /// A lattice of edges d has its Voronoi vertices d/√3 from the nodes.
   void vertices() {
     const auto& mesh = structure_.mesh;
-    for (std::int32_t t = 0; t < mesh.triangles(); ++t) {
-      if (structure_.cells.hidden_of_triangle[index_of(t)] >= 0) continue;
+    for (const SimplexIndex t : mesh.node.indices()) {
+      if (structure_.cells.hidden_of_triangle[t] >= 0) continue;
       double h = 0.0;
-      for (const NodeIndex i : mesh.node[index_of(t)]) h += work_.node().size[index_of(i)] / 3.0;
-      const Vec2& centre = structure_.circles.centre[index_of(t)];
-      const double radius = (centre - at(mesh.node[index_of(t)][0])).norm();
+      for (const NodeIndex i : mesh.node[t]) h += work_.node().size[index_of(i)] / 3.0;
+      const Vec2& centre = structure_.circles.centre[t];
+      const double radius = (centre - at(mesh.node[t][0])).norm();
       const double limit = limit_.long_edge / std::sqrt(3.0) * h;
       if (radius <= limit) continue;
       const auto end = voronoi::walk(work_.cloud(), mesh, t, centre);
@@ -147,23 +148,22 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
           PassReport& report) {
   const Filling filling(work, structure, thresholds, placement);
   Cavity cavity(work, structure);
-  std::vector<char> taken(structure.mesh.node.size(), 0);
+  IndexedVector<SimplexIndex, char> taken(structure.mesh.node.size(), 0);
   WorkingCloud filled = work;
   PassReport done = report;
   std::int32_t stamp = 0;
   for (const Gap& gap : filling.gaps()) {
     cavity.collect(gap, stamp++);
-    const bool edge = exists(gap.node[0]), on_boundary = gap.triangle[1] < 0;
+    const bool edge = exists(gap.node[0]), on_boundary = !exists(gap.triangle[1]);
     const auto& triangles = cavity.triangles();
-    if (std::any_of(triangles.begin(), triangles.end(),
-                    [&](std::int32_t t) { return taken[index_of(t)] != 0; }) ||
+    if (std::any_of(triangles.begin(), triangles.end(), [&](SimplexIndex t) { return taken[t] != 0; }) ||
         !cavity.clear(gap, on_boundary, thresholds))
       continue;
-    for (const std::int32_t t : triangles) taken[index_of(t)] = 1;
+    for (const SimplexIndex t : triangles) taken[t] = 1;
     if (edge)
       filled.insert_between(gap.node[0], gap.node[1], on_boundary);
     else
-      filled.insert_at(gap.x, structure.mesh.node[index_of(gap.triangle[0])],
+      filled.insert_at(gap.x, structure.mesh.node[gap.triangle[0]],
                        voronoi::barycentric(work.cloud(), structure.mesh, gap.triangle[0], gap.x));
     ++(on_boundary ? done.inserted_boundary : done.inserted);
   }

@@ -18,10 +18,10 @@ Necks find_necks(const Cloud<2>& cloud, const voronoi::Triangulation& mesh) {
   }
   constexpr std::int32_t near = 8; // facets: across a corner, even an acute one, is no neck
   Necks necks;
-  for (std::size_t t = 0; t < mesh.node.size(); ++t)
+  for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
-      if (mesh.neighbour[t][k] < static_cast<std::int32_t>(t) || place[a] < 0 || place[b] < 0) continue;
+      if (mesh.neighbour[t][k] < t || place[a] < 0 || place[b] < 0) continue;
       if (loop[a] == loop[b]) {
         const std::int32_t apart = std::abs(place[a] - place[b]);
         if (std::min(apart, loop_size[index_of(loop[a])] - apart) <= near) continue;

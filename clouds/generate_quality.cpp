@@ -19,10 +19,9 @@ CloudQuality measure_quality(const Cloud<2>& cloud, const SpacingField& spacing)
   double sum = 0.0, count = 0.0;
   const auto at = [&](NodeIndex i) { return cloud.position[i]; };
   const auto each_edge = [&](auto&& visit) { // each edge once
-    for (std::size_t t = 0; t < mesh.node.size(); ++t)
+    for (const SimplexIndex t : mesh.node.indices())
       for (std::size_t k = 0; k < 3; ++k)
-        if (mesh.neighbour[t][k] < static_cast<std::int32_t>(t))
-          visit(mesh.node[t][(k + 1) % 3], mesh.node[t][(k + 2) % 3]);
+        if (mesh.neighbour[t][k] < t) visit(mesh.node[t][(k + 1) % 3], mesh.node[t][(k + 2) % 3]);
   };
   each_edge([&](NodeIndex a, NodeIndex b) {
     const double length = (at(b) - at(a)).norm(), ratio = length / spacing.at(0.5 * (at(a) + at(b)));

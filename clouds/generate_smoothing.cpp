@@ -43,7 +43,7 @@ public:
     std::vector<Vec2> moment(cloud_.position.size(), Vec2(0, 0));
     std::vector<double> mass(cloud_.position.size(), 0.0);
     std::vector<bool> by_wall(cloud_.position.size(), false);
-    for (std::size_t t = 0; t < mesh_.node.size(); ++t) add_shares(t, moment, mass, by_wall);
+    for (const SimplexIndex t : mesh_.node.indices()) add_shares(t, moment, mass, by_wall);
     const std::vector<Vec2> before = cloud_.position;
     for (std::size_t i = fixed_; i < cloud_.position.size(); ++i) {
       if (!movable_[i] || !(mass[i] > 0.0)) continue;
@@ -117,7 +117,7 @@ private:
   }
 
   /// Circumcentre relative to the first node.
-  Vec2 circumcentre(std::size_t t) const {
+  Vec2 circumcentre(SimplexIndex t) const {
     const auto& n = mesh_.node[t];
     const Vec2 b = cloud_.position[n[1]] - cloud_.position[n[0]];
     const Vec2 c = cloud_.position[n[2]] - cloud_.position[n[0]];
@@ -126,7 +126,7 @@ private:
 
   /// Adds the shares of one triangle in the Voronoi cells of its nodes: signed triangles between node, edge
   /// midpoint and circumcentre. Moments are relative to each node.
-  void add_shares(std::size_t t, std::vector<Vec2>& moment, std::vector<double>& mass,
+  void add_shares(SimplexIndex t, std::vector<Vec2>& moment, std::vector<double>& mass,
                   std::vector<bool>& by_wall) const {
     const auto& n = mesh_.node[t];
     if (!movable_[index_of(n[0])] && !movable_[index_of(n[1])] && !movable_[index_of(n[2])]) return;
@@ -176,7 +176,7 @@ private:
     };
     std::vector<Hole> holes;
     double h_min = spacing_.spacing, growth = 0.0;
-    for (std::size_t t = 0; t < mesh_.node.size(); ++t) {
+    for (const SimplexIndex t : mesh_.node.indices()) {
       const auto& n = mesh_.node[t];
       if (!movable_[index_of(n[0])] && !movable_[index_of(n[1])] && !movable_[index_of(n[2])] &&
           std::ranges::any_of(n, [&](NodeIndex i) { return index_of(i) >= fixed_; }))
@@ -208,7 +208,7 @@ private:
 
   std::vector<bool> crowding_nodes() const {
     std::vector<bool> gone(cloud_.position.size(), false);
-    for (std::size_t t = 0; t < mesh_.node.size(); ++t)
+    for (const SimplexIndex t : mesh_.node.indices())
       for (std::size_t k = 0; k < 3; ++k) {
         const auto a = index_of(mesh_.node[t][(k + 1) % 3]), b = index_of(mesh_.node[t][(k + 2) % 3]);
         const std::size_t late = std::max(a, b);

@@ -7,7 +7,7 @@ struct OnFaces {
   voronoi::NaturalNeighbours neighbours;
   voronoi::Functions functions;
 
-  void evaluate(const Vec2& x, const std::array<std::int32_t, 2>& simplex) {
+  void evaluate(const Vec2& x, const std::array<SimplexIndex, 2>& simplex) {
     neighbours.evaluate_on_facet(functions, x, simplex);
   }
   auto nodes() const { return neighbours.nodes(); }

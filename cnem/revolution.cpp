@@ -33,10 +33,11 @@ std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) 
 }
 
 /// Any triangle at each node.
-std::vector<std::int32_t> triangle_at_nodes(std::size_t nodes, const voronoi::Triangulation& triangulation) {
-  std::vector<std::int32_t> triangle(nodes, 0);
-  for (std::size_t t = 0; t < triangulation.node.size(); ++t)
-    for (const NodeIndex i : triangulation.node[t]) triangle[index_of(i)] = static_cast<std::int32_t>(t);
+IndexedVector<NodeIndex, SimplexIndex> triangle_at_nodes(std::size_t nodes,
+                                                         const voronoi::Triangulation& triangulation) {
+  IndexedVector<NodeIndex, SimplexIndex> triangle(nodes, SimplexIndex{});
+  for (const SimplexIndex t : triangulation.node.indices())
+    for (const NodeIndex i : triangulation.node[t]) triangle[i] = t;
   return triangle;
 }
 

@@ -151,7 +151,7 @@ struct Sample {
 
 void integrate_cell(const Approximation<2>& base, const std::vector<CrackTip>& tips, const Layout& layout,
                     std::size_t cell, const std::vector<QuadraturePoint>& points,
-                    voronoi::NaturalNeighbours& neighbours, voronoi::Functions functions, std::int32_t hint,
+                    voronoi::NaturalNeighbours& neighbours, voronoi::Functions functions, SimplexIndex hint,
                     Rows& rows) {
   const DiscreteOperators<2>& op = base.mechanics;
   double area = 0.0;

@@ -31,7 +31,7 @@ inline CellComplex<3> median_dual(const Cloud<3>& cloud, const Tetrahedra& tetra
       const V middle = (x[a] + x[b]) / 2.0, one = (x[a] + x[b] + x[c]) / 3.0,
               other = (x[a] + x[b] + x[d]) / 3.0;
       const std::array<NodeIndex, 2> edge{tetrahedra[t][a], tetrahedra[t][b]};
-      const auto in = static_cast<std::int32_t>(t);
+      const auto in = as<SimplexIndex>(t);
       cells.interior.push_back({edge, {in, in}, {middle, one, centre}});
       cells.interior.push_back({edge, {in, in}, {middle, centre, other}});
       edges.push_back({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
@@ -66,7 +66,7 @@ public:
             cloud.position.size(),
             tetrahedra.size(), [&](std::size_t t) -> const auto& { return tetrahedra[t]; })) {}
 
-  void evaluate(const Vec<3>& x, const std::array<std::int32_t, 2>& simplex) {
+  void evaluate(const Vec<3>& x, const std::array<SimplexIndex, 2>& simplex) {
     node_ = tetrahedra_[index_of(simplex[0])];
     value_ = barycentric(x, node_);
   }

@@ -30,22 +30,24 @@ public:
 
 private:
   void add_cell(NodeIndex node, bool on_boundary) {
-    const std::int32_t first = mesh_.triangle_of_node[node];
-    std::int32_t t = first, k = 0;
-    while (mesh_.node[index_of(t)][index_of(k)] != node) ++k;
+    const SimplexIndex first = mesh_.triangle_of_node[node];
+    SimplexIndex t = first;
+    std::int32_t k = 0;
+    while (mesh_.node[t][index_of(k)] != node) ++k;
     if (on_boundary) {
       result_.index.push_back(new_vertex(cloud_.position[node], {{node, 1.0}}));
       leave_wall(t, next_corner(next_corner(k)));
     }
     while (true) {
-      if (cells_.hidden_of_triangle[index_of(t)] < 0) result_.index.push_back(centre_vertex(t));
-      const std::int32_t exit = next_corner(k), across = mesh_.neighbour[index_of(t)][index_of(exit)];
-      if (across < 0) {
+      if (cells_.hidden_of_triangle[t] < 0) result_.index.push_back(centre_vertex(t));
+      const std::int32_t exit = next_corner(k);
+      const SimplexIndex across = mesh_.neighbour[t][index_of(exit)];
+      if (!exists(across)) {
         reach_wall(t, exit);
         return;
       }
       std::int32_t back = 0;
-      while (mesh_.neighbour[index_of(across)][index_of(back)] != t) ++back;
+      while (mesh_.neighbour[across][index_of(back)] != t) ++back;
       cross_edge(t, exit, across, back);
       if (across == first) return;
       t = across;
@@ -53,35 +55,35 @@ private:
     }
   }
 
-  std::int32_t hider(std::int32_t t) const {
-    const std::int32_t hidden = cells_.hidden_of_triangle[index_of(t)];
+  std::int32_t hider(SimplexIndex t) const {
+    const std::int32_t hidden = cells_.hidden_of_triangle[t];
     return hidden < 0 ? -1 : cells_.hidden[index_of(hidden)].facet;
   }
 
   /// The ends on the boundary of the facet dual to the edge between two triangles.
-  void cross_edge(std::int32_t t, std::int32_t exit, std::int32_t across, std::int32_t back) {
+  void cross_edge(SimplexIndex t, std::int32_t exit, SimplexIndex across, std::int32_t back) {
     const std::int32_t from = hider(t), to = hider(across);
     if (from == to) return;
     if (from >= 0) add_end(t, exit);
     if (to >= 0) add_end(across, back);
   }
 
-  void leave_wall(std::int32_t t, std::int32_t k) {
-    const std::int32_t facet = mesh_.facet[index_of(t)][index_of(k)];
+  void leave_wall(SimplexIndex t, std::int32_t k) {
+    const std::int32_t facet = mesh_.facet[t][index_of(k)];
     if (hider(t) == facet) return;
     result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[index_of(facet)]));
     if (hider(t) >= 0) add_end(t, k);
   }
 
-  void reach_wall(std::int32_t t, std::int32_t k) {
-    const std::int32_t facet = mesh_.facet[index_of(t)][index_of(k)];
+  void reach_wall(SimplexIndex t, std::int32_t k) {
+    const std::int32_t facet = mesh_.facet[t][index_of(k)];
     if (hider(t) == facet) return;
     if (hider(t) >= 0) add_end(t, k);
     result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[index_of(facet)]));
   }
 
-  void add_end(std::int32_t t, std::int32_t k) {
-    const auto& hidden = cells_.hidden[index_of(cells_.hidden_of_triangle[index_of(t)])];
+  void add_end(SimplexIndex t, std::int32_t k) {
+    const auto& hidden = cells_.hidden[index_of(cells_.hidden_of_triangle[t])];
     result_.index.push_back(crossing_vertex(hidden.crossing[index_of(k)]));
   }
 
@@ -94,13 +96,13 @@ private:
                new_vertex((1.0 - s) * cloud_.position[a] + s * cloud_.position[b], {{a, 1.0 - s}, {b, s}});
   }
 
-  std::int32_t centre_vertex(std::int32_t t) {
-    auto& vertex = vertex_of_triangle_[index_of(t)];
+  std::int32_t centre_vertex(SimplexIndex t) {
+    auto& vertex = vertex_of_triangle_[t];
     if (vertex >= 0) return vertex;
-    const Vec2& x = circles_.centre[index_of(t)];
-    const std::int32_t in = walk(cloud_, mesh_, t, x).triangle;
+    const Vec2& x = circles_.centre[t];
+    const SimplexIndex in = walk(cloud_, mesh_, t, x).triangle;
     const auto weight = barycentric(cloud_, mesh_, in, x);
-    const auto& nodes = mesh_.node[index_of(in)];
+    const auto& nodes = mesh_.node[in];
     return vertex = new_vertex(x, {{nodes[0], weight[0]}, {nodes[1], weight[1]}, {nodes[2], weight[2]}});
   }
 
@@ -118,8 +120,8 @@ private:
   const Triangulation& mesh_;
   const Circumcircles& circles_;
   const Cells& cells_;
-  std::vector<std::int32_t> vertex_of_triangle_; ///< −1: not yet made
-  std::vector<std::int32_t> vertex_of_crossing_; ///< −1: not yet made
+  IndexedVector<SimplexIndex, std::int32_t> vertex_of_triangle_; ///< −1: not yet made
+  std::vector<std::int32_t> vertex_of_crossing_;                 ///< −1: not yet made
   CellGeometry<2> result_;
 };
 

@@ -16,7 +16,8 @@ namespace {
 class CellBuilder {
 public:
   CellBuilder(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles)
-      : cloud_(cloud), mesh_(mesh), circles_(circles), facet_triangle_(cloud.facets.size(), -1) {}
+      : cloud_(cloud), mesh_(mesh), circles_(circles),
+        facet_triangle_(cloud.facets.size(), SimplexIndex::none) {}
 
   Cells build() {
     cells_.hidden_of_triangle.assign(mesh_.node.size(), -1);
@@ -24,10 +25,9 @@ public:
     cells_.crossing.reserve(cloud_.facets.size());
     cells_.boundary.reserve(2 * cloud_.facets.size());
     cells_.volume.assign(cloud_.position.size(), 0.0);
-    for (std::size_t t = 0; t < mesh_.node.size(); ++t)
+    for (const SimplexIndex t : mesh_.node.indices())
       for (std::size_t k = 0; k < 3; ++k)
-        if (mesh_.facet[t][k] >= 0)
-          facet_triangle_[index_of(mesh_.facet[t][k])] = static_cast<std::int32_t>(t);
+        if (mesh_.facet[t][k] >= 0) facet_triangle_[index_of(mesh_.facet[t][k])] = t;
     for (std::size_t f = 0; f < cloud_.facets.size(); ++f) share_facet(static_cast<std::int32_t>(f));
     add_interior();
     add_neighbours();
@@ -40,9 +40,9 @@ private:
   /// The circumcentre of t is on the far side of the facet's line. For the triangle at the facet, and from
   /// there for each neighbour of a hidden triangle, this means hidden by the facet itself: the bisector of
   /// the common edge meets the line inside both circles, where no end of the facet can be.
-  bool is_beyond(std::int32_t t, std::int32_t facet) const {
+  bool is_beyond(SimplexIndex t, std::int32_t facet) const {
     const auto& [a, b] = cloud_.facets[index_of(facet)].node;
-    return cross(at(b) - at(a), circles_.centre[index_of(t)] - at(a)) < 0.0;
+    return cross(at(b) - at(a), circles_.centre[t] - at(a)) < 0.0;
   }
 
   /// The part of the facet that belongs to `cell` ends at s.
@@ -70,8 +70,8 @@ private:
   /// decided once, so that the cells close even where rounding decides it.
   void share_facet(std::int32_t facet) {
     const auto& [a, b] = cloud_.facets[index_of(facet)].node;
-    const std::int32_t first = facet_triangle_[index_of(facet)];
-    if (cells_.hidden_of_triangle[index_of(first)] >= 0 || !is_beyond(first, facet)) {
+    const SimplexIndex first = facet_triangle_[index_of(facet)];
+    if (cells_.hidden_of_triangle[first] >= 0 || !is_beyond(first, facet)) {
       cells_.crossing_of_facet[index_of(facet)] = static_cast<std::int32_t>(cells_.crossing.size());
       cells_.crossing.push_back({facet, 0.5});
       end_piece(facet, a, 0.0, 0.5);
@@ -79,7 +79,7 @@ private:
       return;
     }
     std::int32_t entry = 0;
-    while (mesh_.facet[index_of(first)][index_of(entry)] != facet) ++entry;
+    while (mesh_.facet[first][index_of(entry)] != facet) ++entry;
     hide(first, facet);
     NodeIndex owner = a;
     double s = 0.0;
@@ -87,19 +87,18 @@ private:
     while (!stack_.empty()) {
       const auto [t, k] = stack_.back();
       stack_.pop_back();
-      const std::int32_t across = mesh_.neighbour[index_of(t)][index_of(k)];
-      if (across >= 0 && cells_.hidden_of_triangle[index_of(across)] < 0 && is_beyond(across, facet)) {
+      const SimplexIndex across = mesh_.neighbour[t][index_of(k)];
+      if (exists(across) && cells_.hidden_of_triangle[across] < 0 && is_beyond(across, facet)) {
         hide(across, facet);
         std::int32_t back = 0;
-        while (mesh_.neighbour[index_of(across)][index_of(back)] != t) ++back;
+        while (mesh_.neighbour[across][index_of(back)] != t) ++back;
         stack_.emplace_back(across, next_corner(back));
         stack_.emplace_back(across, next_corner(next_corner(back)));
         continue;
       }
-      const NodeIndex to = mesh_.node[index_of(t)][index_of(next_corner(k))];
-      const double end =
-          std::clamp(crossing_parameter(facet, owner, to, circles_.centre[index_of(t)]), s, 1.0);
-      cells_.hidden[index_of(cells_.hidden_of_triangle[index_of(t)])].crossing[index_of(k)] =
+      const NodeIndex to = mesh_.node[t][index_of(next_corner(k))];
+      const double end = std::clamp(crossing_parameter(facet, owner, to, circles_.centre[t]), s, 1.0);
+      cells_.hidden[index_of(cells_.hidden_of_triangle[t])].crossing[index_of(k)] =
           static_cast<std::int32_t>(cells_.crossing.size());
       cells_.crossing.push_back({facet, end});
       end_piece(facet, owner, s, end);
@@ -109,8 +108,8 @@ private:
     end_piece(facet, b, s, 1.0);
   }
 
-  void hide(std::int32_t t, std::int32_t facet) {
-    cells_.hidden_of_triangle[index_of(t)] = static_cast<std::int32_t>(cells_.hidden.size());
+  void hide(SimplexIndex t, std::int32_t facet) {
+    cells_.hidden_of_triangle[t] = static_cast<std::int32_t>(cells_.hidden.size());
     cells_.hidden.push_back({facet, {-1, -1, -1}});
   }
 
@@ -121,38 +120,37 @@ private:
   }
 
   /// End of the facet dual to edge k of triangle t, on the side of t.
-  Vec2 end_point(std::int32_t t, std::int32_t k) const {
-    const std::int32_t hidden = cells_.hidden_of_triangle[index_of(t)];
-    return hidden < 0 ? circles_.centre[index_of(t)]
-                      : position(cells_.hidden[index_of(hidden)].crossing[index_of(k)]);
+  Vec2 end_point(SimplexIndex t, std::int32_t k) const {
+    const std::int32_t hidden = cells_.hidden_of_triangle[t];
+    return hidden < 0 ? circles_.centre[t] : position(cells_.hidden[index_of(hidden)].crossing[index_of(k)]);
   }
 
-  std::int32_t hider(std::int32_t t) const {
-    const std::int32_t hidden = cells_.hidden_of_triangle[index_of(t)];
+  std::int32_t hider(SimplexIndex t) const {
+    const std::int32_t hidden = cells_.hidden_of_triangle[t];
     return hidden < 0 ? -1 : cells_.hidden[index_of(hidden)].facet;
   }
 
   void add_interior() {
     cells_.interior.reserve(mesh_.node.size() * 3 / 2 + cloud_.facets.size());
-    for (std::int32_t t = 0; t < mesh_.triangles(); ++t) {
+    for (const SimplexIndex t : mesh_.node.indices()) {
       const std::int32_t hidden_by = hider(t);
       for (std::int32_t k = 0; k < 3; ++k) {
-        const std::int32_t across = mesh_.neighbour[index_of(t)][index_of(k)];
+        const SimplexIndex across = mesh_.neighbour[t][index_of(k)];
         if (across > t) continue; // each edge once, from its later triangle
         Vec2 start;
-        if (across < 0) {
-          const std::int32_t facet = mesh_.facet[index_of(t)][index_of(k)];
+        if (!exists(across)) {
+          const std::int32_t facet = mesh_.facet[t][index_of(k)];
           if (hidden_by == facet) continue;
           start = position(cells_.crossing_of_facet[index_of(facet)]);
         } else {
           if (hidden_by >= 0 && hidden_by == hider(across)) continue;
           std::int32_t back = 0;
-          while (mesh_.neighbour[index_of(across)][index_of(back)] != t) ++back;
+          while (mesh_.neighbour[across][index_of(back)] != t) ++back;
           start = end_point(across, back);
         }
         const Vec2 end = end_point(t, k);
-        const NodeIndex i = mesh_.node[index_of(t)][index_of(next_corner(k))],
-                        j = mesh_.node[index_of(t)][index_of(next_corner(next_corner(k)))];
+        const NodeIndex i = mesh_.node[t][index_of(next_corner(k))],
+                        j = mesh_.node[t][index_of(next_corner(next_corner(k)))];
         cells_.interior.push_back({{i, j}, {across, t}, {start, end}});
         cells_.volume[index_of(i)] += 0.5 * cross(start - at(i), end - start);
         cells_.volume[index_of(j)] -= 0.5 * cross(start - at(j), end - start);
@@ -163,9 +161,9 @@ private:
   void add_neighbours() {
     std::vector<std::array<NodeIndex, 2>> edges;
     edges.reserve(3 * cloud_.position.size());
-    for (std::size_t t = 0; t < mesh_.node.size(); ++t)
+    for (const SimplexIndex t : mesh_.node.indices())
       for (std::size_t k = 0; k < 3; ++k)
-        if (mesh_.neighbour[t][k] < static_cast<std::int32_t>(t))
+        if (mesh_.neighbour[t][k] < t)
           edges.push_back({mesh_.node[t][(k + 1) % 3], mesh_.node[t][(k + 2) % 3]});
     cells_.neighbours = other_ends(cloud_.position.size(), edges);
   }
@@ -174,8 +172,8 @@ private:
   const Triangulation& mesh_;
   const Circumcircles& circles_;
   Cells cells_;
-  std::vector<std::int32_t> facet_triangle_; ///< [facet] the triangle on its left
-  std::vector<std::pair<std::int32_t, std::int32_t>> stack_;
+  std::vector<SimplexIndex> facet_triangle_; ///< [facet] the triangle on its left
+  std::vector<std::pair<SimplexIndex, std::int32_t>> stack_;
 };
 
 /// Whether the cells fill the domain, to rounding.

@@ -29,8 +29,8 @@ struct Cells : CellComplex<2> {
   };
   std::vector<Crossing> crossing;
   std::vector<Hidden> hidden;
-  std::vector<std::int32_t>
-      hidden_of_triangle; ///< [triangle] index into `hidden`; −1: the circumcentre is visible
+  IndexedVector<SimplexIndex, std::int32_t>
+      hidden_of_triangle; ///< index into `hidden`; −1: the circumcentre is visible
   std::vector<std::int32_t>
       crossing_of_facet; ///< [cloud facet] where the facet dual to it ends; −1: there is none
 };

@@ -12,7 +12,7 @@ Circumcircles circumcircles(const Cloud<2>& cloud, const Triangulation& mesh) {
   Circumcircles circles;
   circles.centre.resize(mesh.node.size());
   circles.limit.resize(mesh.node.size());
-  for (std::size_t t = 0; t < mesh.node.size(); ++t) {
+  for (const SimplexIndex t : mesh.node.indices()) {
     const auto& [i, j, k] = mesh.node[t];
     const Vec2& p = cloud.position[i];
     const Vec2 a = cloud.position[j] - p;

@@ -8,8 +8,8 @@ namespace cnem::voronoi {
 
 /// One circle per triangle.
 struct Circumcircles {
-  std::vector<Vec2> centre;  ///< [triangle] m; may lie outside the triangle and beyond the boundary
-  std::vector<double> limit; ///< [triangle] squared radius less the rounding error of |x − centre|², m²
+  IndexedVector<SimplexIndex, Vec2> centre; ///< m; may lie outside the triangle and beyond the boundary
+  IndexedVector<SimplexIndex, double> limit; ///< squared radius less the rounding error of |x − centre|², m²
 };
 
 Circumcircles circumcircles(const Cloud<2>& cloud, const Triangulation& mesh);

@@ -32,8 +32,8 @@ NaturalNeighbours::NaturalNeighbours(const Cloud<2>& cloud, const Triangulation&
   gradient_.reserve(ring_.size());
 }
 
-bool NaturalNeighbours::in_circle(std::int32_t triangle, const Vec2& x) const {
-  return (circles_.centre[index_of(triangle)] - x).squaredNorm() < circles_.limit[index_of(triangle)];
+bool NaturalNeighbours::in_circle(SimplexIndex triangle, const Vec2& x) const {
+  return (circles_.centre[triangle] - x).squaredNorm() < circles_.limit[triangle];
 }
 
 /// What an edge a → b of the cavity means that x is not clearly to the left of.
@@ -60,51 +60,52 @@ void NaturalNeighbours::push(NodeIndex node, const Vec2& x) {
 /// edge of the cavity. Between two of these it is the inner boundary of what x steals from the neighbour, so
 /// that the shoelace formula can be summed on the way. When the outcome is on_node or on_wall, ring_[0] (and
 /// ring_[1]) are the nodes concerned and frame_[0] a triangle that has them.
-NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, std::int32_t start, bool located) {
+NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, SimplexIndex start, bool located) {
   count_ = 0;
-  push(mesh_.node[index_of(start)][1], x);
+  push(mesh_.node[start][1], x);
   std::size_t depth = 0, visited = 1;
   frame_[0] = {start, 0, 3};
-  Vec2 c = circles_.centre[index_of(start)] - x;
+  Vec2 c = circles_.centre[start] - x;
   double path = 0.0;
   while (true) {
     Frame& frame = frame_[depth];
     if (frame.left == 0) {
       if (depth == 0) break;
       --depth;
-      const Vec2 up = circles_.centre[index_of(frame_[depth].triangle)] - x;
+      const Vec2 up = circles_.centre[frame_[depth].triangle] - x;
       path += cross(c, up);
       c = up;
       continue;
     }
-    const std::int32_t t = frame.triangle, k = frame.edge;
+    const SimplexIndex t = frame.triangle;
+    const std::int32_t k = frame.edge;
     frame.edge = next_corner(k);
     --frame.left;
-    const std::int32_t across = mesh_.neighbour[index_of(t)][index_of(k)];
+    const SimplexIndex across = mesh_.neighbour[t][index_of(k)];
     const auto descend = [&] {
-      const auto& back = mesh_.neighbour[index_of(across)];
+      const auto& back = mesh_.neighbour[across];
       const std::int32_t entry = back[0] == t ? 0 : back[1] == t ? 1 : 2;
       if (++depth == frame_.size()) frame_.resize(2 * depth);
       frame_[depth] = {across, next_corner(entry), 2};
-      const Vec2 down = circles_.centre[index_of(across)] - x;
+      const Vec2 down = circles_.centre[across] - x;
       path += cross(c, down);
       c = down;
       ++visited;
     };
-    if (across >= 0 && in_circle(across, x)) {
+    if (exists(across) && in_circle(across, x)) {
       descend();
       if (visited > mesh_.node.size()) return Outcome::lost;
       continue;
     }
 
     const std::size_t here = count_++;
-    push(mesh_.node[index_of(t)][index_of(next_corner(next_corner(k)))], x);
+    push(mesh_.node[t][index_of(next_corner(next_corner(k)))], x);
     Neighbour& a = ring_[here];
     const Neighbour& b = ring_[here + 1];
     const double aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y, ab = a.x * b.x + a.y * b.y;
     const double area = a.x * b.y - a.y * b.x;
     if (area <= on_edge * (aa + bb)) {
-      const Outcome outcome = degenerate_edge(a, b, across < 0, located);
+      const Outcome outcome = degenerate_edge(a, b, !exists(across), located);
       if (outcome == Outcome::inside) {
         --count_;
         descend();
@@ -190,12 +191,12 @@ void NaturalNeighbours::weigh_gradients(Functions functions) {
 }
 
 void NaturalNeighbours::linear_on(const Location& at) {
-  node_.assign(mesh_.node[index_of(at.triangle)].begin(), mesh_.node[index_of(at.triangle)].end());
+  node_.assign(mesh_.node[at.triangle].begin(), mesh_.node[at.triangle].end());
   value_.assign(at.weight.begin(), at.weight.end());
 }
 
-void NaturalNeighbours::linear_gradients_on(std::int32_t triangle) {
-  const auto& nodes = mesh_.node[index_of(triangle)];
+void NaturalNeighbours::linear_gradients_on(SimplexIndex triangle) {
+  const auto& nodes = mesh_.node[triangle];
   std::array<double, 3> value{};
   for (std::size_t i = 0; i < node_.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
@@ -232,7 +233,7 @@ bool NaturalNeighbours::finish(Outcome outcome, Functions functions) {
   return false;
 }
 
-void NaturalNeighbours::evaluate(Functions functions, const Vec2& x, std::int32_t hint) {
+void NaturalNeighbours::evaluate(Functions functions, const Vec2& x, SimplexIndex hint) {
   const Location at = locate(cloud_, mesh_, x, hint);
   if (!at.inside)
     throw GeometryError(fmt::format("the point ({:.9g}, {:.9g}) m lies outside the domain", x.x(), x.y()));
@@ -242,16 +243,16 @@ void NaturalNeighbours::evaluate(Functions functions, const Vec2& x, std::int32_
 }
 
 void NaturalNeighbours::evaluate_on_facet(Functions functions, const Vec2& x,
-                                          const std::array<std::int32_t, 2>& triangle) {
-  for (const std::int32_t t : triangle)
-    if (t >= 0 && in_circle(t, x) && finish(collect(x, t, false), functions)) {
+                                          const std::array<SimplexIndex, 2>& triangle) {
+  for (const SimplexIndex t : triangle)
+    if (exists(t) && in_circle(t, x) && finish(collect(x, t, false), functions)) {
       assert(part_unity(value_));
       return;
     }
   evaluate(functions, x, std::max(triangle[0], triangle[1]));
 }
 
-void NaturalNeighbours::evaluate_with_gradients(Functions functions, const Vec2& x, std::int32_t hint) {
+void NaturalNeighbours::evaluate_with_gradients(Functions functions, const Vec2& x, SimplexIndex hint) {
   const Location at = locate(cloud_, mesh_, x, hint);
   if (!at.inside)
     throw GeometryError(fmt::format("the point ({:.9g}, {:.9g}) m lies outside the domain", x.x(), x.y()));

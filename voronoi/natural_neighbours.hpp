@@ -23,15 +23,15 @@ public:
   NaturalNeighbours(const Cloud<2>& cloud, const Triangulation& mesh, const Circumcircles& circles);
 
   /// Functions at x in the domain. `hint`: a triangle near x. Throws GeometryError when x lies outside.
-  void evaluate(Functions functions, const Vec2& x, std::int32_t hint = 0);
+  void evaluate(Functions functions, const Vec2& x, SimplexIndex hint = {});
 
   /// Functions at a point of the facet between two cells: saves locating it.
   /// `triangle`: InnerFace::simplex of the cells (voronoi/cells.hpp).
-  void evaluate_on_facet(Functions functions, const Vec2& x, const std::array<std::int32_t, 2>& triangle);
+  void evaluate_on_facet(Functions functions, const Vec2& x, const std::array<SimplexIndex, 2>& triangle);
 
   /// Functions and their gradients at x. At nodes and on the boundary, where they have no (two-sided)
   /// gradient, those of linear interpolation over the triangle are given.
-  void evaluate_with_gradients(Functions functions, const Vec2& x, std::int32_t hint = 0);
+  void evaluate_with_gradients(Functions functions, const Vec2& x, SimplexIndex hint = {});
 
   // Results of the last evaluation.
   std::span<const NodeIndex> nodes() const {
@@ -53,20 +53,20 @@ private:
   };
   /// A triangle of the cavity on the way down; its edges from `edge` on are still to be visited.
   struct Frame {
-    std::int32_t triangle;
+    SimplexIndex triangle;
     std::int32_t edge;
     std::int32_t left;
   };
   enum class Outcome { inside, on_node, on_wall, lost };
 
-  Outcome collect(const Vec2& x, std::int32_t start, bool located);
+  Outcome collect(const Vec2& x, SimplexIndex start, bool located);
   Outcome degenerate_edge(const Neighbour& a, const Neighbour& b, bool wall, bool located) const;
   void push(NodeIndex node, const Vec2& x);
-  bool in_circle(std::int32_t triangle, const Vec2& x) const;
+  bool in_circle(SimplexIndex triangle, const Vec2& x) const;
   void weigh(Functions functions);
   void weigh_gradients(Functions functions);
   void linear_on(const Location& at);
-  void linear_gradients_on(std::int32_t triangle);
+  void linear_gradients_on(SimplexIndex triangle);
   bool finish(Outcome outcome, Functions functions);
 
   const Cloud<2>& cloud_;

@@ -22,7 +22,7 @@ enum class Side : std::int8_t { unknown, outside, inside };
 
 struct FaceInfo {
   std::array<std::int32_t, 3> facet{-1, -1, -1}; ///< the facet that has this face on its left
-  std::int32_t triangle = -1;
+  SimplexIndex triangle = SimplexIndex::none;
   Side side = Side::unknown;
 };
 
@@ -158,11 +158,11 @@ private:
   }
 
   void number_triangles() {
-    std::vector<Face> faces;
+    IndexedVector<SimplexIndex, Face> faces;
     faces.reserve(2 * index_of(cloud_.nodes()));
     for (const Face face : delaunay_.finite_face_handles()) {
       if (face->info().side != Side::inside) continue;
-      face->info().triangle = static_cast<std::int32_t>(faces.size());
+      face->info().triangle = faces.next();
       faces.push_back(face);
     }
     if (faces.empty())
@@ -171,13 +171,13 @@ private:
     result_.node.resize(faces.size());
     result_.neighbour.resize(faces.size());
     result_.facet.resize(faces.size());
-    for (std::size_t t = 0; t < faces.size(); ++t) {
+    for (const SimplexIndex t : faces.indices()) {
       const Face face = faces[t];
       for (int k = 0; k < 3; ++k) {
         const bool wall = face->is_constrained(k);
         result_.node[t][index_of(k)] = face->vertex(k)->info();
         result_.facet[t][index_of(k)] = face->info().facet[index_of(k)];
-        result_.neighbour[t][index_of(k)] = wall ? -1 : face->neighbor(k)->info().triangle;
+        result_.neighbour[t][index_of(k)] = wall ? SimplexIndex::none : face->neighbor(k)->info().triangle;
       }
     }
   }
@@ -187,14 +187,14 @@ private:
     for (std::size_t f = 0; f < left_of_.size(); ++f) {
       const NodeIndex node = cloud_.facets[f].node[0];
       if (!is_merged_[node]) continue;
-      std::int32_t t = left_of_[f].first->info().triangle;
+      SimplexIndex t = left_of_[f].first->info().triangle;
       int k = Delaunay::ccw(left_of_[f].second);
       while (true) {
-        result_.node[index_of(t)][index_of(k)] = node;
+        result_.node[t][index_of(k)] = node;
         const int exit = Delaunay::ccw(k);
-        const std::int32_t next = result_.neighbour[index_of(t)][index_of(exit)];
-        if (next < 0) {
-          const std::int32_t last = result_.facet[index_of(t)][index_of(exit)];
+        const SimplexIndex next = result_.neighbour[t][index_of(exit)];
+        if (!exists(next)) {
+          const std::int32_t last = result_.facet[t][index_of(exit)];
           if (cloud_.facets[index_of(last)].node[1] == node) break;
           throw GeometryError(
               fmt::format("the boundary touches or crosses itself at {}: the domain to the left of {} ends "
@@ -203,7 +203,7 @@ private:
                           describe_facet(cloud_, last)));
         }
         int back = 0;
-        while (result_.neighbour[index_of(next)][index_of(back)] != t) ++back;
+        while (result_.neighbour[next][index_of(back)] != t) ++back;
         t = next;
         k = Delaunay::ccw(back);
       }
@@ -211,10 +211,10 @@ private:
   }
 
   void record_triangle_of_node() {
-    result_.triangle_of_node.assign(index_of(cloud_.nodes()), -1);
-    for (std::size_t t = 0; t < result_.node.size(); ++t)
+    result_.triangle_of_node.assign(index_of(cloud_.nodes()), SimplexIndex::none);
+    for (const SimplexIndex t : result_.node.indices())
       for (const NodeIndex i : result_.node[t])
-        if (result_.triangle_of_node[i] < 0) result_.triangle_of_node[i] = static_cast<std::int32_t>(t);
+        if (!exists(result_.triangle_of_node[i])) result_.triangle_of_node[i] = t;
     for (std::size_t f = 0; f < left_of_.size(); ++f)
       result_.triangle_of_node[cloud_.facets[f].node[0]] = left_of_[f].first->info().triangle;
     for (const NodeIndex i : cloud_.position.indices()) {
@@ -223,7 +223,7 @@ private:
             fmt::format("{} is declared a twin but belongs to no facet: expected the nodes of "
                         "the two faces of a crack",
                         describe_node(cloud_, i)));
-      if (result_.triangle_of_node[i] < 0)
+      if (!exists(result_.triangle_of_node[i]))
         throw GeometryError(fmt::format("{} lies outside the domain", describe_node(cloud_, i)));
     }
   }
@@ -243,27 +243,27 @@ private:
 /// the triangle, each facet on one of them, and the triangle of each node has it.
 [[maybe_unused]] bool is_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
   std::vector<int> seen(cloud.facets.size(), 0);
-  for (std::size_t t = 0; t < mesh.node.size(); ++t)
+  for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
-      const std::int32_t across = mesh.neighbour[t][k], facet = mesh.facet[t][k];
-      if ((across < 0) != (facet >= 0)) return false;
+      const SimplexIndex across = mesh.neighbour[t][k];
+      const std::int32_t facet = mesh.facet[t][k];
+      if (exists(across) == (facet >= 0)) return false;
       if (facet >= 0) {
         ++seen[index_of(facet)];
         if (cloud.facets[index_of(facet)].node != std::array{a, b}) return false;
         continue;
       }
-      const auto& back = mesh.neighbour[index_of(across)];
-      const auto entry =
-          index_of(std::find(back.begin(), back.end(), static_cast<std::int32_t>(t)) - back.begin());
+      const auto& back = mesh.neighbour[across];
+      const auto entry = index_of(std::find(back.begin(), back.end(), t) - back.begin());
       if (entry == 3) return false;
-      const auto& other = mesh.node[index_of(across)];
+      const auto& other = mesh.node[across];
       if (other[(entry + 1) % 3] != b || other[(entry + 2) % 3] != a) return false;
     }
   for (const int count : seen)
     if (count != 1) return false;
   for (const NodeIndex i : cloud.position.indices()) {
-    const auto& corner = mesh.node[index_of(mesh.triangle_of_node[i])];
+    const auto& corner = mesh.node[mesh.triangle_of_node[i]];
     if (std::find(corner.begin(), corner.end(), i) == corner.end()) return false;
   }
   return true;

@@ -12,12 +12,12 @@ namespace cnem::voronoi {
 /// either face carry that face's own (duplicated) nodes, so nothing that walks over `neighbour` ever crosses
 /// a wall.
 struct Triangulation {
-  std::vector<std::array<NodeIndex, 3>> node; ///< [triangle] nodes, counter-clockwise
-  std::vector<std::array<std::int32_t, 3>>
-      neighbour; ///< [triangle][k] across the edge opposite node k; −1: boundary
-  std::vector<std::array<std::int32_t, 3>>
+  IndexedVector<SimplexIndex, std::array<NodeIndex, 3>> node; ///< nodes, counter-clockwise
+  IndexedVector<SimplexIndex, std::array<SimplexIndex, 3>>
+      neighbour; ///< [triangle][k] across the edge opposite node k; none: boundary
+  IndexedVector<SimplexIndex, std::array<std::int32_t, 3>>
       facet; ///< [triangle][k] cloud facet on that edge; −1: interior edge
-  IndexedVector<NodeIndex, std::int32_t>
+  IndexedVector<NodeIndex, SimplexIndex>
       triangle_of_node; ///< one triangle that has it; of boundary nodes, the first counter-clockwise
 
   int triangles() const { return static_cast<int>(node.size()); }

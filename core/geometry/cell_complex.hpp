@@ -19,9 +19,9 @@ namespace cnem {
 /// divided.
 template<int dim> struct InnerFace {
   std::array<NodeIndex, 2> cell; ///< i, j
-  /// Where to look for its points from, in the plane to both sides of its edge; −1: the edge is on the
-  /// boundary.
-  std::array<std::int32_t, 2> simplex;
+  /// Where to look for its points from, in the plane to both sides of its edge; none: the edge is on
+  /// the boundary.
+  std::array<SimplexIndex, 2> simplex;
   std::array<Vec<dim>, dim> corner; ///< m; may coincide
 
   /// From i to j, its length the area of the face, m^(dim−1).

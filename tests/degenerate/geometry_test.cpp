@@ -32,16 +32,17 @@ protected:
 };
 
 /// The centroid and two points close to the edges and corners of some triangles.
-std::vector<std::pair<std::int32_t, Vec2>> sample_points(const Cloud<2>& cloud, const Triangulation& mesh) {
-  std::vector<std::pair<std::int32_t, Vec2>> points;
+std::vector<std::pair<SimplexIndex, Vec2>> sample_points(const Cloud<2>& cloud, const Triangulation& mesh) {
+  std::vector<std::pair<SimplexIndex, Vec2>> points;
   const std::int32_t stride = std::max(1, mesh.triangles() / 60);
   for (std::int32_t t = 0; t < mesh.triangles(); t += stride) {
-    const auto& [i, j, k] = mesh.node[index_of(t)];
+    const SimplexIndex in{t};
+    const auto& [i, j, k] = mesh.node[in];
     const Vec2 &a = cloud.position[i], &b = cloud.position[j], &c = cloud.position[k];
-    points.emplace_back(t, (a + b + c) / 3.0);
-    points.emplace_back(t, 0.3 * a + 0.699 * b + 0.001 * c);
-    points.emplace_back(t, 0.9999 * a + 0.00006 * b + 0.00004 * c);
-    points.emplace_back(t, 0.4 * a + 0.6 * b);
+    points.emplace_back(in, (a + b + c) / 3.0);
+    points.emplace_back(in, 0.3 * a + 0.699 * b + 0.001 * c);
+    points.emplace_back(in, 0.9999 * a + 0.00006 * b + 0.00004 * c);
+    points.emplace_back(in, 0.4 * a + 0.6 * b);
   }
   return points;
 }
@@ -138,7 +139,7 @@ TEST_P(RandomClouds, FunctionsInterpolateTheNodes) {
     NaturalNeighbours at(cloud, mesh, circles);
     for (const auto functions : {Functions::sibson, Functions::laplace})
       for (const NodeIndex i : cloud.position.indices()) {
-        at.evaluate(functions, cloud.position[i], mesh.triangle_of_node[index_of(i)]);
+        at.evaluate(functions, cloud.position[i], mesh.triangle_of_node[i]);
         ASSERT_EQ(at.nodes().size(), 1u);
         EXPECT_EQ(at.nodes()[0], i);
         EXPECT_EQ(at.values()[0], 1.0);
@@ -153,14 +154,15 @@ TEST_P(RandomClouds, GradientsAreThoseOfTheValues) {
     const std::int32_t stride = std::max(1, mesh.triangles() / 20);
     for (const auto functions : {Functions::sibson, Functions::laplace})
       for (std::int32_t t = 0; t < mesh.triangles(); t += stride) {
-        const auto& [i, j, k] = mesh.node[index_of(t)];
+        const SimplexIndex in{t};
+        const auto& [i, j, k] = mesh.node[in];
         const Vec2 &a = cloud.position[i], &b = cloud.position[j], &c = cloud.position[k];
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
         const double step = 1e-5 * cross(b - a, c - a) / longest;
         if (step < 1e-9) continue; // differences drown in rounding
         const Vec2 x = 0.37 * a + 0.34 * b + 0.29 * c;
         std::map<NodeIndex, Vec2> error;
-        at.evaluate_with_gradients(functions, x, t);
+        at.evaluate_with_gradients(functions, x, in);
         Vec2 sum = Vec2::Zero();
         Mat2 moment = Mat2::Zero();
         for (std::size_t n = 0; n < at.nodes().size(); ++n) {
@@ -174,7 +176,7 @@ TEST_P(RandomClouds, GradientsAreThoseOfTheValues) {
         bool same_stencil = true;
         for (const Vec2& d : {Vec2(step, 0), Vec2(0, step)})
           for (const double sign : {1.0, -1.0}) {
-            at.evaluate(functions, x + sign * d, t);
+            at.evaluate(functions, x + sign * d, in);
             same_stencil &= at.nodes().size() == stencil;
             for (std::size_t n = 0; n < at.nodes().size(); ++n)
               error[at.nodes()[n]] -= sign * at.values()[n] * d / (2.0 * step * step);
@@ -242,8 +244,8 @@ TEST_P(RandomClouds, WallsStopAllInfluence) {
             << "node " << index_of(i) << " from " << x.transpose();
       }
     };
-    for (std::int32_t t = 0; t < mesh.triangles(); ++t) {
-      const auto& [i, j, k] = mesh.node[index_of(t)];
+    for (const SimplexIndex t : mesh.node.indices()) {
+      const auto& [i, j, k] = mesh.node[t];
       const Vec2 x = 0.4 * cloud.position[i] + 0.35 * cloud.position[j] + 0.25 * cloud.position[k];
       at.evaluate(Functions::sibson, x, t);
       expect_visible(x);

@@ -316,15 +316,16 @@ TEST(RestoreDelaunay, AgreesWithANewTriangulation) {
   EXPECT_NE(sorted(mesh), sorted(expected));
   voronoi::restore_delaunay(mesh, cloud.position);
   EXPECT_EQ(sorted(mesh), sorted(expected));
-  for (std::size_t t = 0; t < mesh.node.size(); ++t)
+  for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t o = mesh.neighbour[t][k], f = mesh.facet[t][k];
-      ASSERT_EQ(o < 0, f >= 0);
+      const SimplexIndex o = mesh.neighbour[t][k];
+      const std::int32_t f = mesh.facet[t][k];
+      ASSERT_EQ(!exists(o), f >= 0);
       if (f >= 0) {
         EXPECT_EQ(cloud.facets[std::size_t(f)].node[0], mesh.node[t][(k + 1) % 3]);
         EXPECT_EQ(cloud.facets[std::size_t(f)].node[1], mesh.node[t][(k + 2) % 3]);
       } else
-        EXPECT_TRUE(std::ranges::count(mesh.neighbour[std::size_t(o)], static_cast<std::int32_t>(t)) == 1);
+        EXPECT_TRUE(std::ranges::count(mesh.neighbour[o], t) == 1);
     }
 }
 

@@ -204,11 +204,12 @@ TEST(CellComplex, links_in_space_weigh_area_over_distance) {
   cloud.position = {{0, 0, 0}, {h, 0, 0}, {h, 2 * h, 0}};
   CellComplex<3> cells;
   cells.volume.assign(3, h * h * h);
+  constexpr std::array no_simplex{SimplexIndex::none, SimplexIndex::none};
   const double x = 0.5 * h, a = 0.5 * h;
   cells.interior.push_back(
-      {{0_node, 1_node}, {-1, -1}, {Vec<3>(x, -a, -a), Vec<3>(x, a, -a), Vec<3>(x, a, a)}});
+      {{0_node, 1_node}, no_simplex, {Vec<3>(x, -a, -a), Vec<3>(x, a, -a), Vec<3>(x, a, a)}});
   cells.interior.push_back(
-      {{0_node, 1_node}, {-1, -1}, {Vec<3>(x, -a, -a), Vec<3>(x, a, a), Vec<3>(x, -a, a)}});
+      {{0_node, 1_node}, no_simplex, {Vec<3>(x, -a, -a), Vec<3>(x, a, a), Vec<3>(x, -a, a)}});
   cells.neighbours = other_ends(3, std::vector<std::array<NodeIndex, 2>>{{1_node, 0_node}, {1_node, 2_node}});
   const auto links = scni::stabilisation_links(cloud, cells, faces_of_cells(cells));
   EXPECT_EQ(links.neighbour, (std::vector{1_node, 0_node, 2_node, 1_node}));

@@ -19,7 +19,7 @@ public:
       : cloud_(std::move(cloud)), mesh_(triangulate(cloud_)), circles_(circumcircles(cloud_, mesh_)),
         at_(cloud_, mesh_, circles_) {}
 
-  std::map<NodeIndex, double> operator()(Functions functions, const Vec2& x, std::int32_t hint = 0) {
+  std::map<NodeIndex, double> operator()(Functions functions, const Vec2& x, SimplexIndex hint = {}) {
     at_.evaluate(functions, x, hint);
     std::map<NodeIndex, double> result;
     for (std::size_t k = 0; k < at_.nodes().size(); ++k) result[at_.nodes()[k]] = at_.values()[k];
@@ -48,7 +48,7 @@ Cloud<2> wavy_grid() {
 TEST(NaturalNeighbours, CentreOfASquareBelongsToAllCornersAlike) {
   Evaluated phi(unit_square());
   for (const auto functions : {Functions::sibson, Functions::laplace})
-    for (std::int32_t hint : {0, 1}) {
+    for (const SimplexIndex hint : {0_simplex, 1_simplex}) {
       const auto value = phi(functions, {0.5, 0.5}, hint);
       for (const NodeIndex i : IndexRange<NodeIndex>(4))
         EXPECT_NEAR(value.contains(i) ? value.at(i) : 0.0, 0.25, 1e-15);
@@ -58,7 +58,7 @@ TEST(NaturalNeighbours, CentreOfASquareBelongsToAllCornersAlike) {
 TEST(NaturalNeighbours, EdgeMidpointOfAStructuredGrid) { // where Watson's form divides by zero
   Evaluated phi(grid(4));
   // The new cell is a hexagon of area 9/16: 1/4 from each near node, 1/64 from each of the four far ones.
-  for (const std::int32_t hint : {0, 13}) {
+  for (const SimplexIndex hint : {0_simplex, 13_simplex}) {
     const auto value = phi(Functions::sibson, {1.5, 2.0}, hint);
     EXPECT_EQ(value.size(), 6u);
     for (const auto& [i, v] : value)
@@ -159,14 +159,14 @@ TEST(Locate, FindsPointsFromAnyHintAlsoBehindWalls) {
   Cloud<2> cloud;
   add_loop(cloud, {{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {1, 1}, {1, 4}, {0, 4}});
   const auto mesh = triangulate(cloud);
-  for (std::int32_t hint = 0; hint < mesh.triangles(); ++hint)
+  for (const SimplexIndex hint : mesh.node.indices())
     for (const Vec2& x : {Vec2(0.5, 3.7), Vec2(3.5, 3.7), Vec2(2.0, 0.5), Vec2(4.0, 4.0), Vec2(0.0, 2.2)}) {
       const Location at = locate(cloud, mesh, x, hint);
       EXPECT_TRUE(at.inside);
       Vec2 mean = Vec2::Zero();
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_GE(at.weight[k], -1e-12);
-        mean += at.weight[k] * cloud.position[index_of(mesh.node[index_of(at.triangle)][k])];
+        mean += at.weight[k] * cloud.position[mesh.node[at.triangle][k]];
       }
       EXPECT_LT((mean - x).norm(), 1e-14);
     }
@@ -180,7 +180,7 @@ TEST(Locate, OnACrackTheHintChoosesTheFace) {
   for (const NodeIndex face : {17_node, 19_node}) {
     const Location here = locate(cloud, mesh, {1.5, 2.0}, mesh.triangle_of_node[face]);
     EXPECT_TRUE(here.inside);
-    const auto& nodes = mesh.node[index_of(here.triangle)];
+    const auto& nodes = mesh.node[here.triangle];
     EXPECT_TRUE(nodes[0] == face || nodes[1] == face || nodes[2] == face);
   }
 }

@@ -38,11 +38,12 @@ bool has(const std::array<NodeIndex, 3>& nodes, NodeIndex i) {
 /// Neighbours are mutual and share their edge, every facet stands in one triangle and every node has one.
 void expect_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
   std::vector<int> seen(cloud.facets.size(), 0);
-  for (std::size_t t = 0; t < mesh.node.size(); ++t)
+  for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
-      const std::int32_t next = mesh.neighbour[t][k], facet = mesh.facet[t][k];
-      ASSERT_EQ(next < 0, facet >= 0);
+      const SimplexIndex next = mesh.neighbour[t][k];
+      const std::int32_t facet = mesh.facet[t][k];
+      ASSERT_EQ(!exists(next), facet >= 0);
       if (facet >= 0) {
         ++seen[index_of(facet)];
         EXPECT_EQ(cloud.facets[index_of(facet)].node[0], a);
@@ -50,14 +51,13 @@ void expect_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
         continue;
       }
       std::size_t back = 0;
-      while (back < 3 && mesh.neighbour[index_of(next)][back] != static_cast<std::int32_t>(t)) ++back;
+      while (back < 3 && mesh.neighbour[next][back] != t) ++back;
       ASSERT_LT(back, 3u);
-      EXPECT_EQ(mesh.node[index_of(next)][(back + 1) % 3], b);
-      EXPECT_EQ(mesh.node[index_of(next)][(back + 2) % 3], a);
+      EXPECT_EQ(mesh.node[next][(back + 1) % 3], b);
+      EXPECT_EQ(mesh.node[next][(back + 2) % 3], a);
     }
   for (const int count : seen) EXPECT_EQ(count, 1);
-  for (const NodeIndex i : cloud.position.indices())
-    EXPECT_TRUE(has(mesh.node[index_of(mesh.triangle_of_node[index_of(i)])], i));
+  for (const NodeIndex i : cloud.position.indices()) EXPECT_TRUE(has(mesh.node[mesh.triangle_of_node[i]], i));
 }
 
 TEST(Triangulation, SquareHasTwoTriangles) {
