@@ -46,7 +46,7 @@ public:
         const Vec2& x = work_.cloud().position[i];
         const bool across = gap.of_film && work_.on_boundary(i); // a film is as thin as it is
         if (!across && (x - gap.x).norm() < limit.clear_node * h) return false;
-        if (on_boundary || structure_.mesh.facet[t][k] < 0) continue;
+        if (on_boundary || !exists(structure_.mesh.facet[t][k])) continue;
         const Vec2 &a = work_.cloud().position[structure_.mesh.node[t][(k + 1) % 3]],
                    &b = work_.cloud().position[structure_.mesh.node[t][(k + 2) % 3]];
         if (cross(b - a, gap.x - a) < limit.clear_edge * h * (b - a).norm()) return false;
@@ -116,7 +116,7 @@ private:
       const double limit = limit_.long_edge / std::sqrt(3.0) * h;
       if (radius <= limit) continue;
       const auto end = voronoi::walk(work_.cloud(), mesh, t, centre);
-      if (end.facet >= 0) continue;
+      if (exists(end.facet)) continue;
       gaps_.push_back({radius / limit, {NodeIndex::none, NodeIndex::none}, {end.triangle, t}, centre});
     }
   }

@@ -41,11 +41,11 @@ std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, 
     for (const NodeIndex k : structure.neighbours(i))
       if (i < k && ends_cut(i) && ends_cut(k) && work.next(i) != k && work.previous(i) != k)
         consider(i, k, 0.0, (at(k) - at(i)).norm());
-  for (std::size_t t = 0; t < mesh.node.size(); ++t)
+  for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
       // with two facets it is a corner
-      if (mesh.facet[t][k] < 0 || mesh.facet[t][next] >= 0 || mesh.facet[t][last] >= 0) continue;
+      if (!exists(mesh.facet[t][k]) || exists(mesh.facet[t][next]) || exists(mesh.facet[t][last])) continue;
       const NodeIndex i = mesh.node[t][k], a = mesh.node[t][next], b = mesh.node[t][last];
       if (!ends_cut(i) || !ends_cut(a) || !ends_cut(b)) continue;
       const Foot foot = foot_on(at(i), at(a), at(b));

@@ -71,7 +71,7 @@ Indicator indicator(const Cloud<dim>& cloud, const CellComplex<dim>& cells, cons
       }
       for (const std::int32_t p : parts.of(i)) {
         const BoundaryPart<dim>& part = cells.boundary[index_of(p)];
-        const Facet<dim>& facet = cloud.facets[index_of(part.facet)];
+        const Facet<dim>& facet = cloud.facets[part.facet];
         // from a corner of the facet all its parts are seen edge-on
         if (std::find(facet.node.begin(), facet.node.end(), part.cell) == facet.node.end())
           squared += over(i, part.on(corners_of<dim>(facet, cloud.position)));

@@ -86,9 +86,9 @@ private:
 
   void near_edges() {
     const auto& mesh = structure_.mesh;
-    for (std::size_t t = 0; t < mesh.node.size(); ++t)
+    for (const SimplexIndex t : mesh.node.indices())
       for (std::size_t k = 0; k < 3; ++k) {
-        if (mesh.facet[t][k] < 0) continue;
+        if (!exists(mesh.facet[t][k])) continue;
         const NodeIndex i = mesh.node[t][k], a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
         if (work_.on_boundary(i) || work_.held(i)) continue;
         const double h = work_.size_between(a, b);

@@ -138,7 +138,8 @@ private:
     const double area2 = cross(x[1], x[2]);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 &a = x[(k + 1) % 3], &b = x[(k + 2) % 3];
-      if (mesh_.facet[t][k] >= 0 && cross(b - a, centre - a) < 0.0) centre = 0.5 * (a + b); // cut at the wall
+      if (exists(mesh_.facet[t][k]) && cross(b - a, centre - a) < 0.0)
+        centre = 0.5 * (a + b); // cut at the wall
     }
     const double low = std::min({h_[index_of(n[0])], h_[index_of(n[1])], h_[index_of(n[2])]});
     double h_centre = low;

@@ -25,8 +25,8 @@ std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) 
   }
   for (const BoundaryPart<2>& part : cells.boundary) {
     const std::size_t i = index_of(part.cell);
-    moment[i] += first_moment(cloud.position[i],
-                              part.on(corners_of<2>(cloud.facets[index_of(part.facet)], cloud.position)));
+    moment[i] +=
+        first_moment(cloud.position[i], part.on(corners_of<2>(cloud.facets[part.facet], cloud.position)));
   }
   for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = cloud.position[i] + moment[i] / cells.volume[i];
   return moment;

@@ -110,7 +110,7 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
       }
       for (const std::int32_t item : boundary.of(i)) {
         const BoundaryPart<dim>& part = cells.boundary[index_of(item)];
-        const Facet<dim>& facet = cloud.facets[index_of(part.facet)];
+        const Facet<dim>& facet = cloud.facets[part.facet];
         const auto corner = corners_of<dim>(facet, cloud.position);
         const Vec<dim> normal = area_normal<dim>(corner);
         const auto share = shares_of(part, corner);

@@ -54,9 +54,8 @@ struct Loop {
   std::vector<char> fracture;
 };
 Loop outline_of(const CutSheet& sheet, std::int32_t part) {
-  IndexedVector<NodeIndex, std::int32_t> leaving(sheet.position.size(), -1);
-  for (std::size_t f = 0; f < sheet.facets.size(); ++f)
-    leaving[sheet.facets[f].node[0]] = as<std::int32_t>(f);
+  IndexedVector<NodeIndex, CloudFacetIndex> leaving(sheet.position.size(), CloudFacetIndex::none);
+  for (const CloudFacetIndex f : sheet.facets.indices()) leaving[sheet.facets[f].node[0]] = f;
   IndexedVector<NodeIndex, char> seen(sheet.position.size(), 0);
   Loop longest;
   double most = -1.0;
@@ -65,7 +64,7 @@ Loop outline_of(const CutSheet& sheet, std::int32_t part) {
     Loop loop;
     double length = 0.0;
     for (NodeIndex i = first.node[0]; !seen[i];) {
-      const Facet<2>& facet = sheet.facets[index_of(leaving[i])];
+      const Facet<2>& facet = sheet.facets[leaving[i]];
       seen[i] = 1;
       loop.node.push_back(i);
       loop.fracture.push_back(facet.piece == sheet.fracture_piece);

@@ -15,7 +15,7 @@ namespace cnem::evaluate {
 /// The workpiece as it is, in parts.
 struct CutSheet {
   std::vector<Vec2> position; ///< [node] m
-  const std::vector<Facet<2>>& facets;
+  const IndexedVector<CloudFacetIndex, Facet<2>>& facets;
   std::int32_t fracture_piece = -1;  ///< index of the boundary piece that separation makes; −1: none
   std::vector<std::int32_t> part;    ///< [node] connected part
   const Field& volume;               ///< [node] share of the volume

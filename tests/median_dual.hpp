@@ -46,13 +46,12 @@ inline CellComplex<3> median_dual(const Cloud<3>& cloud, const Tetrahedra& tetra
   const auto between = [](const Place& a, const Place& b) {
     return Place{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
   };
-  for (std::size_t f = 0; f < cloud.facets.size(); ++f)
+  for (const CloudFacetIndex f : cloud.facets.indices())
     for (std::size_t a = 0; a < 3; ++a) {
       const Place next = between(corner[a], corner[(a + 1) % 3]),
                   last = between(corner[a], corner[(a + 2) % 3]);
-      const auto facet = static_cast<std::int32_t>(f);
-      cells.boundary.push_back({cloud.facets[f].node[a], facet, {corner[a], next, centre}});
-      cells.boundary.push_back({cloud.facets[f].node[a], facet, {corner[a], centre, last}});
+      cells.boundary.push_back({cloud.facets[f].node[a], f, {corner[a], next, centre}});
+      cells.boundary.push_back({cloud.facets[f].node[a], f, {corner[a], centre, last}});
     }
   return cells;
 }

@@ -27,13 +27,13 @@ std::string describe_node(const Cloud<2>& cloud, NodeIndex node) {
   return fmt::format("node {} at {}", index_of(node), describe_point(at(cloud, node)));
 }
 
-std::string describe_facet(const Cloud<2>& cloud, std::int32_t facet) {
-  const auto& [a, b] = cloud.facets[index_of(facet)].node;
-  return fmt::format("facet {} from {} to {}", facet, describe_point(at(cloud, a)),
+std::string describe_facet(const Cloud<2>& cloud, CloudFacetIndex facet) {
+  const auto& [a, b] = cloud.facets[facet].node;
+  return fmt::format("facet {} from {} to {}", index_of(facet), describe_point(at(cloud, a)),
                      describe_point(at(cloud, b)));
 }
 
-IndexedVector<NodeIndex, std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
+IndexedVector<NodeIndex, CloudFacetIndex> outgoing_facets(const Cloud<2>& cloud) {
   for (const NodeIndex i : cloud.position.indices())
     if (!at(cloud, i).allFinite())
       throw GeometryError(fmt::format("{}: the position is not finite", describe_node(cloud, i)));
@@ -41,22 +41,22 @@ IndexedVector<NodeIndex, std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
     throw GeometryError("empty domain: the cloud has no boundary facets, expected at least one closed loop");
 
   const auto n = index_of(cloud.nodes());
-  IndexedVector<NodeIndex, std::int32_t> leaving(n, -1), arriving(n, -1);
-  const auto claim = [&](IndexedVector<NodeIndex, std::int32_t>& of_node, NodeIndex node, std::int32_t facet,
-                         const char* verb) {
+  IndexedVector<NodeIndex, CloudFacetIndex> leaving(n, CloudFacetIndex::none),
+      arriving(n, CloudFacetIndex::none);
+  const auto claim = [&](IndexedVector<NodeIndex, CloudFacetIndex>& of_node, NodeIndex node,
+                         CloudFacetIndex facet, const char* verb) {
     auto& slot = of_node[node];
-    if (slot >= 0)
+    if (exists(slot))
       throw GeometryError(
           fmt::format("boundary branches at {}: facets {} and {} both {} it, expected one (loops that touch "
                       "need a node of their own each, declared as twins)",
-                      describe_node(cloud, node), slot, facet, verb));
+                      describe_node(cloud, node), index_of(slot), index_of(facet), verb));
     slot = facet;
   };
-  for (std::size_t f = 0; f < cloud.facets.size(); ++f) {
-    const auto facet = static_cast<std::int32_t>(f);
-    const auto& [a, b] = cloud.facets[f].node;
-    check_node_index(cloud, a, fmt::format("facet {}", f));
-    check_node_index(cloud, b, fmt::format("facet {}", f));
+  for (const CloudFacetIndex facet : cloud.facets.indices()) {
+    const auto& [a, b] = cloud.facets[facet].node;
+    check_node_index(cloud, a, fmt::format("facet {}", index_of(facet)));
+    check_node_index(cloud, b, fmt::format("facet {}", index_of(facet)));
     if (at(cloud, a) == at(cloud, b))
       throw GeometryError(fmt::format("{} has zero length (nodes {} and {})", describe_facet(cloud, facet),
                                       index_of(a), index_of(b)));
@@ -64,8 +64,8 @@ IndexedVector<NodeIndex, std::int32_t> outgoing_facets(const Cloud<2>& cloud) {
     claim(arriving, b, facet, "arrive at");
   }
   for (const NodeIndex i : cloud.position.indices()) {
-    const bool leaves = leaving[i] >= 0;
-    if (leaves != (arriving[i] >= 0))
+    const bool leaves = exists(leaving[i]);
+    if (leaves != exists(arriving[i]))
       throw GeometryError(fmt::format("open boundary: at {} a facet {} but none {}, expected closed loops",
                                       describe_node(cloud, i), leaves ? "leaves" : "arrives",
                                       leaves ? "arrives" : "leaves"));
@@ -95,8 +95,9 @@ IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<2>& cloud) {
 }
 
 void throw_crossing(const Cloud<2>& cloud) {
-  for (std::size_t f = 0; f < cloud.facets.size(); ++f)
-    for (std::size_t g = f + 1; g < cloud.facets.size(); ++g) {
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    for (const CloudFacetIndex g : cloud.facets.indices()) {
+      if (g <= f) continue;
       const Vec2 &a = at(cloud, cloud.facets[f].node[0]), &b = at(cloud, cloud.facets[f].node[1]);
       const Vec2 &c = at(cloud, cloud.facets[g].node[0]), &d = at(cloud, cloud.facets[g].node[1]);
       const double side_c = cross(b - a, c - a), side_d = cross(b - a, d - a);
@@ -104,14 +105,13 @@ void throw_crossing(const Cloud<2>& cloud) {
       if (!(side_c * side_d < 0.0 && side_a * side_b < 0.0)) continue;
       const Vec2 x = a + (b - a) * (side_a / (side_a - side_b));
       throw GeometryError(fmt::format("the boundary crosses itself at {}: {} crosses {}", describe_point(x),
-                                      describe_facet(cloud, static_cast<std::int32_t>(f)),
-                                      describe_facet(cloud, static_cast<std::int32_t>(g))));
+                                      describe_facet(cloud, f), describe_facet(cloud, g)));
     }
   throw GeometryError("the boundary crosses itself (facets overlap to within rounding)");
 }
 
-void throw_node_on_facet(const Cloud<2>& cloud, std::int32_t facet) {
-  const auto& [a, b] = cloud.facets[index_of(facet)].node;
+void throw_node_on_facet(const Cloud<2>& cloud, CloudFacetIndex facet) {
+  const auto& [a, b] = cloud.facets[facet].node;
   const Vec2 along = at(cloud, b) - at(cloud, a);
   NodeIndex nearest = NodeIndex::none;
   double best = 0.0;

@@ -12,12 +12,12 @@ namespace cnem::voronoi {
 std::string describe_node(const Cloud<2>& cloud, NodeIndex node);
 
 /// "facet 7 from (0, 0) m to (1, 0) m".
-std::string describe_facet(const Cloud<2>& cloud, std::int32_t facet);
+std::string describe_facet(const Cloud<2>& cloud, CloudFacetIndex facet);
 
-/// The facet that leaves each node; −1 for interior nodes.
+/// The facet that leaves each node; none for interior nodes.
 /// Throws GeometryError for non-finite positions, twins or facets that name absent nodes, an empty boundary
 /// and loops that are open or branch.
-IndexedVector<NodeIndex, std::int32_t> outgoing_facets(const Cloud<2>& cloud);
+IndexedVector<NodeIndex, CloudFacetIndex> outgoing_facets(const Cloud<2>& cloud);
 
 /// Union of the declared twins: two nodes may coincide when their groups are the same. Empty without twins.
 IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<2>& cloud);
@@ -26,6 +26,6 @@ IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<2>& cloud);
 [[noreturn]] void throw_crossing(const Cloud<2>& cloud);
 
 /// Throws the GeometryError that names the node which lies on the facet. O(nodes).
-[[noreturn]] void throw_node_on_facet(const Cloud<2>& cloud, std::int32_t facet);
+[[noreturn]] void throw_node_on_facet(const Cloud<2>& cloud, CloudFacetIndex facet);
 
 } // namespace cnem::voronoi

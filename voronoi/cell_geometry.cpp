@@ -55,31 +55,31 @@ private:
     }
   }
 
-  std::int32_t hider(SimplexIndex t) const {
+  CloudFacetIndex hider(SimplexIndex t) const {
     const std::int32_t hidden = cells_.hidden_of_triangle[t];
-    return hidden < 0 ? -1 : cells_.hidden[index_of(hidden)].facet;
+    return hidden < 0 ? CloudFacetIndex::none : cells_.hidden[index_of(hidden)].facet;
   }
 
   /// The ends on the boundary of the facet dual to the edge between two triangles.
   void cross_edge(SimplexIndex t, std::int32_t exit, SimplexIndex across, std::int32_t back) {
-    const std::int32_t from = hider(t), to = hider(across);
+    const CloudFacetIndex from = hider(t), to = hider(across);
     if (from == to) return;
-    if (from >= 0) add_end(t, exit);
-    if (to >= 0) add_end(across, back);
+    if (exists(from)) add_end(t, exit);
+    if (exists(to)) add_end(across, back);
   }
 
   void leave_wall(SimplexIndex t, std::int32_t k) {
-    const std::int32_t facet = mesh_.facet[t][index_of(k)];
+    const CloudFacetIndex facet = mesh_.facet[t][index_of(k)];
     if (hider(t) == facet) return;
-    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[index_of(facet)]));
-    if (hider(t) >= 0) add_end(t, k);
+    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[facet]));
+    if (exists(hider(t))) add_end(t, k);
   }
 
   void reach_wall(SimplexIndex t, std::int32_t k) {
-    const std::int32_t facet = mesh_.facet[t][index_of(k)];
+    const CloudFacetIndex facet = mesh_.facet[t][index_of(k)];
     if (hider(t) == facet) return;
-    if (hider(t) >= 0) add_end(t, k);
-    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[index_of(facet)]));
+    if (exists(hider(t))) add_end(t, k);
+    result_.index.push_back(crossing_vertex(cells_.crossing_of_facet[facet]));
   }
 
   void add_end(SimplexIndex t, std::int32_t k) {
@@ -91,7 +91,7 @@ private:
     auto& vertex = vertex_of_crossing_[index_of(crossing)];
     if (vertex >= 0) return vertex;
     const auto& [facet, s] = cells_.crossing[index_of(crossing)];
-    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
+    const auto& [a, b] = cloud_.facets[facet].node;
     return vertex =
                new_vertex((1.0 - s) * cloud_.position[a] + s * cloud_.position[b], {{a, 1.0 - s}, {b, s}});
   }

@@ -27,8 +27,8 @@ public:
     cells_.volume.assign(cloud_.position.size(), 0.0);
     for (const SimplexIndex t : mesh_.node.indices())
       for (std::size_t k = 0; k < 3; ++k)
-        if (mesh_.facet[t][k] >= 0) facet_triangle_[index_of(mesh_.facet[t][k])] = t;
-    for (std::size_t f = 0; f < cloud_.facets.size(); ++f) share_facet(static_cast<std::int32_t>(f));
+        if (exists(mesh_.facet[t][k])) facet_triangle_[mesh_.facet[t][k]] = t;
+    for (const CloudFacetIndex f : cloud_.facets.indices()) share_facet(f);
     add_interior();
     add_neighbours();
     return std::move(cells_);
@@ -40,15 +40,15 @@ private:
   /// The circumcentre of t is on the far side of the facet's line. For the triangle at the facet, and from
   /// there for each neighbour of a hidden triangle, this means hidden by the facet itself: the bisector of
   /// the common edge meets the line inside both circles, where no end of the facet can be.
-  bool is_beyond(SimplexIndex t, std::int32_t facet) const {
-    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
+  bool is_beyond(SimplexIndex t, CloudFacetIndex facet) const {
+    const auto& [a, b] = cloud_.facets[facet].node;
     return cross(at(b) - at(a), circles_.centre[t] - at(a)) < 0.0;
   }
 
   /// The part of the facet that belongs to `cell` ends at s.
-  void end_piece(std::int32_t facet, NodeIndex cell, double s0, double s1) {
+  void end_piece(CloudFacetIndex facet, NodeIndex cell, double s0, double s1) {
     cells_.boundary.push_back({cell, facet, {{{s0}, {s1}}}});
-    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
+    const auto& [a, b] = cloud_.facets[facet].node;
     const Vec2 edge = at(b) - at(a);
     cells_.volume[index_of(cell)] += 0.5 * (s1 - s0) * cross(at(a) - at(cell), edge);
   }
@@ -56,8 +56,8 @@ private:
   /// Where the bisector of nodes i and j, which passes through the hidden `centre`, meets the facet. Both
   /// nodes are on the near side and the centre is beyond, so that this is always between the midpoint and the
   /// centre.
-  double crossing_parameter(std::int32_t facet, NodeIndex i, NodeIndex j, const Vec2& centre) const {
-    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
+  double crossing_parameter(CloudFacetIndex facet, NodeIndex i, NodeIndex j, const Vec2& centre) const {
+    const auto& [a, b] = cloud_.facets[facet].node;
     const Vec2 edge = at(b) - at(a), middle = 0.5 * (at(i) + at(j));
     const double near = std::max(cross(edge, middle - at(a)), 0.0), beyond = -cross(edge, centre - at(a));
     const Vec2 x = middle + (centre - middle) * (near / (near + beyond));
@@ -68,11 +68,11 @@ private:
   /// (a circle with a hidden centre meets the facet in a chord, and so do those between); going round them
   /// clockwise from one end of the facet to the other gives its owners in order. Which triangles these are is
   /// decided once, so that the cells close even where rounding decides it.
-  void share_facet(std::int32_t facet) {
-    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
-    const SimplexIndex first = facet_triangle_[index_of(facet)];
+  void share_facet(CloudFacetIndex facet) {
+    const auto& [a, b] = cloud_.facets[facet].node;
+    const SimplexIndex first = facet_triangle_[facet];
     if (cells_.hidden_of_triangle[first] >= 0 || !is_beyond(first, facet)) {
-      cells_.crossing_of_facet[index_of(facet)] = static_cast<std::int32_t>(cells_.crossing.size());
+      cells_.crossing_of_facet[facet] = static_cast<std::int32_t>(cells_.crossing.size());
       cells_.crossing.push_back({facet, 0.5});
       end_piece(facet, a, 0.0, 0.5);
       end_piece(facet, b, 0.5, 1.0);
@@ -108,14 +108,14 @@ private:
     end_piece(facet, b, s, 1.0);
   }
 
-  void hide(SimplexIndex t, std::int32_t facet) {
+  void hide(SimplexIndex t, CloudFacetIndex facet) {
     cells_.hidden_of_triangle[t] = static_cast<std::int32_t>(cells_.hidden.size());
     cells_.hidden.push_back({facet, {-1, -1, -1}});
   }
 
   Vec2 position(std::int32_t crossing) const {
     const auto& [facet, s] = cells_.crossing[index_of(crossing)];
-    const auto& [a, b] = cloud_.facets[index_of(facet)].node;
+    const auto& [a, b] = cloud_.facets[facet].node;
     return (1.0 - s) * at(a) + s * at(b);
   }
 
@@ -125,25 +125,25 @@ private:
     return hidden < 0 ? circles_.centre[t] : position(cells_.hidden[index_of(hidden)].crossing[index_of(k)]);
   }
 
-  std::int32_t hider(SimplexIndex t) const {
+  CloudFacetIndex hider(SimplexIndex t) const {
     const std::int32_t hidden = cells_.hidden_of_triangle[t];
-    return hidden < 0 ? -1 : cells_.hidden[index_of(hidden)].facet;
+    return hidden < 0 ? CloudFacetIndex::none : cells_.hidden[index_of(hidden)].facet;
   }
 
   void add_interior() {
     cells_.interior.reserve(mesh_.node.size() * 3 / 2 + cloud_.facets.size());
     for (const SimplexIndex t : mesh_.node.indices()) {
-      const std::int32_t hidden_by = hider(t);
+      const CloudFacetIndex hidden_by = hider(t);
       for (std::int32_t k = 0; k < 3; ++k) {
         const SimplexIndex across = mesh_.neighbour[t][index_of(k)];
         if (across > t) continue; // each edge once, from its later triangle
         Vec2 start;
         if (!exists(across)) {
-          const std::int32_t facet = mesh_.facet[t][index_of(k)];
+          const CloudFacetIndex facet = mesh_.facet[t][index_of(k)];
           if (hidden_by == facet) continue;
-          start = position(cells_.crossing_of_facet[index_of(facet)]);
+          start = position(cells_.crossing_of_facet[facet]);
         } else {
-          if (hidden_by >= 0 && hidden_by == hider(across)) continue;
+          if (exists(hidden_by) && hidden_by == hider(across)) continue;
           std::int32_t back = 0;
           while (mesh_.neighbour[across][index_of(back)] != t) ++back;
           start = end_point(across, back);
@@ -172,7 +172,7 @@ private:
   const Triangulation& mesh_;
   const Circumcircles& circles_;
   Cells cells_;
-  std::vector<SimplexIndex> facet_triangle_; ///< [facet] the triangle on its left
+  IndexedVector<CloudFacetIndex, SimplexIndex> facet_triangle_; ///< the triangle on its left
   std::vector<std::pair<SimplexIndex, std::int32_t>> stack_;
 };
 

@@ -18,12 +18,12 @@ namespace cnem::voronoi {
 struct Cells : CellComplex<2> {
   /// A point where the facet between two cells ends on the boundary.
   struct Crossing {
-    std::int32_t facet;
+    CloudFacetIndex facet;
     double s; ///< along the facet
   };
   /// A triangle whose circumcentre is hidden behind a boundary facet.
   struct Hidden {
-    std::int32_t facet; ///< the first wall between the triangle and its circumcentre
+    CloudFacetIndex facet; ///< the first wall between the triangle and its circumcentre
     std::array<std::int32_t, 3>
         crossing; ///< [k] where the facet dual to edge k ends on it; −1: it has no end there
   };
@@ -31,8 +31,8 @@ struct Cells : CellComplex<2> {
   std::vector<Hidden> hidden;
   IndexedVector<SimplexIndex, std::int32_t>
       hidden_of_triangle; ///< index into `hidden`; −1: the circumcentre is visible
-  std::vector<std::int32_t>
-      crossing_of_facet; ///< [cloud facet] where the facet dual to it ends; −1: there is none
+  IndexedVector<CloudFacetIndex, std::int32_t>
+      crossing_of_facet; ///< where the facet dual to it ends; −1: there is none
 };
 
 /// Clips the Voronoi diagram by the domain. O(N).

@@ -46,8 +46,10 @@ void restore_delaunay(Triangulation& mesh, const IndexedVector<NodeIndex, Vec2>&
       const SimplexIndex beyond_aq = mesh.neighbour[o][m1], beyond_pb = mesh.neighbour[t][k1];
       const std::array<SimplexIndex, 3> t_neighbour{beyond_aq, o, mesh.neighbour[t][k2]};
       const std::array<SimplexIndex, 3> o_neighbour{mesh.neighbour[o][m2], beyond_pb, t};
-      const std::array<std::int32_t, 3> t_facet{mesh.facet[o][m1], -1, mesh.facet[t][k2]};
-      const std::array<std::int32_t, 3> o_facet{mesh.facet[o][m2], mesh.facet[t][k1], -1};
+      const std::array<CloudFacetIndex, 3> t_facet{mesh.facet[o][m1], CloudFacetIndex::none,
+                                                   mesh.facet[t][k2]};
+      const std::array<CloudFacetIndex, 3> o_facet{mesh.facet[o][m2], mesh.facet[t][k1],
+                                                   CloudFacetIndex::none};
       mesh.node[t] = {p, a, q};
       mesh.node[o] = {p, q, b};
       mesh.neighbour[t] = t_neighbour;

@@ -27,7 +27,7 @@ WalkEnd walk(const Cloud<2>& cloud, const Triangulation& mesh, SimplexIndex from
   for (std::size_t k = 0; k < 3; ++k) left[k] = cross(direction, at(t, k) - origin) >= 0.0;
   std::size_t exit = 0;
   while (exit < 3 && !(!left[(exit + 1) % 3] && left[(exit + 2) % 3])) ++exit;
-  if (exit == 3) return {from, -1}; // x is the centroid
+  if (exit == 3) return {from, CloudFacetIndex::none}; // x is the centroid
 
   for (std::size_t steps = 0; steps <= mesh.node.size(); ++steps) {
     const Vec2 &p = at(t, exit + 1), &q = at(t, exit + 2);
@@ -39,7 +39,7 @@ WalkEnd walk(const Cloud<2>& cloud, const Triangulation& mesh, SimplexIndex from
     t = next;
     exit = cross(direction, at(t, back) - origin) >= 0.0 ? (back + 1) % 3 : (back + 2) % 3;
   }
-  return {t, -1};
+  return {t, CloudFacetIndex::none};
 }
 
 Location locate(const Cloud<2>& cloud, const Triangulation& mesh, const Vec2& x, SimplexIndex hint) {

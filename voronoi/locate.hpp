@@ -10,7 +10,7 @@ namespace cnem::voronoi {
 /// End of a straight walk through the triangles.
 struct WalkEnd {
   SimplexIndex triangle; ///< the last triangle that was reached
-  std::int32_t facet;    ///< the wall that stopped the walk; −1: the target lies in `triangle`
+  CloudFacetIndex facet; ///< the wall that stopped the walk; none: the target lies in `triangle`
 };
 
 /// Walks straight from the centroid of triangle `from` to x and stops at the first wall.

@@ -21,7 +21,9 @@ namespace {
 enum class Side : std::int8_t { unknown, outside, inside };
 
 struct FaceInfo {
-  std::array<std::int32_t, 3> facet{-1, -1, -1}; ///< the facet that has this face on its left
+  static constexpr CloudFacetIndex no_facet = CloudFacetIndex::none;
+  std::array<CloudFacetIndex, 3> facet{no_facet, no_facet,
+                                       no_facet}; ///< the facet that has this face on its left
   SimplexIndex triangle = SimplexIndex::none;
   Side side = Side::unknown;
 };
@@ -56,7 +58,7 @@ public:
 
 private:
   const Vec2& at(NodeIndex node) const { return cloud_.position[node]; }
-  bool on_boundary(NodeIndex node) const { return leaving_[node] >= 0; }
+  bool on_boundary(NodeIndex node) const { return exists(leaving_[node]); }
 
   /// Nodes at the same position share one CGAL vertex, which is allowed to declared twins only. The nodes go
   /// into an unconstrained triangulation, whose flips are cheaper; the constrained one takes over its
@@ -96,9 +98,8 @@ private:
         delaunay_.insert_constraint(vertex_[facet.node[0]], vertex_[facet.node[1]]);
     } catch (const Delaunay::Intersection_of_constraints_exception&) { throw_crossing(cloud_); }
     left_of_.resize(cloud_.facets.size());
-    for (std::size_t f = 0; f < cloud_.facets.size(); ++f) {
-      const auto facet = static_cast<std::int32_t>(f);
-      const Vertex a = vertex_[cloud_.facets[f].node[0]], b = vertex_[cloud_.facets[f].node[1]];
+    for (const CloudFacetIndex facet : cloud_.facets.indices()) {
+      const Vertex a = vertex_[cloud_.facets[facet].node[0]], b = vertex_[cloud_.facets[facet].node[1]];
       Face face;
       int k = 0;
       if (!delaunay_.is_edge(a, b, face, k)) throw_node_on_facet(cloud_, facet);
@@ -108,12 +109,12 @@ private:
         face = other;
       }
       auto& slot = face->info().facet[index_of(k)];
-      if (slot >= 0)
+      if (exists(slot))
         throw GeometryError(fmt::format("{} runs along facet {} in the same direction, expected opposite "
                                         "faces of a crack or no overlap",
-                                        describe_facet(cloud_, facet), slot));
+                                        describe_facet(cloud_, facet), index_of(slot)));
       slot = facet;
-      left_of_[f] = {face, k};
+      left_of_[facet] = {face, k};
     }
   }
 
@@ -140,21 +141,21 @@ private:
 
   void mark_sides() {
     flood(delaunay_.infinite_face(), Side::outside);
-    for (std::size_t f = 0; f < left_of_.size(); ++f)
+    for (const CloudFacetIndex f : left_of_.indices())
       if (!flood(left_of_[f].first, Side::inside)) throw_orientation(f);
-    for (std::size_t f = 0; f < left_of_.size(); ++f) {
+    for (const CloudFacetIndex f : left_of_.indices()) {
       const auto& [face, k] = left_of_[f];
       const auto& right = face->neighbor(k)->info();
-      if (right.side == Side::inside && right.facet[index_of(delaunay_.mirror_index(face, k))] < 0)
+      if (right.side == Side::inside && !exists(right.facet[index_of(delaunay_.mirror_index(face, k))]))
         throw_orientation(f);
     }
   }
 
-  [[noreturn]] void throw_orientation(std::size_t f) const {
+  [[noreturn]] void throw_orientation(CloudFacetIndex f) const {
     throw GeometryError(
         fmt::format("{} runs the wrong way round: expected the domain on its left (outer loops "
                     "counter-clockwise, holes clockwise)",
-                    describe_facet(cloud_, static_cast<std::int32_t>(f))));
+                    describe_facet(cloud_, f)));
   }
 
   void number_triangles() {
@@ -167,7 +168,7 @@ private:
     }
     if (faces.empty())
       throw GeometryError(fmt::format("empty domain: the boundary, which starts with {}, encloses no area",
-                                      describe_facet(cloud_, 0)));
+                                      describe_facet(cloud_, CloudFacetIndex{})));
     result_.node.resize(faces.size());
     result_.neighbour.resize(faces.size());
     result_.facet.resize(faces.size());
@@ -184,7 +185,7 @@ private:
 
   /// Gives every sector of triangles between two facets at a merged vertex the node of these facets.
   void separate_merged_nodes() {
-    for (std::size_t f = 0; f < left_of_.size(); ++f) {
+    for (const CloudFacetIndex f : left_of_.indices()) {
       const NodeIndex node = cloud_.facets[f].node[0];
       if (!is_merged_[node]) continue;
       SimplexIndex t = left_of_[f].first->info().triangle;
@@ -194,13 +195,12 @@ private:
         const int exit = Delaunay::ccw(k);
         const SimplexIndex next = result_.neighbour[t][index_of(exit)];
         if (!exists(next)) {
-          const std::int32_t last = result_.facet[t][index_of(exit)];
-          if (cloud_.facets[index_of(last)].node[1] == node) break;
-          throw GeometryError(
-              fmt::format("the boundary touches or crosses itself at {}: the domain to the left of {} ends "
-                          "at {}, which does not arrive at that node",
-                          describe_node(cloud_, node), describe_facet(cloud_, static_cast<std::int32_t>(f)),
-                          describe_facet(cloud_, last)));
+          const CloudFacetIndex last = result_.facet[t][index_of(exit)];
+          if (cloud_.facets[last].node[1] == node) break;
+          throw GeometryError(fmt::format(
+              "the boundary touches or crosses itself at {}: the domain to the left of {} ends "
+              "at {}, which does not arrive at that node",
+              describe_node(cloud_, node), describe_facet(cloud_, f), describe_facet(cloud_, last)));
         }
         int back = 0;
         while (result_.neighbour[next][index_of(back)] != t) ++back;
@@ -215,7 +215,7 @@ private:
     for (const SimplexIndex t : result_.node.indices())
       for (const NodeIndex i : result_.node[t])
         if (!exists(result_.triangle_of_node[i])) result_.triangle_of_node[i] = t;
-    for (std::size_t f = 0; f < left_of_.size(); ++f)
+    for (const CloudFacetIndex f : left_of_.indices())
       result_.triangle_of_node[cloud_.facets[f].node[0]] = left_of_[f].first->info().triangle;
     for (const NodeIndex i : cloud_.position.indices()) {
       if (is_merged_[i] && !on_boundary(i))
@@ -229,12 +229,13 @@ private:
   }
 
   const Cloud<2>& cloud_;
-  IndexedVector<NodeIndex, std::int32_t> leaving_; ///< facet that leaves it
+  IndexedVector<NodeIndex, CloudFacetIndex> leaving_; ///< facet that leaves it
   Delaunay delaunay_;
   IndexedVector<NodeIndex, Vertex> vertex_;
-  IndexedVector<NodeIndex, bool> is_merged_;  ///< shares its CGAL vertex
-  bool merged_ = false;                       ///< any of them
-  std::vector<std::pair<Face, int>> left_of_; ///< [facet] the face on its left and the edge's index there
+  IndexedVector<NodeIndex, bool> is_merged_; ///< shares its CGAL vertex
+  bool merged_ = false;                      ///< any of them
+  IndexedVector<CloudFacetIndex, std::pair<Face, int>>
+      left_of_; ///< the face on its left and the edge's index there
   std::vector<Face> stack_;
   Triangulation result_;
 };
@@ -242,16 +243,16 @@ private:
 /// Whether neighbours know each other and share an edge, edges without a neighbour are facets in the sense of
 /// the triangle, each facet on one of them, and the triangle of each node has it.
 [[maybe_unused]] bool is_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
-  std::vector<int> seen(cloud.facets.size(), 0);
+  IndexedVector<CloudFacetIndex, int> seen(cloud.facets.size(), 0);
   for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
       const SimplexIndex across = mesh.neighbour[t][k];
-      const std::int32_t facet = mesh.facet[t][k];
-      if (exists(across) == (facet >= 0)) return false;
-      if (facet >= 0) {
-        ++seen[index_of(facet)];
-        if (cloud.facets[index_of(facet)].node != std::array{a, b}) return false;
+      const CloudFacetIndex facet = mesh.facet[t][k];
+      if (exists(across) == exists(facet)) return false;
+      if (exists(facet)) {
+        ++seen[facet];
+        if (cloud.facets[facet].node != std::array{a, b}) return false;
         continue;
       }
       const auto& back = mesh.neighbour[across];

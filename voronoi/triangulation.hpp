@@ -15,8 +15,8 @@ struct Triangulation {
   IndexedVector<SimplexIndex, std::array<NodeIndex, 3>> node; ///< nodes, counter-clockwise
   IndexedVector<SimplexIndex, std::array<SimplexIndex, 3>>
       neighbour; ///< [triangle][k] across the edge opposite node k; none: boundary
-  IndexedVector<SimplexIndex, std::array<std::int32_t, 3>>
-      facet; ///< [triangle][k] cloud facet on that edge; −1: interior edge
+  IndexedVector<SimplexIndex, std::array<CloudFacetIndex, 3>>
+      facet; ///< [triangle][k] on that edge; none: interior edge
   IndexedVector<NodeIndex, SimplexIndex>
       triangle_of_node; ///< one triangle that has it; of boundary nodes, the first counter-clockwise
 

@@ -79,7 +79,7 @@ template<int dim> bool is_closed(const Cloud<dim>& cloud, const CellComplex<dim>
     add(face.cell[1], face.corner, -1.0);
   }
   for (const BoundaryPart<dim>& part : complex.boundary)
-    add(part.cell, part.on(corners_of<dim>(cloud.facets[index_of(part.facet)], cloud.position)), 1.0);
+    add(part.cell, part.on(corners_of<dim>(cloud.facets[part.facet], cloud.position)), 1.0);
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const double rounding = 1e-13 * std::pow(sums[i].reach, dim - 2) * sums[i].size;
     if (!(sums[i].normal.norm() <= rounding)) return false;

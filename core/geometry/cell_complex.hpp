@@ -32,7 +32,7 @@ template<int dim> struct InnerFace {
 /// segment in the plane, a triangle in space, turned like its facet.
 template<int dim> struct BoundaryPart {
   NodeIndex cell;
-  std::int32_t facet; ///< index into Cloud::facets
+  CloudFacetIndex facet;
   /// [corner] t, x = x_0 + Σ_k t_k (x_(k+1) − x_0) with the corners x_a of the facet.
   std::array<std::array<double, dim - 1>, dim> place;
 

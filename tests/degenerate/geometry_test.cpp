@@ -62,12 +62,12 @@ TEST_P(RandomClouds, CellsFillTheDomainAndAreClosed) {
       normals[index_of(f.cell[0])] += f.normal();
       normals[index_of(f.cell[1])] -= f.normal();
     }
-    std::vector<double> covered(cloud.facets.size(), 0.0);
+    IndexedVector<CloudFacetIndex, double> covered(cloud.facets.size(), 0.0);
     for (const auto& piece : cells.boundary) {
-      const auto& [a, b] = cloud.facets[index_of(piece.facet)].node;
-      EXPECT_EQ(piece.place[0][0], covered[index_of(piece.facet)]);
+      const auto& [a, b] = cloud.facets[piece.facet].node;
+      EXPECT_EQ(piece.place[0][0], covered[piece.facet]);
       EXPECT_LE(piece.place[0][0], piece.place[1][0]);
-      covered[index_of(piece.facet)] = piece.place[1][0];
+      covered[piece.facet] = piece.place[1][0];
       normals[index_of(piece.cell)] +=
           right_normal(cloud.position[b] - cloud.position[a]) * (piece.place[1][0] - piece.place[0][0]);
     }
@@ -203,30 +203,31 @@ bool crosses_wall(const Cloud<2>& cloud, const Vec2& a, const Vec2& b) {
   return false;
 }
 
-/// [node] the facets that leave and arrive; −1 inside.
-std::vector<std::array<std::int32_t, 2>> facets_of_nodes(const Cloud<2>& cloud) {
-  std::vector<std::array<std::int32_t, 2>> facets(index_of(cloud.nodes()), {-1, -1});
-  for (std::size_t f = 0; f < cloud.facets.size(); ++f) {
-    facets[index_of(cloud.facets[f].node[0])][0] = static_cast<std::int32_t>(f);
-    facets[index_of(cloud.facets[f].node[1])][1] = static_cast<std::int32_t>(f);
+/// The facets that leave and arrive; none inside.
+IndexedVector<NodeIndex, std::array<CloudFacetIndex, 2>> facets_of_nodes(const Cloud<2>& cloud) {
+  constexpr CloudFacetIndex none = CloudFacetIndex::none;
+  IndexedVector<NodeIndex, std::array<CloudFacetIndex, 2>> facets(index_of(cloud.nodes()), {none, none});
+  for (const CloudFacetIndex f : cloud.facets.indices()) {
+    facets[cloud.facets[f].node[0]][0] = f;
+    facets[cloud.facets[f].node[1]][1] = f;
   }
   return facets;
 }
 
 /// x lies in the material angle of the boundary node: counter-clockwise from the facet that leaves it to the
 /// one that arrives. Tells the two faces of a crack apart.
-bool in_sector(const Cloud<2>& cloud, NodeIndex node, const std::array<std::int32_t, 2>& facets,
+bool in_sector(const Cloud<2>& cloud, NodeIndex node, const std::array<CloudFacetIndex, 2>& facets,
                const Vec2& x) {
-  if (facets[0] < 0) return true;
+  if (!exists(facets[0])) return true;
   const Vec2& origin = cloud.position[node];
-  const Vec2 out = cloud.position[cloud.facets[index_of(facets[0])].node[1]] - origin;
-  const Vec2 in = cloud.position[cloud.facets[index_of(facets[1])].node[0]] - origin;
+  const Vec2 out = cloud.position[cloud.facets[facets[0]].node[1]] - origin;
+  const Vec2 in = cloud.position[cloud.facets[facets[1]].node[0]] - origin;
   const auto angle = [&](const Vec2& d) {
     const double phi = std::atan2(cross(out, d), out.dot(d));
     return phi < -1e-9 ? phi + 2.0 * std::numbers::pi : phi;
   };
-  const bool tip = cloud.position[cloud.facets[index_of(facets[0])].node[1]] ==
-                   cloud.position[cloud.facets[index_of(facets[1])].node[0]];
+  const bool tip =
+      cloud.position[cloud.facets[facets[0]].node[1]] == cloud.position[cloud.facets[facets[1]].node[0]];
   return tip || angle(x - origin) <= angle(in) + 1e-9;
 }
 
@@ -240,8 +241,7 @@ TEST_P(RandomClouds, WallsStopAllInfluence) {
       for (const NodeIndex i : at.nodes()) {
         EXPECT_FALSE(crosses_wall(cloud, x, cloud.position[i]))
             << "node " << index_of(i) << " from " << x.transpose();
-        EXPECT_TRUE(in_sector(cloud, i, facets[index_of(i)], x))
-            << "node " << index_of(i) << " from " << x.transpose();
+        EXPECT_TRUE(in_sector(cloud, i, facets[i], x)) << "node " << index_of(i) << " from " << x.transpose();
       }
     };
     for (const SimplexIndex t : mesh.node.indices()) {
@@ -277,7 +277,7 @@ TEST_P(RandomClouds, CellsBelongToTheNearestVisibleNode) {
       expect_nearest(x, f.cell[0]);
     }
     for (const auto& piece : cells.boundary) {
-      const auto& [a, b] = cloud.facets[index_of(piece.facet)].node;
+      const auto& [a, b] = cloud.facets[piece.facet].node;
       const Vec2 edge = cloud.position[b] - cloud.position[a];
       const Vec2 x = cloud.position[a] + 0.5 * (piece.place[0][0] + piece.place[1][0]) * edge;
       expect_nearest(x + 1e-10 * left_normal(edge), piece.cell);

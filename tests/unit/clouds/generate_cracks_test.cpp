@@ -64,11 +64,10 @@ TEST(GenerateCracks, EmbeddedCrackHasDoubleFacesAndSingleTips) {
     EXPECT_NEAR(piece_length(cloud, face), std::hypot(0.6, 0.1), 1e-12);
   // The + face has its material on the left of the path: its triangles lie above.
   const voronoi::Triangulation mesh = voronoi::triangulate(cloud);
-  for (std::size_t t = 0; t < mesh.node.size(); ++t)
+  for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
-      if (mesh.facet[t][k] < 0) continue;
-      const std::string& piece =
-          cloud.piece_names[std::size_t(cloud.facets[std::size_t(mesh.facet[t][k])].piece)];
+      if (!exists(mesh.facet[t][k])) continue;
+      const std::string& piece = cloud.piece_names[std::size_t(cloud.facets[mesh.facet[t][k]].piece)];
       if (piece.substr(0, 4) != "slit") continue;
       const double side = cross(Vec2(0.6, 0.1), cloud.position[std::size_t(mesh.node[t][k])] - crack.path[0]);
       EXPECT_EQ(side > 0.0, piece == "slit+");

@@ -319,11 +319,11 @@ TEST(RestoreDelaunay, AgreesWithANewTriangulation) {
   for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       const SimplexIndex o = mesh.neighbour[t][k];
-      const std::int32_t f = mesh.facet[t][k];
-      ASSERT_EQ(!exists(o), f >= 0);
-      if (f >= 0) {
-        EXPECT_EQ(cloud.facets[std::size_t(f)].node[0], mesh.node[t][(k + 1) % 3]);
-        EXPECT_EQ(cloud.facets[std::size_t(f)].node[1], mesh.node[t][(k + 2) % 3]);
+      const CloudFacetIndex f = mesh.facet[t][k];
+      ASSERT_EQ(!exists(o), exists(f));
+      if (exists(f)) {
+        EXPECT_EQ(cloud.facets[f].node[0], mesh.node[t][(k + 1) % 3]);
+        EXPECT_EQ(cloud.facets[f].node[1], mesh.node[t][(k + 2) % 3]);
       } else
         EXPECT_TRUE(std::ranges::count(mesh.neighbour[o], t) == 1);
     }

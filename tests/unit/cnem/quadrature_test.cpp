@@ -48,7 +48,7 @@ Rows reference_rows(const Cloud<2>& cloud, voronoi::Functions functions) {
     }
   }
   for (const auto& piece : cells.boundary) {
-    const auto [a, b] = cloud.facets[std::size_t(piece.facet)].node;
+    const auto [a, b] = cloud.facets[piece.facet].node;
     const Vec2 normal = (piece.place[1][0] - piece.place[0][0]) *
                         right_normal(cloud.position[std::size_t(b)] - cloud.position[std::size_t(a)]);
     add(piece.cell, a, (1 - 0.5 * (piece.place[0][0] + piece.place[1][0])) * normal);

@@ -18,6 +18,7 @@ template<class A, class B> constexpr bool compares = requires(A a, B b) { a == b
 
 static_assert(!converts<NodeIndex, FacetIndex> && !converts<NodeIndex, BoundaryNodeIndex>);
 static_assert(!converts<SimplexIndex, NodeIndex> && !converts<NodeIndex, SimplexIndex>);
+static_assert(!converts<CloudFacetIndex, FacetIndex> && !converts<FacetIndex, CloudFacetIndex>);
 static_assert(!converts<NodeIndex, std::int32_t> && !converts<NodeIndex, std::size_t>);
 static_assert(!converts<std::int32_t, NodeIndex> && !converts<std::size_t, NodeIndex>);
 static_assert(compares<NodeIndex, NodeIndex> && !compares<NodeIndex, FacetIndex>);

@@ -40,7 +40,7 @@ TEST(Cells, ThirdNodeOwnsPartOfABoundaryFacet) {
   const auto cells = cells_of(cloud);
   std::vector<BoundaryPart<2>> base;
   for (const auto& piece : cells.boundary)
-    if (piece.facet == 0) base.push_back(piece);
+    if (piece.facet == CloudFacetIndex{}) base.push_back(piece);
   ASSERT_EQ(base.size(), 3u);
   EXPECT_EQ(base[0].cell, 0_node);
   EXPECT_EQ(base[1].cell, 2_node);

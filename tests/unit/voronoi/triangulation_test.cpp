@@ -37,17 +37,17 @@ bool has(const std::array<NodeIndex, 3>& nodes, NodeIndex i) {
 
 /// Neighbours are mutual and share their edge, every facet stands in one triangle and every node has one.
 void expect_consistent(const Cloud<2>& cloud, const Triangulation& mesh) {
-  std::vector<int> seen(cloud.facets.size(), 0);
+  IndexedVector<CloudFacetIndex, int> seen(cloud.facets.size(), 0);
   for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeIndex a = mesh.node[t][(k + 1) % 3], b = mesh.node[t][(k + 2) % 3];
       const SimplexIndex next = mesh.neighbour[t][k];
-      const std::int32_t facet = mesh.facet[t][k];
-      ASSERT_EQ(!exists(next), facet >= 0);
-      if (facet >= 0) {
-        ++seen[index_of(facet)];
-        EXPECT_EQ(cloud.facets[index_of(facet)].node[0], a);
-        EXPECT_EQ(cloud.facets[index_of(facet)].node[1], b);
+      const CloudFacetIndex facet = mesh.facet[t][k];
+      ASSERT_EQ(!exists(next), exists(facet));
+      if (exists(facet)) {
+        ++seen[facet];
+        EXPECT_EQ(cloud.facets[facet].node[0], a);
+        EXPECT_EQ(cloud.facets[facet].node[1], b);
         continue;
       }
       std::size_t back = 0;
