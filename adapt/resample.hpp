@@ -37,8 +37,8 @@ enum class Placement { between_nodes, voronoi_vertices };
 
 /// How the cloud parts where broken matter goes through it. Lengths are in units of the wanted spacing.
 struct SplitRules {
-  std::int32_t piece = -1;   ///< index of the boundary piece that new faces belong to
-  double gap = 1e-3;         ///< how far the two faces are set apart, so that no nodes coincide
+  PieceIndex piece = PieceIndex::none; ///< that new faces belong to
+  double gap = 1e-3;                   ///< how far the two faces are set apart, so that no nodes coincide
   double part = 2.0;         ///< least length of boundary of a part that comes off, over that of the cut
   double least_angle = 30.0; ///< degrees between a cut and the boundary at its ends
   int least_loop = 8;        ///< least boundary nodes of a part, besides those of the cut

@@ -35,7 +35,7 @@ void add(Row& a, const Row& b, double factor) {
 
 } // namespace
 
-WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, std::int32_t free_piece)
+WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, PieceIndex free_piece)
     : cloud_(cloud), node_(std::move(properties)), old_nodes_(cloud.position.size()),
       free_piece_(free_piece) {
   if (!cloud.twins.empty())
@@ -43,7 +43,7 @@ WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, std
   voronoi::outgoing_facets(cloud); // throws for open loops
   next_.assign(old_nodes_, NodeIndex::none);
   previous_.assign(old_nodes_, NodeIndex::none);
-  piece_.assign(old_nodes_, -1);
+  piece_.assign(old_nodes_, PieceIndex::none);
   IndexedVector<NodeIndex, char> seen(old_nodes_, 0);
   for (const Facet<2>& facet : cloud.facets) {
     const auto [a, b] = facet.node;
@@ -91,7 +91,7 @@ NodeIndex WorkingCloud::append(const Vec2& x, const std::vector<std::pair<NodeIn
   }
   next_.push_back(NodeIndex::none);
   previous_.push_back(NodeIndex::none);
-  piece_.push_back(-1);
+  piece_.push_back(PieceIndex::none);
   old_of_.push_back(NodeIndex::none);
   return made;
 }
@@ -126,7 +126,7 @@ void WorkingCloud::promote(NodeIndex node, NodeIndex a, const Vec2& x) {
 bool WorkingCloud::ends_piece(NodeIndex i) const {
   if (!on_boundary(i)) return false;
   const NodeIndex before = previous_[i];
-  const std::int32_t entering = piece_[before], leaving = piece_[i];
+  const PieceIndex entering = piece_[before], leaving = piece_[i];
   if (entering == leaving) return false;
   if (leaving == free_piece_) return piece_[previous_[before]] != entering;
   if (entering == free_piece_) return piece_[next_[i]] != leaving;
@@ -141,20 +141,20 @@ void WorkingCloud::bypass(NodeIndex node) {
   for (NodeIndex& start : loop_)
     if (start == node) start = b;
   next_[node] = previous_[node] = NodeIndex::none;
-  piece_[node] = -1;
+  piece_[node] = PieceIndex::none;
 }
 
-std::vector<std::array<NodeIndex, 2>> WorkingCloud::open(std::span<const NodeIndex> path, std::int32_t piece,
+std::vector<std::array<NodeIndex, 2>> WorkingCloud::open(std::span<const NodeIndex> path, PieceIndex piece,
                                                          double gap) {
   const auto at = [&](NodeIndex i) -> Vec2& { return cloud_.position[i]; };
-  const auto link = [&](NodeIndex a, NodeIndex b, std::int32_t of_piece) {
+  const auto link = [&](NodeIndex a, NodeIndex b, PieceIndex of_piece) {
     next_[a] = b;
     previous_[b] = a;
     piece_[a] = of_piece;
   };
   const NodeIndex first = path.front(), last = path.back();
   const NodeIndex after_first = next(first), before_last = previous(last);
-  const std::int32_t piece_first = piece_[first], piece_last = piece_[before_last];
+  const PieceIndex piece_first = piece_[first], piece_last = piece_[before_last];
   // ends part along the boundary, so that they stay on it
   const auto towards = [&](NodeIndex from, NodeIndex to) {
     return Vec2(0.5 * gap * (at(to) - at(from)).normalized());

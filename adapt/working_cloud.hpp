@@ -32,10 +32,10 @@ using Row = std::vector<std::pair<NodeIndex, double>>;
 
 class WorkingCloud {
 public:
-  /// free_piece: index of the boundary piece whose ends may go, because nothing refers to it (faces that
-  /// separation made); −1: none. Throws GeometryError when the cloud has twins (cracks, interfaces) or its
-  /// facets do not form loops.
-  WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, std::int32_t free_piece = -1);
+  /// free_piece: the boundary piece whose ends may go, because nothing refers to it (faces that separation
+  /// made). Throws GeometryError when the cloud has twins (cracks, interfaces) or its facets do not form
+  /// loops.
+  WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, PieceIndex free_piece = PieceIndex::none);
 
   const Cloud<2>& cloud() const { return cloud_; }
   const NodeProperties& node() const { return node_; }
@@ -44,7 +44,7 @@ public:
   bool on_boundary(NodeIndex i) const { return exists(next_[i]); }
   NodeIndex next(NodeIndex i) const { return next_[i]; } ///< along the boundary; none inside
   NodeIndex previous(NodeIndex i) const { return previous_[i]; }
-  std::int32_t piece(NodeIndex i) const { return piece_[i]; } ///< of the facet that leaves it
+  PieceIndex piece(NodeIndex i) const { return piece_[i]; } ///< of the facet that leaves it
   bool held(NodeIndex i) const { return node_.held[i] != 0; }
   /// Facets change pieces here, and the node has to stay for it: it is an end of named boundaries, or all
   /// that keeps a piece beside the free one.
@@ -68,7 +68,7 @@ public:
   void place(NodeIndex node, const Vec2& x) { cloud_.position[node] = x; }
   /// Opens the domain along a path between two boundary nodes, over interior ones: nodes are doubled, and the
   /// two faces stand `gap` (m) apart. Returns the pairs {old node, its double without matter}.
-  std::vector<std::array<NodeIndex, 2>> open(std::span<const NodeIndex> path, std::int32_t piece, double gap);
+  std::vector<std::array<NodeIndex, 2>> open(std::span<const NodeIndex> path, PieceIndex piece, double gap);
   /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
   void move(const std::vector<Parcel>& parcels);
   /// Moves at once; `fraction` of what `from` has now.
@@ -90,9 +90,9 @@ private:
   Cloud<2> cloud_;
   NodeProperties node_;
   std::size_t old_nodes_;
-  std::int32_t free_piece_;
+  PieceIndex free_piece_;
   IndexedVector<NodeIndex, NodeIndex> next_, previous_; ///< along the boundary
-  IndexedVector<NodeIndex, std::int32_t> piece_;        ///< of the facet that leaves it
+  IndexedVector<NodeIndex, PieceIndex> piece_;          ///< of the facet that leaves it
   std::vector<NodeIndex> loop_;                         ///< a node of each loop, in order
   IndexedVector<NodeIndex, NodeIndex> old_of_;          ///< number at the start; none: inserted
   IndexedVector<NodeIndex, Row> parcels_, labels_;      ///< empty: the old node itself, if there was one

@@ -15,10 +15,10 @@ namespace cnem::app {
 namespace {
 
 /// The piece that new faces belong to.
-std::int32_t fracture_piece(Cloud<2>& cloud) {
+PieceIndex fracture_piece(Cloud<2>& cloud) {
   constexpr const char* name = input::Adaptation::fracture_piece;
   const auto found = std::find(cloud.piece_names.begin(), cloud.piece_names.end(), name);
-  const auto piece = static_cast<std::int32_t>(found - cloud.piece_names.begin());
+  const auto piece = as<PieceIndex>(found - cloud.piece_names.begin());
   if (found == cloud.piece_names.end()) cloud.piece_names.emplace_back(name);
   return piece;
 }

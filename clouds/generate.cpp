@@ -52,7 +52,7 @@ void warn_of_short_edges(const Cloud<2>& cloud, const SpacingField& spacing,
     double length = 0.0;
     Vec2 where{0, 0};
   };
-  std::map<std::int32_t, Worst> worst;
+  std::map<PieceIndex, Worst> worst;
   for (const Facet<2>& f : cloud.facets) {
     const Vec2 a = cloud.position[f.node[0]], b = cloud.position[f.node[1]];
     const double length = (b - a).norm(), ratio = length / spacing.at(0.5 * (a + b));
@@ -60,10 +60,10 @@ void warn_of_short_edges(const Cloud<2>& cloud, const SpacingField& spacing,
       worst[f.piece] = {ratio, length, 0.5 * (a + b)};
   }
   for (const auto& [piece, edge] : worst)
-    warnings.push_back(fmt::format(
-        "boundary piece '{}' has an edge of {:.3g} m near {}, where the spacing is "
-        "{:.3g} m: refine there, or the stable step suffers",
-        cloud.piece_names[index_of(piece)], edge.length, place_text(edge.where), spacing.at(edge.where)));
+    warnings.push_back(
+        fmt::format("boundary piece '{}' has an edge of {:.3g} m near {}, where the spacing is "
+                    "{:.3g} m: refine there, or the stable step suffers",
+                    cloud.piece_names[piece], edge.length, place_text(edge.where), spacing.at(edge.where)));
 }
 
 /// Arcs that are so few chords that the body is another one.

@@ -91,13 +91,11 @@ std::vector<double> share_out(const CurvePiece& piece, const SpacingField& spaci
 
 } // namespace
 
-std::int32_t BoundaryChains::piece(const std::string& name) {
+PieceIndex BoundaryChains::piece(const std::string& name) {
   const auto found = std::ranges::find(piece_names, name);
-  if (found == piece_names.end()) {
-    piece_names.push_back(name);
-    return static_cast<std::int32_t>(piece_names.size()) - 1;
-  }
-  return static_cast<std::int32_t>(found - piece_names.begin());
+  const auto piece = as<PieceIndex>(found - piece_names.begin());
+  if (found == piece_names.end()) piece_names.push_back(name);
+  return piece;
 }
 
 double domain_size(const DomainShape& domain) {
@@ -246,7 +244,8 @@ BoundaryChains discretise_boundary(const DomainShape& domain, const SpacingField
 
 Cloud<2> assemble_boundary(const BoundaryChains& chains) {
   struct HalfEdge {
-    std::int32_t from, to, piece;
+    std::int32_t from, to;
+    PieceIndex piece;
     std::int32_t opposite = -1; ///< the other face of the same crack edge
     std::int32_t next = -1;
     NodeIndex start_node = NodeIndex::none;
@@ -257,7 +256,7 @@ Cloud<2> assemble_boundary(const BoundaryChains& chains) {
       const std::int32_t a = chain.vertex[k - 1], b = chain.vertex[k];
       const auto e = static_cast<std::int32_t>(edges.size());
       edges.push_back({a, b, chain.piece});
-      if (chain.back < 0) continue;
+      if (!exists(chain.back)) continue;
       edges.back().opposite = e + 1;
       edges.push_back({b, a, chain.back});
       edges.back().opposite = e;
@@ -297,10 +296,10 @@ Cloud<2> assemble_boundary(const BoundaryChains& chains) {
     nodes.push_back(node);
     HalfEdge& next = edges[std::size_t(edge.next)];
     if (exists(next.start_node))
-      throw GeometryError(fmt::format(
-          "the boundary '{}' runs over another part of itself at {}; expected curves "
-          "that meet nothing",
-          chains.piece_names[std::size_t(next.piece)], place_text(chains.vertex[std::size_t(edge.to)])));
+      throw GeometryError(
+          fmt::format("the boundary '{}' runs over another part of itself at {}; expected curves "
+                      "that meet nothing",
+                      chains.piece_names[next.piece], place_text(chains.vertex[std::size_t(edge.to)])));
     next.start_node = node;
   }
   std::vector<bool> done(edges.size(), false);

@@ -7,17 +7,17 @@ namespace cnem::clouds {
 /// Consecutive vertices along one named piece of boundary.
 struct Chain {
   std::vector<std::int32_t> vertex;
-  std::int32_t piece = 0; ///< name of the edges that run along the chain (domain on their left)
-  std::int32_t back = -1; ///< cracks: name of the edges that run back along it; −1: none do
+  PieceIndex piece{};                 ///< of the edges that run along the chain (domain on their left)
+  PieceIndex back = PieceIndex::none; ///< cracks: of the edges that run back along it; none where none do
 };
 
 struct BoundaryChains {
   std::vector<Vec2> vertex; ///< m; each point once, crack or not
   std::vector<Chain> chains;
-  std::vector<std::string> piece_names;
+  IndexedVector<PieceIndex, std::string> piece_names;
 
-  /// Index of a piece name, added when it is new.
-  std::int32_t piece(const std::string& name);
+  /// The piece of a name, added when it is new.
+  PieceIndex piece(const std::string& name);
 };
 
 /// Where a crack meets the outline or a hole.

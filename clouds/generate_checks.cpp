@@ -70,8 +70,7 @@ void check_against_boundary(const Crack& crack, const std::array<bool, 2>& open,
             "({:.3g} m) away, or to end exactly on it, not at a small angle",
             crack.name,
             gap.distance > 0.0 ? fmt::format("comes within {:.3g} m of", gap.distance) : "crosses",
-            outline.piece_names[std::size_t(f.piece)], place_text(gap.where),
-            clearance * spacing.at(gap.where)));
+            outline.piece_names[f.piece], place_text(gap.where), clearance * spacing.at(gap.where)));
     }
     for (const Vec2& x : {part.a, part.b})
       if (!tree.inside(x))

@@ -59,7 +59,7 @@ TetrahedralBlock tetrahedral_block(const Vec<3>& size, const std::array<int, 3>&
           at[index_of(b)] = second + dv;
           return index(at[0], at[1], at[2]);
         };
-        const std::int32_t piece = 2 * axis + (high ? 1 : 0);
+        const auto piece = as<PieceIndex>(2 * axis + (high ? 1 : 0));
         for (const bool upper : {false, true}) {
           std::array<NodeIndex, 3> corner{node(0, 0), upper ? node(1, 1) : node(1, 0),
                                           upper ? node(0, 1) : node(1, 1)};

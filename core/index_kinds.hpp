@@ -9,6 +9,7 @@ enum class NodeIndex : std::int32_t { none = -1 };         ///< node of a cloud,
 enum class PointIndex : std::int32_t { none = -1 };        ///< stress point: row of an operator
 enum class SimplexIndex : std::int32_t { none = -1 };      ///< triangle or tetrahedron
 enum class CloudFacetIndex : std::int32_t { none = -1 };   ///< facet of the boundary of a cloud
+enum class PieceIndex : std::int32_t { none = -1 };        ///< named piece of the boundary of a cloud
 enum class FacetIndex : std::int32_t { none = -1 };        ///< facet of the surface that contact sees
 enum class BoundaryNodeIndex : std::int32_t { none = -1 }; ///< in contact's list of the nodes on the boundary
 enum class ToolIndex : std::int32_t { none = -1 };         ///< rigid tool

@@ -314,7 +314,7 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
   const auto piece = std::find(pieces.begin(), pieces.end(), input::Adaptation::fracture_piece);
   CutSheet sheet{positions(shot.state.node.position),
                  shot.cloud.facets,
-                 piece == pieces.end() ? -1 : static_cast<std::int32_t>(piece - pieces.begin()),
+                 piece == pieces.end() ? PieceIndex::none : as<PieceIndex>(piece - pieces.begin()),
                  {},
                  shot.approximation.node_volume,
                  nodes_on_planes(supports, tools.direction, shot.state.node.size()),

@@ -16,11 +16,11 @@ namespace cnem::evaluate {
 struct CutSheet {
   std::vector<Vec2> position; ///< [node] m
   const IndexedVector<CloudFacetIndex, Facet<2>>& facets;
-  std::int32_t fracture_piece = -1;  ///< index of the boundary piece that separation makes; −1: none
-  std::vector<std::int32_t> part;    ///< [node] connected part
-  const Field& volume;               ///< [node] share of the volume
-  std::vector<char> on_plane;        ///< [node] on a plane of symmetry along the cutting direction
-  std::vector<Vec2> initial_outline; ///< m, closed polygon of the sheet before
+  PieceIndex fracture_piece = PieceIndex::none; ///< that separation makes
+  std::vector<std::int32_t> part;               ///< [node] connected part
+  const Field& volume;                          ///< [node] share of the volume
+  std::vector<char> on_plane;                   ///< [node] on a plane of symmetry along the cutting direction
+  std::vector<Vec2> initial_outline;            ///< m, closed polygon of the sheet before
 };
 
 /// Tools as they stand, m.

@@ -93,7 +93,7 @@ std::vector<CrackTip> find_tips(const Cloud<2>& cloud, const std::vector<CrackPa
       tip.clearance = std::numeric_limits<double>::infinity();
       double edges = 0.0;
       for (const Facet<2>& facet : cloud.facets) {
-        const std::string& piece = cloud.piece_names[index_of(facet.piece)];
+        const std::string& piece = cloud.piece_names[facet.piece];
         const Vec2 &a = cloud.position[facet.node[0]], &b = cloud.position[facet.node[1]];
         if (!is_face(piece, crack.name)) {
           tip.clearance = std::min(tip.clearance, distance_to_segment(tip.position, a, b));

@@ -15,7 +15,7 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
   std::vector<std::int32_t> facets;
   for (const Facet<dim>& facet : conditions_.cloud.facets) {
     for (const NodeIndex i : facet.node) facets.push_back(as<std::int32_t>(i));
-    facets.push_back(facet.piece);
+    facets.push_back(as<std::int32_t>(facet.piece));
   }
   std::size_t n = node.size();
   archive.integer("solver/nodes", n);
@@ -26,7 +26,7 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
     for (std::size_t at = 0; at + dim < facets.size(); at += dim + 1) {
       Facet<dim> facet;
       for (std::size_t a = 0; a < dim; ++a) facet.node[a] = as<NodeIndex>(facets[at + a]);
-      facet.piece = facets[at + dim];
+      facet.piece = as<PieceIndex>(facets[at + dim]);
       conditions_.cloud.facets.push_back(facet);
     }
     for (FieldTable* table : node_tables()) table->rest(n);

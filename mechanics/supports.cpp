@@ -17,7 +17,7 @@ Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
 template<int dim> void Supports<dim>::resample(const Resampling<dim>& change) {
   for (Support<dim>& support : support_)
     support.nodes = renumbered(change, std::span<const NodeIndex>(support.nodes),
-                               std::span<const std::int32_t>(support.pieces));
+                               std::span<const PieceIndex>(support.pieces));
   resolve(change.cloud.position.size());
 }
 

@@ -22,7 +22,7 @@ template<int dim> struct Support {
   Vec<dim> direction; ///< unit vector of the prescribed component
   TimeTable value;    ///< m/s or m along `direction`; unused for symmetry
   std::vector<NodeIndex> nodes;
-  std::vector<std::int32_t> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
+  std::vector<PieceIndex> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
 };
 
 /// All supports of a run, resolved into orthonormal prescribed directions for each node.

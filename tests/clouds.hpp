@@ -44,7 +44,7 @@ inline void add_loop(Cloud<2>& cloud, const std::vector<Vec2>& corners, double s
   }
   for (std::size_t i = index_of(first); i < cloud.position.size(); ++i)
     cloud.facets.push_back(
-        {{as<NodeIndex>(i), i + 1 < cloud.position.size() ? as<NodeIndex>(i + 1) : first}, 0});
+        {{as<NodeIndex>(i), i + 1 < cloud.position.size() ? as<NodeIndex>(i + 1) : first}, {}});
 }
 
 /// Declares coincident boundary nodes as twins.

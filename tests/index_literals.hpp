@@ -6,6 +6,7 @@ namespace cnem::testing::literals {
 
 constexpr NodeIndex operator""_node(unsigned long long number) { return as<NodeIndex>(number); }
 constexpr SimplexIndex operator""_simplex(unsigned long long number) { return as<SimplexIndex>(number); }
+constexpr PieceIndex operator""_piece(unsigned long long number) { return as<PieceIndex>(number); }
 constexpr ToolIndex operator""_tool(unsigned long long number) { return as<ToolIndex>(number); }
 
 } // namespace cnem::testing::literals

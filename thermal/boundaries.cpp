@@ -21,7 +21,7 @@ std::array<double, dim> areas(Space space, const Facet<dim>& facet, const Fields
 template<int dim> void ThermalBoundaries<dim>::resample(const Resampling<dim>& change) {
   for (FixedTemperature& fixed : fixed_)
     fixed.nodes = renumbered(change, std::span<const NodeIndex>(fixed.nodes),
-                             std::span<const std::int32_t>(fixed.pieces));
+                             std::span<const PieceIndex>(fixed.pieces));
   resample(change.cloud);
 }
 

@@ -18,7 +18,7 @@ struct FixedTemperature {
   std::string name;
   TimeTable value;
   std::vector<NodeIndex> nodes;
-  std::vector<std::int32_t> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
+  std::vector<PieceIndex> pieces{}; ///< boundary pieces whose nodes are all held, also new ones
 };
 
 /// Heat flux into the body, W/m² of current boundary.

@@ -110,15 +110,15 @@ std::vector<std::array<NodeIndex, 2>> matching_nodes(const input::Case& input, c
 
 template<int dim>
 std::vector<Facet<dim>> facets_of(const Cloud<dim>& cloud, const std::vector<std::string>& pieces) {
-  std::vector<bool> wanted(cloud.piece_names.size(), false);
-  for (std::size_t p = 0; p < cloud.piece_names.size(); ++p)
+  IndexedVector<PieceIndex, bool> wanted(cloud.piece_names.size(), false);
+  for (const PieceIndex p : cloud.piece_names.indices())
     for (const std::string& piece : pieces)
       if (const std::string& name = cloud.piece_names[p];
           name == piece || name == piece + "+" || name == piece + "-")
         wanted[p] = true;
   std::vector<Facet<dim>> facets;
   std::copy_if(cloud.facets.begin(), cloud.facets.end(), std::back_inserter(facets),
-               [&](const Facet<dim>& facet) { return wanted[index_of(facet.piece)]; });
+               [&](const Facet<dim>& facet) { return wanted[facet.piece]; });
   return facets;
 }
 

@@ -82,7 +82,7 @@ void add_condition(const input::Case& input, const input::BoundaryCondition& spe
   std::vector<NodeIndex> nodes = nodes_of(facets);
   for (const NodeIndex node : nodes_at(input, spec, cloud))
     if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
-  const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(facets));
+  const std::vector<PieceIndex> pieces = pieces_of(std::span<const Facet<dim>>(facets));
   using Kind = typename Support<dim>::Kind;
   if (spec.symmetry) {
     // One plane per straight piece: pieces of one condition may face different ways.

@@ -173,7 +173,7 @@ std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSol
   for (const input::Crack& crack : model.input.domain.cracks) {
     std::map<NodeIndex, Vec2> normal; // of nodes on the left face, out of the right one
     for (const Facet<2>& facet : cloud.facets)
-      if (cloud.piece_names[index_of(facet.piece)] == crack.name + "+")
+      if (cloud.piece_names[facet.piece] == crack.name + "+")
         for (const NodeIndex i : facet.node)
           normal.try_emplace(i, Vec2::Zero()).first->second +=
               left_normal(cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).normalized();

@@ -11,7 +11,9 @@
 
 namespace {
 
+using cnem::as;
 using cnem::Cloud;
+using cnem::NodeIndex;
 
 /// About n nodes in the unit square, jittered by 0.3 of the spacing, in Hilbert order.
 Cloud<2> jittered_square(std::int64_t n) {
@@ -25,7 +27,8 @@ Cloud<2> jittered_square(std::int64_t n) {
   for (int k = 0; k < m; ++k) cloud.position.emplace_back(1.0, k * h);
   for (int k = 0; k < m; ++k) cloud.position.emplace_back(1.0 - k * h, 1.0);
   for (int k = 0; k < m; ++k) cloud.position.emplace_back(0.0, 1.0 - k * h);
-  for (int k = 0; k < 4 * m; ++k) cloud.facets.push_back({{k, (k + 1) % (4 * m)}, 0});
+  for (int k = 0; k < 4 * m; ++k)
+    cloud.facets.push_back({{as<NodeIndex>(k), as<NodeIndex>((k + 1) % (4 * m))}, {}});
   for (int y = 1; y < m; ++y)
     for (int x = 1; x < m; ++x)
       cloud.position.emplace_back((x + jitter(random)) * h, (y + jitter(random)) * h);

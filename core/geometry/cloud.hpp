@@ -15,7 +15,7 @@ namespace cnem {
 /// left; in 3D a triangle whose normal points outwards.
 template<int dim> struct Facet {
   std::array<NodeIndex, dim> node;
-  std::int32_t piece = 0; ///< index into Cloud::piece_names
+  PieceIndex piece{};
 };
 
 /// Nodes, boundary and named boundary pieces. Positions in m.
@@ -26,10 +26,10 @@ template<int dim> struct Facet {
 /// positions, declared in `twins`; the nodes at its tips are single. Coincident nodes that are not declared
 /// are an error.
 template<int dim> struct Cloud {
-  IndexedVector<NodeIndex, Vec<dim>> position;       ///< m
-  IndexedVector<CloudFacetIndex, Facet<dim>> facets; ///< the whole boundary, loop after loop
-  std::vector<std::string> piece_names;              ///< names of boundary pieces
-  std::vector<std::array<NodeIndex, 2>> twins;       ///< pairs of nodes that coincide on purpose
+  IndexedVector<NodeIndex, Vec<dim>> position;        ///< m
+  IndexedVector<CloudFacetIndex, Facet<dim>> facets;  ///< the whole boundary, loop after loop
+  IndexedVector<PieceIndex, std::string> piece_names; ///< of the boundary
+  std::vector<std::array<NodeIndex, 2>> twins;        ///< pairs of nodes that coincide on purpose
 
   int nodes() const { return static_cast<int>(position.size()); }
 };

@@ -52,7 +52,7 @@ void carry_label(const NodeRows& labels, std::vector<std::int32_t>& value) {
 }
 
 template<int dim>
-std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<const std::int32_t> pieces) {
+std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<const PieceIndex> pieces) {
   std::vector<Facet<dim>> facets;
   for (const Facet<dim>& facet : cloud.facets)
     if (std::find(pieces.begin(), pieces.end(), facet.piece) != pieces.end()) facets.push_back(facet);
@@ -61,7 +61,7 @@ std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<cons
 
 template<int dim>
 std::vector<NodeIndex> renumbered(const Resampling<dim>& change, std::span<const NodeIndex> nodes,
-                                  std::span<const std::int32_t> pieces) {
+                                  std::span<const PieceIndex> pieces) {
   std::vector<NodeIndex> list;
   for (const NodeIndex i : nodes)
     if (exists(change.new_of[i])) list.push_back(change.new_of[i]);
@@ -72,8 +72,8 @@ std::vector<NodeIndex> renumbered(const Resampling<dim>& change, std::span<const
   return list;
 }
 
-template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>> facets) {
-  std::vector<std::int32_t> pieces;
+template<int dim> std::vector<PieceIndex> pieces_of(std::span<const Facet<dim>> facets) {
+  std::vector<PieceIndex> pieces;
   for (const Facet<dim>& facet : facets) pieces.push_back(facet.piece);
   std::sort(pieces.begin(), pieces.end());
   pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
@@ -81,18 +81,18 @@ template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>
 }
 
 template<int dim> void renew_facets(const Cloud<dim>& cloud, std::vector<Facet<dim>>& facets) {
-  const std::vector<std::int32_t> pieces = pieces_of(std::span<const Facet<dim>>(facets));
-  facets = facets_of_pieces(cloud, std::span<const std::int32_t>(pieces));
+  const std::vector<PieceIndex> pieces = pieces_of(std::span<const Facet<dim>>(facets));
+  facets = facets_of_pieces(cloud, std::span<const PieceIndex>(pieces));
 }
 
-template std::vector<Facet<2>> facets_of_pieces(const Cloud<2>&, std::span<const std::int32_t>);
+template std::vector<Facet<2>> facets_of_pieces(const Cloud<2>&, std::span<const PieceIndex>);
 template std::vector<NodeIndex> renumbered(const Resampling<2>&, std::span<const NodeIndex>,
-                                           std::span<const std::int32_t>);
-template std::vector<std::int32_t> pieces_of(std::span<const Facet<2>>);
-template std::vector<Facet<3>> facets_of_pieces(const Cloud<3>&, std::span<const std::int32_t>);
+                                           std::span<const PieceIndex>);
+template std::vector<PieceIndex> pieces_of(std::span<const Facet<2>>);
+template std::vector<Facet<3>> facets_of_pieces(const Cloud<3>&, std::span<const PieceIndex>);
 template std::vector<NodeIndex> renumbered(const Resampling<3>&, std::span<const NodeIndex>,
-                                           std::span<const std::int32_t>);
-template std::vector<std::int32_t> pieces_of(std::span<const Facet<3>>);
+                                           std::span<const PieceIndex>);
+template std::vector<PieceIndex> pieces_of(std::span<const Facet<3>>);
 template void renew_facets(const Cloud<2>&, std::vector<Facet<2>>&);
 template void renew_facets(const Cloud<3>&, std::vector<Facet<3>>&);
 

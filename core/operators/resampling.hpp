@@ -52,13 +52,13 @@ void carry_label(const NodeRows& labels, std::vector<std::int32_t>& value);
 
 /// Which facets and nodes a condition holds after a change of the cloud.
 template<int dim>
-std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<const std::int32_t> pieces);
+std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<const PieceIndex> pieces);
 /// Old nodes that are still there, and all nodes of the given pieces; in increasing order.
 template<int dim>
 std::vector<NodeIndex> renumbered(const Resampling<dim>& change, std::span<const NodeIndex> nodes,
-                                  std::span<const std::int32_t> pieces);
+                                  std::span<const PieceIndex> pieces);
 /// The pieces of a list of facets, each once, in increasing order.
-template<int dim> std::vector<std::int32_t> pieces_of(std::span<const Facet<dim>> facets);
+template<int dim> std::vector<PieceIndex> pieces_of(std::span<const Facet<dim>> facets);
 /// Replaces the facets that a condition holds by those of a new cloud on the same pieces.
 template<int dim> void renew_facets(const Cloud<dim>& cloud, std::vector<Facet<dim>>& facets);
 

@@ -2,10 +2,13 @@
 #include "adapt/resample.hpp"
 #include "core/index.hpp"
 #include "tests/conservation/blank.hpp"
+#include "tests/index_literals.hpp"
 
 #include <gtest/gtest.h>
 
 namespace cnem::adapt {
+
+using namespace testing::literals;
 namespace {
 
 constexpr double h = 0.1;
@@ -30,7 +33,7 @@ struct Waisted : Blank {
       if (std::abs(cloud.position[i].x() - 1.0) < 0.15) node.broken[i] = broken;
   }
   /// Nothing else than the cuts through films.
-  Resampling<2> cut(PassReport& report, SplitRules rules = {.piece = 1}) const {
+  Resampling<2> cut(PassReport& report, SplitRules rules = {.piece = 1_piece}) const {
     WorkingCloud work(cloud, node);
     Structure structure = build_structure(cloud);
     cut_films(work, structure, rules, report);
@@ -63,7 +66,7 @@ TEST(Film, broken_and_thin_is_cut_at_its_waist) {
   EXPECT_NEAR(testing::area(change.cloud), testing::area(b.cloud), 1e-4 * h * h);
   expect_all_handed_on(change, b.node.mass.size());
   for (const Facet<2>& facet : change.cloud.facets) {
-    if (facet.piece != 1) continue;
+    if (facet.piece != 1_piece) continue;
     for (const NodeIndex i : facet.node) EXPECT_NEAR(change.cloud.position[i].x(), 1.0, 1e-3);
   }
 }
@@ -77,7 +80,7 @@ TEST(Film, is_cut_straight_across_where_a_node_stands_over_a_facet) {
   EXPECT_EQ(testing::loops(change.cloud), 2);
   expect_all_handed_on(change, b.node.mass.size());
   for (const Facet<2>& facet : change.cloud.facets) {
-    if (facet.piece != 1) continue;
+    if (facet.piece != 1_piece) continue;
     for (const NodeIndex i : facet.node) EXPECT_NEAR(change.cloud.position[i].x(), 1.0, 1e-3);
   }
 }
@@ -95,7 +98,7 @@ TEST(Film, sound_or_thick_enough_stays_whole) {
 TEST(Film, whose_end_would_be_a_crumb_stays_whole) {
   const Waisted b(0.1 * h, 2.0);
   PassReport report;
-  b.cut(report, {.piece = 1, .least_loop = 100});
+  b.cut(report, {.piece = 1_piece, .least_loop = 100});
   EXPECT_EQ(report.films, 0);
 }
 
@@ -103,7 +106,7 @@ TEST(Film, that_was_cut_goes_through_the_rest_of_the_pass) {
   const Waisted b(0.1 * h, 2.0);
   PassReport report;
   const Resampling<2> change =
-      resample(b.cloud, structure_if_valid(b.cloud), b.node, {.split = {.piece = 1}}, report);
+      resample(b.cloud, structure_if_valid(b.cloud), b.node, {.split = {.piece = 1_piece}}, report);
   EXPECT_EQ(report.cuts, 1);
   EXPECT_EQ(report.undone, 0);
   EXPECT_EQ(testing::loops(change.cloud), 2);

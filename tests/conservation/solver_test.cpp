@@ -214,12 +214,12 @@ TEST(Audit, a_uniform_state_stays_uniform) {
 TEST(Audit, supports_and_loads_follow_the_boundary) {
   Cloud<2> cloud = rectangle(1e-3, 1e-3, 1e-4, Lattice::hexagonal, 0.1);
   Problem<2> model = model_of(cloud, Method::cnem, steel());
-  model.supports =
-      Supports<2>({{"left", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3), {3}}},
-                  static_cast<std::size_t>(cloud.nodes()));
+  model.supports = Supports<2>(
+      {{"left", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3_piece), {3_piece}}},
+      static_cast<std::size_t>(cloud.nodes()));
   std::vector<Facet<2>> right;
   for (const Facet<2>& facet : cloud.facets)
-    if (facet.piece == 1) right.push_back(facet);
+    if (facet.piece == 1_piece) right.push_back(facet);
   model.loads = Loads<2>({{"pull", {TimeTable(1e6), TimeTable()}, right}}, {}, {}, cloud.position);
   ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
   for (int n = 0; n < 3; ++n) solver.advance(solver.stable_step().dt);

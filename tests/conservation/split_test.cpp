@@ -3,10 +3,13 @@
 #include "cnem/scni.hpp"
 #include "core/index.hpp"
 #include "tests/conservation/blank.hpp"
+#include "tests/index_literals.hpp"
 
 #include <gtest/gtest.h>
 
 namespace cnem::adapt {
+
+using namespace testing::literals;
 namespace {
 
 struct BrokenBlank : Blank {
@@ -43,7 +46,7 @@ double total(const Field& f) {
 
 int faces_of(const Cloud<2>& cloud) {
   int faces = 0;
-  for (const Facet<2>& facet : cloud.facets) faces += facet.piece == 1;
+  for (const Facet<2>& facet : cloud.facets) faces += facet.piece == 1_piece;
   return faces;
 }
 
@@ -52,7 +55,7 @@ TEST(Split, leaves_alone_what_is_sound_or_broken_only_in_part) {
     BrokenBlank b;
     b.break_band(0.5, until);
     PassReport report;
-    const Resampling<2> change = b.opened({.piece = 1}, report);
+    const Resampling<2> change = b.opened({.piece = 1_piece}, report);
     EXPECT_EQ(report.cuts, 0);
     EXPECT_EQ(change.cloud.nodes(), b.cloud.nodes());
   }
@@ -62,7 +65,7 @@ TEST(Split, takes_the_body_apart_where_it_is_broken_through) {
   BrokenBlank b;
   b.break_band(0.5, 1.0);
   PassReport report;
-  const Resampling<2> change = b.opened({.piece = 1}, report);
+  const Resampling<2> change = b.opened({.piece = 1_piece}, report);
   EXPECT_EQ(report.cuts, 1);
   EXPECT_GE(report.opened, 6);
   EXPECT_LE(report.opened, 8);
@@ -99,7 +102,7 @@ TEST(Split, masses_fit_the_cells_after_the_pass) {
   b.break_band(0.5, 1.0);
   PassReport report;
   const Resampling<2> change =
-      resample(b.cloud, structure_if_valid(b.cloud), b.node, {.split = {.piece = 1}}, report);
+      resample(b.cloud, structure_if_valid(b.cloud), b.node, {.split = {.piece = 1_piece}}, report);
   ASSERT_EQ(report.cuts, 1);
   Field mass = b.node.mass;
   carry_sum(change.parcels, mass);
@@ -115,7 +118,7 @@ TEST(Split, faces_are_smooth_and_end_on_the_boundary) {
   BrokenBlank b(0.05);
   b.break_band(0.5, 1.0);
   PassReport report;
-  const Resampling<2> change = b.opened({.piece = 1}, report);
+  const Resampling<2> change = b.opened({.piece = 1_piece}, report);
   ASSERT_EQ(report.cuts, 1);
   const Cloud<2>& cloud = change.cloud;
   std::vector<const Facet<2>*> leaving(cloud.position.size(), nullptr);
@@ -123,14 +126,14 @@ TEST(Split, faces_are_smooth_and_end_on_the_boundary) {
   int turns = 0;
   for (const Facet<2>& facet : cloud.facets) {
     const Facet<2>& next = *leaving[index_of(facet.node[1])];
-    if (facet.piece != 1) {
-      if (next.piece == 1) {
+    if (facet.piece != 1_piece) {
+      if (next.piece == 1_piece) {
         const double y = cloud.position[facet.node[1]].y();
         EXPECT_NEAR(std::min(std::abs(y), std::abs(y - 0.6)), 0.0, 1e-15);
       }
       continue;
     }
-    if (next.piece != 1) continue;
+    if (next.piece != 1_piece) continue;
     const Vec2 in = cloud.position[facet.node[1]] - cloud.position[facet.node[0]],
                out = cloud.position[next.node[1]] - cloud.position[next.node[0]];
     EXPECT_GT(in.dot(out), 0.85 * in.norm() * out.norm()); // a path of the lattice turns by 60 degrees
@@ -150,9 +153,9 @@ TEST(Split, takes_no_crumbs_and_no_skin_off) {
                : b.cloud.position[i].norm() < 1e-9)
         b.node.broken[i] = 0.0;
     PassReport report;
-    b.opened({.piece = 1}, report);
+    b.opened({.piece = 1_piece}, report);
     EXPECT_EQ(report.cuts, 0) << skin;
-    b.opened({.piece = 1, .part = 0.0, .least_angle = 0.0, .least_loop = 0}, report);
+    b.opened({.piece = 1_piece, .part = 0.0, .least_angle = 0.0, .least_loop = 0}, report);
     EXPECT_GE(report.cuts, 1) << skin;
   }
 }
@@ -162,7 +165,7 @@ TEST(Split, opens_the_bridge_between_a_hole_and_the_edge) {
   ASSERT_EQ(testing::loops(b.cloud), 2);
   b.break_band(0.5, 0.3);
   PassReport report;
-  const Resampling<2> change = b.opened({.piece = 1}, report);
+  const Resampling<2> change = b.opened({.piece = 1_piece}, report);
   EXPECT_EQ(report.cuts, 1);
   EXPECT_EQ(testing::loops(change.cloud), 1);
   EXPECT_EQ(faces_of(change.cloud), 2 * report.opened);
@@ -176,7 +179,7 @@ TEST(Split, resampling_goes_on_with_the_parts) {
   BrokenBlank b;
   b.break_band(0.5, 1.0);
   PassReport report;
-  const Resampling<2> parted = b.opened({.piece = 1}, report);
+  const Resampling<2> parted = b.opened({.piece = 1_piece}, report);
   carry_mean(parted.parcels, b.node.mass, b.node.jacobian);
   carry_sum(parted.parcels, b.node.mass);
   b.node.broken.clear();

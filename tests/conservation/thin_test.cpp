@@ -2,6 +2,7 @@
 #include "tests/conservation/blank.hpp"
 
 #include "core/index.hpp"
+#include "tests/index_literals.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,8 @@
 #include <tuple>
 
 namespace cnem::adapt {
+
+using namespace testing::literals;
 namespace {
 
 /// Three nodes in the lower side make a slit that narrows upwards.
@@ -140,19 +143,19 @@ TEST(WorkingCloud, ends_of_the_free_piece_may_go) {
   NodeIndex start = NodeIndex::none;
   for (Facet<2>& facet : b.cloud.facets) {
     const double x = b.cloud.position[facet.node[0]].x(), y = b.cloud.position[facet.node[0]].y();
-    if (y == 0.0 && x > 0.39 && x < 0.59) facet.piece = 1;
+    if (y == 0.0 && x > 0.39 && x < 0.59) facet.piece = 1_piece;
     if (y == 0.0 && std::abs(x - 0.4) < 1e-9) start = facet.node[0];
   }
   const WorkingCloud named(b.cloud, b.node);
   EXPECT_TRUE(named.ends_piece(start));
-  WorkingCloud work(b.cloud, b.node, 1);
+  WorkingCloud work(b.cloud, b.node, 1_piece);
   EXPECT_FALSE(work.ends_piece(start));
   const NodeIndex before = work.previous(start);
-  EXPECT_EQ(work.piece(before), 0);
+  EXPECT_EQ(work.piece(before), 0_piece);
   work.bypass(start);
-  EXPECT_EQ(work.piece(before), 1) << "the named piece does not grow";
-  for (Facet<2>& facet : b.cloud.facets) facet.piece = facet.node[0] == before ? 0 : 1;
-  EXPECT_TRUE(WorkingCloud(b.cloud, b.node, 1).ends_piece(start)) << "its last facet";
+  EXPECT_EQ(work.piece(before), 1_piece) << "the named piece does not grow";
+  for (Facet<2>& facet : b.cloud.facets) facet.piece = facet.node[0] == before ? 0_piece : 1_piece;
+  EXPECT_TRUE(WorkingCloud(b.cloud, b.node, 1_piece).ends_piece(start)) << "its last facet";
 }
 
 // A notch that another body reaches into.

@@ -95,7 +95,7 @@ Supports<2> supports(const Problem& problem, const Cloud<2>& cloud) {
   std::set<std::pair<NodeIndex, Eigen::Index>> done;
   for (const Problem::Held& held : problem.held)
     for (const Facet<2>& facet : cloud.facets)
-      if (cloud.piece_names[index_of(facet.piece)] == held.piece)
+      if (cloud.piece_names[facet.piece] == held.piece)
         for (const NodeIndex i : facet.node)
           for (const Eigen::Index k : held.components)
             if (done.emplace(i, k).second)
@@ -282,7 +282,7 @@ double cook_tip(const Method& method, const plasticity::Elasticity& elasticity, 
     if ((x - Vec2(48, 52)).norm() < (cloud.position[tip] - Vec2(48, 52)).norm()) tip = i;
   }
   for (const Facet<2>& facet : cloud.facets)
-    if (cloud.piece_names[index_of(facet.piece)] == "right")
+    if (cloud.piece_names[facet.piece] == "right")
       for (const NodeIndex i : facet.node)
         force[1][index_of(i)] +=
             0.5 / 16.0 * (cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).norm();

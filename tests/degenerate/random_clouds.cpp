@@ -53,7 +53,7 @@ void add_loop(Cloud<2>& cloud, const Loop& loop) {
   const auto n = static_cast<std::int32_t>(loop.size());
   for (const Vec2& x : loop) cloud.position.push_back(x);
   for (std::int32_t k = 0; k < n; ++k)
-    cloud.facets.push_back({{as<NodeIndex>(first + k), as<NodeIndex>(first + (k + 1) % n)}, 0});
+    cloud.facets.push_back({{as<NodeIndex>(first + k), as<NodeIndex>(first + (k + 1) % n)}, {}});
 }
 
 /// Declares all coincident nodes twins: the faces of cracks.

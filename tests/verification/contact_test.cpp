@@ -72,8 +72,8 @@ std::vector<Vec2> indent(double angle) {
   const Mat2 R = rotation(angle);
   Cloud<2> cloud = rectangle(4e-3, 2e-3, 2e-4, Lattice::hexagonal, 0.15);
   std::vector<Support<2>> base{
-      {"base n", Support<2>::Kind::velocity, R * Vec2(0, 1), TimeTable(0.0), nodes_on(cloud, 0)},
-      {"base t", Support<2>::Kind::velocity, R * Vec2(1, 0), TimeTable(0.0), nodes_on(cloud, 0)}};
+      {"base n", Support<2>::Kind::velocity, R * Vec2(0, 1), TimeTable(0.0), nodes_on(cloud, 0_piece)},
+      {"base t", Support<2>::Kind::velocity, R * Vec2(1, 0), TimeTable(0.0), nodes_on(cloud, 0_piece)}};
   for (Vec2& x : cloud.position) x = R * x;
   Problem<2> model = model_of(std::move(cloud), Method::cnem, steel_304L());
   model.supports = Supports<2>(std::move(base), static_cast<std::size_t>(model.cloud.nodes()));
@@ -106,7 +106,8 @@ TEST(RotatedTool, gives_rotated_results) {
 TEST(Corner, between_two_nodes_does_not_pass_through) {
   Cloud<2> cloud = rectangle(4e-3, 2e-3, 4e-4, Lattice::square, 0.0);
   Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
-  std::vector<Support<2>> base{{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(cloud, 0)}};
+  std::vector<Support<2>> base{
+      {"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(cloud, 0_piece)}};
   model.supports = Supports<2>(std::move(base), static_cast<std::size_t>(cloud.nodes()));
   // A wedge whose only corner comes down in the middle between two nodes.
   model.contact = contact::RigidContact<2>(
@@ -120,7 +121,8 @@ TEST(Corner, between_two_nodes_does_not_pass_through) {
   const NodeState<2>& node = solver.state().node;
   for (const Facet<2>& facet : solver.conditions().cloud.facets) {
     const auto a = static_cast<std::size_t>(facet.node[0]), b = static_cast<std::size_t>(facet.node[1]);
-    if (facet.piece != 2 || (node.position[0][a] - 1.8e-3) * (node.position[0][b] - 1.8e-3) > 0.0) continue;
+    if (facet.piece != 2_piece || (node.position[0][a] - 1.8e-3) * (node.position[0][b] - 1.8e-3) > 0.0)
+      continue;
     const double s = (1.8e-3 - node.position[0][a]) / (node.position[0][b] - node.position[0][a]);
     EXPECT_LT((1.0 - s) * node.position[1][a] + s * node.position[1][b], tip + 1e-7);
   }

@@ -82,7 +82,7 @@ TEST(ForcePress, comes_to_rest_where_an_elastic_block_carries_its_force) {
     Cloud<2> cloud = rectangle(width, height, 2e-4);
     Problem<2> model = model_of(std::move(cloud), Method::cnem, rod());
     model.supports =
-        Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(model.cloud, 0)}},
+        Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(model.cloud, 0_piece)}},
                     static_cast<std::size_t>(model.cloud.nodes()));
     model.viscosity = {1.2, 1.0};
     std::vector<double> time, value; // from 0 to F without a kink

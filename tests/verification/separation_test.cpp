@@ -123,8 +123,7 @@ TEST(Separation, makes_two_bodies) {
   EXPECT_GE(loops(cloud), 2);
   EXPECT_TRUE(adapt::structure_if_valid(cloud)) << "boundaries cross";
   int faces = 0;
-  for (const Facet<2>& facet : cloud.facets)
-    faces += cloud.piece_names[static_cast<std::size_t>(facet.piece)] == "fracture";
+  for (const Facet<2>& facet : cloud.facets) faces += cloud.piece_names[facet.piece] == "fracture";
   EXPECT_GE(faces, 10);
 }
 

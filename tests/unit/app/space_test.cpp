@@ -61,7 +61,7 @@ TEST(Space, parts_of_a_cylinder_are_cut_where_they_say) {
     EXPECT_LT(found, 1.0) << part;
     EXPECT_GT(found, 0.98) << part; // a polygon of 16 corners a quarter of the way round
     for (const Facet<3>& facet : cloud.facets) {
-      const std::string& piece = cloud.piece_names[index_of(facet.piece)];
+      const std::string& piece = cloud.piece_names[facet.piece];
       for (const NodeIndex i : facet.node) {
         const Vec3& x = cloud.position[i];
         const double off = piece == "bottom" ? x.z()

@@ -67,7 +67,7 @@ TEST(GenerateCracks, EmbeddedCrackHasDoubleFacesAndSingleTips) {
   for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       if (!exists(mesh.facet[t][k])) continue;
-      const std::string& piece = cloud.piece_names[std::size_t(cloud.facets[mesh.facet[t][k]].piece)];
+      const std::string& piece = cloud.piece_names[cloud.facets[mesh.facet[t][k]].piece];
       if (piece.substr(0, 4) != "slit") continue;
       const double side = cross(Vec2(0.6, 0.1), cloud.position[std::size_t(mesh.node[t][k])] - crack.path[0]);
       EXPECT_EQ(side > 0.0, piece == "slit+");

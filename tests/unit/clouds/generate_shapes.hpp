@@ -88,7 +88,7 @@ inline double triangle_area(const Cloud<2>& cloud) {
 inline double piece_length(const Cloud<2>& cloud, const std::string& name) {
   double length = 0.0;
   for (const Facet<2>& f : cloud.facets)
-    if (cloud.piece_names[std::size_t(f.piece)] == name)
+    if (cloud.piece_names[f.piece] == name)
       length += (cloud.position[std::size_t(f.node[1])] - cloud.position[std::size_t(f.node[0])]).norm();
   return length;
 }

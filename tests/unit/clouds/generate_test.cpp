@@ -72,7 +72,7 @@ TEST(GenerateCloud, BoundaryPiecesKeepTheirNamesAndLengths) {
   EXPECT_LT(piece_length(cloud, "fillet"), quarter);
   EXPECT_NEAR(piece_length(cloud, "fillet"), quarter, 2e-3 * quarter);
   for (const Facet<2>& f : cloud.facets)
-    if (cloud.piece_names[std::size_t(f.piece)] == "fillet") {
+    if (cloud.piece_names[f.piece] == "fillet") {
       for (const NodeIndex i : f.node)
         EXPECT_NEAR((cloud.position[std::size_t(i)] - Vec2(0.7, 0.7)).norm(), 0.3, 1e-14);
     }
@@ -81,8 +81,8 @@ TEST(GenerateCloud, BoundaryPiecesKeepTheirNamesAndLengths) {
 TEST(GenerateCloud, ChordsTurnByAtMostTwentyDegreesUnlessShort) {
   const auto chords = [](double radius) {
     const auto cloud = generate_cloud(filleted_square(radius), {0.1, {}}, with(Pattern::hexagonal)).cloud;
-    return std::ranges::count_if(
-        cloud.facets, [&](const Facet<2>& f) { return cloud.piece_names[std::size_t(f.piece)] == "fillet"; });
+    return std::ranges::count_if(cloud.facets,
+                                 [&](const Facet<2>& f) { return cloud.piece_names[f.piece] == "fillet"; });
   };
   EXPECT_EQ(chords(0.2), 5);  // 20° chords are 0.7 h
   EXPECT_EQ(chords(0.1), 3);  // they were 0.35 h: 0.6 h takes over

@@ -77,7 +77,7 @@ TEST(Bodies, a_corner_that_slides_over_a_ridge_is_stopped_by_the_facet_behind_it
   scene.add({0.37, 1.118}, 1.0, {1.0, -0.5});
   const int corner = 25;
   for (int k = 0; k < 3; ++k)
-    scene.facets.push_back({{as<NodeIndex>(corner + k), as<NodeIndex>(corner + (k + 1) % 3)}, 0});
+    scene.facets.push_back({{as<NodeIndex>(corner + k), as<NodeIndex>(corner + (k + 1) % 3)}, {}});
   let_bodies_touch(scene, 0.0);
   for (int n = 0; n < 50; ++n) {
     for (std::size_t i = corner; i < scene.mass.size(); ++i) scene.v[0][i] = 1.0, scene.v[1][i] = -0.5;

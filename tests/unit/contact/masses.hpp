@@ -102,7 +102,7 @@ struct Masses {
   }
   void loop(const std::vector<int>& nodes) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      facets.push_back({{as<NodeIndex>(nodes[i]), as<NodeIndex>(nodes[(i + 1) % nodes.size()])}, 0});
+      facets.push_back({{as<NodeIndex>(nodes[i]), as<NodeIndex>(nodes[(i + 1) % nodes.size()])}, {}});
   }
   /// Four masses of 1 kg/m at the corners of a square body.
   void square(const Vec2& low, double side) {

@@ -7,6 +7,7 @@
 #include "results/output_folder.hpp"
 #include "results/status.hpp"
 #include "tests/clouds.hpp"
+#include "tests/index_literals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,8 @@
 #include <unistd.h>
 
 namespace cnem::evaluate {
+
+using namespace testing::literals;
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -41,7 +44,7 @@ struct Blank {
       if (facet.node[0] < first) continue;
       const Vec2& x = cloud.position[facet.node[0]];
       while (side + 1 < corner.size() && (x - corner[side + 1]).norm() < 1e-12) ++side;
-      facet.piece = std::find(broken.begin(), broken.end(), side) != broken.end() ? 1 : 0;
+      facet.piece = std::find(broken.begin(), broken.end(), side) != broken.end() ? 1_piece : 0_piece;
     }
     Vec2 low = corner.front(), high = low;
     for (const Vec2& x : corner) {
@@ -93,7 +96,7 @@ struct Blank {
   }
 
   CutSheet sheet() const {
-    return {cloud.position, cloud.facets, 1, part, volume, std::vector<char>(part.size(), 0), outline};
+    return {cloud.position, cloud.facets, 1_piece, part, volume, std::vector<char>(part.size(), 0), outline};
   }
   std::vector<ShearedFace> faces() const {
     std::vector<ShearedFace> all;

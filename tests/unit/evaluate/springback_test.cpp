@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 namespace cnem {
+
+using namespace testing::literals;
 namespace {
 
 using testing::Method;
@@ -143,8 +145,9 @@ TEST_P(SpringbackOf, bar_returns_by_stress_over_modulus) {
 TEST_P(SpringbackOf, planes_of_symmetry_stay_and_other_supports_let_go) {
   Loaded bar(testing::rectangle(4.0, 1.0, 0.2), GetParam());
   bar.supports = Supports<2>(
-      {{"symmetry", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3)},
-       {"grip", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(2.0), testing::nodes_on(bar.cloud, 1)}},
+      {{"symmetry", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3_piece)},
+       {"grip", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(2.0),
+        testing::nodes_on(bar.cloud, 1_piece)}},
       index_of(bar.cloud.nodes()));
   bar.stress_everywhere(Vec2(300e6, 0.0).asDiagonal());
   const Springback s = bar.unload();
@@ -261,9 +264,9 @@ TEST(Springback, each_body_returns_for_itself) {
 
 TEST(Springback, round_bar_returns_along_its_axis_and_grows_in_radius) {
   Loaded bar(testing::rectangle(0.5, 2.0, 0.1), Method::cnem, Space::revolution);
-  bar.supports =
-      Supports<2>({{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3)}},
-                  index_of(bar.cloud.nodes()));
+  bar.supports = Supports<2>(
+      {{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3_piece)}},
+      index_of(bar.cloud.nodes()));
   bar.deform(Vec2(0.9, 1.2).asDiagonal(), 0.9);
   bar.stress_everywhere(Vec2(0.0, 210e6).asDiagonal());
   const Springback s = bar.unload();

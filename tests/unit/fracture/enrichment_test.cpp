@@ -131,8 +131,7 @@ TEST_P(Enriched, patch_linear_displacement_is_solved_exactly) {
   std::vector<Support<2>> supports;
   std::set<NodeIndex> held;
   for (const Facet<2>& facet : model.cloud.facets)
-    if (model.cloud.piece_names[static_cast<std::size_t>(facet.piece)] == "side")
-      held.insert(facet.node.begin(), facet.node.end());
+    if (model.cloud.piece_names[facet.piece] == "side") held.insert(facet.node.begin(), facet.node.end());
   for (const NodeIndex i : held)
     for (Eigen::Index k = 0; k < 2; ++k)
       supports.push_back({"side",

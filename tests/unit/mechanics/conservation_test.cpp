@@ -36,7 +36,8 @@ TEST_P(Conservation, spinning_block_keeps_energy_and_momenta) {
 
 TEST_P(Conservation, plastic_impact_closes_the_ledger) {
   Cloud<2> cloud = rectangle(4e-3, 8e-3, 4e-4);
-  std::vector<Support<2>> wall{{"wall", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(cloud, 0)}};
+  std::vector<Support<2>> wall{
+      {"wall", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(cloud, 0_piece)}};
   Problem<2> model = model_of(cloud, GetParam(), steel_304L());
   model.supports = Supports<2>(std::move(wall), static_cast<std::size_t>(cloud.nodes()));
   model.viscosity = {1.2, 0.06};

@@ -24,7 +24,8 @@ inline Cloud<2> graded_rectangle(double a, double b, double coarse, double fine,
 inline Problem<2> graded_shearing(double speed, double coarse = 4e-4) {
   const double fine = coarse / 8.0, clearance = 1e-4, edge = 4e-3;
   Cloud<2> cloud = graded_rectangle(10e-3, 4e-3, coarse, fine, {{edge, 0}, {edge, 4e-3}});
-  std::vector<Support<2>> axis{{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}};
+  std::vector<Support<2>> axis{
+      {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3_piece)}};
   Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.supports = Supports<2>(std::move(axis), static_cast<std::size_t>(cloud.nodes()));
   const contact::Friction friction = contact::TrescaLimited{0.1, 0.5};

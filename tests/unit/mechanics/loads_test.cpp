@@ -31,7 +31,7 @@ TEST(Loads, traction_accelerates_by_force_over_mass) {
   Cloud<2> cloud = rectangle(2e-3, 1e-3, 2.5e-4);
   std::vector<Facet<2>> right;
   for (const Facet<2>& facet : cloud.facets)
-    if (facet.piece == 1) right.push_back(facet);
+    if (facet.piece == 1_piece) right.push_back(facet);
   Problem<2> model = model_of(cloud, Method::cnem, steel());
   model.loads = Loads<2>({{"pull", {TimeTable(2e6), TimeTable(-1e6)}, right}}, {}, {}, cloud.position);
   ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
@@ -67,9 +67,9 @@ TEST(Supports, ramps_and_displacement_tables_are_followed_exactly) {
   Cloud<2> cloud = rectangle(2e-3, 1e-3, 2.5e-4);
   const TimeTable ramp({0.0, 1e-6}, {0.0, 20.0}), path({0.0, 2e-6, 4e-6}, {0.0, 3e-5, 1e-5});
   std::vector<Support<2>> supports{
-      {"pull", Support<2>::Kind::velocity, Vec2(1, 0), ramp, nodes_on(cloud, 1)},
-      {"lift", Support<2>::Kind::displacement, Vec2(0, 1), path, nodes_on(cloud, 0)},
-      {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}};
+      {"pull", Support<2>::Kind::velocity, Vec2(1, 0), ramp, nodes_on(cloud, 1_piece)},
+      {"lift", Support<2>::Kind::displacement, Vec2(0, 1), path, nodes_on(cloud, 0_piece)},
+      {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3_piece)}};
   Problem<2> model = model_of(cloud, Method::cnem, steel());
   model.supports = Supports<2>(supports, static_cast<std::size_t>(cloud.nodes()));
   ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
@@ -79,9 +79,9 @@ TEST(Supports, ramps_and_displacement_tables_are_followed_exactly) {
     const auto n = static_cast<std::size_t>(i);
     return solver.state().node.position[k][n] - solver.state().node.initial_position[k][n];
   };
-  for (const NodeIndex i : nodes_on(cloud, 1)) EXPECT_NEAR(moved(i, 0), ramp.integral(t), 1e-15);
-  for (const NodeIndex i : nodes_on(cloud, 0)) EXPECT_NEAR(moved(i, 1), path(t), 1e-15);
-  for (const NodeIndex i : nodes_on(cloud, 3)) EXPECT_EQ(moved(i, 0), 0.0);
+  for (const NodeIndex i : nodes_on(cloud, 1_piece)) EXPECT_NEAR(moved(i, 0), ramp.integral(t), 1e-15);
+  for (const NodeIndex i : nodes_on(cloud, 0_piece)) EXPECT_NEAR(moved(i, 1), path(t), 1e-15);
+  for (const NodeIndex i : nodes_on(cloud, 3_piece)) EXPECT_EQ(moved(i, 0), 0.0);
   EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * std::abs(solver.ledger()["support_work"]));
 }
 
@@ -101,7 +101,8 @@ TEST(Supports, oblique_moving_supports_are_refused) {
 TEST(BulkViscosity, calms_a_shock_books_its_heat_and_shortens_the_step) {
   const auto shock = [](BulkViscosity viscosity, double& overshoot, double& step) {
     Cloud<2> cloud = rectangle(2e-2, 1e-3, 2e-4, Lattice::square, 0.0);
-    std::vector<Support<2>> wall{{"wall", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}};
+    std::vector<Support<2>> wall{
+        {"wall", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3_piece)}};
     std::vector<NodeIndex> all(static_cast<std::size_t>(cloud.nodes()));
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = as<NodeIndex>(i);
     wall.push_back({"guide", Support<2>::Kind::symmetry, Vec2(0, 1), {}, all});

@@ -252,17 +252,17 @@ TEST(LocalSteps, loads_supports_and_ties_act_as_with_the_global_step) {
     const auto n = static_cast<std::size_t>(cloud.nodes());
     std::vector<Facet<2>> right, top;
     for (const Facet<2>& facet : cloud.facets) {
-      if (facet.piece == 1) right.push_back(facet);
-      if (facet.piece == 2) top.push_back(facet);
+      if (facet.piece == 1_piece) right.push_back(facet);
+      if (facet.piece == 2_piece) top.push_back(facet);
     }
     Problem<2> model = model_of(cloud, Method::cnem, steel());
     model.supports =
-        Supports<2>({{"base", Support<2>::Kind::velocity, Vec2(0, 1), ramp(2.0), nodes_on(cloud, 0)},
-                     {"side", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}},
+        Supports<2>({{"base", Support<2>::Kind::velocity, Vec2(0, 1), ramp(2.0), nodes_on(cloud, 0_piece)},
+                     {"side", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3_piece)}},
                     n);
     model.loads = Loads<2>({{"pull", {ramp(4e7), TimeTable(0.0)}, right}}, {{"press", ramp(3e7), top}},
                            {TimeTable(0.0), ramp(-5e6)}, cloud.position);
-    const auto sides = nodes_on(cloud, 1);
+    const auto sides = nodes_on(cloud, 1_piece);
     model.ties = Ties<2>({{sides[2], sides[5]}}, cloud.position);
     model.safety = safety;
     model.local = {.on = local, .least_gain = 0.0};
@@ -304,9 +304,10 @@ TEST(LocalSteps, bodies_of_revolution_follow_the_global_step) {
     Cloud<2> cloud = graded_rectangle(2e-3, 4e-3, 2e-4, 2.5e-5, {{1.8e-3, 0}, {2e-3, 0}});
     Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
     model.method = make(Method::cnem, Space::revolution);
-    model.supports = Supports<2>({{"wall", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(cloud, 0)},
-                                  {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}},
-                                 static_cast<std::size_t>(cloud.nodes()));
+    model.supports =
+        Supports<2>({{"wall", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(cloud, 0_piece)},
+                     {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3_piece)}},
+                    static_cast<std::size_t>(cloud.nodes()));
     model.stabilisation = 0.2;
     model.viscosity = {1.2, 0.06};
     model.local = {.on = local, .least_gain = 0.0};

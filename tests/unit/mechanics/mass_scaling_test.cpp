@@ -78,7 +78,7 @@ Upset upset(const MassScaling& scaling) {
   tool.motion.velocity[1] = TimeTable({0.0, 0.3 * end, 0.5 * end}, {0.0, -0.4, -1.0});
   Problem<2> model = model_of(rectangle(2e-3, 1e-3, 2e-4), Method::cnem, steel_304L());
   model.supports =
-      Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(model.cloud, 0)}},
+      Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(model.cloud, 0_piece)}},
                   static_cast<std::size_t>(model.cloud.nodes()));
   model.contact = contact::RigidContact<2>({tool});
   model.mass_scaling = scaling;

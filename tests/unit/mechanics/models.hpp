@@ -61,13 +61,13 @@ inline Cloud<2> rectangle(double a, double b, double spacing, Lattice lattice = 
     const Vec2 middle = 0.5 * (cloud.position[static_cast<std::size_t>(facet.node[0])] +
                                cloud.position[static_cast<std::size_t>(facet.node[1])]);
     const double distance[4] = {middle.y(), a - middle.x(), b - middle.y(), middle.x()};
-    facet.piece = static_cast<std::int32_t>(std::min_element(distance, distance + 4) - distance);
+    facet.piece = as<PieceIndex>(std::min_element(distance, distance + 4) - distance);
   }
   fill(cloud, lattice, spacing, jitter, 0.5 * spacing, seed);
   return cloud;
 }
 
-inline std::vector<NodeIndex> nodes_on(const Cloud<2>& cloud, std::int32_t piece) {
+inline std::vector<NodeIndex> nodes_on(const Cloud<2>& cloud, PieceIndex piece) {
   std::vector<NodeIndex> nodes;
   for (const Facet<2>& facet : cloud.facets)
     if (facet.piece == piece) nodes.insert(nodes.end(), facet.node.begin(), facet.node.end());

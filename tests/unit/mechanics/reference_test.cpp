@@ -12,7 +12,8 @@ namespace {
 /// A small blank between punch and die, with friction and heat.
 ExplicitSolver<2> small_shearing(double speed) {
   Cloud<2> cloud = rectangle(4e-3, 2e-3, 2e-4, Lattice::hexagonal, 0.1);
-  std::vector<Support<2>> axis{{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3)}};
+  std::vector<Support<2>> axis{
+      {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, nodes_on(cloud, 3_piece)}};
   Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.supports = Supports<2>(std::move(axis), static_cast<std::size_t>(cloud.nodes()));
   model.contact = contact::RigidContact<2>(

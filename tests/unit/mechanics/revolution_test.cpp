@@ -129,7 +129,7 @@ TEST_P(Revolution, solid_bar_under_lateral_pressure_is_exact) {
   const Cloud<2> cloud = rectangle(1.0, 1.0, h, Lattice::hexagonal, 0.2);
   std::vector<Facet<2>> side;
   for (const Facet<2>& facet : cloud.facets)
-    if (facet.piece == 1) side.push_back(facet);
+    if (facet.piece == 1_piece) side.push_back(facet);
   const plasticity::Material material = steel();
   const auto u = statics(cloud, GetParam(), material, side, [](const Vec2& x, int k) {
     return (k == 0 && x.x() == 0.0) || (k == 1 && x.y() == 0.0);
@@ -160,7 +160,7 @@ double tube_error(Method method, double h) {
   const Cloud<2> cloud = moved(rectangle(1.0, 0.4, h, Lattice::hexagonal, 0.1), 1.0);
   std::vector<Facet<2>> inner;
   for (const Facet<2>& facet : cloud.facets)
-    if (facet.piece == 3) inner.push_back(facet);
+    if (facet.piece == 3_piece) inner.push_back(facet);
   const plasticity::Material material = steel();
   const auto u = statics(cloud, method, material, inner,
                          [](const Vec2& x, int k) { return k == 1 && (x.y() == 0.0 || x.y() == 0.4); });

@@ -6,6 +6,7 @@
 #include "mechanics/explicit_solver.hpp"
 #include "methods/fe_simplices.hpp"
 #include "plasticity/hardening_laws.hpp"
+#include "tests/index_literals.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -15,6 +16,9 @@
 #include <random>
 
 namespace cnem::testing {
+
+using namespace literals;
+
 namespace {
 
 using Vec3 = Vec<3>;
@@ -92,7 +96,7 @@ TEST(Tetrahedra, have_a_closed_boundary) {
     const Vec3 normal = area_normal<3>(corner);
     closed += normal;
     volume += (corner[0] + corner[1] + corner[2]).dot(normal) / 9.0;
-    area[static_cast<std::size_t>(facet.piece)] += normal.norm();
+    area[index_of(facet.piece)] += normal.norm();
     const auto shares = corner_areas<3>(Space::plane, corner);
     EXPECT_NEAR(shares[0] + shares[1] + shares[2], normal.norm(), 1e-20);
   }
@@ -230,7 +234,7 @@ TEST(Tetrahedra, conduct_heat_and_balance_it) {
   problem.mechanical = false;
   std::vector<Facet<3>> top;
   for (const Facet<3>& facet : block.cloud.facets)
-    if (facet.piece == 5) top.push_back(facet);
+    if (facet.piece == 5_piece) top.push_back(facet);
   problem.heat_boundaries = ThermalBoundaries<3>({}, {{"top", TimeTable(1e6), top}}, {});
   ExplicitSolver<3> solver = start(std::move(problem), [](const Vec3&) { return Vec3::Zero(); });
   while (solver.state().time < 1.0) solver.advance(solver.stable_step().dt);

@@ -17,7 +17,7 @@ inline void add_loop(Cloud<2>& cloud, std::initializer_list<Vec2> corners) {
   for (const Vec2& x : corners) cloud.position.push_back(x);
   if (cloud.piece_names.empty()) cloud.piece_names.push_back("boundary");
   for (std::int32_t k = 0; k < n; ++k)
-    cloud.facets.push_back({{as<NodeIndex>(first + k), as<NodeIndex>(first + (k + 1) % n)}, 0});
+    cloud.facets.push_back({{as<NodeIndex>(first + k), as<NodeIndex>(first + (k + 1) % n)}, {}});
 }
 
 /// The unit square with its four corners as the only nodes.
@@ -36,7 +36,7 @@ inline Cloud<2> grid(int n) {
   for (int k = 0; k < n; ++k) cloud.position.emplace_back(n - k, n);
   for (int k = 0; k < n; ++k) cloud.position.emplace_back(0, n - k);
   for (int k = 0; k < 4 * n; ++k)
-    cloud.facets.push_back({{as<NodeIndex>(k), as<NodeIndex>((k + 1) % (4 * n))}, 0});
+    cloud.facets.push_back({{as<NodeIndex>(k), as<NodeIndex>((k + 1) % (4 * n))}, {}});
   for (int y = 1; y < n; ++y)
     for (int x = 1; x < n; ++x) cloud.position.emplace_back(x, y);
   return cloud;

@@ -209,7 +209,7 @@ TEST(TriangulationErrors, OpenAndBranchingLoops) {
   open.facets.pop_back();
   expect_error(open, {"open boundary"});
   auto branching = unit_square();
-  branching.facets.push_back({{0_node, 2_node}, 0});
+  branching.facets.push_back({{0_node, 2_node}, {}});
   expect_error(branching, {"branches"});
 }
 
