@@ -29,7 +29,8 @@ Indicator indicator(const Cloud<dim>& cloud, const CellComplex<dim>& cells, cons
   const double own = dim == 2 ? 4.0 : (5.0 + 3.0 * std::sqrt(5.0)) / 20.0;
   const double others = dim == 2 ? 1.0 : (5.0 - std::sqrt(5.0)) / 20.0;
   const double sum = dim == 2 ? 6.0 : 1.0;
-  const CellLists faces = faces_of_cells(cells), parts = parts_of_cells(cells);
+  const CellLists<FaceIndex> faces = faces_of_cells(cells);
+  const CellLists<PartIndex> parts = parts_of_cells(cells);
   Indicator result;
   result.error.assign(value.size(), 0.0);
   for_each_block(value.size(), [&](std::size_t begin, std::size_t end) {
@@ -63,14 +64,14 @@ Indicator indicator(const Cloud<dim>& cloud, const CellComplex<dim>& cells, cons
                       [&](NodeIndex k) { return value[index_of(k)] == value[i]; }))
         continue;
       double squared = 0.0;
-      for (const std::int32_t f : faces.of(i)) {
-        const InnerFace<dim>& face = cells.interior[index_of(f)];
+      for (const FaceIndex f : faces.of(i)) {
+        const InnerFace<dim>& face = cells.interior[f];
         auto side = face.corner;
         if (index_of(face.cell[1]) == i) std::swap(side[0], side[1]);
         squared += over(i, side);
       }
-      for (const std::int32_t p : parts.of(i)) {
-        const BoundaryPart<dim>& part = cells.boundary[index_of(p)];
+      for (const PartIndex p : parts.of(i)) {
+        const BoundaryPart<dim>& part = cells.boundary[p];
         const Facet<dim>& facet = cloud.facets[part.facet];
         // from a corner of the facet all its parts are seen edge-on
         if (std::find(facet.node.begin(), facet.node.end(), part.cell) == facet.node.end())

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cnem::scni {
@@ -27,19 +28,22 @@ public:
   explicit FaceMeans(std::vector<Block> blocks) : blocks_(std::move(blocks)) {}
 
   /// Stencil of an inner face; empty for faces without area.
-  std::span<const NodeIndex> nodes(std::size_t face) const {
-    const Block& block = blocks_[face / block_size];
-    const auto* begin = &block.begin[face % block_size];
+  std::span<const NodeIndex> nodes(FaceIndex face) const {
+    const auto& [block, begin] = row(face);
     return {block.node.data() + begin[0], block.node.data() + begin[1]};
   }
   /// φ̄ on that stencil; sums to 1. Of revolution the mean of r φ (m), which sums to the mean radius.
-  std::span<const double> values(std::size_t face) const {
-    const Block& block = blocks_[face / block_size];
-    const auto* begin = &block.begin[face % block_size];
+  std::span<const double> values(FaceIndex face) const {
+    const auto& [block, begin] = row(face);
     return {block.value.data() + begin[0], block.value.data() + begin[1]};
   }
 
 private:
+  std::pair<const Block&, const std::int32_t*> row(FaceIndex face) const {
+    const std::size_t f = index_of(face);
+    const Block& block = blocks_[f / block_size];
+    return {block, &block.begin[f % block_size]};
+  }
   std::vector<Block> blocks_;
 };
 

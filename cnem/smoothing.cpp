@@ -70,11 +70,11 @@ std::array<double, 2> revolved_shares(const BoundaryPart<2>& part, const std::ar
 
 template<int dim>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
-                                          const CellLists<std::int32_t>& faces, const FaceMeans& means,
+                                          const CellLists<FaceIndex>& faces, const FaceMeans& means,
                                           const CentroidValues* revolution) {
   const auto nodes = index_of(cloud.nodes());
   assert(cells.cells() == nodes && faces.begin.size() == nodes + 1);
-  const CellLists<std::int32_t> boundary = parts_of_cells(cells);
+  const CellLists<PartIndex> boundary = parts_of_cells(cells);
 
   DiscreteOperators<dim> op;
   op.points = op.nodes = cloud.nodes();
@@ -99,8 +99,7 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
     block.node.reserve(11 * (last - first));
     for (auto& g : block.gradient) g.reserve(11 * (last - first));
     for (std::size_t i = first; i < last; ++i) {
-      for (const std::int32_t item : faces.of(i)) {
-        const auto f = index_of(item);
+      for (const FaceIndex f : faces.of(i)) {
         const InnerFace<dim>& face = cells.interior[f];
         const double sign = index_of(face.cell[0]) == i ? 1.0 : -1.0;
         const Vec<dim> normal = sign * face.normal();
@@ -108,8 +107,8 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
         const auto value = means.values(f);
         for (std::size_t e = 0; e < node.size(); ++e) row.add(node[e], value[e] * normal);
       }
-      for (const std::int32_t item : boundary.of(i)) {
-        const BoundaryPart<dim>& part = cells.boundary[index_of(item)];
+      for (const PartIndex p : boundary.of(i)) {
+        const BoundaryPart<dim>& part = cells.boundary[p];
         const Facet<dim>& facet = cloud.facets[part.facet];
         const auto corner = corners_of<dim>(facet, cloud.position);
         const Vec<dim> normal = area_normal<dim>(corner);
@@ -171,7 +170,7 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
 
 template<int dim>
 StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
-                                            const CellLists<std::int32_t>& faces) {
+                                            const CellLists<FaceIndex>& faces) {
   constexpr double least = 0.1, most = 2.0;
   StabilisationLinks<dim> links;
   links.begin = cells.neighbours.begin;
@@ -181,8 +180,8 @@ StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellC
   for (std::size_t i = 0; i < cells.cells(); ++i) {
     const auto linked = cells.neighbours.of(i);
     double* const weight = links.weight.data() + links.begin[i];
-    for (const std::int32_t item : faces.of(i)) {
-      const InnerFace<dim>& face = cells.interior[index_of(item)];
+    for (const FaceIndex f : faces.of(i)) {
+      const InnerFace<dim>& face = cells.interior[f];
       const NodeIndex other = face.cell[index_of(face.cell[0]) == i ? 1 : 0];
       const auto link = std::find(linked.begin(), linked.end(), other);
       assert(link != linked.end());
@@ -200,14 +199,14 @@ StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellC
 }
 
 template DiscreteOperators<2> smoothed_gradients(const Cloud<2>&, const CellComplex<2>&,
-                                                 const CellLists<std::int32_t>&, const FaceMeans&,
+                                                 const CellLists<FaceIndex>&, const FaceMeans&,
                                                  const CentroidValues*);
 template DiscreteOperators<3> smoothed_gradients(const Cloud<3>&, const CellComplex<3>&,
-                                                 const CellLists<std::int32_t>&, const FaceMeans&,
+                                                 const CellLists<FaceIndex>&, const FaceMeans&,
                                                  const CentroidValues*);
 template StabilisationLinks<2> stabilisation_links(const Cloud<2>&, const CellComplex<2>&,
-                                                   const CellLists<std::int32_t>&);
+                                                   const CellLists<FaceIndex>&);
 template StabilisationLinks<3> stabilisation_links(const Cloud<3>&, const CellComplex<3>&,
-                                                   const CellLists<std::int32_t>&);
+                                                   const CellLists<FaceIndex>&);
 
 } // namespace cnem::scni

@@ -14,7 +14,7 @@ namespace cnem::scni {
 /// body of revolution (core/operators/operators.hpp).
 template<int dim>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
-                                          const CellLists<std::int32_t>& faces, const FaceMeans& means,
+                                          const CellLists<FaceIndex>& faces, const FaceMeans& means,
                                           const CentroidValues* revolution = nullptr);
 
 /// The neighbours of each cell; their weight is the area of the faces between two cells over the distance d
@@ -22,6 +22,6 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
 /// m in space.
 template<int dim>
 StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
-                                            const CellLists<std::int32_t>& faces);
+                                            const CellLists<FaceIndex>& faces);
 
 } // namespace cnem::scni

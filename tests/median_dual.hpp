@@ -61,7 +61,7 @@ class LinearFunctions {
 public:
   LinearFunctions(const Cloud<3>& cloud, const Tetrahedra& tetrahedra)
       : cloud_(cloud), tetrahedra_(tetrahedra),
-        around_(group_by_cell(
+        around_(group_by_cell<SimplexIndex>(
             cloud.position.size(),
             tetrahedra.size(), [&](std::size_t t) -> const auto& { return tetrahedra[t]; })) {}
 
@@ -71,7 +71,7 @@ public:
   }
   bool evaluate(const Vec<3>& x, std::size_t cell) {
     double best = -1.0;
-    for (const std::int32_t t : around_.of(cell)) {
+    for (const SimplexIndex t : around_.of(cell)) {
       const auto value = barycentric(x, tetrahedra_[index_of(t)]);
       const double least = *std::min_element(value.begin(), value.end());
       if (least <= best) continue;
@@ -95,7 +95,7 @@ private:
 
   const Cloud<3>& cloud_;
   const Tetrahedra& tetrahedra_;
-  CellLists<std::int32_t> around_;
+  CellLists<SimplexIndex> around_;
   voronoi::Simplex<3> node_{};
   std::array<double, 4> value_{};
 };

@@ -58,7 +58,7 @@ template<int dim> struct FacePoint {
 /// space the centroid or, for 2 and 3, three points, exact for degree 1 and 2.
 template<int dim> std::span<const FacePoint<dim>> face_rule(int points);
 
-/// Lists of items for each cell: faces or parts by their number, other cells.
+/// Lists of items for each cell: indices of faces or parts, other cells.
 template<class Item> struct CellLists {
   std::vector<std::int32_t> begin; ///< [cell + 1]
   std::vector<Item> item;          ///< in increasing order within a cell
@@ -74,8 +74,8 @@ template<class Item> struct CellLists {
 /// divergence theorem they give its volume (`is_closed`).
 template<int dim> struct CellComplex {
   Field volume; ///< [cell] m² (per unit thickness) or m³
-  std::vector<InnerFace<dim>> interior;
-  std::vector<BoundaryPart<dim>> boundary; ///< facet after facet
+  IndexedVector<FaceIndex, InnerFace<dim>> interior;
+  IndexedVector<PartIndex, BoundaryPart<dim>> boundary; ///< facet after facet
   /// The cells that each is linked with: the ends of the edges of the simplices. All that share a face are.
   CellLists<NodeIndex> neighbours;
 
@@ -97,21 +97,22 @@ auto group_by_cell(std::size_t cells, std::size_t items, CellsOf&& cells_of, Ite
     for (const NodeIndex i : cells_of(k)) lists.item[index_of(next[index_of(i)]++)] = item_of(k, i);
   return lists;
 }
-/// The same with the numbers of the items.
-template<class CellsOf> auto group_by_cell(std::size_t cells, std::size_t items, CellsOf&& cells_of) {
-  return group_by_cell(cells, items, cells_of, [](std::size_t k, NodeIndex) { return as<std::int32_t>(k); });
+/// The same with the indices of the items.
+template<IndexKind Item, class CellsOf>
+CellLists<Item> group_by_cell(std::size_t cells, std::size_t items, CellsOf&& cells_of) {
+  return group_by_cell(cells, items, cells_of, [](std::size_t k, NodeIndex) { return as<Item>(k); });
 }
 
 /// The inner faces of each cell.
-template<int dim> CellLists<std::int32_t> faces_of_cells(const CellComplex<dim>& complex) {
-  return group_by_cell(
+template<int dim> CellLists<FaceIndex> faces_of_cells(const CellComplex<dim>& complex) {
+  return group_by_cell<FaceIndex>(
       complex.cells(),
       complex.interior.size(), [&](std::size_t f) -> const auto& { return complex.interior[f].cell; });
 }
 /// The parts of the boundary of each cell.
-template<int dim> CellLists<std::int32_t> parts_of_cells(const CellComplex<dim>& complex) {
-  return group_by_cell(complex.cells(), complex.boundary.size(),
-                       [&](std::size_t f) { return std::array{complex.boundary[f].cell}; });
+template<int dim> CellLists<PartIndex> parts_of_cells(const CellComplex<dim>& complex) {
+  return group_by_cell<PartIndex>(complex.cells(), complex.boundary.size(),
+                                  [&](std::size_t f) { return std::array{complex.boundary[f].cell}; });
 }
 /// The other ends of the edges at each cell; each edge is given once.
 CellLists<NodeIndex> other_ends(std::size_t cells, std::span<const std::array<NodeIndex, 2>> edges);

@@ -32,7 +32,7 @@ struct Smoothed {
         links(scni::stabilisation_links(domain.cloud, cells, faces)) {}
 
   CellComplex<3> cells;
-  CellLists<std::int32_t> faces;
+  CellLists<FaceIndex> faces;
   DiscreteOperators<3> op;
   StabilisationLinks<3> links;
 };
