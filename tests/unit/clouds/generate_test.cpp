@@ -333,7 +333,7 @@ TEST(GenerateCloud, arcs_of_few_chords_are_told) {
   const DomainShape disc{circle({0, 0}, 1.0, "rim"), {}, {}};
   const auto coarse = generate_cloud(disc, {0.8, {}}, {}).warnings;
   ASSERT_EQ(coarse.size(), 1U);
-  EXPECT_PRED2(contains, coarse[0], "10% less than the domain: its arcs are few chords");
+  EXPECT_PRED2(contains, coarse[0], "3.3% less than the domain: its arcs are few chords");
   EXPECT_TRUE(generate_cloud(disc, {0.2, {}}, {}).warnings.empty()) << "0.6% less";
   const DomainShape plate{rectangle(2, 2), {circle({1, 1}, 0.7, "hole")}, {}};
   EXPECT_TRUE(std::ranges::any_of(generate_cloud(plate, {0.4, {}}, {}).warnings, [](const std::string& text) {
