@@ -162,7 +162,8 @@ void NaturalNeighbours::weigh(Functions functions) {
   const auto change = [&](const Neighbour& n) { return slope_x * n.x + slope_y * n.y; };
   for (std::size_t i = 0; i < count_; ++i)
     if (!(std::abs(change(ring_[i])) < 1e-3)) return;
-  for (std::size_t i = 0; i < count_; ++i) value_[i] *= 1.0 - change(ring_[i]);
+  const double left = 1.0 - inverse * (slope_x * x + slope_y * y); // of the sum, 1 but for slivers
+  for (std::size_t i = 0; i < count_; ++i) value_[i] *= (1.0 - change(ring_[i])) / left;
 }
 
 /// ∇φ from the ring, after weigh(). The bisector of x and a neighbour moves with ½ (midpoint − x)/distance,
