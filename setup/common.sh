@@ -1,5 +1,8 @@
 # Sourced by run, test and .ci/*: installs what is missing, configures and builds. Does nothing twice.
 
+# What libraries keep until the end of the process is no leak (AddressSanitizer).
+export LSAN_OPTIONS=suppressions=$root/.ci/leaks.supp:print_suppressions=0
+
 say() { printf '%s\n' "$*" >&2; }
 
 # Installs the packages of setup/packages.txt, or of the list named, that this machine lacks; needs root, or sudo, only
