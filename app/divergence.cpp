@@ -54,8 +54,9 @@ void blame_settings(const input::Case& input, const std::string& field, std::vec
     causes.push_back(
         "method.stabilisation = 0 leaves the zigzag modes of nodal integration free: take 0.05.");
   if (field == "tool velocity")
-    causes.push_back("Tool and workpiece pass each other faster than their contact can be seen: make the tool "
-                     "thicker, one that forces drive heavier, or time.step.max smaller.");
+    causes.push_back(
+        "Tool and workpiece pass each other faster than their contact can be seen: make the tool "
+        "thicker, one that forces drive heavier, or time.step.max smaller.");
   if (field == "energy residual" && input.method.energy_tolerance < 0.005)
     causes.push_back(fmt::format("method.energy_tolerance = {:.3g} is less than what a good run may leave.",
                                  input.method.energy_tolerance));
