@@ -392,14 +392,5 @@ TEST(CaseReader, PaperCasesRead) {
   }
 }
 
-TEST(CaseReader, results_are_named_after_the_file_or_its_folder) {
-  EXPECT_EQ(name_after("a/blank.toml", "case"), "blank");
-  EXPECT_EQ(name_after("a/.toml", "case"), ".toml");
-  for (const char* file : {"a/case.toml", "a/b/../case.toml", "a/case.resolved.toml"})
-    EXPECT_EQ(name_after(file, "case"), "a");
-  for (const char* file : {"...toml", "..toml", "/case.toml"})
-    EXPECT_THROW(name_after(file, "case"), InputError) << file;
-}
-
 } // namespace
 } // namespace cnem::input
