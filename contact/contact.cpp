@@ -122,12 +122,14 @@ template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
 
 template<int dim>
 void RigidContact<dim>::look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step) const {
+  double longest2 = 0.0;
+  for (const BoundaryNodeIndex b : end_.indices())
+    if (const double path2 = (end_[b] - start_[b]).squaredNorm(); !(path2 <= longest2)) longest2 = path2;
   for (const ToolIndex t : tools_.indices()) {
     const ToolShape<dim>& shape = *tools_[t].shape;
-    const double least = shape.least_thickness();
+    if (std::sqrt(longest2) + (poses[t].end - poses[t].start).norm() < shape.least_thickness()) continue;
     for (const BoundaryNodeIndex b : end_.indices()) {
       const Vec<dim> from = start_[b] - poses[t].start, to = end_[b] - poses[t].end;
-      if ((to - from).squaredNorm() < least * least) continue;
       const double thickness = shape.passed(from, to);
       if (thickness == 0.0) continue;
       const int node = static_cast<int>(index_of(surface_.node[b]));
