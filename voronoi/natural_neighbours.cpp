@@ -156,12 +156,17 @@ void NaturalNeighbours::weigh(Functions functions) {
   for (double& value : value_) value *= inverse;
   // Circumcentres of slivers lose digits, and Σφ x = x with them; a factor linear in x that restores it is as
   // close to one as the sum was right.
-  if (x * x + y * y <= 1e-28 * sum * (xx + yy)) return;
+  const double missed = x * x + y * y;
+  if (missed <= 1e-28 * sum * (xx + yy)) return;
   const double determinant = xx * yy - xy * xy;
   const double slope_x = (yy * x - xy * y) / determinant, slope_y = (xx * y - xy * x) / determinant;
   const auto change = [&](const Neighbour& n) { return slope_x * n.x + slope_y * n.y; };
+  // Rounding asks for large changes too, of neighbours whose weight is next to nothing: it is left.
+  double reach = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) reach = std::max(reach, std::hypot(ring_[i].x, ring_[i].y));
+  const double largest = std::sqrt(missed) > 1e-10 * sum * reach ? 0.5 : 1e-3;
   for (std::size_t i = 0; i < count_; ++i)
-    if (!(std::abs(change(ring_[i])) < 1e-3)) return;
+    if (!(std::abs(change(ring_[i])) < largest)) return;
   const double left = 1.0 - inverse * (slope_x * x + slope_y * y); // of the sum, 1 but for slivers
   for (std::size_t i = 0; i < count_; ++i) value_[i] *= (1.0 - change(ring_[i])) / left;
 }

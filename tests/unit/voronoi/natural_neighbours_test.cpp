@@ -66,26 +66,29 @@ TEST(NaturalNeighbours, EdgeMidpointOfAStructuredGrid) { // where Watson's form 
   }
 }
 
-TEST(NaturalNeighbours, ValuesInASliverSumToOneAndReproduceThePlace) { // it was 5e-11 short
+TEST(NaturalNeighbours, ValuesInASliverSumToOneAndReproduceThePlace) {
   Cloud<2> sliver;
   add_loop(sliver, {{0.33072916666177821, -0.33593749999996214},
                     {0.32812499999518724, -0.33593749999086708},
                     {0.99218749998556177, -0.99999999999351985},
                     {0.99218749998544808, -0.99999999999272404}});
-  const Vec2 x(0.66132048173424451, -0.66810606099124314);
   const auto mesh = triangulate(sliver);
   const auto circles = circumcircles(sliver, mesh);
   NaturalNeighbours at(sliver, mesh, circles);
-  at.evaluate_on_facet(Functions::sibson, x, {0_simplex, 1_simplex});
-  ASSERT_EQ(at.nodes().size(), 4U);
-  double sum = 0.0;
-  Vec2 place(0, 0);
-  for (std::size_t k = 0; k < 4; ++k) {
-    sum += at.values()[k];
-    place += at.values()[k] * sliver.position[at.nodes()[k]];
+  // Uncorrected, the sum is 5e-11 short at the first place and the second is missed by 2e-5.
+  for (const Vec2& x :
+       {Vec2(0.66132048173424451, -0.66810606099124314), Vec2(0.32942708332586101, -0.33668817483591018)}) {
+    at.evaluate_on_facet(Functions::sibson, x, {0_simplex, 1_simplex});
+    ASSERT_EQ(at.nodes().size(), 4U);
+    double sum = 0.0;
+    Vec2 place(0, 0);
+    for (std::size_t k = 0; k < 4; ++k) {
+      sum += at.values()[k];
+      place += at.values()[k] * sliver.position[at.nodes()[k]];
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-15);
+    EXPECT_LT((place - x).norm(), 1e-15);
   }
-  EXPECT_NEAR(sum, 1.0, 1e-15);
-  EXPECT_LT((place - x).norm(), 1e-15);
 }
 
 TEST(NaturalNeighbours, SibsonIsTheRatioOfStolenAreas) {
