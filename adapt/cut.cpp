@@ -60,10 +60,10 @@ bool open_cut(WorkingCloud& work, Structure& structure, std::span<const NodeInde
   const double gap = rules.gap * work.size_between(path.front(), path.back());
   const std::vector<std::array<NodeIndex, 2>> doubled = opened.open(path, rules.piece, gap);
   opened.refresh_facets();
-  std::optional<Structure> after = structure_if_valid(opened.cloud());
+  std::optional<Structure> after = structure_if_valid(opened.cloud(), structure.space);
   if (!after) return false;
   for (const auto& [old, made] : doubled) {
-    const double mine = after->cells.volume[index_of(old)], other = after->cells.volume[index_of(made)];
+    const double mine = after->volume(old), other = after->volume(made);
     opened.move_now(old, made, other / (mine + other));
   }
   work = std::move(opened);

@@ -131,15 +131,14 @@ private:
 
 std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
                            const IndexedVector<NodeIndex, char>& made) {
-  std::vector<Contribution> list = contributions(cloud, after.cells, made);
+  std::vector<Contribution> list = contributions(cloud, after, made);
   Field claimed(made.size(), 0.0);
-  for (const Contribution& c : list) claimed[index_of(c.other)] += c.area;
+  for (const Contribution& c : list) claimed[index_of(c.other)] += c.volume;
   std::vector<Parcel> parcels;
   for (const Contribution& c : list) {
-    const double volume = before.cells.volume[index_of(c.other)];
-    const double lost = (volume - after.cells.volume[index_of(c.other)]) / volume;
-    if (lost > 0.0 && c.area > 0.0)
-      parcels.push_back({c.other, c.marked, lost * c.area / claimed[index_of(c.other)]});
+    const double volume = before.volume(c.other), lost = (volume - after.volume(c.other)) / volume;
+    if (lost > 0.0 && c.volume > 0.0)
+      parcels.push_back({c.other, c.marked, lost * c.volume / claimed[index_of(c.other)]});
   }
   return parcels;
 }
@@ -170,7 +169,7 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   if (filled.size() == work.size()) return false;
 
   filled.refresh_facets();
-  std::optional<Structure> after = structure_if_valid(filled.cloud());
+  std::optional<Structure> after = structure_if_valid(filled.cloud(), structure.space);
   if (!after) {
     ++report.undone;
     return false;

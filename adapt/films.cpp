@@ -66,7 +66,7 @@ NodeIndex insert_foot(WorkingCloud& work, Structure& structure, const Waist& wai
   WorkingCloud changed = work;
   const NodeIndex made = changed.insert_between(waist.start, work.next(waist.start), true, waist.place);
   changed.refresh_facets();
-  std::optional<Structure> after = structure_if_valid(changed.cloud());
+  std::optional<Structure> after = structure_if_valid(changed.cloud(), structure.space);
   if (!after) return NodeIndex::none;
   IndexedVector<NodeIndex, char> is_made(changed.size(), 0);
   is_made[made] = 1;

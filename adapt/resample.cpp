@@ -3,11 +3,10 @@
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace cnem::adapt {
-
-namespace {} // namespace
 
 PassReport& PassReport::operator+=(const PassReport& other) {
   for (int PassReport::*count :
@@ -15,13 +14,13 @@ PassReport& PassReport::operator+=(const PassReport& other) {
         &PassReport::removed, &PassReport::removed_boundary, &PassReport::promoted, &PassReport::inserted,
         &PassReport::inserted_boundary, &PassReport::balanced, &PassReport::undone})
     this->*count += other.*count;
-  area_change += other.area_change;
+  volume_change += other.volume_change;
   return *this;
 }
 
 double volume_ratio(const WorkingCloud& work, const Structure& structure, NodeIndex node) {
   const NodeProperties& p = work.node();
-  return p.density[index_of(node)] * structure.cells.volume[index_of(node)] /
+  return p.density[index_of(node)] * structure.volume(node) /
          (p.mass[index_of(node)] * p.jacobian[index_of(node)]);
 }
 
@@ -62,11 +61,12 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
 
 Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure, NodeProperties properties,
                        const ResampleRules& rules, PassReport& report) {
+  assert(!structure || structure->space == rules.space);
   WorkingCloud work(cloud, std::move(properties), rules.split.piece);
   if (!structure) {
     mend_boundary(work, report);
     drop_outside(work, report);
-    structure = build_structure(work.cloud());
+    structure = build_structure(work.cloud(), rules.space);
   }
   if (!work.node().broken.empty()) {
     split(work, *structure, rules.split, report);
@@ -78,7 +78,7 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
   for (int round = 0; round < thresholds.rounds; ++round)
     if (!fill(work, *structure, thresholds, rules.placement, report)) break;
   balance(work, *structure, thresholds, report);
-  report.area_change = enclosed_measure(work.cloud()) - enclosed_measure(cloud);
+  report.volume_change = enclosed_measure(work.cloud(), rules.space) - enclosed_measure(cloud, rules.space);
   Resampling<2> change = work.finish();
   change.old_position = cloud.position;
   return change;

@@ -47,6 +47,7 @@ struct SplitRules {
 };
 
 struct ResampleRules {
+  Space space = Space::plane; ///< that of the structure
   Thresholds thresholds{};
   Placement placement = Placement::between_nodes;
   SplitRules split{}; ///< where NodeProperties::broken is given
@@ -62,9 +63,9 @@ struct PassReport {
   int removed = 0, removed_boundary = 0;
   int promoted = 0; ///< interior nodes that became part of the boundary
   int inserted = 0, inserted_boundary = 0;
-  int balanced = 0;       ///< exchanges of mass between neighbours
-  int undone = 0;         ///< rounds given up because the cloud had no valid structure after them
-  double area_change = 0; ///< m², of the domain
+  int balanced = 0;         ///< exchanges of mass between neighbours
+  int undone = 0;           ///< rounds given up because the cloud had no valid structure after them
+  double volume_change = 0; ///< of the domain: m³ per metre of thickness, or of the body of revolution
   bool changed() const {
     return opened + folded + outside + removed + removed_boundary + promoted + inserted + inserted_boundary +
                balanced >
@@ -107,7 +108,7 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
 std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
                            const IndexedVector<NodeIndex, char>& made);
 
-/// r_i = ρ₀ V_i/(m_i J_i) of one node.
+/// r_i = ρ₀ V_i/(m_i J_i) of one node, –.
 double volume_ratio(const WorkingCloud& work, const Structure& structure, NodeIndex node);
 
 } // namespace cnem::adapt

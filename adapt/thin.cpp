@@ -188,26 +188,25 @@ private:
 std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& before, const Structure& after,
                                 const IndexedVector<NodeIndex, char>& gone,
                                 const IndexedVector<NodeIndex, NodeIndex>& number) {
-  std::vector<Contribution> list = contributions(work.cloud(), before.cells, gone);
+  std::vector<Contribution> list = contributions(work.cloud(), before, gone);
   Field claimed(work.size(), 0.0);
-  for (const Contribution& c : list) claimed[index_of(c.other)] += c.area;
+  for (const Contribution& c : list) claimed[index_of(c.other)] += c.volume;
   std::vector<Parcel> parcels;
   for (std::size_t first = 0; first < list.size();) {
     std::size_t last = first;
-    double gained = 0.0, area = 0.0;
+    double gained = 0.0, volume = 0.0;
     std::vector<double> gain;
     for (; last < list.size() && list[last].marked == list[first].marked; ++last) {
       const NodeIndex k = list[last].other;
-      const double growth =
-          std::max(0.0, after.cells.volume[index_of(number[k])] - before.cells.volume[index_of(k)]);
-      gain.push_back(claimed[index_of(k)] > 0.0 ? growth * list[last].area / claimed[index_of(k)] : 0.0);
+      const double growth = std::max(0.0, after.volume(number[k]) - before.volume(k));
+      gain.push_back(claimed[index_of(k)] > 0.0 ? growth * list[last].volume / claimed[index_of(k)] : 0.0);
       gained += gain.back();
-      area += list[last].area;
+      volume += list[last].volume;
     }
     for (std::size_t e = first; e < last; ++e) {
-      const double share = gained > 0.0 ? gain[e - first] / gained
-                           : area > 0.0 ? list[e].area / area
-                                        : 1.0 / static_cast<double>(last - first);
+      const double share = gained > 0.0   ? gain[e - first] / gained
+                           : volume > 0.0 ? list[e].volume / volume
+                                          : 1.0 / static_cast<double>(last - first);
       if (share > 0.0) parcels.push_back({list[e].marked, list[e].other, share});
     }
     first = last;
@@ -259,7 +258,7 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   WorkingCloud emptied = changed;
   const IndexedVector<NodeIndex, NodeIndex> number = emptied.drop(gone);
   emptied.refresh_facets();
-  std::optional<Structure> after = structure_if_valid(emptied.cloud());
+  std::optional<Structure> after = structure_if_valid(emptied.cloud(), structure.space);
   std::vector<Parcel> parcels;
   IndexedVector<NodeIndex, char> orphaned = gone;
   if (after) parcels = inheritance(work, structure, *after, gone, number);

@@ -13,7 +13,7 @@ namespace cnem::adapt {
 
 /// What resampling has to know of a node. Each list is [node]; held nodes that are doubled stay both.
 struct NodeProperties {
-  Field mass;     ///< kg/m, carried
+  Field mass;     ///< kg/m (kg of revolution), carried
   Field jacobian; ///< J, volume over the stress-free one, –; mixes with mass, as volumes add
   Field density;  ///< kg/m³ at J = 1; a label
   Field size;     ///< m, wanted spacing; a label

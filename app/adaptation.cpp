@@ -61,18 +61,18 @@ Adaptation::Adaptation(const input::Case& input, const ExplicitSolver<2>& solver
     for (const input::Tool& tool : input.tools)
       tips_.push_back(features(tool.outline, *input.adapt.tool_spacing));
   const Cloud<2>& cloud = solver.conditions().cloud;
-  wanted_ = size_ = adapt::spacing_of(cloud, adapt::build_structure(cloud));
+  wanted_ = size_ = adapt::spacing_of(cloud, adapt::build_structure(cloud, input.analysis.space()));
   birth_.assign(size_.size(), 0.0);
   corner_ = corners(cloud);
   coarsest_ = input.cloud.spacing > 0.0 ? input.cloud.spacing : *std::max_element(size_.begin(), size_.end());
 }
 
 void Adaptation::start_log(const std::filesystem::path& folder) {
-  if (active()) log_.start(folder);
+  if (active()) log_.start(folder, results::history_units(input_->analysis));
 }
 
 void Adaptation::resume_log(const std::filesystem::path& folder) {
-  if (active()) log_.resume(folder);
+  if (active()) log_.resume(folder, results::history_units(input_->analysis));
 }
 
 adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
@@ -133,7 +133,7 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   const Field size_before = size_;
   const results::Audit before = results::audit(solver);
   try {
-    std::optional<adapt::Structure> structure = adapt::structure_if_valid(cloud);
+    std::optional<adapt::Structure> structure = adapt::structure_if_valid(cloud, input_->analysis.space());
     Field wanted = wanted_; // where nodes have passed each other there is nothing to estimate on
     if (structure) {
       if (input_->adapt.indicator) estimate_and_mark(solver, cloud, *structure);
@@ -144,6 +144,7 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
       adapt::limit_growth(cloud, *structure, input_->adapt.growth, wanted);
     }
     adapt::ResampleRules rules;
+    rules.space = input_->analysis.space();
     rules.placement = input_->adapt.placement;
     if (input_->adapt.separate) rules.split.piece = fracture_piece(cloud);
     const Resampling<2> change =
@@ -198,7 +199,7 @@ AdaptationFields Adaptation::fields(double time) const {
 std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
   if (!active()) return {};
   std::vector<std::pair<std::string, double>> list = log_.metrics();
-  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
+  for (const auto& [name, value] : std::initializer_list<std::pair<std::string, double>>{
            {"adapt.passes", static_cast<double>(passes_)},
            {"adapt.cuts", total_.cuts},
            {"adapt.opened", total_.opened},
@@ -212,7 +213,8 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
            {"adapt.inserted_boundary", total_.inserted_boundary},
            {"adapt.balanced", total_.balanced},
            {"adapt.undone", total_.undone},
-           {"adapt.area_change", total_.area_change},
+           {fmt::format("adapt.{}_change", results::history_units(input_->analysis).enclosed),
+            total_.volume_change},
            {"adapt.refined", static_cast<double>(refined_)},
            {"adapt.coarsened", static_cast<double>(coarsened_)},
            {"adapt.error", error_norm_ > 0.0 ? error_total_ / error_norm_ : 0.0}})
@@ -254,7 +256,7 @@ void Adaptation::archive(Archive& archive) {
                               {"balanced", &total_.balanced},
                               {"undone", &total_.undone}})
     archive.integer(fmt::format("run/adapt/count/{}", name), *count);
-  archive.number("run/adapt/area_change", "m^2", total_.area_change);
+  archive.number("run/adapt/volume_change", "m^2", total_.volume_change);
 }
 
 } // namespace cnem::app

@@ -32,8 +32,9 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
   fmt::print("case        {}\n", input.title.empty() ? input.name : input.title);
   fmt::print("nodes       {}\n", state.node.size());
   fmt::print("points      {}\n", state.point.size());
-  fmt::print("{:<11} {:.9g} {}\n", dim == 2 ? "area" : "volume",
-             results::enclosed_measure(results::snapshot(solver)), dim == 2 ? "m²" : "m³");
+  const bool whole = dim == 3 || solver.approximation().mechanics.of_revolution();
+  fmt::print("{:<11} {:.9g} {}\n", whole ? "volume" : "area",
+             results::enclosed_measure(results::snapshot(solver)), whole ? "m³" : "m²");
   fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
   if (!input.time.fixed) fmt::print("{}", input.placed(" at " + show_place<dim>(state.node.position, node)));
   if (solver.sub_steps() > 1) fmt::print(", in {} finest steps", solver.sub_steps());

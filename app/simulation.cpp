@@ -199,6 +199,9 @@ template<int dim> void Simulation<dim>::adapt_and_step() {
   retries_.look(state.time);
   const bool rereference =
       watch_.time("step", [&] { return renewal_.due(solver_, retries_.strain_share()); });
+  const bool check =
+      rereference || (state.step - last_check_) * solver_.sub_steps() >= input_.time.check_every;
+  if (check) penetration_.look(solver_); // before nodes are put on facets, where contact has yet to find them
   bool good = retries_.lacks_state();
   if (rereference || good)
     watch_.time("rebuild", [&] {
@@ -206,8 +209,7 @@ template<int dim> void Simulation<dim>::adapt_and_step() {
       if (rereference) good = new_reference();
     });
   watch_.time("step", [&] {
-    if (rereference || (state.step - last_check_) * solver_.sub_steps() >= input_.time.check_every)
-      watch_.time("step.stable", [&] { look_at_step(); });
+    if (check) watch_.time("step.stable", [&] { look_at_step(); });
     if (good) retries_.keep();
     solver_.advance(
         control_.choose(state.time, std::min({input_.time.end, fields_due_.next(), pictures_due_.next()})));
@@ -222,7 +224,6 @@ template<int dim> bool Simulation<dim>::new_reference() {
 template<int dim> void Simulation<dim>::look_at_step() {
   check_finite(solver_.state());
   melting_.look(solver_);
-  penetration_.look(solver_);
   refresh_step();
   last_check_ = solver_.state().step;
 }

@@ -8,30 +8,6 @@
 namespace cnem::scni {
 namespace {
 
-/// ∮ ½ (ρ_x² n_x, ρ_y² n_y) ds over a segment, ρ from `origin`, n ds the right normal of the segment: its
-/// share of the first moments of area.
-Vec2 first_moment(const Vec2& origin, const std::array<Vec2, 2>& end) {
-  const Vec2 a = end[0] - origin, b = end[1] - origin;
-  const Vec2 mean_square = (a.cwiseProduct(a) + a.cwiseProduct(b) + b.cwiseProduct(b)) / 3.0;
-  return 0.5 * mean_square.cwiseProduct(right_normal(end[1] - end[0]));
-}
-
-std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) {
-  std::vector<Vec2> moment(cloud.position.size(), Vec2::Zero());
-  for (const InnerFace<2>& face : cells.interior) {
-    const std::size_t i = index_of(face.cell[0]), j = index_of(face.cell[1]);
-    moment[i] += first_moment(cloud.position[i], face.corner);
-    moment[j] -= first_moment(cloud.position[j], face.corner);
-  }
-  for (const BoundaryPart<2>& part : cells.boundary) {
-    const std::size_t i = index_of(part.cell);
-    moment[i] +=
-        first_moment(cloud.position[i], part.on(corners_of<2>(cloud.facets[part.facet], cloud.position)));
-  }
-  for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = cloud.position[i] + moment[i] / cells.volume[i];
-  return moment;
-}
-
 /// Any triangle at each node.
 IndexedVector<NodeIndex, SimplexIndex> triangle_at_nodes(std::size_t nodes,
                                                          const voronoi::Triangulation& triangulation) {

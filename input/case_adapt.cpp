@@ -94,8 +94,6 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   const std::string path = "adapt.resample";
   if (result.analysis.type == Analysis::Type::statics)
     conflict(path, "found true in a static analysis, expected it with analysis.type = \"explicit\" only");
-  else if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
-    conflict(path, "found true in an axisymmetric analysis, expected it with \"plane strain\" only");
   if (result.method.lagrangian == Method::Lagrangian::total)
     conflict(path,
              "found true with method.lagrangian = \"total\", expected \"periodic\": nodes are changed at a "

@@ -171,9 +171,9 @@ private:
   }
 
   void conservation() {
-    const bool space = history_.find("enclosed_volume") >= 0;
-    Chart chart = against_time(space ? "Mass and enclosed volume" : "Mass and area", "change", "%");
-    for (const char* quantity : {"mass", space ? "enclosed_volume" : "area"}) {
+    const bool whole = history_.find("enclosed_volume") >= 0;
+    Chart chart = against_time(whole ? "Mass and enclosed volume" : "Mass and area", "change", "%");
+    for (const char* quantity : {"mass", whole ? "enclosed_volume" : "area"}) {
       const int k = history_.find(quantity);
       if (k < 0) continue;
       use(k);

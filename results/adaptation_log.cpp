@@ -9,7 +9,7 @@ namespace cnem::results {
 
 namespace {
 
-std::vector<std::string> columns() {
+std::vector<std::string> columns(const HistoryUnits& units) {
   std::vector<std::string> names{"time[s]",
                                  "step",
                                  "cuts",
@@ -23,8 +23,10 @@ std::vector<std::string> columns() {
                                  "inserted_boundary",
                                  "balanced",
                                  "undone"};
-  for (const char* name : {"nodes", "area[m^2]", "mass[kg/m]", "momentum_x[N s/m]", "momentum_y[N s/m]",
-                           "angular_momentum[N s]", "heat[J/m]", "energy[J/m]", "energy_lost[J/m]"})
+  for (const std::string& name : {std::string("nodes"), units.enclosed + units.measure, "mass" + units.mass,
+                                  "momentum_x" + units.momentum, "momentum_y" + units.momentum,
+                                  "angular_momentum" + units.angular_momentum, "heat" + units.energy,
+                                  "energy" + units.energy, "energy_lost" + units.energy})
     for (const char* when : {"before", "after"}) names.push_back(fmt::format("{}.{}", when, name));
   return names;
 }
@@ -39,7 +41,7 @@ Audit audit(const ExplicitSolver<2>& solver) {
   const Field& inertia = solver.state().node.inertia();
   Audit sums;
   sums.nodes = static_cast<double>(node.size());
-  sums.area = enclosed_measure(solver.present_cloud());
+  sums.enclosed = enclosed_measure(solver.present_cloud(), solver.approximation().mechanics.space());
   for (std::size_t i = 0; i < node.size(); ++i) {
     const Vec2 x(node.position[0][i], node.position[1][i]), v(node.velocity[0][i], node.velocity[1][i]);
     sums.mass += node.mass[i];
@@ -55,12 +57,12 @@ Audit audit(const ExplicitSolver<2>& solver) {
   return sums;
 }
 
-void AdaptationLog::start(const std::filesystem::path& folder) {
-  writer_.emplace(folder / files::adaptation, columns());
+void AdaptationLog::start(const std::filesystem::path& folder, const HistoryUnits& units) {
+  writer_.emplace(folder / files::adaptation, columns(units));
 }
 
-void AdaptationLog::resume(const std::filesystem::path& folder) {
-  writer_ = HistoryWriter::resume(folder / files::adaptation, columns(), rows_);
+void AdaptationLog::resume(const std::filesystem::path& folder, const HistoryUnits& units) {
+  writer_ = HistoryWriter::resume(folder / files::adaptation, columns(units), rows_);
 }
 
 void AdaptationLog::record(const State<2>& state, const adapt::PassReport& report, const Audit& before,
@@ -71,7 +73,7 @@ void AdaptationLog::record(const State<2>& state, const adapt::PassReport& repor
         report.promoted, report.inserted, report.inserted_boundary, report.balanced, report.undone})
     row.push_back(count);
   for (const auto& [was, is] : {std::pair{before.nodes, after.nodes},
-                                {before.area, after.area},
+                                {before.enclosed, after.enclosed},
                                 {before.mass, after.mass},
                                 {before.momentum.x(), after.momentum.x()},
                                 {before.momentum.y(), after.momentum.y()},

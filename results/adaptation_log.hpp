@@ -3,6 +3,7 @@
 #include "adapt/resample.hpp"
 #include "core/fields/archive.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "results/history_units.hpp"
 #include "results/history_writer.hpp"
 
 #include <filesystem>
@@ -15,7 +16,7 @@ namespace cnem::results {
 
 /// What a change of the cloud keeps, or books. Of revolution in kg, N s, J; else per thickness.
 struct Audit {
-  double nodes = 0.0, area = 0.0; ///< –, m²
+  double nodes = 0.0, enclosed = 0.0; ///< –, m² (m³ of revolution)
   double mass = 0.0;
   Vec2 momentum = Vec2::Zero();                     ///< of v_{n−½}
   double angular_momentum = 0.0;                    ///< about the origin
@@ -30,9 +31,9 @@ Audit audit(const ExplicitSolver<2>& solver);
 class AdaptationLog {
 public:
   /// Starts the file of a new run. Throws IoError.
-  void start(const std::filesystem::path& folder);
+  void start(const std::filesystem::path& folder, const HistoryUnits& units);
   /// Goes on behind the rows that the checkpoint counts. Throws IoError when some are missing.
-  void resume(const std::filesystem::path& folder);
+  void resume(const std::filesystem::path& folder, const HistoryUnits& units);
   void record(const State<2>& state, const adapt::PassReport& report, const Audit& before,
               const Audit& after);
   /// Largest relative errors of what must be kept, the largest relative change of the angular momentum, which

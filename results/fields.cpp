@@ -72,20 +72,19 @@ double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::s
 }
 
 template<int dim> double enclosed_measure(const Snapshot<dim>& shot) {
-  return cnem::enclosed_measure(shot.cloud.facets, [&](NodeIndex node) {
+  const auto position = [&](NodeIndex node) {
     return vector_at<dim>(shot.state.node.position, index_of(node));
-  });
+  };
+  return cnem::enclosed_measure(shot.cloud.facets, position, shot.approximation.mechanics.space());
 }
 
 template<int dim> double broken_measure(const Snapshot<dim>& shot) {
   const DiscreteOperators<dim>& op = shot.approximation.mechanics;
   const PointState<dim>& point = shot.state.point;
-  double area = 0.0;
+  double volume = 0.0;
   for (std::size_t p = 0; p < point.softening.size(); ++p)
-    if (point.softening[p] >= 1.0)
-      area += op.volume[p] * point.stress_free[p] /
-              (op.of_revolution() ? 2.0 * std::numbers::pi * op.radius[p] : 1.0);
-  return area;
+    if (point.softening[p] >= 1.0) volume += op.volume[p] * point.stress_free[p];
+  return volume;
 }
 
 template Field values_at_points(const Snapshot<2>&, const std::string&);

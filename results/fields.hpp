@@ -25,11 +25,10 @@ template<int dim>
 double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::span<const NodeIndex> node,
                       std::span<const double> weight);
 
-/// Area or volume enclosed by the boundary as it stands, m^dim.
+/// Area or volume enclosed by the boundary as it stands, m^dim; of revolution m³.
 template<int dim> double enclosed_measure(const Snapshot<dim>& shot);
 
-/// Stress-free area or volume of the cells that are broken (ω = 1), m^dim, in the meridian plane of
-/// revolution.
+/// Stress-free area or volume of the cells that are broken (ω = 1), m^dim; of revolution m³.
 template<int dim> double broken_measure(const Snapshot<dim>& shot);
 
 } // namespace cnem::results

@@ -8,7 +8,7 @@
 //   max.<field>[unit], e.g. max.plastic_strain, max.temperature[K]
 //   probe.<name>.<field>[unit]
 //   mass[kg/m], area[m^2]
-// Axisymmetric runs count the whole body: N, J and kg; the area is that of the meridian plane.
+// Axisymmetric and three-dimensional runs count the whole body: N, J, kg, enclosed_volume[m^3].
 #include <cstdint>
 #include <filesystem>
 #include <fstream>

@@ -54,15 +54,6 @@ std::vector<ProbeWeights> probe_weights(const input::Case& input, const Approxim
   return probes;
 }
 
-/// Columns of what the boundary encloses. Volumes that material points lose are `volume_drift`.
-struct MeasureWords {
-  std::string enclosed, broken, unit;
-};
-MeasureWords measure_words(int dim) {
-  return dim == 2 ? MeasureWords{"area", "broken_area", "[m^2]"}
-                  : MeasureWords{"enclosed_volume", "broken_volume", "[m^3]"};
-}
-
 bool expands(const std::vector<plasticity::Material>& materials) {
   return std::any_of(materials.begin(), materials.end(),
                      [](const plasticity::Material& material) { return material.expansion != 0.0; });
@@ -76,20 +67,14 @@ template<int dim> double total_mass(const ExplicitSolver<dim>& solver) {
 
 } // namespace
 
-HistoryUnits history_units(const input::Case& input) {
-  const bool whole = input.analysis.space() == Space::revolution || input.analysis.dimensions() == 3;
-  return whole ? HistoryUnits{"[N]", "[J]", "[kg]"} : HistoryUnits{};
-}
-
 template<int dim>
 HistoryRecorder<dim>::HistoryRecorder(const input::Case& input, const ExplicitSolver<dim>& solver,
                                       const std::filesystem::path& folder)
-    : units_(history_units(input)),
+    : units_(history_units(input.analysis)),
       probes_(probe_weights<dim>(input, solver.approximation(), solver.conditions().cloud)), folder_(folder),
       initial_measure_(enclosed_measure(snapshot(solver))), initial_mass_(total_mass(solver)) {}
 
 template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSolver<dim>& solver) const {
-  const MeasureWords measure = measure_words(dim);
   const State<dim>& state = solver.state();
   const std::array<double, 2> balance = solver.mass_balance();
   std::vector<Metric> row{{"time[s]", state.time},
@@ -138,7 +123,7 @@ template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSo
     row.push_back({"max.damage", *std::max_element(state.point.damage.begin(), state.point.damage.end()),
                    "max_damage", Keep::largest});
     row.push_back(
-        {measure.broken + measure.unit, broken_measure(snapshot(solver)), measure.broken, Keep::largest});
+        {units_.broken + units_.measure, broken_measure(snapshot(solver)), units_.broken, Keep::largest});
   }
   for (const ProbeWeights& probe : probes_)
     for (const std::string& name : probe.fields)
@@ -147,8 +132,8 @@ template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSo
   const double mass = total_mass(solver), enclosed = enclosed_measure(snapshot(solver));
   row.push_back({"mass" + units_.mass, mass});
   row.push_back({"", mass / initial_mass_ - 1.0, "mass_drift"});
-  row.push_back({measure.enclosed + measure.unit, enclosed});
-  row.push_back({"", enclosed / initial_measure_ - 1.0, measure.enclosed + "_drift"});
+  row.push_back({units_.enclosed + units_.measure, enclosed});
+  row.push_back({"", enclosed / initial_measure_ - 1.0, units_.enclosed + "_drift"});
   return row;
 }
 

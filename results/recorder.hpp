@@ -2,6 +2,7 @@
 // What a run leaves behind: rows of history, fields, pictures.
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "results/history_units.hpp"
 #include "results/history_writer.hpp"
 #include "results/point_weights.hpp"
 #include "results/snapshot.hpp"
@@ -19,12 +20,6 @@ struct ProbeWeights : PointWeights {
   std::string name;
   std::vector<std::string> fields;
 };
-
-/// Units in the headers of histories: per metre of thickness, or of whole bodies.
-struct HistoryUnits {
-  std::string force = "[N/m]", energy = "[J/m]", mass = "[kg/m]";
-};
-HistoryUnits history_units(const input::Case& input);
 
 /// Names and values of history.csv.
 template<int dim> class HistoryRecorder {

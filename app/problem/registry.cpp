@@ -114,6 +114,26 @@ void add_condition(const input::Case& input, const input::BoundaryCondition& spe
   if (spec.convection) all.convections.push_back({*spec.convection, facets});
 }
 
+/// Pieces of the boundary that lie on the axis: new nodes on them are held as well. Throws InputError when
+/// the cloud will be resampled and a piece leaves the axis.
+std::vector<PieceIndex> pieces_on_axis(const input::Case& input, const Cloud<2>& cloud) {
+  std::vector<PieceIndex> pieces;
+  for (const PieceIndex piece : cloud.piece_names.indices()) {
+    bool on = false, off = false;
+    for (const Facet<2>& facet : cloud.facets)
+      if (facet.piece == piece) {
+        const auto [a, b] = facet.node;
+        (cloud.position[a].x() == 0.0 && cloud.position[b].x() == 0.0 ? on : off) = true;
+      }
+    if (on && off && input.adapt.resample)
+      throw input.error("domain", fmt::format("found the piece '{}' on the axis and beside it, expected a "
+                                              "name of its own for what lies on the axis: its new nodes stay",
+                                              cloud.piece_names[piece]));
+    if (on) pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 /// Nodes on the axis of revolution stay on it. Throws InputError when the workpiece reaches beyond the axis.
 void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>>& supports,
                std::vector<std::string>& warnings) {
@@ -142,8 +162,9 @@ void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>
                                      support.name));
   }
   if (!axis.empty())
-    supports.insert(supports.begin(),
-                    {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis), {}});
+    supports.insert(
+        supports.begin(),
+        {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis), pieces_on_axis(input, cloud)});
 }
 
 template<int dim>

@@ -43,7 +43,7 @@ double drawing_scale(const StaticModel& model, const StaticSolution& solution) {
 
 void write_history(const StaticModel& model, const StaticSolution& solution, const results::Snapshot<2>& shot,
                    const std::filesystem::path& folder) {
-  const results::HistoryUnits units = results::history_units(model.input);
+  const results::HistoryUnits units = results::history_units(model.input.analysis);
   std::vector<std::pair<std::string, double>> row{{"time[s]", model.input.time.end},
                                                   {"step", 0.0},
                                                   {"dt[s]", 0.0},
@@ -69,7 +69,7 @@ void write_history(const StaticModel& model, const StaticSolution& solution, con
   double mass = 0.0;
   for (const double m : shot.state.node.mass) mass += m;
   row.emplace_back("mass" + units.mass, mass);
-  row.emplace_back("area[m^2]", results::enclosed_measure(shot));
+  row.emplace_back(units.enclosed + units.measure, results::enclosed_measure(shot));
   std::vector<std::string> names;
   std::vector<double> values;
   for (const auto& [name, value] : row) {

@@ -6,6 +6,18 @@
 
 namespace cnem {
 
+namespace {
+
+/// ∮ ½ (ρ_x² n_x, ρ_y² n_y) ds over a segment, ρ from `origin`, n ds the right normal of the segment: its
+/// share of the first moments of area.
+Vec2 first_moment(const Vec2& origin, const std::array<Vec2, 2>& end) {
+  const Vec2 a = end[0] - origin, b = end[1] - origin;
+  const Vec2 mean_square = (a.cwiseProduct(a) + a.cwiseProduct(b) + b.cwiseProduct(b)) / 3.0;
+  return 0.5 * mean_square.cwiseProduct(right_normal(end[1] - end[0]));
+}
+
+} // namespace
+
 template<int dim> std::array<double, dim> BoundaryPart<dim>::shares() const {
   std::array<double, dim> share;
   double area = 0.0; // over that of the facet
@@ -55,6 +67,22 @@ CellLists<NodeIndex> other_ends(std::size_t cells, std::span<const std::array<No
   for (std::size_t i = 0; i < cells; ++i)
     std::sort(lists.item.begin() + lists.begin[i], lists.item.begin() + lists.begin[i + 1]);
   return lists;
+}
+
+std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells) {
+  std::vector<Vec2> moment(cloud.position.size(), Vec2::Zero());
+  for (const InnerFace<2>& face : cells.interior) {
+    const std::size_t i = index_of(face.cell[0]), j = index_of(face.cell[1]);
+    moment[i] += first_moment(cloud.position[i], face.corner);
+    moment[j] -= first_moment(cloud.position[j], face.corner);
+  }
+  for (const BoundaryPart<2>& part : cells.boundary) {
+    const std::size_t i = index_of(part.cell);
+    moment[i] +=
+        first_moment(cloud.position[i], part.on(corners_of<2>(cloud.facets[part.facet], cloud.position)));
+  }
+  for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = cloud.position[i] + moment[i] / cells.volume[i];
+  return moment;
 }
 
 template<int dim> bool is_closed(const Cloud<dim>& cloud, const CellComplex<dim>& complex) {

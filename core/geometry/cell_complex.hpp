@@ -117,6 +117,9 @@ template<int dim> CellLists<PartIndex> parts_of_cells(const CellComplex<dim>& co
 /// The other ends of the edges at each cell; each edge is given once.
 CellLists<NodeIndex> other_ends(std::size_t cells, std::span<const std::array<NodeIndex, 2>> edges);
 
+/// Centroids of the cells, [cell] m. O(N).
+std::vector<Vec2> centroids(const Cloud<2>& cloud, const CellComplex<2>& cells);
+
 /// Whether each cell is closed and has the volume that its faces and parts enclose, to rounding: 1e-13 of the
 /// coordinates in the sum of normals. For assertions; O(N).
 template<int dim> bool is_closed(const Cloud<dim>& cloud, const CellComplex<dim>& complex);

@@ -1,5 +1,6 @@
 #pragma once
 // The cloud of nodes with its boundary: all that a discretisation is built from.
+#include "core/geometry/revolution.hpp"
 #include "core/indexed.hpp"
 #include "core/vec.hpp"
 
@@ -34,14 +35,16 @@ template<int dim> struct Cloud {
   int nodes() const { return static_cast<int>(position.size()); }
 };
 
-/// Area (m²) or volume (m³) that a boundary encloses, with position(node) for the places of its nodes.
+/// Area (m²) or volume (m³; of revolution that of the whole body) that a boundary encloses, with
+/// position(node) for the places of its nodes.
 template<int dim, class Position>
-double enclosed_measure(const std::vector<Facet<dim>>& facets, const Position& position) {
+double enclosed_measure(const std::vector<Facet<dim>>& facets, const Position& position,
+                        Space space = Space::plane) {
   double sum = 0.0;
   for (const Facet<dim>& facet : facets) {
     const auto& [a, b] = std::pair<Vec<dim>, Vec<dim>>(position(facet.node[0]), position(facet.node[1]));
     if constexpr (dim == 2) {
-      sum += cross(a, b);
+      sum += space == Space::plane ? cross(a, b) : 2.0 * revolved_volume(a, b);
     } else {
       const Vec<dim> c = position(facet.node[2]);
       sum += a.x() * (b.y() * c.z() - b.z() * c.y()) + a.y() * (b.z() * c.x() - b.x() * c.z()) +
@@ -50,8 +53,9 @@ double enclosed_measure(const std::vector<Facet<dim>>& facets, const Position& p
   }
   return dim == 2 ? 0.5 * sum : sum / 6.0;
 }
-template<int dim> double enclosed_measure(const Cloud<dim>& cloud) {
-  return enclosed_measure(cloud.facets, [&](NodeIndex i) -> const Vec<dim>& { return cloud.position[i]; });
+template<int dim> double enclosed_measure(const Cloud<dim>& cloud, Space space = Space::plane) {
+  const auto position = [&](NodeIndex i) -> const Vec<dim>& { return cloud.position[i]; };
+  return enclosed_measure(cloud.facets, position, space);
 }
 
 } // namespace cnem

@@ -20,4 +20,11 @@ inline std::array<double, 2> end_areas(Space space, const Vec2& a, const Vec2& b
   return {third * (2.0 * a.x() + b.x()), third * (a.x() + 2.0 * b.x())};
 }
 
+/// π ∫ r² dy over a straight facet, m³: what it adds to the volume that a closed boundary turns about the
+/// axis.
+inline double revolved_volume(const Vec2& a, const Vec2& b) {
+  const double mean_square = (a.x() * a.x() + a.x() * b.x() + b.x() * b.x()) / 3.0;
+  return std::numbers::pi * mean_square * (b.y() - a.y());
+}
+
 } // namespace cnem

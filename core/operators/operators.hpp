@@ -45,6 +45,7 @@ template<int dim> struct DiscreteOperators {
   Field weighted_hoop;                 ///< [entry] V_p h_pJ; empty in plane problems
 
   bool of_revolution() const { return !radius.empty(); }
+  Space space() const { return of_revolution() ? Space::revolution : Space::plane; }
 
   /// A node of the row of a point, its own for nodal rows: all of a row are of one body and one material.
   NodeIndex first_node(std::size_t p) const {

@@ -10,8 +10,10 @@ struct Blank {
   NodeProperties node;
 
   /// Gives each node of the cloud the mass of its cell, nothing held.
-  void weigh(double spacing) {
-    node.mass = build_structure(cloud).cells.volume;
+  void weigh(double spacing, Space space = Space::plane) {
+    const Structure structure = build_structure(cloud, space);
+    node.mass.clear();
+    for (const NodeIndex i : cloud.position.indices()) node.mass.push_back(structure.volume(i));
     const std::size_t n = node.mass.size();
     node.jacobian.assign(n, 1.0);
     node.density.assign(n, 1.0);

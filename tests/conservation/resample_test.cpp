@@ -136,7 +136,7 @@ void one_sequence(int kind, std::uint64_t seed, Placement placement, PassReport&
     EXPECT_NEAR(total_of(c.momentum), momentum, 1e-12 * scale);
     EXPECT_NEAR(total_of(c.heat), heat, 1e-12 * heat);
     for (const double m : c.mass) ASSERT_GT(m, 0.0);
-    EXPECT_NEAR(testing::area(change.cloud) - testing::area(cloud), report.area_change, 1e-14);
+    EXPECT_NEAR(testing::area(change.cloud) - testing::area(cloud), report.volume_change, 1e-14);
     cloud = std::move(change.cloud);
     expect_exact_patch(cloud);
     if (::testing::Test::HasFatalFailure()) return;

@@ -296,6 +296,13 @@ picture_fields = ["softening"]
 every_steps = 100
 )toml" + steel_304l;
 
+/// The slug is round: its axis is the symmetry plane of the other.
+std::string of_revolution(std::string text) {
+  const std::string plane = "[boundary.left]\npieces = [\"left\"]\nsymmetry = true\n";
+  text.erase(text.find(plane), plane.size());
+  return "[analysis]\nkinematics = \"axisymmetric\"\n" + text;
+}
+
 // Two parts with a crack between them, pressed together by a tool that slides: friction, heat, renewals.
 const std::string touching = R"toml(
 [time]
@@ -364,18 +371,12 @@ keep = 3
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
-  static const std::vector<SmallCase> cases{{"punched", punched},
-                                            {"levels", levels},
-                                            {"loaded", loaded},
-                                            {"round_bar", round_bar},
-                                            {"triangles", triangles},
-                                            {"breaking", breaking},
-                                            {"adapted", adapted},
-                                            {"separated", separated},
-                                            {"touching", touching},
-                                            {"set_back", set_back},
-                                            {"particles", with_particles(punched)},
-                                            {"space", space_case()}};
+  static const std::vector<SmallCase> cases{
+      {"punched", punched},     {"levels", levels},       {"loaded", loaded},
+      {"round_bar", round_bar}, {"triangles", triangles}, {"breaking", breaking},
+      {"adapted", adapted},     {"separated", separated}, {"round_slug", of_revolution(separated)},
+      {"touching", touching},   {"set_back", set_back},   {"particles", with_particles(punched)},
+      {"space", space_case()}};
   return cases;
 }
 
