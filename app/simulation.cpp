@@ -42,6 +42,7 @@ Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options)
     : input_(input), options_(options),
       solver_(watch_.time("setup", [&] { return make_solver<dim>(input, warnings_); })),
       history_(input, solver_, options.output),
+      lines_(input, solver_.conditions().cloud, solver_.approximation()),
       history_due_(every(input.output.history_every, input.time.end, Schedule::every_step())),
       fields_due_(every(input.output.fields_every, input.time.end,
                         Schedule::at({0.0, input.time.end}, input.time.end))),
@@ -60,8 +61,7 @@ template<int dim> void Simulation<dim>::check_tools() {
 }
 template<int dim> void Simulation<dim>::start() {
   watch_.time("rebuild", [&] {
-    features_.start(options_.output, solver_,
-                    [&](const Resampling<dim>& change) { history_.resample(change, solver_); });
+    features_.start(options_.output, solver_, [&](const Resampling<dim>& change) { follow(change); });
   });
   fields_.emplace(options_.output, input_.origin);
 }
@@ -74,8 +74,7 @@ template<int dim> Exit Simulation<dim>::run() {
         break;
       }
     watch_.time("output", [&] {
-      if (exit_ != Exit::interrupted)
-        results::write_lines(input_, results::snapshot(solver_), options_.output);
+      if (exit_ != Exit::interrupted) lines_.write(results::snapshot(solver_), options_.output);
       watch_.time("output.disk", [&] { files_.wait(); });
       if (exit_ == Exit::done) features_.evaluate(options_.output, solver_);
     });
@@ -217,9 +216,14 @@ template<int dim> void Simulation<dim>::adapt_and_step() {
 }
 template<int dim> bool Simulation<dim>::new_reference() {
   const auto prepare = [&] {
-    features_.renew(solver_, [&](const Resampling<dim>& change) { history_.resample(change, solver_); });
+    features_.renew(solver_, [&](const Resampling<dim>& change) { follow(change); });
   };
   return renewal_.renew(solver_, prepare, retries_.strain_share());
+}
+/// What looks at material points goes with them.
+template<int dim> void Simulation<dim>::follow(const Resampling<dim>& change) {
+  history_.resample(change, solver_);
+  lines_.resample(change, solver_.conditions().cloud, solver_.approximation());
 }
 template<int dim> void Simulation<dim>::look_at_step() {
   check_finite(solver_.state());

@@ -14,6 +14,7 @@
 #include "results/file_queue.hpp"
 #include "results/progress.hpp"
 #include "results/recorder.hpp"
+#include "results/sample_lines.hpp"
 #include "results/status.hpp"
 
 #include <optional>
@@ -68,6 +69,7 @@ private:
   void adapt_and_step();
   /// Whether there is a new one.
   bool new_reference();
+  void follow(const Resampling<dim>& change);
   void look_at_step();
   void refresh_step();
   void write_checkpoint(int frames);
@@ -87,6 +89,7 @@ private:
   std::vector<std::string> warnings_;
   ExplicitSolver<dim> solver_;
   results::HistoryRecorder<dim> history_;
+  results::SampleLines<dim> lines_;
   results::FileQueue files_; ///< frames and pictures on their way to the disk
   std::optional<results::FieldRecorder> fields_;
   Schedule history_due_, fields_due_, pictures_due_;

@@ -42,6 +42,7 @@ template<int dim> int Simulation<dim>::archive_course(Archive& archive, int fram
   penetration_.archive(archive);
   features_.archive(archive);
   history_.archive(archive);
+  lines_.archive(archive);
   archive.integer("run/last_check", last_check_);
   archive.number("run/node_steps", "1", node_steps_);
   archive.integer("run/frames", frames);

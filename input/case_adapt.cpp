@@ -98,11 +98,11 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict(path,
              "found true with method.lagrangian = \"total\", expected \"periodic\": nodes are changed at a "
              "new reference");
-  for (const char* other : {"domain.cracks", "domain.interfaces", "periodic", "output.lines"})
+  for (const char* other : {"domain.cracks", "domain.interfaces", "periodic"})
     if (const Setting* found = root.find(other); found && found->given)
       conflict(other,
                "found with adapt.resample = true, expected one or the other: nodes of faces that belong "
-               "together, or of the initial configuration, cannot be followed");
+               "together cannot be followed");
 }
 
 } // namespace cnem::input

@@ -71,6 +71,10 @@ double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::s
   return sum;
 }
 
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{}[{}]", name, unit);
+}
+
 template<int dim> double enclosed_measure(const Snapshot<dim>& shot) {
   const auto position = [&](NodeIndex node) {
     return vector_at<dim>(shot.state.node.position, index_of(node));

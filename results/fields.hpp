@@ -25,6 +25,9 @@ template<int dim>
 double weighted_value(const Snapshot<dim>& shot, const std::string& name, std::span<const NodeIndex> node,
                       std::span<const double> weight);
 
+/// As heads of columns have it: "name[unit]", or the name alone.
+std::string with_unit(const std::string& name, const std::string& unit);
+
 /// Area or volume enclosed by the boundary as it stands, m^dim; of revolution m³.
 template<int dim> double enclosed_measure(const Snapshot<dim>& shot);
 

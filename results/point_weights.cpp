@@ -71,6 +71,18 @@ template<int dim> PointWeights PointLocator<dim>::nearest_node(const Vec<dim>& x
   return {{as<NodeIndex>(nearest)}, {1.0}};
 }
 
+template<int dim>
+void follow(const Resampling<dim>& change, const PointLocator<dim>& locator, PointWeights& point) {
+  Vec<dim> at = Vec<dim>::Zero();
+  for (std::size_t k = 0; k < point.node.size(); ++k)
+    at += point.weight[k] * change.old_position[index_of(point.node[k])];
+  try {
+    point = locator.weights(at);
+  } catch (const GeometryError&) { point = locator.nearest_node(at); }
+}
+
+template void follow(const Resampling<2>&, const PointLocator<2>&, PointWeights&);
+template void follow(const Resampling<3>&, const PointLocator<3>&, PointWeights&);
 template class PointLocator<2>;
 template class PointLocator<3>;
 

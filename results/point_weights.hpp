@@ -2,6 +2,7 @@
 // Material points between nodes, for probes and lines.
 #include "core/geometry/cloud.hpp"
 #include "core/operators/discretisation.hpp"
+#include "core/operators/resampling.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -33,5 +34,10 @@ private:
   const Cloud<dim>& cloud_;
   std::unique_ptr<Structure> structure_;
 };
+
+/// Keeps a point where it is in the matter of a changed cloud, which `locator` knows; when it was cut off
+/// with a corner of the boundary, the nearest node goes on for it.
+template<int dim>
+void follow(const Resampling<dim>& change, const PointLocator<dim>& locator, PointWeights& point);
 
 } // namespace cnem::results

@@ -27,10 +27,6 @@ template<int dim> VectorField vector_field(const char* name, const Fields<dim>& 
   return all;
 }
 
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : fmt::format("{}[{}]", name, unit);
-}
-
 std::vector<std::string> columns_of(const std::vector<Metric>& told) {
   std::vector<std::string> names;
   for (const Metric& metric : told)
@@ -174,16 +170,7 @@ template<int dim>
 void HistoryRecorder<dim>::resample(const Resampling<dim>& change, const ExplicitSolver<dim>& solver) {
   if (probes_.empty()) return;
   const PointLocator<dim> locator(solver.conditions().cloud, solver.approximation().cells);
-  for (ProbeWeights& probe : probes_) {
-    Vec<dim> at = Vec<dim>::Zero();
-    for (std::size_t k = 0; k < probe.node.size(); ++k)
-      at += probe.weight[k] * change.old_position[index_of(probe.node[k])];
-    try {
-      static_cast<PointWeights&>(probe) = locator.weights(at);
-    } catch (const GeometryError&) { // cut off with a corner of the boundary: the nearest node goes on
-      static_cast<PointWeights&>(probe) = locator.nearest_node(at);
-    }
-  }
+  for (ProbeWeights& probe : probes_) follow<dim>(change, locator, probe);
 }
 
 template<int dim> void HistoryRecorder<dim>::archive(Archive& archive) {
@@ -238,43 +225,6 @@ template<int dim> std::string HistoryRecorder<dim>::kinetic_warning(const input:
       kinetic_share(), small);
 }
 
-template<int dim>
-void write_lines(const input::Case& input, const Snapshot<dim>& shot, const std::filesystem::path& folder) {
-  if (input.output.lines.empty()) return;
-  Cloud<dim> initial = shot.cloud;
-  for (std::size_t i = 0; i < initial.position.size(); ++i)
-    for (int k = 0; k < dim; ++k) initial.position[i][k] = shot.state.node.initial_position[index_of(k)][i];
-  const PointLocator<dim> locator(initial, shot.approximation.cells);
-  std::filesystem::create_directories(folder / files::lines_folder);
-  for (const input::SampleLine& line : input.output.lines) {
-    std::string text = dim == 2 ? "distance[m],x[m],y[m]" : "distance[m],x[m],y[m],z[m]";
-    std::vector<Field> fields;
-    for (const std::string& name : line.fields) {
-      text += fmt::format(",{}", with_unit(name, field_info<dim>(name).unit));
-      fields.push_back(values_at_nodes(shot, name));
-    }
-    text += "\n";
-    const Vec<dim> from = line.from.head<dim>(), to = line.to.head<dim>();
-    for (int k = 0; k < line.samples; ++k) {
-      const Vec<dim> x = from + (to - from) * (static_cast<double>(k) / (line.samples - 1));
-      PointWeights point;
-      try {
-        point = locator.weights(x);
-      } catch (const GeometryError& error) { throw input.error("output.lines." + line.name, error.what()); }
-      text += fmt::format("{}", (x - from).norm());
-      for (int c = 0; c < dim; ++c) text += fmt::format(",{}", input.origin[c] + x[c]);
-      for (const Field& field : fields) {
-        double sum = 0.0;
-        for (std::size_t j = 0; j < point.node.size(); ++j)
-          sum += point.weight[j] * field[index_of(point.node[j])];
-        text += fmt::format(",{}", sum);
-      }
-      text += "\n";
-    }
-    write_atomically(folder / files::lines_folder / (line.name + ".csv"), text);
-  }
-}
-
 template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<dim>& shot) {
   struct Kept {
     FieldFrame<dim> frame;
@@ -314,8 +264,6 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
 
 template class HistoryRecorder<2>;
 template class HistoryRecorder<3>;
-template void write_lines(const input::Case&, const Snapshot<2>&, const std::filesystem::path&);
-template void write_lines(const input::Case&, const Snapshot<3>&, const std::filesystem::path&);
 template void FieldRecorder::record(FileQueue&, const Snapshot<2>&);
 template void FieldRecorder::record(FileQueue&, const Snapshot<3>&);
 

@@ -70,11 +70,6 @@ private:
   std::vector<std::pair<std::string, double>> metrics_;
 };
 
-/// Writes lines/NAME.csv for every line of the case: distance and initial position, then the fields, from
-/// natural-neighbour interpolation of nodal values.
-template<int dim>
-void write_lines(const input::Case& input, const Snapshot<dim>& shot, const std::filesystem::path& folder);
-
 /// Writes fields.pvd frames with every field of the catalogue, through a queue that must outlive the frames.
 class FieldRecorder {
 public:

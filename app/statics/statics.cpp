@@ -12,6 +12,7 @@
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
 #include "results/recorder.hpp"
+#include "results/sample_lines.hpp"
 #include "results/status.hpp"
 
 #include <algorithm>
@@ -165,7 +166,7 @@ Exit solve(const StaticModel& model, const RunOptions& options, Stopwatch& watch
   watch.time("output", [&] {
     results::FileQueue files;
     watch.time("output.history", [&] { write_history(model, solution, shot, options.output); });
-    results::write_lines(input, shot, options.output);
+    results::SampleLines<2>(input, shot.cloud, model.approximation).write(shot, options.output);
     watch.time("output.fields",
                [&] { results::FieldRecorder(options.output, input.origin).record(files, shot); });
     watch.time("output.pictures",

@@ -234,6 +234,11 @@ tool_spacing = "0.15 mm"
 [adapt.indicator]
 field = "plastic_strain"
 h_min = "0.12 mm"
+[output.lines.across]
+from = "0.1 0.5 mm"
+to = "1.5 0.6 mm"
+samples = 9
+fields = ["plastic_strain"]
 [output]
 history_every = "0.1 us"
 fields_every = "4 us"
