@@ -87,22 +87,6 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict("adapt.indicator.field",
              fmt::format("found \"{}\" in an analysis without heat, expected it with analysis.thermal = true",
                          rules.indicator->name));
-  if (result.time.mass_scaling && result.time.mass_scaling->step > 0.0 && (refines || rules.tool_spacing))
-    conflict("time.mass_scaling.step",
-             "found a step for a cloud that is refined, expected time.mass_scaling.factor: the factors of "
-             "the first cloud do not bring finer cells to that step");
-  const std::string path = "adapt.resample";
-  if (result.analysis.type == Analysis::Type::statics)
-    conflict(path, "found true in a static analysis, expected it with analysis.type = \"explicit\" only");
-  if (result.method.lagrangian == Method::Lagrangian::total)
-    conflict(path,
-             "found true with method.lagrangian = \"total\", expected \"periodic\": nodes are changed at a "
-             "new reference");
-  for (const char* other : {"domain.cracks", "domain.interfaces", "periodic"})
-    if (const Setting* found = root.find(other); found && found->given)
-      conflict(other,
-               "found with adapt.resample = true, expected one or the other: nodes of faces that belong "
-               "together cannot be followed");
 }
 
 } // namespace cnem::input

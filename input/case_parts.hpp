@@ -64,8 +64,8 @@ std::vector<Unmet> unmet_needs(const Case& input, const Promises& promises);
 /// else.
 void check_promises(const Setting& root, const Case& result, Diagnostics& diagnostics);
 
-/// What the kind of analysis does not allow; defaults of such keys are dropped. Expects everything else.
-void check_analysis(Setting& root, const Case& result, Diagnostics& diagnostics);
+/// What cannot be asked for together; defaults of such keys are dropped. Expects everything else.
+void check_pairs(Setting& root, const Case& result, Diagnostics& diagnostics);
 
 /// Points of a CSV file with a header such as "x[mm],y[mm]". Throws InputError with file, line and column for
 /// a file that is absent or malformed, IoError when it cannot be read.

@@ -207,7 +207,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
     read_report(root, result, diagnostics);
   }
   check_promises(root, result, diagnostics);
-  check_analysis(root, result, diagnostics);
+  check_pairs(root, result, diagnostics);
   diagnostics.throw_if_any();
   result.resolved = write_resolved(root, fmt::format("Resolved from {}: SI units, defaults included.", path));
   use_local_origin(result);

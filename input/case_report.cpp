@@ -38,19 +38,13 @@ std::vector<std::string> usual_dies(const std::vector<Tool>& tools, const std::s
   return named.empty() ? resting : named;
 }
 
-std::string tie_of(const Case& input) {
-  return !input.domain.interfaces.empty() ? "domain.interfaces" : !input.periodic.empty() ? "periodic" : "";
-}
+bool tied(const Case& input) { return !input.domain.interfaces.empty() || !input.periodic.empty(); }
 
 } // namespace
 
 void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
-  const std::string ties = tie_of(result);
-  root.set_default("report.springback", root.find("report.blanking") != nullptr && ties.empty());
+  root.set_default("report.springback", root.find("report.blanking") != nullptr && !tied(result));
   result.report.springback = root.get<bool>("report.springback");
-  if (const Setting& key = *root.find("report.springback"); result.report.springback && !ties.empty())
-    diagnostics.add(Mistake::conflict, key.where, key.path,
-                    fmt::format("found true with {}, expected one of them: tied nodes are not let go", ties));
   const Setting* blanking = root.find("report.blanking");
   if (!blanking) return;
 

@@ -1,5 +1,6 @@
 // Node lists in CSV files.
 #include "input/case_parts.hpp"
+#include "input/schema/document.hpp"
 #include "input/schema/units.hpp"
 
 #include <charconv>
@@ -10,12 +11,6 @@
 
 namespace cnem::input {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// A part of a line and where it begins.
 struct FileField {

@@ -72,12 +72,6 @@ void relocate(Value& value, const Location& where) {
   }
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 /// The text after '=' as TOML where it is TOML, else as it stands.
 Value override_value(std::string_view text, const Location& where) {
   Value value;
@@ -352,6 +346,13 @@ std::string toml_text(const Value& value) {
     break;
   }
   return "";
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* blank = " \t\r";
+  const auto first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
 } // namespace cnem::input

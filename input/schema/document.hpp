@@ -77,4 +77,7 @@ std::string toml_quoted(std::string_view text);
 /// The value as TOML on one line, as it may follow "key = ". Dates have no such text: "".
 std::string toml_text(const Value& value);
 
+/// Without blanks at both ends.
+std::string_view trimmed(std::string_view text);
+
 } // namespace cnem::input

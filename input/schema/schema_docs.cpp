@@ -1,5 +1,6 @@
 // The case reference in Markdown.
 #include "input/case.hpp"
+#include "input/case_pairs.hpp"
 #include "input/schema/schema.hpp"
 #include "mechanics/field_catalogue.hpp"
 
@@ -187,6 +188,8 @@ std::string case_reference() {
     text += fmt::format("| `{}` | {} | {}{} |\n", field.name, field.unit.empty() ? "1" : field.unit,
                         field.shown.meaning, everywhere ? "" : " (three-dimensional analyses)");
   }
+  text += "\n## What cannot be asked for together\n\n";
+  text += pairs_table();
   std::string top;
   for (const Key* key : members_of(""))
     if (key->type == Type::text) top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);

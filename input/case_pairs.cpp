@@ -1,0 +1,211 @@
+// What cannot be asked for together: the one table of pairs that are refused, each with its reason. What a
+// method must promise for a feature stands in case_promises.cpp.
+#include "input/case_pairs.hpp"
+
+#include "input/case_parts.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <vector>
+
+namespace cnem::input {
+namespace {
+
+using Text = std::string;
+
+constexpr const char* one_of_them = "one of them";
+constexpr const char* dynamics = "it with analysis.type = \"explicit\" only";
+constexpr const char* unmatched =
+    "nodes of faces that belong together come and go together, which resampling cannot do yet";
+constexpr const char* motion = "it with analysis.mechanical = true";
+
+bool is_static(const Case& c) { return c.analysis.type == Analysis::Type::statics; }
+bool is_round(const Case& c) { return c.analysis.space() == Space::revolution; }
+bool local(const Case& c) { return !is_static(c) && c.time.local.on; }
+bool resampled(const Case& c) { return c.adapt.resample; }
+
+Text when(bool holds, const char* words) { return holds ? words : ""; }
+
+Text in_statics(const Case& c) { return when(is_static(c), "in a static analysis"); }
+Text in_dynamics(const Case& c) { return when(!is_static(c), "in an explicit analysis"); }
+Text without_motion(const Case& c) {
+  return when(!is_static(c) && c.analysis.thermal && !c.analysis.mechanical, "in an analysis without motion");
+}
+/// "with material 'steel', which has a damage law"
+Text with_damage(const Case& c) {
+  for (const plasticity::Material& material : c.materials)
+    if (material.damage) return fmt::format("with material '{}', which has a damage law", material.name);
+  return "";
+}
+Text with_massive_tool(const Case& c) {
+  for (const Tool& tool : c.tools)
+    if (tool.drive) return fmt::format("with tool '{}', which has a mass", tool.name);
+  return "";
+}
+Text with_resampling(const Case& c) { return when(resampled(c), "with adapt.resample = true"); }
+
+/// The first of a case's materials that expands from another temperature than the initial one.
+const plasticity::Material* expanding(const Case& c) {
+  const auto found = std::find_if(c.materials.begin(), c.materials.end(), [&](const plasticity::Material& m) {
+    return m.expansion != 0.0 && m.expansion_reference != c.initial.temperature;
+  });
+  return found == c.materials.end() ? nullptr : &*found;
+}
+const BoundaryCondition* moving(const Case& c) {
+  const auto found =
+      std::find_if(c.boundary.begin(), c.boundary.end(),
+                   [](const BoundaryCondition& condition) { return moves(condition.velocity); });
+  return found == c.boundary.end() ? nullptr : &*found;
+}
+
+/// What is asked for at `path` is refused where `with` gives words. A key that is a default is dropped
+/// instead, so that the resolved case reads back.
+struct Pair {
+  const char* path;  ///< as the docs have it
+  const char* found; ///< what it asks for, "" for the key itself
+  const char* other; ///< with what, for the docs
+  Text (*with)(const Case&);
+  const char* expected;
+  const char* reason;
+  bool (*asked)(const Case&) = nullptr; ///< null: whenever the key is there
+  Text (*place)(const Case&) = nullptr; ///< the key of this case, where `path` has a pattern
+};
+
+const std::vector<Pair>& pairs() {
+  static const std::vector<Pair> table{
+      {"time.step.local", "local steps", "`time.mass_scaling`",
+       [](const Case& c) { return when(c.time.mass_scaling.has_value(), "with time.mass_scaling"); },
+       one_of_them, "either makes up for small cells", local},
+      {"time.step.local", "local steps", "`method.pressure_exchange`",
+       [](const Case& c) { return when(c.method.pressure_exchange > 0.0, "with method.pressure_exchange"); },
+       one_of_them, "neighbours of different steps would exchange volumes of different times", local},
+      {"time.step.local", "local steps", "a damage law", with_damage, one_of_them,
+       "the step of what breaks rises faster than levels may change", local},
+      {"time.step.local", "local steps", "`contact.deformable`",
+       [](const Case& c) { return when(c.contact.active, "with contact.deformable"); }, one_of_them,
+       "impulses between two bodies need both at one time", local},
+      {"time.step.local", "local steps", "a tool with a mass", with_massive_tool, "tools of given velocity",
+       "the tool would have to move with every level", local},
+      {"time.step.local", "local steps", "`time.step.fixed`",
+       [](const Case& c) { return when(c.time.fixed.has_value(), "and a fixed one"); }, one_of_them,
+       "levels follow from the stable steps", local},
+      {"time.step.local", "local steps", "`analysis.mechanical = false`", without_motion,
+       "them with analysis.mechanical = true", "conduction is stable at a thousand times the step", local},
+      {"method.pressure_exchange", "an exchange", "a damage law", with_damage, one_of_them,
+       "volumes of gaps must not be shared with what is whole",
+       [](const Case& c) { return !is_static(c) && c.method.pressure_exchange > 0.0; }},
+
+      {"analysis.mechanical", "false", "`analysis.thermal = false`",
+       [](const Case& c) {
+         return when(!is_static(c) && !c.analysis.thermal, "where analysis.thermal is false");
+       },
+       "one of them to be true", "nothing is solved for",
+       [](const Case& c) { return !c.analysis.mechanical; }},
+      {"tools", "", "`analysis.mechanical = false`", without_motion, motion, "nothing meets them"},
+      {"contact", "", "`analysis.mechanical = false`", without_motion, motion, "nothing touches"},
+      {"time.mass_scaling", "", "`analysis.mechanical = false`", without_motion, motion,
+       "inertia does not act"},
+      {"initial.velocity", "", "`analysis.mechanical = false`", without_motion, motion, "nothing moves"},
+      {"initial.spin", "", "`analysis.mechanical = false`", without_motion, motion, "nothing moves"},
+      {"initial.velocity_gradient", "", "`analysis.mechanical = false`", without_motion, motion,
+       "nothing moves"},
+      {"report", "", "`analysis.mechanical = false`", without_motion, motion, "nothing is cut"},
+
+      {"analysis.kinematics", "\"plane stress\"", "explicit analyses", in_dynamics,
+       "it with analysis.type = \"static\" only", "the return map solves for no strain out of the plane",
+       [](const Case& c) { return c.analysis.kinematics == Analysis::Kinematics::plane_stress; }},
+      {"fracture", "", "explicit analyses", in_dynamics, "it with analysis.type = \"static\" only",
+       "tip functions and interaction integrals are those of equilibrium"},
+      {"initial.spin", "a rotation in the meridian plane", "axisymmetric analyses",
+       [](const Case& c) { return when(!is_static(c) && is_round(c), "in an axisymmetric analysis"); },
+       "none", "rings do not turn out of their planes"},
+
+      {"analysis.type", "\"static\"", "three-dimensional analyses",
+       [](const Case& c) { return when(c.analysis.dimensions() == 3, "in a three-dimensional analysis"); },
+       "\"explicit\"", "what equilibrium is solved with are operators of the plane", is_static},
+      {"domain.cracks", "", "axisymmetric static analyses",
+       [](const Case& c) { return when(is_static(c) && is_round(c), "in an axisymmetric static analysis"); },
+       "a plane one", "tip functions and interaction integrals are those of plane cracks"},
+      {"analysis.mechanical", "false", "static analyses", in_statics, "true",
+       "displacements are what it solves for", [](const Case& c) { return !c.analysis.mechanical; }},
+      {"analysis.thermal", "true", "static analyses", in_statics, "false",
+       "it solves for displacements alone", [](const Case& c) { return c.analysis.thermal; }},
+      {"time.step", "", "static analyses", in_statics, dynamics, "there is no step"},
+      {"time.max_steps", "", "static analyses", in_statics, dynamics, "there is no step"},
+      {"time.mass_scaling", "", "static analyses", in_statics, dynamics, "inertia does not act"},
+      {"tools", "", "static analyses", in_statics, dynamics, "equilibrium is solved for without contact"},
+      {"contact", "", "static analyses", in_statics, dynamics, "equilibrium is solved for without contact"},
+      {"initial.velocity", "", "static analyses", in_statics, dynamics, "nothing moves"},
+      {"initial.spin", "", "static analyses", in_statics, dynamics, "nothing moves"},
+      {"initial.velocity_gradient", "", "static analyses", in_statics, dynamics, "nothing moves"},
+      {"initial.imperfections", "", "static analyses", in_statics, dynamics,
+       "they are of the yield stress, and equilibrium is elastic"},
+      {"domain.interfaces", "", "static analyses", in_statics, dynamics,
+       "bonds are ties of the explicit step"},
+      {"domain.regions", "", "static analyses", in_statics, dynamics, "regions are parts between interfaces"},
+      {"periodic", "", "static analyses", in_statics, dynamics, "periods are ties of the explicit step"},
+      {"output.checkpoint", "", "static analyses", in_statics, dynamics, "equilibrium is found in one go"},
+      {"output.probes", "", "static analyses", in_statics, dynamics, "probes record a history"},
+      {"report", "", "static analyses", in_statics, dynamics, "what is evaluated is a history of tools"},
+      {"materials.*.heat.expansion", "a thermal strain", "static analyses",
+       [](const Case& c) { return when(is_static(c) && expanding(c), "in a static analysis"); },
+       "heat.reference_temperature = initial.temperature", "temperatures load nothing there", nullptr,
+       [](const Case& c) { return "materials." + expanding(c)->name + ".heat.expansion"; }},
+      {"boundary.*.velocity", "a velocity", "static analyses",
+       [](const Case& c) { return when(is_static(c) && moving(c), "in a static analysis"); },
+       "a displacement (or a velocity of 0)", "there is no time to move in", nullptr,
+       [](const Case& c) { return "boundary." + moving(c)->name + ".velocity"; }},
+
+      {"adapt.resample", "true", "static analyses", in_statics, dynamics, "nothing calls for a new cloud",
+       resampled},
+      {"adapt.resample", "true", "`method.lagrangian = \"total\"`",
+       [](const Case& c) {
+         return when(c.method.lagrangian == Method::Lagrangian::total, "with method.lagrangian = \"total\"");
+       },
+       "\"periodic\"", "nodes are changed at a new reference", resampled},
+      {"domain.cracks", "", "`adapt.resample`", with_resampling, one_of_them, unmatched},
+      {"domain.interfaces", "", "`adapt.resample`", with_resampling, one_of_them, unmatched},
+      {"periodic", "", "`adapt.resample`", with_resampling, one_of_them, unmatched},
+      {"time.mass_scaling.step", "a step", "refinement",
+       [](const Case& c) {
+         const bool refines = resampled(c) && (c.adapt.indicator || c.adapt.tool_spacing);
+         return when(refines && c.time.mass_scaling, "for a cloud that is refined");
+       },
+       "time.mass_scaling.factor", "the factors of the first cloud do not bring finer cells to that step",
+       [](const Case& c) { return c.time.mass_scaling && c.time.mass_scaling->step > 0.0; }},
+      {"report.springback", "true", "ties",
+       [](const Case& c) {
+         return when(!c.domain.interfaces.empty(), "with domain.interfaces") +
+                when(c.domain.interfaces.empty() && !c.periodic.empty(), "with periodic");
+       },
+       one_of_them, "tied nodes are not let go", [](const Case& c) { return c.report.springback; }},
+  };
+  return table;
+}
+
+} // namespace
+
+void check_pairs(Setting& root, const Case& input, Diagnostics& diagnostics) {
+  for (const Pair& pair : pairs()) {
+    const Text with = pair.with(input);
+    if (with.empty() || (pair.asked && !pair.asked(input))) continue;
+    const Text path = pair.place ? pair.place(input) : pair.path;
+    const Setting* setting = root.find(path);
+    if (!setting) continue;
+    if (setting->given)
+      diagnostics.add(Mistake::conflict, setting->where, setting->path,
+                      fmt::format("found {}{}{}, expected {}: {}", pair.found, *pair.found ? " " : "", with,
+                                  pair.expected, pair.reason));
+    else
+      root.erase(path);
+  }
+}
+
+std::string pairs_table() {
+  Text text = "| key | not with | because |\n| --- | --- | --- |\n";
+  for (const Pair& pair : pairs())
+    text += fmt::format("| `{}` | {} | {} |\n", pair.path, pair.other, pair.reason);
+  return text;
+}
+
+} // namespace cnem::input
