@@ -93,7 +93,7 @@ int act(CLI::App& program, int argc, char** argv) {
 
   CLI::App* sweep_command = program.add_subcommand("sweep", "run a parameter study: one case, many values");
   std::string study_path, sweep_output;
-  study::SweepOptions sweep_options;
+  study::BatchOptions sweep_options;
   sweep_command->add_option("study", study_path, "study file (TOML), or a folder that holds study.toml")
       ->required();
   sweep_command->add_option("--output", sweep_output, "folder of results (default: results/<study name>)");

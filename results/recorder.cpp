@@ -310,8 +310,7 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
   for (const FieldInfo<dim>& info : field_catalogue<dim>()) {
     if (info.of_damage && shot.state.point.damage.empty()) continue;
     if (info.adaptive && !shot.adaptation) continue;
-    const std::string name =
-        info.unit.empty() ? info.shown.label : fmt::format("{} [{}]", info.shown.label, info.unit);
+    const std::string name = name_in_files(info);
     const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
     frame.cell_scalars.push_back({name, at_points});
     if (shot.approximation.mechanics.nodal)

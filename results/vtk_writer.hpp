@@ -3,6 +3,7 @@
 // stress points, polygons or tetrahedra, with cell data, and the nodes as points with point data.
 #include "core/operators/discretisation.hpp"
 #include "results/file_queue.hpp"
+#include "results/vtk_reader.hpp"
 
 #include <array>
 #include <filesystem>
@@ -69,15 +70,11 @@ public:
   int frames() const { return static_cast<int>(entries_.size()); }
 
 private:
-  struct Entry {
-    double time;
-    std::string cells, nodes; ///< paths relative to the folder
-  };
   FieldWriter() = default;
   std::string collection() const;
 
   std::filesystem::path folder_;
-  std::vector<Entry> entries_;
+  std::vector<FieldFiles> entries_;
 };
 
 } // namespace cnem::results

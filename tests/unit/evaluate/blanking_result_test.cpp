@@ -46,7 +46,7 @@ results::HistoryTable sine() {
 }
 
 TEST(ForceStroke, largest_force_stroke_and_work_of_a_sine) {
-  const ForceCurve curve = force_curve(sine(), "punch", "punch", {"die"}, Vec2(0, -1));
+  const ForceCurve curve = force_curve(sine(), "punch", "punch", {"die"}, Vec3(0, -1, 0));
   const ToolForce force = largest_force(curve, "punch");
   // The Gaussian of σ = T/100 takes exp(−(π/100)²/2) of a sine.
   const double passed = std::exp(-0.5 * std::pow(std::numbers::pi / 100.0, 2));
@@ -54,7 +54,7 @@ TEST(ForceStroke, largest_force_stroke_and_work_of_a_sine) {
   EXPECT_NEAR(force.largest_sample, 2e6, 2.0);
   EXPECT_NEAR(force.stroke, 2.0 * 0.5e-3, 5e-6); // punch against die: 3 − 1 m/s; one in 600 times
   EXPECT_NEAR(force.work, 3.0 * 2e6 * 2e-3 / std::numbers::pi, 1e-6);
-  const ToolForce die = largest_force(force_curve(sine(), "die", "punch", {"die"}, Vec2(0, -1)), "die");
+  const ToolForce die = largest_force(force_curve(sine(), "die", "punch", {"die"}, Vec3(0, -1, 0)), "die");
   EXPECT_NEAR(die.largest, force.largest, 1e-6 * force.largest);
   EXPECT_NEAR(die.work, -force.work / 3.0, 1e-9);
 }
@@ -62,9 +62,9 @@ TEST(ForceStroke, largest_force_stroke_and_work_of_a_sine) {
 TEST(ForceStroke, one_row_is_enough_and_a_missing_column_is_named) {
   results::HistoryTable table = sine();
   for (auto& column : table.column) column.resize(1);
-  EXPECT_EQ(largest_force(force_curve(table, "punch", "punch", {}, Vec2(0, -1)), "punch").largest, 0.0);
+  EXPECT_EQ(largest_force(force_curve(table, "punch", "punch", {}, Vec3(0, -1, 0)), "punch").largest, 0.0);
   try {
-    force_curve(table, "ram", "punch", {}, Vec2(0, -1));
+    force_curve(table, "ram", "punch", {}, Vec3(0, -1, 0));
     FAIL();
   } catch (const IoError& error) { EXPECT_STREQ(error.what(), "the history has no column 'ram.force_x'"); }
 }
