@@ -255,8 +255,9 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
       });
 
   const fs::path table = options.output / pages.table, report = options.output / pages.report;
-  results::write_atomically(table, pages.write_table(runs));
-  results::write_atomically(report, pages.write_report(runs));
+  const PageTexts texts = pages.write(runs);
+  results::write_atomically(table, texts.table);
+  results::write_atomically(report, texts.report);
   if (pages.warn) pages.warn(runs);
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (runs[k].state == State::failed)

@@ -39,11 +39,15 @@ const char* state_name(RunRecord::State state);
 /// What a run depends on, as a hash.
 std::string inputs_of(const input::Case& input);
 
+struct PageTexts {
+  std::string table, report;
+};
+
 /// What shows the runs together.
 struct Pages {
   std::string command;       ///< of the program: "sweep"
   std::string table, report; ///< names of the files
-  std::function<std::string(const std::vector<RunRecord>&)> write_table, write_report;
+  std::function<PageTexts(const std::vector<RunRecord>&)> write;
   std::function<void(const std::vector<RunRecord>&)> warn = nullptr; ///< of what users may have misspelt
 };
 

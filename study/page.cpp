@@ -6,6 +6,7 @@
 #include "report/report_style.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace cnem::study {
@@ -41,9 +42,8 @@ constexpr const char* table_style = R"css(
 
 constexpr std::size_t colours = 8; ///< of the palette of charts
 
-} // namespace
-
-/// It may act on such a text.
+/// A spreadsheet takes a text that begins like a formula for one, and may act on it: an apostrophe keeps it a
+/// text.
 std::string csv_field(const std::string& text) {
   const bool like_formula = text.find_first_of("=+-@\t\r") == 0 && !is_quantity(text);
   const std::string shown = like_formula ? "'" + text : text;
@@ -51,6 +51,35 @@ std::string csv_field(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : shown) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';
+}
+
+} // namespace
+
+std::string csv_table(const Study& study, const std::vector<RunRecord>& runs,
+                      const std::vector<NumberColumn>& columns) {
+  std::string csv = "run";
+  const auto add = [&](const std::string& text) {
+    csv += ',';
+    csv += csv_field(text);
+  };
+  for (const std::string& key : study.keys) add(key);
+  csv += ",state,exit";
+  for (const NumberColumn& column : columns) add(column.name);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    csv += '\n';
+    csv += csv_field(study.runs[k].name);
+    for (const std::string& key : study.keys) {
+      const input::Value* value = study.runs[k].find(key);
+      add(value ? plain_text(*value) : "");
+    }
+    add(state_name(runs[k].state));
+    add(runs[k].state == RunRecord::State::pending ? "" : std::to_string(runs[k].exit));
+    for (const NumberColumn& column : columns) {
+      const std::optional<double>& value = column.value[k];
+      add(value && std::isfinite(*value) ? input::format_number(*value) : "");
+    }
+  }
+  return csv + "\n";
 }
 
 std::string column_name(const std::string& path) {

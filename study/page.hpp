@@ -2,16 +2,25 @@
 // Parts of the tables and pages that show several runs together.
 #include "report/chart.hpp"
 #include "results/history_writer.hpp"
+#include "study/batch.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace cnem::study {
 
-/// A text as a field of a CSV file; one that a spreadsheet would take for a formula begins with an
-/// apostrophe.
-std::string csv_field(const std::string& text);
+/// A number of each run.
+struct NumberColumn {
+  std::string name;
+  std::vector<std::optional<double>> value; ///< [run]
+};
+
+/// A CSV file with a row for each run: name, values of the keys of the study, state, exit code, the columns.
+/// Numbers round-trip; texts that a spreadsheet would take for formulas begin with an apostrophe.
+std::string csv_table(const Study& study, const std::vector<RunRecord>& runs,
+                      const std::vector<NumberColumn>& columns);
 
 /// "metrics.K_I" without its first part.
 std::string column_name(const std::string& path);

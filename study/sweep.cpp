@@ -49,15 +49,16 @@ void warn_of_absent_numbers(const Study& study, const std::vector<RunRecord>& ru
 Exit sweep(const Study& study, const BatchOptions& options) {
   check_threads(study.threads, "threads of the study");
   using Runs = std::vector<RunRecord>;
-  return run_batch(
-      study, read_cases(study), options,
-      {.command = "sweep",
-       .table = "table.csv",
-       .report = results::files::report,
-       .write_table = [&](const Runs& runs) { return sweep_table(study, runs); },
-       .write_report =
-           [&](const Runs& runs) { return sweep_report(study, runs, options.output, options.version); },
-       .warn = [&](const Runs& runs) { warn_of_absent_numbers(study, runs); }});
+  return run_batch(study, read_cases(study), options,
+                   {.command = "sweep",
+                    .table = "table.csv",
+                    .report = results::files::report,
+                    .write =
+                        [&](const Runs& runs) {
+                          return PageTexts{sweep_table(study, runs),
+                                           sweep_report(study, runs, options.output, options.version)};
+                        },
+                    .warn = [&](const Runs& runs) { warn_of_absent_numbers(study, runs); }});
 }
 
 } // namespace cnem::study

@@ -19,8 +19,7 @@ std::vector<std::string> table_columns(const Study& study, const std::vector<Run
 /// A number of a status by its dotted name: "nodes", "metrics.K_I.right". None when the status lacks it.
 std::optional<double> status_number(const results::RunStatus& status, const std::string& name);
 
-/// table.csv: name, values of the keys, state, exit code and the columns of each run; numbers round-trip, and
-/// texts that a spreadsheet would take for formulas begin with an apostrophe.
+/// table.csv, as csv_table() writes it.
 std::string sweep_table(const Study& study, const std::vector<RunRecord>& runs);
 
 /// report.html: the charts, the histories in `folder`, and the table with links to the report of each run.

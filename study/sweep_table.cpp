@@ -1,10 +1,7 @@
 #include "study/page.hpp"
 #include "study/sweep.hpp"
 
-#include "input/schema/units.hpp"
-
 #include <algorithm>
-#include <cmath>
 
 namespace cnem::study {
 
@@ -45,31 +42,13 @@ std::vector<std::string> table_columns(const Study& study, const std::vector<Run
 }
 
 std::string sweep_table(const Study& study, const std::vector<RunRecord>& runs) {
-  const std::vector<std::string> columns = table_columns(study, runs);
-  std::string csv = "run";
-  const auto add = [&](const std::string& text) {
-    csv += ',';
-    csv += csv_field(text);
-  };
-  for (const std::string& key : study.keys) add(key);
-  csv += ",state,exit";
-  for (const std::string& column : columns) add(column);
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    csv += '\n';
-    csv += csv_field(study.runs[k].name);
-    for (const std::string& key : study.keys) {
-      const input::Value* value = study.runs[k].find(key);
-      add(value ? plain_text(*value) : "");
-    }
-    add(state_name(runs[k].state));
-    add(runs[k].state == RunRecord::State::pending ? "" : std::to_string(runs[k].exit));
-    for (const std::string& column : columns) {
-      const std::optional<double> value =
-          runs[k].status ? status_number(*runs[k].status, column) : std::nullopt;
-      add(value && std::isfinite(*value) ? input::format_number(*value) : "");
-    }
+  std::vector<NumberColumn> columns;
+  for (const std::string& name : table_columns(study, runs)) {
+    columns.push_back({name, {}});
+    for (const RunRecord& run : runs)
+      columns.back().value.push_back(run.status ? status_number(*run.status, name) : std::nullopt);
   }
-  return csv + "\n";
+  return csv_table(study, runs, columns);
 }
 
 } // namespace cnem::study
