@@ -294,7 +294,7 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
   struct Kept {
     FieldFrame<dim> frame;
     CellGeometry<dim> cells;
-    Fields<dim> position, velocity, springback;
+    Fields<dim> position, initial, velocity, springback;
     std::vector<Field> values;
   };
   const auto kept = std::make_shared<Kept>();
@@ -306,6 +306,10 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
   frame.time = shot.state.time;
   frame.cells = &kept->cells;
   frame.position = spans<dim>(kept->position);
+  if (shot.displacement_scale != 1.0) {
+    kept->initial = shot.state.node.initial_position;
+    frame.initial = spans<dim>(kept->initial);
+  }
   frame.origin = origin_;
   for (const FieldInfo<dim>& info : field_catalogue<dim>()) {
     if (info.of_damage && shot.state.point.damage.empty()) continue;

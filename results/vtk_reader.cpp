@@ -10,6 +10,7 @@
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
@@ -65,6 +66,10 @@ CellFields read_cell_fields(const fs::path& file, const std::vector<std::string>
     cells.vertex_weight.push_back(1.0);
     cells.vertex_begin.push_back(as<std::int32_t>(v + 1));
   }
+  if (vtkDataArray* array = grid.GetPointData()->GetArray(vertex_displacement))
+    for (int k = 0; k < 2; ++k)
+      for (vtkIdType v = 0; v < grid.GetNumberOfPoints(); ++v)
+        frame.displacement[index_of(k)].push_back(array->GetComponent(v, k));
   cells.begin.push_back(0);
   vtkNew<vtkIdList> polygon;
   for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {

@@ -18,10 +18,14 @@ struct FieldFiles {
 /// What fields.pvd lists, in its order. Throws IoError when it cannot be read or is not such a list.
 std::vector<FieldFiles> read_field_series(const std::filesystem::path& folder);
 
+/// What vertices of cells have where the frame has initial positions.
+inline constexpr const char* vertex_displacement = "displacement [m]";
+
 /// The cells of one time in the plane, with values of scalar fields.
 struct CellFields {
   CellGeometry<2> cells;     ///< each vertex is a node of its own, with weight 1
   Fields<2> position;        ///< [component][vertex] m
+  Fields<2> displacement;    ///< [component][vertex] m; empty where the file does not tell it
   std::vector<Field> values; ///< [name][cell]
 };
 

@@ -117,6 +117,17 @@ template<int dim> std::string cells_text(const FieldFrame<dim>& frame) {
                          polygon.data());
   }
   add_fields(*grid->GetCellData(), count, frame.cell_scalars, frame.cell_vectors);
+  if (!frame.initial[0].empty()) {
+    const std::vector<Vec<dim>> before = moved_vertices<dim>(cells, frame.initial);
+    std::array<Field, dim> displacement;
+    VectorField field{vertex_displacement, {}};
+    for (std::size_t k = 0; k < dim; ++k) {
+      for (std::size_t v = 0; v < before.size(); ++v)
+        displacement[k].push_back(vertices[v][as<int>(k)] - before[v][as<int>(k)]);
+      field.component[k] = displacement[k];
+    }
+    add_fields(*grid->GetPointData(), static_cast<vtkIdType>(before.size()), {}, {field});
+  }
   add_time(*grid, frame.time);
   return text_of(*grid);
 }

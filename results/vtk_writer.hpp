@@ -31,8 +31,9 @@ struct VectorField {
 template<int dim> struct FieldFrame {
   double time = 0.0; ///< s
   const CellGeometry<dim>* cells = nullptr;
-  std::array<std::span<const double>, dim> position; ///< [component][node] m, present positions
-  Vec3 origin{0, 0, 0};                              ///< m, from which positions are counted
+  std::array<std::span<const double>, dim> position;  ///< [component][node] m, present positions
+  std::array<std::span<const double>, dim> initial{}; ///< m; where given, vertices tell their displacement
+  Vec3 origin{0, 0, 0};                               ///< m, from which positions are counted
   std::vector<ScalarField> cell_scalars;
   std::vector<VectorField> cell_vectors;
   std::vector<ScalarField> node_scalars;

@@ -39,27 +39,27 @@ std::optional<Json> read_manifest(const fs::path& folder) {
 }
 
 /// Throws InputError when the folder holds what another command, or a user, has made.
-void check_folder(const Study& study, const fs::path& folder, const std::string& command, bool force) {
+void check_folder(const Study& study, const fs::path& folder, const std::string& kind, bool force) {
   constexpr const char* another = "choose another with --output";
   if (fs::exists(folder / results::files::status))
     throw InputError(fmt::format("the output folder {} holds a single run: {}", folder.string(), another));
   try {
     if (const std::optional<Json> manifest = read_manifest(folder)) {
-      if (const std::string made = manifest->value("command", "sweep"); made != command)
+      if (const std::string made = manifest->value("kind", "sweep"); made != kind)
         throw InputError(
             fmt::format("the output folder {} holds the runs of a {}, expected those of a {}: {}",
-                        folder.string(), made, command, another));
+                        folder.string(), made, kind, another));
       return;
     }
   } catch (const Json::exception& error) {
     if (force) return;
     throw IoError(fmt::format("{} is not the manifest of a {} ({}): run all again with --force",
-                              (folder / manifest_file).string(), command, error.what()));
+                              (folder / manifest_file).string(), kind, error.what()));
   }
   for (const StudyRun& run : study.runs)
     if (!force && results::holds_run(folder / run.name))
       throw InputError(fmt::format("{} holds a run that no {} has made: {}, or replace it with --force",
-                                   (folder / run.name).string(), command, another));
+                                   (folder / run.name).string(), kind, another));
 }
 
 void prepare_folder(const fs::path& folder) {
@@ -70,10 +70,9 @@ void prepare_folder(const fs::path& folder) {
                               error ? error.message() : "a file of this name is in the way"));
 }
 
-std::string manifest_text(const Study& study, const std::vector<RunRecord>& runs, const std::string& command,
+std::string manifest_text(const Study& study, const std::vector<RunRecord>& runs, const std::string& kind,
                           const std::string& version) {
-  Json json{
-      {"command", command}, {"study", study.name}, {"case", study.case_file.string()}, {"version", version}};
+  Json json{{"kind", kind}, {"study", study.name}, {"case", study.case_file.string()}, {"version", version}};
   json["runs"] = Json::array();
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Json set = Json::object();
@@ -106,7 +105,7 @@ bool was_interrupted(const Json& old) {
 
 /// Marks the runs that an earlier call has done, or begun, with the same inputs.
 void find_earlier(const Study& study, std::vector<RunRecord>& runs, const fs::path& folder,
-                  const std::string& command) {
+                  const std::string& kind) {
   try {
     const std::optional<Json> manifest = read_manifest(folder);
     if (!manifest) return;
@@ -125,7 +124,7 @@ void find_earlier(const Study& study, std::vector<RunRecord>& runs, const fs::pa
       }
   } catch (const Json::exception& error) {
     throw IoError(fmt::format("{} is not the manifest of a {} ({}): run all again with --force",
-                              (folder / manifest_file).string(), command, error.what()));
+                              (folder / manifest_file).string(), kind, error.what()));
   }
 }
 
@@ -196,13 +195,13 @@ std::string inputs_of(const input::Case& input) {
 
 Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptions& options,
                const Pages& pages) {
-  check_folder(study, options.output, pages.command, options.force);
+  check_folder(study, options.output, pages.kind, options.force);
   prepare_folder(options.output);
-  const results::FolderLock lock(options.output, pages.command.c_str());
-  if (!options.force) find_earlier(study, runs, options.output, pages.command);
+  const results::FolderLock lock(options.output, pages.kind.c_str());
+  if (!options.force) find_earlier(study, runs, options.output, pages.kind);
   const auto write_manifest = [&] {
     results::write_atomically(options.output / manifest_file,
-                              manifest_text(study, runs, pages.command, options.version));
+                              manifest_text(study, runs, pages.kind, options.version));
   };
   const auto count = [&](State state) {
     return index_of(

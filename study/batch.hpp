@@ -45,7 +45,7 @@ struct PageTexts {
 
 /// What shows the runs together.
 struct Pages {
-  std::string command;       ///< of the program: "sweep"
+  std::string kind;          ///< in words: "sweep"
   std::string table, report; ///< names of the files
   std::function<PageTexts(const std::vector<RunRecord>&)> write;
   std::function<void(const std::vector<RunRecord>&)> warn = nullptr; ///< of what users may have misspelt

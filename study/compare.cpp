@@ -76,29 +76,42 @@ std::vector<Outcome> read_cases(const Study& study) {
   return outcome;
 }
 
-/// Adds what lies in the folders of the runs. A run that failed before it began has left no resolved case:
-/// what else is there is not its own.
+/// The history of a run. One that failed before it began has left no resolved case: what else is there is not
+/// its own; one that was killed may have left anything.
+results::HistoryTable history_of(const Outcome& outcome, const fs::path& folder) {
+  const fs::path file = folder / results::files::history;
+  if (outcome.done()) return results::read_history(file);
+  if (outcome.record.state != State::failed || !fs::exists(folder / results::files::resolved_case) ||
+      !fs::exists(file))
+    return {};
+  try {
+    return results::read_history(file);
+  } catch (const IoError&) { return {}; }
+}
+
+/// The force to compare by; none in a static analysis, whose history has one row.
+std::optional<evaluate::LeadingForce> force_of(const Outcome& outcome, const fs::path& folder) {
+  if (outcome.history.rows() < 2) return {};
+  if (outcome.done())
+    if (const auto blanking = evaluate::read_blanking(folder); blanking && !blanking->punch.empty())
+      return evaluate::leading_force(*blanking);
+  return evaluate::leading_force(outcome.history);
+}
+
+/// Adds what lies in the folders of the runs.
 void collect(Compared& compared, const std::vector<RunRecord>& runs) {
+  const auto folder = [&](std::size_t k) { return compared.folder / compared.study.runs[k].name; };
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Outcome& outcome = compared.outcome[k];
-    const fs::path folder = compared.folder / compared.study.runs[k].name;
     outcome.record = runs[k];
     outcome.status = runs[k].status;
-    if (runs[k].state == State::failed && fs::exists(folder / results::files::status))
-      outcome.status = results::read_status(folder);
-    if ((outcome.done() || runs[k].state == State::failed) &&
-        fs::exists(folder / results::files::resolved_case) && fs::exists(folder / results::files::history))
-      outcome.history = results::read_history(folder / results::files::history);
+    if (runs[k].state == State::failed && fs::exists(folder(k) / results::files::status))
+      outcome.status = results::read_status(folder(k));
+    outcome.history = history_of(outcome, folder(k));
   }
   for (const bool done : {true, false})
     for (std::size_t k = 0; k < runs.size() && !compared.force; ++k)
-      if (compared.outcome[k].done() == done) {
-        const auto blanking =
-            done ? evaluate::read_blanking(compared.folder / compared.study.runs[k].name) : std::nullopt;
-        compared.force = blanking && !blanking->punch.empty()
-                             ? evaluate::leading_force(*blanking)
-                             : evaluate::leading_force(compared.outcome[k].history);
-      }
+      if (compared.outcome[k].done() == done) compared.force = force_of(compared.outcome[k], folder(k));
 }
 
 } // namespace
@@ -145,7 +158,7 @@ Exit compare(const Comparison& comparison, const BatchOptions& options) {
     if (outcome.input) study.title = outcome.input->title;
   }
   return run_batch(study, runs, options,
-                   {.command = "compare",
+                   {.kind = "comparison",
                     .table = "compare.csv",
                     .report = "compare.html",
                     .write = [&](const std::vector<RunRecord>& records) {

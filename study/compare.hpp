@@ -42,6 +42,9 @@ struct Outcome {
   bool done() const { return record.state == RunRecord::State::done; }
 };
 
+/// A name of results in words: "support wall" of "support.wall".
+std::string in_words(std::string name);
+
 /// What is known of all runs of a comparison.
 struct Compared {
   const Study& study;

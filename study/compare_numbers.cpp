@@ -1,5 +1,6 @@
 // What a comparison says in numbers.
 #include "core/index.hpp"
+#include "report/html.hpp"
 #include "study/compare.hpp"
 #include "study/page.hpp"
 #include "study/sweep.hpp"
@@ -57,7 +58,7 @@ void add_forces(const Compared& compared, std::vector<ComparedNumber>& numbers) 
   for (const Outcome& outcome : compared.outcome) {
     largest.emplace_back();
     work.emplace_back();
-    if (outcome.history.rows() == 0) continue;
+    if (outcome.history.rows() < 2) continue;
     const evaluate::ForceCurve curve = evaluate::force_curve(outcome.history, *compared.force);
     largest.back() = std::abs(curve.smooth[curve.largest]);
     if (std::isfinite(curve.work)) work.back() = curve.work;
@@ -65,15 +66,22 @@ void add_forces(const Compared& compared, std::vector<ComparedNumber>& numbers) 
   const std::string force_unit = unit_of(compared, of + ".force_x"),
                     work_unit = unit_of(compared, of + ".work");
   numbers.push_back({{fmt::format("largest_force[{}]", force_unit), std::move(largest)},
-                     "Largest force of " + of,
+                     "Largest force of " + in_words(of),
                      Shown::unit,
                      force_unit});
-  if (!work_unit.empty())
-    numbers.push_back(
-        {{fmt::format("work[{}]", work_unit), std::move(work)}, "Work of " + of, Shown::unit, work_unit});
+  if (compared.force->over_stroke)
+    numbers.push_back({{fmt::format("work[{}]", work_unit), std::move(work)},
+                       "Work of " + in_words(of),
+                       Shown::unit,
+                       work_unit});
 }
 
 } // namespace
+
+std::string in_words(std::string name) {
+  std::replace(name.begin(), name.end(), '.', ' ');
+  return report::words(std::move(name));
+}
 
 std::vector<ComparedNumber> compared_numbers(const Compared& compared) {
   std::vector<ComparedNumber> numbers{
@@ -85,7 +93,7 @@ std::vector<ComparedNumber> compared_numbers(const Compared& compared) {
              [](const Outcome& o) { return ratio(of_status(o, "time"), of_status(o, "steps"), 1.0); }),
       from_status(compared, "wall_s.total", "Wall time", Shown::duration, "wall[s]"),
       from_status(compared, "cpu_s", "CPU time", Shown::duration, "cpu[s]"),
-      number(compared, "cost[ns]", "Wall time of steps and rebuilds per node-step", Shown::unit,
+      number(compared, "cost[ns]", "Cost of a node-step", Shown::unit,
              [](const Outcome& o) -> Number {
                const Number step = of_status(o, "wall_s.step"), rebuild = of_status(o, "wall_s.rebuild");
                if (!step || !rebuild) return {};
@@ -103,7 +111,7 @@ std::vector<ComparedNumber> compared_metrics(const Compared& compared) {
     if (outcome.status)
       for (const auto& [name, value] : outcome.status->metrics)
         if (known.insert(name).second)
-          metrics.push_back(from_status(compared, "metrics." + name, name, Shown::plain, name));
+          metrics.push_back(from_status(compared, "metrics." + name, in_words(name), Shown::plain, name));
   return metrics;
 }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 
 namespace cnem::study {
@@ -34,7 +35,7 @@ public:
       series_.emplace_back();
       // Without a history nothing there belongs to this run.
       if (compared.outcome[k].history.rows() > 0 && fs::exists(folder(k) / results::files::fields))
-        series_.back() = results::read_field_series(folder(k));
+        if_whole(k, [&] { series_.back() = results::read_field_series(folder(k)); });
     }
   }
 
@@ -56,19 +57,62 @@ public:
       const results::FieldFiles& files = nearest(k, time);
       if (std::abs(files.time - time) > tolerance) continue;
       const input::Case& input = *compared_.outcome[k].input;
-      frames[k] = Frame{files.time,
-                        results::read_cell_fields(folder(k) / files.cells, fields, input.origin.head<2>()),
-                        displacements(k, files.time)};
+      if_whole(k, [&] {
+        frames[k] = Frame{files.time,
+                          results::read_cell_fields(folder(k) / files.cells, fields, input.origin.head<2>()),
+                          displacements(k, files.time)};
+      });
     }
+    enlarge(frames);
     return frames;
   }
 
 private:
+  /// What a run that failed has left may be damaged: it does without then.
+  template<class Read> void if_whole(std::size_t k, Read&& read) const {
+    try {
+      read();
+    } catch (const IoError&) {
+      if (compared_.outcome[k].done()) throw;
+    }
+  }
+
   fs::path folder(std::size_t k) const { return compared_.folder / compared_.study.runs[k].name; }
 
+  /// Displacements that files tell of their own are too small to be seen: all methods' are drawn alike, the
+  /// largest as 5% of the body, as in the pictures of a static analysis.
+  static void enlarge(std::vector<std::optional<Frame>>& frames) {
+    double scale = std::numeric_limits<double>::infinity();
+    for (const std::optional<Frame>& frame : frames)
+      if (frame && !frame->fields.displacement[0].empty())
+        scale = std::min(scale, drawing_scale(frame->fields));
+    if (!std::isfinite(scale)) return;
+    for (std::optional<Frame>& frame : frames)
+      for (std::size_t k = 0; frame && k < 2; ++k)
+        for (std::size_t v = 0; v < frame->fields.displacement[k].size(); ++v)
+          frame->fields.position[k][v] += (scale - 1.0) * frame->fields.displacement[k][v];
+  }
+  static double drawing_scale(const results::CellFields& fields) {
+    double size = 0.0, most = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      Field initial = fields.position[k];
+      for (std::size_t v = 0; v < initial.size(); ++v) initial[v] -= fields.displacement[k][v];
+      const auto [low, high] = std::minmax_element(initial.begin(), initial.end());
+      size = std::max(size, *high - *low);
+    }
+    for (std::size_t v = 0; v < fields.displacement[0].size(); ++v)
+      most = std::max(most, std::hypot(fields.displacement[0][v], fields.displacement[1][v]));
+    return 0.05 * size / most; // infinite where nothing moves
+  }
+
+  /// The beginning, where nothing has happened, stands for no later time.
   const results::FieldFiles& nearest(std::size_t k, double time) const {
+    const auto distance = [&](const results::FieldFiles& files) {
+      return files.time == 0.0 && time > 0.0 ? std::numeric_limits<double>::infinity()
+                                             : std::abs(files.time - time);
+    };
     return *std::min_element(series_[k].begin(), series_[k].end(), [&](const auto& one, const auto& other) {
-      return std::abs(one.time - time) < std::abs(other.time - time);
+      return distance(one) < distance(other);
     });
   }
 

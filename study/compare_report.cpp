@@ -19,7 +19,7 @@ using Shown = ComparedNumber::Shown;
 
 constexpr const char* style = R"css(
 main { max-width: 2000px; }
-.hint { color: var(--soft); margin: 0 0 14px; }
+.hint { color: var(--soft); margin: 10px 0 14px; font-size: 13px; }
 .pictures.side { grid-template-columns: repeat(auto-fit, minmax(min(360px, 100%), 1fr)); margin-bottom: 16px; }
 .side figcaption { color: #171b22; font-weight: 600; padding: 8px 14px 0; }
 .side p { color: #5c6675; padding: 0 14px; }
@@ -91,7 +91,10 @@ std::string table(const Compared& compared) {
     }
     html += "</tr>\n";
   }
-  return html + number_rows(compared_numbers(compared)) + "</table></div>\n</section>\n";
+  return html + number_rows(compared_numbers(compared)) +
+         "</table></div>\n<p class=\"hint\">Cost of a node-step: wall time of steps and new references. "
+         "Largest force: of "
+         "the low-passed curve below.</p>\n</section>\n";
 }
 
 std::string metrics(const Compared& compared) {
@@ -120,12 +123,13 @@ std::string warnings(const Compared& compared) {
 report::Chart force_chart(const Compared& compared) {
   const evaluate::LeadingForce& force = *compared.force;
   report::Chart chart;
-  chart.title = fmt::format("Force of {} against {}", force.of, force.over_stroke ? "stroke" : "time");
+  const std::string who = in_words(force.of);
+  chart.title = fmt::format("Force of {} against {}", who, force.over_stroke ? "stroke" : "time");
   if (force.over_stroke) {
-    chart.x_label = "stroke of " + force.of;
+    chart.x_label = "stroke of " + who;
     chart.x_unit = "m";
   }
-  chart.y_label = "force of " + force.of;
+  chart.y_label = "force of " + who;
   double sigma = 0.0;
   for (std::size_t k = 0; k < compared.outcome.size(); ++k) {
     const results::HistoryTable& history = compared.outcome[k].history;
@@ -185,8 +189,10 @@ std::vector<report::Chart> charts(const Compared& compared) {
   std::vector<report::Chart> list;
   if (compared.force && !columns.empty()) list.push_back(force_chart(compared));
   for (const std::string& column : columns)
-    if (report::Chart chart = history_chart(histories, labels, column); changes(chart))
+    if (report::Chart chart = history_chart(histories, labels, column); changes(chart)) {
+      chart.title = chart.y_label = column == "dt" ? "time step" : in_words(column);
       list.push_back(std::move(chart));
+    }
   return list;
 }
 

@@ -50,7 +50,7 @@ Exit sweep(const Study& study, const BatchOptions& options) {
   check_threads(study.threads, "threads of the study");
   using Runs = std::vector<RunRecord>;
   return run_batch(study, read_cases(study), options,
-                   {.command = "sweep",
+                   {.kind = "sweep",
                     .table = "table.csv",
                     .report = results::files::report,
                     .write =

@@ -69,6 +69,43 @@ TEST(ForceStroke, one_row_is_enough_and_a_missing_column_is_named) {
   } catch (const IoError& error) { EXPECT_STREQ(error.what(), "the history has no column 'ram.force_x'"); }
 }
 
+TEST(ForceStroke, the_leading_force_is_that_of_the_tool_that_moves_farthest) {
+  results::HistoryTable table = sine();
+  EXPECT_EQ(tools_of(table), (std::vector<std::string>{"punch", "die"}));
+  EXPECT_FALSE(leading_force(table)->over_stroke) << "nothing says that a tool has a stroke";
+  for (const double way : {3.0, 1.0}) {
+    table.names.push_back(way > 2.0 ? "punch.stroke[m]" : "die.stroke[m]");
+    table.column.push_back(table.column.front());
+    for (double& stroke : table.column.back()) stroke *= way;
+  }
+  EXPECT_EQ(moving_tool(table), "punch");
+  const LeadingForce leading = *leading_force(table);
+  EXPECT_EQ(leading.of, "punch");
+  EXPECT_TRUE(leading.over_stroke);
+  EXPECT_NEAR((leading.along - Vec3(0, -1, 0)).norm(), 0.0, 1e-15);
+  const ForceCurve curve = force_curve(table, leading);
+  EXPECT_NEAR(curve.stroke.back(), 3e-3, 1e-15) << "of the punch alone";
+  EXPECT_EQ(curve.even_time.size(), curve.smooth.size());
+}
+
+TEST(ForceStroke, where_no_tool_moves_the_largest_component_leads_of_tools_then_of_supports) {
+  results::HistoryTable table;
+  table.names = {"time[s]", "wall.force_x[N/m]", "wall.force_y[N/m]", "wall.force_z[N/m]",
+                 "support.base.force_x[N/m]", "support.base.force_y[N/m]"};
+  table.column = {{0, 1, 2}, {0, 1, 2}, {0, -1, 0}, {0, 5, -8}, {0, 0, 0}, {-9, 0, 9}};
+  const LeadingForce wall = *leading_force(table);
+  EXPECT_EQ(wall.of, "wall");
+  EXPECT_EQ(wall.along, Vec3(0, 0, 1));
+  EXPECT_EQ(force_curve(table, wall).force, (std::vector<double>{0, 5, -8}));
+  for (std::size_t k = 1; k < 4; ++k) table.column[k] = {0, 0, 0};
+  const LeadingForce base = *leading_force(table);
+  EXPECT_EQ(base.of, "support.base");
+  EXPECT_EQ(base.along, Vec3(0, 1, 0));
+  EXPECT_TRUE(std::isnan(force_curve(table, base).work));
+  table.column.back() = {0, 0, 0};
+  EXPECT_FALSE(leading_force(table));
+}
+
 BlankingResult example() {
   BlankingResult result;
   result.punch = "punch";
