@@ -90,8 +90,8 @@ TEST(ForceStroke, the_leading_force_is_that_of_the_tool_that_moves_farthest) {
 
 TEST(ForceStroke, where_no_tool_moves_the_largest_component_leads_of_tools_then_of_supports) {
   results::HistoryTable table;
-  table.names = {"time[s]", "wall.force_x[N/m]", "wall.force_y[N/m]", "wall.force_z[N/m]",
-                 "support.base.force_x[N/m]", "support.base.force_y[N/m]"};
+  table.names = {"time[s]",           "wall.force_x[N/m]",         "wall.force_y[N/m]",
+                 "wall.force_z[N/m]", "support.base.force_x[N/m]", "support.base.force_y[N/m]"};
   table.column = {{0, 1, 2}, {0, 1, 2}, {0, -1, 0}, {0, 5, -8}, {0, 0, 0}, {-9, 0, 9}};
   const LeadingForce wall = *leading_force(table);
   EXPECT_EQ(wall.of, "wall");
