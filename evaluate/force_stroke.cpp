@@ -53,14 +53,24 @@ double largest(const std::vector<double>& values) {
   return size;
 }
 
-/// Of those named, the one with the largest component of its force.
+/// |∫ y dt|, by trapezia.
+double impulse(const std::vector<double>& t, const std::vector<double>& y) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < t.size(); ++k)
+    if (std::isfinite(y[k - 1]) && std::isfinite(y[k])) sum += 0.5 * (y[k - 1] + y[k]) * (t[k] - t[k - 1]);
+  return std::abs(sum);
+}
+
+/// Of those named, the one with the component of the largest impulse.
 std::optional<LeadingForce> largest_component(const results::HistoryTable& history,
                                               const std::vector<std::string>& names) {
   LeadingForce leading;
   double most = 0.0;
   for (const std::string& name : names)
     for (std::size_t c = 0; c < dimensions(history, name + ".force"); ++c)
-      if (const double size = largest(column(history, component_name(name + ".force", c))); size > most) {
+      if (const double size =
+              impulse(history.column.front(), column(history, component_name(name + ".force", c)));
+          size > most) {
         most = size;
         leading = {.of = name, .along = Vec3::Unit(as<int>(c))};
       }

@@ -54,7 +54,8 @@ struct LeadingForce {
 };
 
 /// That of the tool that moves farthest, along its way at the end; where none moves, of the tool or else the
-/// support with the largest force, along the axis on which it is. None where nothing has a force.
+/// support with the largest impulse, along the axis on which it is: peaks of waves come and go. None where
+/// nothing has a force.
 std::optional<LeadingForce> leading_force(const results::HistoryTable& history);
 /// That of the punch along the cut.
 LeadingForce leading_force(const BlankingResult& result);

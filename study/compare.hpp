@@ -60,7 +60,7 @@ struct ComparedNumber : NumberColumn {
   enum class Shown { plain, count, unit, duration, percent } shown = Shown::plain;
   std::string unit{};
 };
-/// Size, cost and forces; all metrics of the runs.
+/// Size, cost and forces; probes at the end and all metrics of the runs.
 std::vector<ComparedNumber> compared_numbers(const Compared& compared);
 std::vector<ComparedNumber> compared_metrics(const Compared& compared);
 

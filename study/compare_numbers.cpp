@@ -51,6 +51,12 @@ std::string unit_of(const Compared& compared, const std::string& column) {
   return "";
 }
 
+/// The last value of a column, of a run that is done.
+Number at_the_end(const Outcome& outcome, const std::string& column) {
+  const int at = outcome.history.find(column);
+  return at < 0 || !outcome.done() ? Number() : outcome.history.column[index_of(at)].back();
+}
+
 void add_forces(const Compared& compared, std::vector<ComparedNumber>& numbers) {
   if (!compared.force) return;
   const std::string& of = compared.force->of;
@@ -107,6 +113,13 @@ std::vector<ComparedNumber> compared_numbers(const Compared& compared) {
 std::vector<ComparedNumber> compared_metrics(const Compared& compared) {
   std::vector<ComparedNumber> metrics;
   std::set<std::string> known;
+  for (const Outcome& outcome : compared.outcome)
+    for (const std::string& header : outcome.history.names) {
+      const results::ColumnName column = results::split_column_name(header);
+      if (!column.name.starts_with("probe.") || !known.insert(header).second) continue;
+      metrics.push_back(number(compared, header, in_words(column.name) + " at the end", Shown::unit,
+                               [&](const Outcome& o) { return at_the_end(o, header); }));
+    }
   for (const Outcome& outcome : compared.outcome)
     if (outcome.status)
       for (const auto& [name, value] : outcome.status->metrics)

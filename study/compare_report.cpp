@@ -151,7 +151,7 @@ report::Chart force_chart(const Compared& compared) {
   }
   chart.note = fmt::format(
       "On the workpiece, {}, {}. Pale: every recorded value; full: Gaussian low-pass in time, σ = {}.",
-      force.over_stroke ? "along the way of the tool" : "along the axis of its largest component",
+      force.over_stroke ? "along the way of the tool" : "along the axis of its largest impulse",
       chart.y_unit == "N" ? "of the whole body" : "per unit thickness, of the part that is modelled",
       results::si_format(sigma, "s", 3));
   return chart;
@@ -162,6 +162,11 @@ bool changes(const report::Chart& chart) {
     for (const double value : line.y)
       if (value != line.y.front()) return true;
   return false;
+}
+
+/// No step is behind the row at time 0.
+void leave_out_the_first(report::Chart& chart) {
+  for (report::ChartSeries& line : chart.series) line.y.front() = std::nan("");
 }
 
 /// Columns of histories that are worth a look whatever the case.
@@ -190,6 +195,7 @@ std::vector<report::Chart> charts(const Compared& compared) {
   if (compared.force && !columns.empty()) list.push_back(force_chart(compared));
   for (const std::string& column : columns)
     if (report::Chart chart = history_chart(histories, labels, column); changes(chart)) {
+      if (column == "dt") leave_out_the_first(chart);
       chart.title = chart.y_label = column == "dt" ? "time step" : in_words(column);
       list.push_back(std::move(chart));
     }

@@ -88,15 +88,15 @@ TEST(ForceStroke, the_leading_force_is_that_of_the_tool_that_moves_farthest) {
   EXPECT_EQ(curve.even_time.size(), curve.smooth.size());
 }
 
-TEST(ForceStroke, where_no_tool_moves_the_largest_component_leads_of_tools_then_of_supports) {
+TEST(ForceStroke, where_no_tool_moves_the_largest_impulse_leads_of_tools_then_of_supports) {
   results::HistoryTable table;
   table.names = {"time[s]",           "wall.force_x[N/m]",         "wall.force_y[N/m]",
                  "wall.force_z[N/m]", "support.base.force_x[N/m]", "support.base.force_y[N/m]"};
-  table.column = {{0, 1, 2}, {0, 1, 2}, {0, -1, 0}, {0, 5, -8}, {0, 0, 0}, {-9, 0, 9}};
+  table.column = {{0, 1, 2}, {1, 9, -9}, {0, -1, 0}, {0, -5, -8}, {0, 0, 0}, {-8, 0, 9}};
   const LeadingForce wall = *leading_force(table);
   EXPECT_EQ(wall.of, "wall");
   EXPECT_EQ(wall.along, Vec3(0, 0, 1));
-  EXPECT_EQ(force_curve(table, wall).force, (std::vector<double>{0, 5, -8}));
+  EXPECT_EQ(force_curve(table, wall).force, (std::vector<double>{0, -5, -8}));
   for (std::size_t k = 1; k < 4; ++k) table.column[k] = {0, 0, 0};
   const LeadingForce base = *leading_force(table);
   EXPECT_EQ(base.of, "support.base");

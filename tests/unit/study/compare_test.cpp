@@ -47,6 +47,9 @@ lagrangian = "total"
 fields_every = "2 us"
 pictures = "2 4 us"
 picture_fields = ["plastic_strain", "pressure"]
+[output.probes.top]
+at = "2 2 mm"
+fields = ["displacement_y"]
 )toml";
 
 std::string decoded(std::string_view base64) {
@@ -159,7 +162,8 @@ TEST_F(Compare, runs_are_those_of_cnem_run_and_stand_side_by_side) {
   expect_parts(table, {"\ncnem,done,0,", "\nfe-triangles,done,0,", "\nsph,done,0,"});
   const std::string report = text("compare.html");
   expect_parts(report, {"3 of 3 methods done", "Upsetting", "href=\"fe-triangles/report.html\"",
-                        "Force of punch against stroke", "Largest force of punch", "Stress points"});
+                        "Force of punch against stroke", "Largest force of punch", "Stress points",
+                        "probe top displacement y at the end"});
   EXPECT_EQ(report.find("http"), std::string::npos) << "it needs nothing from elsewhere";
   EXPECT_EQ(pictures().size(), 12U) << "two fields at two times";
 
