@@ -8,6 +8,7 @@
 #include "input/case_reader.hpp"
 #include "input/schema/schema.hpp"
 #include "report/report.hpp"
+#include "study/compare.hpp"
 #include "study/sweep.hpp"
 
 #include <CLI/CLI.hpp>
@@ -34,7 +35,7 @@ const CLI::Validator at_least_one(
     },
     "POSITIVE");
 
-/// What `run` and `check` share.
+/// What `run`, `check` and `compare` share.
 struct CaseOptions {
   std::string path;
   std::vector<std::string> set;
@@ -42,19 +43,20 @@ struct CaseOptions {
   bool force = false;
   int threads = 0;
 
-  void declare(CLI::App& command) {
+  void declare(CLI::App& command, const char* folder = "folder of results (default: results/<case name>)",
+               const char* forced = "replace a run that the folder holds") {
     command.add_option("case", path, "case file (TOML), or a folder that holds case.toml")->required();
     command.add_option("--set", set, "key=value: overrides a key of the case, e.g. --set time.end=\"60 us\"")
         ->allow_extra_args(false);
-    command.add_option("--output", output, "folder of results (default: results/<case name>)");
-    command.add_flag("--force", force, "replace a run that the folder holds");
+    command.add_option("--output", output, folder);
+    command.add_flag("--force", force, forced);
     command.add_option("--threads", threads, "number of threads (default: all)")->check(at_least_one);
   }
-  input::Case read() const {
+  std::filesystem::path file() const {
     std::filesystem::path file = path;
-    if (std::filesystem::is_directory(file)) file /= "case.toml";
-    return input::read_case(file, set);
+    return std::filesystem::is_directory(file) ? file / "case.toml" : file;
   }
+  input::Case read() const { return input::read_case(file(), set); }
   RunOptions options(const input::Case& input) const {
     return {.output = output.empty() ? std::filesystem::path("results") / input.name
                                      : std::filesystem::path(output),
@@ -93,7 +95,7 @@ int act(CLI::App& program, int argc, char** argv) {
 
   CLI::App* sweep_command = program.add_subcommand("sweep", "run a parameter study: one case, many values");
   std::string study_path, sweep_output;
-  study::SweepOptions sweep_options;
+  study::BatchOptions sweep_options;
   sweep_command->add_option("study", study_path, "study file (TOML), or a folder that holds study.toml")
       ->required();
   sweep_command->add_option("--output", sweep_output, "folder of results (default: results/<study name>)");
@@ -102,7 +104,22 @@ int act(CLI::App& program, int argc, char** argv) {
       ->add_option("--processes", sweep_options.processes, "runs at a time (default: as the study says)")
       ->check(at_least_one);
 
-  for (CLI::App* command : {run_command, check_command, restart_command, sweep_command})
+  CLI::App* compare_command =
+      program.add_subcommand("compare", "run a case with several methods and lay their results side by side");
+  CaseOptions compare_options;
+  compare_options.declare(*compare_command, "folder of results (default: results/<case name>_compare)",
+                          "run all again, also what is done");
+  std::string methods;
+  std::vector<std::pair<std::string, std::string>> set_for;
+  compare_command->add_option("--methods", methods, "names of methods, e.g. --methods cnem,fe-triangles,sph")
+      ->required();
+  compare_command
+      ->add_option("--set-for", set_for,
+                   "METHOD key=value: overrides a key for one of the methods, e.g. --set-for fe-triangles "
+                   "method.lagrangian=total")
+      ->allow_extra_args(false);
+
+  for (CLI::App* command : {run_command, check_command, restart_command, sweep_command, compare_command})
     command->footer("CNEM_ISA=baseline, avx2 or avx512 in the environment chooses the instruction set of the "
                     "kernels (default: the best one that the machine has).");
 
@@ -132,6 +149,20 @@ int act(CLI::App& program, int argc, char** argv) {
                                                 : std::filesystem::path(sweep_output);
     sweep_options.version = version();
     return study::sweep(study, sweep_options);
+  }
+  if (*compare_command) {
+    const study::Comparison comparison{.case_file = compare_options.file(),
+                                       .methods = methods,
+                                       .set = compare_options.set,
+                                       .set_for = set_for,
+                                       .threads = compare_options.threads};
+    return study::compare(comparison,
+                          {.output = compare_options.output.empty()
+                                         ? std::filesystem::path("results") /
+                                               (input::name_after(comparison.case_file, "case") + "_compare")
+                                         : std::filesystem::path(compare_options.output),
+                           .force = compare_options.force,
+                           .version = version()});
   }
   if (*check_command) {
     const input::Case input = check_options.read();

@@ -85,6 +85,7 @@ template<int dim> Exit Simulation<dim>::run() {
       return watch_.time("output.report", [&] { return report::write_report(options_.output, end); });
     });
     end.wall_s = wall();
+    end.cpu_s = watch_.cpu();
     forget_last_words();
     results::write_status(options_.output, end);
     fmt::print("{}: {}\n",
@@ -285,6 +286,7 @@ template<int dim> results::RunStatus Simulation<dim>::status() {
   status.time = state.time;
   status.steps = state.step;
   status.nodes = static_cast<std::int64_t>(state.node.size());
+  status.points = static_cast<std::int64_t>(state.point.size());
   status.node_steps = static_cast<std::int64_t>(node_steps_);
   status.threads = omp_get_max_threads();
   status.peak_rss_bytes = results::peak_rss_bytes();
@@ -298,6 +300,7 @@ template<int dim> results::RunStatus Simulation<dim>::status() {
   for (std::string& warning : late_warnings()) status.warnings.push_back(std::move(warning));
   status.post_mortem = dead_;
   status.wall_s = wall();
+  status.cpu_s = watch_.cpu();
   return status;
 }
 

@@ -55,6 +55,9 @@ template<int dim> int Simulation<dim>::archive(Archive& archive, int frames) {
     archive.number(fmt::format("run/wall/{}", phase), "s", seconds);
     if (archive.loading()) watch_.add(phase, seconds);
   }
+  double cpu = watch_.cpu();
+  archive.number("run/cpu", "s", cpu);
+  if (archive.loading()) watch_.add_cpu(cpu);
   return frames;
 }
 template<int dim> void Simulation<dim>::write_checkpoint(int frames) {

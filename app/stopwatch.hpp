@@ -1,5 +1,5 @@
 #pragma once
-// Wall time by phase.
+// Wall time by phase, and time of processors.
 #include "core/machine/clock.hpp"
 
 #include <map>
@@ -16,7 +16,7 @@ inline constexpr const char* phases[] = {
     "output.history", "output.fields", "output.pictures", "output.checkpoint", "output.disk",
     "output.report"};
 
-/// Seconds spent in each of the phases; the total runs from construction.
+/// Seconds spent in each of the phases; the total, and the time of processors, run from construction.
 class Stopwatch {
 public:
   /// Counts the wall time of work() to a phase; calls may nest.
@@ -35,6 +35,9 @@ public:
     else
       spent_[phase] += seconds;
   }
+  void add_cpu(double seconds) { cpu_start_ -= seconds; }
+  /// s, of all threads of the process.
+  double cpu() const { return cpu_time() - cpu_start_; }
   std::vector<std::pair<std::string, double>> spent() const {
     std::vector<std::pair<std::string, double>> list{{"total", wall_time() - start_}};
     for (const char* phase : phases) {
@@ -45,7 +48,7 @@ public:
   }
 
 private:
-  double start_ = wall_time();
+  double start_ = wall_time(), cpu_start_ = cpu_time();
   std::map<std::string, double> spent_;
 };
 

@@ -307,8 +307,9 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
   result.direction_y = tools.direction.y();
   if (history.rows() > 0)
     for (const input::Tool& tool : input.tools)
-      result.forces.push_back(largest_force(
-          force_curve(history, tool.name, result.punch, result.dies, tools.direction), tool.name));
+      result.forces.push_back(largest_force(force_curve(history, tool.name, result.punch, result.dies,
+                                                        Vec3(tools.direction.x(), tools.direction.y(), 0.0)),
+                                            tool.name));
 
   const auto& pieces = shot.cloud.piece_names;
   const auto piece = std::find(pieces.begin(), pieces.end(), input::Adaptation::fracture_piece);

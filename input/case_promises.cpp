@@ -90,7 +90,7 @@ std::vector<Unmet> unmet_needs(const Case& input, const Promises& promises) {
 void check_promises(const Setting& root, const Case& result, Diagnostics& diagnostics) {
   for (const Unmet& unmet : unmet_needs(result, methods::entry(result.method.name).promises)) {
     const Setting& setting = *root.find(unmet.path);
-    diagnostics.add(Mistake::conflict, setting.where, setting.path, unmet.message);
+    diagnostics.add(Mistake::promise, setting.where, setting.path, unmet.message);
   }
 }
 

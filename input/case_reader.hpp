@@ -12,7 +12,9 @@ namespace cnem::input {
 /// Reads a case file and applies overrides of the form "key=value" (--set), in order.
 /// Throws InputError when the file is absent or anything in it is wrong: each message begins with
 /// file:line:column (or the override) and names the key, what was found and what was expected; up to three
-/// mistakes of a kind are listed, then counted. Throws IoError when a file that exists cannot be read.
+/// mistakes of a kind are listed, then counted. Throws MethodRefusal (input/schema/diagnostics.hpp), an
+/// InputError, when all that is wrong is that the method cannot give what the case asks for, and IoError when
+/// a file that exists cannot be read.
 Case read_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// The same with values that were written in another file, which messages about them name.

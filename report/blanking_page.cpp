@@ -122,8 +122,8 @@ std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
   for (std::size_t k = 0; k < result.forces.size(); ++k) {
     const evaluate::ToolForce& force = result.forces[k];
     if (!(force.largest > 0.0)) continue;
-    const evaluate::ForceCurve curve = evaluate::force_curve(history, force.tool, result.punch, result.dies,
-                                                             Vec2(result.direction_x, result.direction_y));
+    const evaluate::ForceCurve curve = evaluate::force_curve(
+        history, force.tool, result.punch, result.dies, Vec3(result.direction_x, result.direction_y, 0.0));
     ChartSeries raw, smooth, mark;
     raw.x = curve.stroke;
     raw.y = curve.force;

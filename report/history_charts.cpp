@@ -67,23 +67,14 @@ private:
   }
 
   void forces() {
-    std::vector<std::string> tools;
-    std::string moving;
-    double longest = 0.0;
-    for (int k = 0; k < columns(); ++k) {
-      const std::string full = name(k).name;
-      if (!full.ends_with(".force_x")) continue;
-      const std::string tool = full.substr(0, full.size() - 8);
-      tools.push_back(tool);
-      const int stroke = history_.find(tool + ".stroke");
-      use(stroke);
+    std::vector<std::string> tools = evaluate::tools_of(history_);
+    const std::string moving = evaluate::moving_tool(history_).value_or("");
+    for (std::string& support : evaluate::supports_of(history_)) tools.push_back(std::move(support));
+    for (const std::string& tool : tools) {
+      use(history_.find(tool + ".stroke"));
       for (const char* motion : {".displacement_x", ".displacement_y", ".displacement_z", ".velocity_x",
                                  ".velocity_y", ".velocity_z"})
         if (const int at = history_.find(tool + motion); at >= 0 && largest(column(at)) == 0.0) use(at);
-      if (stroke >= 0 && largest(column(stroke)) > longest) {
-        longest = largest(column(stroke));
-        moving = tool;
-      }
     }
     for (const std::string& tool : tools)
       for (const char* component : {".force_x", ".force_y", ".force_z"})

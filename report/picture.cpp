@@ -126,6 +126,17 @@ double cell_size(const PictureLayout& layout, const CellGeometry<2>& cells,
 
 } // namespace
 
+void show_field(Picture& picture, const Shown& field) {
+  picture.label = field.label;
+  picture.unit = field.unit;
+  picture.unit_factor = field.factor;
+  picture.map = field.map;
+}
+
+ColourRange usual_range(ColourMap map, std::span<const double> values) {
+  return map == ColourMap::diverging ? symmetric_range(values, 0.999) : quantile_range(values);
+}
+
 PictureLayout layout_picture(const Picture& picture) {
   check(picture);
   return layout_of(picture, results::moved_vertices<2>(*picture.cells, picture.position));
@@ -136,9 +147,7 @@ std::string draw_png(const Picture& picture) {
   const std::vector<Vec2> vertices = results::moved_vertices<2>(*picture.cells, picture.position);
   const PictureLayout layout = layout_of(picture, vertices);
   const double unit = picture.width / design_width, size = font * unit;
-  const ColourRange range = picture.range                         ? *picture.range
-                            : picture.map == ColourMap::diverging ? symmetric_range(picture.value)
-                                                                  : quantile_range(picture.value);
+  const ColourRange range = picture.range ? *picture.range : usual_range(picture.map, picture.value);
 
   const Surface surface = make_surface(CAIRO_FORMAT_RGB24, layout.width, layout.height);
   const Context context = make_context(surface);

@@ -40,6 +40,12 @@ struct Picture {
   int width = 1400;          ///< px; the height follows from the window
 };
 
+/// Label, unit and colours of the picture of a field.
+void show_field(Picture& picture, const Shown& field);
+/// What its colours span unless a range is given: all values, and where zero is in the middle, the central
+/// 99.9% of the magnitudes.
+ColourRange usual_range(ColourMap map, std::span<const double> values);
+
 /// Where things are in the finished picture, px from the upper left corner.
 struct PictureLayout {
   int width = 0, height = 0;

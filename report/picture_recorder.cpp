@@ -34,11 +34,7 @@ Picture PictureRecorder::picture_of(const results::Snapshot<2>& shot, const std:
   picture.cells = &kept.cells;
   picture.position = spans(kept.position);
   picture.value = kept.values.emplace_back(std::move(values));
-  picture.label = info.shown.label;
-  picture.unit = info.shown.unit;
-  picture.unit_factor = info.shown.factor;
-  picture.map = info.shown.map;
-  if (info.shown.map == ColourMap::diverging) picture.range = symmetric_range(picture.value, 0.999);
+  show_field(picture, info.shown);
   picture.title = case_->title;
   picture.time = shot.state.time;
   const auto& contact = shot.contact;

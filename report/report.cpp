@@ -71,11 +71,13 @@ ReportTable run_table(const results::RunStatus& status) {
   rows.emplace_back("Exit code", std::to_string(status.exit));
   rows.emplace_back("Threads", std::to_string(status.threads));
   rows.emplace_back("Nodes", grouped(status.nodes));
+  if (status.points > 0) rows.emplace_back("Stress points", grouped(status.points));
   rows.emplace_back("Steps", grouped(status.steps));
   rows.emplace_back("Node-steps", grouped(status.node_steps));
   if (wall(status, "step") > 0.0)
     rows.emplace_back("Node-steps per second of stepping",
                       grouped(std::llround(static_cast<double>(status.node_steps) / wall(status, "step"))));
+  if (status.cpu_s > 0.0) rows.emplace_back("CPU time", results::duration_format(status.cpu_s));
   rows.emplace_back("Peak memory", results::bytes_format(static_cast<double>(status.peak_rss_bytes)));
   return table;
 }

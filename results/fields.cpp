@@ -30,6 +30,10 @@ template<int dim> Field own_values(const Snapshot<dim>& shot, const FieldInfo<di
 
 } // namespace
 
+template<int dim> std::string name_in_files(const FieldInfo<dim>& info) {
+  return info.unit.empty() ? info.shown.label : fmt::format("{} [{}]", info.shown.label, info.unit);
+}
+
 template<int dim> Field values_at_points(const Snapshot<dim>& shot, const std::string& name) {
   const FieldInfo<dim>& e = field_info<dim>(name);
   const DiscreteOperators<dim>& op = shot.approximation.mechanics;
@@ -91,6 +95,8 @@ template<int dim> double broken_measure(const Snapshot<dim>& shot) {
   return volume;
 }
 
+template std::string name_in_files(const FieldInfo<2>&);
+template std::string name_in_files(const FieldInfo<3>&);
 template Field values_at_points(const Snapshot<2>&, const std::string&);
 template Field values_at_points(const Snapshot<3>&, const std::string&);
 template Field values_at_nodes(const Snapshot<2>&, const std::string&);

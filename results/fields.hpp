@@ -10,6 +10,9 @@
 
 namespace cnem::results {
 
+/// "pressure [Pa]": what files for ParaView call a field.
+template<int dim> std::string name_in_files(const FieldInfo<dim>& info);
+
 /// Values at stress points [point]; fields of nodes are interpolated with N.
 template<int dim> Field values_at_points(const Snapshot<dim>& shot, const std::string& name);
 

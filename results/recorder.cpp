@@ -229,7 +229,7 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
   struct Kept {
     FieldFrame<dim> frame;
     CellGeometry<dim> cells;
-    Fields<dim> position, velocity, springback;
+    Fields<dim> position, initial, velocity, springback;
     std::vector<Field> values;
   };
   const auto kept = std::make_shared<Kept>();
@@ -241,12 +241,15 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
   frame.time = shot.state.time;
   frame.cells = &kept->cells;
   frame.position = spans<dim>(kept->position);
+  if (shot.displacement_scale != 1.0) {
+    kept->initial = shot.state.node.initial_position;
+    frame.initial = spans<dim>(kept->initial);
+  }
   frame.origin = origin_;
   for (const FieldInfo<dim>& info : field_catalogue<dim>()) {
     if (info.of_damage && shot.state.point.damage.empty()) continue;
     if (info.adaptive && !shot.adaptation) continue;
-    const std::string name =
-        info.unit.empty() ? info.shown.label : fmt::format("{} [{}]", info.shown.label, info.unit);
+    const std::string name = name_in_files(info);
     const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
     frame.cell_scalars.push_back({name, at_points});
     if (shot.approximation.mechanics.nodal)

@@ -61,9 +61,11 @@ std::string status_json(const RunStatus& status) {
   json["time"] = number(status.time);
   json["steps"] = status.steps;
   json["nodes"] = status.nodes;
+  json["points"] = status.points;
   json["node_steps"] = status.node_steps;
   json["threads"] = status.threads;
   json["wall_s"] = object(status.wall_s);
+  json["cpu_s"] = number(status.cpu_s);
   json["peak_rss_bytes"] = status.peak_rss_bytes;
   json["energy_residual"] = number(status.energy_residual);
   json["metrics"] = tree(status.metrics);
@@ -99,6 +101,8 @@ RunStatus read_status(const std::filesystem::path& folder) {
     status.time = as_number(json.value("time", Json(nullptr)));
     status.steps = json.value("steps", std::int64_t{0});
     status.nodes = json.value("nodes", std::int64_t{0});
+    status.points = json.value("points", std::int64_t{0});
+    status.cpu_s = as_number(json.value("cpu_s", Json(0.0)));
     status.node_steps = json.value("node_steps", std::int64_t{0});
     status.threads = json.value("threads", 1);
     status.peak_rss_bytes = json.value("peak_rss_bytes", std::uint64_t{0});

@@ -34,9 +34,11 @@ struct RunStatus {
   double time = 0.0; ///< s, reached
   std::int64_t steps = 0;
   std::int64_t nodes = 0;
+  std::int64_t points = 0; ///< that carry stress
   std::int64_t node_steps = 0;
   int threads = 1;
   std::vector<std::pair<std::string, double>> wall_s; ///< "total", "step", "rebuild", "output", … in s
+  double cpu_s = 0.0;                                 ///< s, of processors, by all threads
   std::uint64_t peak_rss_bytes = 0;
   double energy_residual = std::numeric_limits<double>::quiet_NaN(); ///< –
   std::vector<std::pair<std::string, double>> metrics;     ///< "K_I.right" becomes {"K_I": {"right": …}}

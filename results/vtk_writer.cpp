@@ -14,9 +14,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLDataElement.h>
 #include <vtkXMLUnstructuredGridWriter.h>
-#include <vtkXMLUtilities.h>
 
 #include <mutex>
 #include <string>
@@ -119,6 +117,17 @@ template<int dim> std::string cells_text(const FieldFrame<dim>& frame) {
                          polygon.data());
   }
   add_fields(*grid->GetCellData(), count, frame.cell_scalars, frame.cell_vectors);
+  if (!frame.initial[0].empty()) {
+    const std::vector<Vec<dim>> before = moved_vertices<dim>(cells, frame.initial);
+    std::array<Field, dim> displacement;
+    VectorField field{vertex_displacement, {}};
+    for (std::size_t k = 0; k < dim; ++k) {
+      for (std::size_t v = 0; v < before.size(); ++v)
+        displacement[k].push_back(vertices[v][as<int>(k)] - before[v][as<int>(k)]);
+      field.component[k] = displacement[k];
+    }
+    add_fields(*grid->GetPointData(), static_cast<vtkIdType>(before.size()), {}, {field});
+  }
   add_time(*grid, frame.time);
   return text_of(*grid);
 }
@@ -166,26 +175,14 @@ FieldWriter::FieldWriter(fs::path folder) : folder_(std::move(folder)) {
 }
 
 FieldWriter FieldWriter::resume(fs::path folder, double time) {
-  const fs::path path = folder / files::fields;
-  const std::string text = read_file(path);
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str()));
-  vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
-  if (!collection) throw IoError(fmt::format("{} is not a collection of VTK files", path.string()));
   FieldWriter writer;
-  writer.folder_ = std::move(folder);
-  const auto attribute = [&](int element, const char* name) -> std::string {
-    const char* value = collection->GetNestedElement(element)->GetAttribute(name);
-    if (!value) throw IoError(fmt::format("{}: a DataSet without \"{}\"", path.string(), name));
-    return value;
-  };
-  for (int k = 0; k + 1 < collection->GetNumberOfNestedElements(); k += 2) {
-    Entry entry{std::stod(attribute(k, "timestep")), attribute(k, "file"), attribute(k + 1, "file")};
-    if (entry.time <= time)
-      writer.entries_.push_back(std::move(entry));
+  for (FieldFiles& frame : read_field_series(folder)) {
+    if (frame.time <= time)
+      writer.entries_.push_back(std::move(frame));
     else
-      for (const std::string& file : {entry.cells, entry.nodes}) fs::remove(writer.folder_ / file);
+      for (const std::string& file : {frame.cells, frame.nodes}) fs::remove(folder / file);
   }
+  writer.folder_ = std::move(folder);
   write_atomically(writer.folder_ / files::fields, writer.collection());
   return writer;
 }
@@ -197,7 +194,7 @@ template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<cons
   const auto name = [&](const char* part) {
     return fmt::format("{}/{}_{:05}.vtu", files::fields_folder, part, entries_.size());
   };
-  Entry entry{frame->time, name("cells"), name("nodes")};
+  FieldFiles entry{frame->time, name("cells"), name("nodes")};
   const std::size_t bytes = bytes_of(*frame) / 2; // kept by both
   queue.put(
       folder_ / entry.cells, [frame] { return cells_text(*frame); }, bytes);
@@ -214,7 +211,7 @@ std::string FieldWriter::collection() const {
   std::string xml = "<?xml version=\"1.0\"?>\n"
                     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
                     "  <Collection>\n";
-  for (const Entry& entry : entries_)
+  for (const FieldFiles& entry : entries_)
     for (const auto& [part, name, file] :
          {std::tuple(0, "cells", &entry.cells), std::tuple(1, "nodes", &entry.nodes)})
       xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",

@@ -3,6 +3,7 @@
 // stress points, polygons or tetrahedra, with cell data, and the nodes as points with point data.
 #include "core/operators/discretisation.hpp"
 #include "results/file_queue.hpp"
+#include "results/vtk_reader.hpp"
 
 #include <array>
 #include <filesystem>
@@ -30,8 +31,9 @@ struct VectorField {
 template<int dim> struct FieldFrame {
   double time = 0.0; ///< s
   const CellGeometry<dim>* cells = nullptr;
-  std::array<std::span<const double>, dim> position; ///< [component][node] m, present positions
-  Vec3 origin{0, 0, 0};                              ///< m, from which positions are counted
+  std::array<std::span<const double>, dim> position;  ///< [component][node] m, present positions
+  std::array<std::span<const double>, dim> initial{}; ///< m; where given, vertices tell their displacement
+  Vec3 origin{0, 0, 0};                               ///< m, from which positions are counted
   std::vector<ScalarField> cell_scalars;
   std::vector<VectorField> cell_vectors;
   std::vector<ScalarField> node_scalars;
@@ -69,15 +71,11 @@ public:
   int frames() const { return static_cast<int>(entries_.size()); }
 
 private:
-  struct Entry {
-    double time;
-    std::string cells, nodes; ///< paths relative to the folder
-  };
   FieldWriter() = default;
   std::string collection() const;
 
   std::filesystem::path folder_;
-  std::vector<Entry> entries_;
+  std::vector<FieldFiles> entries_;
 };
 
 } // namespace cnem::results

@@ -236,8 +236,8 @@ void check_column(const std::string& name, const input::Location& where, const s
                   std::vector<std::string> also, input::Diagnostics& diagnostics) {
   if ((name.starts_with("metrics.") && name.size() > 8) || (name.starts_with("wall_s.") && name.size() > 7))
     return;
-  also.insert(also.end(), {"nodes", "steps", "node_steps", "time", "energy_residual", "peak_rss_bytes",
-                           "metrics.NAME", "wall_s.NAME"});
+  also.insert(also.end(), {"nodes", "points", "steps", "node_steps", "time", "energy_residual", "cpu_s",
+                           "peak_rss_bytes", "metrics.NAME", "wall_s.NAME"});
   if (std::find(also.begin(), also.end(), name) != also.end() && !name.ends_with(".NAME")) return;
   diagnostics.add(input::Mistake::reference, where, key,
                   fmt::format("found '{}', expected a number of status.json such as nodes or "

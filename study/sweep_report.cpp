@@ -1,11 +1,8 @@
+#include "study/page.hpp"
 #include "study/sweep.hpp"
 
-#include "core/error.hpp"
-#include "core/index.hpp"
 #include "report/chart.hpp"
 #include "report/html.hpp"
-#include "report/report_style.hpp"
-#include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
 
@@ -19,21 +16,7 @@ namespace cnem::study {
 
 namespace {
 
-using State = SweepRun::State;
-
-constexpr int colours = 8; ///< of the palette of charts
-
-constexpr const char* table_style = R"css(
-.runs { overflow-x: auto; background: var(--card); border: 1px solid var(--line); border-radius: 12px; padding: 10px 18px; }
-.runs th, .runs td { padding: 5px 14px 5px 0; white-space: nowrap; text-align: right; }
-.runs th:first-child, .runs td:first-child { text-align: left; }
-.runs a { color: var(--c0); }
-.runs .bad { color: var(--bad); }
-)css";
-
-std::string column_name(const std::string& path) {
-  return path.starts_with("metrics.") ? path.substr(8) : path;
-}
+using State = RunRecord::State;
 
 /// The own values of a run except that of `without`: what a curve is called.
 std::string label_of(const StudyRun& run, const std::string& without) {
@@ -46,7 +29,7 @@ std::string label_of(const StudyRun& run, const std::string& without) {
 }
 
 /// Place of a run along x; not-a-number when it has none.
-double abscissa(const StudyRun& run, const SweepRun& result, const std::string& x) {
+double abscissa(const StudyRun& run, const RunRecord& result, const std::string& x) {
   double number = std::numeric_limits<double>::quiet_NaN();
   std::string unit;
   if (const input::Value* value = run.find(x))
@@ -66,7 +49,7 @@ std::string x_label(const Study& study, const std::string& x) {
 }
 
 /// One curve per column and per value of the other keys of a grid.
-report::Chart column_chart(const Study& study, const std::vector<SweepRun>& runs, const StudyChart& wanted) {
+report::Chart column_chart(const Study& study, const std::vector<RunRecord>& runs, const StudyChart& wanted) {
   report::Chart chart;
   chart.x_label = x_label(study, wanted.x);
   chart.x_unit = "";
@@ -89,8 +72,8 @@ report::Chart column_chart(const Study& study, const std::vector<SweepRun>& runs
     for (const std::string& column : wanted.y) {
       report::ChartSeries line;
       line.label = wanted.y.size() == 1 ? group : column_name(column) + (group.empty() ? "" : ", " + group);
-      line.colour = static_cast<int>(chart.series.size()) % colours;
-      line.dashed = chart.series.size() >= colours;
+      line.colour = curve_colour(chart.series.size());
+      line.dashed = is_dashed(chart.series.size());
       for (const std::size_t k : list) {
         line.x.push_back(x[k]);
         line.y.push_back(
@@ -105,48 +88,7 @@ report::Chart column_chart(const Study& study, const std::vector<SweepRun>& runs
   return chart;
 }
 
-/// One curve per run over time.
-report::Chart history_chart(const Study& study, const std::vector<results::HistoryTable>& histories,
-                            const std::string& column) {
-  report::Chart chart;
-  chart.title = column_name(column);
-  chart.y_label = column_name(column);
-  std::size_t drawn = 0;
-  for (std::size_t k = 0; k < histories.size(); ++k) {
-    const results::HistoryTable& history = histories[k];
-    const int at = history.find(column);
-    if (at < 0) continue;
-    const auto index = index_of(at);
-    chart.y_unit = results::split_column_name(history.names[index]).unit;
-    report::ChartSeries line;
-    const std::string label = label_of(study.runs[k], "");
-    line.label = label.empty() || study.runs[k].own.size() > 2 ? study.runs[k].name : label;
-    line.x = history.column.front();
-    line.y = history.column[index];
-    line.colour = static_cast<int>(drawn % colours);
-    line.dashed = drawn++ >= colours;
-    chart.series.push_back(std::move(line));
-  }
-  if (chart.series.empty()) chart.note = "No run has this column in its history.csv.";
-  return chart;
-}
-
-std::string figures(const std::vector<report::Chart>& charts) {
-  std::string html;
-  for (const report::Chart& chart : charts)
-    html += fmt::format(
-        "<figure><h3>{}</h3>\n{}{}</figure>\n", report::html_escape(chart.title), report::svg_chart(chart),
-        chart.note.empty() ? "" : "<figcaption>" + report::html_escape(chart.note) + "</figcaption>");
-  return html.empty() ? ""
-                      : "<section id=\"charts\">\n<h2>The runs together</h2>\n<div class=\"charts\">\n" +
-                            html + "</div>\n</section>\n";
-}
-
-std::string cell(const std::string& text, const char* tag = "td") {
-  return fmt::format("<{0}>{1}</{0}>", tag, report::html_escape(text));
-}
-
-std::string run_table(const Study& study, const std::vector<SweepRun>& runs) {
+std::string run_table(const Study& study, const std::vector<RunRecord>& runs) {
   const std::vector<std::string> columns = table_columns(study, runs);
   std::string html =
       "<section id=\"runs\">\n<h2>Runs</h2>\n<div class=\"runs\"><table>\n<tr>" + cell("run", "th");
@@ -176,7 +118,7 @@ std::string run_table(const Study& study, const std::vector<SweepRun>& runs) {
   return html + "</table></div>\n</section>\n";
 }
 
-std::string warnings(const Study& study, const std::vector<SweepRun>& runs) {
+std::string warnings(const Study& study, const std::vector<RunRecord>& runs) {
   std::string html, version;
   bool mixed = false;
   for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -193,10 +135,10 @@ std::string warnings(const Study& study, const std::vector<SweepRun>& runs) {
 
 } // namespace
 
-std::string sweep_report(const Study& study, const std::vector<SweepRun>& runs,
+std::string sweep_report(const Study& study, const std::vector<RunRecord>& runs,
                          const std::filesystem::path& folder, const std::string& version) {
   const auto count = [&](State state) {
-    return std::count_if(runs.begin(), runs.end(), [&](const SweepRun& run) { return run.state == state; });
+    return std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) { return run.state == state; });
   };
   std::vector<report::Chart> charts;
   for (const StudyChart& wanted : study.charts) charts.push_back(column_chart(study, runs, wanted));
@@ -205,25 +147,26 @@ std::string sweep_report(const Study& study, const std::vector<SweepRun>& runs,
     for (std::size_t k = 0; k < runs.size(); ++k)
       if (runs[k].status)
         histories[k] = results::read_history(folder / study.runs[k].name / results::files::history);
-    for (const std::string& column : study.history) charts.push_back(history_chart(study, histories, column));
+    std::vector<std::string> labels;
+    for (const StudyRun& run : study.runs) {
+      const std::string label = label_of(run, "");
+      labels.push_back(label.empty() || run.own.size() > 2 ? run.name : label);
+    }
+    for (const std::string& column : study.history)
+      charts.push_back(history_chart(histories, labels, column));
   }
   const std::string title = study.title.empty() ? study.name : study.title;
   std::string verdict = fmt::format("{} of {} runs done", count(State::done), runs.size());
   if (count(State::failed) > 0) verdict += fmt::format(", {} failed", count(State::failed));
   if (count(State::pending) > 0) verdict += fmt::format(", {} not run yet", count(State::pending));
-  std::string html = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-                                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-                                 "<title>{}</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n",
-                                 report::html_escape(title), report::report_style, table_style);
-  html += fmt::format(
-      "<header>\n<p class=\"code\">cnem {}</p>\n<h1>{}</h1>\n<p class=\"verdict {}\">{}</p>\n</header>\n",
-      report::html_escape(version), report::html_escape(title),
-      count(State::done) == static_cast<std::ptrdiff_t>(runs.size()) ? "good" : "bad", verdict);
-  html += warnings(study, runs) + figures(charts) + run_table(study, runs);
-  html +=
-      fmt::format("<section id=\"study\">\n<h2>The study</h2>\n<pre tabindex=\"0\">{}</pre>\n</section>\n",
-                  report::html_escape(study.text));
-  return html + "</main>\n</body>\n</html>\n";
+  return page({.title = title,
+               .version = version,
+               .verdict = verdict,
+               .good = count(State::done) == static_cast<std::ptrdiff_t>(runs.size())},
+              warnings(study, runs) + chart_section(charts) + run_table(study, runs) +
+                  fmt::format("<section id=\"study\">\n<h2>The study</h2>\n<pre "
+                              "tabindex=\"0\">{}</pre>\n</section>\n",
+                              report::html_escape(study.text)));
 }
 
 } // namespace cnem::study

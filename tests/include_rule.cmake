@@ -17,7 +17,7 @@ set(input core clouds plasticity thermal contact methods mechanics adapt)
 set(results core voronoi mechanics adapt input)
 set(evaluate core plasticity mechanics input results)
 set(report core input results evaluate)
-set(study core input results report)
+set(study core methods mechanics input results evaluate report)
 set(app core voronoi clouds plasticity thermal contact cnem methods mechanics fracture adapt input results evaluate report study)
 set(folders ${app} app)
 

@@ -49,7 +49,7 @@ cnem_tests(unit/methods cnem_mechanics cnem_cnem cnem_methods cnem_clouds)
 cnem_tests(unit/mechanics cnem_clouds cnem_mechanics cnem_cnem cnem_methods)
 cnem_tests(unit/evaluate cnem_app)
 cnem_tests(unit/app cnem_app)
-cnem_tests(unit/study cnem_app)
+cnem_tests(unit/study cnem_app PNG::PNG)
 target_compile_definitions(test_unit_study PRIVATE CNEM_PROGRAM="$<TARGET_FILE:cnem>") # a sweep runs the program
 add_dependencies(test_unit_study cnem)
 cnem_tests(restart cnem_results) # runs the program as a process

@@ -87,6 +87,7 @@ results::RunStatus blank_status(const StaticModel& model, const RunOptions& opti
   status.case_name = model.input.name;
   status.time = model.input.time.end;
   status.nodes = static_cast<std::int64_t>(model.position[0].size());
+  status.points = model.enriched.operators.points;
   status.threads = omp_get_max_threads();
   status.peak_rss_bytes = results::peak_rss_bytes();
   status.warnings = model.setup.warnings;
@@ -139,6 +140,7 @@ Exit give_up(const StaticModel& model, const DivergenceError& error, const RunOp
     dead.y = at.y();
   }
   status.wall_s = watch.spent();
+  status.cpu_s = watch.cpu();
   results::write_status(options.output, status);
   fmt::print("diverged: {}\nreport: {}\n", status.reason,
              report::write_report(options.output, status).string());
@@ -175,10 +177,12 @@ Exit solve(const StaticModel& model, const RunOptions& options, Stopwatch& watch
   });
   results::RunStatus status = make_status(model, solution, tips, options);
   status.wall_s = watch.spent();
+  status.cpu_s = watch.cpu();
   const std::filesystem::path report = watch.time("output", [&] {
     return watch.time("output.report", [&] { return report::write_report(options.output, status); });
   });
   status.wall_s = watch.spent();
+  status.cpu_s = watch.cpu();
   results::write_status(options.output, status);
   for (std::size_t w = model.setup.warnings.size(); w < status.warnings.size(); ++w)
     fmt::print(stderr, "warning: {}\n", status.warnings[w]);

@@ -1,7 +1,5 @@
 #include "input/schema/diagnostics.hpp"
 
-#include "core/error.hpp"
-
 #include <fmt/format.h>
 
 namespace cnem::input {
@@ -27,6 +25,8 @@ const char* plural(Mistake kind) {
     return "conflicts";
   case Mistake::geometry:
     return "geometric mistakes";
+  case Mistake::promise:
+    return "things that the method does not promise";
   }
   return "mistakes";
 }
@@ -50,6 +50,7 @@ void Diagnostics::throw_if_any() const {
   for (const std::string& line : told_) text += (text.empty() ? "" : "\n") + line;
   for (const auto& [kind, n] : counts_)
     if (n > shown_per_kind) text += fmt::format("\nand {} more {}", n - shown_per_kind, plural(kind));
+  if (counts_.size() == 1 && counts_.contains(Mistake::promise)) throw MethodRefusal(text);
   throw InputError(text);
 }
 

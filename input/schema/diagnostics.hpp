@@ -1,5 +1,6 @@
 #pragma once
 // Collects what is wrong with a case, so that a user sees several mistakes at once.
+#include "core/error.hpp"
 #include "input/schema/document.hpp"
 
 #include <cstddef>
@@ -9,8 +10,14 @@
 
 namespace cnem::input {
 
-/// Kinds of mistakes; each is reported up to three times, then counted.
-enum class Mistake { unknown_key, missing_key, type, unit, range, reference, conflict, geometry };
+/// Kinds of mistakes; each is reported up to three times, then counted. `promise`: what the case asks for its
+/// method does not promise.
+enum class Mistake { unknown_key, missing_key, type, unit, range, reference, conflict, geometry, promise };
+
+/// A case with which nothing is wrong but that its method cannot give what it asks for: another method may.
+struct MethodRefusal : InputError {
+  using InputError::InputError;
+};
 
 class Diagnostics {
 public:
@@ -21,7 +28,8 @@ public:
   /// Records a mistake without words.
   void count(Mistake kind) { ++counts_[kind]; }
   bool empty() const { return counts_.empty(); }
-  /// Throws InputError with all that was recorded, if anything was.
+  /// Throws InputError with all that was recorded, if anything was; MethodRefusal where that is promises
+  /// alone.
   void throw_if_any() const;
 
 private:

@@ -286,18 +286,22 @@ Value& find_or_make(Value& root, const std::vector<Step>& steps, const Location&
 
 } // namespace
 
-void apply_override(Value& root, std::string_view assignment) {
+Override parse_override(std::string_view assignment, const std::string& option) {
   constexpr std::size_t longest = 1000; // in a message
-  const Location where{
-      fmt::format("--set {}", assignment.size() <= longest ? assignment : shortened(assignment)), 0, 0};
+  Location where{
+      fmt::format("{} {}", option, assignment.size() <= longest ? assignment : shortened(assignment)), 0, 0};
   const auto equals = assignment.find('=');
-  const std::string key(trimmed(assignment.substr(0, std::min(equals, assignment.size()))));
-  const std::vector<Step> steps = split_key(key);
-  if (equals == std::string_view::npos || steps.empty())
+  std::string key(trimmed(assignment.substr(0, std::min(equals, assignment.size()))));
+  if (equals == std::string_view::npos || split_key(key).empty())
     throw InputError(fmt::format("{}: expected key=value, such as time.end=\"3 us\" or "
                                  "tools.punch.path[1].fillet=\"0.5 mm\"",
                                  where.text()));
-  find_or_make(root, steps, where) = override_value(assignment.substr(equals + 1), where);
+  Value value = override_value(assignment.substr(equals + 1), where);
+  return {std::move(key), std::move(value), std::move(where)};
+}
+
+void apply_override(Value& root, std::string_view assignment) {
+  apply_override(root, parse_override(assignment, "--set"));
 }
 
 void apply_override(Value& root, const Override& change) {

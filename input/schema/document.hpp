@@ -58,17 +58,22 @@ Value parse_document(std::string_view text, const std::string& source);
 /// Reads a file. Throws InputError when it is absent, a folder or not TOML; IoError when it cannot be read.
 Value read_document(const std::string& path);
 
-/// Applies "key=value": the key addresses tables and array elements ("tools.punch.path[1].fillet"), missing
-/// tables are made; the value is TOML, or else bare text. Throws InputError naming the whole override when
-/// it has no '=' or its key addresses something that cannot be there.
-void apply_override(Value& root, std::string_view assignment);
-
-/// The same for a value that was written elsewhere, in the file of a study say.
+/// A value that a key is given, read from another file or from the command line.
 struct Override {
   std::string key;
   Value value;
   Location where; ///< of the key
 };
+
+/// "key=value", as after `option` ("--set") on the command line; the value is TOML, or else bare text. Throws
+/// InputError naming the whole override when it has no '=' or its key is none.
+Override parse_override(std::string_view assignment, const std::string& option);
+
+/// Applies "key=value": the key addresses tables and array elements ("tools.punch.path[1].fillet"), missing
+/// tables are made; the value is TOML, or else bare text. Throws InputError naming the whole override when
+/// it has no '=' or its key addresses something that cannot be there.
+void apply_override(Value& root, std::string_view assignment);
+/// The same for a value that was written elsewhere, in the file of a study say.
 void apply_override(Value& root, const Override& change);
 
 /// The text as a TOML string, in quotes.

@@ -25,10 +25,12 @@ struct Refusal {
 };
 
 /// Runs the program on a path, in this process, with a fresh folder of results.
-Refusal call(const std::string& command, const fs::path& path, const std::vector<std::string>& set = {}) {
+Refusal call(const std::string& command, const fs::path& path, const std::vector<std::string>& set = {},
+             const std::vector<std::string>& options = {}) {
   const fs::path results = fs::path(testing::TempDir()) / ("bad_input_" + std::to_string(getpid()));
   std::vector<std::string> words{"cnem", command, path.string(), "--output", results.string()};
   for (const std::string& change : set) words.insert(words.end(), {"--set", change});
+  words.insert(words.end(), options.begin(), options.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   testing::internal::CaptureStdout();
@@ -48,7 +50,7 @@ void expect_message(const Refusal& refusal, const std::string& text) {
 /// What the comments at the top of a file promise.
 struct Promise {
   std::string command = "check";
-  std::vector<std::string> set, expected;
+  std::vector<std::string> set, options, expected;
   int exit = 0;
 };
 
@@ -61,6 +63,10 @@ Promise promise_of(const fs::path& file) {
   for (std::string line; std::getline(stream, line) && line.starts_with('#');) {
     after(line, "# command: ", [&](const std::string& text) { promise.command = text; });
     after(line, "# set: ", [&](const std::string& text) { promise.set.push_back(text); });
+    after(line, "# options: ", [&](const std::string& text) {
+      std::istringstream words(text);
+      for (std::string word; words >> word;) promise.options.push_back(word);
+    });
     after(line, "# expect exit ", [&](const std::string& text) { promise.exit = std::stoi(text); });
     after(line, "# expect: ", [&](const std::string& text) { promise.expected.push_back(text); });
   }
@@ -81,13 +87,13 @@ TEST_P(BadInput, is_refused_as_promised) {
   const fs::path file = catalogue / (GetParam() + ".toml");
   const Promise promise = promise_of(file);
   ASSERT_FALSE(promise.expected.empty()) << file << " does not say what is expected";
-  const Refusal refusal = call(promise.command, file, promise.set);
+  const Refusal refusal = call(promise.command, file, promise.set, promise.options);
   EXPECT_EQ(refusal.exit, promise.exit) << refusal.message;
   for (const std::string& text : promise.expected) expect_message(refusal, text);
 
   // Whatever is wrong: each line says where, and what was expected; at most three of a kind.
-  static const std::regex place(R"(^(.*\.toml:\d+:\d+|--set .*): .*(expected|not TOML).*)");
-  static const std::regex rest(R"(^(and \d+ more .*|in run '.*' of the study)$)");
+  static const std::regex place(R"(^(.*\.toml:\d+:\d+|--(set|set-for|methods) .*): .*(expected|not TOML).*)");
+  static const std::regex rest(R"(^(and \d+ more .*|in run '.*' of the study|in the run of method '.*')$)");
   std::istringstream lines(refusal.message);
   for (std::string line; std::getline(lines, line);)
     EXPECT_TRUE(std::regex_match(line, place) || std::regex_match(line, rest)) << line;

@@ -46,7 +46,7 @@ results::HistoryTable sine() {
 }
 
 TEST(ForceStroke, largest_force_stroke_and_work_of_a_sine) {
-  const ForceCurve curve = force_curve(sine(), "punch", "punch", {"die"}, Vec2(0, -1));
+  const ForceCurve curve = force_curve(sine(), "punch", "punch", {"die"}, Vec3(0, -1, 0));
   const ToolForce force = largest_force(curve, "punch");
   // The Gaussian of σ = T/100 takes exp(−(π/100)²/2) of a sine.
   const double passed = std::exp(-0.5 * std::pow(std::numbers::pi / 100.0, 2));
@@ -54,7 +54,7 @@ TEST(ForceStroke, largest_force_stroke_and_work_of_a_sine) {
   EXPECT_NEAR(force.largest_sample, 2e6, 2.0);
   EXPECT_NEAR(force.stroke, 2.0 * 0.5e-3, 5e-6); // punch against die: 3 − 1 m/s; one in 600 times
   EXPECT_NEAR(force.work, 3.0 * 2e6 * 2e-3 / std::numbers::pi, 1e-6);
-  const ToolForce die = largest_force(force_curve(sine(), "die", "punch", {"die"}, Vec2(0, -1)), "die");
+  const ToolForce die = largest_force(force_curve(sine(), "die", "punch", {"die"}, Vec3(0, -1, 0)), "die");
   EXPECT_NEAR(die.largest, force.largest, 1e-6 * force.largest);
   EXPECT_NEAR(die.work, -force.work / 3.0, 1e-9);
 }
@@ -62,11 +62,48 @@ TEST(ForceStroke, largest_force_stroke_and_work_of_a_sine) {
 TEST(ForceStroke, one_row_is_enough_and_a_missing_column_is_named) {
   results::HistoryTable table = sine();
   for (auto& column : table.column) column.resize(1);
-  EXPECT_EQ(largest_force(force_curve(table, "punch", "punch", {}, Vec2(0, -1)), "punch").largest, 0.0);
+  EXPECT_EQ(largest_force(force_curve(table, "punch", "punch", {}, Vec3(0, -1, 0)), "punch").largest, 0.0);
   try {
-    force_curve(table, "ram", "punch", {}, Vec2(0, -1));
+    force_curve(table, "ram", "punch", {}, Vec3(0, -1, 0));
     FAIL();
   } catch (const IoError& error) { EXPECT_STREQ(error.what(), "the history has no column 'ram.force_x'"); }
+}
+
+TEST(ForceStroke, the_leading_force_is_that_of_the_tool_that_moves_farthest) {
+  results::HistoryTable table = sine();
+  EXPECT_EQ(tools_of(table), (std::vector<std::string>{"punch", "die"}));
+  EXPECT_FALSE(leading_force(table)->over_stroke) << "nothing says that a tool has a stroke";
+  for (const double way : {3.0, 1.0}) {
+    table.names.push_back(way > 2.0 ? "punch.stroke[m]" : "die.stroke[m]");
+    table.column.push_back(table.column.front());
+    for (double& stroke : table.column.back()) stroke *= way;
+  }
+  EXPECT_EQ(moving_tool(table), "punch");
+  const LeadingForce leading = *leading_force(table);
+  EXPECT_EQ(leading.of, "punch");
+  EXPECT_TRUE(leading.over_stroke);
+  EXPECT_NEAR((leading.along - Vec3(0, -1, 0)).norm(), 0.0, 1e-15);
+  const ForceCurve curve = force_curve(table, leading);
+  EXPECT_NEAR(curve.stroke.back(), 3e-3, 1e-15) << "of the punch alone";
+  EXPECT_EQ(curve.even_time.size(), curve.smooth.size());
+}
+
+TEST(ForceStroke, where_no_tool_moves_the_largest_impulse_leads_of_tools_then_of_supports) {
+  results::HistoryTable table;
+  table.names = {"time[s]",           "wall.force_x[N/m]",         "wall.force_y[N/m]",
+                 "wall.force_z[N/m]", "support.base.force_x[N/m]", "support.base.force_y[N/m]"};
+  table.column = {{0, 1, 2}, {1, 9, -9}, {0, -1, 0}, {0, -5, -8}, {0, 0, 0}, {-8, 0, 9}};
+  const LeadingForce wall = *leading_force(table);
+  EXPECT_EQ(wall.of, "wall");
+  EXPECT_EQ(wall.along, Vec3(0, 0, 1));
+  EXPECT_EQ(force_curve(table, wall).force, (std::vector<double>{0, -5, -8}));
+  for (std::size_t k = 1; k < 4; ++k) table.column[k] = {0, 0, 0};
+  const LeadingForce base = *leading_force(table);
+  EXPECT_EQ(base.of, "support.base");
+  EXPECT_EQ(base.along, Vec3(0, 1, 0));
+  EXPECT_TRUE(std::isnan(force_curve(table, base).work));
+  table.column.back() = {0, 0, 0};
+  EXPECT_FALSE(leading_force(table));
 }
 
 BlankingResult example() {

@@ -1,6 +1,7 @@
 // What a case asks for and a method does not promise is refused by the promise's name
 // (input/case_promises.cpp).
 #include "input/case_parts.hpp"
+#include "input/schema/diagnostics.hpp"
 #include "tests/unit/input/case_text.hpp"
 
 #include <algorithm>
@@ -102,6 +103,16 @@ TEST(CaseReader, particles_have_a_kernel_and_its_support) {
   EXPECT_EQ(chosen.method.options.kernel, methods::Kernel::wendland_c2);
   EXPECT_EQ(chosen.method.options.smoothing, 3.0);
   EXPECT_EQ(methods::make<2>(chosen.method.name, chosen.method.options)->name(), "sph_wendland_c2");
+}
+
+TEST(Promises, a_case_that_its_method_alone_refuses_is_told_from_a_wrong_one) {
+  const std::string triangles = "[method]\nname = \"fe-triangles\"\n";
+  EXPECT_THROW(read_small(triangles), MethodRefusal);
+  try {
+    read_small(triangles + "functions = \"lagrange\"\n");
+    FAIL();
+  } catch (const MethodRefusal&) { FAIL() << "a name is wrong too"; } catch (const InputError&) {
+  }
 }
 
 } // namespace

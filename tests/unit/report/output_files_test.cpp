@@ -3,6 +3,8 @@
 #include "report/palette_png.hpp"
 #include "report/picture.hpp"
 #include "results/file_queue.hpp"
+#include "results/output_folder.hpp"
+#include "results/vtk_reader.hpp"
 #include "results/vtk_writer.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -302,6 +304,69 @@ TEST_F(VtuFiles, vtk_reads_cells_and_fields_to_the_bit) {
     EXPECT_EQ(grid->GetCellData()->GetArray("pressure [Pa]")->GetTuple1(c),
               pressure[static_cast<std::size_t>(c)]);
   EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), 1e-6);
+}
+
+TEST_F(VtuFiles, what_was_written_is_read_back_to_the_bit) {
+  write();
+  const std::vector<results::FieldFiles> series = results::read_field_series(folder);
+  ASSERT_EQ(series.size(), 2U);
+  EXPECT_EQ(series[1].time, 1e-6);
+  EXPECT_EQ(series[1].nodes, "fields/nodes_00001.vtu");
+  const results::CellFields read =
+      results::read_cell_fields(folder / series[1].cells, {"pressure [Pa]"}, Vec2(1.0, 0.0));
+  EXPECT_EQ(read.cells.begin, cells.begin);
+  EXPECT_EQ(read.cells.index, cells.index);
+  EXPECT_EQ(read.values.front(), Field(pressure.begin(), pressure.end()));
+  EXPECT_TRUE(read.displacement[0].empty());
+  const std::vector<Vec2> vertices =
+      results::moved_vertices<2>(read.cells, {read.position[0], read.position[1]});
+  for (std::size_t v = 0; v < vertices.size(); ++v) EXPECT_EQ(vertices[v], cells.vertex[v]) << v;
+}
+
+TEST_F(VtuFiles, displacements_of_vertices_are_read_back) {
+  Fields<2> moved;
+  for (const Vec2& at : cells.vertex) {
+    position[0].push_back(at.x());
+    position[1].push_back(at.y());
+    moved[0].push_back(at.x() + 0.5);
+    moved[1].push_back(2.0 * at.y());
+  }
+  results::FileQueue queue;
+  results::FieldFrame<2> frame{.time = 1.0,
+                               .cells = &cells,
+                               .position = {moved[0], moved[1]},
+                               .initial = {position[0], position[1]},
+                               .cell_scalars = {},
+                               .cell_vectors = {},
+                               .node_scalars = {},
+                               .node_vectors = {}};
+  results::FieldWriter(folder).write<2>(queue, std::make_shared<results::FieldFrame<2>>(frame));
+  queue.wait();
+  const auto read = results::read_cell_fields(folder / "fields/cells_00000.vtu", {}, Vec2(0, 0));
+  for (std::size_t v = 0; v < cells.vertex.size(); ++v) {
+    EXPECT_EQ(read.displacement[0][v], 0.5);
+    EXPECT_EQ(read.displacement[1][v], position[1][v]);
+  }
+}
+
+TEST_F(VtuFiles, a_series_or_a_file_that_is_none_is_refused) {
+  write();
+  const auto message = [](auto&& read) -> std::string {
+    try {
+      read();
+    } catch (const IoError& error) { return error.what(); }
+    return "accepted";
+  };
+  const fs::path file = folder / "fields/cells_00000.vtu";
+  EXPECT_NE(
+      message([&] { results::read_cell_fields(file, {"pressure"}, Vec2(0, 0)); }).find("no field 'pressure'"),
+      std::string::npos);
+  results::write_atomically(file, "nothing");
+  EXPECT_NE(message([&] { results::read_cell_fields(file, {}, Vec2(0, 0)); }).find("cannot read"),
+            std::string::npos);
+  results::write_atomically(folder / "fields.pvd", "<VTKFile/>");
+  EXPECT_NE(message([&] { results::read_field_series(folder); }).find("is not a collection"),
+            std::string::npos);
 }
 
 TEST_F(VtuFiles, vtk_reads_nodes_and_vectors_to_the_bit) {

@@ -265,7 +265,7 @@ TEST_F(Sweep, texts_in_the_table_are_no_formulas) {
             "[[run]]\nname = \"b\"\nset = { \"title\" = \"\\t=2\", \"x\" = \"-1+cmd|' /C calc'!A0\" }\n"
             "[[run]]\nname = \"c\"\nset = { \"title\" = \"+A1,2\", \"x\" = -3.5 }\n"
             "[[run]]\nname = \"d\"\nset = { \"title\" = \"\\r=2\", \"x\" = \"-1 +5 mm\" }\n");
-  const std::string table = sweep_table(s, std::vector<SweepRun>(4));
+  const std::string table = sweep_table(s, std::vector<RunRecord>(4));
   expect_parts(table, {"\n'+A1,'@SUM(A1),-11 m/s,", "\nb,'\t=2,'-1+cmd|' /C calc'!A0,",
                        "\nc,\"'+A1,2\",-3.5,", "\nd,\"'\r=2\",-1 +5 mm,"});
 }

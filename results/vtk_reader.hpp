@@ -1,0 +1,37 @@
+#pragma once
+// Fields that a run has written (results/vtk_writer.hpp), read back.
+#include "core/operators/discretisation.hpp"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cnem::results {
+
+/// Files of one time in fields.pvd.
+struct FieldFiles {
+  double time = 0.0;        ///< s
+  std::string cells, nodes; ///< paths relative to the folder of results
+};
+
+/// What fields.pvd lists, in its order. Throws IoError when it cannot be read or is not such a list.
+std::vector<FieldFiles> read_field_series(const std::filesystem::path& folder);
+
+/// What vertices of cells have where the frame has initial positions.
+inline constexpr const char* vertex_displacement = "displacement [m]";
+
+/// The cells of one time in the plane, with values of scalar fields.
+struct CellFields {
+  CellGeometry<2> cells;     ///< each vertex is a node of its own, with weight 1
+  Fields<2> position;        ///< [component][vertex] m
+  Fields<2> displacement;    ///< [component][vertex] m; empty where the file does not tell it
+  std::vector<Field> values; ///< [name][cell]
+};
+
+/// names: as in the file, "pressure [Pa]"; places in it are counted from `origin` here. Throws IoError when
+/// the file cannot be read, has no polygons or lacks a field.
+CellFields read_cell_fields(const std::filesystem::path& file, const std::vector<std::string>& names,
+                            const Vec2& origin);
+
+} // namespace cnem::results

@@ -1,0 +1,275 @@
+#include "study/batch.hpp"
+
+#include "core/error.hpp"
+#include "core/index.hpp"
+#include "results/checkpoint_folder.hpp"
+#include "results/folder_lock.hpp"
+#include "results/output_folder.hpp"
+#include "results/si_format.hpp"
+#include "study/process_pool.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace cnem::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using State = RunRecord::State;
+
+constexpr const char* manifest_file = "manifest.json";
+
+/// FNV-1a, 64 bits.
+std::string hash(std::string_view text) {
+  std::uint64_t h = 0xcbf29ce484222325U;
+  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return fmt::format("{:016x}", h);
+}
+
+/// The manifest of an earlier call; none when there is none. Throws Json::exception for what is none.
+std::optional<Json> read_manifest(const fs::path& folder) {
+  const fs::path path = folder / manifest_file;
+  if (!fs::exists(path)) return {};
+  return Json::parse(results::read_file(path));
+}
+
+/// Throws InputError when the folder holds what another command, or a user, has made.
+void check_folder(const Study& study, const fs::path& folder, const std::string& kind, bool force) {
+  constexpr const char* another = "choose another with --output";
+  if (fs::exists(folder / results::files::status))
+    throw InputError(fmt::format("the output folder {} holds a single run: {}", folder.string(), another));
+  try {
+    if (const std::optional<Json> manifest = read_manifest(folder)) {
+      if (const std::string made = manifest->value("kind", "sweep"); made != kind)
+        throw InputError(
+            fmt::format("the output folder {} holds the runs of a {}, expected those of a {}: {}",
+                        folder.string(), made, kind, another));
+      return;
+    }
+  } catch (const Json::exception& error) {
+    if (force) return;
+    throw IoError(fmt::format("{} is not the manifest of a {} ({}): run all again with --force",
+                              (folder / manifest_file).string(), kind, error.what()));
+  }
+  for (const StudyRun& run : study.runs)
+    if (!force && results::holds_run(folder / run.name))
+      throw InputError(fmt::format("{} holds a run that no {} has made: {}, or replace it with --force",
+                                   (folder / run.name).string(), kind, another));
+}
+
+void prepare_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw IoError(fmt::format("cannot create the output folder {}: {}", folder.string(),
+                              error ? error.message() : "a file of this name is in the way"));
+}
+
+std::string manifest_text(const Study& study, const std::vector<RunRecord>& runs, const std::string& kind,
+                          const std::string& version) {
+  Json json{{"kind", kind}, {"study", study.name}, {"case", study.case_file.string()}, {"version", version}};
+  json["runs"] = Json::array();
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    Json set = Json::object();
+    for (const input::Override& change : study.runs[k].changes()) set[change.key] = plain_text(change.value);
+    Json run{{"name", study.runs[k].name}, {"set", set}, {"inputs", runs[k].inputs}};
+    run["state"] = state_name(runs[k].state);
+    if (runs[k].state == State::failed) run["exit"] = runs[k].exit;
+    if (!runs[k].reason.empty()) run["reason"] = runs[k].reason;
+    json["runs"].push_back(std::move(run));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// The status of a run that ended well; none for others.
+std::optional<results::RunStatus> good_status(const fs::path& folder) {
+  if (!fs::exists(folder / results::files::status)) return {};
+  try {
+    results::RunStatus status = results::read_status(folder);
+    if (status.exit == Exit::done) return status;
+  } catch (const IoError&) {} // half a status is none: the run is done again
+  return {};
+}
+
+/// Whether a run that an earlier call has not done did not come to its own end either.
+bool was_interrupted(const Json& old) {
+  if (old.at("state") != state_name(State::failed)) return true;
+  const int exit = old.at("exit");
+  return exit != Exit::bad_input && exit != Exit::diverged;
+}
+
+/// Marks the runs that an earlier call has done, or begun, with the same inputs.
+void find_earlier(const Study& study, std::vector<RunRecord>& runs, const fs::path& folder,
+                  const std::string& kind) {
+  try {
+    const std::optional<Json> manifest = read_manifest(folder);
+    if (!manifest) return;
+    for (const Json& old : manifest->at("runs"))
+      for (std::size_t k = 0; k < runs.size(); ++k) {
+        if (old.at("name") != study.runs[k].name || old.at("inputs") != runs[k].inputs ||
+            runs[k].state == State::refused)
+          continue;
+        const fs::path own = folder / study.runs[k].name;
+        if (old.at("state") == state_name(State::done)) {
+          if ((runs[k].status = good_status(own))) runs[k].state = State::done;
+        } else {
+          runs[k].interrupted = was_interrupted(old) && fs::exists(own / results::files::resolved_case) &&
+                                !results::list_checkpoints(own).empty();
+        }
+      }
+  } catch (const Json::exception& error) {
+    throw IoError(fmt::format("{} is not the manifest of a {} ({}): run all again with --force",
+                              (folder / manifest_file).string(), kind, error.what()));
+  }
+}
+
+std::string last_line(const fs::path& log) {
+  std::string text = results::read_file(log);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+void conclude(RunRecord& run, const JobEnd& end, const fs::path& folder, const fs::path& log) {
+  run.exit = end.code;
+  run.status = end.code == Exit::done ? good_status(folder) : std::nullopt;
+  run.state = run.status ? State::done : State::failed;
+  if (run.status) return;
+  if (end.signal != 0)
+    run.reason = fmt::format("killed by signal {}", end.signal);
+  else if (fs::exists(folder / results::files::status))
+    run.reason = results::read_status(folder).reason;
+  else
+    run.reason = last_line(log);
+  if (run.reason.empty()) run.reason = fmt::format("ended with code {} and no message", end.code);
+}
+
+fs::path log_of(const fs::path& folder) { return folder.string() + ".log"; }
+
+std::vector<std::string> command(const Study& study, std::size_t k, bool interrupted, const fs::path& folder,
+                                 const BatchOptions& options) {
+  std::vector<std::string> words{options.program.string()};
+  if (interrupted) {
+    words.insert(words.end(), {"restart", folder.string()});
+  } else {
+    words.insert(words.end(), {"run", study.case_file.string(), "--output", folder.string(), "--force"});
+    for (const input::Override& change : study.runs[k].changes())
+      words.insert(words.end(), {"--set", change.key + "=" + input::toml_text(change.value)});
+  }
+  if (study.threads > 0) words.insert(words.end(), {"--threads", std::to_string(study.threads)});
+  return words;
+}
+
+std::size_t processes_for(const Study& study, const BatchOptions& options) {
+  const int wanted = options.processes > 0 ? options.processes : study.processes;
+  if (wanted > 0) return index_of(wanted);
+  return std::max<std::size_t>(1, std::thread::hardware_concurrency() / index_of(std::max(1, study.threads)));
+}
+
+} // namespace
+
+const char* state_name(State state) {
+  switch (state) {
+  case State::done:
+    return "done";
+  case State::failed:
+    return "failed";
+  case State::refused:
+    return "refused";
+  case State::pending:
+    break;
+  }
+  return "pending";
+}
+
+/// The first line of the resolved case names the file; nodes may come from a file of their own.
+std::string inputs_of(const input::Case& input) {
+  std::string text = input.resolved.substr(input.resolved.find('\n') + 1);
+  for (const Vec2& node : input.cloud.nodes) text += fmt::format("{:a} {:a}\n", node.x(), node.y());
+  return hash(text);
+}
+
+Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptions& options,
+               const Pages& pages) {
+  check_folder(study, options.output, pages.kind, options.force);
+  prepare_folder(options.output);
+  const results::FolderLock lock(options.output, pages.kind.c_str());
+  if (!options.force) find_earlier(study, runs, options.output, pages.kind);
+  const auto write_manifest = [&] {
+    results::write_atomically(options.output / manifest_file,
+                              manifest_text(study, runs, pages.kind, options.version));
+  };
+  const auto count = [&](State state) {
+    return index_of(
+        std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) { return run.state == state; }));
+  };
+  std::vector<Job> jobs;
+  std::vector<std::size_t> run_of;
+  std::size_t restarts = 0;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (runs[k].state == State::refused)
+      fmt::print(stderr, "refused: {}: {}\n", study.runs[k].name, runs[k].reason);
+    if (runs[k].state != State::pending) continue;
+    const fs::path folder = options.output / study.runs[k].name;
+    restarts += runs[k].interrupted;
+    // What the folder holds must not be taken for a run with the inputs that the manifest will name.
+    if (!runs[k].interrupted) fs::remove(folder / results::files::resolved_case);
+    jobs.push_back({command(study, k, runs[k].interrupted, folder, options), log_of(folder)});
+    run_of.push_back(k);
+  }
+  write_manifest();
+  const std::size_t processes =
+      std::min(processes_for(study, options), std::max<std::size_t>(1, jobs.size()));
+  const std::size_t refused = count(State::refused), total = runs.size() - refused;
+  fmt::print("{} runs: {} done before, {} to do in {} processes{}{}\n", runs.size(), count(State::done),
+             jobs.size(), processes,
+             restarts > 0 ? fmt::format(", {} from the last checkpoint", restarts) : "",
+             refused > 0 ? fmt::format(", {} refused", refused) : "");
+  std::fflush(stdout);
+
+  using Clock = std::chrono::steady_clock;
+  std::vector<Clock::time_point> began(runs.size());
+  std::size_t finished = total - jobs.size();
+  const bool complete = run_jobs(
+      jobs, processes,
+      [&](std::size_t job) {
+        began[run_of[job]] = Clock::now();
+        // A status left by an earlier run must not speak for this one.
+        fs::remove(options.output / study.runs[run_of[job]].name / results::files::status);
+      },
+      [&](std::size_t job, JobEnd end) {
+        const std::size_t k = run_of[job];
+        conclude(runs[k], end, options.output / study.runs[k].name, jobs[job].log);
+        write_manifest();
+        const double seconds = std::chrono::duration<double>(Clock::now() - began[k]).count();
+        const std::string what = runs[k].status ? fmt::format("done, {} nodes", runs[k].status->nodes)
+                                                : "FAILED: " + runs[k].reason;
+        fmt::print("[{}/{}] {}: {}, {}\n", ++finished, total, study.runs[k].name, what,
+                   results::duration_format(seconds));
+        std::fflush(stdout);
+      });
+
+  const fs::path table = options.output / pages.table, report = options.output / pages.report;
+  const PageTexts texts = pages.write(runs);
+  results::write_atomically(table, texts.table);
+  results::write_atomically(report, texts.report);
+  if (pages.warn) pages.warn(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (runs[k].state == State::failed)
+      fmt::print(stderr, "failed: {}: {} (exit code {}, log {})\n", study.runs[k].name, runs[k].reason,
+                 runs[k].exit, log_of(options.output / study.runs[k].name).string());
+  fmt::print("table: {}\nreport: {}\n", table.string(), report.string());
+  if (!complete) {
+    fmt::print(stderr, "interrupted: {} of {} runs ended; the same command goes on from here\n", finished,
+               total);
+    return Exit::interrupted;
+  }
+  if (count(State::failed) > 0) return Exit::diverged;
+  return refused > 0 ? Exit::bad_input : Exit::done;
+}
+
+} // namespace cnem::study

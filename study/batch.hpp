@@ -1,0 +1,62 @@
+#pragma once
+// The runs of a study as processes: a folder and a log for each, a manifest to go on from, and the files that
+// show them together.
+#include "core/error.hpp"
+#include "input/case.hpp"
+#include "results/status.hpp"
+#include "study/study.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cnem::study {
+
+struct BatchOptions {
+  std::filesystem::path output;                     ///< folder of results
+  bool force = false;                               ///< run all again
+  int processes = 0;                                ///< 0: what the study says
+  std::filesystem::path program = "/proc/self/exe"; ///< cnem
+  std::string version;
+};
+
+/// Where a run of a study stands.
+struct RunRecord {
+  /// refused: its method cannot give what the case asks for.
+  enum class State { pending, done, failed, refused };
+  State state = State::pending;
+  std::string inputs; ///< hash of the resolved case
+  bool interrupted =
+      false;    ///< its folder has a checkpoint of an earlier call with these inputs to go on from
+  int exit = 0; ///< exit code of the process; −1 when a signal killed it
+  std::string reason;
+  std::optional<results::RunStatus> status; ///< of runs that are done
+};
+const char* state_name(RunRecord::State state);
+
+/// What a run depends on, as a hash.
+std::string inputs_of(const input::Case& input);
+
+struct PageTexts {
+  std::string table, report;
+};
+
+/// What shows the runs together.
+struct Pages {
+  std::string kind;          ///< in words: "sweep"
+  std::string table, report; ///< names of the files
+  std::function<PageTexts(const std::vector<RunRecord>&)> write;
+  std::function<void(const std::vector<RunRecord>&)> warn = nullptr; ///< of what users may have misspelt
+};
+
+/// Runs what the folder does not hold yet and writes manifest.json, the table and the report. Runs that were
+/// interrupted (stopped, killed, or denied to write) with the same inputs go on from their last checkpoint;
+/// others start anew. Returns done; diverged when a run failed, for whatever reason; else bad_input when one
+/// was refused; interrupted after SIGINT, SIGTERM or SIGHUP. Throws InputError, for a folder that holds
+/// something else too, and IoError.
+Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptions& options,
+               const Pages& pages);
+
+} // namespace cnem::study

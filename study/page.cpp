@@ -1,0 +1,143 @@
+#include "study/page.hpp"
+
+#include "core/index.hpp"
+#include "input/schema/units.hpp"
+#include "report/html.hpp"
+#include "report/report_style.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::study {
+
+namespace {
+
+/// Whether a text is numbers with their unit ("-11 m/s", "-1 5 mm"), as quantities of a case are written.
+bool is_quantity(std::string_view text) {
+  bool any = false;
+  while (!text.empty()) {
+    const std::size_t sign = text.front() == '+' ? 1 : 0;
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), number);
+    if (error != std::errc{}) break;
+    any = true;
+    text.remove_prefix(index_of(end - text.data()));
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  }
+  if (!any || text.empty()) return any;
+  try {
+    input::parse_unit(text);
+    return true;
+  } catch (const input::UnitError&) { return false; }
+}
+
+constexpr const char* table_style = R"css(
+.runs { overflow-x: auto; background: var(--card); border: 1px solid var(--line); border-radius: 12px; padding: 10px 18px; }
+.runs th, .runs td { padding: 5px 14px 5px 0; white-space: nowrap; text-align: right; }
+.runs th:first-child, .runs td:first-child { text-align: left; }
+.runs a { color: var(--c0); }
+.runs .bad { color: var(--bad); }
+)css";
+
+constexpr std::size_t colours = 8; ///< of the palette of charts
+
+/// A spreadsheet takes a text that begins like a formula for one, and may act on it: an apostrophe keeps it a
+/// text.
+std::string csv_field(const std::string& text) {
+  const bool like_formula = text.find_first_of("=+-@\t\r") == 0 && !is_quantity(text);
+  const std::string shown = like_formula ? "'" + text : text;
+  if (shown.find_first_of(",\"\r\n") == std::string::npos) return shown;
+  std::string quoted = "\"";
+  for (const char c : shown) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+} // namespace
+
+std::string csv_table(const Study& study, const std::vector<RunRecord>& runs,
+                      const std::vector<NumberColumn>& columns) {
+  std::string csv = "run";
+  const auto add = [&](const std::string& text) {
+    csv += ',';
+    csv += csv_field(text);
+  };
+  for (const std::string& key : study.keys) add(key);
+  csv += ",state,exit";
+  for (const NumberColumn& column : columns) add(column.name);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    csv += '\n';
+    csv += csv_field(study.runs[k].name);
+    for (const std::string& key : study.keys) {
+      const input::Value* value = study.runs[k].find(key);
+      add(value ? plain_text(*value) : "");
+    }
+    add(state_name(runs[k].state));
+    add(runs[k].state == RunRecord::State::pending ? "" : std::to_string(runs[k].exit));
+    for (const NumberColumn& column : columns) {
+      const std::optional<double>& value = column.value[k];
+      add(value && std::isfinite(*value) ? input::format_number(*value) : "");
+    }
+  }
+  return csv + "\n";
+}
+
+std::string column_name(const std::string& path) {
+  return path.starts_with("metrics.") ? path.substr(8) : path;
+}
+
+std::string cell(const std::string& text, const char* tag) {
+  return fmt::format("<{0}>{1}</{0}>", tag, report::html_escape(text));
+}
+
+int curve_colour(std::size_t k) { return static_cast<int>(k % colours); }
+bool is_dashed(std::size_t k) { return k >= colours; }
+
+report::Chart history_chart(std::span<const results::HistoryTable> histories,
+                            std::span<const std::string> labels, const std::string& column) {
+  report::Chart chart;
+  chart.title = column;
+  chart.y_label = column;
+  for (std::size_t k = 0; k < histories.size(); ++k) {
+    const results::HistoryTable& history = histories[k];
+    const int at = history.find(column);
+    if (at < 0) continue;
+    const auto index = index_of(at);
+    chart.y_unit = results::split_column_name(history.names[index]).unit;
+    report::ChartSeries line;
+    line.label = labels[k];
+    line.x = history.column.front();
+    line.y = history.column[index];
+    line.colour = curve_colour(k);
+    line.dashed = is_dashed(k);
+    chart.series.push_back(std::move(line));
+  }
+  if (chart.series.empty()) chart.note = "No run has this column in its history.csv.";
+  return chart;
+}
+
+std::string chart_section(const std::vector<report::Chart>& charts) {
+  std::string html;
+  for (const report::Chart& chart : charts)
+    html += fmt::format(
+        "<figure><h3>{}</h3>\n{}{}</figure>\n", report::html_escape(chart.title), report::svg_chart(chart),
+        chart.note.empty() ? "" : "<figcaption>" + report::html_escape(chart.note) + "</figcaption>");
+  return html.empty() ? ""
+                      : "<section id=\"charts\">\n<h2>The runs together</h2>\n<div class=\"charts\">\n" +
+                            html + "</div>\n</section>\n";
+}
+
+std::string page(const PageHead& head, const std::string& body) {
+  std::string html =
+      fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+                  "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+                  "<title>{}</title>\n<style>{}{}{}</style>\n</head>\n<body>\n<main>\n",
+                  report::html_escape(head.title), report::report_style, table_style, head.style);
+  html += fmt::format(
+      "<header>\n<p class=\"code\">cnem {}</p>\n<h1>{}</h1>\n<p class=\"verdict {}\">{}</p>\n</header>\n",
+      report::html_escape(head.version), report::html_escape(head.title), head.good ? "good" : "bad",
+      report::html_escape(head.verdict));
+  return html + body + "</main>\n</body>\n</html>\n";
+}
+
+} // namespace cnem::study
