@@ -32,7 +32,7 @@ void Tabulated::complete() {
   const int n = strain.size;
   if (n != stress.size || n < 2)
     throw InputError(fmt::format("a flow curve needs as many strains as stresses and at least two, found {} "
-                                 "strains and {} stresses",
+                                 "strains and {} stresses, expected as many",
                                  strain.size, stress.size));
   if (strain.value[0] != 0.0)
     throw InputError(
