@@ -17,6 +17,8 @@ constexpr std::array list{
                    [](const Points& point, std::size_t p) {
                      return point.equivalent_stress[p] * point.plastic_rate[p];
                    }},
+    IndicatedField{"plastic_work", Needs::nothing,
+                   [](const Points& point, std::size_t p) { return point.plastic_work[p]; }},
     IndicatedField{"temperature", Needs::heat,
                    [](const Points& point, std::size_t p) { return point.temperature[p]; }},
     IndicatedField{"damage", Needs::damage,

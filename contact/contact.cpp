@@ -288,6 +288,7 @@ void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const C
   }
   const FrictionBound bound = friction.bound(rubbing);
   contact.coulomb = bound.coefficient;
+  contact.smooth = bound.smooth;
   contact.limit = std::isinf(bound.shear) ? infinite : bound.shear * area * step.dt_mean;
 }
 

@@ -11,10 +11,11 @@ struct Rubbing {
   double speed = 0.0;       ///< m/s, of slip; 0 unless the law needs it
 };
 
-/// F_t ≤ min(μ F_n, τ A).
+/// F_t ≤ min(μ F_n, τ A), or τ A (1 − exp(−μ F_n/τ A)) where the one shall pass smoothly into the other.
 struct FrictionBound {
   double coefficient = 0.0; ///< –, μ ≥ 0; may be infinite
-  double shear = infinite;  ///< Pa, τ ≥ 0
+  double shear = infinite;  ///< Pa, τ ≥ 0; finite where `smooth`
+  bool smooth = false;
 };
 
 } // namespace cnem::contact

@@ -32,8 +32,7 @@ public:
   }
 
   double rub() {
-    const double strength =
-        contact_.pressing > 0.0 ? std::min(contact_.coulomb * contact_.pressing, contact_.limit) : 0.0;
+    const double strength = contact_.strength();
     if (strength <= 0.0 && contact_.sliding.squaredNorm() == 0.0) return 0.0;
     Vec<dim> slip = -(contact_.surface + tool_.change);
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
@@ -134,6 +133,13 @@ double shift_tool(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& no
 
 } // namespace
 
+template<int dim> double Contact<dim>::strength() const {
+  if (!(pressing > 0.0)) return 0.0;
+  const double sliding_strength = coulomb * pressing;
+  if (!smooth) return std::min(sliding_strength, limit);
+  return limit > 0.0 ? -limit * std::expm1(-sliding_strength / limit) : 0.0;
+}
+
 template<int dim>
 void solve_impulses(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
                     ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps) {
@@ -153,6 +159,8 @@ void solve_impulses(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& 
   }
 }
 
+template double Contact<2>::strength() const;
+template double Contact<3>::strength() const;
 template void solve_impulses<2>(std::vector<Contact<2>>&, ReactionsOfNodes<2>&, ReactionsOfTools<2>&, double,
                                 double, int);
 template void solve_impulses<3>(std::vector<Contact<3>>&, ReactionsOfNodes<3>&, ReactionsOfTools<3>&, double,

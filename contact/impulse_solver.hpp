@@ -38,10 +38,14 @@ template<int dim> struct Contact {
   Vec<dim> surface = Vec<dim>::Zero(); ///< m/s, predicted velocity of the tool at t_{n+½}
   double coulomb = 0.0;                ///< –
   double limit = 0.0;                  ///< N s, largest tangential impulse (Tresca)
+  bool smooth = false;                 ///< Coulomb's law passes smoothly into that limit
 
   double pressing = 0.0;               ///< N s, normal impulse ≥ 0
   Vec<dim> sliding = Vec<dim>::Zero(); ///< N s, tangential impulse
   Vec<dim> impulse() const { return pressing * normal + sliding; }
+
+  /// N s, what friction bears at most at the present normal impulse.
+  double strength() const;
 };
 
 /// Solves in place: contacts get their impulses, nodes and tools their change of velocity. Sweeps in the

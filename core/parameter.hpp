@@ -42,6 +42,20 @@ template<class Owner> struct Parameter {
   ParameterInfo info;
 };
 
+/// Numbers in place, so that a struct that holds a list stays plain.
+struct NumberList {
+  static constexpr int capacity = 64;
+  double value[capacity] = {};
+  int size = 0;
+};
+
+/// A list among the constants; the range is that of each number. Its struct lists them as
+///   static constexpr ListParameter<Owner> lists[] = {{&Owner::member, {.name = …}}, …};
+template<class Owner> struct ListParameter {
+  NumberList Owner::*value;
+  ParameterInfo info;
+};
+
 /// Of two constants of a law the first is larger than the second, or as large where that is allowed.
 struct Order {
   const char* larger;
@@ -54,6 +68,8 @@ struct Order {
 ///   formula     in words or symbols, with the names of its constants
 ///   source      paper and equation
 ///   parameters  as above
+///   lists       optional, as above
+///   complete()  optional: works out what follows from the constants; throws InputError where they do not fit
 ///   orders      optional, Order[]: pairs of constants
 ///   strength    optional, const char*[]: constants of which at least one is positive
 template<class... Law> struct Laws {};

@@ -66,6 +66,19 @@ plasticity::JohnsonCookDamage read_damage(const Setting& table, const Setting& m
   return law;
 }
 
+/// An increment of strain is to have one stress: the elastic one must fall faster than the flow stress.
+void check_fall(const plasticity::Material& material, const Setting& table, Diagnostics& diagnostics) {
+  const plasticity::Hardening::Fall fall = material.hardening->steepest_fall();
+  const double limit = 3.0 * material.elasticity.mu();
+  if (fall.slope < limit) return;
+  diagnostics.add(
+      Mistake::range, table.where, table.path,
+      fmt::format("found a flow stress that falls by {:.3g} GPa per strain at a plastic strain of "
+                  "{:.3g} and {:.4g} K, expected less than three shear moduli, {:.3g} GPa: an "
+                  "increment of strain would have several stresses",
+                  fall.slope * 1e-9, fall.strain, fall.temperature, limit * 1e-9));
+}
+
 plasticity::Material read_material(const Setting& table, std::vector<std::string>& warnings,
                                    Diagnostics& diagnostics) {
   plasticity::Material material;
@@ -73,8 +86,10 @@ plasticity::Material read_material(const Setting& table, std::vector<std::string
   using plasticity::Elasticity, plasticity::Material;
   read_constants(Material::parameters, table, material);
   read_constants(Elasticity::parameters, *table.find("elastic"), material.elasticity);
-  if (const Setting* plastic = table.find("plastic"))
+  if (const Setting* plastic = table.find("plastic")) {
     material.hardening = read_law<plasticity::Hardening>(plasticity::HardeningLaws{}, *plastic, diagnostics);
+    if (material.hardening) check_fall(material, *plastic, diagnostics);
+  }
   if (const Setting* damage = table.find("damage"))
     material.damage = read_damage(*damage, table, warnings, diagnostics);
   if (const Setting* heat = table.find("heat")) read_constants(Material::heat_parameters, *heat, material);

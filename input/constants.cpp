@@ -21,7 +21,7 @@ bool same(const ConstantText& a, const ConstantText& b) {
   const auto known = [](const ConstantText& c) {
     return std::tuple(std::string_view(c.info.unit), c.info.range.low, c.info.range.high,
                       c.info.range.low_open, c.info.range.high_open, c.info.required,
-                      c.info.required ? 0.0 : c.initial);
+                      c.info.required ? 0.0 : c.initial, c.list);
   };
   return known(a) == known(b);
 }
@@ -44,10 +44,12 @@ std::string meaning_with_source(const ParameterInfo& info) {
 KeyDraft add_constant(Keys& k, const std::string& at, const ConstantText& constant) {
   const ParameterInfo& info = constant.info;
   const std::string_view unit = info.unit;
-  KeyDraft key = k.add(fmt::format("{}.{}", at, info.name), Type::quantity, meaning_with_source(info));
+  KeyDraft key = k.add(fmt::format("{}.{}", at, info.name), constant.list ? Type::quantities : Type::quantity,
+                       meaning_with_source(info));
   key.in(info.range);
   if (!unit.empty()) key.unit(parse_unit(unit).dimension);
-  if (*info.example) key.example(unit.empty() ? info.example : fmt::format("\"{}\"", info.example));
+  if (*info.example)
+    key.example(unit.empty() || constant.list ? info.example : fmt::format("\"{}\"", info.example));
   if (info.required)
     key.required();
   else if (*info.computed)
@@ -93,6 +95,21 @@ void add_law_constants(Keys& k, const std::string& at, const std::vector<LawText
                                            constant.info.name, law.name, known->laws.front()));
     }
   for (const Shared& shared : all) add_constant(k, at, shared.constant).when("law", shared.laws);
+}
+
+bool read_list(const ParameterInfo& info, const Setting& table, NumberList& list, Diagnostics& diagnostics) {
+  const Setting* setting = table.find(info.name);
+  if (!setting) return true;
+  const auto& numbers = std::get<std::vector<double>>(setting->value);
+  if (numbers.size() > std::size_t{NumberList::capacity}) {
+    diagnostics.add(
+        Mistake::type, setting->where, setting->path,
+        fmt::format("found {} numbers, expected at most {}", numbers.size(), NumberList::capacity));
+    return false;
+  }
+  list.size = static_cast<int>(numbers.size());
+  std::copy(numbers.begin(), numbers.end(), list.value);
+  return true;
 }
 
 void check_order(const Order& order, const Setting& table, Diagnostics& diagnostics) {

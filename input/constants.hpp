@@ -1,5 +1,6 @@
 #pragma once
 // Constants that libraries declare (core/parameter.hpp): their keys in the schema, and their reading.
+#include "core/error.hpp"
 #include "core/parameter.hpp"
 #include "input/keys/keys.hpp"
 #include "input/schema/settings.hpp"
@@ -12,10 +13,11 @@
 
 namespace cnem::input {
 
-/// A constant and the initial value of its member.
+/// A constant and the initial value of its member, or a list of them.
 struct ConstantText {
   ParameterInfo info;
   double initial;
+  bool list = false;
 };
 
 struct LawText {
@@ -30,8 +32,17 @@ template<class Owner> std::vector<ConstantText> constant_texts(std::span<const P
   return texts;
 }
 
+/// Constants of a law, its lists before the others.
+template<class Law> std::vector<ConstantText> law_constant_texts() {
+  std::vector<ConstantText> texts;
+  if constexpr (requires { Law::lists; })
+    for (const ListParameter<Law>& list : Law::lists) texts.push_back({list.info, infinite, true});
+  for (const ConstantText& text : constant_texts<Law>(Law::parameters)) texts.push_back(text);
+  return texts;
+}
+
 template<class... Law> std::vector<LawText> law_texts(Laws<Law...>) {
-  return {LawText{Law::name, Law::formula, Law::source, constant_texts<Law>(Law::parameters)}...};
+  return {LawText{Law::name, Law::formula, Law::source, law_constant_texts<Law>()}...};
 }
 
 /// Keys of constants in the table `at`.
@@ -51,6 +62,9 @@ void read_constants(std::span<const std::type_identity_t<Parameter<Owner>>> para
   for (const Parameter<Owner>& parameter : parameters)
     if (const auto value = table.maybe<double>(parameter.info.name)) owner.*parameter.value = *value;
 }
+
+/// Takes a list, if the table gives it. One that is too long is a mistake: then false.
+bool read_list(const ParameterInfo& info, const Setting& table, NumberList& list, Diagnostics& diagnostics);
 
 void check_order(const Order& order, const Setting& table, Diagnostics& diagnostics);
 void check_strength(const std::vector<std::string>& names, const Setting& table, Diagnostics& diagnostics);
@@ -72,7 +86,19 @@ std::optional<Result> read_law(Laws<Law...>, const Setting& table, Diagnostics& 
     if (name != One::name) return;
     One law;
     read_constants(One::parameters, table, law);
-    result = law;
+    const Setting* where = &table;
+    bool whole = true;
+    if constexpr (requires { One::lists; }) {
+      for (const ListParameter<One>& list : One::lists)
+        whole &= read_list(list.info, table, law.*list.value, diagnostics);
+      where = table.find(One::lists[0].info.name);
+    }
+    if (!whole) return;
+    try {
+      result = law;
+    } catch (const InputError& error) {
+      diagnostics.add(Mistake::range, where->where, where->path, error.what());
+    }
     check_constants<One>(table, diagnostics);
   };
   (try_law(std::type_identity<Law>{}), ...);

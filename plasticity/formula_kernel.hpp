@@ -7,6 +7,11 @@ namespace cnem::plasticity::CNEM_ISA {
 
 template<class T, class Law> class FormulaFlow;
 
+/// Whether the flow stress may fall with strain: `may_fall` of the law, else false.
+template<class Law> inline constexpr bool can_fall = false;
+template<class Law>
+requires(Law::may_fall) inline constexpr bool can_fall<Law> = true;
+
 /// A law and a step.
 template<class Law> struct FormulaKernel {
   template<class T> using Flow = FormulaFlow<T, Law>;
@@ -14,10 +19,12 @@ template<class Law> struct FormulaKernel {
   double by_dt; ///< 1/s
 };
 
-/// What PlasticCorrector asks of the flow stress at points, here of any law whose stress falls neither with
-/// strain nor with rate. PowerFlow says what the members are.
+/// What PlasticCorrector asks of the flow stress at points, here of any law whose stress does not fall with
+/// rate, nor with strain unless the law says `may_fall`. PowerFlow says what the members are.
 template<class T, class Law> class FormulaFlow {
 public:
+  static constexpr bool may_fall = can_fall<Law>;
+
   CNEM_INLINE FormulaFlow(const FormulaKernel<Law>& kernel, const T& plastic_strain, const T& temperature,
                           const T& strength)
       : at_rest(strength * flow_stress(kernel.law, plastic_strain, T(0.0), temperature)), kernel_(kernel),
@@ -27,7 +34,8 @@ public:
 
   using Parts = Jet<T>; ///< σ_y along Δx/x
 
-  CNEM_INLINE T first_guess(T, T cap) const { return cap; }
+  CNEM_INLINE T least() const { return may_fall ? T(0.0) : at_rest; }
+  CNEM_INLINE T first_guess(T q, T cap) const { return may_fall ? cap * (T(1.0) - at_rest / q) : cap; }
   CNEM_INLINE Mask<T> in_range(const T& relative) const { return relative >= T(0.0); }
   CNEM_INLINE Parts quick(T x, const T&) const { return full(x); }
   CNEM_INLINE Parts full(T x) const {
@@ -39,12 +47,17 @@ public:
     const T elastic = T(three_mu) * x;
     first = elastic + stress.first;
     second = -stress.second;
+    if constexpr (may_fall) rose_ = rose_ | !(first > T(0.0));
     return q - elastic - stress.value;
   }
+
+  /// Lanes in which q − 3μ x − σ_y has not fallen with x wherever `residual` was asked for.
+  CNEM_INLINE Mask<T> rose() const { return rose_; }
 
 private:
   const FormulaKernel<Law>& kernel_;
   T strain_, temperature_, strength_;
+  mutable Mask<T> rose_ = T(0.0) > T(0.0);
 };
 
 /// Laws for which no faster way is known.

@@ -1,6 +1,8 @@
 #include "plasticity/hardening_laws.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace cnem::plasticity {
 
@@ -9,6 +11,18 @@ namespace {
 using generic::Jet;
 
 template<class Law> constexpr bool melts = requires(Law law) { law.T0, law.Tmelt; };
+
+/// Strains close enough to see any fall of a law: its steepest ones are a hundredth of a strain wide, or lie
+/// between points.
+template<class Law> std::vector<double> sampled_strains(const Law& law) {
+  std::vector<double> strains;
+  for (double e = 1e-6; e < 20.0; e *= 1.005) strains.push_back(e);
+  if constexpr (requires { law.strain.size; })
+    for (int i = 1; i < law.strain.size; ++i)
+      for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0 - 1e-9})
+        strains.push_back(std::lerp(law.strain.value[i - 1], law.strain.value[i], share));
+  return strains;
+}
 
 } // namespace
 
@@ -30,6 +44,26 @@ double Hardening::rate_modulus(double plastic_strain, double rate, double temper
   return std::visit(
       [&](const auto& law) { return generic::flow_stress(law, fixed, varied, temperature).first; },
       law_->law);
+}
+
+Hardening::Fall Hardening::steepest_fall() const {
+  Fall worst;
+  std::visit(
+      [&](const auto& law) {
+        using Law = std::decay_t<decltype(law)>;
+        if constexpr (generic::can_fall<Law>) {
+          static_assert(melts<Law>);
+          const double range = law.Tmelt < infinite ? law.Tmelt - law.T0 : 0.0;
+          for (const double e : sampled_strains(law))
+            for (int k = 0; k <= (range > 0.0 ? 20 : 0); ++k) {
+              const double temperature = law.T0 + 0.05 * k * range;
+              const double slope = -hardening_modulus(e, 1e6, temperature);
+              if (slope > worst.slope) worst = {slope, e, temperature};
+            }
+        }
+      },
+      law_->law);
+  return worst;
 }
 
 double Hardening::melting_temperature() const {

@@ -13,6 +13,7 @@ struct AnyHardening;
 /// A law with its constants, which do not change; copies share them.
 class Hardening {
 public:
+  /// Throws InputError where constants of the law do not fit together.
   template<class Law>
   requires requires { Law::parameters; }
   Hardening(const Law& law);
@@ -23,6 +24,15 @@ public:
   double hardening_modulus(double plastic_strain, double rate, double temperature) const;
   /// ∂σ_y/∂ε̄̇p at fixed strain and temperature, Pa s.
   double rate_modulus(double plastic_strain, double rate, double temperature) const;
+
+  struct Fall {
+    double slope = 0.0;       ///< Pa, −∂σ_y/∂ε̄p
+    double strain = 0.0;      ///< –
+    double temperature = 0.0; ///< K
+  };
+  /// Where the flow stress falls most steeply with strain, among samples at 10⁶ /s, strains up to 20 and
+  /// temperatures from T0 to melting; no slope where it does not fall. The return map needs less than 3μ.
+  Fall steepest_fall() const;
 
   /// K; infinite for laws without one.
   double melting_temperature() const;

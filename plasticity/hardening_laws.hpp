@@ -14,9 +14,15 @@ struct AnyHardening {
   VariantOf<HardeningLaws>::type law;
 };
 
+template<class Law> Law completed(Law law) {
+  if constexpr (requires { law.complete(); }) law.complete();
+  return law;
+}
+
 template<class Law>
 requires requires { Law::parameters; }
-Hardening::Hardening(const Law& law) : law_(std::make_shared<const AnyHardening>(AnyHardening{law})) {}
+Hardening::Hardening(const Law& law)
+    : law_(std::make_shared<const AnyHardening>(AnyHardening{completed(law)})) {}
 
 template<class Law> const Law& Hardening::as() const { return std::get<Law>(law_->law); }
 

@@ -38,7 +38,10 @@ template<class T> struct Jet {
   CNEM_INLINE friend Jet operator/(Jet a, T b) { return {a.value / b, a.first / b, a.second / b}; }
 };
 
-// --- e^x, ln x and x^p of a number; exponents are clipped where a double would overflow ---
+template<class T> CNEM_INLINE T value_of(T x) { return x; }
+template<class T> CNEM_INLINE T value_of(Jet<T> x) { return x.value; }
+
+// --- e^x, ln x, x^p and tanh x of a number; exponents are clipped where a double would overflow ---
 
 #ifdef CNEM_PACK
 template<int n> CNEM_INLINE Pack<n> exponential(Pack<n> x) {
@@ -53,11 +56,16 @@ template<int n> CNEM_INLINE Pack<n> power(Pack<n> x, double p) {
 template<int n> CNEM_INLINE Pack<n> slope_of_power(Pack<n> x, double p, Pack<n> power) {
   return Pack<n>(p) * power / x;
 }
+/// To 1 ulp of 1, not of itself where x is small.
+template<int n> CNEM_INLINE Pack<n> hyperbolic_tangent(Pack<n> x) {
+  return Pack<n>(1.0) - Pack<n>(2.0) / (Pack<n>(1.0) + exponential(x + x));
+}
 #else
 inline double exponential(double x) { return std::exp(x); }
 inline double logarithm(double x) { return std::log(x); }
 inline double power(double x, double p) { return std::pow(x, p); }
 inline double slope_of_power(double x, double p, double) { return p * std::pow(x, p - 1.0); }
+inline double hyperbolic_tangent(double x) { return std::tanh(x); }
 #endif
 
 template<class T> CNEM_INLINE Jet<T> exponential(Jet<T> x) {
@@ -71,6 +79,10 @@ template<class T> CNEM_INLINE Jet<T> logarithm(Jet<T> x) {
 template<class T> CNEM_INLINE Jet<T> power(Jet<T> x, double p) {
   const T value = power(x.value, p), slope = slope_of_power(x.value, p, value);
   return {value, slope * x.first, slope * (x.second + T(p - 1.0) * x.first * x.first / x.value)};
+}
+template<class T> CNEM_INLINE Jet<T> hyperbolic_tangent(Jet<T> x) {
+  const T t = hyperbolic_tangent(x.value), d = T(1.0) - t * t;
+  return {t, d * x.first, d * (x.second - T(2.0) * t * x.first * x.first)};
 }
 
 /// The larger of x and a constant, without slope where that is the constant.

@@ -11,10 +11,12 @@ using namespace ::cnem::CNEM_ISA;
 /// Solves r(x) = q − 3μ x − σ_y(ε̄p + x, x/dt, T) = 0 for x = Δγ > 0, paper 004 (42), with the flow stress of
 /// a Kernel (plasticity/power_kernel.hpp, formula_kernel.hpp).
 ///
-/// r falls strictly from q − σ_y0 > 0 at 0 to something ≤ 0 at the cap (q − σ_y0)/3μ. Halley's method in the
-/// relative increment η = Δx/x, started from the last step's rate, converges in two or three evaluations in
-/// steady flow: the curvature that the logarithm of the rate gives r is what slows Newton's method. Points
-/// that it leaves (first yield, ε̄p ≪ x, the kink at the reference rate) are finished within a bracket.
+/// r falls strictly from q − σ_y0 > 0 at 0 to something ≤ 0 at the cap (q − σ_y0)/3μ. Where the flow stress
+/// may fall with strain (Flow::may_fall) the cap is q/3μ, at which r = −σ_y, and r falls as long as 3μ +
+/// ∂σ_y/∂ε̄p + (∂σ_y/∂ε̄̇p)/dt > 0: then there is one solution. Halley's method in the relative increment η =
+/// Δx/x, started from the last step's rate, converges in two or three evaluations in steady flow: the
+/// curvature that the logarithm of the rate gives r is what slows Newton's method. Points that it leaves
+/// (first yield, ε̄p ≪ x, the kink at the reference rate) are finished within a bracket.
 template<class T, class Kernel> class PlasticCorrector {
   using Flow = typename Kernel::template Flow<T>;
 
@@ -28,9 +30,10 @@ public:
   CNEM_INLINE const T& initial_flow_stress() const { return flow.at_rest; }
 
   /// Δγ of the lanes in `yielding` (q > initial_flow_stress), 0 in the others; `guess` is Δγ of the last
-  /// step. Lanes that fail to converge (none is known) are taken out of `yielding` and into `failed`.
+  /// step. Lanes that fail to converge (none is known) go into `failed`, and so do those in which r was seen
+  /// to rise on the way: the solution may be one of several, or a jump.
   CNEM_INLINE T solve(T q, T by_strain, T guess, Mask<T> yielding, Mask<T>& failed) const {
-    const T cap = (q - flow.at_rest) * T(step.by_three_mu);
+    const T cap = (q - flow.least()) * T(step.by_three_mu);
     T x = min(guess, cap);
     const Mask<T> fresh = yielding & (guess <= T(0.0));
     if (any(fresh)) x = select(fresh, flow.first_guess(q, cap), x);
@@ -45,6 +48,7 @@ public:
     }
     if (any(open)) x = bracketed(q, x, cap, open);
     failed = open;
+    if constexpr (Flow::may_fall) failed = failed | (yielding & flow.rose());
     return select(yielding, x, T(0.0));
   }
 

@@ -63,6 +63,8 @@ template<bool saturating> struct PowerKernel : PowerConstants {
 /// reference: each copy more is one that the compiler may leave in memory, at twice the time of a step.
 template<class T, bool saturating> class PowerFlow {
 public:
+  static constexpr bool may_fall = false; ///< σ_y with strain, at fixed rate and temperature
+
   /// strength: factor on the flow stress, –.
   CNEM_INLINE PowerFlow(const PowerKernel<saturating>& kernel, const T& plastic_strain, const T& temperature,
                         const T& strength)
@@ -82,6 +84,9 @@ public:
 
   /// σ_y at ε̄p and zero rate, Pa.
   T at_rest;
+
+  /// A bound of σ_y from below at larger strains, Pa.
+  CNEM_INLINE const T& least() const { return at_rest; }
 
   /// Where to look first for Δγ of points that did not flow in the last step; `cap` bounds it from above, as
   /// does the solution without its elastic term.

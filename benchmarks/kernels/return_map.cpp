@@ -1,6 +1,6 @@
 // Nanoseconds per stress point of the return map: 304L (paper 004) flowing plastically in every point, plane
-// strain and space, for every instruction set of this machine. The number of points is that of a small run
-// (fits L2 and L3 caches).
+// strain and space, for every instruction set of this machine, and other hardening laws in plane strain. The
+// number of points is that of a small run (fits L2 and L3 caches).
 #include "plasticity/return_map.hpp"
 #include "core/machine/isa.hpp"
 #include "plasticity/hardening_laws.hpp"
@@ -9,19 +9,38 @@
 
 #include <chrono>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
 using namespace cnem;
 using namespace cnem::plasticity;
 
-Material steel() {
+Material steel(const Hardening& hardening) {
   Material m;
   m.name = "304L";
   m.density = 7850.0;
   m.elasticity = {210e9, 0.33};
-  m.hardening = JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0};
+  m.hardening = hardening;
   return m;
+}
+
+const JohnsonCook paper{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0};
+
+std::vector<std::pair<std::string, Hardening>> other_laws() {
+  const NumberList strain{{0.0, 0.01, 0.05, 0.2, 0.7, 1.6}, 6};
+  const NumberList stress{{310e6, 402e6, 480e6, 566e6, 671e6, 702e6}, 6};
+  return {{"linear", Linear{400e6, 100e6}},
+          {"voce", Voce{450e6, 129e6, 715e6, 16.93}},
+          {"swift", Swift{950e6, 0.012, 0.21}},
+          {"hockett-sherby", HockettSherby{130e6, 320e6, 4.7, 0.81}},
+          {"goijaerts", Goijaerts{420e6, 133e6, 0.0567, 406e6, 70.7e6}},
+          {"zerilli-armstrong-bcc", ZerilliArmstrongBcc{65e6, 1033e6, 0.00698, 0.000415, 266e6, 0.289}},
+          {"zerilli-armstrong-fcc", ZerilliArmstrongFcc{65e6, 890e6, 0.0028, 0.000115}},
+          {"calamaz", Calamaz{253e6, 685e6, 0.312, 1.6, 0.4, 6.0, 1.0, 0.0973, 1.0, 2.044, 296.0, 1698.0}},
+          {"table", Tabulated{.strain = strain, .stress = stress, .C = 0.02, .Tmelt = 1750.0}}};
 }
 
 template<int dim> PointState<dim> points(std::size_t n) {
@@ -49,10 +68,11 @@ template<int dim> void shear(PointState<dim>& s, double gamma, double jitter, st
   }
 }
 
-template<int dim> void return_map(benchmark::State& state, Isa isa, double jitter) {
+template<int dim>
+void return_map(benchmark::State& state, Isa isa, double jitter, const Hardening& hardening) {
   set_isa(isa);
   const std::size_t n = 20000;
-  const Material material = steel();
+  const Material material = steel(hardening);
   PointState<dim> s = points<dim>(n);
   const StressPoints<dim> p = stress_points(s);
   const double dt = 1e-8, increment = 5e-4;
@@ -86,10 +106,15 @@ int main(int argc, char** argv) {
   for (Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
     if (!isa_supported(isa)) continue;
     const std::string name(isa_name(isa));
-    benchmark::RegisterBenchmark(("plane/steady/" + name).c_str(), return_map<2>, isa, 0.0)->UseManualTime();
-    benchmark::RegisterBenchmark(("plane/noisy_rate/" + name).c_str(), return_map<2>, isa, 0.3)
+    benchmark::RegisterBenchmark(("plane/steady/" + name).c_str(), return_map<2>, isa, 0.0, paper)
         ->UseManualTime();
-    benchmark::RegisterBenchmark(("space/steady/" + name).c_str(), return_map<3>, isa, 0.0)->UseManualTime();
+    benchmark::RegisterBenchmark(("plane/noisy_rate/" + name).c_str(), return_map<2>, isa, 0.3, paper)
+        ->UseManualTime();
+    benchmark::RegisterBenchmark(("space/steady/" + name).c_str(), return_map<3>, isa, 0.0, paper)
+        ->UseManualTime();
+    for (const auto& [law, hardening] : other_laws())
+      benchmark::RegisterBenchmark(("plane/" + law + "/" + name).c_str(), return_map<2>, isa, 0.0, hardening)
+          ->UseManualTime();
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -7,9 +7,10 @@
 #include "contact/laws/coulomb_decay.hpp"
 #include "contact/laws/frictionless.hpp"
 #include "contact/laws/tresca_limited.hpp"
+#include "contact/laws/tresca_smooth.hpp"
 
 namespace cnem::contact {
 
-using FrictionLaws = Laws<Frictionless, Coulomb, TrescaLimited, CoulombDecay>;
+using FrictionLaws = Laws<Frictionless, Coulomb, TrescaLimited, CoulombDecay, TrescaSmooth>;
 
 } // namespace cnem::contact

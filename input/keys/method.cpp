@@ -113,8 +113,9 @@ void add_adaptation(Keys& k) {
   k.add("adapt.indicator.field", choice,
         "The field: `none` keeps the spacing of the cloud. The indicator of a cell is the L2 distance of the "
         "interpolated field from the value of the cell. `plastic_power` is von Mises stress times plastic "
-        "rate, "
-        "`damage` needs a material with damage.")
+        "rate, `plastic_work` what has been dissipated per volume so far: plastic strain that counts where "
+        "the "
+        "metal resisted; `damage` needs a material with damage.")
       .one_of(indicator_choices())
       .fallback("\"none\"");
   k.add("adapt.indicator.tolerance", quantity,

@@ -52,13 +52,19 @@ struct JohnsonCook {
 
 namespace CNEM_ISA {
 
-template<class N, class T>
-CNEM_INLINE N flow_stress(const JohnsonCook& law, N strain, N rate, T temperature) {
+/// The factors of rate and temperature on a flow stress, of any law with these constants.
+template<class Law, class N, class T>
+CNEM_INLINE N at_rate_and_temperature(const Law& law, N hardened, N rate, T temperature) {
   const T homologous = min(max((temperature - law.T0) / T(law.Tmelt - law.T0), T(0.0)), T(1.0));
-  N hardened{T(law.A)};
-  if (law.B > 0.0) hardened = hardened + T(law.B) * power(strain, law.n);
   return hardened * (T(1.0) + T(law.C) * logarithm(at_least(rate / T(law.rate0), 1.0))) *
          (T(1.0) - power(homologous, law.m));
+}
+
+template<class N, class T>
+CNEM_INLINE N flow_stress(const JohnsonCook& law, N strain, N rate, T temperature) {
+  N hardened{T(law.A)};
+  if (law.B > 0.0) hardened = hardened + T(law.B) * power(strain, law.n);
+  return at_rate_and_temperature(law, hardened, rate, temperature);
 }
 
 CNEM_INLINE PowerKernel<false> kernel_of(const JohnsonCook& law, double dt) {

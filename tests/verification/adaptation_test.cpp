@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Placement, ::testing::Values("between nodes", "voro
 
 TEST(Adaptation, refines_where_the_field_is_not_resolved) {
   const std::size_t start = run(punched, {"time.max_steps=1"}).nodes.size();
-  for (const char* field : {"plastic_strain", "plastic_power", "temperature"}) {
+  for (const char* field : {"plastic_strain", "plastic_power", "plastic_work", "temperature"}) {
     SCOPED_TRACE(field);
     const Adapted refined = run(punched, {fmt::format("adapt.indicator.field={}", field),
                                           "adapt.indicator.h_min=0.1 mm", "adapt.indicator.tolerance=0.05"});

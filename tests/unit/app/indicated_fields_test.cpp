@@ -16,10 +16,12 @@ TEST(IndicatedFields, give_what_their_names_say) {
   point.plastic_strain[1] = 0.25;
   point.plastic_rate[1] = 1e4;
   point.equivalent_stress[1] = 5e8;
+  point.plastic_work[1] = 3e8;
   point.temperature[1] = 700.0;
   point.damage[1] = 0.5;
   EXPECT_EQ(adapt::indicated_field("plastic_strain")->at(point, 1), 0.25);
   EXPECT_EQ(adapt::indicated_field("plastic_power")->at(point, 1), 5e12);
+  EXPECT_EQ(adapt::indicated_field("plastic_work")->at(point, 1), 3e8);
   EXPECT_EQ(adapt::indicated_field("temperature")->at(point, 1), 700.0);
   EXPECT_EQ(adapt::indicated_field("damage")->at(point, 1), 0.5);
   for (const IndicatedField& field : adapt::indicated_fields()) EXPECT_EQ(field.at(point, 0), 0.0);

@@ -1,31 +1,13 @@
 // Johnson-Cook flow stress and adiabatic heating against the tables of reference numbers in tests/data.
 #include "tests/unit/plasticity/points.hpp"
+#include "tests/unit/plasticity/tables.hpp"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
-#include <sstream>
 
 namespace cnem::plasticity::test {
 namespace {
-
-using Row = std::vector<std::string>;
-
-/// Rows below the header; '#' lines are comments.
-std::vector<Row> read_csv(const std::string& name) {
-  std::ifstream in(CNEM_SOURCE_DIR "/tests/data/" + name);
-  std::vector<Row> rows;
-  for (std::string line; std::getline(in, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    Row row;
-    std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
-    rows.push_back(row);
-  }
-  if (!rows.empty()) rows.erase(rows.begin());
-  return rows;
-}
 
 struct HeatedMaterial {
   Material material;
