@@ -11,7 +11,7 @@
 namespace cnem::input {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
@@ -28,9 +28,9 @@ std::array<FileField, 2> fields(std::string_view line, const Location& where) {
   const auto comma = line.find(',');
   if (comma == std::string_view::npos || line.find(',', comma + 1) != std::string_view::npos)
     throw InputError(fmt::format("{}: found '{}', expected two columns separated by a comma", where.text(),
-                                 shortened(trimmed(line))));
+                                 shortened(without_blanks(line))));
   const auto field = [&](std::size_t begin, std::size_t end) {
-    const std::string_view text = trimmed(line.substr(begin, end - begin));
+    const std::string_view text = without_blanks(line.substr(begin, end - begin));
     Location at = where;
     at.column += static_cast<std::uint32_t>(text.empty() ? begin : std::size_t(text.data() - line.data()));
     return FileField{text, at};
@@ -44,7 +44,7 @@ Unit unit_of(const FileField& field, char name) {
   try {
     const auto open = text.find('[');
     if (open != std::string_view::npos && text.back() == ']' &&
-        trimmed(text.substr(0, open)) == std::string_view(&name, 1)) {
+        without_blanks(text.substr(0, open)) == std::string_view(&name, 1)) {
       const Unit unit = parse_unit(text.substr(open + 1, text.size() - open - 2));
       if (unit.dimension == dimension::length) return unit;
     }
@@ -88,7 +88,7 @@ std::vector<Vec2> read_points(const std::string& path) {
   std::string line;
   for (std::uint32_t n = 1; std::getline(stream, line); ++n) {
     if (n == 1) drop_byte_order_mark(line, path);
-    const std::string_view text = trimmed(line);
+    const std::string_view text = without_blanks(line);
     if (text.empty() || text.front() == '#') continue;
     const auto [x, y] = fields(line, {path, n, 1});
     if (header)
