@@ -125,8 +125,7 @@ template<int dim> void Simulation<dim>::loop() {
     if (at_end()) check_finite(solver_.state());
     judge_energy();
     if (finished()) {
-      melting_.look(solver_);
-      penetration_.look(solver_);
+      look_around();
       return;
     }
     check_reserve();
@@ -221,10 +220,14 @@ template<int dim> bool Simulation<dim>::new_reference() {
 }
 template<int dim> void Simulation<dim>::look_at_step() {
   check_finite(solver_.state());
-  melting_.look(solver_);
-  penetration_.look(solver_);
+  look_around();
   refresh_step();
   last_check_ = solver_.state().step;
+}
+template<int dim> void Simulation<dim>::look_around() {
+  melting_.look(solver_);
+  penetration_.look(solver_);
+  measured_range_.look(solver_);
 }
 template<int dim> void Simulation<dim>::refresh_step() { control_.refresh(solver_); }
 template<int dim> void Simulation<dim>::stop(Exit exit, std::string reason) {
@@ -253,6 +256,7 @@ template<int dim> Exit Simulation<dim>::fail(const std::string& message) {
 template<int dim> std::vector<std::string> Simulation<dim>::late_warnings() const {
   std::vector<std::string> list{melting_.warning(), penetration_.warning(), retries_.warning(),
                                 renewal_.warning(), history_.kinetic_warning(input_)};
+  for (const std::string& warning : measured_range_.warnings()) list.push_back(warning);
   std::erase(list, "");
   for (std::string& warning : list) warning = input_.placed(warning);
   return list;

@@ -8,6 +8,7 @@
 #include "app/space_features.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
+#include "app/watches/measured_range.hpp"
 #include "app/watches/melting.hpp"
 #include "app/watches/penetration.hpp"
 #include "results/checkpoint.hpp"
@@ -69,6 +70,8 @@ private:
   /// Whether there is a new one.
   bool new_reference();
   void look_at_step();
+  /// At what is to be told and leaves the results alone.
+  void look_around();
   void refresh_step();
   void write_checkpoint(int frames);
   void stop(Exit exit, std::string reason);
@@ -95,6 +98,7 @@ private:
   Retries retries_;
   MeltingWatch melting_;
   PenetrationWatch penetration_;
+  MeasuredRangeWatch measured_range_;
   std::conditional_t<dim == 2, PlaneFeatures, SpaceFeatures> features_;
   CheckpointTimer checkpoints_;
   results::Progress progress_;
