@@ -103,9 +103,7 @@ public:
   Expansion(Value& document, Diagnostics& diagnostics) : document_(document), diagnostics_(diagnostics) {}
 
   void bases() {
-    Member* materials = document_.find("materials");
-    if (!materials) return;
-    for (Member& material : materials->value.members)
+    for (Member& material : document_.find("materials")->value.members)
       if (material.value.kind == Value::Kind::table) base(material);
   }
 
@@ -117,7 +115,7 @@ public:
     const std::string name(file->name);
     value.text = name;
     if (std::find(added_.begin(), added_.end(), name) != added_.end()) return;
-    Value& materials = materials_at(value.where);
+    Value& materials = document_.find("materials")->value;
     if (const Member* own = materials.find(name)) {
       diagnostics_.add(Mistake::conflict, value.where, path,
                        fmt::format("found \"{0}{1}\" beside a material '{1}' of the case, expected \"{1}\" "
@@ -186,15 +184,6 @@ private:
     if (!table.find("origin")) table.members.push_back({"origin", where, text_value(std::move(text), where)});
   }
 
-  Value& materials_at(const Location& where) {
-    if (Member* materials = document_.find("materials")) return materials->value;
-    Value table;
-    table.kind = Value::Kind::table;
-    table.where = where;
-    document_.members.push_back({"materials", where, std::move(table)});
-    return document_.members.back().value;
-  }
-
   Value& document_;
   Diagnostics& diagnostics_;
   std::vector<std::string> added_;
@@ -249,12 +238,22 @@ LibraryMaterial library_material(std::string_view name) {
 }
 
 void take_from_library(Value& document, Diagnostics& diagnostics) {
+  // The table is there before references are looked for: they are places in the document, which must not
+  // move.
+  const bool added = !document.find("materials");
+  if (added) {
+    Value table;
+    table.kind = Value::Kind::table;
+    table.where = document.where;
+    document.members.push_back({"materials", document.where, std::move(table)});
+  }
   Expansion expansion(document, diagnostics);
   expansion.bases();
   for (const Key& key : schema())
     if (key.type == Type::text && key.name() == "material")
       for_each_at(document, key.path, "",
                   [&](Value& value, const std::string& path) { expansion.reference(value, path); });
+  if (added && document.members.back().value.members.empty()) document.members.pop_back();
 }
 
 } // namespace cnem::input

@@ -84,6 +84,39 @@ TEST_F(MaterialsCommand, tells_of_a_file_that_cannot_be_written) {
   EXPECT_NE(message.find("page.html"), std::string::npos) << message;
 }
 
+TEST_F(MaterialsCommand, is_not_needed_to_read_a_result_later) {
+  const std::filesystem::path file = temporary.path() / "block.toml", folder = temporary.path() / "results";
+  std::ofstream(file) << R"toml(
+[time]
+end = "0.2 us"
+[domain]
+material = "sheet"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "0.5 mm"
+[materials.sheet]
+base = "lib:4340"
+density = "7800 kg/m3"
+)toml";
+  std::vector<std::string> words{"cnem", "run", file.string(), "--output", folder.string(), "--threads", "1"};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(command_line(static_cast<int>(argv.size()), argv.data()), 0);
+  ::testing::internal::GetCapturedStdout();
+  ::testing::internal::GetCapturedStderr();
+  const auto text_of = [&](const char* name) {
+    std::ifstream stream(folder / name);
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  for (const char* part : {"origin = \"lib:4340; changed by the case: density\"", "A = \"792000000 Pa\"",
+                           "Johnson and Cook 1985", "calibration = \"generic\""})
+    EXPECT_NE(text_of("case.resolved.toml").find(part), std::string::npos) << part;
+  for (const char* part : {"lib:4340; changed by the case: density", "generic: D1, D2, D3, D4, D5: Johnson"})
+    EXPECT_NE(text_of("report.html").find(part), std::string::npos) << part;
+}
+
 TEST_F(MaterialsCommand, makes_the_committed_reference) {
   std::ifstream stream(CNEM_SOURCE_DIR "/docs/materials.md");
   const std::string committed((std::istreambuf_iterator<char>(stream)), {});

@@ -178,9 +178,9 @@ TEST(LibraryOfMaterials, gives_a_base_whose_constants_a_case_changes) {
 }
 
 TEST(LibraryOfMaterials, gives_way_to_a_law_of_the_case) {
-  const Case other =
-      read(replaced_material("mine") + "[materials.mine]\nbase = \"lib:304L\"\nleave_out = \"damage\"\n"
-                                       "plastic = { law = \"linear\", yield = \"1 GPa\", hardening = \"0 Pa\" }\n");
+  const Case other = read(replaced_material("mine") +
+                          "[materials.mine]\nbase = \"lib:304L\"\nleave_out = \"damage\"\n"
+                          "plastic = { law = \"linear\", yield = \"1 GPa\", hardening = \"0 Pa\" }\n");
   EXPECT_EQ(other.material("mine").hardening->flow_stress(1.0, 1e4, 1000.0), 1e9);
   expect_parts(other.resolved, {"changed by the case: plastic; left out: damage"});
   EXPECT_EQ(other.resolved.find("Tmelt"), std::string::npos);
@@ -196,6 +196,15 @@ TEST(LibraryOfMaterials, serves_regions_and_overrides) {
   EXPECT_EQ(parts.materials.size(), 3U) << "each once, and the steel of the case";
   EXPECT_EQ(read(small_case, {"domain.material=lib:C45"}).domain.material, "C45");
   EXPECT_EQ(read(small_case, {"materials.steel={ base = \"lib:C45\" }"}).material("steel").density, 7870.0);
+}
+
+TEST(LibraryOfMaterials, serves_a_case_without_materials_of_its_own) {
+  const std::string text = replaced_material("lib:304L");
+  const Case bare = read(text.substr(0, text.find("[materials")));
+  ASSERT_EQ(bare.materials.size(), 1U);
+  EXPECT_EQ(bare.materials.front().name, "304L");
+  EXPECT_EQ(bare.location.at("domain.material"), "case.toml:5:1") << "where the case names it";
+  EXPECT_EQ(bare.location.at("materials.304L.density"), "materials/304L.toml:8:1") << "where it is written";
 }
 
 TEST(LibraryOfMaterials, names_the_nearest_material) {
