@@ -7,7 +7,9 @@
 #include "core/machine/isa.hpp"
 #include "input/case_reader.hpp"
 #include "input/schema/schema.hpp"
+#include "report/materials.hpp"
 #include "report/report.hpp"
+#include "results/output_folder.hpp"
 #include "study/compare.hpp"
 #include "study/sweep.hpp"
 
@@ -66,6 +68,33 @@ struct CaseOptions {
   }
 };
 
+/// The library of materials, and one of them.
+struct MaterialsCommand {
+  CLI::App* all = nullptr;
+  CLI::App* one = nullptr;
+  bool markdown = false;
+  std::string name, output;
+
+  void declare(CLI::App& program) {
+    all = program.add_subcommand("materials", "list the materials that a case can name");
+    all->add_flag("--markdown", markdown, "print them with all their constants (docs/materials.md)");
+    one = all->add_subcommand("show", "print a material: constants, units, sources, ranges");
+    one->add_option("name", name, "of a material, such as 304L")->required();
+    one->add_option("--output", output, "also write a page with flow curves into this file (HTML)");
+  }
+  void act() const {
+    if (!*one) {
+      fmt::print("{}", markdown ? report::materials_reference() : report::materials_list());
+      return;
+    }
+    const input::LibraryMaterial material = input::library_material(name);
+    if (!output.empty())
+      results::write_atomically(output, report::render_report(report::material_report(material, version())));
+    fmt::print("{}", report::material_text(material));
+    if (!output.empty()) fmt::print("\npage: {}\n", output);
+  }
+};
+
 int act(CLI::App& program, int argc, char** argv) {
   program.set_version_flag("--version", version());
   program.require_subcommand(1);
@@ -88,6 +117,8 @@ int act(CLI::App& program, int argc, char** argv) {
   bool markdown = false;
   schema_command->add_flag("--markdown", markdown,
                            "print the case reference instead (docs/case_reference.md)");
+  MaterialsCommand materials;
+  materials.declare(program);
   CLI::App* report_command =
       program.add_subcommand("report", "write report.html anew from the files of a run");
   std::string folder;
@@ -132,7 +163,8 @@ int act(CLI::App& program, int argc, char** argv) {
     fmt::print(stderr, "{}", problems.str());
     return code == 0 ? Exit::done : Exit::bad_input;
   }
-  if (!*schema_command && !*report_command) wanted_isa(); // a mistake in it shows before anything is made
+  if (!*schema_command && !*report_command && !*materials.all)
+    wanted_isa(); // a mistake in it shows before anything is made
   if (*run_command) {
     const input::Case input = run_options.read();
     RunOptions options = run_options.options(input);
@@ -169,6 +201,8 @@ int act(CLI::App& program, int argc, char** argv) {
     check(input, check_options.options(input));
   } else if (*schema_command) {
     fmt::print("{}", markdown ? input::case_reference() : input::json_schema());
+  } else if (*materials.all) {
+    materials.act();
   } else if (*report_command) {
     fmt::print("{}\n", report::write_report(folder).string());
   }

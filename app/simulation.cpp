@@ -125,8 +125,7 @@ template<int dim> void Simulation<dim>::loop() {
     if (at_end()) check_finite(solver_.state());
     judge_energy();
     if (finished()) {
-      melting_.look(solver_);
-      penetration_.look(solver_);
+      look_around();
       return;
     }
     check_reserve();
@@ -201,7 +200,8 @@ template<int dim> void Simulation<dim>::adapt_and_step() {
       watch_.time("step", [&] { return renewal_.due(solver_, retries_.strain_share()); });
   const bool check =
       rereference || (state.step - last_check_) * solver_.sub_steps() >= input_.time.check_every;
-  if (check) penetration_.look(solver_); // before nodes are put on facets, where contact has yet to find them
+  if (check) // before nodes are put on facets, where contact has yet to find them
+    watch_.time("step", [&] { watch_.time("step.stable", [&] { look_around(); }); });
   bool good = retries_.lacks_state();
   if (rereference || good)
     watch_.time("rebuild", [&] {
@@ -228,9 +228,13 @@ template<int dim> void Simulation<dim>::follow(const Resampling<dim>& change) {
 }
 template<int dim> void Simulation<dim>::look_at_step() {
   check_finite(solver_.state());
-  melting_.look(solver_);
   refresh_step();
   last_check_ = solver_.state().step;
+}
+template<int dim> void Simulation<dim>::look_around() {
+  melting_.look(solver_);
+  penetration_.look(solver_);
+  measured_range_.look(solver_);
 }
 template<int dim> void Simulation<dim>::refresh_step() { control_.refresh(solver_); }
 template<int dim> void Simulation<dim>::stop(Exit exit, std::string reason) {
@@ -259,6 +263,7 @@ template<int dim> Exit Simulation<dim>::fail(const std::string& message) {
 template<int dim> std::vector<std::string> Simulation<dim>::late_warnings() const {
   std::vector<std::string> list{melting_.warning(), penetration_.warning(), retries_.warning(),
                                 renewal_.warning(), history_.kinetic_warning(input_)};
+  for (const std::string& warning : measured_range_.warnings()) list.push_back(warning);
   std::erase(list, "");
   for (std::string& warning : list) warning = input_.placed(warning);
   return list;

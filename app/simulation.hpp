@@ -8,6 +8,7 @@
 #include "app/space_features.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
+#include "app/watches/measured_range.hpp"
 #include "app/watches/melting.hpp"
 #include "app/watches/penetration.hpp"
 #include "results/checkpoint.hpp"
@@ -71,6 +72,8 @@ private:
   bool new_reference();
   void follow(const Resampling<dim>& change);
   void look_at_step();
+  /// At what is to be told and leaves the results alone.
+  void look_around();
   void refresh_step();
   void write_checkpoint(int frames);
   void stop(Exit exit, std::string reason);
@@ -98,6 +101,7 @@ private:
   Retries retries_;
   MeltingWatch melting_;
   PenetrationWatch penetration_;
+  MeasuredRangeWatch measured_range_;
   std::conditional_t<dim == 2, PlaneFeatures, SpaceFeatures> features_;
   CheckpointTimer checkpoints_;
   results::Progress progress_;

@@ -40,6 +40,7 @@ template<int dim> int Simulation<dim>::archive_course(Archive& archive, int fram
   renewal_.archive(archive);
   melting_.archive(archive);
   penetration_.archive(archive);
+  measured_range_.archive(archive);
   features_.archive(archive);
   history_.archive(archive);
   lines_.archive(archive);

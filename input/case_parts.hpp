@@ -36,6 +36,13 @@ void read_periodic(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// so that the resolved case stands alone. Expects the domain, which may lack its outline.
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// Defaults of materials that depend on their other constants and on the temperature at the start, K.
+void set_material_defaults(Setting& root, double temperature);
+
+/// A material of its table. What is allowed and hardly meant goes to `warnings`.
+plasticity::Material read_material(const Setting& table, std::vector<std::string>& warnings,
+                                   Diagnostics& diagnostics);
+
 /// Materials, and whether the domain's exists and has what is needed.
 void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics);
 

@@ -1,6 +1,7 @@
 #include "input/case_reader.hpp"
 
 #include "input/case_parts.hpp"
+#include "input/library.hpp"
 #include "input/local_origin.hpp"
 
 #include <algorithm>
@@ -42,20 +43,7 @@ void compute_defaults(Setting& root) {
     root.set_default("initial.velocity", Vec2(0, 0));
   if (space && root.find("domain.block.radius")) root.set_default("domain.block.centre", Vec3(0, 0, 0));
   if (!space) root.set_default("output.pictures", std::vector<double>{end});
-  for (const Setting& entry : root.entries("materials")) {
-    if (!entry.find("damage")) continue;
-    const auto from_plastic = [&](const char* key) {
-      return entry.maybe<double>(fmt::format("plastic.{}", key));
-    };
-    const std::string damage = entry.path + ".damage.";
-    const std::optional<double> melting = from_plastic("Tmelt");
-    const double rate = from_plastic("rate0").value_or(1.0), cold = from_plastic("T0").value_or(293.15);
-    root.set_default(damage + "rate0", rate);
-    root.set_default(damage + "T0", cold);
-    if (melting) root.set_default(damage + "Tmelt", *melting);
-  }
-  for (const Setting& entry : root.entries("materials"))
-    if (entry.find("heat")) root.set_default(entry.path + ".heat.reference_temperature", temperature);
+  set_material_defaults(root, temperature);
   for (const Setting& entry : root.entries("domain.regions")) {
     root.set_default(entry.path + ".material", root.get<std::string>("domain.material"));
     root.set_default(entry.path + ".temperature", temperature);
@@ -169,6 +157,8 @@ void collect_locations(const Setting& setting, std::map<std::string, std::string
 template<class Changes> Case read(Value document, const std::string& path, const Changes& changes) {
   for (const auto& change : changes) apply_override(document, change);
   Diagnostics diagnostics;
+  take_from_library(document, diagnostics);
+  diagnostics.throw_if_any();
   Setting root = apply_schema(document, diagnostics);
   const Member* time = document.find("time");
   const bool ended = time && time->value.find("end");

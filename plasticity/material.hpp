@@ -118,12 +118,18 @@ struct JohnsonCookDamage {
   double fracture_strain(double triaxiality, double rate, double temperature) const;
 };
 
+/// Where the constants of a hardening law were measured: plastic strain, its rate in 1/s, temperature in K.
+struct MeasuredRange {
+  Range strain, rate, temperature;
+};
+
 struct Material {
   std::string name;
   double density = 0.0;
   Elasticity elasticity;
   std::optional<Hardening> hardening;      ///< none: elastic
   std::optional<JohnsonCookDamage> damage; ///< none: never breaks
+  MeasuredRange measured;                  ///< of the hardening; it holds beyond as well
   double specific_heat = 0.0, conductivity = 0.0, taylor_quinney = 0.9, expansion = 0.0;
   double expansion_reference = 293.15;
 

@@ -82,6 +82,26 @@ ReportTable run_table(const results::RunStatus& status) {
   return table;
 }
 
+/// The texts of a key that holds one or several.
+std::string joined_texts(const input::Value& value) {
+  std::string text = value.text;
+  for (const input::Value& element : value.elements) text += (text.empty() ? "" : "; ") + element.text;
+  return text;
+}
+
+/// Which materials come from the library, read from the resolved case.
+std::optional<ReportTable> origin_table(const std::string& case_text) {
+  const input::Value root = input::parse_document(case_text, "case.resolved.toml");
+  const input::Member* materials = root.find("materials");
+  if (!materials) return {};
+  ReportTable table{"Materials of the library", {}};
+  for (const input::Member& material : materials->value.members)
+    if (const input::Member* origin = material.value.find("origin"))
+      table.rows.emplace_back(material.key, origin->value.text);
+  if (table.rows.empty()) return {};
+  return table;
+}
+
 /// Where the constants of damage laws come from, read from the resolved case.
 std::optional<ReportTable> damage_table(const std::string& case_text) {
   const input::Value root = input::parse_document(case_text, "case.resolved.toml");
@@ -91,8 +111,11 @@ std::optional<ReportTable> damage_table(const std::string& case_text) {
   for (const input::Member& material : materials->value.members)
     if (const input::Member* damage = material.value.find("damage")) {
       const input::Member* source = damage->value.find("source");
-      table.rows.emplace_back(material.key,
-                              source ? source->value.text : "generic: the case names no source for them");
+      const input::Member* calibration = damage->value.find("calibration");
+      std::string text = source ? joined_texts(source->value) : "generic: the case names no source for them";
+      if (calibration && !text.starts_with(calibration->value.text))
+        text = calibration->value.text + ": " + text;
+      table.rows.emplace_back(material.key, text);
     }
   if (table.rows.empty()) return {};
   return table;
@@ -166,7 +189,8 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
   }
   if (fs::exists(folder / results::files::resolved_case)) {
     report.case_text = results::read_file(folder / results::files::resolved_case);
-    if (auto table = damage_table(report.case_text)) report.tables.push_back(std::move(*table));
+    for (const auto& read : {origin_table, damage_table})
+      if (auto table = read(report.case_text)) report.tables.push_back(std::move(*table));
   }
   return report;
 }

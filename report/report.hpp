@@ -39,6 +39,8 @@ struct ReportData {
   std::optional<Chart> blanking_forces;
   std::vector<ReportTable> tables;
   std::string case_text; ///< resolved case, shown verbatim
+  std::string warnings_title = "Warnings", charts_title = "Histories",
+              case_title = "The case, resolved (SI units)";
 };
 
 /// The report as HTML text.

@@ -122,17 +122,17 @@ std::string render_report(const ReportData& data) {
       html_escape(data.verdict));
   html += render_figures(data);
   html += section("post-mortem", "Where it went wrong", render_post_mortem(data));
-  html += section("warnings", "Warnings", render_warnings(data));
+  html += section("warnings", data.warnings_title, render_warnings(data));
   if (data.blanking) {
     const bool cut = !data.blanking->punch.empty();
     html += section("blanking", cut ? "Blanking" : "Springback",
                     render_blanking(*data.blanking, data.blanking_forces));
   }
   html += section("pictures", "Pictures", render_pictures(data));
-  html += section("histories", "Histories", render_charts(data));
+  html += section("histories", data.charts_title, render_charts(data));
   html += section("numbers", "Numbers", render_tables(data));
   if (!data.case_text.empty())
-    html += section("case", "The case, resolved (SI units)",
+    html += section("case", data.case_title,
                     fmt::format("<pre tabindex=\"0\">{}</pre>\n", html_escape(data.case_text)));
   return html + fmt::format("</main>\n<dialog><img alt=\"enlarged picture\"/></dialog>\n<script>{}</script>\n"
                             "</body>\n</html>\n",

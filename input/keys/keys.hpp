@@ -22,6 +22,7 @@ public:
     return key_.choices_in_space = std::move(choices), *this;
   }
   KeyDraft& required() { return key_.presence = Presence::required, *this; }
+  KeyDraft& or_in_library() { return key_.in_library = true, *this; }
   /// Of a table: the defaults of its members hold without it.
   KeyDraft& always() { return key_.presence = Presence::fallback, *this; }
   KeyDraft& fallback(std::string toml) { return key_.fallback = std::move(toml), always(); }

@@ -9,6 +9,29 @@ namespace cnem::input {
 namespace {
 
 using enum Type;
+namespace d = dimension;
+
+KeyDraft add_source(Keys& k, const std::string& at, const std::string& more = "") {
+  return k.add(
+      at + ".source", texts,
+      "Where these constants come from. An entry that begins with names of them, as in `A, B: …`, speaks "
+      "of these alone." +
+          more);
+}
+
+void add_range(Keys& k, const std::string& at) {
+  k.add(at, table,
+        "Where the constants were measured, as two values each; what is not stated has no limits. A run that "
+        "goes beyond "
+        "says so, and goes on.");
+  k.add(at + ".strain", quantities, "Equivalent plastic strain.").in(not_negative).example("[0.0, 0.5]");
+  k.add(at + ".rate", quantities, "Of the plastic strain. Only rates beyond the larger value are told of.")
+      .unit(d::rate)
+      .in(not_negative)
+      .example("\"0.001 1000 /s\"");
+  k.add(at + ".temperature", quantities, "").unit(d::temperature).in(not_negative).example("\"293 773 K\"");
+  k.add(at + ".source", text, "Who states this range.").example("\"Jaspers 1999, section 5.2\"");
+}
 
 void add_damage(Keys& k, const std::string& at) {
   using Law = plasticity::JohnsonCookDamage;
@@ -16,8 +39,11 @@ void add_damage(Keys& k, const std::string& at) {
   k.add(at + ".law", choice, fmt::format("`{}`: {}.", Law::name, Law::formula))
       .one_of({Law::name})
       .required();
-  k.add(at + ".source", text, "Where these constants come from; the report calls them generic without it.")
-      .example("\"Johnson and Cook 1985\"");
+  add_source(k, at, " The report calls them generic without it.").example("\"Johnson and Cook 1985\"");
+  k.add(at + ".calibration", choice,
+        "`fitted`: all of these constants come from tests of this metal; `generic`: some do not, `source` "
+        "says which.")
+      .one_of({"fitted", "generic"});
   add_constants(k, at, constant_texts<Law>(Law::parameters));
 }
 
@@ -26,18 +52,37 @@ void add_damage(Keys& k, const std::string& at) {
 void add_materials(Keys& k) {
   const std::string at = "materials.*";
   const std::vector<LawText> hardening_laws = law_texts(plasticity::HardeningLaws{});
-  k.add("materials", named_tables, "Materials.").required();
-  k.add(at, table, "A material with all its constants; without `plastic` it is elastic.");
-  k.add(at + ".source", text, "Where the constants come from.").example("\"paper 004, 5.4.3\"");
+  k.add("materials", named_tables, "Materials.").required().or_in_library();
+  k.add(at, table,
+        "A material with all its constants, or with a `base` and what is different; without `plastic` it is "
+        "elastic.");
+  k.add(at + ".base", text,
+        "A material of the library (docs/materials.md): its constants hold where this table has none of its "
+        "own. A table with a `law` of its own replaces that of the base.")
+      .example("\"lib:304L\"");
+  k.add(at + ".leave_out", choices, "Tables of the `base` that are not taken.")
+      .one_of({"plastic", "damage", "heat"})
+      .example("[\"damage\"]");
+  k.add(at + ".origin", text,
+        "Written into resolved cases: the material of the library, and which of its constants the case has "
+        "changed.");
+  k.add(at + ".description", text, "Which metal it is, in which condition.")
+      .example("\"AISI 304L, annealed sheet\"");
+  add_source(k, at).example("\"paper 004, 5.4.3\"");
+  k.add(at + ".notes", texts, "What a user should know of them: doubts, other values in print.");
   add_constants(k, at, constant_texts<plasticity::Material>(plasticity::Material::parameters));
   k.add(at + ".elastic", table, "Isotropic elasticity, linear in logarithmic strain.").required();
+  add_source(k, at + ".elastic");
   add_constants(k, at + ".elastic",
                 constant_texts<plasticity::Elasticity>(plasticity::Elasticity::parameters));
   k.add(at + ".plastic", table, "Isotropic plasticity; the flow stress is a Kirchhoff stress.");
   add_law_choice(k, at + ".plastic", hardening_laws).required();
+  add_source(k, at + ".plastic");
   add_law_constants(k, at + ".plastic", hardening_laws);
+  add_range(k, at + ".plastic.range");
   add_damage(k, at + ".damage");
   k.add(at + ".heat", table, "Thermal properties.");
+  add_source(k, at + ".heat");
   add_constants(k, at + ".heat", constant_texts<plasticity::Material>(plasticity::Material::heat_parameters));
 }
 

@@ -63,6 +63,7 @@ struct Key {
   Condition when = {};
   std::string example = {};  ///< TOML text
   std::string computed = {}; ///< words for a default that depends on other keys
+  bool in_library = false;   ///< a required key that the library of materials may bring instead of the file
 
   std::string name() const;   ///< last part of the path
   std::string parent() const; ///< path of the table it belongs to; "" at the top

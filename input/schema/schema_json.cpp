@@ -48,20 +48,32 @@ Json time_tables(const Json& value) {
        closed({{"times", list}, {"values", one_of({text_type(), array_of(value)})}}, {"times", "values"})});
 }
 
-Json object_schema(const std::string& pattern);
+/// With a base in the library a material needs none of its keys.
+enum class Needs { as_written, with_base };
 
-Json value_schema(const Key& key) {
+Json object_schema(const std::string& pattern, Needs needs);
+
+/// One of the tables of a table of names. Of those that may have a base: whole, or with it.
+Json entry_schema(const std::string& pattern) {
+  Json whole = object_schema(pattern, Needs::as_written);
+  if (!find_key(pattern + ".base")) return whole;
+  Json changed = object_schema(pattern, Needs::with_base);
+  changed["required"] = Json::array({"base"});
+  return one_of({std::move(whole), std::move(changed)});
+}
+
+Json value_schema(const Key& key, Needs needs) {
   Json scalar = quantity(key);
   Json vector = one_of({text_type(), components_of(scalar, key)});
   switch (key.type) {
   case Type::table:
-    return object_schema(key.path);
+    return object_schema(key.path, needs);
   case Type::named_tables:
     return {{"type", "object"},
             {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,100}$"}}},
-            {"additionalProperties", object_schema(key.path + ".*")}};
+            {"additionalProperties", entry_schema(key.path + ".*")}};
   case Type::table_list:
-    return array_of(object_schema(key.path + "[]"));
+    return array_of(object_schema(key.path + "[]", needs));
   case Type::quantity:
     return scalar;
   case Type::integer:
@@ -103,11 +115,11 @@ Json parsed_toml(const std::string& text) {
   return Json::parse(text, nullptr, false);
 }
 
-Json object_schema(const std::string& pattern) {
+Json object_schema(const std::string& pattern, Needs needs) {
   Json properties = Json::object(), required = Json::array();
   Json in_plane = Json::array(), in_space = Json::array(); // required there: which it is another table says
   for (const Key* key : members_of(pattern)) {
-    Json schema = value_schema(*key);
+    Json schema = value_schema(*key, needs);
     std::string description = key->doc;
     if (!key->when.sibling.empty()) {
       description += " Goes with " + key->when.sibling + " = ";
@@ -125,7 +137,8 @@ Json object_schema(const std::string& pattern) {
     const bool outside =
         key->scope != Scope::everywhere &&
         (!find_key(pattern) || key->scope != find_key(pattern)->scope); // depends on the analysis
-    if (key->presence == Presence::required && key->when.sibling.empty())
+    if (key->presence == Presence::required && key->when.sibling.empty() && !key->in_library &&
+        needs == Needs::as_written)
       (!outside ? required : key->scope == Scope::plane ? in_plane : in_space).push_back(key->name());
     properties[key->name()] = std::move(schema);
   }
@@ -140,7 +153,7 @@ Json object_schema(const std::string& pattern) {
 
 std::string json_schema() {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "cnem case"}};
-  schema.update(object_schema(""));
+  schema.update(object_schema("", Needs::as_written));
   return schema.dump(2) + "\n";
 }
 

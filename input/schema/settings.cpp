@@ -64,7 +64,11 @@ public:
 
 private:
   void report_missing(const Key& key, const Location& where, const std::string& path) {
-    diagnostics_.add(Mistake::missing_key, where, path, "missing, expected " + key.expectation());
+    diagnostics_.add(Mistake::missing_key, where, path,
+                     fmt::format("missing, expected {}{}", key.expectation(),
+                                 key.in_library ? ", or a material of the library such as \"lib:304L\" where "
+                                                  "one is named"
+                                                : ""));
   }
 
   void report_unknown(const Value& written, const std::string& pattern, const std::string& path) {
@@ -276,6 +280,17 @@ Setting apply_schema(const Value& document, Diagnostics& diagnostics) {
   root.where = document.where;
   Resolver(diagnostics, kinematics_of(document)).table(root, &document, "");
   return root;
+}
+
+Setting apply_schema(const Value& table, const std::string& pattern, const std::string& path,
+                     Diagnostics& diagnostics) {
+  Setting setting;
+  setting.key = find_key(pattern);
+  setting.path = path;
+  setting.where = table.where;
+  setting.given = true;
+  Resolver(diagnostics, "").table(setting, &table, pattern);
+  return setting;
 }
 
 } // namespace cnem::input

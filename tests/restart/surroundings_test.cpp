@@ -284,6 +284,35 @@ TEST_F(Surroundings, a_restart_with_another_instruction_set_says_so) {
   expect_part(warnings.front(), warning);
 }
 
+TEST_F(Surroundings, what_left_its_measured_range_is_told_once_and_the_same_after_a_restart) {
+  // Strains leave their range early, temperatures after the checkpoint that is gone back to, rates never.
+  const std::vector<std::string> ranges{"--set",
+                                        "materials.steel.plastic.range={ strain = [0.0, 0.005], rate = \"0 "
+                                        "1e9 /s\", temperature = \"280 304 K\" }",
+                                        "--set",
+                                        "time.max_steps=140",
+                                        "--set",
+                                        "output.checkpoint.every_steps=60"};
+  const Ending whole = run_cnem(run_of("punched.toml", "run", ranges));
+  ASSERT_EQ(whole.code, 0) << whole.printed;
+  const std::vector<std::string> warnings = results::read_status(folder / "run").warnings;
+  ASSERT_EQ(warnings.size(), 2U) << whole.printed;
+  expect_part(warnings[0], "plastic strain at node");
+  expect_part(warnings[0], "outside the range 0 to 0.005 in which the constants of steel were measured");
+  expect_part(warnings[1], "temperature at node");
+  for (const std::string& warning : warnings) {
+    const std::size_t told = whole.printed.find("warning: " + warning);
+    ASSERT_NE(told, std::string::npos) << whole.printed;
+    EXPECT_EQ(whole.printed.find(warning, told + warning.size()), std::string::npos) << whole.printed;
+  }
+  // From the older checkpoint: what came after it is found again, at the same step.
+  fs::remove(folder / "run" / results::files::status);
+  fs::rename(folder / "run" / "checkpoint.1.h5", folder / "run" / "checkpoint.h5");
+  const Ending again = run_cnem({"restart", at("run"), "--threads", "2"});
+  ASSERT_EQ(again.code, 0) << again.printed;
+  EXPECT_EQ(results::read_status(folder / "run").warnings, warnings);
+}
+
 TEST_F(Surroundings, an_instruction_set_that_does_not_exist_is_refused) {
   for (const auto& words : {run_of("punched.toml", "none"),
                             std::vector<std::string>{"check", at("punched.toml")},

@@ -1,0 +1,177 @@
+// Materials of the case reader.
+#include "input/case_parts.hpp"
+#include "input/constants.hpp"
+#include "input/library.hpp"
+#include "input/schema/nearest.hpp"
+#include "plasticity/hardening_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace cnem::input {
+namespace {
+
+/// A fracture strain that is nowhere positive between shear (σ* = 0) and uniaxial tension (1/3), or in the
+/// same span above the cut-off, is a slip: metal would break with its first flow.
+void check_ductility(const plasticity::JohnsonCookDamage& law, const Setting& table,
+                     Diagnostics& diagnostics) {
+  const auto strain = [&](double triaxiality) {
+    return law.D1 + law.D2 * std::exp(std::clamp(law.D3 * triaxiality, -700.0, 700.0));
+  };
+  const double low = std::max(0.0, law.cut_off), high = low + 1.0 / 3.0;
+  if (strain(low) > 0.0 || strain(high) > 0.0) return;
+  const Setting& first = *table.find("D1");
+  diagnostics.add(
+      Mistake::range, first.where, first.path,
+      fmt::format("found D1 = {:g}, D2 = {:g}, D3 = {:g}, with which the fracture strain D1 + D2 exp(D3 σ*) "
+                  "is {:.3g} at σ* = {:.3g} and {:.3g} at σ* = {:.3g}, expected more than 0",
+                  law.D1, law.D2, law.D3, strain(low), low, strain(high), high));
+}
+
+/// Factors of the fracture strain that turn it negative within what metal sees in a cut.
+void warn_of_brittleness(const plasticity::JohnsonCookDamage& law, const Setting& table,
+                         std::vector<std::string>& warnings) {
+  constexpr double fast = 1e6; // 1/s
+  const double share = 1.0 + law.D4 * std::log(std::max(1.0, fast / law.rate0));
+  if (!(share > 0.0))
+    warnings.push_back(
+        fmt::format("{}.D4 = {:g} makes the fracture strain {:.3g} times that at rate0 at {:g} "
+                    "1/s: metal breaks there with its first flow",
+                    table.path, law.D4, share, fast));
+  if (law.D5 <= -1.0)
+    warnings.push_back(
+        fmt::format("{}.D5 = {:g} makes the fracture strain {:.3g} times the cold one at Tmelt: "
+                    "metal breaks there with its first flow",
+                    table.path, law.D5, 1.0 + law.D5));
+}
+
+plasticity::JohnsonCookDamage read_damage(const Setting& table, const Setting& material,
+                                          std::vector<std::string>& warnings, Diagnostics& diagnostics) {
+  plasticity::JohnsonCookDamage law;
+  read_constants(plasticity::JohnsonCookDamage::parameters, table, law);
+  check_constants<plasticity::JohnsonCookDamage>(table, diagnostics);
+  if (const Setting& share = *table.find("D5"); law.D5 != 0.0 && !table.find("Tmelt"))
+    diagnostics.add(Mistake::missing_key, share.where, share.path,
+                    fmt::format("found {:g} without a melting temperature, expected damage.Tmelt or "
+                                "plastic.Tmelt beside it",
+                                law.D5));
+  if (!material.find("plastic"))
+    diagnostics.add(Mistake::missing_key, table.where, table.path,
+                    "found in an elastic material, expected a plastic law beside it: damage grows with "
+                    "plastic strain");
+  check_ductility(law, table, diagnostics);
+  warn_of_brittleness(law, table, warnings);
+  return law;
+}
+
+/// A lower and an upper value; no limits where the key is absent.
+Range read_limits(const Setting& table, const char* name, Diagnostics& diagnostics) {
+  const Setting* limits = table.find(name);
+  if (!limits) return anything;
+  const auto& list = std::get<std::vector<double>>(limits->value);
+  if (list.size() == 2 && list[0] < list[1]) return {.low = list[0], .high = list[1]};
+  diagnostics.add(Mistake::range, limits->where, limits->path,
+                  fmt::format("found {}, expected a lower and a higher value such as {}",
+                              fmt::join(list, " and "), limits->key->example));
+  return anything;
+}
+
+plasticity::MeasuredRange read_range(const Setting& table, Diagnostics& diagnostics) {
+  return {read_limits(table, "strain", diagnostics), read_limits(table, "rate", diagnostics),
+          read_limits(table, "temperature", diagnostics)};
+}
+
+} // namespace
+
+void set_material_defaults(Setting& root, double temperature) {
+  for (const Setting& entry : root.entries("materials")) {
+    if (!entry.find("damage")) continue;
+    const auto from_plastic = [&](const char* key) {
+      return entry.maybe<double>(fmt::format("plastic.{}", key));
+    };
+    const std::string damage = entry.path + ".damage.";
+    const std::optional<double> melting = from_plastic("Tmelt");
+    const double rate = from_plastic("rate0").value_or(1.0), cold = from_plastic("T0").value_or(293.15);
+    root.set_default(damage + "rate0", rate);
+    root.set_default(damage + "T0", cold);
+    if (melting) root.set_default(damage + "Tmelt", *melting);
+  }
+  for (const Setting& entry : root.entries("materials"))
+    if (entry.find("heat")) root.set_default(entry.path + ".heat.reference_temperature", temperature);
+}
+
+namespace {
+
+/// An increment of strain is to have one stress: the elastic one must fall faster than the flow stress.
+void check_fall(const plasticity::Material& material, const Setting& table, Diagnostics& diagnostics) {
+  const plasticity::Hardening::Fall fall = material.hardening->steepest_fall();
+  const double limit = 3.0 * material.elasticity.mu();
+  if (fall.slope < limit) return;
+  diagnostics.add(
+      Mistake::range, table.where, table.path,
+      fmt::format("found a flow stress that falls by {:.3g} GPa per strain at a plastic strain of "
+                  "{:.3g} and {:.4g} K, expected less than three shear moduli, {:.3g} GPa: an "
+                  "increment of strain would have several stresses",
+                  fall.slope * 1e-9, fall.strain, fall.temperature, limit * 1e-9));
+}
+
+} // namespace
+
+plasticity::Material read_material(const Setting& table, std::vector<std::string>& warnings,
+                                   Diagnostics& diagnostics) {
+  plasticity::Material material;
+  material.name = table.name;
+  using plasticity::Elasticity, plasticity::Material;
+  read_constants(Material::parameters, table, material);
+  read_constants(Elasticity::parameters, *table.find("elastic"), material.elasticity);
+  if (const Setting* plastic = table.find("plastic")) {
+    material.hardening = read_law<plasticity::Hardening>(plasticity::HardeningLaws{}, *plastic, diagnostics);
+    if (material.hardening) check_fall(material, *plastic, diagnostics);
+    if (const Setting* range = plastic->find("range")) material.measured = read_range(*range, diagnostics);
+  }
+  if (const Setting* damage = table.find("damage"))
+    material.damage = read_damage(*damage, table, warnings, diagnostics);
+  if (const Setting* heat = table.find("heat")) read_constants(Material::heat_parameters, *heat, material);
+  return material;
+}
+
+namespace {
+
+/// What an unknown name may have meant: a material of the case, else one of the library.
+std::string hint(const std::string& name, const std::vector<std::string>& names) {
+  const std::string own = did_you_mean(name, names);
+  return own.empty() ? did_you_mean_library(name) : own;
+}
+
+} // namespace
+
+void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const Setting& table : root.entries("materials")) {
+    result.materials.push_back(read_material(table, result.warnings, diagnostics));
+    names.push_back(table.name);
+  }
+  const auto check = [&](const Setting& wanted) {
+    const auto& name = std::get<std::string>(wanted.value);
+    const Setting* table =
+        std::find(names.begin(), names.end(), name) == names.end() ? nullptr : root.find("materials." + name);
+    if (!table) {
+      diagnostics.add(Mistake::reference, wanted.where, wanted.path,
+                      fmt::format("found {}, expected one of the materials {}{}",
+                                  toml_quoted(shortened(name)), fmt::join(names, ", "), hint(name, names)));
+    } else if (result.analysis.thermal && !table->find("heat")) {
+      diagnostics.add(
+          Mistake::missing_key, table->where, table->path + ".heat",
+          "missing, expected a table with specific_heat and conductivity because analysis.thermal is "
+          "true");
+    }
+  };
+  const Setting& everywhere = *root.find("domain.material");
+  check(everywhere);
+  for (const Setting& region : root.entries("domain.regions"))
+    if (const Setting& own = *region.find("material"); own.given) check(own);
+}
+
+} // namespace cnem::input
