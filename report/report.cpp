@@ -89,6 +89,17 @@ std::string joined_texts(const input::Value& value) {
   return text;
 }
 
+/// What forces and lengths are of, where they are not per thickness, read from the resolved case.
+std::string kinematics_words(const std::string& case_text) {
+  const input::Value root = input::parse_document(case_text, "case.resolved.toml");
+  const input::Member* analysis = root.find("analysis");
+  const input::Member* kinematics = analysis ? analysis->value.find("kinematics") : nullptr;
+  if (!kinematics) return "";
+  if (kinematics->value.text == "axisymmetric")
+    return " · axisymmetric: x is the radius, totals of the whole body";
+  return kinematics->value.text == "three-dimensional" ? " · three-dimensional" : "";
+}
+
 /// Which materials come from the library, read from the resolved case.
 std::optional<ReportTable> origin_table(const std::string& case_text) {
   const input::Value root = input::parse_document(case_text, "case.resolved.toml");
@@ -155,10 +166,6 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
     history = results::read_history(folder / results::files::history);
   collect_figures(report, status, history ? &*history : nullptr);
   if (history) report.charts = history_charts(*history);
-  if (history && history->find("enclosed_volume[m^3]") >= 0)
-    report.subtitle += " · three-dimensional";
-  else if (history && history->find("mass[kg]") >= 0)
-    report.subtitle += " · axisymmetric: x is the radius, totals of the whole body";
 
   report.blanking = evaluate::read_blanking(folder);
   if (report.blanking && history) report.blanking_forces = force_stroke_chart(*report.blanking, *history);
@@ -189,6 +196,7 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
   }
   if (fs::exists(folder / results::files::resolved_case)) {
     report.case_text = results::read_file(folder / results::files::resolved_case);
+    report.subtitle += kinematics_words(report.case_text);
     for (const auto& read : {origin_table, damage_table})
       if (auto table = read(report.case_text)) report.tables.push_back(std::move(*table));
   }

@@ -54,7 +54,7 @@ TEST(BadCase, StaticAnalysesRefuseWhatMoves) {
                {"key 'initial.velocity': found in a static"});
   expect_parts(
       refusal("[analysis]\nkinematics = \"plane stress\"\n"),
-      {"key 'analysis.kinematics': found \"plane stress\", expected it with analysis.type = \"static\""});
+      {"key 'analysis.kinematics': found \"plane stress\" in an explicit analysis"});
 }
 
 TEST(BadCase, ThermalToolsNeedAThermalAnalysis) {
