@@ -52,9 +52,8 @@ TEST(BadCase, StaticAnalysesRefuseWhatMoves) {
                {"key 'boundary.b.velocity': found a velocity in a static analysis, expected a displacement"});
   expect_parts(refusal(head + "[initial]\nvelocity = \"1 0 m/s\"\n"),
                {"key 'initial.velocity': found in a static"});
-  expect_parts(
-      refusal("[analysis]\nkinematics = \"plane stress\"\n"),
-      {"key 'analysis.kinematics': found \"plane stress\" in an explicit analysis"});
+  expect_parts(refusal("[analysis]\nkinematics = \"plane stress\"\n"),
+               {"key 'analysis.kinematics': found \"plane stress\" in an explicit analysis"});
 }
 
 TEST(BadCase, ThermalToolsNeedAThermalAnalysis) {
