@@ -8,6 +8,8 @@
 
 namespace cnem::testing {
 
+inline constexpr double tolerance = 1e-12;
+
 template<class Number> std::size_t index(Number i) { return index_of(i); }
 
 template<int dim> Vec<dim> gradient(const DiscreteOperators<dim>& op, std::size_t entry) {

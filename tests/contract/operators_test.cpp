@@ -7,8 +7,6 @@
 namespace cnem::testing {
 namespace {
 
-constexpr double tolerance = 1e-12;
-
 template<int dim> using Vectors = std::vector<Vec<dim>>;
 template<int dim> using Tensors = std::vector<Mat<dim>>;
 

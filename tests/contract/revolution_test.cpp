@@ -7,8 +7,6 @@
 namespace cnem::testing {
 namespace {
 
-constexpr double tolerance = 1e-12;
-
 /// The domains of the suite, moved to touch the axis and to stand half their size away from it.
 std::vector<Domain<2>> revolved_domains() {
   std::vector<Domain<2>> list;

@@ -9,8 +9,6 @@
 namespace cnem::testing {
 namespace {
 
-constexpr double tolerance = 1e-12;
-
 template<class Vector> void expect_same_bits(const Vector& a, const Vector& b) {
   ASSERT_EQ(a.size(), b.size());
   if (!a.empty()) { EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])), 0); }

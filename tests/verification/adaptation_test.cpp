@@ -27,7 +27,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-const std::string steel = steel_304l + R"toml(
+const std::string steel_body = steel_304l + R"toml(
 [method]
 rereference = { every = 40, strain = 0.1 }
 [adapt]
@@ -38,7 +38,7 @@ fields_every = "10 us"
 )toml";
 
 // A punch goes into the left of a block.
-const std::string block = R"toml(
+const std::string block_case = R"toml(
 [time]
 end = "10 us"
 [domain]
@@ -49,8 +49,8 @@ spacing = "0.25 mm"
 [boundary.base]
 pieces = ["bottom"]
 symmetry = true
-)toml" + steel;
-const std::string punched = block + R"toml(
+)toml" + steel_body;
+const std::string punched = block_case + R"toml(
 [tools.punch]
 rectangle = { from = "-1 2 mm", to = "1.1 5 mm" }
 velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
@@ -84,7 +84,7 @@ velocity = "180 0 m/s"
 [adapt.indicator]
 field = "plastic_power"
 h_min = "0.1 mm"
-)toml" + steel;
+)toml" + steel_body;
 
 // A slot that a plate closes, until its faces touch.
 const std::string slotted = R"toml(
@@ -109,7 +109,7 @@ friction = { law = "coulomb", coefficient = 0.1 }
 [tools.plate]
 rectangle = { from = "-1 2 mm", to = "5 3 mm" }
 velocity = "0 -60 m/s"
-)toml" + steel;
+)toml" + steel_body;
 
 const Texts by_strain{"adapt.indicator.field=plastic_strain", "adapt.indicator.h_min=0.1 mm"};
 
@@ -349,7 +349,7 @@ TEST(Adaptation, carries_bodies_in_contact) {
 }
 
 TEST(Adaptation, carries_loads_supports_and_a_free_tool) {
-  const Adapted loaded = run(block + R"toml(
+  const Adapted loaded = run(block_case + R"toml(
 [tools.punch]
 rectangle = { from = "-1 2 mm", to = "1.1 5 mm" }
 mass = "2 kg/m"

@@ -13,7 +13,7 @@ namespace cnem::testing {
 namespace {
 
 // A punch goes into the left of a block.
-const std::string punched = steel_304l + R"toml(
+const std::string punched_block = steel_304l + R"toml(
 [time]
 end = "6 us"
 [domain]
@@ -39,7 +39,7 @@ fields = ["displacement_x", "displacement_y"]
 
 results::HistoryTable middle_of(const std::vector<std::string>& set) {
   const TemporaryFolder folder("lines");
-  const input::Case input = input::read_case_text(punched, "case.toml", set);
+  const input::Case input = input::read_case_text(punched_block, "case.toml", set);
   EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
   return results::read_history(folder.path() / "lines" / "middle.csv");
 }

@@ -8,7 +8,7 @@
 namespace cnem::app {
 namespace {
 
-const std::string steel = R"toml(
+const std::string damaged_steel = R"toml(
 [analysis]
 thermal = false
 [time]
@@ -21,7 +21,7 @@ damage = { law = "johnson-cook", D1 = 0.005, D2 = 0.0, D3 = 0.0, fracture_energy
 )toml";
 
 // A strip, endless along x, whose upper and lower sides slide past each other; the middle is a little weaker.
-const std::string strip = steel + R"toml(
+const std::string strip = damaged_steel + R"toml(
 [domain]
 material = "steel"
 outer.rectangle = { from = "0 -0.5 mm", to = "0.2 0.5 mm" }
@@ -42,7 +42,7 @@ velocity = { x = "5 m/s", y = "0 m/s" }
 )toml";
 
 // A bar pulled at both ends, with a weaker middle.
-const std::string bar = steel + R"toml(
+const std::string bar = damaged_steel + R"toml(
 [domain]
 material = "steel"
 outer.rectangle = { from = "-0.6 0 mm", to = "0.6 0.4 mm" }
@@ -120,7 +120,7 @@ TEST(Separation, of_a_bar_in_tension_does_not_depend_on_the_spacing) {
 // grow by s, what is left of the moduli falls by s² with the density, and the bulk modulus is gone.
 TEST(Separation, into_dust_leaves_the_step_to_what_bears) {
   const input::Case input = input::read_case_text(
-      steel + R"toml(
+      damaged_steel + R"toml(
 [domain]
 material = "steel"
 outer.rectangle = { from = "-0.5 -0.5 mm", to = "0.5 0.5 mm" }

@@ -29,7 +29,7 @@ struct Finished {
   }
 };
 
-const std::string block = R"toml(
+const std::string squeezed_block = R"toml(
 [time]
 end = "40 us"
 [domain]
@@ -63,7 +63,7 @@ class FlowCurve : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(FlowCurve, in_a_case) {
   const input::Case input =
-      input::read_case_text(block + "plastic = { law = " + GetParam() + " }" + squeezed, "case.toml",
+      input::read_case_text(squeezed_block + "plastic = { law = " + GetParam() + " }" + squeezed, "case.toml",
                             {"output.pictures=[]", "output.fields_every=1 s"});
   const Finished run(input);
   const double strain = run.last("probe.middle.plastic_strain");
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SmoothFriction, in_a_case) {
   const auto drag = [](const std::string& law) {
     const input::Case input =
-        input::read_case_text(block + R"toml(
+        input::read_case_text(squeezed_block + R"toml(
 plastic = { law = "linear", yield = "400 MPa", hardening = "200 MPa" }
 [boundary.top]
 pieces = "top"

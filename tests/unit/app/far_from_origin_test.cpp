@@ -17,7 +17,7 @@ namespace {
 
 /// A block of 2^-7 m with its lower left corner at (x, y) m, where every number of the case is one of the
 /// machine.
-std::string block(double x, double y, const std::string& more) {
+std::string block_at(double x, double y, const std::string& more) {
   constexpr double side = 0.0078125;
   return fmt::format(R"(time.end = "4 us"
 domain = {{ material = "steel", outer.rectangle = {{ from = "{} {} m", to = "{} {} m" }} }}
@@ -35,14 +35,14 @@ const std::vector<Vec2> far_places{{0.00390625, 0.00390625}, {0.0625, 0.0625}, {
 
 /// Stretched along x at 1/s, held along y: the exact velocity everywhere.
 std::string stretched(const Vec2& x, double rate) {
-  return block(x.x(), x.y(),
-               fmt::format(R"(initial.velocity_gradient = {{ xx = "{0} 1/s", centre = "{1} {2} m" }}
+  return block_at(x.x(), x.y(),
+                  fmt::format(R"(initial.velocity_gradient = {{ xx = "{0} 1/s", centre = "{1} {2} m" }}
 method.bulk_viscosity = {{ linear = 0.0, quadratic = 0.0 }}
 boundary.left = {{ pieces = ["left"], symmetry = true }}
 boundary.sides = {{ pieces = ["bottom", "top"], symmetry = true }}
 boundary.right = {{ pieces = ["right"], velocity = {{ x = "{3} m/s" }} }}
 )",
-                           rate, x.x(), x.y(), rate * 0.0078125));
+                              rate, x.x(), x.y(), rate * 0.0078125));
 }
 
 TEST(FarFromOrigin, the_patch_test_holds_in_dynamics) {
@@ -69,7 +69,7 @@ TEST(FarFromOrigin, the_patch_test_holds_in_statics) {
   // Uniaxial stress in plane strain.
   constexpr double strain = 1e-3, exact = 210e9 / (1.0 - 0.09) * strain;
   for (const Vec2& place : far_places) {
-    const input::Case input = input::read_case_text(block(place.x(), place.y(), R"(analysis.type = "static"
+    const input::Case input = input::read_case_text(block_at(place.x(), place.y(), R"(analysis.type = "static"
 boundary.left = { pieces = ["left"], symmetry = true }
 boundary.bottom = { pieces = ["bottom"], symmetry = true }
 boundary.right = { pieces = ["right"], displacement = { x = "7.8125 um" } }
@@ -110,7 +110,7 @@ protected:
 
 TEST_F(FarRun, an_unloaded_body_stays_at_rest) {
   for (const Vec2& place : far_places) {
-    const results::HistoryTable history = run_case(block(place.x(), place.y(), ""));
+    const results::HistoryTable history = run_case(block_at(place.x(), place.y(), ""));
     EXPECT_LT(status.energy_residual, 1e-5) << place.transpose();
     EXPECT_LT(column(history, "energy.elastic[J/m]").back(), 1e-18) << place.transpose();
   }
@@ -118,15 +118,15 @@ TEST_F(FarRun, an_unloaded_body_stays_at_rest) {
 
 TEST_F(FarRun, tools_press_as_at_the_origin) {
   const auto pressed = [&](double x, double y) {
-    return run_case(block(x, y,
-                          fmt::format(R"(method = {{ lagrangian = "periodic", rereference.every = 20 }}
+    return run_case(block_at(x, y,
+                             fmt::format(R"(method = {{ lagrangian = "periodic", rereference.every = 20 }}
 boundary.bottom = {{ pieces = ["bottom"], symmetry = true }}
 [tools.punch]
 circle = {{ centre = "{} {} m", radius = "0.00390625 m" }}
 velocity = "0 -20 m/s"
 friction = {{ law = "coulomb", coefficient = 0.2 }}
 )",
-                                      x + 0.005859375, y + 0.01171875)));
+                                         x + 0.005859375, y + 0.01171875)));
   };
   const results::HistoryTable near = pressed(0, 0);
   for (const double x : {1.0, 128.0, 8192.0}) {
@@ -141,7 +141,7 @@ friction = {{ law = "coulomb", coefficient = 0.2 }}
 }
 
 TEST_F(FarRun, results_say_where_the_body_is) {
-  run_case(block(8192.0, 1.0, R"(boundary.left = { pieces = ["left"], symmetry = true }
+  run_case(block_at(8192.0, 1.0, R"(boundary.left = { pieces = ["left"], symmetry = true }
 output.lines.middle = { from = "8192.001 1.004 m", to = "8192.002 1.004 m", samples = 2, fields = ["pressure"] }
 )"));
   std::ifstream lines(temporary.path() / "out" / "lines" / "middle.csv");

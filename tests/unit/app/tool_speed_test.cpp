@@ -14,7 +14,7 @@ namespace cnem::app {
 namespace {
 
 /// Dilatational waves: 6001 m/s, the first step about 4e-8 s.
-const std::string block = R"toml(
+const std::string resting_block = R"toml(
 [time]
 end = "2 us"
 [domain]
@@ -30,8 +30,8 @@ pieces = ["bottom"]
 symmetry = true
 )toml";
 
-input::Case read(const std::string& more, const std::vector<std::string>& overrides = {}) {
-  return input::read_case_text(block + more, "case.toml", overrides);
+input::Case read_with(const std::string& more, const std::vector<std::string>& overrides = {}) {
+  return input::read_case_text(resting_block + more, "case.toml", overrides);
 }
 
 std::string punch(const std::string& velocity) {
@@ -45,37 +45,39 @@ std::vector<std::string> warnings_of(const input::Case& input) {
 }
 
 TEST(ToolSpeed, of_sound_is_a_warning) {
-  EXPECT_TRUE(warnings_of(read(punch("\"0 -5900 m/s\""))).empty());
-  const auto fast = warnings_of(read(punch("\"0 -6100 m/s\"")));
+  EXPECT_TRUE(warnings_of(read_with(punch("\"0 -5900 m/s\""))).empty());
+  const auto fast = warnings_of(read_with(punch("\"0 -6100 m/s\"")));
   ASSERT_EQ(fast.size(), 1U);
   EXPECT_NE(
       fast[0].find("tools.punch and the workpiece meet at 6100 m/s, faster than sound in 'steel' (6001 m/s)"),
       std::string::npos)
       << fast[0];
-  EXPECT_EQ(
-      warnings_of(read(punch("{ times = \"0 1 2 us\", values = [\"0 0 m/s\", \"0 -7 km/s\", \"0 0 m/s\"] }")))
-          .size(),
-      1U)
+  EXPECT_EQ(warnings_of(read_with(punch(
+                            "{ times = \"0 1 2 us\", values = [\"0 0 m/s\", \"0 -7 km/s\", \"0 0 m/s\"] }")))
+                .size(),
+            1U)
       << "in the middle of the run";
   EXPECT_TRUE(
-      warnings_of(read(punch("{ times = \"0 3 4 us\", values = [\"0 0 m/s\", \"0 0 m/s\", \"0 -7 km/s\"] }")))
+      warnings_of(
+          read_with(punch("{ times = \"0 3 4 us\", values = [\"0 0 m/s\", \"0 0 m/s\", \"0 -7 km/s\"] }")))
           .empty())
       << "after its end";
-  EXPECT_EQ(warnings_of(read(punch("\"0 -4 km/s\"") + "[initial]\nvelocity = \"0 3 km/s\"\n")).size(), 1U)
+  EXPECT_EQ(warnings_of(read_with(punch("\"0 -4 km/s\"") + "[initial]\nvelocity = \"0 3 km/s\"\n")).size(),
+            1U)
       << "towards each other";
-  EXPECT_EQ(warnings_of(read(punch("\"0 -70 m/s\""), {"time.mass_scaling.factor=1e4"})).size(), 1U)
+  EXPECT_EQ(warnings_of(read_with(punch("\"0 -70 m/s\""), {"time.mass_scaling.factor=1e4"})).size(), 1U)
       << "scaled masses slow the waves";
 }
 
 TEST(ToolSpeed, of_more_than_its_thickness_a_step_is_refused) {
   const std::string foil =
       "[tools.punch]\nrectangle = { from = \"-1 2.1 mm\", to = \"5 2.2 mm\" }\nvelocity = \"0 -1 km/s\"\n";
-  const input::Case input = read(foil);
+  const input::Case input = read_with(foil);
   std::vector<std::string> none;
   const ExplicitSolver<2> solver = make_solver<2>(input, none);
   EXPECT_NO_THROW(check_tool_steps(input, solver, 0.99e-7));
   EXPECT_THROW(check_tool_steps(input, solver, 1.01e-7), InputError);
-  EXPECT_NO_THROW(check_tool_steps(read(foil, {"time.end=90 ns"}), solver, 1.0))
+  EXPECT_NO_THROW(check_tool_steps(read_with(foil, {"time.end=90 ns"}), solver, 1.0))
       << "no step is longer than a run";
 }
 
@@ -84,7 +86,7 @@ results::RunStatus run(const std::string& more, int expected) {
   const cnem::testing::TemporaryFolder folder("tool_speed");
   const std::string file = (folder.path() / "case.toml").string(),
                     results = (folder.path() / "results").string();
-  std::ofstream(file) << block << more << "[output]\npictures = []\n";
+  std::ofstream(file) << resting_block << more << "[output]\npictures = []\n";
   std::vector<std::string> words{"cnem", "run", file, "--output", results, "--threads", "1"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

@@ -8,6 +8,7 @@
 #include "results/status.hpp"
 #include "tests/clouds.hpp"
 #include "tests/index_literals.hpp"
+#include "tests/unit/evaluate/degree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +22,6 @@ namespace cnem::evaluate {
 
 using namespace testing::literals;
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// A full blank, 1 thick, cut on both sides by a punch from x = −2 to 2 and dies from |x| = 2.1 on. The punch
 /// has come down by 1.3; the slug hangs below.

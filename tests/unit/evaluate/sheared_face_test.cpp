@@ -2,6 +2,7 @@
 #include "evaluate/sheared_face.hpp"
 
 #include "tests/clouds.hpp"
+#include "tests/unit/evaluate/degree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@
 
 namespace cnem::evaluate {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// A body of unit thickness, 3 wide, whose face is at u = 0. Corners of its outline, counter-clockwise in u,
 /// w.

@@ -3,6 +3,7 @@
 #include "core/operators/side_by_side.hpp"
 #include "tests/clouds.hpp"
 #include "tests/index_literals.hpp"
+#include "tests/unit/thermal/steel.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
 
@@ -14,9 +15,6 @@ namespace cnem::testing {
 namespace {
 
 using namespace literals;
-
-constexpr double k = 50.0, rho = 7850.0, c = 477.0; // benchmarks of the field: steel
-constexpr double diffusivity = k / (rho * c);
 
 /// A body that conducts, with its own explicit steps.
 struct Body {

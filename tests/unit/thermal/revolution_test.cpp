@@ -2,6 +2,7 @@
 #include "cnem/scni.hpp"
 #include "core/operators/side_by_side.hpp"
 #include "tests/clouds.hpp"
+#include "tests/unit/thermal/steel.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
 
@@ -9,8 +10,6 @@
 
 namespace cnem::testing {
 namespace {
-
-constexpr double k = 50.0, rho = 7850.0, c = 477.0, diffusivity = k / (rho * c);
 
 struct Cylinder {
   Cloud<2> cloud;

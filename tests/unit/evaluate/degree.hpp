@@ -1,0 +1,8 @@
+#pragma once
+#include <numbers>
+
+namespace cnem::evaluate {
+
+inline constexpr double degree = std::numbers::pi / 180.0;
+
+} // namespace cnem::evaluate
