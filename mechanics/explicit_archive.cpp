@@ -69,6 +69,7 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   archive_energies(archive);
   archive.integer("solver/references", references_);
   archive.number("solver/finest_before", "s", finest_before_);
+  bound_.archive(archive);
   if (local_.on()) {
     local_.archive(archive);
     archive.integer("solver/local/on_new_reference", on_new_reference_);

@@ -82,6 +82,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   each([&](Term<dim>& term) { term.attach(body()); });
   copy_stress_columns<dim>(point.piola, stress_);
   rebuild_levels();
+  bound_.forget();
   ++references_;
   if (change) ++resamplings_;
   each([&](Term<dim>& term) { term.settle(body(), change != nullptr); });

@@ -140,19 +140,33 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   StepLimit limit;
   each([&](Term<dim>& term) { term.limit(body(), limit); });
   if (!model_.mechanical) return {model_.safety * limit.heat, 0, "conduction"};
+  const DiscreteOperators<dim>& op = approximation_.mechanics;
   const PointState<dim>& point = state_.point;
-  const auto bounds =
-      bound_.evaluate(approximation_.mechanics, point.deformation, point.wave_modulus, state_.node.inertia(),
-                      local_.on() ? LocalSteps<dim>::block : block_size);
-  Field stable(bounds.size());
-  for (std::size_t b = 0; b < bounds.size(); ++b) {
-    stable[b] = stable_wave_step(bounds[b].value, limit.stabilisation, limit.critical_damping);
-    if (!(stable[b] > 0.0)) diverged(bounds[b].point, "stable step");
-  }
-  auto choice = local_.choose(approximation_.mechanics, approximation_.links, stable);
+  const auto step_of = [&](const typename SpectralBound<dim>::Result& bound) {
+    const double step = stable_wave_step(bound.value, limit.stabilisation, limit.critical_damping);
+    if (!(step > 0.0)) diverged(bound.point, "stable step");
+    return step;
+  };
   next_levels_.clear();
-  if (choice.level != local_.level()) next_levels_ = std::move(choice.level);
-  return {model_.safety * sub_steps() * choice.finest, bounds[choice.limit].point, "elastic waves"};
+  if (!local_.on()) {
+    const auto bound = bound_.of_all(op, point.deformation, point.wave_modulus, state_.node.inertia());
+    return {model_.safety * step_of(bound), bound.point, "elastic waves"};
+  }
+  const auto bounds = bound_.of_ranges(op, point.deformation, point.wave_modulus, state_.node.inertia(),
+                                       LocalSteps<dim>::block);
+  Field stable(bounds.size());
+  for (std::size_t b = 0; b < bounds.size(); ++b) stable[b] = step_of(bounds[b]);
+  auto level = local_.choose(op, approximation_.links, stable);
+  // A point of level l is as one that is 4^l times as stiff and takes the finest step.
+  Field modulus = point.wave_modulus;
+  for (std::size_t p = 0; p < modulus.size(); ++p)
+    modulus[p] *= static_cast<double>(1 << (2 * level[p / LocalSteps<dim>::block]));
+  if (level != local_.level()) {
+    next_levels_ = std::move(level);
+    bound_.forget();
+  }
+  const auto bound = bound_.of_all(op, point.deformation, modulus, state_.node.inertia());
+  return {model_.safety * sub_steps() * step_of(bound), bound.point, "elastic waves"};
 }
 
 template<int dim> Body<dim> ExplicitSolver<dim>::body() {

@@ -40,13 +40,10 @@ double cost(const std::vector<std::int8_t>& level, std::size_t nodes, std::size_
 }
 
 /// The finest step with which no block exceeds its stable one.
-double finest_step(const std::vector<std::int8_t>& level, const Field& stable, std::size_t& limit) {
+double finest_step(const std::vector<std::int8_t>& level, const Field& stable) {
   double finest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < level.size(); ++b)
-    if (const double dt = stable[b] / static_cast<double>(1 << level[b]); dt < finest) {
-      finest = dt;
-      limit = b;
-    }
+    finest = std::min(finest, stable[b] / static_cast<double>(1 << level[b]));
   return finest;
 }
 
@@ -87,39 +84,28 @@ void LocalSteps<dim>::grade(const DiscreteOperators<dim>& op, const Stabilisatio
 }
 
 template<int dim>
-typename LocalSteps<dim>::Choice LocalSteps<dim>::choose(const DiscreteOperators<dim>& op,
+typename LocalSteps<dim>::Levels LocalSteps<dim>::choose(const DiscreteOperators<dim>& op,
                                                          const StabilisationLinks<dim>& links,
                                                          const Field& stable) {
   const std::size_t nodes = index_of(op.nodes);
-  if (!on()) { // all of one level, whatever the blocks are
-    Choice one;
-    one.finest = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < stable.size(); ++b)
-      if (stable[b] < one.finest) one = {{}, stable[b], b};
-    return one;
-  }
-  const auto complete = [&](Choice& choice) {
-    choice.finest = finest_step(choice.level, stable, choice.limit);
-    return cost(choice.level, nodes, block, choice.finest);
+  const auto cost_of = [&](const Levels& level) {
+    return cost(level, nodes, block, finest_step(level, stable));
   };
   constexpr double worth_changing = 1.05;
-  Choice kept;
-  kept.level = level_;
   const bool fits = level_.size() == stable.size();
-  const double kept_cost = fits ? complete(kept) : 0.0;
-  if (fits && kept_cost <= worth_changing * chosen_cost_) return kept;
+  const double kept_cost = fits ? cost_of(level_) : 0.0;
+  if (fits && kept_cost <= worth_changing * chosen_cost_) return level_;
 
-  Choice finest, fresh;
-  finest.level.assign(stable.size(), 0);
-  const double all = complete(finest);
-  fresh.level = finest.level;
+  const Levels one(stable.size(), 0);
+  const double all = cost_of(one), finest = finest_step(one, stable);
+  Levels fresh = one;
   for (std::size_t b = 0; b < stable.size(); ++b)
-    fresh.level[b] = static_cast<std::int8_t>(
-        std::min(control_.levels - 1.0, std::floor(std::log2(stable[b] / finest.finest))));
-  grade(op, links, fresh.level);
-  chosen_cost_ = complete(fresh);
+    fresh[b] =
+        static_cast<std::int8_t>(std::min(control_.levels - 1.0, std::floor(std::log2(stable[b] / finest))));
+  grade(op, links, fresh);
+  chosen_cost_ = cost_of(fresh);
   if (all < control_.least_gain * chosen_cost_) {
-    fresh = finest;
+    fresh = one;
     chosen_cost_ = all;
   }
   if (!fits || kept_cost > worth_changing * chosen_cost_) return fresh;
@@ -127,7 +113,7 @@ typename LocalSteps<dim>::Choice LocalSteps<dim>::choose(const DiscreteOperators
   grade(op, links, graded);
   if (graded != level_) return fresh;
   chosen_cost_ = kept_cost;
-  return kept;
+  return level_;
 }
 
 template<int dim> void LocalSteps<dim>::follow(const NodeRows& labels) {

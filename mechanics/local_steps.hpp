@@ -45,15 +45,9 @@ public:
 
   bool on() const { return control_.on; }
 
-  /// Levels for steps that are stable for each block, and the finest step they allow, s.
-  struct Choice {
-    Levels level;
-    double finest = 0.0;
-    std::size_t limit = 0; ///< block that limits the finest step
-  };
-  /// Chooses for the stable steps [block], s. Levels in use are kept as long as they cost at most 5% more
-  /// updates than new ones, or than when they were chosen.
-  Choice choose(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
+  /// Levels for steps that are stable for each block [block], s. Levels in use are kept as long as they cost
+  /// at most 5% more updates than new ones, or than when they were chosen.
+  Levels choose(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
                 const Field& stable);
   /// The nodes are others: blocks take the finest level that their nodes, or the first
   /// of those an inserted one lies between, had.

@@ -38,42 +38,35 @@ void invert(const double* const* deformation, const SpectralView<dim>& view, std
 }
 
 template<int dim>
-void spectral_transfer(const SpectralView<dim>& view, const double* weight, std::ptrdiff_t begin,
-                       std::ptrdiff_t end) {
+void spectral_transfer(const SpectralView<dim>& view, std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t j = begin; j < end; ++j) {
     double sum = 0.0;
     for (std::int32_t e = view.columns.begin[j]; e < view.columns.begin[j + 1]; ++e) {
-      const double* inverse =
-          view.inverse + SpectralView<dim>::stride * static_cast<std::ptrdiff_t>(view.columns.index[e]);
-      sum += inverse[dim * dim] * block_norm<dim>(inverse, view.columns, view.weighted_hoop, e);
+      const auto p = static_cast<std::ptrdiff_t>(view.columns.index[e]);
+      const double* inverse = view.inverse + SpectralView<dim>::stride * p;
+      sum += view.share[p] *
+             (inverse[dim * dim] * block_norm<dim>(inverse, view.columns, view.weighted_hoop, e));
     }
-    view.transfer[j] = sum / weight[j];
+    view.transfer[j] = sum / view.weight[j];
   }
 }
 
 template<int dim>
-SpectralMaximum spectral_rows(const SpectralView<dim>& view, const double* modulus, std::ptrdiff_t begin,
-                              std::ptrdiff_t end) {
-  SpectralMaximum best{0.0, begin};
+void spectral_rows(const SpectralView<dim>& view, std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t p = begin; p < end; ++p) {
     const double* inverse = view.inverse + SpectralView<dim>::stride * p;
     double sum = 0.0;
     for (std::int32_t e = view.rows.begin[p]; e < view.rows.begin[p + 1]; ++e)
       sum += block_norm<dim>(inverse, view.rows, view.hoop, e) *
              view.transfer[static_cast<std::ptrdiff_t>(view.rows.index[e])];
-    const double value = modulus[p] * sum;
-    if (!(value <= best.value)) best = {value, p};
-    if (value != value) break; // NaN: whoever asked must see it
+    view.image[p] = view.modulus[p] * sum;
   }
-  return best;
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \
   template void invert<dim>(const double* const*, const SpectralView<dim>&, std::ptrdiff_t, std::ptrdiff_t); \
-  template void spectral_transfer<dim>(const SpectralView<dim>&, const double*, std::ptrdiff_t,              \
-                                       std::ptrdiff_t);                                                      \
-  template SpectralMaximum spectral_rows<dim>(const SpectralView<dim>&, const double*, std::ptrdiff_t,       \
-                                              std::ptrdiff_t);
+  template void spectral_transfer<dim>(const SpectralView<dim>&, std::ptrdiff_t, std::ptrdiff_t);            \
+  template void spectral_rows<dim>(const SpectralView<dim>&, std::ptrdiff_t, std::ptrdiff_t);
 CNEM_INSTANTIATE(2)
 CNEM_INSTANTIATE(3)
 #undef CNEM_INSTANTIATE

@@ -1,7 +1,9 @@
 #pragma once
 // The largest step central differences can take, from a rigorous bound on the highest frequency.
+#include "core/fields/archive.hpp"
 #include "core/fields/state.hpp"
 #include "core/operators/operators.hpp"
+#include "mechanics/step_kernels.hpp"
 
 #include <vector>
 
@@ -10,29 +12,46 @@ namespace cnem {
 /// Bound on the largest eigenvalue of M⁻¹ Gᵀ V k G for scalar weights M at nodes and moduli k at stress
 /// points, on the current configuration (b = F⁻ᵀ b_r, V = V_r det F):
 ///
-///   λ ≤ max_p k_p Σ_J |b_pJ| s_J,  s_J = (1/M_J) Σ_q V_q |b_qJ|
+///   λ ≤ max_p (A x)_p / x_p,  (A x)_p = k_p Σ_J |b_pJ| (1/M_J) Σ_q V_q |b_qJ| x_q
 ///
-/// (norms of the blocks of a Gershgorin row, at stress points). With k = λ + 2μ it bounds ω² of elastic
-/// waves, with the conductivity the decay rate of heat. Moves with |F⁻ᵀ b| ≤ the bound's own tensor norm, so
-/// it holds for any F. Of revolution |b| becomes max(|b + h e_r|, √(|b|² + h²)), which bounds the energy norm
-/// of u ↦ (u ⊗ b, u_r h) for λ ≥ 0.
+/// for any x > 0: A holds the norms of blocks at stress points and is not negative, so that its spectral
+/// radius is below the largest quotient (Collatz 1942, Wielandt 1950); x = 1 gives Gershgorin's rows. With k
+/// = λ + 2μ it bounds ω² of elastic waves, with the conductivity the decay rate of heat. Moves with |F⁻ᵀ b| ≤
+/// the bound's own tensor norm, so it holds for any F. Of revolution |b| becomes max(|b + h e_r|, √(|b|² +
+/// h²)), which bounds the energy norm of u ↦ (u ⊗ b, u_r h) for λ ≥ 0.
 template<int dim> class SpectralBound {
 public:
   struct Result {
     double value;      ///< 1/s² (or 1/s for heat)
     std::size_t point; ///< row that attains it
   };
-  /// The bound of each of the ranges of `width` points; width divides block_size.
-  std::vector<Result> evaluate(const DiscreteOperators<dim>& operators,
-                               const Fields<tensor_size<dim>>& deformation, const Field& modulus,
-                               const Field& weight, std::size_t width);
+  /// Gershgorin's bound (x = 1) of each of the ranges of `width` points; width divides block_size.
+  std::vector<Result> of_ranges(const DiscreteOperators<dim>& operators,
+                                const Fields<tensor_size<dim>>& deformation, const Field& modulus,
+                                const Field& weight, std::size_t width);
+
+  /// The bound of all points with an x near the eigenvector of the largest eigenvalue of A: power iterations
+  /// from x = 1, made again once the bound has grown by a twentieth since, or after `forget`. `point`: where
+  /// A x is largest.
+  Result of_all(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
+                const Field& modulus, const Field& weight);
+  /// The operators, or what moduli mean, are others: x begins at 1 again.
+  void forget() { share_.clear(); }
+
+  void archive(Archive& archive);
 
 private:
-  void prepare(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
-               const Field& weight);
+  SpectralView<dim> prepare(const DiscreteOperators<dim>& operators,
+                            const Fields<tensor_size<dim>>& deformation, const Field& modulus,
+                            const Field& weight, const Field& share);
+  void map(const SpectralView<dim>& view, std::size_t nodes, std::size_t points);
+  Result largest_quotient() const;
 
-  Field transfer_; ///< [node] s_J
-  Field inverse_;  ///< [point] F⁻ᵀ and det F as mechanics/step_kernels.hpp lays them
+  Field share_;          ///< [point] x; empty: to be found
+  double settled_ = 0.0; ///< the bound when x was found
+  Field transfer_;       ///< [node] (1/M_J) Σ_q V_q |b_qJ| x_q
+  Field inverse_;        ///< [point] F⁻ᵀ and det F as mechanics/step_kernels.hpp lays them
+  Field image_;          ///< [point] A x
 };
 
 /// Δt ≤ 2/ω of elastic waves, s, from the bound on ω² with λ + 2μ (Pa) and masses (kg); infinite for 0.

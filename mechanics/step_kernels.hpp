@@ -59,12 +59,12 @@ template<int dim> struct SpectralView {
   OperatorColumns<dim> columns; ///< V_p b_pJ
   const double* hoop;           ///< of `rows`
   const double* weighted_hoop;  ///< of `columns`
+  const double* modulus;        ///< [point] k
+  const double* weight;         ///< [node] M
+  const double* share;          ///< [point] x
   double* inverse;              ///< [point][stride] F⁻ᵀ by columns, det F, 1/F_θθ
   double* transfer;             ///< [node] s_J
-};
-struct SpectralMaximum {
-  double value;
-  std::ptrdiff_t point;
+  double* image;                ///< [point] (A x)_p
 };
 
 struct ViscousSums {
@@ -87,11 +87,9 @@ struct ViscousSums {
   void invert(const double* const* deformation, const SpectralView<dim>& view, std::ptrdiff_t begin,         \
               std::ptrdiff_t end);                                                                           \
   template<int dim>                                                                                          \
-  void spectral_transfer(const SpectralView<dim>& view, const double* weight, std::ptrdiff_t begin,          \
-                         std::ptrdiff_t end);                                                                \
+  void spectral_transfer(const SpectralView<dim>& view, std::ptrdiff_t begin, std::ptrdiff_t end);           \
   template<int dim>                                                                                          \
-  SpectralMaximum spectral_rows(const SpectralView<dim>& view, const double* modulus, std::ptrdiff_t begin,  \
-                                std::ptrdiff_t end);                                                         \
+  void spectral_rows(const SpectralView<dim>& view, std::ptrdiff_t begin, std::ptrdiff_t end);               \
   template<int dim>                                                                                          \
   ViscousSums viscous_stress(const ViscousPoints<dim>& points, double quadratic, double linear, double dt,   \
                              std::ptrdiff_t begin, std::ptrdiff_t end);                                      \

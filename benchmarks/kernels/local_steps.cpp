@@ -71,7 +71,7 @@ double ceiling(const ExplicitSolver<2>& solver, double& finest_share) {
   const auto& elastic = solver.model().materials.front().elasticity;
   const Field modulus(state.point.size(), elastic.lambda() + 2.0 * elastic.mu());
   const auto each =
-      bound.evaluate(solver.approximation().mechanics, state.point.deformation, modulus, state.node.mass, 1);
+      bound.of_ranges(solver.approximation().mechanics, state.point.deformation, modulus, state.node.mass, 1);
   double highest = 0.0, updates = 0.0, finest = 0.0;
   for (const auto& point : each) highest = std::max(highest, point.value);
   for (const auto& point : each) {

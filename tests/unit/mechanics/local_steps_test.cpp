@@ -55,9 +55,9 @@ TEST(LocalSteps, levels_keep_to_stable_steps_and_to_their_neighbours) {
   EXPECT_LT(local.updates(), 0.5 * 8.0 * op.nodes);
   const auto& elastic = solver.model().materials.front().elasticity;
   SpectralBound<2> bound;
-  const auto each = bound.evaluate(op, solver.state().point.deformation,
-                                   Field(solver.state().point.size(), elastic.lambda() + 2.0 * elastic.mu()),
-                                   solver.state().node.mass, LocalSteps<2>::block);
+  const auto each = bound.of_ranges(op, solver.state().point.deformation,
+                                    Field(solver.state().point.size(), elastic.lambda() + 2.0 * elastic.mu()),
+                                    solver.state().node.mass, LocalSteps<2>::block);
   const double finest = macro / local.sub_steps();
   for (std::size_t b = 0; b < each.size(); ++b)
     EXPECT_LE(finest * (1 << local.level()[b]),
