@@ -52,12 +52,13 @@ function(cnem_kernel target file)
     add_library(${object} OBJECT ${file})
     target_include_directories(${object} PRIVATE ${PROJECT_SOURCE_DIR})
     target_compile_definitions(${object} PRIVATE CNEM_ISA=${isa} CNEM_ISA_${isa}=1)
-    target_compile_options(${object} PRIVATE -O3 -fno-math-errno -fno-trapping-math -Wno-psabi ${flags_${isa}})
+    target_compile_options(${object} PRIVATE $<IF:$<BOOL:${CNEM_SANITIZE}>,-O1,-O3> -fno-math-errno -fno-trapping-math
+                           -Wno-psabi ${flags_${isa}})
     cnem_warnings(${object})
     if(CNEM_SANITIZE MATCHES address AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-      # A kernel is one function with thousands of temporaries: guarding each on the stack makes compiling it
-      # several times slower. Accesses to the arrays it is given stay checked.
-      target_compile_options(${object} PRIVATE --param=asan-stack=0)
+      # A kernel is one function with thousands of temporaries: guarding each on the stack, and each access in
+      # line, makes compiling it several times slower. Accesses to the arrays it is given stay checked, by calls.
+      target_compile_options(${object} PRIVATE --param=asan-stack=0 --param=asan-instrumentation-with-call-threshold=0)
     endif()
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
   endforeach()

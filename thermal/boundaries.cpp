@@ -37,7 +37,7 @@ template<int dim> void ThermalBoundaries<dim>::resample(const Cloud<dim>& cloud)
 
 template<int dim>
 void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, const Field& temperature,
-                                      const HeatContacts<dim>& touching, Field& flow) const {
+                                      Field& flow) const {
   for (const HeatFlux<dim>& flux : fluxes_) {
     const double value = flux.value(time);
     for (const Facet<dim>& facet : flux.facets) {
@@ -66,11 +66,14 @@ void ThermalBoundaries<dim>::add_flow(double time, const Fields<dim>& position, 
         flow[j] -= crossing;
       }
     }
-  for (const ToolConductance& tool : touching.tools) {
+}
+
+template<int dim> void HeatContacts<dim>::add_flow(const Field& temperature, Field& flow) const {
+  for (const ToolConductance& tool : tools) {
     const auto i = index_of(tool.node);
     flow[i] += tool.conductance * tool.area * (tool.tool_temperature - temperature[i]);
   }
-  for (const BodyConductance<dim>& body : touching.bodies) {
+  for (const BodyConductance<dim>& body : bodies) {
     double opposite = 0.0;
     for (std::size_t a = 0; a < dim; ++a) opposite += body.weight[a] * temperature[index_of(body.facet[a])];
     const auto i = index_of(body.node);

@@ -70,6 +70,17 @@ template<int dim> struct HeatContacts {
     tools.clear();
     bodies.clear();
   }
+  bool empty() const { return tools.empty() && bodies.empty(); }
+  /// Adds what flows into the nodes to `flow`, W/m^(3−dim).
+  void add_flow(const Field& temperature, Field& flow) const;
+  /// visit(node) for every node that takes part, some of them several times.
+  template<class Visit> void each_node(Visit&& visit) const {
+    for (const ToolConductance& tool : tools) visit(tool.node);
+    for (const BodyConductance<dim>& body : bodies) {
+      visit(body.node);
+      for (const NodeIndex node : body.facet) visit(node);
+    }
+  }
   /// Largest share these add to the decay rate of a node, 1/s.
   double fastest_decay(const Field& heat_capacity) const;
 };
@@ -91,8 +102,7 @@ public:
   void archive_nodes(Archive& archive);
 
   /// Adds what flows into the nodes at `time` to `flow`, W/m^(3−dim).
-  void add_flow(double time, const Fields<dim>& position, const Field& temperature,
-                const HeatContacts<dim>& touching, Field& flow) const;
+  void add_flow(double time, const Fields<dim>& position, const Field& temperature, Field& flow) const;
 
   /// Sets the held temperatures of `time`. Returns the heat this brought in, J/m^(3−dim).
   double hold(double time, const Field& heat_capacity, Field& temperature) const;

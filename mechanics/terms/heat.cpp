@@ -16,7 +16,11 @@ namespace {
 template<int dim> class Heat : public Term<dim> {
 public:
   std::vector<Energy*> energies() override { return {&content_, &generated_, &exchanged_}; }
-  void archive(Archive& archive) override { archive.number("solver/conduction_step", "s", stable_); }
+  void archive(Archive& archive) override {
+    archive.number("solver/conduction_step", "s", stable_);
+    archive.number("solver/conduction_pending", "s", pending_);
+    archive.integer("solver/conduction_steps", steps_);
+  }
 
   void audit(const BodyView<dim>& body) override {
     const NodeState<dim>& node = body.state.node;
@@ -66,7 +70,17 @@ public:
     if (!body.model.thermal) return;
     collect_from_contact(body);
     generate(body);
-    conduct(body, dt);
+    exchange_in_contacts(body, dt);
+    // Explicit steps of motion are thousands of times shorter than those of conduction: it acts once in some.
+    // A mode of decay rate r then loses r τ (1 − r τ/2 …) in the interval τ, r τ ≤ 2 · share.
+    constexpr double share = 0.01; // of the stable step
+    constexpr int most = 16;
+    if (stable_ == 0.0) measure_stable_step(body);
+    pending_ += dt;
+    if (++steps_ < most && pending_ + dt <= share * stable_) return;
+    conduct(body, pending_);
+    pending_ = 0.0;
+    steps_ = 0;
   }
 
 private:
@@ -129,20 +143,39 @@ private:
     });
   }
 
-  /// Explicit conduction (58), in as many sub-steps as are stable.
+  /// What flows to tools and between bodies in a step, in as many sub-steps as are stable.
+  void exchange_in_contacts(const Body<dim>& body, double dt) {
+    if (contacts_.empty()) return;
+    NodeState<dim>& node = body.state.node;
+    contacts_.each_node([&](NodeIndex i) { node.heat_flow[index_of(i)] = 0.0; });
+    const int substeps = stable_substeps(dt * contacts_.fastest_decay(node.heat_capacity));
+    const double h = dt / substeps;
+    for (int s = 0; s < substeps; ++s) {
+      contacts_.add_flow(node.temperature, node.heat_flow);
+      contacts_.each_node([&](NodeIndex touching) {
+        const auto i = index_of(touching);
+        node.temperature[i] += h * node.heat_flow[i] / node.heat_capacity[i];
+        exchanged_.value += h * node.heat_flow[i];
+        node.heat_flow[i] = 0.0;
+      });
+    }
+  }
+
+  /// For an interval times the decay rate.
+  static int stable_substeps(double decays) { return std::max(1, static_cast<int>(std::ceil(decays / 1.8))); }
+
+  /// Explicit conduction (58) and boundaries over an interval, in as many sub-steps as are stable.
   void conduct(const Body<dim>& body, double dt) {
     NodeState<dim>& node = body.state.node;
     const Ties<dim>& ties = body.conditions.heat_ties;
     ThermalBoundaries<dim>& boundaries = body.conditions.heat_boundaries;
     const std::size_t n = node.size();
     if (!ties.empty()) ties.share(node.heat_capacity, node.temperature);
-    if (stable_ == 0.0) measure_stable_step(body);
-    const double decay = 2.0 / stable_ + contacts_.fastest_decay(node.heat_capacity);
-    const int substeps = std::max(1, static_cast<int>(std::ceil(dt * decay / 1.8)));
+    const int substeps = stable_substeps(dt * 2.0 / stable_);
     const double h = dt / substeps;
     for (int s = 0; s < substeps; ++s) {
       std::fill(node.heat_flow.begin(), node.heat_flow.end(), 0.0);
-      boundaries.add_flow(body.state.time, node.position, node.temperature, contacts_, node.heat_flow);
+      boundaries.add_flow(body.state.time, node.position, node.temperature, node.heat_flow);
       double received = h * sum_blocks(n, [&](std::size_t begin, std::size_t end) {
                           double sum = 0.0;
                           for (std::size_t i = begin; i < end; ++i) sum += node.heat_flow[i];
@@ -162,6 +195,8 @@ private:
   Conduction<dim> conduction_;
   HeatContacts<dim> contacts_; ///< of this step
   double stable_ = 0.0;        ///< s, stable for heat when it was measured last; 0: to be measured
+  double pending_ = 0.0;       ///< s, since conduction acted last
+  int steps_ = 0;              ///< in that time
   std::vector<double> sums_;   ///< [range] J/m^(3−dim)
   Energy content_{"heat_content", EnergyKind::heat_held};         ///< Σ C (T − T_start)
   Energy generated_{"heat_generated", EnergyKind::heat_received}; ///< from plastic work and friction

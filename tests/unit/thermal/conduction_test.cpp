@@ -52,7 +52,8 @@ struct Body {
   void step(double dt, const ThermalBoundaries<2>& boundaries = {}, double time = 0.0,
             const HeatContacts<2>& touching = {}) {
     std::fill(flow.begin(), flow.end(), 0.0);
-    boundaries.add_flow(time, position, temperature, touching, flow);
+    boundaries.add_flow(time, position, temperature, flow);
+    touching.add_flow(temperature, flow);
     conduction.add_flow(side_by_side<2>(position), temperature, flow);
     for (std::size_t i = 0; i < flow.size(); ++i) temperature[i] += dt * flow[i] / capacity[i];
     boundaries.hold(time + dt, capacity, temperature);
@@ -157,7 +158,7 @@ TEST(Conduction, exchange_between_faces_keeps_heat_and_stays_below_its_bound) {
   touching.tools = {{4_node, 1e3, 1e-3, 500.0}};
   const auto rate = [&](const Field& t) {
     Field flow(t.size(), 0.0);
-    ThermalBoundaries<2>().add_flow(0.0, {}, t, touching, flow);
+    touching.add_flow(t, flow);
     for (std::size_t i = 0; i < flow.size(); ++i) flow[i] /= capacity[i];
     return flow;
   };

@@ -42,7 +42,7 @@ struct Cylinder {
     const int steps = static_cast<int>(std::ceil(end / (0.9 * 2.0 / decay)));
     for (int n = 0; n < steps; ++n) {
       std::fill(flow.begin(), flow.end(), 0.0);
-      boundaries.add_flow(0.0, position, temperature, {}, flow);
+      boundaries.add_flow(0.0, position, temperature, flow);
       conduction.add_flow(side_by_side<2>(position), temperature, flow);
       for (std::size_t i = 0; i < flow.size(); ++i) temperature[i] += end / steps * flow[i] / capacity[i];
       boundaries.hold(0.0, capacity, temperature);
@@ -94,7 +94,7 @@ TEST(Revolution, flux_and_convection_act_on_areas_of_revolution) {
   body.temperature.assign(body.capacity.size(), 0.0);
   const auto received = [&](const ThermalBoundaries<2>& boundaries) {
     std::fill(body.flow.begin(), body.flow.end(), 0.0);
-    boundaries.add_flow(0.0, body.position, body.temperature, {}, body.flow);
+    boundaries.add_flow(0.0, body.position, body.temperature, body.flow);
     double sum = 0.0;
     for (const double q : body.flow) sum += q;
     return sum;
