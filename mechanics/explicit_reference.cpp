@@ -106,8 +106,9 @@ template<int dim> void ExplicitSolver<dim>::scale_masses() {
     const double omega = 2.0 * model_.safety / scaling.step;
     StepLimit limit;
     each([&](Term<dim>& term) { term.limit(body(), limit); });
-    node.mass_scale = scales_for_frequency(approximation_.mechanics, state_.point.wave_modulus, node.mass,
-                                           omega * omega / (1.0 + limit.stabilisation));
+    const PointState<dim>& point = state_.point;
+    node.mass_scale = scales_for_frequency(approximation_.mechanics, point.deformation, point.wave_modulus,
+                                           node.mass, omega * omega / (1.0 + limit.stabilisation));
   }
   for (std::size_t i = 0; i < node.size(); ++i) node.scaled_mass[i] = node.mass_scale[i] * node.mass[i];
 }

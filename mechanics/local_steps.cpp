@@ -39,14 +39,6 @@ double cost(const std::vector<std::int8_t>& level, std::size_t nodes, std::size_
   return sum / finest;
 }
 
-/// The finest step with which no block exceeds its stable one.
-double finest_step(const std::vector<std::int8_t>& level, const Field& stable) {
-  double finest = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < level.size(); ++b)
-    finest = std::min(finest, stable[b] / static_cast<double>(1 << level[b]));
-  return finest;
-}
-
 /// Runs of whole blocks that agree in level and mark, cut where the blocks of core/machine/parallel.hpp are.
 void append(std::vector<LevelRange>& list, std::size_t begin, std::size_t end, int level, bool marked) {
   if (!list.empty()) {
@@ -84,12 +76,20 @@ void LocalSteps<dim>::grade(const DiscreteOperators<dim>& op, const Stabilisatio
 }
 
 template<int dim>
+std::pair<double, std::size_t> LocalSteps<dim>::finest_step(const Levels& level, const Field& stable) {
+  std::pair<double, std::size_t> finest{std::numeric_limits<double>::infinity(), 0};
+  for (std::size_t b = 0; b < level.size(); ++b)
+    if (const double dt = stable[b] / static_cast<double>(1 << level[b]); dt < finest.first) finest = {dt, b};
+  return finest;
+}
+
+template<int dim>
 typename LocalSteps<dim>::Levels LocalSteps<dim>::choose(const DiscreteOperators<dim>& op,
                                                          const StabilisationLinks<dim>& links,
                                                          const Field& stable) {
   const std::size_t nodes = index_of(op.nodes);
   const auto cost_of = [&](const Levels& level) {
-    return cost(level, nodes, block, finest_step(level, stable));
+    return cost(level, nodes, block, finest_step(level, stable).first);
   };
   constexpr double worth_changing = 1.05;
   const bool fits = level_.size() == stable.size();
@@ -97,7 +97,7 @@ typename LocalSteps<dim>::Levels LocalSteps<dim>::choose(const DiscreteOperators
   if (fits && kept_cost <= worth_changing * chosen_cost_) return level_;
 
   const Levels one(stable.size(), 0);
-  const double all = cost_of(one), finest = finest_step(one, stable);
+  const double all = cost_of(one), finest = finest_step(one, stable).first;
   Levels fresh = one;
   for (std::size_t b = 0; b < stable.size(); ++b)
     fresh[b] =

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cnem {
@@ -49,6 +50,8 @@ public:
   /// at most 5% more updates than new ones, or than when they were chosen.
   Levels choose(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
                 const Field& stable);
+  /// The finest step with which no block exceeds its stable one, s, and the block that limits it.
+  static std::pair<double, std::size_t> finest_step(const Levels& level, const Field& stable);
   /// The nodes are others: blocks take the finest level that their nodes, or the first
   /// of those an inserted one lies between, had.
   void follow(const NodeRows& labels);

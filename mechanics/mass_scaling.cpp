@@ -1,6 +1,7 @@
 #include "mechanics/mass_scaling.hpp"
 
 #include "core/index.hpp"
+#include "mechanics/stable_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +18,11 @@ template<int dim> double block_norm(const Fields<dim>& gradient, const Field& ho
   return std::sqrt(square);
 }
 
-} // namespace
-
+/// Factors that bring every row of the bound (x = 1) to `most` or below: each node takes the largest excess
+/// of the stress points it belongs to.
 template<int dim>
-Field scales_for_frequency(const DiscreteOperators<dim>& operators, const Field& wave_modulus,
-                           const Field& mass, double most) {
+Field scales_for_rows(const DiscreteOperators<dim>& operators, const Field& wave_modulus, const Field& mass,
+                      double most) {
   const auto points = index_of(operators.points);
   Field transfer(mass.size(), 0.0), scale(mass.size(), 1.0);
   for (std::size_t j = 0; j < mass.size(); ++j) {
@@ -42,7 +43,32 @@ Field scales_for_frequency(const DiscreteOperators<dim>& operators, const Field&
   return scale;
 }
 
-template Field scales_for_frequency<2>(const DiscreteOperators<2>&, const Field&, const Field&, double);
-template Field scales_for_frequency<3>(const DiscreteOperators<3>&, const Field&, const Field&, double);
+} // namespace
+
+template<int dim>
+Field scales_for_frequency(const DiscreteOperators<dim>& operators,
+                           const Fields<tensor_size<dim>>& deformation, const Field& wave_modulus,
+                           const Field& mass, double most) {
+  // Rows are above the bound: they may stay above `most` by as much as the bound with scaled masses allows.
+  constexpr int passes = 8;
+  Field scale = scales_for_rows(operators, wave_modulus, mass, most);
+  for (double rows = most, pass = 0; pass < passes; ++pass) {
+    const auto bound = [&](const Field& factor) {
+      Field scaled = mass;
+      for (std::size_t i = 0; i < mass.size(); ++i) scaled[i] *= factor[i];
+      return SpectralBound<dim>().of_all(operators, deformation, wave_modulus, scaled).value;
+    };
+    rows *= most / bound(scale);
+    Field lighter = scales_for_rows(operators, wave_modulus, mass, rows);
+    if (!(bound(lighter) <= most)) break;
+    scale = std::move(lighter);
+  }
+  return scale;
+}
+
+template Field scales_for_frequency<2>(const DiscreteOperators<2>&, const Fields<5>&, const Field&,
+                                       const Field&, double);
+template Field scales_for_frequency<3>(const DiscreteOperators<3>&, const Fields<9>&, const Field&,
+                                       const Field&, double);
 
 } // namespace cnem

@@ -14,14 +14,16 @@ struct MassScaling {
 };
 
 /// Factors ≥ 1 on the masses of nodes, [node], such that the bound on ω² of mechanics/stable_step.hpp is at
-/// most `most` (1/s²) on the reference: each node takes the largest excess of the stress points it belongs
-/// to, so that only nodes of cells that limit the step grow heavier. wave_modulus [point] λ + 2μ in Pa, mass
-/// [node].
+/// most `most` (1/s²): only nodes of cells that limit the step grow heavier. deformation [component][point],
+/// wave_modulus [point] λ + 2μ in Pa, mass [node].
 template<int dim>
-Field scales_for_frequency(const DiscreteOperators<dim>& operators, const Field& wave_modulus,
+Field scales_for_frequency(const DiscreteOperators<dim>& operators,
+                           const Fields<tensor_size<dim>>& deformation, const Field& wave_modulus,
                            const Field& mass, double most);
 
-extern template Field scales_for_frequency<2>(const DiscreteOperators<2>&, const Field&, const Field&,
-                                              double);
+extern template Field scales_for_frequency<2>(const DiscreteOperators<2>&, const Fields<5>&, const Field&,
+                                              const Field&, double);
+extern template Field scales_for_frequency<3>(const DiscreteOperators<3>&, const Fields<9>&, const Field&,
+                                              const Field&, double);
 
 } // namespace cnem

@@ -35,7 +35,7 @@ public:
   /// A x is largest.
   Result of_all(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
                 const Field& modulus, const Field& weight);
-  /// The operators, or what moduli mean, are others: x begins at 1 again.
+  /// The operators are others: x begins at 1 again.
   void forget() { share_.clear(); }
 
   void archive(Archive& archive);

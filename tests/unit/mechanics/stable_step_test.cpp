@@ -1,0 +1,101 @@
+// The bound on the highest frequency: it holds, it is near, and it is the same after a restart.
+#include "core/fields/memory_archive.hpp"
+#include "tests/unit/mechanics/graded.hpp"
+#include "tests/unit/mechanics/linear.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::testing {
+namespace {
+
+struct Block {
+  Cloud<2> cloud = graded_rectangle(1.0, 1.0, 0.2, 0.05, {{0.5, 0.0}, {0.5, 1.0}});
+  Approximation<2> approximation = scni::Cnem().rebuild(cloud);
+  plasticity::Material material = steel();
+  Fields<5> deformation;
+  Field modulus, mass;
+
+  Block() {
+    const auto points = static_cast<std::size_t>(op().points);
+    resize_all(deformation, points);
+    stretch(1.0);
+    modulus.assign(points, material.elasticity.lambda() + 2.0 * material.elasticity.mu());
+    mass = op().node_volume();
+    for (double& m : mass) m *= material.density;
+  }
+  const DiscreteOperators<2>& op() const { return approximation.mechanics; }
+  /// x → s x at constant y.
+  void stretch(double s) {
+    for (const std::size_t k : {3U, 4U}) std::fill(deformation[k].begin(), deformation[k].end(), 1.0);
+    std::fill(deformation[0].begin(), deformation[0].end(), s);
+  }
+  double of_all(SpectralBound<2>& bound) const {
+    return bound.of_all(op(), deformation, modulus, mass).value;
+  }
+  double of_rows() const {
+    double largest = 0.0;
+    for (const auto& range : SpectralBound<2>().of_ranges(op(), deformation, modulus, mass, block_size))
+      largest = std::max(largest, range.value);
+    return largest;
+  }
+};
+
+TEST(SpectralBound, holds_and_is_nearer_than_rows) {
+  Block block;
+  SpectralBound<2> bound;
+  const double near = block.of_all(bound), rows = block.of_rows();
+  const double highest =
+      squared_frequencies(linearise(block.approximation, block.cloud, block.material, 0.0)).maxCoeff();
+  EXPECT_GE(near, highest);
+  EXPECT_LE(near, rows / 1.25); // the step is at least 1.12 times as long
+  EXPECT_GE(std::sqrt(highest / near), 0.6);
+}
+
+TEST(SpectralBound, is_found_again_once_it_has_grown_and_holds_in_between) {
+  Block block;
+  SpectralBound<2> kept;
+  double highest = block.of_all(kept);
+  for (const double s : {0.99, 0.9, 0.7, 0.5, 1.3}) {
+    block.stretch(s);
+    SpectralBound<2> fresh;
+    const double near = block.of_all(fresh), held = block.of_all(kept);
+    EXPECT_GE(held, near * (1.0 - 0.05)) << s;
+    highest = std::max(highest, near);
+    EXPECT_LE(held, highest * 1.06) << s;
+  }
+}
+
+TEST(SpectralBound, of_points_without_stiffness_is_that_of_the_others) {
+  Block block;
+  SpectralBound<2> bound;
+  const double all = block.of_all(bound);
+  block.modulus[7] = 0.0;
+  bound.forget();
+  const double most = block.of_all(bound);
+  EXPECT_GT(most, 0.5 * all);
+  EXPECT_LE(most, all * (1.0 + 1e-12));
+  block.modulus[7] = block.modulus[6]; // what x says of it is nothing now
+  EXPECT_NEAR(block.of_all(bound), all, 1e-12 * all);
+  std::fill(block.modulus.begin(), block.modulus.end(), 0.0);
+  bound.forget();
+  EXPECT_EQ(block.of_all(bound), 0.0);
+  block.modulus[3] = std::nan("");
+  EXPECT_TRUE(std::isnan(block.of_all(bound)));
+}
+
+TEST(SpectralBound, has_the_same_bits_after_a_restart) {
+  Block block;
+  SpectralBound<2> first, second;
+  block.of_all(first);
+  MemoryArchive memory;
+  first.archive(memory);
+  memory.recall();
+  second.archive(memory);
+  block.stretch(0.995); // not so much that x would be found again
+  EXPECT_EQ(block.of_all(first), block.of_all(second));
+  SpectralBound<2> fresh;
+  EXPECT_NE(block.of_all(first), block.of_all(fresh));
+}
+
+} // namespace
+} // namespace cnem::testing
