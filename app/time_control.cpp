@@ -116,8 +116,9 @@ template<int dim> bool ReferenceRenewal::due(const ExplicitSolver<dim>& solver, 
   case input::Method::Lagrangian::periodic:
     break;
   }
-  if (method_->rereference_every > 0 && steps >= method_->rereference_every) return true;
-  const std::int64_t look_every = share < 1.0 ? 1 : 5;
+  const std::int64_t finest = solver.sub_steps();
+  if (method_->rereference_every > 0 && steps * finest >= method_->rereference_every) return true;
+  const std::int64_t look_every = share < 1.0 ? 1 : std::max<std::int64_t>(1, 5 / finest);
   return by_strain() && steps > 0 && steps % look_every == 0 &&
          solver.strain_since_reference() > share * method_->rereference_strain;
 }
@@ -132,8 +133,8 @@ bool ReferenceRenewal::renew(const ExplicitSolver<dim>& solver, const std::funct
   } catch (const GeometryError& error) {
     constexpr double too_far = 4.0;
     if (solver.strain_since_reference() > too_far) throw;
-    constexpr double wait = 100.0; // steps
-    last_ += static_cast<std::int64_t>(share * wait);
+    constexpr double wait = 100.0; // finest steps
+    last_ += static_cast<std::int64_t>(share * wait / solver.sub_steps());
     if (postponed_++ == 0)
       first_ =
           fmt::format("step {}, t = {:.4g} s ({})", solver.state().step, solver.state().time, error.what());

@@ -100,7 +100,10 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
   book(poses, step);
   list_points(poses, step);
   list_touches();
-  if (in_sub_steps_) add_sub_step(step.dt_mean);
+  if (in_sub_steps_)
+    add_sub_step(step.dt_mean);
+  else
+    merge_touches();
 }
 
 template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
@@ -240,6 +243,16 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
   return any;
 }
 
+/// Area times window of a contact of two bodies: the forces of either side may arrive alone, and over a macro
+/// step each has the same windows in all.
+template<int dim>
+double RigidContact<dim>::rubbing_between(const FacetHit<dim>& hit, BoundaryValues window) const {
+  if (window.empty()) return area_[hit.node];
+  double both = window[hit.node];
+  for (std::size_t a = 0; a < dim; ++a) both += hit.weight[a] * window[surface_.facets[hit.facet][a]];
+  return 0.5 * both * area_[hit.node];
+}
+
 template<int dim>
 bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step) {
   if (!law_.active) return false;
@@ -259,7 +272,7 @@ bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactSte
       contact.weight[a + 1] = -hit.weight[a];
     }
     contact.normal = hit.normal;
-    set_friction(contact, rubbing_[hit.node], step);
+    set_friction(contact, rubbing_between(hit, step.window), step);
     any |= add(contact, hit.start, hit.clearance, rest, step.dt);
   }
   return any;

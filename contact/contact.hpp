@@ -176,6 +176,7 @@ private:
   bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose, double dt);
   void set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const;
+  double rubbing_between(const FacetHit<dim>& hit, BoundaryValues window) const;
   const Friction& friction_of(const Contact<dim>& contact) const;
   void share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step);
   void scatter(const ContactStep<dim>& step);
@@ -183,6 +184,7 @@ private:
   void list_points(const Poses<dim>& poses, const ContactStep<dim>& step);
   void list_touches();
   void merge_points();
+  void merge_touches();
   void add_sub_step(double dt_mean);
 
   Tools<dim> tools_;
@@ -218,6 +220,7 @@ private:
     ContactWork bodies;                    ///< at their start
     double pressing = 0.0;                 ///< N s/m^(3−dim), between bodies
     std::vector<ContactPoint<dim>> points; ///< with impulses for forces
+    std::vector<BodyTouch<dim>> touches;
     IndexedVector<BoundaryNodeIndex, double> heat;
     IndexedVector<BoundaryNodeIndex, Vec<dim>> nodal_impulse;
   };

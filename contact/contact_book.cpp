@@ -136,14 +136,6 @@ template<int dim> void RigidContact<dim>::list_touches() {
     touch.area = 0.5 * surface_.area_against(node, contact.normal, end_, space_);
     touches_.push_back(touch);
   }
-  // one node against several facets
-  const auto by_node = [](const BodyTouch<dim>& a, const BodyTouch<dim>& b) { return a.node < b.node; };
-  std::stable_sort(touches_.begin(), touches_.end(), by_node);
-  for (auto from = touches_.begin(); from != touches_.end();) {
-    const auto to = std::upper_bound(from, touches_.end(), *from, by_node);
-    for (auto touch = from; touch != to; ++touch) touch->area /= static_cast<double>(to - from);
-    from = to;
-  }
 }
 
 namespace {

@@ -26,6 +26,31 @@ template<int dim> void RigidContact<dim>::merge_points() {
   points_.resize(kept);
 }
 
+/// A node against several facets has its area shared out to them; of a pair in several sub-steps the last
+/// counts.
+template<int dim> void RigidContact<dim>::merge_touches() {
+  const auto by_node = [](const BodyTouch<dim>& a, const BodyTouch<dim>& b) { return a.node < b.node; };
+  std::stable_sort(touches_.begin(), touches_.end(), by_node);
+  std::vector<BodyTouch<dim>> merged;
+  for (auto from = touches_.begin(); from != touches_.end();) {
+    const auto to = std::upper_bound(from, touches_.end(), *from, by_node);
+    const std::size_t first = merged.size();
+    for (auto touch = from; touch != to; ++touch) {
+      const auto same =
+          std::find_if(merged.begin() + static_cast<std::ptrdiff_t>(first), merged.end(),
+                       [&](const BodyTouch<dim>& other) { return other.facet == touch->facet; });
+      if (same == merged.end())
+        merged.push_back(*touch);
+      else
+        *same = *touch;
+    }
+    for (std::size_t k = first; k < merged.size(); ++k)
+      merged[k].area /= static_cast<double>(merged.size() - first);
+    from = to;
+  }
+  touches_ = std::move(merged);
+}
+
 namespace {
 
 ContactWork between(const ContactWork& from, const ContactWork& to) {
@@ -44,6 +69,7 @@ template<int dim> void RigidContact<dim>::begin_sub_steps() {
   sub_steps_.bodies = body_result_.total;
   sub_steps_.pressing = 0.0;
   sub_steps_.points.clear();
+  sub_steps_.touches.clear();
   sub_steps_.heat.assign(heat_.size(), 0.0);
   sub_steps_.nodal_impulse.assign(nodal_impulse_.size(), Vec<dim>::Zero());
 }
@@ -55,6 +81,7 @@ template<int dim> void RigidContact<dim>::add_sub_step(double dt_mean) {
     point.pressure *= dt_mean;
     sub_steps_.points.push_back(point);
   }
+  sub_steps_.touches.insert(sub_steps_.touches.end(), touches_.begin(), touches_.end());
   for (const BoundaryNodeIndex b : heat_.indices()) {
     sub_steps_.heat[b] += heat_[b];
     sub_steps_.nodal_impulse[b] += nodal_impulse_[b];
@@ -77,15 +104,19 @@ template<int dim> void RigidContact<dim>::end_sub_steps(double duration) {
     point.pressure /= duration;
   }
   merge_points();
+  std::swap(touches_, sub_steps_.touches);
+  merge_touches();
   std::swap(heat_, sub_steps_.heat);
   std::swap(nodal_impulse_, sub_steps_.nodal_impulse);
 }
 
 template void RigidContact<2>::merge_points();
+template void RigidContact<2>::merge_touches();
 template void RigidContact<2>::begin_sub_steps();
 template void RigidContact<2>::add_sub_step(double);
 template void RigidContact<2>::end_sub_steps(double);
 template void RigidContact<3>::merge_points();
+template void RigidContact<3>::merge_touches();
 template void RigidContact<3>::begin_sub_steps();
 template void RigidContact<3>::add_sub_step(double);
 template void RigidContact<3>::end_sub_steps(double);

@@ -37,11 +37,6 @@ Text with_damage(const Case& c) {
     if (material.damage) return fmt::format("with material '{}', which has a damage law", material.name);
   return "";
 }
-Text with_massive_tool(const Case& c) {
-  for (const Tool& tool : c.tools)
-    if (tool.drive) return fmt::format("with tool '{}', which has a mass", tool.name);
-  return "";
-}
 Text with_resampling(const Case& c) { return when(resampled(c), "with adapt.resample = true"); }
 
 /// The first of a case's materials that expands from another temperature than the initial one.
@@ -73,19 +68,6 @@ struct Pair {
 
 const std::vector<Pair>& pairs() {
   static const std::vector<Pair> table{
-      {"time.step.local", "local steps", "`time.mass_scaling`",
-       [](const Case& c) { return when(c.time.mass_scaling.has_value(), "with time.mass_scaling"); },
-       one_of_them, "either makes up for small cells", local},
-      {"time.step.local", "local steps", "`method.pressure_exchange`",
-       [](const Case& c) { return when(c.method.pressure_exchange > 0.0, "with method.pressure_exchange"); },
-       one_of_them, "neighbours of different steps would exchange volumes of different times", local},
-      {"time.step.local", "local steps", "a damage law", with_damage, one_of_them,
-       "the step of what breaks rises faster than levels may change", local},
-      {"time.step.local", "local steps", "`contact.deformable`",
-       [](const Case& c) { return when(c.contact.active, "with contact.deformable"); }, one_of_them,
-       "impulses between two bodies need both at one time", local},
-      {"time.step.local", "local steps", "a tool with a mass", with_massive_tool, "tools of given velocity",
-       "the tool would have to move with every level", local},
       {"time.step.local", "local steps", "`time.step.fixed`",
        [](const Case& c) { return when(c.time.fixed.has_value(), "and a fixed one"); }, one_of_them,
        "levels follow from the stable steps", local},

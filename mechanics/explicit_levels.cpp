@@ -4,7 +4,6 @@
 #include "mechanics/explicit_solver.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace cnem {
 
@@ -13,12 +12,14 @@ template<int dim> int ExplicitSolver<dim>::sub_steps() const {
   return 1 << *std::max_element(next_levels_.begin(), next_levels_.end());
 }
 
-/// Stresses and forces of a range as impulses over its own step, in units of the finest one.
+/// Stresses of a range, and forces of its nodes where it is one of nodes too, as impulses over its own step,
+/// in units of the finest one.
 template<int dim> void ExplicitSolver<dim>::scale_to_impulses(const LevelRange& range) {
   const double steps = 1 << range.level;
   for (std::size_t c = dim * dim * range.begin; c < dim * dim * range.end; ++c) stress_.columns[c] *= steps;
   if constexpr (dim == 2)
     for (std::size_t p = range.begin; p < range.end; ++p) stress_.out_of_plane[p] *= steps;
+  if (!approximation_.mechanics.nodal) return;
   for (Field& component : state_.node.force)
     for (std::size_t i = range.begin; i < range.end; ++i) component[i] *= steps;
 }
@@ -33,7 +34,7 @@ template<int dim> void ExplicitSolver<dim>::set_levels(typename LocalSteps<dim>:
     for (const NodeIndex i : conditions_.ties.nodes()) finest[index_of(i)] = true;
     local_.set_levels(std::move(level), approximation_.mechanics, approximation_.links, finest);
   } else {
-    local_.set_one_level(state_.point.size(), state_.node.size());
+    local_.set_one_level(approximation_.mechanics);
   }
   each([&](Term<dim>& term) { term.set_levels(body()); });
 }
@@ -41,14 +42,6 @@ template<int dim> void ExplicitSolver<dim>::set_levels(typename LocalSteps<dim>:
 /// The levels in use on new operators, with the impulses they make there; what the new neighbourhoods ask for
 /// comes with the next step.
 template<int dim> void ExplicitSolver<dim>::rebuild_levels() {
-  if (local_.on()) {
-    require(model_.method->promises(), Promise::one_point_per_node, model_.method->name(),
-            "local time steps");
-    each([](Term<dim>& term) {
-      if (const char* what = term.needs_one_level())
-        throw InputError(fmt::format("local time steps do not take {}", what));
-    });
-  }
   set_levels(local_.level());
   next_levels_.clear();
   if (local_.on()) {
@@ -88,7 +81,7 @@ template<int dim> void ExplicitSolver<dim>::change_levels(double finest) {
     for (const Energy* energy : term.energies()) booked.push_back(energy->value);
   });
   const Fields<dim> made = node.force;
-  const std::size_t blocks = next_levels_.size();
+  const std::size_t blocks = local_.node_blocks();
   std::vector<double> weight(blocks);
   for (std::size_t b = 0; b < blocks; ++b) weight[b] = local_.weight(b * LocalSteps<dim>::block);
   restore_columns();

@@ -88,14 +88,14 @@ template<int dim> void ExplicitSolver<dim>::move(int activity, double dt, double
 /// that the last stresses were made at.
 template<int dim> void ExplicitSolver<dim>::update_stress(int activity, int before, double dt) {
   PointState<dim>& point = state_.point;
-  const DuePoints due{local_.points(activity), activity == local_.highest(), dt};
+  const DuePoints due{local_.points(activity), activity, activity == local_.highest(), dt};
   const Body<dim> body = this->body();
   edge_ = {};
   each([&](Term<dim>& term) { term.begin_stress(body, due); });
   if (!due.whole)
     for_each_range(local_.silenced(before), [&](const LevelRange& range) {
       fill_records(stress_.columns, dim * dim, range, 0.0);
-      fill_records(stress_.out_of_plane, 1, range, 0.0);
+      if constexpr (dim == 2) fill_records(stress_.out_of_plane, 1, range, 0.0);
     });
   const auto points = plasticity::stress_points(point);
   std::vector<std::ptrdiff_t> bad(due.ranges.size(), -1);
@@ -120,10 +120,13 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces(int activity) {
   const Body<dim> body = this->body();
   Fields<dim>& force = state_.node.force;
   each([&](Term<dim>& term) { term.begin_forces(body, activity); });
-  if (body.operators().nodal)
+  const bool nodal = body.operators().nodal;
+  if (nodal || local_.highest() > 0)
     for_each_range(local_.points(activity), [&](const LevelRange& range) {
-      for (Field& component : force) fill_records(component, 1, range, 0.0);
-      each([&](Term<dim>& term) { term.add_forces(body, activity, range); });
+      if (nodal) {
+        for (Field& component : force) fill_records(component, 1, range, 0.0);
+        each([&](Term<dim>& term) { term.add_forces(body, activity, range); });
+      }
       if (range.level > 0) scale_to_impulses(range);
     });
   each([&](Term<dim>& term) { term.end_forces(body, activity); });

@@ -15,7 +15,7 @@ namespace {
 
 template<int dim> constexpr std::size_t block = LocalSteps<dim>::block;
 
-std::size_t blocks_of(std::size_t nodes, std::size_t size) { return (nodes + size - 1) / size; }
+std::size_t blocks_of(std::size_t items, std::size_t size) { return (items + size - 1) / size; }
 
 /// [node] level of its finest point.
 template<int dim>
@@ -23,7 +23,7 @@ std::vector<std::int8_t> finest_point(const DiscreteOperators<dim>& op,
                                       const typename LocalSteps<dim>::Levels& level) {
   std::vector<std::int8_t> finest(index_of(op.nodes));
   for (std::size_t j = 0; j < finest.size(); ++j) {
-    std::int8_t least = level[j / block<dim>];
+    std::int8_t least = op.nodal ? level[j / block<dim>] : std::numeric_limits<std::int8_t>::max();
     for (std::size_t e = index_of(op.col_begin[j]); e < index_of(op.col_begin[j + 1]); ++e)
       least = std::min(least, level[index_of(op.point[e]) / block<dim>]);
     finest[j] = least;
@@ -32,10 +32,10 @@ std::vector<std::int8_t> finest_point(const DiscreteOperators<dim>& op,
 }
 
 /// Updates of all points over one unit of time.
-double cost(const std::vector<std::int8_t>& level, std::size_t nodes, std::size_t size, double finest) {
+double cost(const std::vector<std::int8_t>& level, std::size_t points, std::size_t size, double finest) {
   double sum = 0.0;
   for (std::size_t b = 0; b < level.size(); ++b)
-    sum += static_cast<double>(std::min(size, nodes - b * size)) / static_cast<double>(1 << level[b]);
+    sum += static_cast<double>(std::min(size, points - b * size)) / static_cast<double>(1 << level[b]);
   return sum / finest;
 }
 
@@ -87,9 +87,9 @@ template<int dim>
 typename LocalSteps<dim>::Levels LocalSteps<dim>::choose(const DiscreteOperators<dim>& op,
                                                          const StabilisationLinks<dim>& links,
                                                          const Field& stable) {
-  const std::size_t nodes = index_of(op.nodes);
+  const std::size_t points = index_of(op.points);
   const auto cost_of = [&](const Levels& level) {
-    return cost(level, nodes, block, finest_step(level, stable).first);
+    return cost(level, points, block, finest_step(level, stable).first);
   };
   constexpr double worth_changing = 1.05;
   const bool fits = level_.size() == stable.size();
@@ -128,27 +128,27 @@ template<int dim>
 void LocalSteps<dim>::set_levels(Levels level, const DiscreteOperators<dim>& op,
                                  const StabilisationLinks<dim>& links, const std::vector<bool>& finest) {
   level_ = std::move(level);
-  const std::size_t nodes = index_of(op.nodes);
-  level_.resize(blocks_of(nodes, block), 0);
+  const std::size_t nodes = index_of(op.nodes), points = index_of(op.points);
+  level_.resize(blocks_of(points, block), 0);
   highest_ = *std::max_element(level_.begin(), level_.end());
   const std::vector<std::int8_t> least = finest_point(op, level_);
-  kick_ = level_;
+  kick_.assign(blocks_of(nodes, block), std::numeric_limits<std::int8_t>::max());
   for (std::size_t i = 0; i < nodes; ++i) kick_[i / block] = std::min(kick_[i / block], least[i]);
   move_ = kick_;
   for (std::size_t i = 0; i < nodes; ++i)
     if (finest[i]) move_[i / block] = 0;
   std::vector<bool> silent(level_.size(), false);
-  for (std::size_t p = 0; p < nodes; ++p)
+  for (std::size_t p = 0; p < points; ++p)
     for (std::size_t e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e)
       if (kick_[index_of(op.node[e]) / block] < level_[p / block]) silent[p / block] = true;
   split(links);
-  list(nodes, silent);
+  list(op, silent);
 }
 
-template<int dim> void LocalSteps<dim>::set_one_level(std::size_t points, std::size_t nodes) {
+template<int dim> void LocalSteps<dim>::set_one_level(const DiscreteOperators<dim>& op) {
   level_.clear();
   highest_ = 0;
-  updates_ = static_cast<double>(nodes);
+  updates_ = static_cast<double>(op.nodes);
   due_.assign(1, {});
   Due& due = due_.front();
   const auto in_blocks = [](std::size_t n, bool marked) {
@@ -157,9 +157,9 @@ template<int dim> void LocalSteps<dim>::set_one_level(std::size_t points, std::s
       ranges.push_back({begin, std::min(begin + block_size, n), 0, marked});
     return ranges;
   };
-  due.points = in_blocks(points, false);
-  due.kicked = in_blocks(nodes, points == nodes);
-  due.moved = in_blocks(nodes, true);
+  due.points = in_blocks(index_of(op.points), false);
+  due.kicked = in_blocks(index_of(op.nodes), op.nodal);
+  due.moved = in_blocks(index_of(op.nodes), true);
 }
 
 template<int dim> void LocalSteps<dim>::split(const StabilisationLinks<dim>& links) {
@@ -183,19 +183,28 @@ template<int dim> void LocalSteps<dim>::split(const StabilisationLinks<dim>& lin
   }
 }
 
-template<int dim> void LocalSteps<dim>::list(std::size_t nodes, const std::vector<bool>& silent) {
+template<int dim>
+void LocalSteps<dim>::list(const DiscreteOperators<dim>& op, const std::vector<bool>& silent) {
+  const std::size_t nodes = index_of(op.nodes), points = index_of(op.points);
   due_.assign(at(highest_) + 1, {});
   updates_ = 0.0;
   for (std::size_t b = 0; b < level_.size(); ++b) {
+    const std::size_t begin = b * block, end = std::min(begin + block, points);
+    for (int a = level_[b]; a <= highest_; ++a) {
+      Due& due = due_[at(a)];
+      append(due.points, begin, end, level_[b], has_coarse_[b]);
+      if (level_[b] > 0 && silent[b]) append(due.silenced, begin, end, level_[b], true);
+    }
+  }
+  for (std::size_t b = 0; b < kick_.size(); ++b) {
     const std::size_t begin = b * block, end = std::min(begin + block, nodes);
-    updates_ += static_cast<double>((end - begin) << (highest_ - level_[b]));
+    const int finest = op.nodal ? level_[b] : kick_[b];
+    updates_ += static_cast<double>((end - begin) << (highest_ - finest));
     for (int a = 0; a <= highest_; ++a) {
       Due& due = due_[at(a)];
-      const bool points = level_[b] <= a, kicked = kick_[b] <= a;
-      if (points) append(due.points, begin, end, level_[b], has_coarse_[b]);
-      if (kicked) append(due.kicked, begin, end, kick_[b], points);
+      const bool kicked = kick_[b] <= a;
+      if (kicked) append(due.kicked, begin, end, kick_[b], op.nodal && level_[b] <= a);
       if (move_[b] <= a) append(due.moved, begin, end, move_[b], kicked);
-      if (points && level_[b] > 0 && silent[b]) append(due.silenced, begin, end, level_[b], true);
     }
   }
 }

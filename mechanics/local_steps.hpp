@@ -30,17 +30,17 @@ struct LevelRange {
   bool marked; ///< what it means is said where ranges are handed out
 };
 
-/// Levels of stress points at nodes, in blocks of `block` so that kernels work on ranges. A point of level l
-/// steps by 2^l finest steps. All points that share a node, and so all stencils that overlap, are within one
-/// level of each other. A node moves at the rate of its finest point: when a point is due, all nodes of its
-/// stencil are at the present time.
+/// Levels of stress points, in blocks of `block` so that kernels work on ranges; nodes come in blocks of the
+/// same size. A point of level l steps by 2^l finest steps. All points that share a node, and so all stencils
+/// that overlap, are within one level of each other. A node moves at the rate of its finest point: when a
+/// point is due, all nodes of its stencil are at the present time.
 ///
 /// A macro step is 2^L finest steps, L the highest level. In it the *activity* of the state after sub-step s
 /// is the number of times 2 divides s, L at its end; points of level ≤ activity are due.
 template<int dim> class LocalSteps {
 public:
   static constexpr std::size_t block = 16; ///< whole vectors of every instruction set
-  using Levels = std::vector<std::int8_t>; ///< [block]
+  using Levels = std::vector<std::int8_t>; ///< [block of points]
 
   explicit LocalSteps(LocalStepControl control = {}) : control_(control) {}
 
@@ -68,23 +68,25 @@ public:
                   const std::vector<bool>& finest);
 
   /// One level: all points and all nodes in every step.
-  void set_one_level(std::size_t points, std::size_t nodes);
+  void set_one_level(const DiscreteOperators<dim>& operators);
 
   /// Carries the levels out or in; `set_levels` must follow.
   void archive(Archive& archive);
 
   const Levels& level() const { return level_; }
+  int level_of_point(std::size_t p) const { return highest_ == 0 ? 0 : int{level_[p / block]}; }
   int highest() const { return highest_; }
   int sub_steps() const { return 1 << highest_; }
   /// After sub-step s = 1 … 2^L of a macro step.
   int activity(int s) const;
-  /// Updates of stress points in a macro step.
+  /// Updates of nodes, by their finest point, in a macro step.
   double updates() const { return updates_; }
 
   // What is due at an activity.
   /// Stress points; marked: some are linked to coarser neighbours.
   const std::vector<LevelRange>& points(int activity) const { return due_[at(activity)].points; }
-  /// Nodes that receive impulses, at the level of their finest point; marked: their own points are due too.
+  /// Nodes that receive impulses, at the level of their finest point; marked: with nodal operators, their own
+  /// points are due too.
   const std::vector<LevelRange>& kicked(int activity) const { return due_[at(activity)].kicked; }
   /// Nodes that move, at the level of their motion; marked: they are kicked before.
   const std::vector<LevelRange>& moved(int activity) const { return due_[at(activity)].moved; }
@@ -99,6 +101,7 @@ public:
   /// is multiplied with its own step.
   const StabilisationLinks<dim>& coarse_links() const { return coarse_; }
 
+  std::size_t node_blocks() const { return kick_.size(); }
   /// 2^level of the impulses of node i.
   double weight(std::size_t node) const {
     return highest_ == 0 ? 1.0 : static_cast<double>(1 << kick_[node / block]);
@@ -112,17 +115,17 @@ private:
   };
   static std::size_t at(int i) { return index_of(i); }
   void split(const StabilisationLinks<dim>& links);
-  void list(std::size_t nodes, const std::vector<bool>& silent);
+  void list(const DiscreteOperators<dim>& operators, const std::vector<bool>& silent);
 
   LocalStepControl control_;
   Levels level_; ///< of points
-  Levels kick_;  ///< of the finest point that acts on a node of the block
-  Levels move_;
+  Levels kick_;  ///< [block of nodes] of the finest point that acts on one of them
+  Levels move_;  ///< [block of nodes]
   int highest_ = 0;
   double updates_ = 0.0;
   double chosen_cost_ = 0.0; ///< 1/s, updates over time when levels were compared last
   StabilisationLinks<dim> own_, coarse_;
-  std::vector<bool> has_coarse_; ///< [block]
+  std::vector<bool> has_coarse_; ///< [block of points]
   std::vector<Due> due_;         ///< [activity]
 };
 

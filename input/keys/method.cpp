@@ -49,7 +49,7 @@ void add_method(Keys& k) {
       .fallback("\"periodic\"");
   k.add("method.rereference", table, "When `periodic` takes a new reference: whichever comes first.")
       .always();
-  k.add("method.rereference.every", integer, "Steps; 0: not by count.")
+  k.add("method.rereference.every", integer, "Steps (with local steps the finest ones); 0: not by count.")
       .in({.low = 0, .high = 1e9})
       .fallback("0");
   k.add("method.rereference.strain", quantity,

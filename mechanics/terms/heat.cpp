@@ -53,7 +53,7 @@ public:
   // With local time steps dissipation is that of each point's own step, and is heat at once.
   void begin_stress(const Body<dim>&, const DuePoints& due) override { sums_.assign(due.ranges.size(), 0.0); }
   void after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) override {
-    if (!body.model.thermal || due.whole) return;
+    if (!body.model.thermal || due.whole || !body.operators().nodal) return;
     NodeState<dim>& node = body.state.node;
     double& sum = sums_[due.index(range)];
     for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -62,8 +62,19 @@ public:
       sum += q;
     }
   }
-  void end_stress(const Body<dim>&, const DuePoints&) override {
+  void end_stress(const Body<dim>& body, const DuePoints& due) override {
     for (const double heat : sums_) generated_.value += heat;
+    if (!body.model.thermal || due.whole || body.operators().nodal) return;
+    NodeState<dim>& node = body.state.node;
+    generated_.value += sum_ranges(body.levels.kicked(due.activity), [&](const LevelRange& range) {
+      double sum = 0.0;
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        const double q = with_heat_of_points(body, i, due.activity, 0.0);
+        node.temperature[i] += q / node.heat_capacity[i];
+        sum += q;
+      }
+      return sum;
+    });
   }
 
   void end_step(const Body<dim>& body, double dt) override {
@@ -89,6 +100,19 @@ private:
     const plasticity::Material& material = body.material_of(i);
     return material.taylor_quinney * body.state.point.dissipation[i] * body.state.node.mass[i] /
            material.density;
+  }
+
+  /// `heat` with what node i takes of points that are due, with the shape functions, J/m^(3−dim).
+  static double with_heat_of_points(const Body<dim>& body, std::size_t i, int activity, double heat) {
+    const DiscreteOperators<dim>& op = body.operators();
+    const PointState<dim>& point = body.state.point;
+    for (auto e = index_of(op.col_begin[i]); e < index_of(op.col_begin[i + 1]); ++e) {
+      const auto p = index_of(op.point[e]);
+      if (body.levels.level_of_point(p) <= activity)
+        heat += body.material_of(p).taylor_quinney * point.dissipation[p] * point.stress_free[p] *
+                op.weighted_value[e];
+    }
+    return heat;
   }
 
   void measure_stable_step(const Body<dim>& body) {
@@ -121,21 +145,13 @@ private:
   /// functions.
   void generate(const Body<dim>& body) {
     NodeState<dim>& node = body.state.node;
-    const PointState<dim>& point = body.state.point;
     const DiscreteOperators<dim>& op = body.operators();
     generated_.value += sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
       double sum = 0.0;
       for (std::size_t i = begin; i < end; ++i) {
         double heat = node.contact_heat[i];
-        if (op.nodal) {
-          heat += plastic_heat_of_node(body, i);
-        } else {
-          for (auto e = index_of(op.col_begin[i]); e < index_of(op.col_begin[i + 1]); ++e) {
-            const auto p = index_of(op.point[e]);
-            heat += body.material_of(p).taylor_quinney * point.dissipation[p] * point.stress_free[p] *
-                    op.weighted_value[e];
-          }
-        }
+        heat = op.nodal ? heat + plastic_heat_of_node(body, i)
+                        : with_heat_of_points(body, i, body.levels.highest(), heat);
         node.temperature[i] += heat / node.heat_capacity[i];
         sum += heat;
       }

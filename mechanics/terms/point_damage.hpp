@@ -31,7 +31,6 @@ public:
 
   FieldTable* fields() override { return &table_; }
   std::vector<Energy*> energies() override { return {&released_}; }
-  const char* needs_one_level() const override { return active_ ? "damage laws" : nullptr; }
   void limit(const Body<dim>& body, StepLimit& limit) override;
   void carried(const Body<dim>& body) override;
   void renew(const Body<dim>& body) override;

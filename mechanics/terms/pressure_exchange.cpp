@@ -61,22 +61,29 @@ void PressureExchange<dim>::reset(const std::vector<Facet<dim>>& facets, Field b
   drift_.resize(bulk_modulus_.size(), 0.0);
 }
 
+template<int dim> void PressureExchange<dim>::remember(const Field& pressure, const DuePoints& due) {
+  before_.resize(pressure.size());
+  for_each_range(due.ranges, [&](const LevelRange& range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) before_[i] = pressure[i];
+  });
+}
+
 template<int dim>
 typename PressureExchange<dim>::Change
 PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
-                             const Field& reference, double dt, PointState<dim>& point,
+                             const Field& reference, const DuePoints& due, PointState<dim>& point,
                              ColumnStress<dim>& stress) {
   constexpr std::size_t stride = dim + 4, increment = dim + 1, strength = dim + 2, room = dim + 3;
-  const std::size_t n = point.size();
+  const auto level_of = [&](std::size_t i) { return level_.empty() ? 0 : int{level_[i]}; };
   const std::int32_t *row = operators.row_begin.data(), *first = links.begin.data();
   const NodeIndex *node = operators.node.data(), *neighbour = links.neighbour.data();
   const double *pressure = point.pressure.data(), *weight = links.weight.data();
   const auto gradient = pointers(operators.gradient);
-  for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+  for_each_range(due.ranges, [&](const LevelRange& range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
       double* own = record_.data() + stride * i;
       own[increment] = 0.0;
-      if (boundary_[i] || !(point.plastic_rate[i] > 0.0)) continue;
+      if (level_of(i) > due.activity || boundary_[i] || !(point.plastic_rate[i] > 0.0)) continue;
       double g[dim] = {};
       for (std::int32_t e = row[i]; e < row[i + 1]; ++e) {
         const double jump = pressure[index_of(point_of(node[e]))] - pressure[i];
@@ -84,23 +91,24 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       }
       for (std::size_t k = 0; k < dim; ++k) own[1 + k] = g[k];
       own[0] = pressure[i];
-      own[increment] = point.plastic_rate[i] * dt;
+      own[increment] = point.plastic_rate[i] * due.dt;
       own[strength] = point.equivalent_stress[i];
       own[room] = operators.volume[i] / (first[i + 1] - first[i]);
     }
   });
-  std::vector<Change> energy(blocks(n));
-  for_each_block(n, [&](std::size_t begin, std::size_t end) {
-    Change& sum = energy[begin / block_size];
-    for (std::size_t i = begin; i < end; ++i) {
+  std::vector<Change> energy(due.ranges.size());
+  for_each_range(due.ranges, [&](const LevelRange& range) {
+    Change& sum = energy[due.index(range)];
+    for (std::size_t i = range.begin; i < range.end; ++i) {
       const double* own = record_.data() + stride * i;
+      const int level = level_of(i);
       if (own[increment] == 0.0) continue;
       const double kappa = bulk_modulus_[i];
       double flow = 0.0;
       for (std::int32_t e = first[i]; e < first[i + 1]; ++e) {
         const auto j = index_of(neighbour[e]);
         const double* other = record_.data() + stride * j;
-        if (other[increment] == 0.0 || bulk_modulus_[j] != kappa) continue;
+        if (level_of(j) > due.activity || other[increment] == 0.0 || bulk_modulus_[j] != kappa) continue;
         double linear = 0.0, distance2 = 0.0;
         for (std::size_t k = 0; k < dim; ++k) {
           const double X = reference[dim * j + k] - reference[dim * i + k];
@@ -108,8 +116,10 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
           distance2 += X * X;
         }
         const double jump = other[0] - own[0] - 0.5 * linear;
-        const double plastic = alpha_ * weight[e] * distance2 * 3.0 *
-                               std::min(own[increment], other[increment]) / (own[strength] + other[strength]);
+        const double flowed =
+            std::min(own[increment], other[increment]) * (1 << std::max(level, level_of(j)));
+        const double plastic =
+            alpha_ * weight[e] * distance2 * 3.0 * flowed / (own[strength] + other[strength]);
         flow += std::min(plastic, 0.5 * std::min(own[room], other[room]) / kappa) * jump;
       }
       if (flow == 0.0) continue;
@@ -138,14 +148,28 @@ template<int dim> void PressureExchange<dim>::attach(const Body<dim>& body) {
   reset(body.conditions.cloud.facets, std::move(bulk_modulus));
 }
 
-template<int dim> void PressureExchange<dim>::begin_stress(const Body<dim>& body, const DuePoints&) {
-  if (active(body.approximation.links)) remember(body.state.point.pressure);
+template<int dim> void PressureExchange<dim>::set_levels(const Body<dim>& body) {
+  level_.clear();
+  if (!active(body.approximation.links) || body.levels.highest() == 0) return;
+  const DiscreteOperators<dim>& operators = body.operators();
+  const std::vector<std::int8_t>& of_block = body.levels.level();
+  level_.resize(index_of(operators.points));
+  for (std::size_t i = 0; i < level_.size(); ++i) {
+    level_[i] = of_block[i / LocalSteps<dim>::block];
+    for (std::int32_t e = operators.row_begin[i]; e < operators.row_begin[i + 1]; ++e)
+      level_[i] =
+          std::max(level_[i], of_block[index_of(operators.node[index_of(e)]) / LocalSteps<dim>::block]);
+  }
+}
+
+template<int dim> void PressureExchange<dim>::begin_stress(const Body<dim>& body, const DuePoints& due) {
+  if (active(body.approximation.links)) remember(body.state.point.pressure, due);
 }
 
 template<int dim> void PressureExchange<dim>::end_stress(const Body<dim>& body, const DuePoints& due) {
   if (!active(body.approximation.links)) return;
-  const Change change = apply(body.operators(), body.approximation.links, body.reference, due.dt,
-                              body.state.point, body.stress);
+  const Change change =
+      apply(body.operators(), body.approximation.links, body.reference, due, body.state.point, body.stress);
   dissipated_.value += change.dissipated;
   body.plastic_offset += change.plastic;
 }

@@ -16,6 +16,9 @@ namespace cnem {
 /// i.) w_ij Δp_ij changes its sign alone when i and j are exchanged, so that Σ V δθ = 0; nodes do not move
 /// and momenta are untouched, as are constant and linear pressures and elastic zones. What b_e's J and the
 /// geometric one part by is Σ δθ of each node.
+///
+/// With local time steps a link exchanges when all points whose pressures enter are due, over the time since
+/// they were due together: pressures of one time, and as much out of i as into j.
 template<int dim> class PressureExchange : public Term<dim> {
 public:
   explicit PressureExchange(double alpha) : alpha_(alpha), table_("solver/point", alpha > 0.0) {}
@@ -24,8 +27,8 @@ public:
 
   /// Takes a new reference: its boundary, and the bulk moduli of the nodes, Pa.
   void reset(const std::vector<Facet<dim>>& facets, Field bulk_modulus);
-  /// Keeps the pressures of t_n for the energy of this step.
-  void remember(const Field& pressure) { before_ = pressure; }
+  /// Keeps the pressures of points that are due, of the start of their step, for the energy of this step.
+  void remember(const Field& pressure, const DuePoints& due);
 
   /// What an exchange has done to the energies of the body, J/m^(3−dim).
   struct Change {
@@ -33,9 +36,11 @@ public:
         0.0; ///< −Σ V ½(τⁿ + τⁿ⁺¹) δθ, τ = −p, and stored energy of the volume that was traded
     double plastic = 0.0; ///< plastic work of the past counted in that volume, to be given back
   };
-  /// One exchange, for a nodal method. `reference` [node · dim + component]; `stress` gets the change of P.
+  /// One exchange of what is due, for a nodal method. `reference` [node · dim + component]; `stress` gets the
+  /// change of P.
   Change apply(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
-               const Field& reference, double dt, PointState<dim>& point, ColumnStress<dim>& stress);
+               const Field& reference, const DuePoints& due, PointState<dim>& point,
+               ColumnStress<dim>& stress);
 
   /// Σ δθ since the start, [node]: log of b_e's J over the geometric one, up to what re-references add. Empty
   /// when there was no exchange.
@@ -45,6 +50,7 @@ public:
   std::vector<Energy*> energies() override { return {&dissipated_}; }
   std::vector<Metric> metrics(const BodyView<dim>& body) const override;
   void attach(const Body<dim>& body) override;
+  void set_levels(const Body<dim>& body) override;
   void begin_stress(const Body<dim>& body, const DuePoints& due) override;
   void end_stress(const Body<dim>& body, const DuePoints& due) override;
 
@@ -54,8 +60,9 @@ private:
   ScalarField drift_{table_, {"volume_drift", "1", Carry::mass_mean, Checkpoint::holds}};
   ScalarField bulk_modulus_{table_, {"bulk_modulus", "Pa"}};
   ScalarField before_{table_, {"pressure_before", "Pa"}};
-  std::vector<char> boundary_; ///< [node]
-  Field record_;               ///< [node] p, g, Δγ (0: no part in it), σ, V/n
+  std::vector<char> boundary_;     ///< [node]
+  std::vector<std::int8_t> level_; ///< [node] of the coarsest point in its stencil; empty: one level
+  Field record_;                   ///< [node] p, g, Δγ (0: no part in it), σ, V/n
   Energy dissipated_{"pressure_exchange", EnergyKind::dissipated};
 };
 

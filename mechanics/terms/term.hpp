@@ -59,8 +59,9 @@ template<int dim> double kinetic_energy(const BodyView<dim>& body);
 /// The points that are due.
 struct DuePoints {
   const std::vector<LevelRange>& ranges;
-  bool whole; ///< all points of the body are due
-  double dt;  ///< s, the finest step
+  int activity; ///< mechanics/local_steps.hpp
+  bool whole;   ///< all points of the body are due
+  double dt;    ///< s, the finest step
 
   /// s, of a range.
   double own(const LevelRange& range) const { return dt * (1 << range.level); }
@@ -99,8 +100,6 @@ public:
   virtual void audit(const BodyView<dim>&) {}
   /// Its columns of histories.
   virtual std::vector<Metric> metrics(const BodyView<dim>&) const { return {}; }
-  /// What it is called where it takes no local time steps; null: it does.
-  virtual const char* needs_one_level() const { return nullptr; }
   /// Its part in the limit of the step; it may change the wave moduli of points.
   virtual void limit(const Body<dim>&, StepLimit&) {}
   /// Whatever else a checkpoint holds.

@@ -57,7 +57,7 @@ std::string with_particles(std::string text) {
   return text.insert(text.find(table) + table.size(), "name = \"sph\"\nkernel = \"wendland_c2\"\n");
 }
 
-// Local time steps in a block that is fine where a punch's corner goes in.
+// Local time steps and an exchange of pressures in a block that is fine where a punch's corner goes in.
 const std::string levels = R"toml(
 [time]
 end = "1.5 us"
@@ -73,6 +73,7 @@ pieces = ["right"]
 pressure = "20 MPa"
 [method]
 bulk_viscosity = { linear = 0.06, quadratic = 1.2 }
+pressure_exchange = 0.3
 rereference = { every = 20, strain = 0.05 }
 [output]
 history_every = "0 s"
@@ -85,6 +86,13 @@ every_wall = "0 s"
 keep = 3
 )toml" + base_and_punch("3", "0.5") +
                            steel_304l;
+
+/// The same in triangles.
+std::string in_triangles(std::string text) {
+  const std::string from = "pressure_exchange", to = "[output]\n";
+  const std::size_t begin = text.find(from);
+  return text.replace(begin, text.find(to) - begin, "name = \"fe-triangles\"\nlagrangian = \"total\"\n");
+}
 
 // Every load and support, functions of Laplace on a jittered cloud, a row of history at every step.
 const std::string loaded = R"toml(
@@ -301,6 +309,15 @@ picture_fields = ["softening"]
 every_steps = 100
 )toml" + steel_304l;
 
+/// The slug is knocked off by a punch with a mass, in local time steps of scaled masses.
+std::string in_levels(std::string text) {
+  const std::string motion = "velocity = \"0 -60 m/s\"\n", spacing = "tool_spacing = \"0.15 mm\"\n";
+  text.replace(text.find(motion), motion.size(),
+               "mass = \"1 kg/m\"\ninitial_velocity = \"0 -60 m/s\"\nforce = \"0 -1e5 N/m\"\n");
+  text.replace(text.find(spacing), spacing.size(), "tool_spacing = \"0.05 mm\"\n");
+  return text + "[time.step]\nlocal = true\n[time.mass_scaling]\nfactor = 2\n";
+}
+
 /// The slug is round: its axis is the symmetry plane of the other.
 std::string of_revolution(std::string text) {
   const std::string plane = "[boundary.left]\npieces = [\"left\"]\nsymmetry = true\n";
@@ -376,12 +393,21 @@ keep = 3
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
-  static const std::vector<SmallCase> cases{
-      {"punched", punched},     {"levels", levels},       {"loaded", loaded},
-      {"round_bar", round_bar}, {"triangles", triangles}, {"breaking", breaking},
-      {"adapted", adapted},     {"separated", separated}, {"round_slug", of_revolution(separated)},
-      {"touching", touching},   {"set_back", set_back},   {"particles", with_particles(punched)},
-      {"space", space_case()}};
+  static const std::vector<SmallCase> cases{{"punched", punched},
+                                            {"levels", levels},
+                                            {"levels_of_triangles", in_triangles(levels)},
+                                            {"loaded", loaded},
+                                            {"round_bar", round_bar},
+                                            {"triangles", triangles},
+                                            {"breaking", breaking},
+                                            {"adapted", adapted},
+                                            {"separated", separated},
+                                            {"round_slug", of_revolution(separated)},
+                                            {"knocked_off", in_levels(separated)},
+                                            {"touching", touching},
+                                            {"set_back", set_back},
+                                            {"particles", with_particles(punched)},
+                                            {"space", space_case()}};
   return cases;
 }
 

@@ -70,16 +70,23 @@ bool crosses_itself(const ExplicitSolver<2>& solver) {
   return false;
 }
 
-class Blocks : public ::testing::TestWithParam<double> {};
+/// Spacing of the second body over that of the first.
+struct Pairing {
+  double ratio;
+  bool local = false;
+};
+
+class Blocks : public ::testing::TestWithParam<Pairing> {};
 
 TEST_P(Blocks, that_collide_exchange_velocities_after_2_l_over_c) {
   const double length = 1e-2, width = 1e-3, h = 1.25e-4, speed = 5.0, gap = 1e-6;
   plasticity::Material material = steel();
   material.elasticity.poisson = 0.0; // one-dimensional: c = √(E/ρ) exactly
   Problem<2> model = model_of(two_blocks(corners({-length - gap, 0}, {-gap, width}),
-                                         corners({gap, 0}, {length + gap, width}), h, GetParam() * h),
+                                         corners({gap, 0}, {length + gap, width}), h, GetParam().ratio * h),
                               Method::cnem, material);
   model.contact = bodies(0.0);
+  model.local = {.on = GetParam().local, .least_gain = 0.0};
   ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
     return {x.x() < 0.0 ? speed : -speed, 0};
   });
@@ -89,18 +96,22 @@ TEST_P(Blocks, that_collide_exchange_velocities_after_2_l_over_c) {
   const Vec2 total = momenta(solver).linear;
   expect_bar_impact(solver, gap / speed, duration, material.density * c * speed * width,
                     [&] { return solver.conditions().contact.body_result().pressing; });
+  EXPECT_EQ(solver.sub_steps(), GetParam().local ? 2 : 1);
   EXPECT_LT((momenta(solver).linear - total).norm(), 1e-13 * mass * speed) << "momentum is exact";
   EXPECT_NEAR(share_of(solver, left).momentum.x(), -mass * speed, 0.03 * mass * speed);
   EXPECT_GT(solver.ledger()["contact_impact"], 0.0);
   EXPECT_LT(solver.ledger()["contact_impact"], 0.03 * solver.ledger().initial());
 }
-INSTANTIATE_TEST_SUITE_P(spacing_ratio, Blocks, ::testing::Values(1.0, 0.8, 1.7));
+INSTANTIATE_TEST_SUITE_P(spacing_ratio, Blocks,
+                         ::testing::Values(Pairing{1.0}, Pairing{0.8}, Pairing{1.7}, Pairing{0.5, true}));
 
-TEST(SlidingBlock, decelerates_by_mu_g_and_heats_both_sides_alike) {
+class SlidingBlock : public ::testing::TestWithParam<Pairing> {};
+
+TEST_P(SlidingBlock, decelerates_by_mu_g_and_heats_both_sides_alike) {
   const double h = 2.5e-4, speed = 20.0, g = 1e5, mu = 0.2, time = 2e-4, gap = 1e-9;
   // The lower block hangs below the upper one, so that a point above y = 0 is of the upper one.
-  Cloud<2> cloud =
-      two_blocks(corners({0, -1e-3}, {1e-2, 0}), corners({1e-3, gap}, {3e-3, gap + 1e-3}), h, 0.8 * h);
+  Cloud<2> cloud = two_blocks(corners({0, -1e-3}, {1e-2, 0}), corners({1e-3, gap}, {3e-3, gap + 1e-3}), h,
+                              GetParam().ratio * h);
   const auto upper = [=](const Vec2& x) { return x.y() > 0.5 * gap; };
   std::vector<NodeIndex> base;
   for (const NodeIndex i : cloud.position.indices())
@@ -113,6 +124,7 @@ TEST(SlidingBlock, decelerates_by_mu_g_and_heats_both_sides_alike) {
                                 {"base y", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(0.0), base}},
                                static_cast<std::size_t>(cloud.nodes()));
   model.contact = bodies(mu);
+  model.local = {.on = GetParam().local, .least_gain = 0.0};
   model.loads = Loads<2>({}, {}, {TimeTable(0.0), TimeTable(-g)}, cloud.position);
   model.viscosity = {1.2, 0.06};
   ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
@@ -123,6 +135,7 @@ TEST(SlidingBlock, decelerates_by_mu_g_and_heats_both_sides_alike) {
   const Share block = share_of(solver, upper),
               ground = share_of(solver, [&](const Vec2&x) { return !upper(x); });
   const double slowed = mu * g * solver.state().time, after = speed - slowed;
+  EXPECT_EQ(solver.sub_steps() > 1, GetParam().local);
   EXPECT_NEAR(block.momentum.x() / mass, after, 0.02 * slowed);
   const double lost = 0.5 * mass * (speed * speed - after * after);
   EXPECT_NEAR(solver.ledger()["friction"], lost, 0.03 * lost);
@@ -132,13 +145,15 @@ TEST(SlidingBlock, decelerates_by_mu_g_and_heats_both_sides_alike) {
   EXPECT_FALSE(crosses_itself(solver));
 }
 
+INSTANTIATE_TEST_SUITE_P(spacing_ratio, SlidingBlock, ::testing::Values(Pairing{0.8}, Pairing{0.5, true}));
+
 // Two blocks of another spacing each, one resting on the other, so well conducting that each has one
 // temperature.
 TEST(RestingBlock, passes_its_heat_on_at_the_rate_of_the_conductance) {
   const double h = 2.5e-4, width = 2e-3, height = 1e-3, g = 1e5, conductance = 1e7, gap = 1e-9,
                ledge = 2.5e-4;
   const auto upper = [=](const Vec2& x) { return x.y() > 0.5 * gap; };
-  for (const double ratio : {1.0, 0.7, 1.6}) {
+  for (const auto& [ratio, local] : {Pairing{1.0}, Pairing{0.7}, Pairing{1.6}, Pairing{0.5, true}}) {
     const Cloud<2> cloud = two_blocks(corners({-ledge, -height}, {width + ledge, 0}),
                                       corners({0, gap}, {width, gap + height}), h, ratio * h);
     std::vector<NodeIndex> base;
@@ -152,6 +167,7 @@ TEST(RestingBlock, passes_its_heat_on_at_the_rate_of_the_conductance) {
                                  static_cast<std::size_t>(cloud.nodes()));
     model.contact = contact::RigidContact<2>({}, Space::plane,
                                              {.active = true, .friction = {}, .conductance = conductance});
+    model.local = {.on = local, .least_gain = 0.0};
     model.loads = Loads<2>({}, {}, {TimeTable(0.0), TimeTable(-g)}, cloud.position);
     model.viscosity = {1.2, 0.06};
     Fields<2> velocity;
@@ -175,6 +191,7 @@ TEST(RestingBlock, passes_its_heat_on_at_the_rate_of_the_conductance) {
       pressed += dt;
       while_pressed += dt * area;
     }
+    EXPECT_EQ(solver.sub_steps() > 1, local);
     EXPECT_GT(pressed, 0.5 * end);
     EXPECT_NEAR(while_pressed / pressed, width, 0.07 * width) << ratio; // corners come and go
     const auto lower = [&](const Vec2& x) { return !upper(x); };

@@ -1,5 +1,5 @@
 // Tools with a mass of their own, with the whole solver, against exact solutions.
-#include "tests/unit/mechanics/tools.hpp"
+#include "tests/unit/mechanics/graded.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,13 +24,11 @@ Vec2 ram_velocity(const ExplicitSolver<2>& solver) {
   return solver.conditions().contact.velocity(0, solver.state().time);
 }
 
-class Hammer : public ::testing::TestWithParam<Method> {};
-
-TEST_P(Hammer, that_hits_a_long_bar_is_slowed_exponentially_by_its_impedance) {
-  // until the wave is back from the far end: m dv/dt = −ρ c A v
-  const double length = 2e-2, width = 1e-3, h = 1.25e-4, speed = 5.0;
+/// A long bar that a ram hits at x = 0, until the wave is back from the far end: m dv/dt = −ρ c A v.
+void expect_exponential(Problem<2> model, double length, double width) {
+  const bool local = model.local.on;
+  const double speed = 5.0;
   const plasticity::Material material = rod();
-  Problem<2> model = model_of(rectangle(length, width, h, Lattice::square, 0.0), GetParam(), material);
   const double c = material.elasticity.bar_speed(material.density);
   const double mass = 0.3 * material.density * length * width;
   model.contact = contact::RigidContact<2>({ram({-1e-2, -1e-2}, {0.0, 1e-2}, mass, {speed, 0})});
@@ -39,27 +37,47 @@ TEST_P(Hammer, that_hits_a_long_bar_is_slowed_exponentially_by_its_impedance) {
   double worst = 0.0;
   while (solver.state().time < 1.8 * length / c) {
     solver.advance(dt);
-    const double t = solver.state().time - 0.5 * dt;
+    const double t = solver.state().time - 0.5 * dt / solver.sub_steps();
     const double exact = speed * std::exp(-material.density * c * width * t / mass);
     worst = std::max(worst, std::abs(ram_velocity(solver).x() - exact));
     EXPECT_NEAR(momenta(solver).linear.x() + mass * ram_velocity(solver).x(), momentum, 1e-12 * momentum);
   }
+  EXPECT_EQ(solver.sub_steps() > 1, local);
   EXPECT_LT(worst, 0.012 * speed);
   const EnergyLedger ledger = solver.ledger();
   EXPECT_NEAR(ledger.initial(), 0.5 * mass * speed * speed, 1e-12 * ledger.initial());
   EXPECT_LT(std::abs(ledger.residual()), 1e-3 * ledger.initial());
   EXPECT_LT(std::abs(ledger.external()), 1e-12 * ledger.initial());
 }
+
+class Hammer : public ::testing::TestWithParam<Method> {};
+
+TEST_P(Hammer, that_hits_a_long_bar_is_slowed_exponentially_by_its_impedance) {
+  const double length = 2e-2, width = 1e-3;
+  expect_exponential(model_of(rectangle(length, width, 1.25e-4, Lattice::square, 0.0), GetParam(), rod()),
+                     length, width);
+}
 INSTANTIATE_TEST_SUITE_P(methods, Hammer, ::testing::Values(Method::cnem, Method::triangles));
 
+TEST(Hammer, is_slowed_by_a_bar_with_local_steps) {
+  const double length = 2e-2, width = 1e-3;
+  Problem<2> model =
+      model_of(graded_rectangle(length, width, 1.6e-4, 4e-5, {{0, 0}, {0, width}}), Method::cnem, rod());
+  model.local = {.on = true, .least_gain = 0.0};
+  expect_exponential(std::move(model), length, width);
+}
+
 TEST(Hammer, bounces_off_a_free_block_with_the_momentum_and_energy_they_had) {
-  for (const double ratio : {5.0, 0.05}) {
-    Problem<2> model = model_of(rectangle(2e-3, 1e-3, 1e-4), Method::cnem, steel());
+  for (const auto& [ratio, local] : {std::pair(5.0, false), {0.05, false}, {5.0, true}, {0.05, true}}) {
+    Problem<2> model = model_of(local ? graded_rectangle(2e-3, 1e-3, 1e-4, 2e-5, {{1e-3, 1e-3}})
+                                      : rectangle(2e-3, 1e-3, 1e-4),
+                                Method::cnem, steel());
+    model.local = {.on = local, .least_gain = 0.0};
     const double mass = ratio * 7850.0 * 2e-6, speed = 3.0;
     model.contact = contact::RigidContact<2>({ram({0.4e-3, 1.02e-3}, {1.6e-3, 2e-3}, mass, {0.0, -speed})});
     ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
     const double dt = solver.stable_step().dt, momentum = mass * speed;
-    for (int n = 0; n < 3000; ++n) {
+    for (int n = 0; n < 3000 / solver.sub_steps(); ++n) {
       solver.advance(dt);
       const Vec2 sum = momenta(solver).linear + mass * ram_velocity(solver);
       ASSERT_LT((sum - Vec2(0, -momentum)).norm(), 1e-12 * momentum) << "step " << n;
@@ -68,7 +86,8 @@ TEST(Hammer, bounces_off_a_free_block_with_the_momentum_and_energy_they_had) {
     const double block = momenta(solver).linear.y() / total_mass(solver);
     EXPECT_GT(ram_velocity(solver).y(), block);
     const EnergyLedger ledger = solver.ledger();
-    EXPECT_LT(std::abs(ledger.residual()), 1e-3 * ledger.initial());
+    // what a light ram strikes rings at the borders of levels
+    EXPECT_LT(std::abs(ledger.residual()), (local && ratio < 1.0 ? 1e-2 : 1e-3) * ledger.initial());
     const double layer = 7850.0 * 1.2e-3 * 0.5e-4; // of nodes that meet the ram at once, inelastically
     EXPECT_LT(ledger["contact_impact"], 1.3 * layer / (layer + mass) * ledger.initial());
     EXPECT_NEAR(ledger["tool_kinetic"], 0.5 * mass * ram_velocity(solver).squaredNorm(),

@@ -8,43 +8,6 @@
 namespace cnem::testing {
 namespace {
 
-ExplicitSolver<2> at_rest(Problem<2> model) {
-  return start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
-}
-
-/// To a time; every `rereference_every` calls of `advance` on a new reference.
-void advance(ExplicitSolver<2>& solver, double end, int rereference_every = 0) {
-  double dt = 0.0;
-  for (int n = 0; solver.state().time < end * (1.0 - 1e-9); ++n) {
-    const bool rereference = rereference_every > 0 && n % rereference_every == rereference_every - 1;
-    if (rereference) solver.prepare();
-    if (n % 4 == 0 || rereference) dt = solver.stable_step().dt;
-    const double left = end - solver.state().time;
-    solver.advance(left / std::ceil(left / dt * (1.0 - 1e-9)));
-  }
-}
-
-/// All fields of a state, one after the other.
-Field all_of(const ExplicitSolver<2>& solver) {
-  const State<2>& s = solver.state();
-  Field all;
-  const auto add = [&](const Field& f) { all.insert(all.end(), f.begin(), f.end()); };
-  for (const Fields<2>* f : {&s.node.position, &s.node.velocity, &s.node.force})
-    for (const Field& component : *f) add(component);
-  add(s.node.temperature);
-  for (const Field& f : s.point.piola) add(f);
-  add(s.point.plastic_strain);
-  return all;
-}
-
-/// A square whose middle is twelve times as fine as its sides, in four levels.
-Problem<2> graded_square() {
-  Problem<2> model = model_of(graded_rectangle(1e-2, 1e-2, 3e-4, 2.5e-5, {{4.9e-3, 5e-3}, {5.1e-3, 5e-3}}),
-                              Method::cnem, steel());
-  model.local = {.on = true, .least_gain = 0.0};
-  return model;
-}
-
 TEST(LocalSteps, levels_keep_to_stable_steps_and_to_their_neighbours) {
   ExplicitSolver<2> solver = at_rest(graded_square());
   const double macro = solver.stable_step().dt / solver.model().safety;

@@ -70,8 +70,10 @@ struct Block {
     return made;
   }
   PressureExchange<2>::Change apply(PressureExchange<2>& exchange, double dt = 1e-8) {
-    exchange.remember(point.pressure);
-    return exchange.apply(approximation.mechanics, approximation.links, reference, dt, point, stress);
+    const std::vector<LevelRange> all{{0, point.size(), 0, false}};
+    const DuePoints due{all, 0, true, dt};
+    exchange.remember(point.pressure, due);
+    return exchange.apply(approximation.mechanics, approximation.links, reference, due, point, stress);
   }
   double total(const Field& density) const {
     double sum = 0.0;

@@ -183,6 +183,40 @@ TEST(Tetrahedra, conserve_momentum_and_energy_in_plastic_flow) {
   EXPECT_LT(std::abs(solver.ledger().residual()), 2e-3 * initial);
 }
 
+/// Layers from 0.03 to 0.6 mm.
+TEST(Tetrahedra, take_local_time_steps) {
+  plasticity::Material soft = steel();
+  soft.hardening = plasticity::JohnsonCook{.A = 200e6, .B = 500e6};
+  const auto run = [&](bool local) {
+    const auto grade = [](const Vec3& x) -> Vec3 {
+      const double s = x.z() / 4e-3;
+      return {x.x(), x.y(), 4e-3 * (0.1 * s + 0.9 * s * s)};
+    };
+    Problem<3> problem = problem_of(clouds::tetrahedral_block({3e-3, 3e-3, 4e-3}, {5, 5, 14}, grade), soft);
+    problem.local = {.on = local, .least_gain = 0.0};
+    ExplicitSolver<3> solver = start(std::move(problem), [](const Vec3& x) -> Vec3 {
+      return {40.0 * std::sin(900.0 * x.y()), -50.0 * std::sin(700.0 * x.z()),
+              30.0 * std::cos(800.0 * x.x())};
+    });
+    const Momenta before = momenta(solver);
+    const double initial = solver.ledger().total(), end = 1e-6;
+    while (solver.state().time < end * (1.0 - 1e-9)) {
+      const double left = end - solver.state().time;
+      solver.advance(left / std::ceil(left / solver.stable_step().dt));
+    }
+    EXPECT_EQ(solver.sub_steps() > 1, local);
+    const Momenta after = momenta(solver);
+    EXPECT_LT((after.linear - before.linear).norm(), 1e-12 * before.linear.norm());
+    EXPECT_LT((after.angular - before.angular).norm(), 1e-11 * before.linear.norm() * 1e-3);
+    EXPECT_LT(std::abs(solver.ledger().residual()), 2e-3 * initial);
+    return solver.ledger();
+  };
+  const EnergyLedger global = run(false), local = run(true);
+  EXPECT_GT(global["plastic"], 0.05 * global.total());
+  EXPECT_NEAR(local["plastic"], global["plastic"], 0.01 * global["plastic"]);
+  EXPECT_NEAR(local["kinetic"], global["kinetic"], 0.01 * global["kinetic"]);
+}
+
 TEST(Tetrahedra, results_do_not_depend_on_threads) {
   std::vector<Field> seen;
   for (const int threads : {1, 2, 3}) {
