@@ -55,7 +55,7 @@ double worst(const std::string& anisotropy, double expected) {
     solver.advance(control.choose(solver.state().time, input.time.end));
   }
   EXPECT_GT(references, 0);
-  const Ledger& ledger = solver.ledger();
+  const auto ledger = solver.ledger();
   EXPECT_LT(std::abs(ledger.residual()), 1e-3 * (ledger.external() + ledger.initial()));
   const PointState<2>& point = solver.state().point;
   double error = 0.0;
