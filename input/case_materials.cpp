@@ -66,6 +66,32 @@ plasticity::JohnsonCookDamage read_damage(const Setting& table, const Setting& m
   return law;
 }
 
+plasticity::Axis axis_of(const std::string& name) {
+  const auto* found = std::find(std::begin(plasticity::axis_names), std::end(plasticity::axis_names), name);
+  return static_cast<plasticity::Axis>(found - std::begin(plasticity::axis_names));
+}
+
+plasticity::Hill48 read_anisotropy(const Setting& table, const Setting& material, Diagnostics& diagnostics) {
+  plasticity::Hill48 law;
+  read_constants(plasticity::Hill48::parameters, table, law);
+  law.rolling = axis_of(table.get<std::string>("rolling"));
+  law.normal = axis_of(table.get<std::string>("normal"));
+  if (law.rolling == law.normal) {
+    const Setting& rolling = *table.find("rolling");
+    const Setting& one = rolling.given ? rolling : *table.find("normal");
+    diagnostics.add(
+        Mistake::conflict, one.where, one.path,
+        fmt::format("found \"{}\" for the rolling direction and the normal of the sheet, expected two "
+                    "axes",
+                    plasticity::axis_names[static_cast<int>(law.rolling)]));
+  }
+  if (!material.find("plastic"))
+    diagnostics.add(
+        Mistake::missing_key, table.where, table.path,
+        "found in an elastic material, expected a plastic law beside it: elasticity is isotropic");
+  return law;
+}
+
 /// A lower and an upper value; no limits where the key is absent.
 Range read_limits(const Setting& table, const char* name, Diagnostics& diagnostics) {
   const Setting* limits = table.find(name);
@@ -86,6 +112,10 @@ plasticity::MeasuredRange read_range(const Setting& table, Diagnostics& diagnost
 } // namespace
 
 void set_material_defaults(Setting& root, double temperature) {
+  for (const Setting& entry : root.entries("materials"))
+    if (const std::optional<double> along = entry.maybe<double>("anisotropy.r0"))
+      for (const char* key : {"r45", "r90"})
+        root.set_default(fmt::format("{}.anisotropy.{}", entry.path, key), *along);
   for (const Setting& entry : root.entries("materials")) {
     if (!entry.find("damage")) continue;
     const auto from_plastic = [&](const char* key) {
@@ -107,14 +137,16 @@ namespace {
 /// An increment of strain is to have one stress: the elastic one must fall faster than the flow stress.
 void check_fall(const plasticity::Material& material, const Setting& table, Diagnostics& diagnostics) {
   const plasticity::Hardening::Fall fall = material.hardening->steepest_fall();
-  const double limit = 3.0 * material.elasticity.mu();
+  const double least = material.anisotropy ? least_slope(material.anisotropy->form()) : 1.5;
+  const double limit = 2.0 * least * material.elasticity.mu();
   if (fall.slope < limit) return;
   diagnostics.add(
       Mistake::range, table.where, table.path,
       fmt::format("found a flow stress that falls by {:.3g} GPa per strain at a plastic strain of "
-                  "{:.3g} and {:.4g} K, expected less than three shear moduli, {:.3g} GPa: an "
+                  "{:.3g} and {:.4g} K, expected less than {} shear moduli, {:.3g} GPa: an "
                   "increment of strain would have several stresses",
-                  fall.slope * 1e-9, fall.strain, fall.temperature, limit * 1e-9));
+                  fall.slope * 1e-9, fall.strain, fall.temperature,
+                  material.anisotropy ? fmt::format("{:.3g}", 2.0 * least) : "three", limit * 1e-9));
 }
 
 } // namespace
@@ -126,6 +158,8 @@ plasticity::Material read_material(const Setting& table, std::vector<std::string
   using plasticity::Elasticity, plasticity::Material;
   read_constants(Material::parameters, table, material);
   read_constants(Elasticity::parameters, *table.find("elastic"), material.elasticity);
+  if (const Setting* anisotropy = table.find("anisotropy"))
+    material.anisotropy = read_anisotropy(*anisotropy, table, diagnostics);
   if (const Setting* plastic = table.find("plastic")) {
     material.hardening = read_law<plasticity::Hardening>(plasticity::HardeningLaws{}, *plastic, diagnostics);
     if (material.hardening) check_fall(material, *plastic, diagnostics);

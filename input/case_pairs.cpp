@@ -46,6 +46,15 @@ const plasticity::Material* expanding(const Case& c) {
   });
   return found == c.materials.end() ? nullptr : &*found;
 }
+/// The first of a case's materials whose sheet is not the same all around the axis.
+const plasticity::Material* planar(const Case& c) {
+  const auto found = std::find_if(c.materials.begin(), c.materials.end(), [](const plasticity::Material& m) {
+    if (!m.anisotropy) return false;
+    const plasticity::Hill48& law = *m.anisotropy;
+    return law.normal != plasticity::Axis::y || law.r45 != law.r0 || law.r90 != law.r0 || law.L != law.M;
+  });
+  return found == c.materials.end() ? nullptr : &*found;
+}
 const BoundaryCondition* moving(const Case& c) {
   const auto found =
       std::find_if(c.boundary.begin(), c.boundary.end(),
@@ -101,6 +110,13 @@ const std::vector<Pair>& pairs() {
       {"initial.spin", "a rotation in the meridian plane", "axisymmetric analyses",
        [](const Case& c) { return when(!is_static(c) && is_round(c), "in an axisymmetric analysis"); },
        "none", "rings do not turn out of their planes"},
+
+      {"materials.*.anisotropy", "a sheet with a rolling direction or a normal beside the axis",
+       "axisymmetric analyses",
+       [](const Case& c) { return when(is_round(c) && planar(c), "in an axisymmetric analysis"); },
+       "r0 = r45 = r90, L = M and normal = \"y\"",
+       "what is different along and across the rolling direction is not the same all around", nullptr,
+       [](const Case& c) { return "materials." + planar(c)->name + ".anisotropy"; }},
 
       {"analysis.type", "\"static\"", "three-dimensional analyses",
        [](const Case& c) { return when(c.analysis.dimensions() == 3, "in a three-dimensional analysis"); },

@@ -20,6 +20,9 @@ ExplicitSolver<dim>::ExplicitSolver(Problem<dim> problem, Fields<dim> velocity, 
   state_.point.damaged.switch_on(
       std::any_of(model_.materials.begin(), model_.materials.end(),
                   [](const plasticity::Material& material) { return material.damage.has_value(); }));
+  state_.point.oriented.switch_on(
+      std::any_of(model_.materials.begin(), model_.materials.end(),
+                  [](const plasticity::Material& material) { return material.anisotropy.has_value(); }));
   for (FieldTable* table : node_tables()) table->rest(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < dim; ++k)
@@ -119,7 +122,7 @@ template<int dim> std::vector<FieldTable*> ExplicitSolver<dim>::node_tables() {
 
 /// Those of the state and of the terms.
 template<int dim> std::vector<FieldTable*> ExplicitSolver<dim>::point_tables() {
-  std::vector<FieldTable*> tables{&state_.point.table, &state_.point.damaged};
+  std::vector<FieldTable*> tables{&state_.point.table, &state_.point.damaged, &state_.point.oriented};
   each([&](Term<dim>& term) {
     if (FieldTable* table = term.fields()) tables.push_back(table);
   });

@@ -63,7 +63,9 @@ template<int dim> std::vector<FieldInfo<dim>> derived_fields() {
   std::vector<FieldInfo<dim>> list{
       {"equivalent_stress",
        "Pa",
-       {"von Mises stress", "Von Mises equivalent of the Cauchy stress", "MPa", 1e6, ColourMap::heat},
+       {"equivalent stress",
+        "Von Mises equivalent of the Cauchy stress, Hill's where the material is anisotropic", "MPa", 1e6,
+        ColourMap::heat},
        !at_nodes,
        false,
        false,

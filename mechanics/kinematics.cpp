@@ -116,6 +116,14 @@ template<> void push_forward<2>(PointState<2>& point) {
     point.inverse_plastic_cauchy_green[xy][p] =
         f11 * f21 * c11 + (f11 * f22 + f12 * f21) * c12 + f12 * f22 * c22;
     point.inverse_plastic_cauchy_green[zz][p] *= f33 * f33;
+    if (!point.oriented.on()) continue;
+    Fields<5>& earlier = point.earlier_deformation;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double upper = earlier[k][p], lower = earlier[2 + k][p];
+      earlier[k][p] = f11 * upper + f12 * lower;
+      earlier[2 + k][p] = f21 * upper + f22 * lower;
+    }
+    earlier[4][p] *= f33;
   }
 }
 
@@ -131,6 +139,11 @@ template<> void push_forward<3>(PointState<3>& point) {
     const Mat<3> pushed = f * c * f.transpose();
     for (int i = 0; i < 3; ++i)
       for (int k = i; k < 3; ++k) point.inverse_plastic_cauchy_green[index_of(place[i][k])][p] = pushed(i, k);
+    if (!point.oriented.on()) continue;
+    Mat<3> earlier;
+    for (int i = 0; i < 9; ++i) earlier(i / 3, i % 3) = point.earlier_deformation[index_of(i)][p];
+    const Mat<3> total = f * earlier;
+    for (int i = 0; i < 9; ++i) point.earlier_deformation[index_of(i)][p] = total(i / 3, i % 3);
   }
 }
 

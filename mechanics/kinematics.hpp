@@ -39,7 +39,8 @@ template<int dim>
 void subtract_internal_force(const DiscreteOperators<dim>& operators, const ColumnStress<dim>& stress,
                              Fields<dim>& force, std::size_t begin, std::size_t end);
 
-/// b_e = F C_p⁻¹ Fᵀ in place of C_p⁻¹: the elastic state on a reference that is the present configuration.
+/// b_e = F C_p⁻¹ Fᵀ in place of C_p⁻¹, and F F₀ in place of F₀: the elastic state, and the axes of the
+/// material, on a reference that is the present configuration.
 template<int dim> void push_forward(PointState<dim>& point);
 
 /// Components of det F · F⁻ᵀ at a point, laid as in PointState.

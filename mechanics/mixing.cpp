@@ -74,7 +74,7 @@ void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& 
             elastic,
             strength * material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],
                                                        point.temperature[p]),
-            material.elasticity.mu());
+            plasticity::equivalent_stress<dim>(material, elastic, point, p));
       elastic = plasticity::exponential<dim>(elastic);
     }
     for (std::size_t k = 0; k < mixed.size(); ++k) mixed[k][p] = elastic[static_cast<Eigen::Index>(k)];

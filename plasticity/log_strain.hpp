@@ -1,6 +1,7 @@
 #pragma once
 // Logarithm and exponential of symmetric tensors, for the averaging of elastic states (paper 004, (31)).
 #include "core/fields/state.hpp"
+#include "plasticity/material.hpp"
 
 #include <Eigen/Core>
 
@@ -22,8 +23,14 @@ template<int dim> Symmetric<dim> logarithm(const Symmetric<dim>& b);
 /// exp h.
 template<int dim> Symmetric<dim> exponential(const Symmetric<dim>& h);
 
-/// ln b_e = 2 ε_e whose deviatoric part is drawn back so that σ_eq = 2μ √(3/2) |dev ε_e| does not exceed
-/// `yield` (Pa); mu in Pa. The volume change stays.
-template<int dim> Symmetric<dim> limited_to(const Symmetric<dim>& log_elastic, double yield, double mu);
+/// σ_eq in Pa of point p with ln b_e = 2 ε_e: von Mises', 2μ √(3/2) |dev ε_e|, or that of an anisotropic
+/// material on a new reference, its axes turned by F₀.
+template<int dim>
+double equivalent_stress(const Material& material, const Symmetric<dim>& log_elastic,
+                         const PointState<dim>& point, std::size_t p);
+
+/// ln b_e whose deviatoric part is drawn back so that σ_eq, `stress` before, does not exceed `yield` (Pa).
+/// The volume change stays.
+template<int dim> Symmetric<dim> limited_to(const Symmetric<dim>& log_elastic, double yield, double stress);
 
 } // namespace cnem::plasticity

@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "core/parameter.hpp"
 #include "plasticity/hardening.hpp"
+#include "plasticity/hill48.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -128,6 +129,7 @@ struct Material {
   double density = 0.0;
   Elasticity elasticity;
   std::optional<Hardening> hardening;      ///< none: elastic
+  std::optional<Hill48> anisotropy;        ///< none: von Mises
   std::optional<JohnsonCookDamage> damage; ///< none: never breaks
   MeasuredRange measured;                  ///< of the hardening; it holds beyond as well
   double specific_heat = 0.0, conductivity = 0.0, taylor_quinney = 0.9, expansion = 0.0;

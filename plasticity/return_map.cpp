@@ -33,6 +33,9 @@ template<int dim> StressPoints<dim> stress_points(PointState<dim>& state) {
   }
   for (std::size_t c = 0; c < state.inverse_plastic_cauchy_green.size(); ++c)
     p.inverse_plastic_cauchy_green[c] = state.inverse_plastic_cauchy_green[c].data();
+  if (state.oriented.on())
+    for (std::size_t c = 0; c < state.earlier_deformation.size(); ++c)
+      p.earlier_deformation[c] = state.earlier_deformation[c].data();
   p.temperature = state.temperature.data();
   p.strength = state.damaged.on() ? state.flow_factor.data() : state.strength.data();
   p.plastic_strain = state.plastic_strain.data();
@@ -50,6 +53,10 @@ template<int dim>
 std::ptrdiff_t update_stress(const Material& material, const StressPoints<dim>& points, std::ptrdiff_t begin,
                              std::ptrdiff_t end, double dt) {
   const ReturnMapParameters parameters = return_map_parameters(material, dt);
+  if (material.anisotropy) {
+    const HillForm form = material.anisotropy->form();
+    CNEM_ON_ACTIVE_ISA(hill_return_map(parameters, form, points, begin, end));
+  }
   CNEM_ON_ACTIVE_ISA(return_map(parameters, points, begin, end));
 }
 

@@ -166,7 +166,6 @@ template<class T> struct Deformation<3, T> {
             factor * (t[i][0] * cofactor[0][k] + t[i][1] * cofactor[1][k] + t[i][2] * cofactor[2][k]);
   }
 
-private:
   /// m a mᵀ.
   CNEM_INLINE static void congruence(const T (&m)[3][3], const T (&a)[6], T (&result)[6]) {
     const T s[3][3] = {{a[0], a[3], a[5]}, {a[3], a[1], a[4]}, {a[5], a[4], a[2]}};

@@ -16,13 +16,16 @@ template<int dim> struct StressPoints {
   const double* deformation[general]; ///< –     F_{n+1} from the current reference
   const double* temperature;          ///< K
   const double* strength;             ///< –     factor on the flow stress
+  /// –     of the current reference since the start; null where no material is anisotropic
+  const double* earlier_deformation[general];
   // in and out
   double* inverse_plastic_cauchy_green[symmetric]; ///< –     C_p⁻¹, so that b_e = F C_p⁻¹ Fᵀ; changes in
                                                    ///< plastic steps only
   double* plastic_strain;    ///< –     ε̄p
   double* plastic_rate;      ///< 1/s   mean dε̄p/dt of the step; in: that of the last step, starts Newton
-  double* equivalent_stress; ///< Pa    von Mises stress of τ; in: that of t_n, for the trapezoid of the work
-  double* plastic_work;      ///< J/m³  ∫ σ_eq dε̄p per unit stress-free volume
+  double* equivalent_stress; ///< Pa    σ̄ of τ, von Mises' or Hill's; in: that of t_n, for the trapezoid of
+                             ///< the work
+  double* plastic_work; ///< J/m³  ∫ σ_eq dε̄p per unit stress-free volume
   // out
   double* piola[general]; ///< Pa    P_iK = (τ F⁻ᵀ)_iK V_stress-free/V_reference
   double* pressure;       ///< Pa    −tr τ/3

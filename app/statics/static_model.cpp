@@ -219,8 +219,11 @@ std::string beyond_yield(const StaticModel& model, const StaticSolution& solutio
   for (std::size_t p = 0; p < volume.size(); ++p) {
     const auto s = [&](std::size_t k) { return solution.stress[k][p]; };
     const double deviator = std::pow(s(0) - s(1), 2) + std::pow(s(1) - s(2), 2) + std::pow(s(2) - s(0), 2);
+    const double mises = std::sqrt(0.5 * deviator + 3.0 * s(3) * s(3));
     all += volume[p];
-    if (std::sqrt(0.5 * deviator + 3.0 * s(3) * s(3)) > yield) beyond += volume[p];
+    if ((material.anisotropy ? hill_stress(material.anisotropy->form(), {s(0), s(1), s(2), s(3), 0.0, 0.0})
+                             : mises) > yield)
+      beyond += volume[p];
   }
   if (beyond == 0.0) return "";
   return fmt::format("static analyses are elastic: the stress is above the yield stress of {}, {:.3g} Pa, in "

@@ -79,7 +79,7 @@ template<int dim> struct PointState {
       {"plastic_rate", "1/s", Carry::mass_mean, Checkpoint::holds, rest_zero,
        Shown{"equivalent plastic strain rate", "Rate of the equivalent plastic strain in the last step",
              "1/s", 1.0, ColourMap::heat}}};
-  /// σ_eq, von Mises stress in Kirchhoff measure
+  /// σ_eq in Kirchhoff measure: von Mises stress, Hill's of anisotropic materials
   ScalarField equivalent_stress{table, {"equivalent_stress", "Pa", Carry::renewed, Checkpoint::holds}};
   /// −tr τ/3, Kirchhoff pressure
   ScalarField pressure{table, {"pressure", "Pa", Carry::renewed, Checkpoint::holds}};
@@ -130,6 +130,11 @@ template<int dim> struct PointState {
 
   /// on the flow stress: strength and what softening leaves of it
   ScalarField flow_factor{damaged, {"flow_factor", "1"}};
+
+  FieldTable oriented{"solver/point", false}; ///< on where a material is anisotropic
+  /// F₀ of the reference configuration since the start: axes of the material turn with the whole F F₀
+  TensorField<tensor_size<dim>> earlier_deformation{
+      oriented, {"earlier_deformation", "1", Carry::mass_mean, Checkpoint::holds, rest_unit_general<dim>}};
 
   PointState() = default;
   PointState(const PointState& other) : PointState() { *this = other; }

@@ -47,6 +47,29 @@ void add_damage(Keys& k, const std::string& at) {
   add_constants(k, at, constant_texts<Law>(Law::parameters));
 }
 
+void add_anisotropy(Keys& k, const std::string& at) {
+  using Law = plasticity::Hill48;
+  k.add(at, table,
+        "Yield function of rolled sheet; without it von Mises', the same in all directions. Elasticity stays "
+        "isotropic. The directions of the sheet lie along axes of the model at the start and turn with the "
+        "material.");
+  k.add(at + ".law", choice, fmt::format("`{}`: {}.", Law::name, Law::formula))
+      .one_of({Law::name})
+      .required();
+  add_source(k, at);
+  add_constants(k, at, constant_texts<Law>(Law::parameters));
+  const std::vector<std::string> axes(std::begin(plasticity::axis_names), std::end(plasticity::axis_names));
+  k.add(at + ".rolling", choice, "Axis of the model along the rolling direction.")
+      .one_of(axes)
+      .fallback("\"x\"");
+  k.add(at + ".normal", choice,
+        "Axis of the model along the normal of the sheet. `y` makes a plane model the section of a sheet "
+        "whose "
+        "thickness is along y; in the plane z is across it, around an axis it is the hoop direction.")
+      .one_of(axes)
+      .fallback("\"y\"");
+}
+
 } // namespace
 
 void add_materials(Keys& k) {
@@ -61,7 +84,7 @@ void add_materials(Keys& k) {
         "own. A table with a `law` of its own replaces that of the base.")
       .example("\"lib:304L\"");
   k.add(at + ".leave_out", choices, "Tables of the `base` that are not taken.")
-      .one_of({"plastic", "damage", "heat"})
+      .one_of({"plastic", "anisotropy", "damage", "heat"})
       .example("[\"damage\"]");
   k.add(at + ".origin", text,
         "Written into resolved cases: the material of the library, and which of its constants the case has "
@@ -75,11 +98,15 @@ void add_materials(Keys& k) {
   add_source(k, at + ".elastic");
   add_constants(k, at + ".elastic",
                 constant_texts<plasticity::Elasticity>(plasticity::Elasticity::parameters));
-  k.add(at + ".plastic", table, "Isotropic plasticity; the flow stress is a Kirchhoff stress.");
+  k.add(at + ".plastic", table,
+        "Plasticity; the flow stress is a Kirchhoff stress, that of tension along the rolling direction "
+        "where there "
+        "is an `anisotropy`.");
   add_law_choice(k, at + ".plastic", hardening_laws).required();
   add_source(k, at + ".plastic");
   add_law_constants(k, at + ".plastic", hardening_laws);
   add_range(k, at + ".plastic.range");
+  add_anisotropy(k, at + ".anisotropy");
   add_damage(k, at + ".damage");
   k.add(at + ".heat", table, "Thermal properties.");
   add_source(k, at + ".heat");

@@ -390,6 +390,9 @@ every_wall = "0 s"
 keep = 3
 )toml" + steel_304l;
 
+// Rolled sheet, whose axes turn over references and go over to new nodes.
+const char* const rolled = "[materials.steel.anisotropy]\nlaw = \"hill48\"\nr0 = 1.8\nr45 = 1.2\nr90 = 2.3\n";
+
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
@@ -407,7 +410,8 @@ const std::vector<SmallCase>& small_cases() {
                                             {"touching", touching},
                                             {"set_back", set_back},
                                             {"particles", with_particles(punched)},
-                                            {"space", space_case()}};
+                                            {"space", space_case()},
+                                            {"rolled", adapted + rolled}};
   return cases;
 }
 

@@ -139,7 +139,7 @@ TEST(FieldTable, names_of_the_state_are_unique_and_have_units) {
       EXPECT_EQ(++seen[std::string("node/") + entry.line.name], 1) << entry.line.name;
       EXPECT_NE(std::string(entry.line.unit), "") << entry.line.name;
     }
-  for (const FieldTable* table : {&state.point.table, &state.point.damaged})
+  for (const FieldTable* table : {&state.point.table, &state.point.damaged, &state.point.oriented})
     for (const FieldTable::Entry& entry : table->entries()) {
       EXPECT_EQ(++seen[std::string("point/") + entry.line.name], 1) << entry.line.name;
       EXPECT_NE(std::string(entry.line.unit), "") << entry.line.name;

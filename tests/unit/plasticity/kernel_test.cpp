@@ -1,6 +1,6 @@
 // The vector kernels against the same template on double, their lanes, and what must not break them.
 #include "core/machine/isa.hpp"
-#include "plasticity/box2.hpp"
+#include "plasticity/hill_return.hpp"
 #include "tests/each_isa.hpp"
 #include "tests/unit/plasticity/points.hpp"
 
@@ -52,9 +52,11 @@ template<int dim> void expect_same_bits(const PointState<dim>& a, const PointSta
           << "field " << k << ", point " << i;
 }
 
-template<int dim> void compare_with_scalar() {
-  const Material m = steel();
+const Hill48 rolled{.r0 = 1.9, .r45 = 0.7, .r90 = 2.4, .L = 1.2, .M = 1.8};
+
+template<int dim> void compare_with_scalar(const Material& m) {
   PointState<dim> vector = points_at_rest<dim>(83, 300.0);
+  keep_axes(vector);
   const double dt = 1e-7;
   const double stress = 2e-3 * m.elasticity.mu(); // that of a strain of 1e-3
   for (int k = 1; k <= 60; ++k) {
@@ -63,9 +65,12 @@ template<int dim> void compare_with_scalar() {
     ASSERT_EQ(update(m, vector, dt), -1);
     const auto parameters = return_map_parameters(m, dt);
     const auto kernel = generic::kernel_of(m.hardening->as<JohnsonCook>(), dt);
-    for (std::size_t i = 0; i < scalar.size(); ++i)
-      ASSERT_FALSE((generic::return_map_step<dim, double>(parameters, kernel, stress_points(scalar),
-                                                          static_cast<std::ptrdiff_t>(i))));
+    const auto points = stress_points(scalar);
+    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(scalar.size()); ++i)
+      if (m.anisotropy)
+        ASSERT_FALSE((generic::hill_step<dim, double>(parameters, m.anisotropy->form(), kernel, points, i)));
+      else
+        ASSERT_FALSE((generic::return_map_step<dim, double>(parameters, kernel, points, i)));
     for (std::size_t i = 0; i < scalar.size(); ++i) {
       const Mat3 p = general<dim>(scalar.piola, i);
       ASSERT_LT((p - general<dim>(vector.piola, i)).norm(), 1e-12 * std::max(p.norm(), stress)) << i;
@@ -79,13 +84,16 @@ template<int dim> void compare_with_scalar() {
   EXPECT_EQ(*std::min_element(vector.plastic_strain.begin(), vector.plastic_strain.end()), 0.0);
 }
 
-TEST_P(Kernel, plane_equal_to_scalar) { compare_with_scalar<2>(); }
-TEST_P(Kernel, space_equal_to_scalar) { compare_with_scalar<3>(); }
+TEST_P(Kernel, plane_equal_to_scalar) { compare_with_scalar<2>(steel()); }
+TEST_P(Kernel, space_equal_to_scalar) { compare_with_scalar<3>(steel()); }
+TEST_P(Kernel, sheet_in_plane_equal_to_scalar) { compare_with_scalar<2>(sheet(rolled)); }
+TEST_P(Kernel, sheet_in_space_equal_to_scalar) { compare_with_scalar<3>(sheet(rolled)); }
 
-template<int dim> void compare_ranges() {
-  const Material m = steel();
+template<int dim> void compare_ranges(const Material& m) {
   const std::size_t n = 75;
-  PointState<dim> whole = points_at_rest<dim>(n, 300.0), cut = whole, reversed = whole;
+  PointState<dim> whole = points_at_rest<dim>(n, 300.0);
+  keep_axes(whole);
+  PointState<dim> cut = whole, reversed = whole;
   std::mt19937 random(5);
   for (int k = 1; k <= 40; ++k) {
     deform(whole, k);
@@ -110,8 +118,10 @@ template<int dim> void compare_ranges() {
   }
 }
 
-TEST_P(Kernel, plane_same_bits_however_ranges_are_cut) { compare_ranges<2>(); }
-TEST_P(Kernel, space_same_bits_however_ranges_are_cut) { compare_ranges<3>(); }
+TEST_P(Kernel, plane_same_bits_however_ranges_are_cut) { compare_ranges<2>(steel()); }
+TEST_P(Kernel, space_same_bits_however_ranges_are_cut) { compare_ranges<3>(steel()); }
+TEST_P(Kernel, sheet_in_plane_same_bits_however_ranges_are_cut) { compare_ranges<2>(sheet(rolled)); }
+TEST_P(Kernel, sheet_in_space_same_bits_however_ranges_are_cut) { compare_ranges<3>(sheet(rolled)); }
 
 TEST_P(Kernel, empty_range_does_nothing) {
   PointState<2> s = points_at_rest<2>(3, 300.0);
@@ -234,13 +244,22 @@ TEST_P(Kernel, extremes) {
   const std::vector<double> strains{0.0, 1e-300, 1e-12, 1e-4, 0.1, 10.0, 1e3};
   const std::vector<double> rates{0.0, 1e-12, 1.0, 1e4, 1e8};
   const std::vector<double> temperatures{0.0, 200.0, 296.0, 600.0, 899.9999999, 1698.0, 1e4};
-  for (const Hardening& law : laws) {
+  for (const auto& [law, anisotropy] : [&] {
+         std::vector<std::pair<Hardening, std::optional<Hill48>>> pairs;
+         for (const Hardening& law : laws) pairs.insert(pairs.end(), {{law, {}}, {law, rolled}});
+         return pairs;
+       }()) {
     Material m = steel();
     m.hardening = law;
+    m.anisotropy = anisotropy;
+    double steepest = 3.0;
+    if (anisotropy)
+      for (const double value : anisotropy->form().value) steepest = std::max(steepest, 2.0 * value);
     for (double dt : {1e-30, 1e-12, 1e-8, 1e-3, 1e6})
       for (double stretch : {1.0, 0.7, 1.5}) {
         PointState<2> s =
             points_at_rest<2>(shears.size() * strains.size() * rates.size() * temperatures.size(), 0.0);
+        keep_axes(s);
         std::size_t i = 0;
         for (double shear : shears)
           for (double strain : strains)
@@ -257,7 +276,7 @@ TEST_P(Kernel, extremes) {
         ASSERT_EQ(update(m, s, dt), -1);
         for (i = 0; i < s.size(); ++i) {
           const double increment = s.plastic_rate[i] * dt;
-          const double trial = s.equivalent_stress[i] + 3.0 * m.elasticity.mu() * increment;
+          const double trial = s.equivalent_stress[i] + steepest * m.elasticity.mu() * increment;
           const double flow =
               law.flow_stress(before.plastic_strain[i] + increment, s.plastic_rate[i], s.temperature[i]);
           for (const Field* f : results(s)) ASSERT_TRUE(std::isfinite((*f)[i]));

@@ -28,6 +28,12 @@ template<int dim> PointState<dim> points_at_rest(std::size_t n, double temperatu
   return s;
 }
 
+/// Lets the points know the axes of their material, which are where they were at the start.
+template<int dim> void keep_axes(PointState<dim>& s) {
+  s.oriented.switch_on(true);
+  s.oriented.rest(s.size());
+}
+
 template<int dim> void set_deformation(PointState<dim>& s, std::size_t i, const Mat3& f) {
   if constexpr (dim == 2) {
     const double c[] = {f(0, 0), f(0, 1), f(1, 0), f(1, 1), f(2, 2)};
@@ -75,6 +81,13 @@ inline Material steel() {
   m.hardening = JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0};
   m.specific_heat = 500.0;
   m.conductivity = 5.86;
+  return m;
+}
+
+/// The same as sheet.
+inline Material sheet(const Hill48& law) {
+  Material m = steel();
+  m.anisotropy = law;
   return m;
 }
 

@@ -1,0 +1,36 @@
+#include "plasticity/hill_return.hpp"
+#include "plasticity/laws/list.hpp"
+#include "plasticity/point_packs.hpp"
+
+namespace cnem::plasticity::CNEM_ISA {
+
+namespace {
+
+template<int dim, class Kernel> struct HillStep {
+  const ReturnMapParameters& parameters;
+  const HillForm& form;
+  Kernel kernel;
+
+  template<class T> CNEM_INLINE Mask<T> operator()(const StressPoints<dim>& points, std::ptrdiff_t i) const {
+    return hill_step<dim, T>(parameters, form, kernel, points, i);
+  }
+};
+
+} // namespace
+
+template<int dim>
+std::ptrdiff_t hill_return_map(const ReturnMapParameters& parameters, const HillForm& form,
+                               const StressPoints<dim>& points, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  return with_law(
+      HardeningLaws{}, parameters.hardening.law, parameters.hardening.constants, [&](const auto& law) {
+        const auto kernel = kernel_of(law, parameters.dt);
+        return update(HillStep<dim, decltype(kernel)>{parameters, form, kernel}, points, begin, end);
+      });
+}
+
+template std::ptrdiff_t hill_return_map<2>(const ReturnMapParameters&, const HillForm&,
+                                           const StressPoints<2>&, std::ptrdiff_t, std::ptrdiff_t);
+template std::ptrdiff_t hill_return_map<3>(const ReturnMapParameters&, const HillForm&,
+                                           const StressPoints<3>&, std::ptrdiff_t, std::ptrdiff_t);
+
+} // namespace cnem::plasticity::CNEM_ISA
