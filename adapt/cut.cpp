@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -30,11 +31,15 @@ void straighten(WorkingCloud& work, std::span<const NodeIndex> path, double most
 BoundaryLoops::BoundaryLoops(const WorkingCloud& work)
     : loop_(work.size(), -1), along_(work.size(), 0.0), order_(work.size(), 0) {
   const IndexedVector<NodeIndex, Vec2>& at = work.cloud().position;
+  const auto onwards = [&](NodeIndex i) {
+    while (exists(work.facing(i))) i = work.next(work.facing(i));
+    return i;
+  };
   for (const NodeIndex i : work.nodes()) {
-    if (!work.on_boundary(i) || loop_[i] >= 0) continue;
+    if (!work.on_boundary(i) || exists(work.facing(i)) || loop_[i] >= 0) continue;
     double length = 0.0;
     int nodes = 0;
-    for (NodeIndex k = i; loop_[k] < 0; k = work.next(k)) {
+    for (NodeIndex k = i; loop_[k] < 0; k = onwards(work.next(k))) {
       loop_[k] = as<std::int32_t>(length_.size());
       along_[index_of(k)] = length;
       order_[k] = nodes++;
@@ -53,12 +58,16 @@ bool BoundaryLoops::parts(NodeIndex from, NodeIndex to, double length, int nodes
   return std::min(one, length_[loop] - one) >= length && std::min(some, nodes_[loop] - some) > nodes;
 }
 
-bool open_cut(WorkingCloud& work, Structure& structure, std::span<const NodeIndex> path,
-              const SplitRules& rules, double smoothed) {
+bool open_cut(WorkingCloud& work, Structure& structure, std::span<const Path> paths, const SplitRules& rules,
+              double smoothed) {
   WorkingCloud opened = work;
-  straighten(opened, path, smoothed);
-  const double gap = rules.gap * work.size_between(path.front(), path.back());
-  const std::vector<std::array<NodeIndex, 2>> doubled = opened.open(path, rules.piece, gap);
+  std::vector<std::array<NodeIndex, 2>> doubled;
+  for (const Path& path : paths) {
+    straighten(opened, path, smoothed);
+    const double gap = rules.gap * work.size_between(path.front(), path.back());
+    const auto pairs = opened.open(path, rules.piece, gap);
+    doubled.insert(doubled.end(), pairs.begin(), pairs.end());
+  }
   opened.refresh_facets();
   std::optional<Structure> after = structure_if_valid(opened.cloud(), structure.space);
   if (!after) return false;
