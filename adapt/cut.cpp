@@ -58,14 +58,31 @@ bool BoundaryLoops::parts(NodeIndex from, NodeIndex to, double length, int nodes
   return std::min(one, length_[loop] - one) >= length && std::min(some, nodes_[loop] - some) > nodes;
 }
 
+namespace {
+
+/// Sets the two sides of an opened cut apart where it goes on from a node to its mate.
+void part_crossing(WorkingCloud& work, const Path& path, const Path& onwards, NodeIndex right,
+                   NodeIndex right_mate, double gap) {
+  const auto at = [&](NodeIndex i) -> const Vec2& { return work.cloud().position[i]; };
+  // of a period the ends are far apart
+  const Vec2 in = at(path.back()) - at(path[path.size() - 2]), out = at(onwards[1]) - at(onwards.front());
+  const Vec2 left = 0.5 * gap * left_normal((in + out).normalized());
+  for (const NodeIndex i : {path.back(), onwards.front()}) work.place(i, at(i) + left);
+  for (const NodeIndex i : {right, right_mate}) work.place(i, at(i) - left);
+}
+
+} // namespace
+
 bool open_cut(WorkingCloud& work, Structure& structure, std::span<const Path> paths, const SplitRules& rules,
               double smoothed) {
   WorkingCloud opened = work;
   std::vector<std::array<NodeIndex, 2>> doubled;
-  for (const Path& path : paths) {
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const Path& path = paths[k];
     straighten(opened, path, smoothed);
     const double gap = rules.gap * work.size_between(path.front(), path.back());
     const auto pairs = opened.open(path, rules.piece, gap);
+    if (k > 0) part_crossing(opened, paths[k - 1], path, doubled.back()[1], pairs.front()[1], gap);
     doubled.insert(doubled.end(), pairs.begin(), pairs.end());
   }
   opened.refresh_facets();

@@ -1,6 +1,6 @@
 // Any outline, holes, cracks, interfaces, regions and spacings or nodes: a cloud whose cells and operators
-// keep their promises, whose parts are told apart and whose bonded faces match, and which, where it has no
-// faces inside, can be deformed and resampled; or a GeometryError.
+// keep their promises, whose parts are told apart and whose bonded faces match, and which can be deformed and
+// resampled, its faces matched; or a GeometryError.
 #include "adapt/resample.hpp"
 #include "app/problem/bodies.hpp"
 #include "cnem/scni.hpp"
