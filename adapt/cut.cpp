@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -30,11 +31,15 @@ void straighten(WorkingCloud& work, std::span<const NodeIndex> path, double most
 BoundaryLoops::BoundaryLoops(const WorkingCloud& work)
     : loop_(work.size(), -1), along_(work.size(), 0.0), order_(work.size(), 0) {
   const IndexedVector<NodeIndex, Vec2>& at = work.cloud().position;
+  const auto onwards = [&](NodeIndex i) {
+    while (exists(work.facing(i))) i = work.next(work.facing(i));
+    return i;
+  };
   for (const NodeIndex i : work.nodes()) {
-    if (!work.on_boundary(i) || loop_[i] >= 0) continue;
+    if (!work.on_boundary(i) || exists(work.facing(i)) || loop_[i] >= 0) continue;
     double length = 0.0;
     int nodes = 0;
-    for (NodeIndex k = i; loop_[k] < 0; k = work.next(k)) {
+    for (NodeIndex k = i; loop_[k] < 0; k = onwards(work.next(k))) {
       loop_[k] = as<std::int32_t>(length_.size());
       along_[index_of(k)] = length;
       order_[k] = nodes++;
@@ -53,12 +58,33 @@ bool BoundaryLoops::parts(NodeIndex from, NodeIndex to, double length, int nodes
   return std::min(one, length_[loop] - one) >= length && std::min(some, nodes_[loop] - some) > nodes;
 }
 
-bool open_cut(WorkingCloud& work, Structure& structure, std::span<const NodeIndex> path,
-              const SplitRules& rules, double smoothed) {
+namespace {
+
+/// Sets the two sides of an opened cut apart where it goes on from a node to its mate.
+void part_crossing(WorkingCloud& work, const Path& path, const Path& onwards, NodeIndex right,
+                   NodeIndex right_mate, double gap) {
+  const auto at = [&](NodeIndex i) -> const Vec2& { return work.cloud().position[i]; };
+  // of a period the ends are far apart
+  const Vec2 in = at(path.back()) - at(path[path.size() - 2]), out = at(onwards[1]) - at(onwards.front());
+  const Vec2 left = 0.5 * gap * left_normal((in + out).normalized());
+  for (const NodeIndex i : {path.back(), onwards.front()}) work.place(i, at(i) + left);
+  for (const NodeIndex i : {right, right_mate}) work.place(i, at(i) - left);
+}
+
+} // namespace
+
+bool open_cut(WorkingCloud& work, Structure& structure, std::span<const Path> paths, const SplitRules& rules,
+              double smoothed) {
   WorkingCloud opened = work;
-  straighten(opened, path, smoothed);
-  const double gap = rules.gap * work.size_between(path.front(), path.back());
-  const std::vector<std::array<NodeIndex, 2>> doubled = opened.open(path, rules.piece, gap);
+  std::vector<std::array<NodeIndex, 2>> doubled;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const Path& path = paths[k];
+    straighten(opened, path, smoothed);
+    const double gap = rules.gap * work.size_between(path.front(), path.back());
+    const auto pairs = opened.open(path, rules.piece, gap);
+    if (k > 0) part_crossing(opened, paths[k - 1], path, doubled.back()[1], pairs.front()[1], gap);
+    doubled.insert(doubled.end(), pairs.begin(), pairs.end());
+  }
   opened.refresh_facets();
   std::optional<Structure> after = structure_if_valid(opened.cloud(), structure.space);
   if (!after) return false;

@@ -3,10 +3,12 @@
 #include "adapt/resample.hpp"
 
 #include <span>
+#include <vector>
 
 namespace cnem::adapt {
 
-/// Where boundary nodes are along the loops of the boundary.
+/// Where boundary nodes are along the loops of the boundary; faces that are mates belong to none, and loops
+/// go on beyond them.
 class BoundaryLoops {
 public:
   explicit BoundaryLoops(const WorkingCloud& work);
@@ -22,10 +24,13 @@ private:
   std::vector<int> nodes_;                      ///< [loop]
 };
 
-/// Opens the cloud along a path between two boundary nodes, over interior ones, which may be moved by
-/// `smoothed` spacings to straighten it. Doubled nodes share their matter by the volumes of their cells.
-/// False when the cloud would have no valid structure: then nothing has changed.
-bool open_cut(WorkingCloud& work, Structure& structure, std::span<const NodeIndex> path,
-              const SplitRules& rules, double smoothed);
+/// Two boundary nodes and the interior ones between them.
+using Path = std::vector<NodeIndex>;
+
+/// Opens the cloud along paths that go on from mate to mate. Inner nodes may be moved by `smoothed` spacings
+/// to straighten them. Doubled nodes share their matter by the volumes of their cells. False when the cloud
+/// would have no valid structure: then nothing has changed.
+bool open_cut(WorkingCloud& work, Structure& structure, std::span<const Path> paths, const SplitRules& rules,
+              double smoothed);
 
 } // namespace cnem::adapt

@@ -80,6 +80,16 @@ public:
   }
   const std::vector<Gap>& gaps() const { return gaps_; }
 
+  /// The gap on the mate of a boundary edge.
+  Gap facing(const Gap& gap) const {
+    const NodeIndex a = work_.facing(gap.node[0]), b = work_.next(a);
+    Gap other = gap;
+    other.node = {a, b};
+    other.triangle = {structure_.mesh.triangle_of_node[a], SimplexIndex::none};
+    other.x = 0.5 * (at(a) + at(b));
+    return other;
+  }
+
 private:
   const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
 
@@ -152,11 +162,18 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   PassReport done = report;
   std::int32_t stamp = 0;
   for (const Gap& gap : filling.gaps()) {
-    cavity.collect(gap, stamp++);
     const bool edge = exists(gap.node[0]), on_boundary = !exists(gap.triangle[1]);
-    const auto& triangles = cavity.triangles();
-    if (std::any_of(triangles.begin(), triangles.end(), [&](SimplexIndex t) { return taken[t] != 0; }) ||
-        !cavity.clear(gap, on_boundary, thresholds))
+    std::vector<Gap> together{gap};
+    if (on_boundary && exists(work.facing(gap.node[0]))) together.push_back(filling.facing(gap));
+    std::vector<SimplexIndex> triangles;
+    bool clear = true;
+    for (const Gap& one : together) {
+      cavity.collect(one, stamp++);
+      clear &= cavity.clear(one, on_boundary, thresholds);
+      triangles.insert(triangles.end(), cavity.triangles().begin(), cavity.triangles().end());
+    }
+    if (!clear ||
+        std::any_of(triangles.begin(), triangles.end(), [&](SimplexIndex t) { return taken[t] != 0; }))
       continue;
     for (const SimplexIndex t : triangles) taken[t] = 1;
     if (edge)
@@ -164,7 +181,7 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
     else
       filled.insert_at(gap.x, structure.mesh.node[gap.triangle[0]],
                        voronoi::barycentric(work.cloud(), structure.mesh, gap.triangle[0], gap.x));
-    ++(on_boundary ? done.inserted_boundary : done.inserted);
+    (on_boundary ? done.inserted_boundary : done.inserted) += static_cast<int>(together.size());
   }
   if (filled.size() == work.size()) return false;
 

@@ -30,7 +30,7 @@ std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, 
   const auto& mesh = structure.mesh;
   const auto at = [&](NodeIndex i) -> const Vec2& { return work.cloud().position[i]; };
   const auto ends_cut = [&](NodeIndex i) {
-    return work.on_boundary(i) && work.node().broken[index_of(i)] >= 1.0;
+    return work.on_boundary(i) && !work.has_mates(i) && work.node().broken[index_of(i)] >= 1.0;
   };
   std::vector<Waist> list;
   const auto consider = [&](NodeIndex i, NodeIndex start, double place, double distance) {
@@ -93,7 +93,7 @@ bool cut_at(WorkingCloud& work, Structure& structure, const Waist& waist, const 
   Structure after = structure;
   const NodeIndex to = waist.place > 0.0 ? insert_foot(opened, after, waist) : waist.start;
   if (!exists(to) || shaves(opened, waist.node, to, std::cos(rules.least_angle * std::numbers::pi / 180.0)) ||
-      !open_cut(opened, after, std::array{waist.node, to}, rules, 0.0))
+      !open_cut(opened, after, std::array{Path{waist.node, to}}, rules, 0.0))
     return false;
   work = std::move(opened);
   structure = std::move(after);

@@ -1,8 +1,10 @@
 #include "adapt/marking.hpp"
 
+#include "core/geometry/mates.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 
@@ -64,6 +66,9 @@ Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator&
 }
 
 void limit_growth(const Cloud<2>& cloud, const Structure& structure, double growth, Field& size) {
+  std::vector<std::array<NodeIndex, 2>> mates = mated_nodes(cloud);
+  for (std::size_t k = mates.size(); k-- > 0;) mates.push_back({mates[k][1], mates[k][0]});
+  std::sort(mates.begin(), mates.end());
   using Entry = std::pair<double, NodeIndex>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
   for (std::size_t i = 0; i < size.size(); ++i) front.emplace(size[i], as<NodeIndex>(i));
@@ -72,14 +77,16 @@ void limit_growth(const Cloud<2>& cloud, const Structure& structure, double grow
     front.pop();
     const auto at = index_of(i);
     if (h > size[at]) continue; // lowered since
-    for (const NodeIndex k : structure.neighbours(i)) {
-      const auto other = index_of(k);
-      const double limit = h + growth * (cloud.position[other] - cloud.position[at]).norm();
-      if (limit < size[other] * (1.0 - 1e-12)) {
-        size[other] = limit;
-        front.emplace(limit, k);
-      }
-    }
+    const auto keep_to = [&](NodeIndex k, double limit) {
+      if (!(limit < size[index_of(k)] * (1.0 - 1e-12))) return;
+      size[index_of(k)] = limit;
+      front.emplace(limit, k);
+    };
+    for (const NodeIndex k : structure.neighbours(i))
+      keep_to(k, h + growth * (cloud.position[k] - cloud.position[i]).norm());
+    for (auto mate = std::lower_bound(mates.begin(), mates.end(), std::array{i, NodeIndex{}});
+         mate != mates.end() && (*mate)[0] == i; ++mate)
+      keep_to((*mate)[1], h);
   }
 }
 

@@ -25,7 +25,8 @@ struct Marking {
 Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator& indicator,
              const MarkingRules& rules, Field& size);
 
-/// Lowers the spacing where it grows faster than `growth` per distance from a finer neighbour.
+/// Lowers the spacing where it grows faster than `growth` per distance from a finer neighbour; mates have
+/// the same.
 void limit_growth(const Cloud<2>& cloud, const Structure& structure, double growth, Field& size);
 
 /// Nodes that a cloud of the given spacing would have: Σ V_i/(½√3 h_i²).

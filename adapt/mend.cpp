@@ -26,8 +26,9 @@ public:
   explicit Mending(const WorkingCloud& work) : work_(work) {}
 
   bool may_go(NodeIndex i) const {
-    const NodeIndex a = work_.previous(i), c = work_.next(i);
-    return !work_.held(i) && !work_.ends_piece(i) && work_.next(c) != a;
+    const auto in_a_triangle = [&](NodeIndex k) { return work_.next(work_.next(k)) == work_.previous(k); };
+    const NodeIndex mate = work_.mate(i);
+    return !work_.stays(i) && !in_a_triangle(i) && !(exists(mate) && in_a_triangle(mate));
   }
 
   /// The boundary comes back along itself: the body has an angle below 3 degrees there. The tip of an open
@@ -71,14 +72,17 @@ void mend_boundary(WorkingCloud& work, PassReport& report) {
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
   bool any = false;
   const auto bypass = [&](NodeIndex i) {
-    const Vec2& x = work.cloud().position[i];
-    const NodeIndex a = work.previous(i), c = work.next(i);
-    const bool to_a = (work.cloud().position[a] - x).norm() < (work.cloud().position[c] - x).norm();
-    work.move_now(i, to_a ? a : c, 1.0);
+    for (const NodeIndex k : {i, work.mate(i)}) {
+      if (!exists(k)) continue;
+      const Vec2& x = work.cloud().position[k];
+      const NodeIndex a = work.previous(k), c = work.next(k);
+      const bool to_a = (work.cloud().position[a] - x).norm() < (work.cloud().position[c] - x).norm();
+      work.move_now(k, to_a ? a : c, 1.0);
+      gone[k] = 1;
+      ++report.folded;
+    }
     work.bypass(i);
-    gone[i] = 1;
     any = true;
-    ++report.folded;
   };
   for (int round = 0; round < longest_fold; ++round) {
     const int before = report.folded;
@@ -108,25 +112,19 @@ void mend_boundary(WorkingCloud& work, PassReport& report) {
   work.refresh_facets();
 }
 
-void drop_outside(WorkingCloud& work, PassReport& report) {
+namespace {
+
+/// Marked interior nodes give their mass to the ends of the nearest edge of their own part.
+bool give_to_boundary(WorkingCloud& work, const IndexedVector<NodeIndex, char>& gone, PassReport& report) {
   const Cloud<2>& cloud = work.cloud();
-  const voronoi::EdgeTree tree(cloud);
-  IndexedVector<NodeIndex, char> gone(work.size(), 0);
-  for_each_block(work.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (work.on_boundary(as<NodeIndex>(i))) continue;
-      const Vec2& x = cloud.position[i];
-      const double touching = 1e-6 * work.node().size[i];
-      gone[i] = tree.distance(x, touching) < touching || !tree.inside(x);
-    }
-  });
   std::vector<Parcel> parcels;
-  for (std::size_t i = 0; i < gone.size(); ++i) {
+  for (const NodeIndex i : work.nodes()) {
     if (!gone[i]) continue;
     double best = std::numeric_limits<double>::max();
-    Parcel to_start{as<NodeIndex>(i), NodeIndex::none, 1.0}, to_end = to_start;
+    Parcel to_start{i, NodeIndex::none, 1.0}, to_end = to_start;
     for (const Facet<2>& facet : cloud.facets) {
       const auto [a, b] = facet.node;
+      if (!work.may_mix(i, a)) continue;
       const Foot foot = foot_on(cloud.position[i], cloud.position[a], cloud.position[b]);
       if (foot.distance >= best) continue;
       best = foot.distance;
@@ -140,10 +138,49 @@ void drop_outside(WorkingCloud& work, PassReport& report) {
       if (parcel.fraction > 0.0) parcels.push_back(parcel);
     ++report.outside;
   }
-  if (parcels.empty()) return;
+  if (parcels.empty()) return false;
   work.move(parcels);
   work.drop(gone);
   work.refresh_facets();
+  return true;
+}
+
+} // namespace
+
+void drop_outside(WorkingCloud& work, PassReport& report) {
+  const Cloud<2>& cloud = work.cloud();
+  const voronoi::EdgeTree tree(cloud);
+  IndexedVector<NodeIndex, char> gone(work.size(), 0);
+  for_each_block(work.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (work.on_boundary(as<NodeIndex>(i))) continue;
+      const Vec2& x = cloud.position[i];
+      const double touching = 1e-6 * work.node().size[i];
+      gone[i] = tree.distance(x, touching) < touching || !tree.inside(x);
+    }
+  });
+  give_to_boundary(work, gone, report);
+}
+
+void drop_strayed(WorkingCloud& work, Structure& structure, PassReport& report) {
+  if (work.node().part.empty()) return;
+  // from the boundary inwards: which part the neighbours of a node are of
+  IndexedVector<NodeIndex, NodeIndex> from(work.size(), NodeIndex::none);
+  std::vector<NodeIndex> front;
+  for (const NodeIndex i : work.nodes())
+    if (work.on_boundary(i)) {
+      from[i] = i;
+      front.push_back(i);
+    }
+  for (std::size_t k = 0; k < front.size(); ++k)
+    for (const NodeIndex next : structure.neighbours(front[k]))
+      if (!exists(from[next])) {
+        from[next] = from[front[k]];
+        front.push_back(next);
+      }
+  IndexedVector<NodeIndex, char> gone(work.size(), 0);
+  for (const NodeIndex i : front) gone[i] = !work.may_mix(i, from[i]);
+  if (give_to_boundary(work, gone, report)) structure = build_structure(work.cloud(), structure.space);
 }
 
 } // namespace cnem::adapt

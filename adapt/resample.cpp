@@ -68,6 +68,7 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
     drop_outside(work, report);
     structure = build_structure(work.cloud(), rules.space);
   }
+  drop_strayed(work, *structure, report);
   if (!work.node().broken.empty()) {
     split(work, *structure, rules.split, report);
     cut_films(work, *structure, rules.split, report);

@@ -59,7 +59,7 @@ struct PassReport {
   int opened = 0;  ///< edges of these
   int films = 0;   ///< cuts among them at the waists of films
   int folded = 0;  ///< boundary nodes at which the boundary turned back on itself or crossed
-  int outside = 0; ///< interior nodes found outside the boundary
+  int outside = 0; ///< interior nodes found outside the boundary, or in another part
   int removed = 0, removed_boundary = 0;
   int promoted = 0; ///< interior nodes that became part of the boundary
   int inserted = 0, inserted_boundary = 0;
@@ -86,8 +86,10 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
 /// Before anything is triangulated: boundary nodes at which the boundary turns back on itself, and short
 /// loops of it, are bypassed; their mass goes to the nearer neighbour.
 void mend_boundary(WorkingCloud& work, PassReport& report);
-/// Interior nodes outside the boundary give their mass to the ends of the nearest edge.
+/// Interior nodes outside the boundary give their mass to the ends of the nearest edge of their own part.
 void drop_outside(WorkingCloud& work, PassReport& report);
+/// The same of interior nodes that have come into another part, through faces that are mates.
+void drop_strayed(WorkingCloud& work, Structure& structure, PassReport& report);
 /// Opens the cloud along paths of Delaunay edges between broken nodes that join two parts of the boundary,
 /// through the most broken matter. Nodes are doubled, nothing is deleted; the matter of a doubled node is
 /// shared out by the volumes of its two cells. Matter that is broken but does not part the body stays whole.

@@ -17,9 +17,6 @@ namespace {
 
 double cosine(const Vec2& a, const Vec2& b) { return a.dot(b) / (a.norm() * b.norm()); }
 
-/// Two boundary nodes and the interior ones between them.
-using Path = std::vector<NodeIndex>;
-
 class Cutting {
 public:
   Cutting(const WorkingCloud& work, const Structure& structure, const SplitRules& rules)
@@ -28,8 +25,9 @@ public:
     number_chains();
   }
 
-  /// The cut of least cost, the integral of 1/broken along it. Empty when there is none.
-  Path best() const {
+  /// The cut of least cost, the integral of 1/broken along it, in pieces from mate to mate. Empty when there
+  /// is none.
+  std::vector<Path> best() const {
     Path best;
     double least = std::numeric_limits<double>::infinity();
     for (const NodeIndex from : work_.nodes()) {
@@ -40,23 +38,32 @@ public:
         best = path;
       }
     }
-    return best;
+    std::vector<Path> pieces;
+    for (const NodeIndex i : best) {
+      if (pieces.empty() || (work_.on_boundary(i) && work_.mate(i) == pieces.back().back()))
+        pieces.emplace_back();
+      pieces.back().push_back(i);
+    }
+    return pieces;
   }
 
 private:
   const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
   bool broken(NodeIndex i) const { return broken_[index_of(i)] >= 1.0; }
+  bool may_end(NodeIndex i) const { return work_.on_boundary(i) && !work_.has_mates(i) && broken(i); }
+  /// Whether a cut can go on at the mate of a boundary node.
+  bool crosses(NodeIndex i) const { return exists(work_.mate(i)) && broken(work_.mate(i)); }
 
   /// Broken boundary nodes that follow each other make a chain: a cut leads from one to another.
   void number_chains() {
     chain_.assign(work_.size(), -1);
     std::vector<std::int32_t> length;
     for (const NodeIndex i : work_.nodes()) {
-      if (!work_.on_boundary(i) || !broken(i) || chain_[i] >= 0) continue;
+      if (!may_end(i) || chain_[i] >= 0) continue;
       NodeIndex begin = i;
-      while (broken(work_.previous(begin)) && work_.previous(begin) != i) begin = work_.previous(begin);
+      while (may_end(work_.previous(begin)) && work_.previous(begin) != i) begin = work_.previous(begin);
       length.push_back(0);
-      for (NodeIndex k = begin; broken(k) && chain_[k] < 0; k = work_.next(k)) {
+      for (NodeIndex k = begin; may_end(k) && chain_[k] < 0; k = work_.next(k)) {
         chain_[k] = as<std::int32_t>(length.size()) - 1;
         ++length.back();
       }
@@ -94,7 +101,17 @@ private:
       front.pop();
       if (known > cost[index_of(i)]) continue;
       if (known >= limit) break;
-      if (i != from && work_.on_boundary(i)) {
+      const bool goes_on = i == from || came[i] == work_.mate(i); // from the boundary inwards
+      if (work_.on_boundary(i) && !goes_on && work_.has_mates(i)) {
+        const NodeIndex mate = work_.mate(i);
+        if (known >= cost[index_of(mate)]) continue;
+        cost[index_of(mate)] = known;
+        length[index_of(mate)] = length[index_of(i)];
+        came[mate] = i;
+        front.emplace(known, mate);
+        continue;
+      }
+      if (work_.on_boundary(i) && !goes_on) {
         if (!loops_.parts(from, i, rules_.part * length[index_of(i)], rules_.least_loop)) continue;
         Path path;
         for (NodeIndex k = i; exists(k); k = came[k]) path.push_back(k);
@@ -103,8 +120,10 @@ private:
       }
       for (const NodeIndex k : structure_.neighbours(i)) {
         if (!broken(k)) continue;
-        if (i == from && (work_.on_boundary(k) || shaves(from, k))) continue;
-        if (work_.on_boundary(k) && (chain_[k] == chain_[from] || shaves(k, i))) continue;
+        if (work_.on_boundary(i) && (work_.on_boundary(k) || shaves(i, k))) continue;
+        if (work_.on_boundary(k) &&
+            (!(crosses(k) || may_end(k)) || chain_[k] == chain_[from] || shaves(k, i)))
+          continue;
         const double step = (at(k) - at(i)).norm();
         const double reached = known + step * (work_.on_boundary(k) ? 1.0 : detour(k)) * 2.0 /
                                            (broken_[index_of(i)] + broken_[index_of(k)]);
@@ -133,15 +152,15 @@ private:
 void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report) {
   constexpr int most = 8; // cuts in one pass
   for (int k = 0; k < most; ++k) {
-    const Path path = Cutting(work, structure, rules).best();
-    if (path.empty()) return;
-    if (!open_cut(work, structure, path, rules, rules.smoothed) &&
-        !open_cut(work, structure, path, rules, 0.0)) {
+    const std::vector<Path> paths = Cutting(work, structure, rules).best();
+    if (paths.empty()) return;
+    if (!open_cut(work, structure, paths, rules, rules.smoothed) &&
+        !open_cut(work, structure, paths, rules, 0.0)) {
       ++report.undone;
       return;
     }
     ++report.cuts;
-    report.opened += static_cast<int>(path.size()) - 1;
+    for (const Path& path : paths) report.opened += static_cast<int>(path.size()) - 1;
   }
 }
 

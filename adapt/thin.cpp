@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <optional>
 
@@ -43,6 +44,16 @@ public:
     NodeIndex node;
     Vec2 to;
   };
+  /// Whether a boundary node may be passed by with its mate: faces that belong together give way to nothing.
+  std::optional<std::vector<Shift>> removal(NodeIndex node) const {
+    std::optional<std::vector<Shift>> shifts = bypass(node);
+    const NodeIndex mate = work_.mate(node);
+    if (!shifts || !exists(mate)) return shifts;
+    const std::optional<std::vector<Shift>> others = bypass(mate);
+    return shifts->empty() && others && others->empty() ? shifts : std::nullopt;
+  }
+
+private:
   /// What it takes for the boundary to go straight from the node before to the node after; nothing if it may
   /// not: but for what touches it and gives way a little, nothing else may lie in or at the triangle between
   /// them.
@@ -57,10 +68,12 @@ public:
     std::vector<Shift> shifts;
     if (!convex)
       for (const NodeIndex k : boundary_) {
-        if (k == a || k == node || k == c || !within(at(k), xa, xc, at(node))) continue;
+        if (k == a || k == node || k == c || lies_on(k, {a, node, c}) || !within(at(k), xa, xc, at(node)))
+          continue;
         const Vec2 along = (xc - xa).normalized(), outwards(along.y(), -along.x());
         const double depth = -outwards.dot(at(k) - xa);
-        if (depth > limit_.gives_way * work_.node().size[index_of(k)] || work_.held(k)) return std::nullopt;
+        if (depth > limit_.gives_way * work_.node().size[index_of(k)] || work_.held(k) || work_.has_mates(k))
+          return std::nullopt;
         shifts.push_back({k, at(k) + (depth + 1e-6 * (xc - xa).norm()) * outwards});
       }
     for (const NodeIndex k : structure_.neighbours(node)) {
@@ -73,7 +86,6 @@ public:
     return shifts;
   }
 
-private:
   const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
   /// Whether a point lies in or on a triangle, corners counter-clockwise, which may be as flat as rounding.
   static bool within(const Vec2& x, const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -82,7 +94,14 @@ private:
     return place >= std::min(0.0, top) && place <= std::max(size, top) && cross(along, x - a) >= 0.0 &&
            cross(c - b, x - b) >= 0.0 && cross(a - c, x - c) >= 0.0;
   }
-  bool stays(NodeIndex i) const { return work_.held(i) || work_.ends_piece(i); }
+  bool stays(NodeIndex i) const { return work_.stays(i); }
+  /// Whether a node is on the other face at one of these.
+  bool lies_on(NodeIndex k, std::initializer_list<NodeIndex> nodes) const {
+    constexpr double together = 1e-3; // mates that are farther apart have parted
+    return work_.has_mates(k) && std::any_of(nodes.begin(), nodes.end(), [&](NodeIndex i) {
+             return (at(k) - at(i)).norm() < together * work_.size_between(i, k);
+           });
+  }
 
   void near_edges() {
     const auto& mesh = structure_.mesh;
@@ -95,7 +114,8 @@ private:
         const Foot foot = foot_on(at(i), at(a), at(b));
         if (foot.distance >= limit_.boundary_gap * h || foot.place <= 0.0 || foot.place >= 1.0) continue;
         const double length = (at(b) - at(a)).norm();
-        const bool room = std::min(foot.place, 1.0 - foot.place) * length >= limit_.clear_node * h;
+        const bool room = !exists(work_.facing(a)) &&
+                          std::min(foot.place, 1.0 - foot.place) * length >= limit_.clear_node * h;
         list_.push_back({i, foot.distance / (limit_.boundary_gap * h), room ? a : NodeIndex::none});
       }
   }
@@ -167,7 +187,7 @@ private:
       double spacing = 0.0;
       if (work_.on_boundary(i)) {
         const Turn turn = turn_at(i);
-        if (work_.ends_piece(i) || turn.area > limit_.straight * h * h) continue;
+        if (stays(i) || turn.area > limit_.straight * h * h) continue;
         spacing = 0.5 * (turn.back + turn.ahead);
       } else {
         spacing = spacing_at(work_.cloud(), structure_, i);
@@ -223,9 +243,13 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   PassReport done = report;
   for (const Candidate& candidate : thinning.candidates()) {
     const NodeIndex i = candidate.node;
-    const auto around = structure.neighbours(i);
-    if (touched[i] || std::any_of(around.begin(), around.end(), [&](NodeIndex k) { return touched[k] != 0; }))
-      continue;
+    const NodeIndex mate = work.mate(i);
+    const auto busy = [&](NodeIndex node) {
+      const auto around = structure.neighbours(node);
+      return touched[node] ||
+             std::any_of(around.begin(), around.end(), [&](NodeIndex k) { return touched[k] != 0; });
+    };
+    if (busy(i) || (exists(mate) && busy(mate))) continue;
     if (exists(candidate.promote_to)) {
       const Vec2 &a = work.cloud().position[candidate.promote_to],
                  &b = work.cloud().position[work.next(candidate.promote_to)];
@@ -233,7 +257,7 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
       changed.promote(i, candidate.promote_to, a + place * (b - a));
       ++done.promoted;
     } else if (work.on_boundary(i)) {
-      const auto shifts = thinning.bypass(i);
+      const auto shifts = thinning.removal(i);
       if (!shifts || std::any_of(shifts->begin(), shifts->end(),
                                  [&](const auto& shift) { return touched[shift.node] != 0; }))
         continue;
@@ -244,12 +268,19 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
       changed.bypass(i);
       gone[i] = 1;
       ++done.removed_boundary;
+      if (exists(mate)) {
+        gone[mate] = 1;
+        ++done.removed_boundary;
+      }
     } else {
       gone[i] = 1;
       ++done.removed;
     }
-    touched[i] = 1;
-    for (const NodeIndex k : around) touched[k] = 1;
+    for (const NodeIndex node : {i, mate}) {
+      if (!exists(node)) continue;
+      touched[node] = 1;
+      for (const NodeIndex k : structure.neighbours(node)) touched[k] = 1;
+    }
   }
   if (done.removed == report.removed && done.removed_boundary == report.removed_boundary &&
       done.promoted == report.promoted)

@@ -5,8 +5,10 @@
 #include "voronoi/order.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace cnem::adapt {
 
@@ -38,8 +40,6 @@ void add(Row& a, const Row& b, double factor) {
 WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, PieceIndex free_piece)
     : cloud_(cloud), node_(std::move(properties)), old_nodes_(cloud.position.size()),
       free_piece_(free_piece) {
-  if (!cloud.twins.empty())
-    throw GeometryError("a cloud with cracks or interfaces cannot be resampled: their two faces would part");
   voronoi::outgoing_facets(cloud); // throws for open loops
   next_.assign(old_nodes_, NodeIndex::none);
   previous_.assign(old_nodes_, NodeIndex::none);
@@ -51,6 +51,9 @@ WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, Pie
     previous_[b] = a;
     piece_[a] = facet.piece;
   }
+  facing_.assign(old_nodes_, NodeIndex::none);
+  for (const CloudFacetIndex f : cloud.mates.indices())
+    if (exists(cloud.mates[f])) facing_[cloud.facets[f].node[0]] = cloud.facets[cloud.mates[f]].node[0];
   for (const Facet<2>& facet : cloud.facets) {
     if (seen[facet.node[0]]) continue;
     loop_.push_back(facet.node[0]);
@@ -84,6 +87,7 @@ NodeIndex WorkingCloud::append(const Vec2& x, const std::vector<std::pair<NodeIn
   node_.density.push_back(node_.density[index_of(parents.front().first)]);
   node_.size.push_back(size);
   node_.held.push_back(0);
+  if (!node_.part.empty()) node_.part.push_back(node_.part[parents.front().first]);
   if (!node_.broken.empty()) {
     double broken = 0.0;
     for (const auto& [parent, weight] : parents) broken += weight * node_.broken[index_of(parent)];
@@ -92,6 +96,7 @@ NodeIndex WorkingCloud::append(const Vec2& x, const std::vector<std::pair<NodeIn
   next_.push_back(NodeIndex::none);
   previous_.push_back(NodeIndex::none);
   piece_.push_back(PieceIndex::none);
+  facing_.push_back(NodeIndex::none);
   old_of_.push_back(NodeIndex::none);
   return made;
 }
@@ -99,14 +104,55 @@ NodeIndex WorkingCloud::append(const Vec2& x, const std::vector<std::pair<NodeIn
 NodeIndex WorkingCloud::insert_between(NodeIndex a, NodeIndex b, bool on_boundary, double place) {
   const Vec2 x = (1.0 - place) * cloud_.position[a] + place * cloud_.position[b];
   const NodeIndex made = append(x, {{a, 1.0 - place}, {b, place}});
-  if (on_boundary) {
-    next_[a] = made;
-    next_[made] = b;
-    previous_[b] = made;
-    previous_[made] = a;
-    piece_[made] = piece_[a];
-  }
+  if (!on_boundary) return made;
+  const NodeIndex opposite = facing_[a];
+  divide(a, made);
+  if (!exists(opposite)) return made;
+  assert(place == 0.5);
+  const NodeIndex behind = next_[opposite];
+  const NodeIndex mate = append(0.5 * cloud_.position[opposite] + 0.5 * cloud_.position[behind],
+                                {{opposite, 0.5}, {behind, 0.5}});
+  divide(opposite, mate);
+  be_mates(a, mate);
+  be_mates(made, opposite);
+  // of a period they are much farther apart
+  const double apart = (cloud_.position[made] - cloud_.position[mate]).norm();
+  if (apart < 0.1 * (cloud_.position[b] - cloud_.position[a]).norm()) cloud_.twins.push_back({made, mate});
   return made;
+}
+
+/// The boundary goes over a new node on the facet that leaves a.
+void WorkingCloud::divide(NodeIndex a, NodeIndex made) {
+  const NodeIndex b = next_[a];
+  next_[a] = made;
+  next_[made] = b;
+  previous_[b] = made;
+  previous_[made] = a;
+  piece_[made] = piece_[a];
+}
+
+/// The facets that leave two nodes belong together.
+void WorkingCloud::be_mates(NodeIndex a, NodeIndex b) {
+  facing_[a] = b;
+  facing_[b] = a;
+}
+
+NodeIndex WorkingCloud::mate(NodeIndex i) const {
+  if (!on_boundary(i)) return NodeIndex::none;
+  const NodeIndex entering = facing_[previous_[i]], leaving = facing_[i];
+  return exists(entering) && exists(leaving) && next_[leaving] == entering && entering != i ? entering
+                                                                                            : NodeIndex::none;
+}
+
+/// Mates reach a node, but none goes with it.
+bool WorkingCloud::ends_mates(NodeIndex i) const { return has_mates(i) && !exists(mate(i)); }
+
+bool WorkingCloud::stays(NodeIndex i) const {
+  const auto must = [&](NodeIndex k) {
+    return held(k) || ends_piece(k) || (on_boundary(k) && ends_mates(k));
+  };
+  const NodeIndex other = mate(i);
+  return must(i) || (exists(other) && must(other));
 }
 
 NodeIndex WorkingCloud::insert_at(const Vec2& x, const std::array<NodeIndex, 3>& corner,
@@ -115,12 +161,9 @@ NodeIndex WorkingCloud::insert_at(const Vec2& x, const std::array<NodeIndex, 3>&
 }
 
 void WorkingCloud::promote(NodeIndex node, NodeIndex a, const Vec2& x) {
-  const NodeIndex b = next_[a];
+  assert(!exists(facing_[a]));
   cloud_.position[node] = x;
-  next_[a] = previous_[b] = node;
-  next_[node] = b;
-  previous_[node] = a;
-  piece_[node] = piece_[a];
+  divide(a, node);
 }
 
 bool WorkingCloud::ends_piece(NodeIndex i) const {
@@ -134,13 +177,22 @@ bool WorkingCloud::ends_piece(NodeIndex i) const {
 }
 
 void WorkingCloud::bypass(NodeIndex node) {
+  const NodeIndex other = mate(node);
+  const NodeIndex ahead = facing_[node], before = previous_[node]; // which become mates
+  pass_by(node);
+  if (!exists(other)) return;
+  pass_by(other);
+  be_mates(before, ahead);
+}
+
+void WorkingCloud::pass_by(NodeIndex node) {
   const NodeIndex a = previous_[node], b = next_[node];
   if (piece_[node] == free_piece_) piece_[a] = free_piece_;
   next_[a] = b;
   previous_[b] = a;
   for (NodeIndex& start : loop_)
     if (start == node) start = b;
-  next_[node] = previous_[node] = NodeIndex::none;
+  next_[node] = previous_[node] = facing_[node] = NodeIndex::none;
   piece_[node] = PieceIndex::none;
 }
 
@@ -164,6 +216,8 @@ std::vector<std::array<NodeIndex, 2>> WorkingCloud::open(std::span<const NodeInd
   right.front() = towards(first, after_first);
   left.back() = towards(last, next(last));
   right.back() = towards(last, before_last);
+  for (const std::size_t end : {std::size_t{0}, path.size() - 1})
+    if (has_mates(path[end])) left[end] = right[end] = Vec2::Zero();
   for (std::size_t k = 1; k + 1 < path.size(); ++k) {
     left[k] = 0.5 * gap * left_normal((at(path[k + 1]) - at(path[k - 1])).normalized());
     right[k] = -left[k];
@@ -174,12 +228,15 @@ std::vector<std::array<NodeIndex, 2>> WorkingCloud::open(std::span<const NodeInd
     at(path[k]) += left[k];
     node_.held[made] = node_.held[path[k]];
     doubled.push_back({path[k], made});
+    if (left[k] == right[k]) cloud_.twins.push_back({path[k], made});
   }
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     link(path[k], path[k + 1], piece);
     link(doubled[k + 1][1], doubled[k][1], piece);
   }
   link(doubled.front()[1], after_first, piece_first);
+  if (const NodeIndex opposite = std::exchange(facing_[first], NodeIndex::none); exists(opposite))
+    be_mates(doubled.front()[1], opposite);
   link(before_last, doubled.back()[1], piece_last);
   renew_loops();
   return doubled;
@@ -238,15 +295,21 @@ IndexedVector<NodeIndex, NodeIndex> WorkingCloud::drop(const IndexedVector<NodeI
   compact(node_.size);
   compact(node_.held);
   if (!node_.broken.empty()) compact(node_.broken);
+  if (!node_.part.empty()) compact(node_.part);
   compact(next_);
   compact(previous_);
   compact(piece_);
+  compact(facing_);
   compact(old_of_);
   compact(parcels_);
   compact(labels_);
   for (NodeIndex& i : next_) rename(i);
   for (NodeIndex& i : previous_) rename(i);
+  for (NodeIndex& i : facing_) rename(i);
   for (NodeIndex& i : loop_) rename(i);
+  std::erase_if(cloud_.twins, [&](const auto& pair) { return gone[pair[0]] || gone[pair[1]]; });
+  for (auto& pair : cloud_.twins)
+    for (NodeIndex& i : pair) rename(i);
   return number;
 }
 
@@ -258,6 +321,14 @@ void WorkingCloud::refresh_facets() {
       cloud_.facets.push_back({{i, next_[i]}, piece_[i]});
       i = next_[i];
     } while (i != start);
+  }
+  if (cloud_.mates.empty()) return;
+  IndexedVector<NodeIndex, CloudFacetIndex> leaving(size(), CloudFacetIndex::none);
+  for (const CloudFacetIndex f : cloud_.facets.indices()) leaving[cloud_.facets[f].node[0]] = f;
+  cloud_.mates.clear();
+  for (const Facet<2>& facet : cloud_.facets) {
+    const NodeIndex opposite = facing_[facet.node[0]];
+    cloud_.mates.push_back(exists(opposite) ? leaving[opposite] : CloudFacetIndex::none);
   }
 }
 

@@ -19,6 +19,9 @@ struct NodeProperties {
   Field size;     ///< m, wanted spacing; a label
   IndexedVector<NodeIndex, char> held; ///< corners and nodes that conditions name: they stay
   Field broken; ///< – from 1 on it carries nothing, larger ones part first; a label; empty: nothing breaks
+  /// What may not mix, the material for example: a label, one in each part that the boundary divides the
+  /// domain into. Empty: all may.
+  IndexedVector<NodeIndex, std::int32_t> part{};
 };
 
 /// Part of a node's matter on its way to another.
@@ -33,8 +36,7 @@ using Row = std::vector<std::pair<NodeIndex, double>>;
 class WorkingCloud {
 public:
   /// free_piece: the boundary piece whose ends may go, because nothing refers to it (faces that separation
-  /// made). Throws GeometryError when the cloud has twins (cracks, interfaces) or its facets do not form
-  /// loops.
+  /// made). Throws GeometryError when the facets of the cloud do not form loops.
   WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, PieceIndex free_piece = PieceIndex::none);
 
   const Cloud<2>& cloud() const { return cloud_; }
@@ -45,29 +47,43 @@ public:
   NodeIndex next(NodeIndex i) const { return next_[i]; } ///< along the boundary; none inside
   NodeIndex previous(NodeIndex i) const { return previous_[i]; }
   PieceIndex piece(NodeIndex i) const { return piece_[i]; } ///< of the facet that leaves it
+  bool may_mix(NodeIndex i, NodeIndex k) const {
+    return node_.part.empty() || node_.part[i] == node_.part[k];
+  }
   bool held(NodeIndex i) const { return node_.held[i] != 0; }
+  /// The start of the mate of the facet that leaves a boundary node; none where it has none.
+  NodeIndex facing(NodeIndex i) const { return facing_[i]; }
+  /// Whether a facet at a boundary node has a mate.
+  bool has_mates(NodeIndex i) const { return exists(facing_[i]) || exists(facing_[previous_[i]]); }
+  /// The node on the other face that comes and goes with a boundary node; none where the facets at the node
+  /// have no mates, or not the same node between them (tips, ends of faces, places where faces meet).
+  NodeIndex mate(NodeIndex i) const;
   /// Facets change pieces here, and the node has to stay for it: it is an end of named boundaries, or all
   /// that keeps a piece beside the free one.
   bool ends_piece(NodeIndex i) const;
+  /// A boundary node that may not go: it is held, ends a piece or mates, or its mate may not.
+  bool stays(NodeIndex i) const;
   double size_between(NodeIndex a, NodeIndex b) const {
     return 0.5 * (node_.size[index_of(a)] + node_.size[index_of(b)]);
   }
 
   /// Adds a node without matter between two others, or on the facet a → b of the boundary: half-way, or at
-  /// `place`, 0 at a and 1 at b. Returns its number.
+  /// `place`, 0 at a and 1 at b. Returns its number. Where the facet has a mate the next number is that of
+  /// the node in the middle of the mate: its place is half-way then.
   NodeIndex insert_between(NodeIndex a, NodeIndex b, bool on_boundary, double place = 0.5);
   /// Adds an interior node without matter at x, the mean of a triangle's nodes with these weights.
   NodeIndex insert_at(const Vec2& x, const std::array<NodeIndex, 3>& corner,
                       const std::array<double, 3>& weight);
-  /// Makes an interior node part of the facet a → next(a), at x.
+  /// Makes an interior node part of the facet a → next(a), which has no mate, at x.
   void promote(NodeIndex node, NodeIndex a, const Vec2& x);
-  /// Takes the boundary past a node, which becomes an interior one (to be removed). The free piece takes over
-  /// from others.
+  /// Takes the boundary past a node and its mate, which become interior ones (to be removed). The free piece
+  /// takes over from others.
   void bypass(NodeIndex node);
   /// Puts a node elsewhere; what it has goes with it.
   void place(NodeIndex node, const Vec2& x) { cloud_.position[node] = x; }
   /// Opens the domain along a path between two boundary nodes, over interior ones: nodes are doubled, and the
-  /// two faces stand `gap` (m) apart. Returns the pairs {old node, its double without matter}.
+  /// two faces stand `gap` (m) apart, but for ends on mates, whose doubles stay where they are, as twins.
+  /// Returns the pairs {old node, its double without matter}.
   std::vector<std::array<NodeIndex, 2>> open(std::span<const NodeIndex> path, PieceIndex piece, double gap);
   /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
   void move(const std::vector<Parcel>& parcels);
@@ -82,6 +98,10 @@ public:
   Resampling<2> finish();
 
 private:
+  bool ends_mates(NodeIndex i) const;
+  void divide(NodeIndex a, NodeIndex made);
+  void pass_by(NodeIndex node);
+  void be_mates(NodeIndex a, NodeIndex b);
   void renew_loops();
   Row& row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i);
   NodeRows in_order(IndexedVector<NodeIndex, Row>& rows, const std::vector<std::int32_t>& order);
@@ -93,6 +113,7 @@ private:
   PieceIndex free_piece_;
   IndexedVector<NodeIndex, NodeIndex> next_, previous_; ///< along the boundary
   IndexedVector<NodeIndex, PieceIndex> piece_;          ///< of the facet that leaves it
+  IndexedVector<NodeIndex, NodeIndex> facing_;          ///< start of the mate of the facet that leaves it
   std::vector<NodeIndex> loop_;                         ///< a node of each loop, in order
   IndexedVector<NodeIndex, NodeIndex> old_of_;          ///< number at the start; none: inserted
   IndexedVector<NodeIndex, Row> parcels_, labels_;      ///< empty: the old node itself, if there was one

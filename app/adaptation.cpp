@@ -5,10 +5,12 @@
 #include "mechanics/kinematics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace cnem::app {
 
@@ -37,6 +39,27 @@ IndexedVector<NodeIndex, std::int32_t> corners(const Cloud<2>& cloud) {
     if (in.dot(out) < least_cosine) corner[b] = 1;
   }
   return corner;
+}
+
+/// Faces of a crack that have gone apart do not belong together any more, nor those where cuts may end.
+/// broken: at nodes; empty where nothing is cut.
+void part_faces(Cloud<2>& cloud, const Ties<2>& ties, const Field& broken) {
+  constexpr double apart = 1e-3; // of a facet, as faces that separation makes
+  const auto tied = [&](NodeIndex a, NodeIndex b) {
+    return !ties.empty() && ties.group()[a] >= 0 && ties.group()[a] == ties.group()[b];
+  };
+  for (const CloudFacetIndex f : cloud.mates.indices()) {
+    if (!exists(cloud.mates[f])) continue;
+    const auto [a, b] = cloud.facets[f].node;
+    const auto [c, d] = cloud.facets[cloud.mates[f]].node;
+    const auto at = [&](NodeIndex i) -> const Vec2& { return cloud.position[i]; };
+    if (tied(a, d) && tied(b, c)) continue;
+    const std::array ends{a, b, c, d};
+    if (std::max((at(a) - at(d)).norm(), (at(b) - at(c)).norm()) > apart * (at(b) - at(a)).norm() ||
+        (!broken.empty() &&
+         std::any_of(ends.begin(), ends.end(), [&](NodeIndex i) { return broken[index_of(i)] >= 1.0; })))
+      cloud.mates[std::exchange(cloud.mates[f], CloudFacetIndex::none)] = CloudFacetIndex::none;
+  }
 }
 
 /// Corners of a tool, and points along its arcs no further apart than `spacing`.
@@ -88,6 +111,8 @@ adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Fi
     properties.jacobian[i] = jacobian<2>(state.point.deformation, i) / state.point.stress_free[i];
     properties.density[i] = solver.model().materials[index_of(state.point.material[i])].density;
   }
+  if (input_->materials.size() > 1)
+    properties.part.assign(state.node.material.begin(), state.node.material.end());
   if (input_->adapt.separate) { // of what is broken, the most strained is in the middle of the band
     properties.broken = state.point.softening;
     for (std::size_t i = 0; i < n; ++i)
@@ -130,6 +155,8 @@ void Adaptation::estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<
 void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   adapt::PassReport report;
   Cloud<2> cloud = solver.present_cloud();
+  part_faces(cloud, solver.conditions().ties,
+             input_->adapt.separate ? Field(solver.state().point.softening) : Field());
   const Field size_before = size_;
   const results::Audit before = results::audit(solver);
   try {

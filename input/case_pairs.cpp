@@ -15,8 +15,6 @@ using Text = std::string;
 
 constexpr const char* one_of_them = "one of them";
 constexpr const char* dynamics = "it with analysis.type = \"explicit\" only";
-constexpr const char* unmatched =
-    "nodes of faces that belong together come and go together, which resampling cannot do yet";
 constexpr const char* motion = "it with analysis.mechanical = true";
 
 bool is_static(const Case& c) { return c.analysis.type == Analysis::Type::statics; }
@@ -37,7 +35,6 @@ Text with_damage(const Case& c) {
     if (material.damage) return fmt::format("with material '{}', which has a damage law", material.name);
   return "";
 }
-Text with_resampling(const Case& c) { return when(resampled(c), "with adapt.resample = true"); }
 
 /// The first of a case's materials that expands from another temperature than the initial one.
 const plasticity::Material* expanding(const Case& c) {
@@ -161,9 +158,6 @@ const std::vector<Pair>& pairs() {
          return when(c.method.lagrangian == Method::Lagrangian::total, "with method.lagrangian = \"total\"");
        },
        "\"periodic\"", "nodes are changed at a new reference", resampled},
-      {"domain.cracks", "", "`adapt.resample`", with_resampling, one_of_them, unmatched},
-      {"domain.interfaces", "", "`adapt.resample`", with_resampling, one_of_them, unmatched},
-      {"periodic", "", "`adapt.resample`", with_resampling, one_of_them, unmatched},
       {"time.mass_scaling.step", "a step", "refinement",
        [](const Case& c) {
          const bool refines = resampled(c) && (c.adapt.indicator || c.adapt.tool_spacing);

@@ -20,8 +20,15 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
   std::size_t n = node.size();
   archive.integer("solver/nodes", n);
   archive.integers("solver/cloud/facets", facets);
+  archive.integers("solver/cloud/mates", conditions_.cloud.mates);
+  std::vector<NodeIndex> twins;
+  for (const auto& pair : conditions_.cloud.twins) twins.insert(twins.end(), pair.begin(), pair.end());
+  archive.integers("solver/cloud/twins", twins);
   if (archive.loading()) {
     conditions_.cloud.position.resize(n);
+    conditions_.cloud.twins.clear();
+    for (std::size_t at = 0; at + 1 < twins.size(); at += 2)
+      conditions_.cloud.twins.push_back({twins[at], twins[at + 1]});
     conditions_.cloud.facets.clear();
     for (std::size_t at = 0; at + dim < facets.size(); at += dim + 1) {
       Facet<dim> facet;
@@ -32,6 +39,8 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
     for (FieldTable* table : node_tables()) table->rest(n);
     for (FieldTable* table : point_tables()) table->rest(n); // only nodal methods are resampled
   }
+  conditions_.ties.archive_nodes(archive, "solver/ties", n);
+  conditions_.heat_ties.archive_nodes(archive, "solver/heat_ties", n);
   conditions_.supports.archive_nodes(archive, n);
   conditions_.heat_boundaries.archive_nodes(archive);
 }

@@ -33,8 +33,7 @@ ExplicitSolver<dim>::ExplicitSolver(Problem<dim> problem, Fields<dim> velocity, 
   if (!problem.node_material.empty()) node.material = std::move(problem.node_material);
   if (!problem.strength.empty()) node.strength = std::move(problem.strength);
   prepare();
-  if (!conditions_.ties.empty())
-    for (Field& component : node.velocity) conditions_.ties.share(node.inertia(), component);
+  share_velocities();
   initial_energy_ = ledger().total();
 }
 
@@ -69,6 +68,10 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   if (references_ == 0) start_points();
   place_reference();
   scale_masses();
+  if (change) {
+    share_velocities();
+    node.velocity_before = node.velocity;
+  }
   const std::size_t points = point.size();
   const LevelRange all{0, points, 0, false};
   for (std::size_t k = 0; k < point.deformation.size(); ++k)
@@ -129,6 +132,13 @@ template<int dim> std::vector<FieldTable*> ExplicitSolver<dim>::point_tables() {
   return tables;
 }
 
+/// Tied nodes move as one from the start.
+template<int dim> void ExplicitSolver<dim>::share_velocities() {
+  NodeState<dim>& node = state_.node;
+  if (conditions_.ties.empty()) return;
+  for (Field& component : node.velocity) conditions_.ties.share(node.inertia(), component);
+}
+
 /// Masses, and stress points at rest.
 template<int dim> void ExplicitSolver<dim>::start_points() {
   NodeState<dim>& node = state_.node;
@@ -180,6 +190,8 @@ template void ExplicitSolver<2>::place_reference();
 template void ExplicitSolver<3>::place_reference();
 template void ExplicitSolver<2>::scale_masses();
 template void ExplicitSolver<3>::scale_masses();
+template void ExplicitSolver<2>::share_velocities();
+template void ExplicitSolver<3>::share_velocities();
 template void ExplicitSolver<2>::start_points();
 template void ExplicitSolver<3>::start_points();
 template void ExplicitSolver<2>::set_moduli();

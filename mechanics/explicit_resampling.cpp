@@ -27,15 +27,20 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
     for (std::size_t i = 0; i < n; ++i)
       node.position[k][i] = change.cloud.position[i][static_cast<Eigen::Index>(k)];
   node.velocity_before = node.velocity;
+  conditions_.ties.resample(change);
+  conditions_.heat_ties.resample(change);
+  if (!conditions_.heat_ties.empty()) conditions_.heat_ties.share(node.heat_capacity, node.temperature);
   point.temperature = node.temperature;
   set_moduli();
   each([&](Term<dim>& term) { term.carried(body()); });
   mix_elastic(change, weights.mass, tension, model_.materials, point);
   if (local_.on()) local_.follow(change.labels);
   start_weight_.clear();
-  conditions_.supports.resample(change);
+  conditions_.supports.resample(change, conditions_.ties);
   conditions_.loads.resample(change.cloud, node.initial_position);
-  conditions_.heat_boundaries.resample(change);
+  conditions_.heat_boundaries.resample(change, [&](std::vector<NodeIndex> nodes) {
+    return conditions_.heat_ties.with_partners(std::move(nodes));
+  });
 }
 
 template void ExplicitSolver<2>::carry_over(const Resampling<2>&);

@@ -92,6 +92,7 @@ private:
   void restore_columns();
   // References.
   void renew(Cloud<dim> cloud, const Resampling<dim>* change);
+  void share_velocities();
   void start_points();
   void set_moduli();
   void place_reference();

@@ -14,10 +14,10 @@ Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
   resolve(nodes);
 }
 
-template<int dim> void Supports<dim>::resample(const Resampling<dim>& change) {
+template<int dim> void Supports<dim>::resample(const Resampling<dim>& change, const Ties<dim>& ties) {
   for (Support<dim>& support : support_)
-    support.nodes = renumbered(change, std::span<const NodeIndex>(support.nodes),
-                               std::span<const PieceIndex>(support.pieces));
+    support.nodes = ties.with_partners(renumbered(change, std::span<const NodeIndex>(support.nodes),
+                                                  std::span<const PieceIndex>(support.pieces)));
   resolve(change.cloud.position.size());
 }
 

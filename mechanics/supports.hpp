@@ -6,6 +6,7 @@
 #include "core/operators/resampling.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
+#include "mechanics/ties.hpp"
 
 #include <cstdint>
 #include <string>
@@ -35,8 +36,8 @@ public:
   /// support is oblique to another one of the same node.
   Supports(std::vector<Support<dim>> supports, std::size_t nodes);
 
-  /// Holds the nodes of a changed cloud.
-  void resample(const Resampling<dim>& change);
+  /// Holds the nodes of a changed cloud, with those that are tied to them.
+  void resample(const Resampling<dim>& change, const Ties<dim>& ties);
 
   /// Replaces the prescribed components of the velocity v_{n+1/2} by the mean velocity of the step [time,
   /// time + dt], so that positions follow the prescribed motion exactly. `before` is v_{n−1/2}, dt_mean =

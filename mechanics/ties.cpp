@@ -1,16 +1,27 @@
 #include "mechanics/ties.hpp"
 
+#include "core/geometry/mates.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 namespace cnem {
 
 template<int dim>
 Ties<dim>::Ties(const std::vector<std::array<NodeIndex, 2>>& pairs,
-                const IndexedVector<NodeIndex, Vec<dim>>& position) {
+                const IndexedVector<NodeIndex, Vec<dim>>& position, std::vector<PieceIndex> pieces)
+    : pieces_(std::move(pieces)) {
   if (pairs.empty()) return;
-  IndexedVector<NodeIndex, NodeIndex> root(position.size());
+  group(pairs, position.size());
+  for (const NodeIndex i : node_) offset_.push_back(position[i] - position[leader(i)]);
+}
+
+/// Everything but the offsets.
+template<int dim>
+void Ties<dim>::group(const std::vector<std::array<NodeIndex, 2>>& pairs, std::size_t nodes) {
+  IndexedVector<NodeIndex, NodeIndex> root(nodes);
   for (const NodeIndex i : root.indices()) root[i] = i;
   const auto find = [&](NodeIndex i) {
     while (root[i] != i) i = root[i] = root[root[i]];
@@ -20,10 +31,10 @@ Ties<dim>::Ties(const std::vector<std::array<NodeIndex, 2>>& pairs,
     const NodeIndex low = std::min(find(a), find(b)), high = std::max(find(a), find(b));
     root[high] = low;
   }
-  IndexedVector<NodeIndex, std::int32_t> members(position.size(), 0);
+  IndexedVector<NodeIndex, std::int32_t> members(nodes, 0);
   for (const NodeIndex i : members.indices()) ++members[find(i)];
-  group_.assign(position.size(), -1);
-  begin_.push_back(0);
+  group_.assign(nodes, -1);
+  begin_.assign(1, 0);
   for (const NodeIndex i : members.indices()) {
     if (members[i] < 2) continue;
     group_[i] = as<std::int32_t>(begin_.size()) - 1;
@@ -35,10 +46,41 @@ Ties<dim>::Ties(const std::vector<std::array<NodeIndex, 2>>& pairs,
     group_[i] = group_[find(i)];
     if (group_[i] >= 0) node_[index_of(next[index_of(group_[i])]++)] = i;
   }
+}
+
+template<int dim> void Ties<dim>::resample(const Resampling<dim>& change) {
+  if (empty()) return;
+  const Ties before = std::move(*this);
+  pieces_ = before.pieces_;
+  offset_.clear();
+  group(mated_nodes(change.cloud, std::span<const PieceIndex>(pieces_)), change.cloud.position.size());
+  IndexedVector<NodeIndex, const Vec<dim>*> old_offset(change.new_of.size(), nullptr);
+  for (std::size_t m = 0; m < before.node_.size(); ++m) old_offset[before.node_[m]] = &before.offset_[m];
   for (const NodeIndex i : node_) {
-    const NodeIndex leader = node_[index_of(begin_[index_of(group_[i])])];
-    offset_.push_back(position[i] - position[leader]);
+    const NodeIndex first = leader(i), old = change.old_of[i], old_first = change.old_of[first];
+    const bool kept = exists(old) && exists(old_first) && before.group_[old] >= 0 &&
+                      before.group_[old] == before.group_[old_first];
+    offset_.push_back(kept ? *old_offset[old] - *old_offset[old_first]
+                           : change.cloud.position[i] - change.cloud.position[first]);
   }
+}
+
+template<int dim>
+void Ties<dim>::archive_nodes(Archive& archive, const std::string& place, std::size_t nodes) {
+  if (empty()) return;
+  archive.integers(place + "/begin", begin_);
+  archive.integers(place + "/node", node_);
+  std::vector<double> offset;
+  for (const Vec<dim>& x : offset_) offset.insert(offset.end(), x.begin(), x.end());
+  archive.list(place + "/offset", "m", offset);
+  if (!archive.loading()) return;
+  offset_.assign(node_.size(), Vec<dim>::Zero());
+  group_.assign(nodes, -1);
+  for (std::size_t g = 0; g + 1 < begin_.size(); ++g)
+    for (auto m = index_of(begin_[g]); m < index_of(begin_[g + 1]); ++m) {
+      group_[node_[m]] = as<std::int32_t>(g);
+      for (std::size_t k = 0; k < dim; ++k) offset_[m][static_cast<Eigen::Index>(k)] = offset[dim * m + k];
+    }
 }
 
 template<int dim> std::vector<NodeIndex> Ties<dim>::with_partners(std::vector<NodeIndex> nodes) const {

@@ -1,11 +1,14 @@
 #pragma once
 // Nodes that move as one: the two faces of a bonded interface, the two sides of a periodic strip.
+#include "core/fields/archive.hpp"
 #include "core/fields/state.hpp"
 #include "core/indexed.hpp"
+#include "core/operators/resampling.hpp"
 #include "core/vec.hpp"
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace cnem {
@@ -19,9 +22,15 @@ namespace cnem {
 template<int dim> class Ties {
 public:
   Ties() = default;
-  /// Pairs that share a node are merged. position: at the start, m.
-  Ties(const std::vector<std::array<NodeIndex, 2>>& pairs,
-       const IndexedVector<NodeIndex, Vec<dim>>& position);
+  /// Pairs that share a node are merged. position: at the start, m. pieces: those of the boundary where nodes
+  /// are tied to their mates (core/geometry/mates.hpp), also new ones.
+  Ties(const std::vector<std::array<NodeIndex, 2>>& pairs, const IndexedVector<NodeIndex, Vec<dim>>& position,
+       std::vector<PieceIndex> pieces = {});
+
+  /// Ties the mates of a changed cloud. Nodes that were tied before keep their distance to the bit.
+  void resample(const Resampling<dim>& change);
+  /// Carries the groups on a resampled cloud out or in.
+  void archive_nodes(Archive& archive, const std::string& place, std::size_t nodes);
 
   bool empty() const { return node_.empty(); }
   /// The number of its group, −1: free; empty when there are no ties.
@@ -38,10 +47,14 @@ public:
   double share_motion(const Field& mass, double dt, Fields<dim>& velocity, Fields<dim>& position) const;
 
 private:
+  void group(const std::vector<std::array<NodeIndex, 2>>& pairs, std::size_t nodes);
+  NodeIndex leader(NodeIndex node) const { return node_[index_of(begin_[index_of(group_[node])])]; }
+
   std::vector<std::int32_t> begin_;              ///< [group + 1]
   std::vector<NodeIndex> node_;                  ///< members, in increasing order
   std::vector<Vec<dim>> offset_;                 ///< [member] m, from the first member of the group
   IndexedVector<NodeIndex, std::int32_t> group_; ///< −1: free
+  std::vector<PieceIndex> pieces_;
 };
 
 extern template class Ties<2>;

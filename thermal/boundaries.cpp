@@ -16,12 +16,27 @@ std::array<double, dim> areas(Space space, const Facet<dim>& facet, const Fields
   return corner_areas<dim>(space, corners_of<dim>(facet, position));
 }
 
+/// The facets of one face of an interface and, from their mates, the nodes of the other.
+template<int dim> void renew_faces(const Cloud<dim>& cloud, ContactConductance<dim>& interface) {
+  const std::vector<PieceIndex> pieces = pieces_of(std::span<const Facet<dim>>(interface.facets));
+  interface.facets.clear();
+  interface.opposite.clear();
+  for (const CloudFacetIndex f : cloud.facets.indices()) {
+    if (std::find(pieces.begin(), pieces.end(), cloud.facets[f].piece) == pieces.end()) continue;
+    interface.facets.push_back(cloud.facets[f]);
+    std::array<NodeIndex, dim> opposite = cloud.facets[cloud.mates[f]].node;
+    std::reverse(opposite.begin(), opposite.end());
+    interface.opposite.push_back(opposite);
+  }
+}
+
 } // namespace
 
-template<int dim> void ThermalBoundaries<dim>::resample(const Resampling<dim>& change) {
+template<int dim>
+void ThermalBoundaries<dim>::resample(const Resampling<dim>& change, const WithPartners& with_partners) {
   for (FixedTemperature& fixed : fixed_)
-    fixed.nodes = renumbered(change, std::span<const NodeIndex>(fixed.nodes),
-                             std::span<const PieceIndex>(fixed.pieces));
+    fixed.nodes = with_partners(renumbered(change, std::span<const NodeIndex>(fixed.nodes),
+                                           std::span<const PieceIndex>(fixed.pieces)));
   resample(change.cloud);
 }
 
@@ -33,6 +48,7 @@ template<int dim> void ThermalBoundaries<dim>::archive_nodes(Archive& archive) {
 template<int dim> void ThermalBoundaries<dim>::resample(const Cloud<dim>& cloud) {
   for (HeatFlux<dim>& flux : fluxes_) renew_facets(cloud, flux.facets);
   for (Convection<dim>& convection : convections_) renew_facets(cloud, convection.facets);
+  for (ContactConductance<dim>& interface : interfaces_) renew_faces(cloud, interface);
 }
 
 template<int dim>

@@ -8,6 +8,7 @@
 #include "core/time_table.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -95,8 +96,10 @@ public:
       : fixed_(std::move(fixed)), fluxes_(std::move(fluxes)), convections_(std::move(convections)),
         interfaces_(std::move(interfaces)), space_(space) {}
 
-  /// Acts on a changed cloud. Interfaces cannot be followed (their clouds are not resampled).
-  void resample(const Resampling<dim>& change);
+  /// A list of nodes with those that have one temperature with them.
+  using WithPartners = std::function<std::vector<NodeIndex>(std::vector<NodeIndex>)>;
+  /// Acts on a changed cloud, whose mates are the faces of interfaces.
+  void resample(const Resampling<dim>& change, const WithPartners& with_partners);
   void resample(const Cloud<dim>& cloud);
   /// Carries the lists of nodes of a resampled cloud out or in.
   void archive_nodes(Archive& archive);

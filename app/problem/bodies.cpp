@@ -1,5 +1,7 @@
 #include "app/problem/bodies.hpp"
+#include "core/geometry/mates.hpp"
 #include "core/index.hpp"
+#include "core/operators/resampling.hpp"
 
 #include "voronoi/triangulation.hpp"
 
@@ -156,15 +158,28 @@ Pairs tied_pairs(const input::Case& input, const Cloud<2>& cloud) {
   Pairs pairs;
   for (const input::Interface& interface : input.domain.interfaces) {
     const auto faces = face_pairs(cloud, interface.name);
+    const auto pieces = pieces_of<2>(facets_of<2>(cloud, {interface.name}));
     pairs.motion.insert(pairs.motion.end(), faces.begin(), faces.end());
-    if (!interface.conductance) pairs.heat.insert(pairs.heat.end(), faces.begin(), faces.end());
+    pairs.motion_pieces.insert(pairs.motion_pieces.end(), pieces.begin(), pieces.end());
+    if (interface.conductance) continue;
+    pairs.heat.insert(pairs.heat.end(), faces.begin(), faces.end());
+    pairs.heat_pieces.insert(pairs.heat_pieces.end(), pieces.begin(), pieces.end());
   }
   for (const input::Periodicity& periodic : input.periodic) {
     const auto sides = matching_nodes(input, periodic, cloud);
     pairs.motion.insert(pairs.motion.end(), sides.begin(), sides.end());
     pairs.heat.insert(pairs.heat.end(), sides.begin(), sides.end());
+    const auto pieces = pieces_of<2>(facets_of<2>(cloud, {periodic.pieces[0], periodic.pieces[1]}));
+    pairs.motion_pieces.insert(pairs.motion_pieces.end(), pieces.begin(), pieces.end());
+    pairs.heat_pieces.insert(pairs.heat_pieces.end(), pieces.begin(), pieces.end());
   }
   return pairs;
+}
+
+void pair_facets(const input::Case& input, Cloud<2>& cloud) {
+  if (!cloud.twins.empty()) pair_coincident_facets(cloud);
+  for (const input::Periodicity& periodic : input.periodic)
+    cnem::pair_facets(cloud, matching_nodes(input, periodic, cloud));
 }
 
 std::vector<ContactConductance<2>> conductances(const input::Case& input, const Cloud<2>& cloud) {

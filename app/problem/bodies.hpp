@@ -22,15 +22,17 @@ template<int dim> std::vector<NodeIndex> nodes_of(const std::vector<Facet<dim>>&
 /// Throws InputError when two regions lie in one part of the domain.
 IndexedVector<NodeIndex, std::int32_t> region_of_nodes(const input::Case& input, const Cloud<2>& cloud);
 
-/// Pairs of nodes that move as one, and those of them that have one temperature.
+/// Pairs of nodes that move as one, and those of them that have one temperature; the pieces they are on.
 struct Pairs {
-  std::vector<std::array<NodeIndex, 2>> motion;
-  std::vector<std::array<NodeIndex, 2>> heat;
+  std::vector<std::array<NodeIndex, 2>> motion, heat;
+  std::vector<PieceIndex> motion_pieces, heat_pieces;
 };
 
 /// Faces of interfaces and periodic pieces. Throws InputError when the nodes of two periodic pieces do not
 /// match.
 Pairs tied_pairs(const input::Case& input, const Cloud<2>& cloud);
+/// Makes mates of their facets and of those of cracks. Throws as tied_pairs does.
+void pair_facets(const input::Case& input, Cloud<2>& cloud);
 
 /// Interfaces that heat crosses through a conductance.
 std::vector<ContactConductance<2>> conductances(const input::Case& input, const Cloud<2>& cloud);

@@ -202,8 +202,9 @@ void set_parts(const input::Case& input, Problem<2>& model, IndexedVector<NodeIn
   region = region_of_nodes(input, model.cloud);
   model.strength = strength(input, model.cloud);
   const Pairs pairs = tied_pairs(input, model.cloud);
-  model.ties = Ties<2>(pairs.motion, model.cloud.position);
-  model.heat_ties = Ties<2>(pairs.heat, model.cloud.position);
+  model.ties = Ties<2>(pairs.motion, model.cloud.position, pairs.motion_pieces);
+  model.heat_ties = Ties<2>(pairs.heat, model.cloud.position, pairs.heat_pieces);
+  pair_facets(input, model.cloud);
 }
 
 } // namespace

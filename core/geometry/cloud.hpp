@@ -31,6 +31,9 @@ template<int dim> struct Cloud {
   IndexedVector<CloudFacetIndex, Facet<dim>> facets;  ///< the whole boundary, loop after loop
   IndexedVector<PieceIndex, std::string> piece_names; ///< of the boundary
   std::vector<std::array<NodeIndex, 2>> twins;        ///< pairs of nodes that coincide on purpose
+  /// [facet] the facet of the other face at the same place or a period away, which runs the other way:
+  /// resampling divides and joins both alike (core/geometry/mates.hpp). none: it has none; empty: none has.
+  IndexedVector<CloudFacetIndex, CloudFacetIndex> mates{};
 
   int nodes() const { return static_cast<int>(position.size()); }
 };

@@ -3,6 +3,7 @@
 // and values N, whose rows are stress points and whose columns are nodes. Solver, heat and contact see
 // nothing else.
 #include "core/fields/aligned.hpp"
+#include "core/geometry/revolution.hpp"
 #include "core/indexed.hpp"
 
 #include <cstdint>

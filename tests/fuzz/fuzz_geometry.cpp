@@ -1,10 +1,11 @@
 // Any outline, holes, cracks, interfaces, regions and spacings or nodes: a cloud whose cells and operators
-// keep their promises, whose parts are told apart and whose bonded faces match, and which, where it has no
-// faces inside, can be deformed and resampled; or a GeometryError.
+// keep their promises, whose parts are told apart and whose bonded faces match, and which can be deformed and
+// resampled, its faces matched; or a GeometryError.
 #include "adapt/resample.hpp"
 #include "app/problem/bodies.hpp"
 #include "cnem/scni.hpp"
 #include "core/error.hpp"
+#include "core/geometry/mates.hpp"
 #include "core/index.hpp"
 #include "mechanics/ties.hpp"
 #include "tests/fuzz/shapes.hpp"
@@ -226,6 +227,9 @@ public:
     for (const double m : mass_)
       if (!(m > 0.0)) fail("mass of a node", m, 0.0);
     cloud_ = made.cloud;
+    for (const auto& [a, b] : mated_nodes(cloud_))
+      if (cloud_.position[a] != cloud_.position[b])
+        fail("distance of mates", (cloud_.position[a] - cloud_.position[b]).norm(), 0.0);
     const voronoi::Triangulation mesh = voronoi::triangulate(cloud_);
     check_cells(cloud_, mesh);
     check_operators(cloud_, mesh, smooth_);
@@ -242,8 +246,11 @@ private:
       d.y() += change.shear[2] * std::sin(change.wave[1] * d.x()) + change.shear[3] * d.x();
       x = origin + size * d;
     }
-    for (const auto& jump : change.jumps)
-      cloud_.position[node(jump.node)] += size_[node(jump.node)] * jump.by;
+    for (const auto& jump : change.jumps) {
+      const Vec2 from = cloud_.position[node(jump.node)], to = from + size_[node(jump.node)] * jump.by;
+      for (Vec2& x : cloud_.position) // the faces of an interface move as one
+        if (x == from) x = to;
+    }
     for (const auto& wish : change.wishes) size_[node(wish.node)] *= wish.factor;
   }
 
@@ -282,8 +289,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const input::Case input = case_of(shape);
     check_regions(input, made.cloud, mesh);
     check_interfaces(input, made.cloud);
-    if (shape.deformations.empty() || !made.cloud.twins.empty()) return 0;
-    Resampled cloud(made.cloud, smooth);
+    if (shape.deformations.empty()) return 0;
+    Cloud<2> matched = made.cloud;
+    pair_coincident_facets(matched);
+    Resampled cloud(matched, smooth);
     for (const fuzz::Deformation& change : shape.deformations) cloud.deform_and_resample(change);
   } catch (const GeometryError&) {} // refused with words
   return 0;

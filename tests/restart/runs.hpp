@@ -12,10 +12,18 @@ struct SmallCase {
 };
 
 /// Plasticity, heat, contact with friction, re-references, bulk viscosity, loads, supports, bodies of
-/// revolution, finite elements, particles, damage, parts that touch, a failure that is gone back from, space.
+/// revolution, finite elements, particles, damage, parts that touch or are bonded and adapt, a failure that
+/// is gone back from, space.
 const std::vector<SmallCase>& small_cases();
 /// The one of them that is three-dimensional.
 std::string space_case();
+/// Bonded, periodic and cracked.
+std::string parts_case();
+/// The case of a sheet that is cut, of two layers, and of a round one.
+std::string in_layers(std::string text);
+std::string of_revolution(std::string text);
+std::string in_triangles(std::string text);
+std::string in_levels(std::string text);
 const std::string& small_case(const std::string& name);
 
 /// Differences of two output folders in history, fields, lines, pictures and in what status.json says of the

@@ -87,13 +87,6 @@ keep = 3
 )toml" + base_and_punch("3", "0.5") +
                            steel_304l;
 
-/// The same in triangles.
-std::string in_triangles(std::string text) {
-  const std::string from = "pressure_exchange", to = "[output]\n";
-  const std::size_t begin = text.find(from);
-  return text.replace(begin, text.find(to) - begin, "name = \"fe-triangles\"\nlagrangian = \"total\"\n");
-}
-
 // Every load and support, functions of Laplace on a jittered cloud, a row of history at every step.
 const std::string loaded = R"toml(
 [time]
@@ -309,22 +302,6 @@ picture_fields = ["softening"]
 every_steps = 100
 )toml" + steel_304l;
 
-/// The slug is knocked off by a punch with a mass, in local time steps of scaled masses.
-std::string in_levels(std::string text) {
-  const std::string motion = "velocity = \"0 -60 m/s\"\n", spacing = "tool_spacing = \"0.15 mm\"\n";
-  text.replace(text.find(motion), motion.size(),
-               "mass = \"1 kg/m\"\ninitial_velocity = \"0 -60 m/s\"\nforce = \"0 -1e5 N/m\"\n");
-  text.replace(text.find(spacing), spacing.size(), "tool_spacing = \"0.05 mm\"\n");
-  return text + "[time.step]\nlocal = true\n[time.mass_scaling]\nfactor = 2\n";
-}
-
-/// The slug is round: its axis is the symmetry plane of the other.
-std::string of_revolution(std::string text) {
-  const std::string plane = "[boundary.left]\npieces = [\"left\"]\nsymmetry = true\n";
-  text.erase(text.find(plane), plane.size());
-  return "[analysis]\nkinematics = \"axisymmetric\"\n" + text;
-}
-
 // Two parts with a crack between them, pressed together by a tool that slides: friction, heat, renewals.
 const std::string touching = R"toml(
 [time]
@@ -408,6 +385,8 @@ const std::vector<SmallCase>& small_cases() {
                                             {"round_slug", of_revolution(separated)},
                                             {"knocked_off", in_levels(separated)},
                                             {"touching", touching},
+                                            {"parts", parts_case()},
+                                            {"layers", in_layers(separated)},
                                             {"set_back", set_back},
                                             {"particles", with_particles(punched)},
                                             {"space", space_case()},

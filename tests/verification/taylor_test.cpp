@@ -54,15 +54,15 @@ Shape run(const std::string& name, const std::string& spacing, const std::string
   return shape;
 }
 
-void expect_near(double found, double reference, double share, const char* what) {
+void expect_within(double found, double reference, double share, const char* what) {
   EXPECT_NEAR(found, reference, share * reference) << what;
 }
 
 TEST(TaylorBar, copper_with_linear_hardening) {
   const Shape shape = run("taylor_copper", "0.64 mm");
-  expect_near(shape.length, 21.438e-3, 0.01, "length");
-  expect_near(shape.radius, 7.225e-3, 0.02, "radius");
-  expect_near(shape.plastic_strain, 3.351, 0.15, "plastic strain");
+  expect_within(shape.length, 21.438e-3, 0.01, "length");
+  expect_within(shape.radius, 7.225e-3, 0.02, "radius");
+  expect_within(shape.plastic_strain, 3.351, 0.15, "plastic strain");
   EXPECT_LT(shape.residual, 1e-3);
 }
 
@@ -81,23 +81,23 @@ TEST(TaylorBar, goes_on_with_the_old_reference_where_nodes_have_passed_each_othe
 
 TEST(TaylorBar, stainless_steel_with_heat) {
   const Shape shape = run("taylor_304l", "0.64 mm");
-  expect_near(shape.length, 27.786e-3, 0.01, "length");
-  expect_near(shape.radius, 4.2065e-3, 0.02, "radius");
-  expect_near(shape.centre, 0.630, 0.15, "plastic strain");
-  expect_near(shape.temperature - 296.0, 505.7 - 296.0, 0.15, "rise of temperature");
+  expect_within(shape.length, 27.786e-3, 0.01, "length");
+  expect_within(shape.radius, 4.2065e-3, 0.02, "radius");
+  expect_within(shape.centre, 0.630, 0.15, "plastic strain");
+  expect_within(shape.temperature - 296.0, 505.7 - 296.0, 0.15, "rise of temperature");
 }
 
 TEST(TaylorBar, plane_strain_slab) {
   const Shape shape = run("taylor_slab_copper", "0.32 mm");
-  expect_near(shape.length, 28.830e-3, 0.01, "length");
-  expect_near(shape.radius, 6.372e-3, 0.02, "half width");
-  expect_near(shape.plastic_strain, 1.82, 0.15, "plastic strain");
+  expect_within(shape.length, 28.830e-3, 0.01, "length");
+  expect_within(shape.radius, 6.372e-3, 0.02, "half width");
+  expect_within(shape.plastic_strain, 1.82, 0.15, "plastic strain");
 
   const Shape particles = run("taylor_slab_copper", "0.32 mm", "sph");
-  expect_near(particles.length, shape.length, 0.005, "length of particles");
-  expect_near(particles.radius, shape.radius, 0.025, "half width of particles");
-  expect_near(particles.centre, shape.centre, 0.15,
-              "plastic strain of particles"); // elsewhere: docs/methods.md
+  expect_within(particles.length, shape.length, 0.005, "length of particles");
+  expect_within(particles.radius, shape.radius, 0.025, "half width of particles");
+  expect_within(particles.centre, shape.centre, 0.15,
+                "plastic strain of particles"); // elsewhere: docs/methods.md
   EXPECT_LT(particles.residual, 1e-3);
 }
 
