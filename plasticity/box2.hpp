@@ -68,7 +68,7 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Kernel
       inverse);
 
   // (vi) plastic consistency, (vii) plastic corrector
-  T increment = T(0.0), reduction = T(1.0), work = T(0.0);
+  T increment = T(0.0), reduction = T(1.0), stress = q, work = T(0.0);
   if (law.plastic) {
     const PlasticCorrector<T, Kernel> corrector(kernel, plastic_strain, temperature,
                                                 load<T>(points.strength + i));
@@ -80,7 +80,8 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Kernel
       bad = bad | failed;
       const T shrink = T(law.three_mu) * increment * inverse[2];
       reduction = max(T(1.0) - shrink, T(0.0));
-      work = T(0.5) * (last_stress + q * reduction) * increment;
+      stress = q * reduction; // once: a product that is fused here and not there would depend on other lanes
+      work = T(0.5) * (last_stress + stress) * increment;
 
       // (ix) b_e = exp(−2 Δγ N) b_e^trial; C_p⁻¹ takes the difference, so that it does not drift when Δγ = 0
       T change[3], tensor[symmetric], delta[symmetric];
@@ -101,7 +102,6 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Kernel
   spectrum.isotropic(principal, tau);
   const T inverse_elastic_volume = sqrt(inverse[1]);
   deformation.piola(tau, inverse_elastic_volume, piola);
-  const T stress = q * reduction;
 
   const bool some_bad = any(bad);
   const auto write = [&](double* field, T value) {

@@ -19,9 +19,8 @@ struct Hill48 {
   static constexpr const char* name = "hill48";
   static constexpr const char* formula =
       "the flow stress is σ̄, σ̄² = F (σ22 − σ33)² + G (σ33 − σ11)² + H (σ11 − σ22)² + 2 L σ23² + 2 M σ31² + 2 "
-      "N σ12² with 1 the rolling, 2 the transverse and 3 the normal direction of the sheet, G = 1/(1 + r0), "
-      "H "
-      "= r0/(1 + r0), F = H/r90, N = (F + G) (r45 + ½) (Hill 1948)";
+      "N σ12² with 1 the rolling, 2 the transverse and 3 the normal direction of the sheet, "
+      "G = 1/(1 + r0), H = r0/(1 + r0), F = H/r90, N = (F + G) (r45 + ½) (Hill 1948)";
   static constexpr Parameter<Hill48> parameters[] = {
       {&Hill48::r0,
        {.name = "r0",

@@ -17,10 +17,10 @@ inline constexpr int registers = 2;
 template<int dim> using Points = Pack<dim == 2 ? registers : 1>;
 template<int dim> inline constexpr int width = Number<Points<dim>>::width;
 
-/// Not inlined: whole packs and tails must run the very same instructions, or their bits could differ.
+/// Whole packs and tails must run the very same instructions, or their bits could differ.
 template<int dim, class Step>
-[[gnu::noinline]] Mask<Points<dim>> pack_step(const Step& step, const StressPoints<dim>& points,
-                                              std::ptrdiff_t i) {
+CNEM_ONE_COPY Mask<Points<dim>> pack_step(const Step& step, const StressPoints<dim>& points,
+                                          std::ptrdiff_t i) {
   return step.template operator()<Points<dim>>(points, i);
 }
 

@@ -13,6 +13,12 @@
 #endif
 
 #define CNEM_INLINE [[gnu::always_inline]] inline
+/// One copy of the instructions for all callers: a copy for a constant argument may round in another way.
+#ifdef __clang__
+#define CNEM_ONE_COPY [[gnu::noinline]]
+#else
+#define CNEM_ONE_COPY [[gnu::noinline, gnu::noclone]]
+#endif
 
 namespace cnem::CNEM_ISA {
 

@@ -87,6 +87,7 @@ public:
     constexpr double share = 0.01; // of the stable step
     constexpr int most = 16;
     if (stable_ == 0.0) measure_stable_step(body);
+    hold(body);
     pending_ += dt;
     if (++steps_ < most && pending_ + dt <= share * stable_) return;
     conduct(body, pending_);
@@ -177,34 +178,40 @@ private:
     }
   }
 
+  /// Tied nodes are one place, and what is prescribed holds, in every step.
+  void hold(const Body<dim>& body) {
+    NodeState<dim>& node = body.state.node;
+    const Ties<dim>& ties = body.conditions.heat_ties;
+    if (!ties.empty()) ties.share(node.heat_capacity, node.temperature);
+    exchanged_.value +=
+        body.conditions.heat_boundaries.hold(body.state.time, node.heat_capacity, node.temperature);
+  }
+
   /// For an interval times the decay rate.
   static int stable_substeps(double decays) { return std::max(1, static_cast<int>(std::ceil(decays / 1.8))); }
 
   /// Explicit conduction (58) and boundaries over an interval, in as many sub-steps as are stable.
   void conduct(const Body<dim>& body, double dt) {
     NodeState<dim>& node = body.state.node;
-    const Ties<dim>& ties = body.conditions.heat_ties;
-    ThermalBoundaries<dim>& boundaries = body.conditions.heat_boundaries;
+    const ThermalBoundaries<dim>& boundaries = body.conditions.heat_boundaries;
     const std::size_t n = node.size();
-    if (!ties.empty()) ties.share(node.heat_capacity, node.temperature);
     const int substeps = stable_substeps(dt * 2.0 / stable_);
     const double h = dt / substeps;
     for (int s = 0; s < substeps; ++s) {
       std::fill(node.heat_flow.begin(), node.heat_flow.end(), 0.0);
       boundaries.add_flow(body.state.time, node.position, node.temperature, node.heat_flow);
-      double received = h * sum_blocks(n, [&](std::size_t begin, std::size_t end) {
-                          double sum = 0.0;
-                          for (std::size_t i = begin; i < end; ++i) sum += node.heat_flow[i];
-                          return sum;
-                        });
+      const double received = h * sum_blocks(n, [&](std::size_t begin, std::size_t end) {
+                                double sum = 0.0;
+                                for (std::size_t i = begin; i < end; ++i) sum += node.heat_flow[i];
+                                return sum;
+                              });
       conduction_.add_flow(body.position, node.temperature, node.heat_flow);
       for_each_block(n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
           node.temperature[i] += h * node.heat_flow[i] / node.heat_capacity[i];
       });
-      if (!ties.empty()) ties.share(node.heat_capacity, node.temperature);
-      received += boundaries.hold(body.state.time, node.heat_capacity, node.temperature);
       exchanged_.value += received;
+      hold(body);
     }
   }
 

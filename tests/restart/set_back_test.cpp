@@ -57,7 +57,7 @@ TEST_F(SetBack, a_run_that_gets_past_a_failure_is_counted_and_leaves_one_course)
 
 TEST_F(SetBack, it_ends_with_the_same_bits_from_every_checkpoint_before_and_after_a_failure) {
   const std::vector<std::string> often{
-      "--threads", "1", "--set", "output.checkpoint.every_steps=60", "--set", "output.checkpoint.keep=1000"};
+      "--threads", "1", "--set", "output.checkpoint.every_steps=30", "--set", "output.checkpoint.keep=1000"};
   ASSERT_EQ(run("run", often).code, 0);
   const std::size_t kept = results::list_checkpoints(folder / "run").size();
   ASSERT_GT(kept, 5U);
@@ -77,7 +77,7 @@ TEST_F(SetBack, it_ends_with_the_same_bits_from_every_checkpoint_before_and_afte
 }
 
 TEST_F(SetBack, a_failure_that_always_returns_ends_the_run_with_3) {
-  const Ending ending = run("run", {"--threads", "1", "--set", "time.step.min=20 ns"});
+  const Ending ending = run("run", {"--threads", "1", "--set", "time.step.min=21.4 ns"});
   EXPECT_EQ(ending.code, 3) << ending.printed;
   const results::RunStatus status = results::read_status(folder / "run");
   EXPECT_EQ(retries(status), 3.0);
@@ -86,7 +86,7 @@ TEST_F(SetBack, a_failure_that_always_returns_ends_the_run_with_3) {
 }
 
 TEST_F(SetBack, without_a_strain_that_renews_the_reference_the_first_failure_is_final) {
-  const Ending ending = run("run", {"--threads", "1", "--set", "time.step.min=20 ns", "--set",
+  const Ending ending = run("run", {"--threads", "1", "--set", "time.step.min=22.5 ns", "--set",
                                     "method.rereference.strain=0", "--set", "method.rereference.every=60"});
   EXPECT_EQ(ending.code, 3) << ending.printed;
   EXPECT_EQ(retries(results::read_status(folder / "run")), 0.0);

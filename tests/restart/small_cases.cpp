@@ -339,7 +339,7 @@ every_steps = 25
 const std::string set_back = R"toml(
 [time]
 end = "6 us"
-step.min = "16 ns"
+step.min = "20.8 ns"
 [domain]
 material = "steel"
 outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }

@@ -40,7 +40,7 @@ void expect_near(double found, double reference, double share, const char* what)
 
 /// Ansys VM265: contact after gap/v, for 2L/c, with the force ρ c v A.
 TEST_F(Ladder, bar_against_a_wall) {
-  run("bar_impact", {"cloud.spacing=5.08 mm", "output.history_every=0.25 us"});
+  run("bar_impact", {"cloud.spacing=5.08 mm", "output.history_every=0.25 us", "time.step.max=0.25 us"});
   const std::vector<double>&time = column("time[s]"), &force = column("wall.force_x[N/m]");
   std::vector<double> pushing, when;
   for (std::size_t i = 0; i < time.size(); ++i)
