@@ -70,13 +70,12 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Kernel
   // (vi) plastic consistency, (vii) plastic corrector
   T increment = T(0.0), reduction = T(1.0), stress = q, work = T(0.0);
   if (law.plastic) {
-    const PlasticCorrector<T, Kernel> corrector(kernel, plastic_strain, temperature,
+    const PlasticCorrector<T, Kernel> corrector(law, kernel, plastic_strain, temperature,
                                                 load<T>(points.strength + i));
     const Mask<T> yielding = valid & (q > corrector.initial_flow_stress());
     if (any(yielding)) {
       Mask<T> failed;
-      increment = corrector.solve(q, ElasticSlope<double>{law.three_mu, law.by_three_mu}, inverse[3],
-                                  last_rate * T(law.dt), yielding, failed);
+      increment = corrector.solve(q, inverse[3], last_rate * T(law.dt), yielding, failed);
       bad = bad | failed;
       const T shrink = T(law.three_mu) * increment * inverse[2];
       reduction = max(T(1.0) - shrink, T(0.0));

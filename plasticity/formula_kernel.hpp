@@ -43,9 +43,9 @@ public:
     return strength_ *
            flow_stress(kernel_.law, Jet<T>(strain_ + x, x, T(0.0)), Jet<T>(rate, rate, T(0.0)), temperature_);
   }
-  template<class S>
-  CNEM_INLINE T residual(T q, const S& elastic_slope, T x, const Parts& stress, T& first, T& second) const {
-    const T elastic = T(elastic_slope) * x;
+  template<class Modulus> ///< double, or T
+  CNEM_INLINE T residual(T q, Modulus three_mu, T x, const Parts& stress, T& first, T& second) const {
+    const T elastic = T(three_mu) * x;
     first = elastic + stress.first;
     second = -stress.second;
     if constexpr (may_fall) rose_ = rose_ | !(first > T(0.0));

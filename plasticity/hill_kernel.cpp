@@ -4,28 +4,13 @@
 
 namespace cnem::plasticity::CNEM_ISA {
 
-namespace {
-
-template<int dim, class Kernel> struct HillStep {
-  const ReturnMapParameters& parameters;
-  const HillForm& form;
-  Kernel kernel;
-
-  template<class T> CNEM_INLINE Mask<T> operator()(const StressPoints<dim>& points, std::ptrdiff_t i) const {
-    return hill_step<dim, T>(parameters, form, kernel, points, i);
-  }
-};
-
-} // namespace
-
 template<int dim>
 std::ptrdiff_t hill_return_map(const ReturnMapParameters& parameters, const HillForm& form,
                                const StressPoints<dim>& points, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const HillParameters hill{parameters, form};
   return with_law(
-      HardeningLaws{}, parameters.hardening.law, parameters.hardening.constants, [&](const auto& law) {
-        const auto kernel = kernel_of(law, parameters.dt);
-        return update(HillStep<dim, decltype(kernel)>{parameters, form, kernel}, points, begin, end);
-      });
+      HardeningLaws{}, parameters.hardening.law, parameters.hardening.constants,
+      [&](const auto& law) { return update(hill, kernel_of(law, parameters.dt), points, begin, end); });
 }
 
 template std::ptrdiff_t hill_return_map<2>(const ReturnMapParameters&, const HillForm&,

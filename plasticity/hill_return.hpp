@@ -93,8 +93,9 @@ public:
   /// line q − 3μ Δγ of von Mises: it lies below the curve, so that its root is short of the solution, and
   /// rounds approach it from one side, quadratically.
   template<class Corrector>
-  CNEM_INLINE Place solve(const Corrector& corrector, const T& by_strain, const T& guess,
-                          const T& last_stress, const Mask<T>& yielding, Mask<T>& failed) const {
+  CNEM_INLINE Place solve(const Corrector& corrector, ElasticTangent<T>& tangent, const T& by_strain,
+                          const T& guess, const T& last_stress, const Mask<T>& yielding,
+                          Mask<T>& failed) const {
     Place start, place;
     at(T(0.0), start);
     T zeta =
@@ -107,15 +108,13 @@ public:
       T intercept = place.stress + place.slope * place.increment;
       const Mask<T> short_of = intercept > corrector.initial_flow_stress();
       intercept = select(short_of, intercept, start.stress);
-      const T slope = select(short_of, place.slope, start.slope);
-      const T by_slope = select(short_of, place.by_slope, start.by_slope);
+      tangent.three_mu = select(short_of, place.slope, start.slope);
+      tangent.by_three_mu = select(short_of, place.by_slope, start.by_slope);
       const T reached = select(short_of, place.increment, T(0.0));
       Mask<T> unsolved;
-      x = select(open,
-                 corrector.solve(intercept, ElasticSlope<T>{slope, by_slope}, by_strain, x, open, unsolved),
-                 x);
+      x = select(open, corrector.solve(intercept, by_strain, x, open, unsolved), x);
       failed = failed | unsolved;
-      const T stress = max(intercept - slope * x, T(least_share) * q);
+      const T stress = max(intercept - tangent.three_mu * x, T(least_share) * q);
       zeta = select(open, T(two_mu_) * x / max(stress, T(1e-100)), zeta);
       at(zeta, place);
       open = open & !unsolved & !(abs(x - reached) <= T(tolerance) * x);
@@ -142,6 +141,11 @@ private:
   T trial_[count]; ///< Pa  a_k^trial
   T share_[count]; ///< –   p_k a_k²/q²
   T by_q_;
+};
+
+struct HillParameters {
+  const ReturnMapParameters& law;
+  const HillForm& form;
 };
 
 /// A step before and after what depends on the hardening law: not inlined, so that there is one for all laws,
@@ -211,25 +215,27 @@ private:
   }
 };
 
-/// return_map_step() with Hill's yield function in the frame of the material. b_e and its trial have no
+/// Box 2 with Hill's yield function in the frame of the material. b_e and its trial have no
 /// principal directions in common: ln b_e takes the flow, ε_e = ε_e^trial − Δγ n, so that what the stored
 /// energy loses is τ : Δγ n ≥ 0 and volume is kept.
 template<int dim, class T, class Kernel>
-CNEM_INLINE Mask<T> hill_step(const ReturnMapParameters& law, const HillForm& form, const Kernel& kernel,
-                              const StressPoints<dim>& points, std::ptrdiff_t i) {
-  HillState<dim, T> state(law, form, points, i);
+CNEM_INLINE Mask<T> return_map_step(const HillParameters& parameters, const Kernel& kernel,
+                                    const StressPoints<dim>& points, std::ptrdiff_t i) {
+  const ReturnMapParameters& law = parameters.law;
+  HillState<dim, T> state(law, parameters.form, points, i);
   const ElasticTrial<dim, T>& trial = state.trial;
   Mask<T> bad = !state.valid, yielding = state.valid & bad;
   typename HillReturn<dim, T>::Place place;
   // (vi) plastic consistency, (vii) plastic corrector
   if (law.plastic) {
-    const PlasticCorrector<T, Kernel> corrector(kernel, trial.plastic_strain, trial.temperature,
-                                                load<T>(points.strength + i));
+    ElasticTangent<T> tangent;
+    const PlasticCorrector<T, Kernel, ElasticTangent<T>> corrector(
+        tangent, kernel, trial.plastic_strain, trial.temperature, load<T>(points.strength + i));
     yielding = state.valid & (state.path.q > corrector.initial_flow_stress());
     if (any(yielding)) {
       Mask<T> failed;
-      place = state.path.solve(corrector, state.inverse[3], trial.last_rate * T(law.dt), trial.last_stress,
-                               yielding, failed);
+      place = state.path.solve(corrector, tangent, state.inverse[3], trial.last_rate * T(law.dt),
+                               trial.last_stress, yielding, failed);
       bad = bad | failed;
     }
   }

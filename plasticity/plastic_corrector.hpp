@@ -2,18 +2,20 @@
 // Step (vii) of Box 2: the plastic increment Δγ of any hardening law, on a number type T
 // (core/machine/simd.hpp).
 #include "core/machine/simd.hpp"
+#include "plasticity/return_map_parameters.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {
 
 using namespace ::cnem::CNEM_ISA;
 
-/// What the trial stress loses per Δγ: 3μ, the same for all lanes, or the slope of a tangent in each of them.
-template<class S> struct ElasticSlope {
-  S value, inverse; ///< Pa, 1/Pa
+/// Elasticity of which each lane has its own: what the trial stress loses per Δγ is the slope of a tangent.
+template<class T> struct ElasticTangent {
+  T three_mu, by_three_mu; ///< Pa, 1/Pa
 };
 
 /// Solves r(x) = q − 3μ x − σ_y(ε̄p + x, x/dt, T) = 0 for x = Δγ > 0, paper 004 (42), with the flow stress of
-/// a Kernel (plasticity/power_kernel.hpp, formula_kernel.hpp); 3μ is any ElasticSlope.
+/// a Kernel (plasticity/power_kernel.hpp, formula_kernel.hpp) and 3μ of ReturnMapParameters or an
+/// ElasticTangent.
 ///
 /// r falls strictly from q − σ_y0 > 0 at 0 to something ≤ 0 at the cap (q − σ_y0)/3μ. Where the flow stress
 /// may fall with strain (Flow::may_fall) the cap is q/3μ, at which r = −σ_y, and r falls as long as 3μ +
@@ -21,13 +23,14 @@ template<class S> struct ElasticSlope {
 /// Δx/x, started from the last step's rate, converges in two or three evaluations in steady flow: the
 /// curvature that the logarithm of the rate gives r is what slows Newton's method. Points that it leaves
 /// (first yield, ε̄p ≪ x, the kink at the reference rate) are finished within a bracket.
-template<class T, class Kernel> class PlasticCorrector {
+template<class T, class Kernel, class Elasticity = ReturnMapParameters> class PlasticCorrector {
   using Flow = typename Kernel::template Flow<T>;
 
 public:
   /// strength: factor on the flow stress, –.
-  CNEM_INLINE PlasticCorrector(const Kernel& kernel, T plastic_strain, T temperature, T strength)
-      : flow(kernel, plastic_strain, temperature, strength) {}
+  CNEM_INLINE PlasticCorrector(const Elasticity& parameters, const Kernel& kernel, T plastic_strain,
+                               T temperature, T strength)
+      : step(parameters), flow(kernel, plastic_strain, temperature, strength) {}
 
   /// σ_y at zero rate: the yield condition of step (vi).
   CNEM_INLINE const T& initial_flow_stress() const { return flow.at_rest; }
@@ -35,10 +38,8 @@ public:
   /// Δγ of the lanes in `yielding` (q > initial_flow_stress), 0 in the others; `guess` is Δγ of the last
   /// step. Lanes that fail to converge (none is known) go into `failed`, and so do those in which r was seen
   /// to rise on the way: the solution may be one of several, or a jump.
-  template<class S>
-  CNEM_INLINE T solve(T q, const ElasticSlope<S>& elastic, T by_strain, T guess, Mask<T> yielding,
-                      Mask<T>& failed) const {
-    const T cap = (q - flow.least()) * T(elastic.inverse);
+  CNEM_INLINE T solve(T q, T by_strain, T guess, Mask<T> yielding, Mask<T>& failed) const {
+    const T cap = (q - flow.least()) * T(step.by_three_mu);
     T x = min(guess, cap);
     const Mask<T> fresh = yielding & (guess <= T(0.0));
     if (any(fresh)) x = select(fresh, flow.first_guess(q, cap), x);
@@ -47,11 +48,11 @@ public:
     for (int k = 0; k < 4; ++k) {
       const Mask<T> in_range = open & flow.in_range(x * by_strain);
       if (!any(in_range)) break;
-      const T eta = halley(q, elastic, x, flow.quick(x, x * by_strain));
+      const T eta = halley(q, x, flow.quick(x, x * by_strain));
       x = select(in_range, advance(x, eta, cap), x);
       open = open & !(in_range & (abs(eta) <= T(tolerance)));
     }
-    if (any(open)) x = bracketed(q, elastic, x, cap, open);
+    if (any(open)) x = bracketed(q, x, cap, open);
     failed = open;
     if constexpr (Flow::may_fall) failed = failed | (yielding & flow.rose());
     return select(yielding, x, T(0.0));
@@ -61,13 +62,13 @@ private:
   /// |η| from which one more Halley step leaves a relative error of 0.11 |η|³.
   static constexpr double tolerance = 1e-4;
 
+  const Elasticity& step;
   Flow flow;
 
   /// η of Halley's method.
-  template<class S>
-  CNEM_INLINE T halley(T q, const ElasticSlope<S>& elastic, T x, const typename Flow::Parts& parts) const {
+  CNEM_INLINE T halley(T q, T x, const typename Flow::Parts& parts) const {
     T first, second;
-    const T r = flow.residual(q, elastic.value, x, parts, first, second);
+    const T r = flow.residual(q, step.three_mu, x, parts, first, second);
     return relative_step(r, first, second);
   }
 
@@ -81,12 +82,11 @@ private:
 
   /// Halley within a bracket that is also bisected, geometrically; clears the lanes of `open` that it
   /// finishes.
-  template<class S>
-  CNEM_INLINE T bracketed(T q, const ElasticSlope<S>& elastic, T start, T cap, Mask<T>& open) const {
+  CNEM_INLINE T bracketed(T q, T start, T cap, Mask<T>& open) const {
     T low = T(0.0), high = cap, x = start;
     for (int k = 0; k < 400 && any(open); ++k) {
       T first, second;
-      const T r = flow.residual(q, elastic.value, x, flow.full(x), first, second);
+      const T r = flow.residual(q, step.three_mu, x, flow.full(x), first, second);
       const T eta = relative_step(r, first, second);
       low = select(open & (r > T(0.0)), x, low);
       high = select(open & (r <= T(0.0)), x, high);

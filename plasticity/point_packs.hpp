@@ -8,20 +8,22 @@ namespace cnem::plasticity::CNEM_ISA {
 
 using namespace ::cnem::CNEM_ISA;
 
+namespace { // each kernel file has its own, whose types nobody else sees
+
 #ifdef CNEM_ISA_baseline
-inline constexpr int registers = 1;
+constexpr int registers = 1;
 #else
-inline constexpr int registers = 2;
+constexpr int registers = 2;
 #endif
 /// Two registers at a time in the plane; the rotations of space need too many.
 template<int dim> using Points = Pack<dim == 2 ? registers : 1>;
 template<int dim> inline constexpr int width = Number<Points<dim>>::width;
 
 /// Whole packs and tails must run the very same instructions, or their bits could differ.
-template<int dim, class Step>
-CNEM_ONE_COPY Mask<Points<dim>> pack_step(const Step& step, const StressPoints<dim>& points,
-                                          std::ptrdiff_t i) {
-  return step.template operator()<Points<dim>>(points, i);
+template<int dim, class Parameters, class Kernel>
+CNEM_ONE_COPY Mask<Points<dim>> pack_step(const Parameters& parameters, const Kernel& kernel,
+                                          const StressPoints<dim>& points, std::ptrdiff_t i) {
+  return return_map_step<dim, Points<dim>>(parameters, kernel, points, i);
 }
 
 template<class M> int first_lane(M mask, int lanes) {
@@ -48,9 +50,9 @@ template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, V
 }
 
 /// Fewer than `width` points, through buffers padded with the last of them.
-template<int dim, class Step>
-Mask<Points<dim>> tail_step(const Step& step, const StressPoints<dim>& points, std::ptrdiff_t begin,
-                            int count) {
+template<int dim, class Parameters, class Kernel>
+Mask<Points<dim>> tail_step(const Parameters& parameters, const Kernel& kernel,
+                            const StressPoints<dim>& points, std::ptrdiff_t begin, int count) {
   constexpr int fields = StressPoints<dim>::general * 3 + StressPoints<dim>::symmetric + 10;
   double buffer[fields][width<dim>];
   StressPoints<dim> local = points, target = points;
@@ -63,7 +65,7 @@ Mask<Points<dim>> tail_step(const Step& step, const StressPoints<dim>& points, s
   const int first_output = used;
   for_each_output(local, copy);
 
-  const auto bad = pack_step(step, local, 0);
+  const auto bad = pack_step(parameters, kernel, local, 0);
 
   used = first_output;
   for_each_output(target, [&](double* field) {
@@ -73,15 +75,16 @@ Mask<Points<dim>> tail_step(const Step& step, const StressPoints<dim>& points, s
   return bad;
 }
 
-/// step.operator()<T>(points, i) for all points of a range: one step of i … i + Number<T>::width − 1, which
-/// returns the lanes that mean nothing. Returns the first such point, or −1.
-template<int dim, class Step>
-std::ptrdiff_t update(const Step& step, const StressPoints<dim>& points, std::ptrdiff_t begin,
-                      std::ptrdiff_t end) {
+/// return_map_step(parameters, kernel, points, i) for all points of a range: whichever belongs to the type of
+/// the parameters. Returns the first point that means nothing, or −1.
+template<int dim, class Parameters, class Kernel>
+std::ptrdiff_t update(const Parameters& parameters, const Kernel& kernel, const StressPoints<dim>& points,
+                      std::ptrdiff_t begin, std::ptrdiff_t end) {
   std::ptrdiff_t first_bad = -1;
   for (std::ptrdiff_t i = begin; i < end; i += width<dim>) {
     const int count = end - i < width<dim> ? static_cast<int>(end - i) : width<dim>;
-    const auto bad = count == width<dim> ? pack_step(step, points, i) : tail_step(step, points, i, count);
+    const auto bad = count == width<dim> ? pack_step(parameters, kernel, points, i)
+                                         : tail_step(parameters, kernel, points, i, count);
     if (any(bad) && first_bad < 0 && first_lane(bad, count) < count) first_bad = i + first_lane(bad, count);
   }
   return first_bad;
@@ -94,5 +97,7 @@ auto with_law(Laws<First, Rest...>, int index, const void* constants, const F& f
     if (index > 0) return with_law(Laws<Rest...>{}, index - 1, constants, f);
   return f(*static_cast<const First*>(constants));
 }
+
+} // namespace
 
 } // namespace cnem::plasticity::CNEM_ISA

@@ -135,8 +135,8 @@ public:
   }
 
   /// r(x) = q − 3μ x − σ_y(ε̄p + x, x/dt), with −r′x in `first` and r″x² in `second`.
-  template<class S>
-  CNEM_INLINE T residual(T q, const S& elastic_slope, T x, const Parts& h, T& first, T& second) const {
+  template<class Modulus> ///< double, or T
+  CNEM_INLINE T residual(T q, Modulus three_mu, T x, const Parts& h, T& first, T& second) const {
     const T stress = (T(law.A) + h.value) * softening;
     const T slope = h.first * softening, curvature = h.second * softening;
     T rate_factor = T(1.0), c = T(0.0);
@@ -146,7 +146,7 @@ public:
       rate_factor = T(1.0) + T(law.C) * select(above, logarithm, T(0.0));
       c = select(above, T(law.C), T(0.0));
     }
-    const T elastic = T(elastic_slope) * x;
+    const T elastic = T(three_mu) * x;
     first = elastic + slope * rate_factor + stress * c;
     second = stress * c - curvature * rate_factor - T(2.0) * slope * c;
     return q - elastic - stress * rate_factor;

@@ -4,27 +4,12 @@
 
 namespace cnem::plasticity::CNEM_ISA {
 
-namespace {
-
-template<int dim, class Kernel> struct Box2 {
-  const ReturnMapParameters& parameters;
-  Kernel kernel;
-
-  template<class T> CNEM_INLINE Mask<T> operator()(const StressPoints<dim>& points, std::ptrdiff_t i) const {
-    return return_map_step<dim, T>(parameters, kernel, points, i);
-  }
-};
-
-} // namespace
-
 template<int dim>
 std::ptrdiff_t return_map(const ReturnMapParameters& parameters, const StressPoints<dim>& points,
                           std::ptrdiff_t begin, std::ptrdiff_t end) {
-  return with_law(HardeningLaws{}, parameters.hardening.law, parameters.hardening.constants,
-                  [&](const auto& law) {
-                    const auto kernel = kernel_of(law, parameters.dt);
-                    return update(Box2<dim, decltype(kernel)>{parameters, kernel}, points, begin, end);
-                  });
+  return with_law(
+      HardeningLaws{}, parameters.hardening.law, parameters.hardening.constants,
+      [&](const auto& law) { return update(parameters, kernel_of(law, parameters.dt), points, begin, end); });
 }
 
 template std::ptrdiff_t return_map<2>(const ReturnMapParameters&, const StressPoints<2>&, std::ptrdiff_t,

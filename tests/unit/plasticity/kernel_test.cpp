@@ -66,9 +66,11 @@ template<int dim> void compare_with_scalar(const Material& m) {
     const auto parameters = return_map_parameters(m, dt);
     const auto kernel = generic::kernel_of(m.hardening->as<JohnsonCook>(), dt);
     const auto points = stress_points(scalar);
+    const HillForm form = m.anisotropy.value_or(Hill48{}).form();
     for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(scalar.size()); ++i)
       if (m.anisotropy)
-        ASSERT_FALSE((generic::hill_step<dim, double>(parameters, m.anisotropy->form(), kernel, points, i)));
+        ASSERT_FALSE((generic::return_map_step<dim, double>(generic::HillParameters{parameters, form}, kernel,
+                                                            points, i)));
       else
         ASSERT_FALSE((generic::return_map_step<dim, double>(parameters, kernel, points, i)));
     for (std::size_t i = 0; i < scalar.size(); ++i) {
