@@ -21,7 +21,9 @@ inline Problem<2> model_304L(const Curve& outline, const clouds::SpacingField& s
        .density = 7850.0,
        .elasticity = {210e9, 0.33},
        .hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
+       .anisotropy = {},
        .damage = {},
+       .measured = {},
        .specific_heat = 500.0,
        .conductivity = 5.86}};
   model.supports = Supports<2>({}, static_cast<std::size_t>(model.cloud.nodes()));

@@ -57,6 +57,14 @@ template<> struct Small<2> {
   CNEM_INLINE friend Small operator+(Small a, Small b) { return {a.v + b.v}; }
   CNEM_INLINE friend Small operator-(Small a, Small b) { return {a.v - b.v}; }
   CNEM_INLINE friend Small operator*(Small a, double s) { return {a.v * Register{s, s}}; }
+  CNEM_INLINE friend Small operator*(Small a, Small b) { return {a.v * b.v}; } ///< component by component
+  CNEM_INLINE friend Small swapped(Small a) { return {__builtin_shufflevector(a.v, a.v, 1, 0)}; }
+  CNEM_INLINE friend Small first(Small a) { return {__builtin_shufflevector(a.v, a.v, 0, 0)}; }
+  /// Of the components of each.
+  CNEM_INLINE friend Small sums(Small a, Small b) {
+    return {__builtin_shufflevector(a.v, b.v, 0, 2) + __builtin_shufflevector(a.v, b.v, 1, 3)};
+  }
+  CNEM_INLINE friend Small square_roots(Small a) { return of(sqrt(a.v[0]), sqrt(a.v[1])); }
   CNEM_INLINE double dot(Small b) const {
     const Register product = v * b.v;
     return product[0] + product[1];

@@ -28,9 +28,9 @@ template<int dim> void rows(const SpectralView<dim>& view, std::ptrdiff_t begin,
   CNEM_ON_ACTIVE_ISA(spectral_rows(view, begin, end));
 }
 
-constexpr int power_iterations = 6;
-constexpr double grown = 1.05;
-constexpr double least_share = 1e-200; ///< of points that carry nothing, so that quotients exist
+constexpr int first_iterations = 6, further_iterations = 3;
+constexpr double grown = 1.05, jumped = 2.0; ///< times the bound when x was found
+constexpr double least_share = 1e-200;       ///< of points that carry nothing, so that quotients exist
 
 } // namespace
 
@@ -113,17 +113,19 @@ typename SpectralBound<dim>::Result SpectralBound<dim>::of_all(const DiscreteOpe
   map(view, nodes, points);
   Result bound = largest_quotient();
   if (found && bound.value <= grown * settled_) return bound;
-  if (found) {
+  const bool near = found && bound.value <= jumped * settled_;
+  if (found && !near) {
     share_.assign(points, 1.0);
     map(view, nodes, points);
+    bound = largest_quotient();
   }
-  for (int iteration = 0; iteration < power_iterations; ++iteration) {
-    const double scale = image_[largest_quotient().point];
+  for (int iteration = 0; iteration < (near ? further_iterations : first_iterations); ++iteration) {
+    const double scale = image_[bound.point];
     if (!(scale > 0.0)) break; // no stiffness at all, or no number
     for (std::size_t p = 0; p < points; ++p) share_[p] = std::max(image_[p] / scale, least_share);
     map(view, nodes, points);
+    bound = largest_quotient();
   }
-  bound = largest_quotient();
   settled_ = bound.value;
   return bound;
 }

@@ -31,8 +31,8 @@ public:
                                 const Field& weight, std::size_t width);
 
   /// The bound of all points with an x near the eigenvector of the largest eigenvalue of A: power iterations
-  /// from x = 1, made again once the bound has grown by a twentieth since, or after `forget`. `point`: where
-  /// A x is largest.
+  /// from x = 1, which go on once the bound has grown by a twentieth since (no iteration raises it) and begin
+  /// again where it has doubled. `point`: where A x is largest.
   Result of_all(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
                 const Field& modulus, const Field& weight);
   /// The operators are others: x begins at 1 again.

@@ -37,77 +37,66 @@ void force_columns(const OperatorColumns<dim>& columns, const double* stress, do
 
 namespace {
 
-/// Two vectors of the plane in one register.
-using Pair [[gnu::vector_size(32)]] = double;
+/// Four numbers of an edge record in one register.
+using Quad [[gnu::vector_size(32)]] = double;
+using UnalignedQuad [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 
-CNEM_INLINE Pair pair_of(Small<2> a, Small<2> b) { return __builtin_shufflevector(a.v, b.v, 0, 1, 2, 3); }
-CNEM_INLINE Pair twice(Small<2> a) { return pair_of(a, a); }
-CNEM_INLINE Pair load_pair(const double* a, const double* b) {
-  return pair_of(Small<2>::load(a), Small<2>::load(b));
-}
-CNEM_INLINE Pair first_of_each(Pair a) { return __builtin_shufflevector(a, a, 0, 0, 2, 2); }
-CNEM_INLINE Pair second_of_each(Pair a) { return __builtin_shufflevector(a, a, 1, 1, 3, 3); }
-CNEM_INLINE Small<2> fold(Pair a) { return Small<2>::of(a[0] + a[2], a[1] + a[3]); }
+CNEM_INLINE Quad load_quad(const double* p) { return *reinterpret_cast<const UnalignedQuad*>(p); }
+CNEM_INLINE Small<2> low(Quad a) { return {__builtin_shufflevector(a, a, 0, 1)}; }
+CNEM_INLINE Small<2> high(Quad a) { return {__builtin_shufflevector(a, a, 2, 3)}; }
 
-/// edge_defect in the plane: two links at a time; a last single one is paired with a link of a node to
-/// itself, which is nothing.
+/// edge_defect in the plane, where a record is two registers and one cache line.
 EdgeEnergy plane_edge_defect(const LinkRows& links, double alpha, const double* volume,
-                             const double* reference, const double* position, const double* record,
-                             double* stress, double* const* force, std::ptrdiff_t begin, std::ptrdiff_t end) {
-  constexpr int stride = 6;
-  const Pair halves = {0.5, 0.5, 0.5, 0.5};
-  Pair energies = {}; // now, before, now, before
+                             const double* position, const double* record, double* stress,
+                             double* const* force, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  constexpr int stride = 8;
+  auto energies = Small<2>::zero(); // now, before
   for (std::ptrdiff_t i = begin; i < end; ++i) {
     const double* own = record + stride * i;
-    const Pair X = twice(Small<2>::load(reference + 2 * i)), x = twice(Small<2>::load(position + 2 * i));
-    const Pair F0 = twice(Small<2>::load(own)), F1 = twice(Small<2>::load(own + 2)),
-               moduli = twice(Small<2>::load(own + 4));
-    Pair pull = {}, moment0 = {}, moment1 = {};
+    const Small<2> x = Small<2>::load(position + 2 * i);
+    const Quad F = load_quad(own), rest = load_quad(own + 4) * Quad{1.0, 1.0, -1.0, -1.0};
+    auto pull = Small<2>::zero();
+    Quad moment = {};
     const std::int32_t last = links.begin[i + 1];
-    for (std::int32_t e = links.begin[i]; e < last; e += 2) {
-      const bool single = e + 1 == last;
-      const auto a = static_cast<std::ptrdiff_t>(links.neighbour[e]);
-      const auto b = single ? i : static_cast<std::ptrdiff_t>(links.neighbour[e + 1]);
-      const double *other_a = record + stride * a, *other_b = record + stride * b;
-      const Pair dX = load_pair(reference + 2 * a, reference + 2 * b) - X;
-      const Pair dX0 = first_of_each(dX), dX1 = second_of_each(dX);
-      const Pair mean =
-          (F0 + load_pair(other_a, other_b)) * dX0 + (F1 + load_pair(other_a + 2, other_b + 2)) * dX1;
-      const Pair r = load_pair(position + 2 * a, position + 2 * b) - x - halves * mean;
-      const double wa = links.weight[e], wb = single ? 0.0 : links.weight[e + 1];
-      const Pair stiffness = Pair{wa, wa, wb, wb} * (moduli + load_pair(other_a + 4, other_b + 4));
-      const Pair square = r * r;
-      energies += stiffness * (first_of_each(square) + second_of_each(square));
-      const Pair tension = first_of_each(stiffness) * r;
+    for (std::int32_t e = links.begin[i]; e < last; ++e) {
+      const auto j = static_cast<std::ptrdiff_t>(links.neighbour[e]);
+      const double* other = record + stride * j;
+      const Quad sum = load_quad(other + 4) + rest; // moduli, X_ij
+      const Quad dX = __builtin_shufflevector(sum, sum, 2, 2, 3, 3);
+      const Quad mean = (load_quad(other) + F) * dX;
+      const Small<2> r = (Small<2>::load(position + 2 * j) - x) - (low(mean) + high(mean)) * 0.5;
+      const Small<2> stiffness = low(sum) * links.weight[e];
+      const Small<2> square = r * r;
+      energies += stiffness * (square + swapped(square));
+      const Small<2> tension = r * first(stiffness);
       pull += tension;
-      moment0 += tension * dX0;
-      moment1 += tension * dX1;
+      moment += __builtin_shufflevector(tension.v, tension.v, 0, 1, 0, 1) * dX;
     }
-    const double scale = 0.5 * alpha, half_inverse_volume = 0.5 / volume[i];
-    const Small<2> f = fold(pull) * scale;
-    force[0][i] += f[0];
-    force[1][i] += f[1];
+    const double scale = 0.5 * alpha;
+    const Quad share = moment * (Quad{scale, scale, scale, scale} * (0.5 / volume[i]));
+    force[0][i] += pull[0] * scale;
+    force[1][i] += pull[1] * scale;
     double* P = stress + 4 * i;
-    (Small<2>::load(P) - fold(moment0) * (scale * half_inverse_volume)).store(P);
-    (Small<2>::load(P + 2) - fold(moment1) * (scale * half_inverse_volume)).store(P + 2);
+    (Small<2>::load(P) - low(share)).store(P);
+    (Small<2>::load(P + 2) - high(share)).store(P + 2);
   }
-  const Small<2> sum = fold(energies) * (0.5 * alpha);
+  const Small<2> sum = energies * (0.5 * alpha);
   return {0.25 * sum[0], 0.25 * (sum[1] - sum[0])}; // ½ of ½ Σ k|r|²: every link is seen from both its ends
 }
 
 } // namespace
 
 template<int dim>
-EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* reference,
-                       const double* position, const double* record, double* stress, double* const* force,
-                       std::ptrdiff_t begin, std::ptrdiff_t end) {
+EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* position,
+                       const double* record, double* stress, double* const* force, std::ptrdiff_t begin,
+                       std::ptrdiff_t end) {
   if constexpr (dim == 2)
-    return plane_edge_defect(links, alpha, volume, reference, position, record, stress, force, begin, end);
-  constexpr int stride = dim * dim + 2;
+    return plane_edge_defect(links, alpha, volume, position, record, stress, force, begin, end);
+  constexpr int stride = edge_record<dim>, place = dim * dim + 2;
   double stored = 0.0, released = 0.0;
   for (std::ptrdiff_t i = begin; i < end; ++i) {
-    const auto X = Small<dim>::load(reference + dim * i), x = Small<dim>::load(position + dim * i);
     const double* own = record + stride * i;
+    const auto X = Small<dim>::load(own + place), x = Small<dim>::load(position + dim * i);
     Small<dim> F[dim], moment[dim];
     for (int k = 0; k < dim; ++k) {
       F[k] = Small<dim>::load(own + k * dim);
@@ -117,7 +106,7 @@ EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume
     for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e) {
       const auto j = static_cast<std::ptrdiff_t>(links.neighbour[e]);
       const double* other = record + stride * j;
-      const auto dX = Small<dim>::load(reference + dim * j) - X;
+      const auto dX = Small<dim>::load(other + place) - X;
       auto r = Small<dim>::load(position + dim * j) - x;
       for (int k = 0; k < dim; ++k) r -= (F[k] + Small<dim>::load(other + k * dim)) * (0.5 * dX[k]);
       const double scale = 0.5 * alpha * links.weight[e], r2 = r.dot(r);
@@ -142,17 +131,22 @@ namespace {
 
 inline constexpr double two_pi = 6.283185307179586;
 
-template<class T> CNEM_INLINE T root_of_volume(T volume, bool plane) {
-  return plane ? sqrt(volume) : exp(log(volume) * T(1.0 / 3.0));
+/// Stores n numbers of each point at the begin of its record.
+template<int stride, int n> CNEM_INLINE void side_by_side(const double (&value)[n], double* record) {
+  for (int c = 0; c < n; ++c) record[c] = value[c];
 }
-
-/// Stores n numbers of each point as one record a point.
-template<int n, class T> CNEM_INLINE void side_by_side(const T (&value)[n], double* record) {
-  constexpr int width = Number<T>::width;
-  double rows[n][width];
-  for (int c = 0; c < n; ++c) store(rows[c], value[c]);
-  for (int lane = 0; lane < width; ++lane)
-    for (int c = 0; c < n; ++c) record[n * lane + c] = rows[c][lane];
+template<int stride, int n> CNEM_INLINE void side_by_side(const Pack<1> (&value)[n], double* record) {
+  constexpr int width = Number<Pack<1>>::width;
+  for (int c = 0; c + 1 < n; c += 2) {
+    const auto even = even_pairs(value[c].v[0], value[c + 1].v[0]);
+    const auto odd = odd_pairs(value[c].v[0], value[c + 1].v[0]);
+    for (int lane = 0; lane < width; lane += 2) {
+      Small<2>::of(even[lane], even[lane + 1]).store(record + stride * lane + c);
+      Small<2>::of(odd[lane], odd[lane + 1]).store(record + stride * (lane + 1) + c);
+    }
+  }
+  if constexpr (n % 2 == 1)
+    for (int lane = 0; lane < width; ++lane) record[stride * lane + n - 1] = value[n - 1].v[0][lane];
 }
 
 /// The points p … p + width − 1.
@@ -167,19 +161,39 @@ CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic
   }
   const T J = cofactor(f, cof);
   const T before = load<T>(points.jacobian + p), change = J - before;
-  const T volume = load<T>(points.volume + p);
+  const T volume = load<T>(points.volume + p), modulus = load<T>(points.wave_modulus + p);
+  const T flow = select(load<T>(points.plastic_rate + p) > T(0.0), load<T>(points.equivalent_stress + p),
+                        load<T>(points.flow_stress + p));
+  store(points.flow_stress + p, flow);
+  // μ̃ = μ e/(e + ε̄p) = μ σ_y/(σ_y + 3μ ε̄p) with the elastic limit e = σ_y/3μ
+  const EdgePoints& edge = points.edge;
+  T mu = T(0.0), softened = T(1.0);
+  Mask<T> strained = softened < mu;
+  if (edge.record) {
+    mu = load<T>(edge.shear_modulus + p);
+    const T strain = load<T>(edge.plastic_strain + p);
+    strained = strain > T(0.0);
+    softened = select(strained, flow + T(3.0) * mu * strain, T(1.0));
+  }
+  T inverse[3];
+  reciprocals({J + before, modulus, softened}, inverse);
   const Mask<T> closing = change < T(0.0);
   T q = T(0.0);
   if (any(closing)) {
-    const T rate = T(2.0 * by_dt) * change / (J + before);
-    const T rho = load<T>(points.density + p) / J;
-    T extent = volume * J;
-    if (dim == 2 && points.radius)
-      extent = extent / (T(two_pi) * load<T>(points.radius + p) * f[general - 1]);
-    const T length = root_of_volume(extent, dim == 2);
-    const T speed = sqrt(load<T>(points.wave_modulus + p) / rho);
-    const T share = T(linear) - T(quadratic) * length * rate / speed;
-    q = select(closing, -rho * length * rate * speed * share, T(0.0));
+    const T rate = T(2.0 * by_dt) * change * inverse[0];
+    // ρ l c and l/c of the length l, in the plane √(V J) or of revolution √(V J/(2πr F_θθ)), and the speed
+    // c = √(M/ρ), ρ = ρ0/J
+    T mass = load<T>(points.density + p) * volume, impedance;
+    if constexpr (dim == 2) {
+      if (points.radius) mass = mass / (T(two_pi) * load<T>(points.radius + p) * f[general - 1]);
+      impedance = sqrt(mass * modulus);
+    } else {
+      const T extent = volume * J;
+      const T length = exp(log(extent) * T(1.0 / 3.0));
+      impedance = length * sqrt(mass * modulus / extent);
+    }
+    const T share = T(linear) - T(quadratic) * rate * impedance * inverse[1];
+    q = select(closing, -rate * impedance * share, T(0.0));
     damping = max(damping, select(closing, share, T(0.0)));
   }
   for (int c = 0; c < general; ++c) stress[c] = stress[c] - q * cof[c];
@@ -192,15 +206,9 @@ CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic
     for (int k = 0; k < dim; ++k) columns[k * dim + i] = stress[i * dim + k];
   side_by_side<dim * dim>(columns, points.columns + dim * dim * p);
 
-  const T flow = select(load<T>(points.plastic_rate + p) > T(0.0), load<T>(points.equivalent_stress + p),
-                        load<T>(points.flow_stress + p));
-  store(points.flow_stress + p, flow);
-  const EdgePoints& edge = points.edge;
   if (!edge.record) return;
-  // μ̃ = μ e/(e + ε̄p) with the elastic limit e = σ_y/3μ
-  const T mu = load<T>(edge.shear_modulus + p), strain = load<T>(edge.plastic_strain + p);
   const T last = load<T>(edge.modulus + p);
-  const T secant = select(strain > T(0.0), mu * flow / (flow + T(3.0) * mu * strain), last);
+  const T secant = select(strained, mu * flow * inverse[2], last);
   store(edge.modulus_before + p, last);
   store(edge.modulus + p, secant);
   T record[dim * dim + 2];
@@ -208,7 +216,7 @@ CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic
     for (int k = 0; k < dim; ++k) record[k * dim + i] = f[i * dim + k];
   record[dim * dim] = secant;
   record[dim * dim + 1] = last;
-  side_by_side<dim * dim + 2>(record, edge.record + (dim * dim + 2) * p);
+  side_by_side<edge_record<dim>>(record, edge.record + edge_record<dim> * p);
 }
 
 } // namespace
@@ -239,8 +247,7 @@ ViscousSums viscous_stress(const ViscousPoints<dim>& points, double quadratic, d
   template void force_columns<dim>(const OperatorColumns<dim>&, const double*, double* const*,               \
                                    std::ptrdiff_t, std::ptrdiff_t);                                          \
   template EdgeEnergy edge_defect<dim>(const LinkRows&, double, const double*, const double*, const double*, \
-                                       const double*, double*, double* const*, std::ptrdiff_t,               \
-                                       std::ptrdiff_t);                                                      \
+                                       double*, double* const*, std::ptrdiff_t, std::ptrdiff_t);             \
   template ViscousSums viscous_stress<dim>(const ViscousPoints<dim>&, double, double, double,                \
                                            std::ptrdiff_t, std::ptrdiff_t);
 CNEM_INSTANTIATE(2)

@@ -3,8 +3,8 @@
 // set. Raw pointers only: kernels see no standard containers (cmake/cnem.cmake, cnem_kernel).
 //
 // What is gathered lies side by side, one record per node or point, so that a neighbour costs one cache line:
-// positions [node][k]; stresses by columns [point][k][i] = P_ik; edge records [node]: F by columns [k][i],
-// then the penalty's modulus of this step and of the step before.
+// positions [node][k]; stresses by columns [point][k][i] = P_ik; edge records [node][edge_record]: F by
+// columns [k][i], the penalty's modulus of this step and of the step before, X.
 #include "core/operators/sparse_rows.hpp"
 
 #include <cstddef>
@@ -19,6 +19,9 @@ struct LinkRows {
   const double* weight;
 };
 
+/// Numbers of an edge record.
+template<int dim> inline constexpr int edge_record = dim* dim + 2 + dim;
+
 /// ½ Σ k |r|² of the block's half of its links, and what falling moduli let go, J/m^(3−dim).
 struct EdgeEnergy {
   double stored, released;
@@ -30,7 +33,7 @@ struct EdgePoints {
   const double* plastic_strain;
   double* modulus;        ///< secant modulus μ̃, Pa; in: of the step before
   double* modulus_before; ///< out: that one
-  double* record;         ///< out: edge records
+  double* record;         ///< out: edge records but for X
 };
 
 /// What the bulk viscosity reads and writes, [point].
@@ -80,9 +83,9 @@ struct ViscousSums {
   void force_columns(const OperatorColumns<dim>& columns, const double* stress, double* const* force,        \
                      std::ptrdiff_t begin, std::ptrdiff_t end);                                              \
   template<int dim>                                                                                          \
-  EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* reference, \
-                         const double* position, const double* record, double* stress, double* const* force, \
-                         std::ptrdiff_t begin, std::ptrdiff_t end);                                          \
+  EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* position,  \
+                         const double* record, double* stress, double* const* force, std::ptrdiff_t begin,   \
+                         std::ptrdiff_t end);                                                                \
   template<int dim>                                                                                          \
   void invert(const double* const* deformation, const SpectralView<dim>& view, std::ptrdiff_t begin,         \
               std::ptrdiff_t end);                                                                           \

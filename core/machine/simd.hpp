@@ -84,6 +84,30 @@ CNEM_INLINE DoubleVector square_root(DoubleVector x) { return _mm_sqrt_pd(x); }
 CNEM_INLINE bool any_negative(MaskVector m) { return _mm_movemask_pd((__m128d)m) != 0; }
 #endif
 
+/// a0 b0 a2 b2 … and a1 b1 a3 b3 …
+#if defined(CNEM_ISA_avx512)
+CNEM_INLINE DoubleVector even_pairs(DoubleVector a, DoubleVector b) {
+  return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+}
+CNEM_INLINE DoubleVector odd_pairs(DoubleVector a, DoubleVector b) {
+  return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+#elif defined(CNEM_ISA_avx2)
+CNEM_INLINE DoubleVector even_pairs(DoubleVector a, DoubleVector b) {
+  return __builtin_shufflevector(a, b, 0, 4, 2, 6);
+}
+CNEM_INLINE DoubleVector odd_pairs(DoubleVector a, DoubleVector b) {
+  return __builtin_shufflevector(a, b, 1, 5, 3, 7);
+}
+#else
+CNEM_INLINE DoubleVector even_pairs(DoubleVector a, DoubleVector b) {
+  return __builtin_shufflevector(a, b, 0, 2);
+}
+CNEM_INLINE DoubleVector odd_pairs(DoubleVector a, DoubleVector b) {
+  return __builtin_shufflevector(a, b, 1, 3);
+}
+#endif
+
 #define CNEM_EACH(...)                                                                                       \
   for (int k = 0; k < n; ++k) __VA_ARGS__
 // NOLINTBEGIN(bugprone-macro-parentheses): types cannot stand in parentheses

@@ -7,9 +7,9 @@
 namespace cnem {
 
 template<int dim>
-void EdgeDefect<dim>::store_records(const Fields<tensor_size<dim>>& deformation, std::size_t begin,
-                                    std::size_t end) {
-  constexpr std::size_t stride = dim * dim + 2;
+void EdgeDefect<dim>::store_records(const Fields<tensor_size<dim>>& deformation, const Field& reference,
+                                    std::size_t begin, std::size_t end) {
+  constexpr std::size_t stride = edge_record<dim>;
   if (record_.size() != stride * modulus_.size()) record_.resize(stride * modulus_.size());
   const auto F = pointers(deformation);
   for (std::size_t i = begin; i < end; ++i) {
@@ -18,11 +18,12 @@ void EdgeDefect<dim>::store_records(const Fields<tensor_size<dim>>& deformation,
       for (std::size_t k = 0; k < dim; ++k) own[k * dim + a] = F[a * dim + k][i];
     own[dim * dim] = modulus_[i];
     own[dim * dim + 1] = modulus_before_[i];
+    for (std::size_t k = 0; k < dim; ++k) own[dim * dim + 2 + k] = reference[dim * i + k];
   }
 }
 
 template<int dim> void EdgeDefect<dim>::hold_moduli(std::size_t begin, std::size_t end) {
-  constexpr std::size_t stride = dim * dim + 2;
+  constexpr std::size_t stride = edge_record<dim>;
   for (std::size_t i = begin; i < end; ++i)
     record_[stride * i + dim * dim] = modulus_[i] = modulus_before_[i];
 }
@@ -30,11 +31,11 @@ template<int dim> void EdgeDefect<dim>::hold_moduli(std::size_t begin, std::size
 namespace {
 
 template<int dim>
-EdgeEnergy defect(const LinkRows& links, double alpha, const Field& volume, const Field& reference,
-                  const Field& position, const Field& record, Field& stress, double* const* force,
-                  std::size_t begin, std::size_t end) {
-  CNEM_ON_ACTIVE_ISA(edge_defect<dim>(links, alpha, volume.data(), reference.data(), position.data(),
-                                      record.data(), stress.data(), force, static_cast<std::ptrdiff_t>(begin),
+EdgeEnergy defect(const LinkRows& links, double alpha, const Field& volume, const Field& position,
+                  const Field& record, Field& stress, double* const* force, std::size_t begin,
+                  std::size_t end) {
+  CNEM_ON_ACTIVE_ISA(edge_defect<dim>(links, alpha, volume.data(), position.data(), record.data(),
+                                      stress.data(), force, static_cast<std::ptrdiff_t>(begin),
                                       static_cast<std::ptrdiff_t>(end)));
 }
 
@@ -42,10 +43,10 @@ EdgeEnergy defect(const LinkRows& links, double alpha, const Field& volume, cons
 
 template<int dim>
 EdgeEnergy EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const Field& volume,
-                                  const Field& reference, const Field& position, ColumnStress<dim>& stress,
-                                  Fields<dim>& force, std::size_t begin, std::size_t end) const {
+                                  const Field& position, ColumnStress<dim>& stress, Fields<dim>& force,
+                                  std::size_t begin, std::size_t end) const {
   return defect<dim>({links.begin.data(), links.neighbour.data(), links.weight.data()}, alpha_, volume,
-                     reference, position, record_, stress.columns, pointers(force).data(), begin, end);
+                     position, record_, stress.columns, pointers(force).data(), begin, end);
 }
 
 template<int dim> void EdgeDefect<dim>::limit(const Body<dim>& body, StepLimit& limit) {
@@ -77,8 +78,8 @@ void EdgeDefect<dim>::add_forces(const Body<dim>& body, int activity, const Leve
   const StabilisationLinks<dim>& links = body.approximation.links;
   if (!active(links)) return;
   const auto from = [&](const StabilisationLinks<dim>& part) {
-    return apply(part, body.operators().volume, body.reference, body.position, body.stress,
-                 body.state.node.force, range.begin, range.end);
+    return apply(part, body.operators().volume, body.position, body.stress, body.state.node.force,
+                 range.begin, range.end);
   };
   EdgeEnergy& sum = energy_[index_of(&range - body.levels.points(activity).data())];
   sum = from(body.levels.own_links(links));
@@ -98,7 +99,7 @@ template<int dim> void EdgeDefect<dim>::end_forces(const Body<dim>& body, int ac
 
 template<int dim> void EdgeDefect<dim>::restore(const Body<dim>& body) {
   if (active(body.approximation.links))
-    store_records(body.state.point.deformation, 0, body.state.point.size());
+    store_records(body.state.point.deformation, body.reference, 0, body.state.point.size());
 }
 
 template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model) {

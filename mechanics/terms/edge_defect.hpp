@@ -20,19 +20,19 @@ public:
   /// The moduli at the start, [node] Pa.
   void reset(const Field& shear_modulus) { modulus_before_ = modulus_ = shear_modulus; }
 
-  /// Stores what `apply` reads of the nodes [begin, end), F and moduli, of a state that no step has made.
-  void store_records(const Fields<tensor_size<dim>>& deformation, std::size_t begin, std::size_t end);
+  /// Stores what `apply` reads of the nodes [begin, end), F, moduli and places in the reference (side by
+  /// side), of a state that no step has made.
+  void store_records(const Fields<tensor_size<dim>>& deformation, const Field& reference, std::size_t begin,
+                     std::size_t end);
 
   /// Takes the moduli of the nodes [begin, end) back to what they were before the step: with local time steps
   /// they change only where all links are due.
   void hold_moduli(std::size_t begin, std::size_t end);
 
   /// Adds k r to the force of the nodes [begin, end) and the penalty's share −½ Σ_j k r ⊗ X_ij / V_i to their
-  /// first Piola stress. `reference` and `position` side by side; volume [node]. Expects `store_records` of
-  /// all nodes.
-  EdgeEnergy apply(const StabilisationLinks<dim>& links, const Field& volume, const Field& reference,
-                   const Field& position, ColumnStress<dim>& stress, Fields<dim>& force, std::size_t begin,
-                   std::size_t end) const;
+  /// first Piola stress. `position` side by side; volume [node]. Expects `store_records` of all nodes.
+  EdgeEnergy apply(const StabilisationLinks<dim>& links, const Field& volume, const Field& position,
+                   ColumnStress<dim>& stress, Fields<dim>& force, std::size_t begin, std::size_t end) const;
 
   FieldTable* fields() override { return &table_; }
   std::vector<Energy*> energies() override { return {&stored_, &released_}; }

@@ -50,17 +50,19 @@ public:
     conduction_.set_operators(op, std::move(conductivity));
   }
 
-  // With local time steps dissipation is that of each point's own step, and is heat at once.
+  // Dissipation is that of each point's own step. At nodes it is heat at once: what it reads has just been
+  // written.
   void begin_stress(const Body<dim>&, const DuePoints& due) override { sums_.assign(due.ranges.size(), 0.0); }
   void after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) override {
-    if (!body.model.thermal || due.whole || !body.operators().nodal) return;
+    if (!body.model.thermal || !body.operators().nodal) return;
     NodeState<dim>& node = body.state.node;
-    double& sum = sums_[due.index(range)];
+    double sum = 0.0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const double q = plastic_heat_of_node(body, i);
       node.temperature[i] += q / node.heat_capacity[i];
       sum += q;
     }
+    sums_[due.index(range)] = sum;
   }
   void end_stress(const Body<dim>& body, const DuePoints& due) override {
     for (const double heat : sums_) generated_.value += heat;
@@ -83,7 +85,7 @@ public:
     generate(body);
     exchange_in_contacts(body, dt);
     // Explicit steps of motion are thousands of times shorter than those of conduction: it acts once in some.
-    // A mode of decay rate r then loses r τ (1 − r τ/2 …) in the interval τ, r τ ≤ 2 · share.
+    // A mode of decay rate r loses r τ in the interval τ instead of r τ (1 − r τ/2 …), r τ ≤ 2 · share.
     constexpr double share = 0.01; // of the stable step
     constexpr int most = 16;
     if (stable_ == 0.0) measure_stable_step(body);
@@ -142,17 +144,21 @@ private:
         contacts_.bodies.push_back({touch.node, touch.facet, touch.weight, conductance, touch.area});
   }
 
-  /// Plastic and friction heat. Plastic heat is local, per unit mass (nodal), or shared out with the shape
-  /// functions.
+  /// Friction heat, and plastic heat of points that share it out with the shape functions.
   void generate(const Body<dim>& body) {
     NodeState<dim>& node = body.state.node;
-    const DiscreteOperators<dim>& op = body.operators();
+    if (body.operators().nodal) {
+      for (const NodeIndex touching : body.conditions.contact.boundary_nodes()) {
+        const auto i = index_of(touching);
+        node.temperature[i] += node.contact_heat[i] / node.heat_capacity[i];
+        generated_.value += node.contact_heat[i];
+      }
+      return;
+    }
     generated_.value += sum_blocks(node.size(), [&](std::size_t begin, std::size_t end) {
       double sum = 0.0;
       for (std::size_t i = begin; i < end; ++i) {
-        double heat = node.contact_heat[i];
-        heat = op.nodal ? heat + plastic_heat_of_node(body, i)
-                        : with_heat_of_points(body, i, body.levels.highest(), heat);
+        const double heat = with_heat_of_points(body, i, body.levels.highest(), node.contact_heat[i]);
         node.temperature[i] += heat / node.heat_capacity[i];
         sum += heat;
       }

@@ -38,9 +38,8 @@ struct Linked {
 
   EdgeEnergy energy() {
     edges.reset(Field(4, mu));
-    edges.store_records(deformation, 0, 4);
-    return edges.apply(links, Field(4, 1.0), side_by_side<3>(reference), side_by_side<3>(position), stress,
-                       force, 0, 4);
+    edges.store_records(deformation, side_by_side<3>(reference), 0, 4);
+    return edges.apply(links, Field(4, 1.0), side_by_side<3>(position), stress, force, 0, 4);
   }
 };
 

@@ -49,8 +49,8 @@ inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
       ColumnStress<2> stress;
       copy_stress_columns<2>(P, stress);
       if (edges.active(approximation.links)) {
-        edges.store_records(F, 0, n);
-        edges.apply(approximation.links, op.volume, side_by_side<2>(X), side, stress, force, 0, n);
+        edges.store_records(F, side_by_side<2>(X), 0, n);
+        edges.apply(approximation.links, op.volume, side, stress, force, 0, n);
       }
       subtract_internal_force<2>(op, stress, force, 0, n);
       for (std::size_t i = 0; i < n; ++i)

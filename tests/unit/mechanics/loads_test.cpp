@@ -147,11 +147,10 @@ TEST(EdgeDefect, force_is_minus_the_slope_of_its_energy_and_blind_to_rotation) {
     resize_all(force, n);
     const Field side = side_by_side<2>(x);
     deformation_gradient<2>(op, side, F, 0, n);
-    edges.store_records(F, 0, n);
+    edges.store_records(F, side_by_side<2>(X), 0, n);
     ColumnStress<2> stress;
     copy_stress_columns<2>(P, stress);
-    const double stored =
-        edges.apply(approximation.links, op.volume, side_by_side<2>(X), side, stress, force, 0, n).stored;
+    const double stored = edges.apply(approximation.links, op.volume, side, stress, force, 0, n).stored;
     subtract_internal_force<2>(op, stress, force, 0, n);
     return stored;
   };

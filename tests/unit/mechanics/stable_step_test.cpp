@@ -65,6 +65,15 @@ TEST(SpectralBound, is_found_again_once_it_has_grown_and_holds_in_between) {
   }
 }
 
+TEST(SpectralBound, goes_on_from_the_shares_it_has) {
+  Block block;
+  SpectralBound<2> kept;
+  block.of_all(kept);
+  block.stretch(0.9);
+  SpectralBound<2> fresh;
+  EXPECT_LE(block.of_all(kept), block.of_all(fresh) * 1.02);
+}
+
 TEST(SpectralBound, of_points_without_stiffness_is_that_of_the_others) {
   Block block;
   SpectralBound<2> bound;
