@@ -13,7 +13,7 @@ namespace cnem::contact {
 namespace {
 
 constexpr int passes = 8;   ///< of detection; each sees what the last corrected
-constexpr int sweeps = 100; ///< of Gauss-Seidel in a pass
+constexpr int sweeps = 100; ///< of Gauss-Seidel in a pass, at most
 
 } // namespace
 
@@ -52,6 +52,9 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
   start_.resize(n);
   end_.resize(n);
   reactions_.resize(n);
+  taken_.clear();
+  is_taken_.assign(n, 0);
+  near_.clear();
   heat_.assign(n, 0.0);
   nodal_impulse_.assign(n, Vec<dim>::Zero());
   points_.clear();
@@ -73,10 +76,11 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     throw InputError(fmt::format("this friction needs the flow stress of all {} boundary nodes, "
                                  "got {}",
                                  surface_.node.size(), step.flow_stress.size()));
-  gather(step);
+  const double longest = gather(step);
   Poses<dim> poses = motions_.predict(tools_, step.time, step.dt, step.dt_mean);
   tool_reactions_ = motions_.reactions(tools_, poses);
-  look_for_passages(poses, step);
+  look_for_passages(poses, step, longest);
+  near_.look(surface_, tools_, poses, end_);
   if constexpr (dim == 2)
     if (law_.active) {
       bodies_.look(surface_, start_, end_);
@@ -87,18 +91,19 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     const bool faces = find_on_faces(poses, step), ridges = find_on_ridges(poses, step),
                bodies = find_on_bodies(poses, step);
     if (!faces && !ridges && !bodies) break;
-    solve_impulses(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps);
-    for (const BoundaryNodeIndex b : end_.indices())
+    solver_.solve(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps);
+    for (const BoundaryNodeIndex b : taken_)
       end_[b] = reactions_[b].position + step.dt * reactions_[b].change;
     for (const ToolIndex t : poses.indices()) {
       poses[t].end = tool_reactions_[t].position + step.dt * tool_reactions_[t].change;
       poses[t].velocity = tool_reactions_[t].velocity + tool_reactions_[t].change;
     }
+    near_.look(surface_, tools_, poses, end_, taken_);
   }
   scatter(step);
   motions_.accept(tools_, poses);
   book(poses, step);
-  list_points(poses, step);
+  list_points();
   list_touches();
   if (in_sub_steps_)
     add_sub_step(step.dt_mean);
@@ -106,31 +111,43 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     merge_touches();
 }
 
-template<int dim> void RigidContact<dim>::gather(const ContactStep<dim>& step) {
-  for (const BoundaryNodeIndex b : reactions_.indices()) {
-    const NodeIndex node = surface_.node[b];
-    Reaction<dim>& reaction = reactions_[b];
-    reaction.inverse = free_[b] / step.mass[index_of(node)];
-    reaction.position = end_[b] = at<dim>(step.position, node);
-    reaction.velocity = at<dim>(step.velocity, node);
-    reaction.change.setZero();
-    start_[b] = reaction.position - step.dt * reaction.velocity;
+/// Where all nodes are; returns the longest path of a node, m.
+template<int dim> double RigidContact<dim>::gather(const ContactStep<dim>& step) {
+  double longest2 = 0.0;
+  for (const BoundaryNodeIndex b : end_.indices()) {
+    end_[b] = at<dim>(step.position, surface_.node[b]);
+    start_[b] = end_[b] - step.dt * at<dim>(step.velocity, surface_.node[b]);
+    if (const double path2 = (end_[b] - start_[b]).squaredNorm(); !(path2 <= longest2)) longest2 = path2;
   }
-  rubbing_ = area_ = surface_.areas(end_, space_);
-  for (const BoundaryNodeIndex b : step.window.indices()) rubbing_[b] *= step.window[b];
+  for (const BoundaryNodeIndex b : taken_) is_taken_[b] = 0;
+  taken_.clear();
   contacts_.clear();
   std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec<dim>::Zero());
+  return std::sqrt(longest2);
+}
+
+/// Notes what the nodes of a contact answer to impulses.
+template<int dim> void RigidContact<dim>::take(const Contact<dim>& contact, const ContactStep<dim>& step) {
+  for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
+    const BoundaryNodeIndex b = contact.node[a];
+    if (contact.weight[a] == 0.0 || is_taken_[b]) continue;
+    is_taken_[b] = 1;
+    taken_.push_back(b);
+    const NodeIndex node = surface_.node[b];
+    reactions_[b] = {.inverse = free_[b] / step.mass[index_of(node)],
+                     .position = end_[b],
+                     .velocity = at<dim>(step.velocity, node),
+                     .change = Vec<dim>::Zero()};
+  }
 }
 
 template<int dim>
-void RigidContact<dim>::look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step) const {
-  double longest2 = 0.0;
-  for (const BoundaryNodeIndex b : end_.indices())
-    if (const double path2 = (end_[b] - start_[b]).squaredNorm(); !(path2 <= longest2)) longest2 = path2;
+void RigidContact<dim>::look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step,
+                                          double longest) const {
   for (const ToolIndex t : tools_.indices()) {
     const ToolShape<dim>& shape = *tools_[t].shape;
-    if (std::sqrt(longest2) + (poses[t].end - poses[t].start).norm() < shape.least_thickness()) continue;
+    if (longest + (poses[t].end - poses[t].start).norm() < shape.least_thickness()) continue;
     for (const BoundaryNodeIndex b : end_.indices()) {
       const Vec<dim> from = start_[b] - poses[t].start, to = end_[b] - poses[t].end;
       const double thickness = shape.passed(from, to);
@@ -151,62 +168,66 @@ void RigidContact<dim>::look_for_passages(const Poses<dim>& poses, const Contact
 /// the place of the surface along its normal. True when there is anything to solve.
 template<int dim>
 bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
-                            double dt) {
+                            const ContactStep<dim>& step) {
   const auto mean = [&](const IndexedVector<BoundaryNodeIndex, Vec<dim>>& list) {
     return at_contact(contact, [&](BoundaryNodeIndex b) { return list[b]; });
   };
   contact.level = level;
   if (start < 0.0) {
     const double speed = std::max(pose.recovery, 0.5 * (mean(before_) - pose.before).norm());
-    contact.level += std::min(0.0, start + dt * speed);
+    contact.level += std::min(0.0, start + step.dt * speed);
   }
   const double gap = contact.normal.dot(mean(end_)) - contact.level;
   if (gap >= 0.0) return false;
-  if (exists(contact.tool)) contact.level -= dt * contact.normal.dot(tool_reactions_[contact.tool].change);
+  if (exists(contact.tool))
+    contact.level -= step.dt * contact.normal.dot(tool_reactions_[contact.tool].change);
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
   const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
            c.node[0] == contact.node[0];
   });
-  if (known == earlier)
+  if (known == earlier) {
+    take(contact, step);
     contacts_.push_back(contact);
-  else if (gap < -1e-14 * size_)
+  } else if (gap < -1e-14 * size_) {
     known->level -= gap;
-  else
+  } else {
     return false;
+  }
   return true;
+}
+
+/// Whether a tool stands where it stood in the last pass: then it can have met nothing but nodes that moved.
+template<int dim> bool RigidContact<dim>::stands(ToolIndex tool) const {
+  return from_earlier_passes_ > 0 && tool_reactions_[tool].inverse.isZero(0.0);
 }
 
 template<int dim>
 bool RigidContact<dim>::find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step) {
   bool any = false;
-  std::vector<BoundaryNodeIndex> inside;
-  std::vector<Vec<dim>> from, to;
-  std::vector<Entry<dim>> entries;
   for (const ToolIndex t : tools_.indices()) {
-    const Tool<dim>& tool = tools_[t];
-    const Box<dim> box = tool.shape->bounds();
-    inside.clear(), from.clear(), to.clear(), entries.clear();
-    for (const BoundaryNodeIndex b : end_.indices()) {
+    const Box<dim> box = tools_[t].shape->bounds();
+    inside_.clear(), from_.clear(), to_.clear(), entries_.clear();
+    for (const BoundaryNodeIndex b : near_.nodes(t)) {
       const Vec<dim> x = end_[b] - poses[t].end;
-      if (!box.contains(x)) continue;
-      inside.push_back(b);
-      from.push_back(start_[b] - poses[t].start);
-      to.push_back(x);
+      if (!box.contains(x) || (stands(t) && !is_taken_[b])) continue;
+      inside_.push_back(b);
+      from_.push_back(start_[b] - poses[t].start);
+      to_.push_back(x);
     }
-    if (inside.empty()) continue;
-    tool.shape->entries(from, to, entries);
-    for (const Entry<dim>& entry : entries) {
-      const BoundaryNodeIndex b = inside[index_of(entry.index)];
+    if (inside_.empty()) continue;
+    tools_[t].shape->entries(from_, to_, entries_);
+    for (const Entry<dim>& entry : entries_) {
+      const BoundaryNodeIndex b = inside_[index_of(entry.index)];
       Contact<dim> contact;
       contact.tool = t;
       contact.feature = entry.at.feature;
       contact.node[0] = b;
       contact.weight[0] = 1.0;
       contact.normal = entry.at.normal;
-      set_friction(contact, rubbing_[b], step);
+      set_friction(contact, step, [&] { return rubbing_area(b, step.window); });
       const double level = entry.at.normal.dot(end_[b]) - entry.at.distance;
-      any |= add(contact, entry.start, level, poses[t], step.dt);
+      any |= add(contact, entry.start, level, poses[t], step);
     }
   }
   return any;
@@ -218,7 +239,8 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
   std::vector<RidgeHit<dim>> hits;
   for (const ToolIndex t : tools_.indices()) {
     hits.clear();
-    ridge_hits<dim>(surface_, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
+    ridge_hits<dim>(surface_, near_.facets(t), *tools_[t].shape, start_, end_, poses[t].start, poses[t].end,
+                    hits);
     for (const RidgeHit<dim>& hit : hits) {
       Contact<dim> contact;
       contact.tool = t;
@@ -228,29 +250,28 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
       std::copy(ends.begin(), ends.end(), contact.node.begin());
       std::copy(hit.weight.begin(), hit.weight.end(), contact.weight.begin());
       contact.normal = hit.normal;
-      double area = 0.0; // of nodes that do not rub on a face themselves
-      for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
-        const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<dim>& c) {
-          return c.tool == contact.tool && !exists(c.facet) && c.node[0] == contact.node[a];
-        });
-        if (!on_face) area += contact.weight[a] * rubbing_[contact.node[a]];
-      }
-      set_friction(contact, area, step);
+      set_friction(contact, step, [&] {
+        double area = 0.0; // of nodes that do not rub on a face themselves
+        for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
+          const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<dim>& c) {
+            return c.tool == contact.tool && !exists(c.facet) && c.node[0] == contact.node[a];
+          });
+          if (contact.weight[a] != 0.0 && !on_face)
+            area += contact.weight[a] * rubbing_area(contact.node[a], step.window);
+        }
+        return area;
+      });
       const Vec<dim> x = at_contact(contact, [&](BoundaryNodeIndex b) { return end_[b]; });
-      any |= add(contact, hit.start, hit.normal.dot(x) - hit.gap, poses[t], step.dt);
+      any |= add(contact, hit.start, hit.normal.dot(x) - hit.gap, poses[t], step);
     }
   }
   return any;
 }
 
-/// Area times window of a contact of two bodies: the forces of either side may arrive alone, and over a macro
-/// step each has the same windows in all.
+/// m^(dim−1), of a node, times its window.
 template<int dim>
-double RigidContact<dim>::rubbing_between(const FacetHit<dim>& hit, BoundaryValues window) const {
-  if (window.empty()) return area_[hit.node];
-  double both = window[hit.node];
-  for (std::size_t a = 0; a < dim; ++a) both += hit.weight[a] * window[surface_.facets[hit.facet][a]];
-  return 0.5 * both * area_[hit.node];
+double RigidContact<dim>::rubbing_area(BoundaryNodeIndex node, BoundaryValues window) const {
+  return surface_.area(node, end_, space_) * (window.empty() ? 1.0 : window[node]);
 }
 
 template<int dim>
@@ -272,8 +293,15 @@ bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactSte
       contact.weight[a + 1] = -hit.weight[a];
     }
     contact.normal = hit.normal;
-    set_friction(contact, rubbing_between(hit, step.window), step);
-    any |= add(contact, hit.start, hit.clearance, rest, step.dt);
+    set_friction(contact, step, [&] {
+      // The forces of either side may arrive alone; over a macro step each has the same windows in all.
+      const double area = surface_.area(hit.node, end_, space_);
+      if (step.window.empty()) return area;
+      double both = step.window[hit.node];
+      for (std::size_t a = 0; a < dim; ++a) both += hit.weight[a] * step.window[ends[a]];
+      return 0.5 * both * area;
+    });
+    any |= add(contact, hit.start, hit.clearance, rest, step);
   }
   return any;
 }
@@ -282,8 +310,11 @@ template<int dim> const Friction& RigidContact<dim>::friction_of(const Contact<d
   return exists(contact.tool) ? tools_[contact.tool].friction : law_.friction;
 }
 
+/// Takes the law as it is for the contact; `rubbing_area` is asked where the law needs it.
 template<int dim>
-void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const {
+template<class Area>
+void RigidContact<dim>::set_friction(Contact<dim>& contact, const ContactStep<dim>& step,
+                                     Area&& rubbing_area) const {
   const Friction& friction = friction_of(contact);
   if (exists(contact.tool)) contact.surface = tool_reactions_[contact.tool].velocity;
   Rubbing rubbing;
@@ -295,20 +326,19 @@ void RigidContact<dim>::set_friction(Contact<dim>& contact, double area, const C
     if (!exists(contact.tool)) rubbing.flow_stress = std::min(rubbing.flow_stress, opposite);
   }
   if (friction.needs_speed()) {
-    const Vec<dim> slip =
-        at_contact(contact, [&](BoundaryNodeIndex b) { return reactions_[b].velocity; }) - contact.surface;
+    const auto predicted = [&](BoundaryNodeIndex b) { return at<dim>(step.velocity, surface_.node[b]); };
+    const Vec<dim> slip = at_contact(contact, predicted) - contact.surface;
     rubbing.speed = (slip - slip.dot(contact.normal) * contact.normal).norm();
   }
   const FrictionBound bound = friction.bound(rubbing);
   contact.coulomb = bound.coefficient;
   contact.smooth = bound.smooth;
-  contact.limit = std::isinf(bound.shear) ? infinite : bound.shear * area * step.dt_mean;
+  contact.limit = std::isinf(bound.shear) ? infinite : bound.shear * rubbing_area() * step.dt_mean;
 }
 
 template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) {
-  for (const BoundaryNodeIndex b : reactions_.indices()) {
+  for (const BoundaryNodeIndex b : taken_) {
     const Vec<dim>& change = reactions_[b].change;
-    if (change.squaredNorm() == 0.0) continue;
     const auto node = index_of(surface_.node[b]);
     for (int k = 0; k < dim; ++k) {
       step.velocity[index_of(k)][node] += change[k];

@@ -1,6 +1,8 @@
 #pragma once
 // Kinematic predictor-corrector contact of the workpiece with rigid tools and with itself.
 #include "contact/body_contact.hpp"
+#include "contact/impulse_solver.hpp"
+#include "contact/near_tools.hpp"
 #include "contact/surface.hpp"
 #include "contact/tool_motions.hpp"
 #include "core/fields/aligned.hpp"
@@ -70,12 +72,8 @@ template<int dim> struct BodyResult {
 /// A boundary node that touches a tool (directly or through an edge that a corner presses on).
 template<int dim> struct ContactPoint {
   NodeIndex node{};
-  BoundaryNodeIndex boundary{}; ///< the same node among boundary_nodes()
   ToolIndex tool{};
-  double gap = 0.0;                  ///< m, signed distance from the tool after the correction
-  double area = 0.0;                 ///< m^(dim−1), tributary, current
-  double pressure = 0.0;             ///< Pa, normal force over area
-  Vec<dim> force = Vec<dim>::Zero(); ///< N/m^(3−dim), on the node
+  double area = 0.0; ///< m^(dim−1), tributary, current
 };
 
 /// A boundary node that touches a facet of the workpiece, another body's or its own.
@@ -102,7 +100,7 @@ template<int dim> struct Overlap {
 ///
 /// Order of calls: set_boundary whenever nodes or boundary change (prepare()); in each step `remember` before
 /// the velocities are updated, then the prediction, then `correct`. Serial, so that results do not depend on
-/// threads; looks at boundary nodes alone.
+/// threads; looks at boundary nodes alone, and closely at those near tools or other bodies.
 template<int dim> class RigidContact {
 public:
   explicit RigidContact(std::vector<Tool<dim>> tools, Space space = Space::plane, BodyContactLaw bodies = {});
@@ -150,6 +148,7 @@ public:
   const IndexedVector<ToolIndex, ToolResult<dim>>& results() const { return results_; }
   const BodyResult<dim>& body_result() const { return body_result_; }
   const BodyContact<dim>& bodies() const { return bodies_; }
+  const NearTools<dim>& near() const { return near_; }
   const std::vector<ContactPoint<dim>>& points() const { return points_; } ///< touching in the last step
   /// In the last step; listed where the law has a conductance.
   const std::vector<BodyTouch<dim>>& touches() const { return touches_; }
@@ -169,19 +168,23 @@ public:
 
 private:
   IndexedVector<BoundaryNodeIndex, Vec<dim>> places(const Fields<dim>& position) const;
-  void gather(const ContactStep<dim>& step);
-  void look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step) const;
+  double gather(const ContactStep<dim>& step);
+  void look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step, double longest) const;
+  bool stands(ToolIndex tool) const;
+  void take(const Contact<dim>& contact, const ContactStep<dim>& step);
   bool find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);
-  bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose, double dt);
-  void set_friction(Contact<dim>& contact, double area, const ContactStep<dim>& step) const;
-  double rubbing_between(const FacetHit<dim>& hit, BoundaryValues window) const;
+  bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
+           const ContactStep<dim>& step);
+  template<class Area>
+  void set_friction(Contact<dim>& contact, const ContactStep<dim>& step, Area&& rubbing_area) const;
+  double rubbing_area(BoundaryNodeIndex node, BoundaryValues window) const;
   const Friction& friction_of(const Contact<dim>& contact) const;
   void share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step);
   void scatter(const ContactStep<dim>& step);
   void book(const Poses<dim>& poses, const ContactStep<dim>& step);
-  void list_points(const Poses<dim>& poses, const ContactStep<dim>& step);
+  void list_points();
   void list_touches();
   void merge_points();
   void merge_touches();
@@ -200,11 +203,16 @@ private:
   IndexedVector<BoundaryNodeIndex, Vec<dim>> before_; ///< m/s, v_{n−½}
   IndexedVector<BoundaryNodeIndex, Vec<dim>> start_;  ///< m, x_n
   IndexedVector<BoundaryNodeIndex, Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
-  ReactionsOfNodes<dim> reactions_;
+  ReactionsOfNodes<dim> reactions_;                   ///< of the nodes that contacts have taken
+  std::vector<BoundaryNodeIndex> taken_;              ///< these
+  IndexedVector<BoundaryNodeIndex, char> is_taken_;
   ReactionsOfTools<dim> tool_reactions_;
-  IndexedVector<BoundaryNodeIndex, double> area_;
-  IndexedVector<BoundaryNodeIndex, double> rubbing_; ///< m^(dim−1), areas times windows
+  NearTools<dim> near_;
+  std::vector<BoundaryNodeIndex> inside_; ///< the box of a tool
+  std::vector<Vec<dim>> from_, to_;       ///< m, of these as the tool sees them
+  std::vector<Entry<dim>> entries_;
   std::vector<Contact<dim>> contacts_;
+  ImpulseSolver<dim> solver_;
   std::size_t from_earlier_passes_ = 0; ///< how many of them
 
   IndexedVector<ToolIndex, ToolResult<dim>> results_;
@@ -217,9 +225,9 @@ private:
   /// What several steps that are reported as one have added up to.
   struct SubSteps {
     IndexedVector<ToolIndex, ToolResult<dim>> start;
-    ContactWork bodies;                    ///< at their start
-    double pressing = 0.0;                 ///< N s/m^(3−dim), between bodies
-    std::vector<ContactPoint<dim>> points; ///< with impulses for forces
+    ContactWork bodies;    ///< at their start
+    double pressing = 0.0; ///< N s/m^(3−dim), between bodies
+    std::vector<ContactPoint<dim>> points;
     std::vector<BodyTouch<dim>> touches;
     IndexedVector<BoundaryNodeIndex, double> heat;
     IndexedVector<BoundaryNodeIndex, Vec<dim>> nodal_impulse;

@@ -93,26 +93,14 @@ void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, con
   }
 }
 
-template<int dim> void RigidContact<dim>::list_points(const Poses<dim>& poses, const ContactStep<dim>& step) {
+template<int dim> void RigidContact<dim>::list_points() {
   points_.clear();
   for (const Contact<dim>& contact : contacts_)
-    for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
-      if (contact.weight[a] == 0.0 || contact.pressing == 0.0 || !exists(contact.tool)) continue;
-      const BoundaryNodeIndex b = contact.node[a];
-      ContactPoint<dim> point;
-      point.node = surface_.node[b];
-      point.boundary = b;
-      point.tool = contact.tool;
-      point.area = area_[b];
-      point.force = contact.weight[a] / step.dt_mean * contact.impulse();
-      point.pressure = contact.weight[a] * contact.pressing / (step.dt_mean * area_[b]);
-      points_.push_back(point);
-    }
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (contact.weight[a] != 0.0 && contact.pressing > 0.0 && exists(contact.tool))
+        points_.push_back(
+            {surface_.node[contact.node[a]], contact.tool, surface_.area(contact.node[a], end_, space_)});
   merge_points();
-  for (ContactPoint<dim>& point : points_) {
-    const Vec<dim> x = end_[point.boundary] - poses[point.tool].end;
-    point.gap = tools_[point.tool].shape->closest(x).distance;
-  }
 }
 
 /// Pairs that would have gone through each other and are now closed. Which of several redundant ones bear the
@@ -160,7 +148,6 @@ std::vector<Overlap<dim>> RigidContact<dim>::nodes_inside(const Fields<dim>& pos
   const auto all = places(position);
   std::vector<Vec<dim>> local;
   std::vector<Entry<dim>> entries;
-  IndexedVector<BoundaryNodeIndex, double> area;
   for (const ToolIndex t : tools_.indices()) {
     const Vec<dim> shift = displacement(index_of(t), time);
     local.clear(), entries.clear();
@@ -169,8 +156,8 @@ std::vector<Overlap<dim>> RigidContact<dim>::nodes_inside(const Fields<dim>& pos
     for (const Entry<dim>& entry : entries) {
       const auto b = as<BoundaryNodeIndex>(entry.index);
       if (entry.at.distance >= -least_penetration * size_) continue;
-      if (area.empty()) area = surface_.areas(all, Space::plane);
-      found.push_back({t, surface_.node[b], -entry.at.distance, all[b], spacing_of<dim>(area[b]), false});
+      found.push_back({t, surface_.node[b], -entry.at.distance, all[b],
+                       spacing_of<dim>(surface_.area(b, all, Space::plane)), false});
     }
   }
   return found;
@@ -180,13 +167,12 @@ template<int dim>
 std::vector<Overlap<dim>> RigidContact<dim>::overlaps(const Fields<dim>& position, double time) const {
   std::vector<Overlap<dim>> found = nodes_inside(position, time);
   const auto all = places(position);
-  const auto area = surface_.areas(all, Space::plane);
   for (const ToolIndex t : tools_.indices()) {
     const Vec<dim> shift = displacement(index_of(t), time);
     for (const RidgeDepth<dim>& ridge : ridges_inside<dim>(surface_, *tools_[t].shape, all, shift))
       if (ridge.depth > least_penetration * size_)
         found.push_back({t, surface_.node[ridge.node], ridge.depth, ridge.position,
-                         spacing_of<dim>(area[ridge.node]), true});
+                         spacing_of<dim>(surface_.area(ridge.node, all, Space::plane)), true});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Overlap<dim>& a, const Overlap<dim>& b) { return a.depth > b.depth; });
@@ -221,14 +207,14 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
 template void RigidContact<2>::book(const Poses<2>&, const ContactStep<2>&);
 template void RigidContact<2>::share_heat(const Contact<2>&, double, const ContactStep<2>&);
 template void RigidContact<2>::list_touches();
-template void RigidContact<2>::list_points(const Poses<2>&, const ContactStep<2>&);
+template void RigidContact<2>::list_points();
 template std::vector<Overlap<2>> RigidContact<2>::nodes_inside(const Fields<2>&, double) const;
 template std::vector<Overlap<2>> RigidContact<2>::overlaps(const Fields<2>&, double) const;
 template void RigidContact<2>::archive(Archive&);
 template void RigidContact<3>::book(const Poses<3>&, const ContactStep<3>&);
 template void RigidContact<3>::share_heat(const Contact<3>&, double, const ContactStep<3>&);
 template void RigidContact<3>::list_touches();
-template void RigidContact<3>::list_points(const Poses<3>&, const ContactStep<3>&);
+template void RigidContact<3>::list_points();
 template std::vector<Overlap<3>> RigidContact<3>::nodes_inside(const Fields<3>&, double) const;
 template std::vector<Overlap<3>> RigidContact<3>::overlaps(const Fields<3>&, double) const;
 template void RigidContact<3>::archive(Archive&);

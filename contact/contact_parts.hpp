@@ -1,6 +1,6 @@
 #pragma once
 // What the parts of contact share.
-#include "contact/impulse_solver.hpp"
+#include "contact/reaction.hpp"
 #include "core/fields/vector_at.hpp"
 
 namespace cnem::contact {

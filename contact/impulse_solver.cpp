@@ -1,5 +1,6 @@
 #include "contact/impulse_solver.hpp"
 
+#include "contact/sweeper.hpp"
 #include "core/index.hpp"
 
 #include <Eigen/LU>
@@ -9,93 +10,15 @@
 namespace cnem::contact {
 namespace {
 
-template<int dim> class Sweeper {
-public:
-  Sweeper(Contact<dim>& contact, ReactionsOfNodes<dim>& nodes, Reaction<dim>& tool, double dt)
-      : contact_(contact), nodes_(nodes), tool_(tool), dt_(dt) {}
-
-  double gap() {
-    double sum = -contact_.level - dt_ * contact_.normal.dot(tool_.change);
-    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (contact_.weight[a] != 0.0) {
-        const Reaction<dim>& node = at(a);
-        sum += contact_.weight[a] * contact_.normal.dot(node.position + dt_ * node.change);
-      }
-    return sum;
-  }
-
-  /// Both return how far they moved the contact point, m.
-  double press() {
-    const double mobility = along(contact_.normal);
-    if (mobility <= 0.0) return 0.0;
-    return press_by(-gap() / (dt_ * mobility)) * dt_ * mobility;
-  }
-
-  double rub() {
-    const double strength = contact_.strength();
-    if (strength <= 0.0 && contact_.sliding.squaredNorm() == 0.0) return 0.0;
-    Vec<dim> slip = -(contact_.surface + tool_.change);
-    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (contact_.weight[a] != 0.0) slip += contact_.weight[a] * (at(a).velocity + at(a).change);
-    slip -= slip.dot(contact_.normal) * contact_.normal;
-    const double speed = slip.norm();
-    const double mobility = speed > 0.0 ? along(slip / speed) : 0.0;
-    Vec<dim> wanted = contact_.sliding;
-    if (mobility > 0.0) wanted -= slip / mobility;
-    const double length = wanted.norm();
-    if (length > strength) wanted *= strength / length;
-    const Vec<dim> change = wanted - contact_.sliding;
-    contact_.sliding = wanted;
-    apply(change);
-    return change.norm() * dt_ * mobility;
-  }
-
-  /// Adds to the normal impulse, which stays ≥ 0; returns the size of what was added.
-  double press_by(double impulse) {
-    const double before = contact_.pressing;
-    contact_.pressing = std::max(0.0, before + impulse);
-    apply((contact_.pressing - before) * contact_.normal);
-    return std::abs(contact_.pressing - before);
-  }
-
-  /// Velocity of the contact point of the nodes along u per unit impulse along u; 0 where they are held.
-  double node_mobility(const Vec<dim>& u) {
-    double sum = 0.0, free = 0.0;
-    for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
-      const double w2 = contact_.weight[a] * contact_.weight[a];
-      if (w2 == 0.0) continue;
-      sum += w2 * u.dot(at(a).inverse * u);
-      free += w2 * at(a).inverse.trace();
-    }
-    return sum > 1e-12 * free ? sum : 0.0;
-  }
-
-private:
-  Reaction<dim>& at(std::size_t a) { return nodes_[contact_.node[a]]; }
-
-  /// The same of nodes against tool.
-  double along(const Vec<dim>& u) {
-    const double tool = u.dot(tool_.inverse * u);
-    return node_mobility(u) + (tool > 1e-12 * tool_.inverse.trace() ? tool : 0.0);
-  }
-
-  void apply(const Vec<dim>& impulse) {
-    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (contact_.weight[a] != 0.0) at(a).change += contact_.weight[a] * (at(a).inverse * impulse);
-    tool_.change -= tool_.inverse * impulse;
-  }
-
-  Contact<dim>& contact_;
-  ReactionsOfNodes<dim>& nodes_;
-  Reaction<dim>& tool_;
-  double dt_;
-};
+constexpr double relative = 1e-9; ///< of the depth: what solved contacts may still move by
+constexpr int sweeps_before = 2;  ///< the first system
+constexpr int sweeps_between = 5; ///< systems that do not settle
 
 /// Moves a free tool together with all nodes that press on its faces so that their gaps close: exact when the
 /// same nodes go on pressing without friction. Returns how far it moved anything, m.
 template<int dim>
-double shift_tool(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes, Reaction<dim>& tool,
-                  ToolIndex index, double dt) {
+double shift_tool(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
+                  ReactionsOfNodes<dim>& nodes, Reaction<dim>& tool, ToolIndex index, double dt) {
   struct Pressing {
     Sweeper<dim> sweeper;
     Vec<dim> normal;
@@ -106,7 +29,8 @@ double shift_tool(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& no
                                                0); // a node between two faces of the tool counts once
   Mat<dim> stiffness = Mat<dim>::Zero();
   Vec<dim> drive = Vec<dim>::Zero();
-  for (Contact<dim>& contact : contacts) {
+  for (const std::int32_t c : group) {
+    Contact<dim>& contact = contacts[index_of(c)];
     if (contact.tool != index || contact.pressing <= 0.0 || exists(contact.facet)) continue;
     if (char& known = taken[contact.node[0]]; known)
       continue;
@@ -133,37 +57,56 @@ double shift_tool(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& no
 
 } // namespace
 
-template<int dim> double Contact<dim>::strength() const {
-  if (!(pressing > 0.0)) return 0.0;
-  const double sliding_strength = coulomb * pressing;
+template<int dim> double Contact<dim>::strength(double at) const {
+  if (!(at > 0.0)) return 0.0;
+  const double sliding_strength = coulomb * at;
   if (!smooth) return std::min(sliding_strength, limit);
   return limit > 0.0 ? -limit * std::expm1(-sliding_strength / limit) : 0.0;
 }
 
 template<int dim>
-void solve_impulses(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
-                    ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps) {
+void ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
+                               ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps) {
+  groups_.divide(contacts, nodes, tools);
   Reaction<dim> none; // the tool of contacts between nodes alone: it takes no impulse
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    double moved = 0.0;
-    for (Contact<dim>& contact : contacts) {
-      Reaction<dim>& tool = exists(contact.tool) ? tools[contact.tool] : none;
-      Sweeper<dim> sweeper(contact, nodes, tool, dt);
-      moved = std::max(moved, sweeper.press());
-      moved = std::max(moved, sweeper.rub());
+  const auto sweeper = [&](std::int32_t c) {
+    Contact<dim>& contact = contacts[index_of(c)];
+    return Sweeper<dim>(contact, nodes, exists(contact.tool) ? tools[contact.tool] : none, dt);
+  };
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::span<const std::int32_t> group = groups_[g];
+    if (Sweeper<dim> only = sweeper(group[0]); group.size() == 1 && only.isotropic()) {
+      only.press();
+      only.rub();
+      continue;
     }
-    for (const ToolIndex t : tools.indices())
-      if (!tools[t].inverse.isZero(0.0))
-        moved = std::max(moved, shift_tool(contacts, nodes, tools[t], t, dt));
-    if (moved <= tolerance) return;
+    double depth = 0.0;
+    for (const std::int32_t c : group) depth = std::max(depth, -sweeper(c).gap());
+    const double least = std::max(tolerance, relative * depth);
+    int next = sweeps_before;
+    for (int sweep = 1; sweep <= sweeps; ++sweep) {
+      double moved = 0.0;
+      for (const std::int32_t c : group) {
+        Sweeper<dim> one = sweeper(c);
+        moved = std::max(moved, one.press());
+        moved = std::max(moved, one.rub());
+      }
+      for (const ToolIndex t : tools.indices())
+        if (!tools[t].inverse.isZero(0.0))
+          moved = std::max(moved, shift_tool(contacts, group, nodes, tools[t], t, dt));
+      if (moved <= least) break;
+      if constexpr (dim == 2)
+        if (sweep == next) {
+          system_.settle(contacts, group, nodes, tools, dt, depth);
+          next += sweeps_between;
+        }
+    }
   }
 }
 
-template double Contact<2>::strength() const;
-template double Contact<3>::strength() const;
-template void solve_impulses<2>(std::vector<Contact<2>>&, ReactionsOfNodes<2>&, ReactionsOfTools<2>&, double,
-                                double, int);
-template void solve_impulses<3>(std::vector<Contact<3>>&, ReactionsOfNodes<3>&, ReactionsOfTools<3>&, double,
-                                double, int);
+template struct Contact<2>;
+template struct Contact<3>;
+template class ImpulseSolver<2>;
+template class ImpulseSolver<3>;
 
 } // namespace cnem::contact

@@ -6,22 +6,17 @@
 
 namespace cnem::contact {
 
-/// One entry for each node and tool: forces and pressures add up, the rest is of the last one.
+/// One entry for each node and tool, the last of them.
 template<int dim> void RigidContact<dim>::merge_points() {
-  std::stable_sort(points_.begin(), points_.end(),
-                   [](const ContactPoint<dim>& a, const ContactPoint<dim>& b) {
-                     return std::pair(a.tool, a.node) < std::pair(b.tool, b.node);
-                   });
+  const auto before = [](const ContactPoint<dim>& a, const ContactPoint<dim>& b) {
+    return std::pair(a.tool, a.node) < std::pair(b.tool, b.node);
+  };
+  if (!std::is_sorted(points_.begin(), points_.end(), before))
+    std::stable_sort(points_.begin(), points_.end(), before);
   std::size_t kept = 0;
   for (const ContactPoint<dim>& point : points_) {
-    if (kept > 0 && points_[kept - 1].tool == point.tool && points_[kept - 1].node == point.node) {
-      ContactPoint<dim> sum = point;
-      sum.force += points_[kept - 1].force;
-      sum.pressure += points_[kept - 1].pressure;
-      points_[kept - 1] = sum;
-    } else {
-      points_[kept++] = point;
-    }
+    const bool again = kept > 0 && !before(points_[kept - 1], point);
+    points_[again ? kept - 1 : kept++] = point;
   }
   points_.resize(kept);
 }
@@ -76,11 +71,7 @@ template<int dim> void RigidContact<dim>::begin_sub_steps() {
 
 template<int dim> void RigidContact<dim>::add_sub_step(double dt_mean) {
   sub_steps_.pressing += dt_mean * body_result_.pressing;
-  for (ContactPoint<dim> point : points_) {
-    point.force *= dt_mean;
-    point.pressure *= dt_mean;
-    sub_steps_.points.push_back(point);
-  }
+  sub_steps_.points.insert(sub_steps_.points.end(), points_.begin(), points_.end());
   sub_steps_.touches.insert(sub_steps_.touches.end(), touches_.begin(), touches_.end());
   for (const BoundaryNodeIndex b : heat_.indices()) {
     sub_steps_.heat[b] += heat_[b];
@@ -98,11 +89,7 @@ template<int dim> void RigidContact<dim>::end_sub_steps(double duration) {
   }
   body_result_.pressing = sub_steps_.pressing / duration;
   body_result_.step = between(sub_steps_.bodies, body_result_.total);
-  points_ = std::move(sub_steps_.points);
-  for (ContactPoint<dim>& point : points_) {
-    point.force /= duration;
-    point.pressure /= duration;
-  }
+  std::swap(points_, sub_steps_.points);
   merge_points();
   std::swap(touches_, sub_steps_.touches);
   merge_touches();

@@ -48,27 +48,17 @@ std::array<Vec<dim>, dim> corners(const std::array<BoundaryNodeIndex, dim>& face
 
 } // namespace
 
+/// Of those facets around a node that count.
 template<int dim>
-IndexedVector<BoundaryNodeIndex, double> Surface<dim>::areas(PlacesOnBoundary<dim> position,
-                                                             Space space) const {
-  IndexedVector<BoundaryNodeIndex, double> area(node.size(), 0.0);
-  for (const auto& facet : facets) {
-    const auto share = corner_areas<dim>(space, corners<dim>(facet, position));
-    for (std::size_t a = 0; a < dim; ++a) area[facet[a]] += share[a];
-  }
-  return area;
-}
-
-template<int dim>
-double Surface<dim>::area_against(BoundaryNodeIndex at, const Vec<dim>& normal,
-                                  PlacesOnBoundary<dim> position, Space space) const {
+template<class Counts>
+double Surface<dim>::area_of(BoundaryNodeIndex at, PlacesOnBoundary<dim> position, Space space,
+                             Counts&& counts) const {
   double area = 0.0;
   const auto add = [&](FacetIndex f) {
     if (!exists(f)) return;
     const auto& facet = facets[f];
     const auto corner = corners<dim>(facet, position);
-    const Vec<dim> outwards = area_normal<dim>(corner);
-    if (!(outwards.dot(normal) < -0.5 * outwards.norm())) return;
+    if (!counts(corner)) return;
     const auto own = std::find(facet.begin(), facet.end(), at) - facet.begin();
     area += corner_areas<dim>(space, corner)[index_of(own)];
   };
@@ -79,6 +69,20 @@ double Surface<dim>::area_against(BoundaryNodeIndex at, const Vec<dim>& normal,
     for (const FacetIndex f : around[at]) add(f);
   }
   return area;
+}
+
+template<int dim>
+double Surface<dim>::area(BoundaryNodeIndex at, PlacesOnBoundary<dim> position, Space space) const {
+  return area_of(at, position, space, [](const auto&) { return true; });
+}
+
+template<int dim>
+double Surface<dim>::area_against(BoundaryNodeIndex at, const Vec<dim>& normal,
+                                  PlacesOnBoundary<dim> position, Space space) const {
+  return area_of(at, position, space, [&](const std::array<Vec<dim>, dim>& corner) {
+    const Vec<dim> outwards = area_normal<dim>(corner);
+    return outwards.dot(normal) < -0.5 * outwards.norm();
+  });
 }
 
 template struct Surface<2>;
@@ -160,31 +164,20 @@ void keep_last_passed(const Surface<2>& surface, PlacesOnBoundary<2> position, s
 } // namespace
 
 template<>
-void ridge_hits<2>(const Surface<2>& surface, const ToolShape<2>& shape, PlacesOnBoundary<2> start,
-                   PlacesOnBoundary<2> end, const Vec2& shift_start, const Vec2& shift_end,
-                   std::vector<RidgeHit<2>>& hits) {
+void ridge_hits<2>(const Surface<2>& surface, std::span<const FacetIndex> facets, const ToolShape<2>& shape,
+                   PlacesOnBoundary<2> start, PlacesOnBoundary<2> end, const Vec2& shift_start,
+                   const Vec2& shift_end, std::vector<RidgeHit<2>>& hits) {
   const std::vector<Ridge<2>>& ridges = shape.ridges();
-  const Box<2> box = shape.bounds();
-  const Vec2 low = box.low + shift_end, high = box.high + shift_end;
-  std::vector<FacetIndex> near;
-  for (const FacetIndex f : surface.facets.indices()) {
-    const Vec2 &a = end[surface.facets[f][0]], &b = end[surface.facets[f][1]];
-    const double margin = (b - a).lpNorm<1>();
-    if (((a.cwiseMax(b) - low).array() < -margin).any() || ((high - a.cwiseMin(b)).array() < -margin).any())
-      continue;
-    near.push_back(f);
-  }
   for (std::size_t r = 0; r < ridges.size(); ++r) {
     const Ridge<2>& ridge = ridges[r];
     const std::size_t first = hits.size();
-    for (const FacetIndex f : near) {
+    for (const FacetIndex f : facets) {
       const Vec2 &a = end[surface.facets[f][0]], &b = end[surface.facets[f][1]];
-      const double reach = ridge.radius + 1.5 * (b - a).lpNorm<1>();
+      const double reach = ridge_reach(ridge, (b - a).lpNorm<1>());
       if ((ridge.centre + shift_end - a).squaredNorm() > reach * reach) continue;
       const EdgeView now(surface, f, end);
-      if (!ridge.faces(now.normal)) continue;
       const double gap = now.gap(ridge, shift_end);
-      if (gap >= 0.0 || gap < -0.5 * now.length) continue;
+      if (gap >= 0.0 || gap < -0.5 * now.length || !ridge.faces(now.normal)) continue;
       const Vec2 tip = ridge.extreme(now.normal) + shift_end;
       const double place = now.place(tip);
       constexpr double rounding = 1e-9;
@@ -229,8 +222,8 @@ std::vector<RidgeDepth<2>> ridges_inside<2>(const Surface<2>& surface, const Too
 }
 
 template<>
-void ridge_hits<3>(const Surface<3>&, const ToolShape<3>&, PlacesOnBoundary<3>, PlacesOnBoundary<3>,
-                   const Vec<3>&, const Vec<3>&, std::vector<RidgeHit<3>>&) {}
+void ridge_hits<3>(const Surface<3>&, std::span<const FacetIndex>, const ToolShape<3>&, PlacesOnBoundary<3>,
+                   PlacesOnBoundary<3>, const Vec<3>&, const Vec<3>&, std::vector<RidgeHit<3>>&) {}
 
 template<>
 std::vector<RidgeDepth<3>> ridges_inside<3>(const Surface<3>&, const ToolShape<3>&, PlacesOnBoundary<3>,

@@ -24,11 +24,15 @@ template<int dim> struct Surface {
   Surface() = default;
   Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes);
 
-  /// Share of the facets around each, m^(dim−1) (m² of revolution).
-  IndexedVector<BoundaryNodeIndex, double> areas(PlacesOnBoundary<dim> position, Space space) const;
-  /// The same of one boundary node, of those facets alone that face against `normal` within 60 degrees.
+  /// Share of a boundary node in the facets around it, m^(dim−1) (m² of revolution).
+  double area(BoundaryNodeIndex node, PlacesOnBoundary<dim> position, Space space) const;
+  /// The same of those facets alone that face against `normal` within 60 degrees.
   double area_against(BoundaryNodeIndex node, const Vec<dim>& normal, PlacesOnBoundary<dim> position,
                       Space space) const;
+
+private:
+  template<class Counts>
+  double area_of(BoundaryNodeIndex node, PlacesOnBoundary<dim> position, Space space, Counts&& counts) const;
 };
 
 extern template struct Surface<2>;
@@ -44,14 +48,18 @@ template<int dim> struct RidgeHit {
   double start = 0.0;                 ///< m, the same at its start
 };
 
-/// Ridges of a tool against facets of the surface that face them, over one step in which the nodes go
+/// m, how far the centre of a ridge may be from the first end of a facet that it presses on; size: |x| + |y|
+/// of the facet's edge.
+inline double ridge_reach(const Ridge<2>& ridge, double size) { return ridge.radius + 1.5 * size; }
+
+/// Ridges of a tool against those of the facets that face them, over one step in which the nodes go
 /// start → end and the tool's displacement `shift_start` → `shift_end`. Facets through which the ridge came
 /// in this step, or (start < 0) shallowly penetrated ones. At convex nodes of the workpiece only the facet
 /// passed last counts. Tools in space have no ridges yet (contact/tool_shape.hpp).
 template<int dim>
-void ridge_hits(const Surface<dim>& surface, const ToolShape<dim>& shape, PlacesOnBoundary<dim> start,
-                PlacesOnBoundary<dim> end, const Vec<dim>& shift_start, const Vec<dim>& shift_end,
-                std::vector<RidgeHit<dim>>& hits);
+void ridge_hits(const Surface<dim>& surface, std::span<const FacetIndex> facets, const ToolShape<dim>& shape,
+                PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end, const Vec<dim>& shift_start,
+                const Vec<dim>& shift_end, std::vector<RidgeHit<dim>>& hits);
 
 /// The middle of a ridge that is inside the workpiece.
 template<int dim> struct RidgeDepth {

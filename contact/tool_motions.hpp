@@ -1,7 +1,7 @@
 #pragma once
 // Where tools are and how fast: led by prescribed velocities, or free bodies of a given mass under a force
 // and what the workpiece does to them.
-#include "contact/impulse_solver.hpp"
+#include "contact/reaction.hpp"
 #include "contact/tool.hpp"
 #include "core/fields/archive.hpp"
 

@@ -5,6 +5,9 @@
 namespace cnem::testing::literals {
 
 constexpr NodeIndex operator""_node(unsigned long long number) { return as<NodeIndex>(number); }
+constexpr BoundaryNodeIndex operator""_boundary(unsigned long long number) {
+  return as<BoundaryNodeIndex>(number);
+}
 constexpr SimplexIndex operator""_simplex(unsigned long long number) { return as<SimplexIndex>(number); }
 constexpr PieceIndex operator""_piece(unsigned long long number) { return as<PieceIndex>(number); }
 constexpr ToolIndex operator""_tool(unsigned long long number) { return as<ToolIndex>(number); }

@@ -1,0 +1,52 @@
+#pragma once
+// Which parts of the boundary tools may meet soon, so that the others need not be looked at in each step.
+#include "contact/surface.hpp"
+#include "contact/tool.hpp"
+#include "contact/tool_motions.hpp"
+
+#include <span>
+#include <vector>
+
+namespace cnem::contact {
+
+/// Lists for each tool the nodes nearer than a skin, and the facets that nearly reach one of its ridges. The
+/// lists cover the boundary until a node or a tool has moved by half the skin; they say where to look, never
+/// what is found, so that results do not depend on when they were made.
+template<int dim> class NearTools {
+public:
+  /// Forgets the lists: another boundary.
+  void clear() { listed_.clear(); }
+
+  /// Lists anew unless the lists cover `position` (m, [boundary node]) with tools at the ends of their poses.
+  void look(const Surface<dim>& surface, const Tools<dim>& tools, const Poses<dim>& poses,
+            PlacesOnBoundary<dim> position);
+  /// The same where no nodes but these have moved since the last look.
+  void look(const Surface<dim>& surface, const Tools<dim>& tools, const Poses<dim>& poses,
+            PlacesOnBoundary<dim> position, std::span<const BoundaryNodeIndex> moved);
+
+  /// In increasing order. After `look`.
+  const std::vector<BoundaryNodeIndex>& nodes(ToolIndex tool) const { return of_tool_[tool].nodes; }
+  const std::vector<FacetIndex>& facets(ToolIndex tool) const { return of_tool_[tool].facets; }
+
+  int listings() const { return listings_; }
+
+private:
+  struct Near {
+    std::vector<BoundaryNodeIndex> nodes;
+    std::vector<FacetIndex> facets;
+  };
+  bool tools_covered(const Poses<dim>& poses) const;
+  void list(const Surface<dim>& surface, const Tools<dim>& tools, const Poses<dim>& poses,
+            PlacesOnBoundary<dim> position);
+
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> listed_; ///< m; empty: no lists yet
+  IndexedVector<ToolIndex, Vec<dim>> shift_;          ///< m, of tools when listed
+  IndexedVector<ToolIndex, Near> of_tool_;
+  double skin_ = 0.0; ///< m
+  int listings_ = 0;
+};
+
+extern template class NearTools<2>;
+extern template class NearTools<3>;
+
+} // namespace cnem::contact
