@@ -140,21 +140,65 @@ template<int dim> double Contact<dim>::strength() const {
   return limit > 0.0 ? -limit * std::expm1(-sliding_strength / limit) : 0.0;
 }
 
+namespace {
+
+/// Which contacts need no more looking at: one that a sweep left as it was, to the bit, stays so until
+/// another moves its nodes or its tool.
+template<int dim> class Resting {
+public:
+  Resting(std::size_t contacts, std::size_t nodes, std::size_t tools)
+      : node_moves_(nodes, 0), tool_moves_(tools, 0), at_rest_(contacts, -1) {}
+
+  bool holds(std::size_t c, const Contact<dim>& contact) const { return at_rest_[c] == moves(contact); }
+  void moved(const Contact<dim>& contact, const Reaction<dim>& tool) {
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (contact.weight[a] != 0.0) ++node_moves_[contact.node[a]];
+    if (exists(contact.tool) && !tool.inverse.isZero(0.0)) ++tool_moves_[contact.tool];
+  }
+  void rested(std::size_t c, const Contact<dim>& contact) { at_rest_[c] = moves(contact); }
+  void all_moved() { std::fill(at_rest_.begin(), at_rest_.end(), -1); }
+
+private:
+  std::int64_t moves(const Contact<dim>& contact) const {
+    std::int64_t sum = exists(contact.tool) ? tool_moves_[contact.tool] : 0;
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (contact.weight[a] != 0.0) sum += node_moves_[contact.node[a]];
+    return sum;
+  }
+
+  IndexedVector<BoundaryNodeIndex, std::int64_t> node_moves_;
+  IndexedVector<ToolIndex, std::int64_t> tool_moves_;
+  std::vector<std::int64_t> at_rest_; ///< [contact] moves until it was found at rest; −1: it was not
+};
+
+} // namespace
+
 template<int dim>
 void solve_impulses(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
                     ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps) {
   Reaction<dim> none; // the tool of contacts between nodes alone: it takes no impulse
+  Resting<dim> resting(contacts.size(), nodes.size(), tools.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     double moved = 0.0;
-    for (Contact<dim>& contact : contacts) {
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      Contact<dim>& contact = contacts[c];
+      if (resting.holds(c, contact)) continue;
       Reaction<dim>& tool = exists(contact.tool) ? tools[contact.tool] : none;
       Sweeper<dim> sweeper(contact, nodes, tool, dt);
+      const double pressing = contact.pressing;
+      const Vec<dim> sliding = contact.sliding;
       moved = std::max(moved, sweeper.press());
       moved = std::max(moved, sweeper.rub());
+      if (contact.pressing != pressing || contact.sliding != sliding)
+        resting.moved(contact, tool);
+      else
+        resting.rested(c, contact);
     }
     for (const ToolIndex t : tools.indices())
-      if (!tools[t].inverse.isZero(0.0))
+      if (!tools[t].inverse.isZero(0.0)) {
         moved = std::max(moved, shift_tool(contacts, nodes, tools[t], t, dt));
+        resting.all_moved();
+      }
     if (moved <= tolerance) return;
   }
 }
