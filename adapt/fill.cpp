@@ -1,5 +1,6 @@
 // Insertion: nodes where the cloud has become too coarse.
 #include "adapt/resample.hpp"
+#include "adapt/simplices.hpp"
 #include "core/index.hpp"
 #include "voronoi/locate.hpp"
 
@@ -159,6 +160,7 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   Cavity cavity(work, structure);
   IndexedVector<SimplexIndex, char> taken(structure.mesh.node.size(), 0);
   WorkingCloud filled = work;
+  Simplices simplices(structure);
   PassReport done = report;
   std::int32_t stamp = 0;
   for (const Gap& gap : filling.gaps()) {
@@ -176,16 +178,21 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
         std::any_of(triangles.begin(), triangles.end(), [&](SimplexIndex t) { return taken[t] != 0; }))
       continue;
     for (const SimplexIndex t : triangles) taken[t] = 1;
-    if (edge)
-      filled.insert_between(gap.node[0], gap.node[1], on_boundary);
-    else
-      filled.insert_at(gap.x, structure.mesh.node[gap.triangle[0]],
-                       voronoi::barycentric(work.cloud(), structure.mesh, gap.triangle[0], gap.x));
+    if (edge) {
+      const NodeIndex made = filled.insert_between(gap.node[0], gap.node[1], on_boundary);
+      for (std::size_t k = 0; k < together.size(); ++k)
+        simplices.divide(together[k].node, together[k].triangle, as<NodeIndex>(index_of(made) + k));
+    } else {
+      simplices.divide(gap.triangle[0], filled.insert_at(gap.x, structure.mesh.node[gap.triangle[0]],
+                                                         voronoi::barycentric(work.cloud(), structure.mesh,
+                                                                              gap.triangle[0], gap.x)));
+    }
     (on_boundary ? done.inserted_boundary : done.inserted) += static_cast<int>(together.size());
   }
   if (filled.size() == work.size()) return false;
 
   filled.refresh_facets();
+  filled.begin_with(simplices.list());
   std::optional<Structure> after = structure_if_valid(filled.cloud(), structure.space);
   if (!after) {
     ++report.undone;

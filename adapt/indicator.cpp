@@ -10,7 +10,13 @@ struct Sibson {
   voronoi::NaturalNeighbours functions;
   const voronoi::Triangulation& mesh;
 
-  /// False outside the domain, where rounding may put a point of a cell at a notch.
+  // False outside the domain, where rounding may put a point of a cell at a notch.
+  bool evaluate(const Vec2& x, const std::array<SimplexIndex, 2>& simplex) {
+    try {
+      functions.evaluate_on_facet(voronoi::Functions::sibson, x, simplex);
+    } catch (const GeometryError&) { return false; }
+    return true;
+  }
   bool evaluate(const Vec2& x, std::size_t cell) {
     try {
       functions.evaluate(voronoi::Functions::sibson, x, mesh.triangle_of_node[cell]);

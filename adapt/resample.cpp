@@ -59,6 +59,19 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
   }
 }
 
+std::optional<Resampling<2>> balanced(const Cloud<2>& cloud, const Structure& structure,
+                                      NodeProperties properties, const Thresholds& thresholds,
+                                      PassReport& report) {
+  WorkingCloud work(cloud, std::move(properties));
+  const int before = report.balanced;
+  balance(work, structure, thresholds, report);
+  if (report.balanced == before) return std::nullopt;
+  Resampling<2> change = work.finish();
+  change.old_position = cloud.position;
+  change.points_stay = true;
+  return change;
+}
+
 Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure, NodeProperties properties,
                        const ResampleRules& rules, PassReport& report) {
   assert(!structure || structure->space == rules.space);
@@ -80,6 +93,7 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
     if (!fill(work, *structure, thresholds, rules.placement, report)) break;
   balance(work, *structure, thresholds, report);
   report.volume_change = enclosed_measure(work.cloud(), rules.space) - enclosed_measure(cloud, rules.space);
+  work.begin_with(structure->mesh.node);
   Resampling<2> change = work.finish();
   change.old_position = cloud.position;
   return change;

@@ -81,6 +81,12 @@ struct PassReport {
 Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure, NodeProperties properties,
                        const ResampleRules& rules, PassReport& report);
 
+/// Exchange of mass alone, where r_i is outside [light, heavy]: the nodes stay, some as other matter.
+/// structure: that of the cloud. Empty when there is nothing to do.
+std::optional<Resampling<2>> balanced(const Cloud<2>& cloud, const Structure& structure,
+                                      NodeProperties properties, const Thresholds& thresholds,
+                                      PassReport& report);
+
 // The parts of a pass, each a class of its own in what it looks at. They keep `structure` up to date.
 
 /// Before anything is triangulated: boundary nodes at which the boundary turns back on itself, and short

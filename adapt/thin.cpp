@@ -1,5 +1,6 @@
 // Removal: nodes that crowd at the boundary or each other.
 #include "adapt/resample.hpp"
+#include "adapt/simplices.hpp"
 
 #include "core/index.hpp"
 
@@ -239,6 +240,7 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report) {
   Thinning thinning(work, structure, thresholds);
   WorkingCloud changed = work;
+  Simplices simplices(structure);
   IndexedVector<NodeIndex, char> gone(work.size(), 0), touched(work.size(), 0);
   PassReport done = report;
   for (const Candidate& candidate : thinning.candidates()) {
@@ -255,6 +257,7 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
                  &b = work.cloud().position[work.next(candidate.promote_to)];
       const double place = foot_on(work.cloud().position[i], a, b).place;
       changed.promote(i, candidate.promote_to, a + place * (b - a));
+      simplices.promote(candidate.promote_to);
       ++done.promoted;
     } else if (work.on_boundary(i)) {
       const auto shifts = thinning.removal(i);
@@ -278,6 +281,7 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
     }
     for (const NodeIndex node : {i, mate}) {
       if (!exists(node)) continue;
+      if (gone[node]) simplices.remove(changed, node);
       touched[node] = 1;
       for (const NodeIndex k : structure.neighbours(node)) touched[k] = 1;
     }
@@ -289,6 +293,7 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   WorkingCloud emptied = changed;
   const IndexedVector<NodeIndex, NodeIndex> number = emptied.drop(gone);
   emptied.refresh_facets();
+  emptied.begin_with(simplices.list(number));
   std::optional<Structure> after = structure_if_valid(emptied.cloud(), structure.space);
   std::vector<Parcel> parcels;
   IndexedVector<NodeIndex, char> orphaned = gone;

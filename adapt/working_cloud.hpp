@@ -93,6 +93,10 @@ public:
   IndexedVector<NodeIndex, NodeIndex> drop(const IndexedVector<NodeIndex, char>& gone);
   /// Writes the facets of the loops into cloud().
   void refresh_facets();
+  /// Where triangulating cloud() begins (Cloud::simplices), until nodes come or go.
+  void begin_with(IndexedVector<SimplexIndex, std::array<NodeIndex, 3>> simplices) {
+    cloud_.simplices = std::move(simplices);
+  }
 
   /// Everything since construction, with the nodes in space-filling order when any came or went.
   Resampling<2> finish();

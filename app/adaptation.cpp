@@ -189,6 +189,21 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   log_.record(solver.state(), report, before, results::audit(solver));
 }
 
+void Adaptation::balance(ExplicitSolver<2>& solver) {
+  const Promises& promises = solver.model().method->promises();
+  if (!solver.model().mechanical || !promises.keep(Promise::identity_values) ||
+      !promises.keep(Promise::tiling_cells))
+    return solver.prepare();
+  const Cloud<2> cloud = solver.present_cloud();
+  const adapt::Structure structure = adapt::build_structure(cloud, input_->analysis.space());
+  adapt::PassReport report;
+  if (const auto change = adapt::balanced(cloud, structure, properties(solver, {}), {}, report))
+    solver.prepare(*change);
+  else
+    solver.prepare();
+  total_ += report;
+}
+
 void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
   for (Field* label : {&error_, &size_, &wanted_, &birth_})
     if (!label->empty()) carry_label(change.labels, *label);
@@ -224,7 +239,7 @@ AdaptationFields Adaptation::fields(double time) const {
 }
 
 std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
-  if (!active()) return {};
+  if (!active()) return {{"mass_exchanges", total_.balanced}};
   std::vector<std::pair<std::string, double>> list = log_.metrics();
   for (const auto& [name, value] : std::initializer_list<std::pair<std::string, double>>{
            {"adapt.passes", static_cast<double>(passes_)},
@@ -250,7 +265,7 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
 }
 
 void Adaptation::archive(Archive& archive) {
-  if (!active()) return;
+  if (!active()) return archive.integer("run/adapt/count/balanced", total_.balanced);
   archive.integers("run/adapt/corner", corner_);
   if (archive.loading()) {
     size_.resize(corner_.size());

@@ -26,7 +26,7 @@ void PlaneFeatures::renew(ExplicitSolver<2>& solver, const Adaptation::Follow& f
   if (adaptation_.active())
     adaptation_.renew(solver, follow);
   else
-    solver.prepare();
+    adaptation_.balance(solver);
 }
 
 results::Snapshot<2> PlaneFeatures::snapshot(const ExplicitSolver<2>& solver) {

@@ -235,6 +235,7 @@ template<int dim> void Simulation<dim>::look_around() {
   melting_.look(solver_);
   penetration_.look(solver_);
   measured_range_.look(solver_);
+  mass_balance_.look(solver_);
 }
 template<int dim> void Simulation<dim>::refresh_step() { control_.refresh(solver_); }
 template<int dim> void Simulation<dim>::stop(Exit exit, std::string reason) {
@@ -261,8 +262,9 @@ template<int dim> Exit Simulation<dim>::fail(const std::string& message) {
   return Exit::io_failed;
 }
 template<int dim> std::vector<std::string> Simulation<dim>::late_warnings() const {
-  std::vector<std::string> list{melting_.warning(), penetration_.warning(), retries_.warning(),
-                                renewal_.warning(), history_.kinetic_warning(input_)};
+  std::vector<std::string> list{melting_.warning(),      penetration_.warning(),
+                                retries_.warning(),      renewal_.warning(),
+                                mass_balance_.warning(), history_.kinetic_warning(input_)};
   for (const std::string& warning : measured_range_.warnings()) list.push_back(warning);
   std::erase(list, "");
   for (std::string& warning : list) warning = input_.placed(warning);

@@ -8,6 +8,7 @@
 #include "app/space_features.hpp"
 #include "app/stopwatch.hpp"
 #include "app/time_control.hpp"
+#include "app/watches/mass_balance.hpp"
 #include "app/watches/measured_range.hpp"
 #include "app/watches/melting.hpp"
 #include "app/watches/penetration.hpp"
@@ -100,6 +101,7 @@ private:
   ReferenceRenewal renewal_;
   Retries retries_;
   MeltingWatch melting_;
+  MassBalanceWatch mass_balance_;
   PenetrationWatch penetration_;
   MeasuredRangeWatch measured_range_;
   std::conditional_t<dim == 2, PlaneFeatures, SpaceFeatures> features_;

@@ -41,6 +41,7 @@ template<int dim> int Simulation<dim>::archive_course(Archive& archive, int fram
   melting_.archive(archive);
   penetration_.archive(archive);
   measured_range_.archive(archive);
+  mass_balance_.archive(archive);
   features_.archive(archive);
   history_.archive(archive);
   lines_.archive(archive);

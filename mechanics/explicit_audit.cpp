@@ -3,6 +3,7 @@
 #include "mechanics/explicit_solver.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace cnem {
@@ -45,13 +46,17 @@ template<int dim> std::vector<Metric> ExplicitSolver<dim>::metrics() const {
   return metrics;
 }
 
+template<int dim> double ExplicitSolver<dim>::volume_ratio(std::size_t node) const {
+  assert(approximation_.mechanics.nodal);
+  return body().material_of(node).density * approximation_.mechanics.volume[node] *
+         state_.point.stress_free[node] / state_.node.mass[node];
+}
+
 template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() const {
   std::array<double, 2> range{1.0, 1.0};
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
-  if (!op.nodal) return range;
+  if (!approximation_.mechanics.nodal) return range;
   for (std::size_t i = 0; i < state_.node.size(); ++i) {
-    const double r =
-        body().material_of(i).density * op.volume[i] * state_.point.stress_free[i] / state_.node.mass[i];
+    const double r = volume_ratio(i);
     range = {std::min(range[0], r), std::max(range[1], r)};
   }
   return range;
@@ -63,6 +68,8 @@ template EnergyLedger ExplicitSolver<2>::ledger() const;
 template EnergyLedger ExplicitSolver<3>::ledger() const;
 template std::vector<Metric> ExplicitSolver<2>::metrics() const;
 template std::vector<Metric> ExplicitSolver<3>::metrics() const;
+template double ExplicitSolver<2>::volume_ratio(std::size_t) const;
+template double ExplicitSolver<3>::volume_ratio(std::size_t) const;
 template std::array<double, 2> ExplicitSolver<2>::mass_balance() const;
 template std::array<double, 2> ExplicitSolver<3>::mass_balance() const;
 

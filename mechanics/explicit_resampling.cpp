@@ -15,10 +15,13 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
                              .inertia = node.inertia(),
                              // without heat there may be no capacity
                              .capacity = model_.thermal ? node.heat_capacity : node.mass};
-  Field tension = held_tension(model_.materials, point);
-  if (!tension.empty()) carry_mean(change.parcels, weights.mass, tension);
+  Field tension;
   std::vector<FieldTable*> tables = node_tables();
-  for (FieldTable* table : point_tables()) tables.push_back(table);
+  if (!change.points_stay) {
+    tension = held_tension(model_.materials, point);
+    if (!tension.empty()) carry_mean(change.parcels, weights.mass, tension);
+    for (FieldTable* table : point_tables()) tables.push_back(table);
+  }
   for (FieldTable* table : tables) {
     table->carry_over(weights);
     table->rest_renewed(n);
@@ -33,7 +36,7 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
   point.temperature = node.temperature;
   set_moduli();
   each([&](Term<dim>& term) { term.carried(body()); });
-  mix_elastic(change, weights.mass, tension, model_.materials, point);
+  if (!change.points_stay) mix_elastic(change, weights.mass, tension, model_.materials, point);
   if (local_.on()) local_.follow(change.labels);
   start_weight_.clear();
   conditions_.supports.resample(change, conditions_.ties);

@@ -76,7 +76,9 @@ public:
   int references() const { return references_; }
   int resamplings() const { return resamplings_; } ///< how many of them changed the nodes
   const StepTimes& times() const { return times_; }
-  /// Extremes over the run of r = ρ0 V/(m J) at nodes: how far geometric volume and carried mass have parted.
+  /// r = ρ0 V/(m J) of a node, of methods with nodal points.
+  double volume_ratio(std::size_t node) const;
+  /// Extremes of r: how far geometric volume and carried mass have parted.
   std::array<double, 2> mass_balance() const;
 
 private:

@@ -65,9 +65,10 @@ public:
             cloud.position.size(),
             tetrahedra.size(), [&](std::size_t t) -> const auto& { return tetrahedra[t]; })) {}
 
-  void evaluate(const Vec<3>& x, const std::array<SimplexIndex, 2>& simplex) {
+  bool evaluate(const Vec<3>& x, const std::array<SimplexIndex, 2>& simplex) {
     node_ = tetrahedra_[index_of(simplex[0])];
     value_ = barycentric(x, node_);
+    return true;
   }
   bool evaluate(const Vec<3>& x, std::size_t cell) {
     double best = -1.0;

@@ -63,6 +63,8 @@ Cloud<2> renumber(const Cloud<2>& cloud, const std::vector<std::int32_t>& order)
     for (auto& node : facet.node) rename(node);
   for (auto& pair : result.twins)
     for (auto& node : pair) rename(node);
+  for (auto& corner : result.simplices)
+    for (auto& node : corner) rename(node);
   return result;
 }
 

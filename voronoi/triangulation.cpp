@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "voronoi/boundary_checks.hpp"
+#include "voronoi/retriangulation.hpp"
+#include "voronoi/simplex_order.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 namespace cnem::voronoi {
@@ -52,7 +55,8 @@ public:
     mark_sides();
     number_triangles();
     if (merged_) separate_merged_nodes();
-    record_triangle_of_node();
+    number_by_nodes(result_, cloud_.position.size());
+    check_nodes();
     return std::move(result_);
   }
 
@@ -210,13 +214,7 @@ private:
     }
   }
 
-  void record_triangle_of_node() {
-    result_.triangle_of_node.assign(index_of(cloud_.nodes()), SimplexIndex::none);
-    for (const SimplexIndex t : result_.node.indices())
-      for (const NodeIndex i : result_.node[t])
-        if (!exists(result_.triangle_of_node[i])) result_.triangle_of_node[i] = t;
-    for (const CloudFacetIndex f : left_of_.indices())
-      result_.triangle_of_node[cloud_.facets[f].node[0]] = left_of_[f].first->info().triangle;
+  void check_nodes() const {
     for (const NodeIndex i : cloud_.position.indices()) {
       if (is_merged_[i] && !on_boundary(i))
         throw GeometryError(
@@ -273,9 +271,10 @@ private:
 } // namespace
 
 Triangulation triangulate(const Cloud<2>& cloud) {
-  Triangulation mesh = Builder(cloud).build();
-  assert(is_consistent(cloud, mesh));
-  return mesh;
+  std::optional<Triangulation> mesh = retriangulate(cloud);
+  if (!mesh) mesh = Builder(cloud).build();
+  assert(is_consistent(cloud, *mesh));
+  return std::move(*mesh);
 }
 
 } // namespace cnem::voronoi

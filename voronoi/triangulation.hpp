@@ -12,13 +12,14 @@ namespace cnem::voronoi {
 /// either face carry that face's own (duplicated) nodes, so nothing that walks over `neighbour` ever crosses
 /// a wall.
 struct Triangulation {
-  IndexedVector<SimplexIndex, std::array<NodeIndex, 3>> node; ///< nodes, counter-clockwise
+  /// Nodes, counter-clockwise from the lowest; triangles by their first and second node.
+  IndexedVector<SimplexIndex, std::array<NodeIndex, 3>> node;
   IndexedVector<SimplexIndex, std::array<SimplexIndex, 3>>
       neighbour; ///< [triangle][k] across the edge opposite node k; none: boundary
   IndexedVector<SimplexIndex, std::array<CloudFacetIndex, 3>>
       facet; ///< [triangle][k] on that edge; none: interior edge
   IndexedVector<NodeIndex, SimplexIndex>
-      triangle_of_node; ///< one triangle that has it; of boundary nodes, the first counter-clockwise
+      triangle_of_node; ///< the first that has it; of boundary nodes, the first counter-clockwise
 
   int triangles() const { return static_cast<int>(node.size()); }
 };

@@ -34,6 +34,10 @@ template<int dim> struct Cloud {
   /// [facet] the facet of the other face at the same place or a period away, which runs the other way:
   /// resampling divides and joins both alike (core/geometry/mates.hpp). none: it has none; empty: none has.
   IndexedVector<CloudFacetIndex, CloudFacetIndex> mates{};
+  /// [simplex] nodes, right-handed. A list that filled the domain when the nodes were about where they are:
+  /// what triangulating begins with, and what comes of it does not depend on it. Empty: it begins with
+  /// nothing.
+  IndexedVector<SimplexIndex, std::array<NodeIndex, dim + 1>> simplices{};
 
   int nodes() const { return static_cast<int>(position.size()); }
 };
