@@ -10,8 +10,9 @@ namespace cnem::adapt {
 
 PassReport& PassReport::operator+=(const PassReport& other) {
   for (int PassReport::*count :
-       {&PassReport::cuts, &PassReport::opened, &PassReport::films, &PassReport::folded, &PassReport::outside,
-        &PassReport::removed, &PassReport::removed_boundary, &PassReport::promoted, &PassReport::inserted,
+       {&PassReport::cracks, &PassReport::advances, &PassReport::cuts, &PassReport::opened,
+        &PassReport::films, &PassReport::folded, &PassReport::outside, &PassReport::removed,
+        &PassReport::removed_boundary, &PassReport::promoted, &PassReport::inserted,
         &PassReport::inserted_boundary, &PassReport::balanced, &PassReport::undone})
     this->*count += other.*count;
   volume_change += other.volume_change;
@@ -84,6 +85,7 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
   drop_strayed(work, *structure, report);
   if (!work.node().broken.empty()) {
     split(work, *structure, rules.split, report);
+    if (rules.split.cracks) open_cracks(work, *structure, rules.split, report);
     cut_films(work, *structure, rules.split, report);
   }
   const Thresholds& thresholds = rules.thresholds;

@@ -44,6 +44,12 @@ struct SplitRules {
   int least_loop = 8;        ///< least boundary nodes of a part, besides those of the cut
   double smoothed = 0.3;     ///< how far nodes may be moved to straighten a cut
   double film = 0.15;        ///< broken matter thinner than this between two faces is cut at its waist
+  bool cracks = false;       ///< also open what is broken from the boundary to a tip inside
+  double first = 4.0;        ///< least length of a crack
+  double advance = 2.0;      ///< and by how much it grows
+  double slender = 2.0;      ///< least length of a crack over the mean width of what is broken
+  double from_lip = 4.0;     ///< what a cut costs that begins or ends on such a face, and not at a tip
+  double apart = 5.0;        ///< least distance of its mouth from faces that are there
 };
 
 struct ResampleRules {
@@ -55,11 +61,13 @@ struct ResampleRules {
 
 /// What a pass did, for the audit and the output.
 struct PassReport {
-  int cuts = 0;    ///< paths through broken matter that were opened
-  int opened = 0;  ///< edges of these
-  int films = 0;   ///< cuts among them at the waists of films
-  int folded = 0;  ///< boundary nodes at which the boundary turned back on itself or crossed
-  int outside = 0; ///< interior nodes found outside the boundary, or in another part
+  int cracks = 0;   ///< opened from the boundary to a tip inside
+  int advances = 0; ///< times that a tip went on
+  int cuts = 0;     ///< paths through broken matter that were opened
+  int opened = 0;   ///< edges of these
+  int films = 0;    ///< cuts among them at the waists of films
+  int folded = 0;   ///< boundary nodes at which the boundary turned back on itself or crossed
+  int outside = 0;  ///< interior nodes found outside the boundary, or in another part
   int removed = 0, removed_boundary = 0;
   int promoted = 0; ///< interior nodes that became part of the boundary
   int inserted = 0, inserted_boundary = 0;
@@ -100,6 +108,10 @@ void drop_strayed(WorkingCloud& work, Structure& structure, PassReport& report);
 /// through the most broken matter. Nodes are doubled, nothing is deleted; the matter of a doubled node is
 /// shared out by the volumes of its two cells. Matter that is broken but does not part the body stays whole.
 void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
+/// Opens the cloud from the boundary to a tip inside where a connected set of broken nodes is longer than
+/// wide, along its most strained path, and lets tips go on with what breaks ahead of them (SplitRules::first,
+/// advance, slender, apart). Nodes but the tip are doubled, matter is shared out as by split().
+void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// Cuts films of broken matter, between two parts of the boundary that no interior node keeps apart, at their
 /// waists. Matter is shared out as by split().
 void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);

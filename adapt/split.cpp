@@ -87,6 +87,13 @@ private:
                : 1.0;
   }
 
+  /// What a cut costs that leaves the lip of a crack elsewhere than at its tip, m.
+  double lip(NodeIndex i) const {
+    if (!rules_.cracks || work_.is_tip(i)) return 0.0;
+    const bool face = work_.piece(i) == rules_.piece || work_.piece(work_.previous(i)) == rules_.piece;
+    return face ? rules_.from_lip * work_.node().size[index_of(i)] / broken_[index_of(i)] : 0.0;
+  }
+
   /// The cheapest cut from a boundary node to another chain, and its cost (Dijkstra's algorithm).
   std::pair<Path, double> from_node(NodeIndex from, double limit) const {
     constexpr double far = std::numeric_limits<double>::infinity();
@@ -94,8 +101,8 @@ private:
     IndexedVector<NodeIndex, NodeIndex> came(work_.size(), NodeIndex::none);
     using Entry = std::pair<double, NodeIndex>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    cost[index_of(from)] = 0.0;
-    front.emplace(0.0, from);
+    cost[index_of(from)] = lip(from);
+    front.emplace(cost[index_of(from)], from);
     while (!front.empty()) {
       const auto [known, i] = front.top();
       front.pop();
@@ -125,8 +132,9 @@ private:
             (!(crosses(k) || may_end(k)) || chain_[k] == chain_[from] || shaves(k, i)))
           continue;
         const double step = (at(k) - at(i)).norm();
-        const double reached = known + step * (work_.on_boundary(k) ? 1.0 : detour(k)) * 2.0 /
-                                           (broken_[index_of(i)] + broken_[index_of(k)]);
+        const double reached = known + (work_.on_boundary(k) ? lip(k) : 0.0) +
+                               step * (work_.on_boundary(k) ? 1.0 : detour(k)) * 2.0 /
+                                   (broken_[index_of(i)] + broken_[index_of(k)]);
         if (reached >= cost[index_of(k)]) continue;
         cost[index_of(k)] = reached;
         length[index_of(k)] = length[index_of(i)] + step;

@@ -205,42 +205,62 @@ std::vector<std::array<NodeIndex, 2>> WorkingCloud::open(std::span<const NodeInd
     previous_[b] = a;
     piece_[a] = of_piece;
   };
+  const bool through = on_boundary(path.back()); // else it ends at a tip, which stays one node
   const NodeIndex first = path.front(), last = path.back();
-  const NodeIndex after_first = next(first), before_last = previous(last);
-  const PieceIndex piece_first = piece_[first], piece_last = piece_[before_last];
-  // ends part along the boundary, so that they stay on it
+  const NodeIndex after_first = next(first), before_last = through ? previous(last) : NodeIndex::none;
+  const PieceIndex piece_first = piece_[first];
   const auto towards = [&](NodeIndex from, NodeIndex to) {
     return Vec2(0.5 * gap * (at(to) - at(from)).normalized());
   };
   std::vector<Vec2> left(path.size()), right(path.size());
-  left.front() = towards(first, previous(first));
-  right.front() = towards(first, after_first);
-  left.back() = towards(last, next(last));
-  right.back() = towards(last, before_last);
-  for (const std::size_t end : {std::size_t{0}, path.size() - 1})
-    if (has_mates(path[end])) left[end] = right[end] = Vec2::Zero();
-  for (std::size_t k = 1; k + 1 < path.size(); ++k) {
-    left[k] = 0.5 * gap * left_normal((at(path[k + 1]) - at(path[k - 1])).normalized());
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const NodeIndex behind = path[k > 0 ? k - 1 : 0], ahead = path[std::min(k + 1, path.size() - 1)];
+    left[k] = 0.5 * gap * left_normal((at(ahead) - at(behind)).normalized());
     right[k] = -left[k];
   }
+  // ends part along the boundary, so that they stay on it; there is no such way at the tip of a crack
+  if (!is_tip(first)) {
+    left.front() = towards(first, previous(first));
+    right.front() = towards(first, after_first);
+  }
+  if (through && !is_tip(last)) {
+    left.back() = towards(last, next(last));
+    right.back() = towards(last, before_last);
+  }
+  for (const std::size_t end : {std::size_t{0}, path.size() - 1})
+    if (on_boundary(path[end]) && has_mates(path[end])) left[end] = right[end] = Vec2::Zero();
   std::vector<std::array<NodeIndex, 2>> doubled;
-  for (std::size_t k = 0; k < path.size(); ++k) {
+  for (std::size_t k = 0; k < path.size() - (through ? 0 : 1); ++k) {
     const NodeIndex made = append(at(path[k]) + right[k], {{path[k], 1.0}});
     at(path[k]) += left[k];
     node_.held[made] = node_.held[path[k]];
     doubled.push_back({path[k], made});
     if (left[k] == right[k]) cloud_.twins.push_back({path[k], made});
   }
+  if (through) {
+    link(before_last, doubled.back()[1], piece_[before_last]);
+  } else {
+    link(last, doubled.back()[1], piece);
+  }
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     link(path[k], path[k + 1], piece);
-    link(doubled[k + 1][1], doubled[k][1], piece);
+    if (k + 1 < doubled.size()) link(doubled[k + 1][1], doubled[k][1], piece);
   }
   link(doubled.front()[1], after_first, piece_first);
   if (const NodeIndex opposite = std::exchange(facing_[first], NodeIndex::none); exists(opposite))
     be_mates(doubled.front()[1], opposite);
-  link(before_last, doubled.back()[1], piece_last);
   renew_loops();
   return doubled;
+}
+
+bool WorkingCloud::is_tip(NodeIndex i) const {
+  constexpr double sharp = 0.8;   // cosine of the angle between the faces
+  constexpr double closed = 0.02; // faces that are pressed on each other may overlap a little
+  if (!on_boundary(i)) return false;
+  const Vec2 back = cloud_.position[previous_[i]] - cloud_.position[i],
+             ahead = cloud_.position[next_[i]] - cloud_.position[i];
+  const double lengths = back.norm() * ahead.norm();
+  return back.dot(ahead) > sharp * lengths && cross(ahead, back) < closed * lengths;
 }
 
 void WorkingCloud::renew_loops() {

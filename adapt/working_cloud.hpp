@@ -58,6 +58,8 @@ public:
   /// The node on the other face that comes and goes with a boundary node; none where the facets at the node
   /// have no mates, or not the same node between them (tips, ends of faces, places where faces meet).
   NodeIndex mate(NodeIndex i) const;
+  /// Whether the boundary turns back at a node so that the body lies round it: the tip of a crack.
+  bool is_tip(NodeIndex i) const;
   /// Facets change pieces here, and the node has to stay for it: it is an end of named boundaries, or all
   /// that keeps a piece beside the free one.
   bool ends_piece(NodeIndex i) const;
@@ -81,9 +83,10 @@ public:
   void bypass(NodeIndex node);
   /// Puts a node elsewhere; what it has goes with it.
   void place(NodeIndex node, const Vec2& x) { cloud_.position[node] = x; }
-  /// Opens the domain along a path between two boundary nodes, over interior ones: nodes are doubled, and the
-  /// two faces stand `gap` (m) apart, but for ends on mates, whose doubles stay where they are, as twins.
-  /// Returns the pairs {old node, its double without matter}.
+  /// Opens the domain along a path from a boundary node over interior ones to another boundary node, or to an
+  /// interior one that becomes the tip of a crack: nodes are doubled, but for the tip, and the two faces
+  /// stand `gap` (m) apart, but for ends on mates, whose doubles stay where they are, as twins. Returns the
+  /// pairs {old node, its double without matter}.
   std::vector<std::array<NodeIndex, 2>> open(std::span<const NodeIndex> path, PieceIndex piece, double gap);
   /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
   void move(const std::vector<Parcel>& parcels);

@@ -174,6 +174,7 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
     rules.space = input_->analysis.space();
     rules.placement = input_->adapt.placement;
     if (input_->adapt.separate) rules.split.piece = fracture_piece(cloud);
+    rules.split.cracks = input_->adapt.cracks;
     const Resampling<2> change =
         adapt::resample(cloud, std::move(structure), properties(solver, wanted), rules, report);
     solver.prepare(change);
@@ -243,6 +244,8 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
   std::vector<std::pair<std::string, double>> list = log_.metrics();
   for (const auto& [name, value] : std::initializer_list<std::pair<std::string, double>>{
            {"adapt.passes", static_cast<double>(passes_)},
+           {"adapt.cracks", total_.cracks},
+           {"adapt.advances", total_.advances},
            {"adapt.cuts", total_.cuts},
            {"adapt.opened", total_.opened},
            {"adapt.films", total_.films},
@@ -285,7 +288,9 @@ void Adaptation::archive(Archive& archive) {
   archive.field("run/adapt/birth", "s", birth_);
   archive.integer("run/adapt/passes", passes_);
   log_.archive(archive);
-  for (auto& [name, count] : {std::pair{"cuts", &total_.cuts},
+  for (auto& [name, count] : {std::pair{"cracks", &total_.cracks},
+                              {"advances", &total_.advances},
+                              {"cuts", &total_.cuts},
                               {"opened", &total_.opened},
                               {"films", &total_.films},
                               {"folded", &total_.folded},

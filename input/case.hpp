@@ -204,6 +204,7 @@ struct Adaptation {
   static constexpr const char* fracture_piece = "fracture";
   bool resample = false;
   bool separate = false; ///< broken matter is opened along edges between nodes
+  bool cracks = false;   ///< also from the boundary to a tip inside
   adapt::Placement placement = adapt::Placement::between_nodes;
   double growth = 0.3;                              ///< – of the wanted spacing per distance
   std::optional<double> tool_spacing;               ///< m, at corners and arcs of tools

@@ -16,6 +16,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   Adaptation& rules = result.adapt;
   rules.resample = table.get<bool>("resample");
   rules.separate = table.get<bool>("separate");
+  rules.cracks = table.get<bool>("cracks");
   rules.placement = table.choice<adapt::Placement>("placement");
   rules.growth = table.get<double>("growth");
   rules.tool_spacing = table.maybe<double>("tool_spacing");
@@ -48,6 +49,9 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict("adapt.separate",
              "found true without contact.deformable, expected contact.deformable = true: the new faces would "
              "go through each other");
+  if (rules.cracks && !rules.separate)
+    conflict("adapt.cracks",
+             "found true where adapt.separate is false, expected true: cracks are a part of separation");
   const std::vector<std::string> pieces = result.domain.piece_names();
   if (rules.separate && std::find(pieces.begin(), pieces.end(), Adaptation::fracture_piece) != pieces.end())
     conflict("adapt.separate",

@@ -36,6 +36,13 @@ Text with_damage(const Case& c) {
   return "";
 }
 
+Text with_averaged_damage(const Case& c) {
+  for (const plasticity::Material& material : c.materials)
+    if (material.damage && material.damage->length > 0.0)
+      return fmt::format("and damage of material '{}' that is averaged over a length", material.name);
+  return "";
+}
+
 /// The first of a case's materials that expands from another temperature than the initial one.
 const plasticity::Material* expanding(const Case& c) {
   const auto found = std::find_if(c.materials.begin(), c.materials.end(), [&](const plasticity::Material& m) {
@@ -79,6 +86,8 @@ const std::vector<Pair>& pairs() {
        "levels follow from the stable steps", local},
       {"time.step.local", "local steps", "`analysis.mechanical = false`", without_motion,
        "them with analysis.mechanical = true", "conduction is stable at a thousand times the step", local},
+      {"time.step.local", "local steps", "`materials.*.damage.length`", with_averaged_damage, one_of_them,
+       "what is averaged has to grow over the same time", local},
       {"method.pressure_exchange", "an exchange", "a damage law", with_damage, one_of_them,
        "volumes of gaps must not be shared with what is whole",
        [](const Case& c) { return !is_static(c) && c.method.pressure_exchange > 0.0; }},

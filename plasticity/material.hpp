@@ -46,7 +46,7 @@ struct Elasticity {
 struct JohnsonCookDamage {
   double D1 = 0.0, D2 = 0.0, D3 = 0.0, D4 = 0.0, D5 = 0.0;
   double rate0 = 1.0, T0 = 293.15, Tmelt = infinite, cut_off = -infinite;
-  double fracture_energy = 0.0, residual_strength = 0.0, band = 2.5;
+  double fracture_energy = 0.0, residual_strength = 0.0, band = 2.5, length = 0.0;
 
   static constexpr const char* name = "johnson-cook";
   static constexpr const char* formula =
@@ -107,6 +107,15 @@ struct JohnsonCookDamage {
         .meaning =
             "Thickness of the band in which cells break, in cell sizes √area: with it the fracture energy "
             "is spread over the cells. docs/theory.md says where the default comes from."}},
+      {&JohnsonCookDamage::length,
+       {.name = "length",
+        .unit = "m",
+        .range = not_negative,
+        .meaning =
+            "Distance within which the growth of damage up to 1 is averaged, so that where and when the "
+            "metal breaks does not depend on the cells: at least one and a half spacings. 0: each cell "
+            "for itself.",
+        .example = "0.2 mm"}},
       {&JohnsonCookDamage::cut_off,
        {.name = "cut_off",
         .meaning = "No damage grows at this σ* or below; without it damage grows at any σ*.",

@@ -12,6 +12,8 @@ namespace {
 std::vector<std::string> columns(const HistoryUnits& units) {
   std::vector<std::string> names{"time[s]",
                                  "step",
+                                 "cracks",
+                                 "advances",
                                  "cuts",
                                  "opened",
                                  "folded",
@@ -68,9 +70,9 @@ void AdaptationLog::resume(const std::filesystem::path& folder, const HistoryUni
 void AdaptationLog::record(const State<2>& state, const adapt::PassReport& report, const Audit& before,
                            const Audit& after) {
   std::vector<double> row{state.time, static_cast<double>(state.step)};
-  for (const int count :
-       {report.cuts, report.opened, report.folded, report.outside, report.removed, report.removed_boundary,
-        report.promoted, report.inserted, report.inserted_boundary, report.balanced, report.undone})
+  for (const int count : {report.cracks, report.advances, report.cuts, report.opened, report.folded,
+                          report.outside, report.removed, report.removed_boundary, report.promoted,
+                          report.inserted, report.inserted_boundary, report.balanced, report.undone})
     row.push_back(count);
   for (const auto& [was, is] : {std::pair{before.nodes, after.nodes},
                                 {before.enclosed, after.enclosed},

@@ -93,6 +93,10 @@ void add_adaptation(Keys& k) {
         "where broken matter joins two parts of the boundary: nodes are doubled, nothing is deleted, the new "
         "faces are the piece `fracture`. Needs `contact.deformable`.")
       .fallback("false");
+  k.add("adapt.cracks", boolean,
+        "With `adapt.separate` the cloud is opened too where broken matter does not go through: from the "
+        "boundary to a tip inside, which goes on with what breaks ahead of it.")
+      .fallback("false");
   k.add("adapt.placement", choice,
         "Where nodes are added: half-way between neighbours, or at vertices of Voronoi cells (boundary edges "
         "are "

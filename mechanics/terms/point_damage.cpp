@@ -14,7 +14,7 @@ template<int dim>
 PointDamage<dim>::PointDamage(const std::vector<plasticity::Material>& materials)
     : active_(std::any_of(materials.begin(), materials.end(),
                           [](const plasticity::Material& material) { return material.damage.has_value(); })),
-      table_("solver/point", active_) {
+      average_(materials), table_("solver/point", active_) {
   for (const plasticity::Material& material : materials)
     law_.push_back(material.damage.value_or(plasticity::JohnsonCookDamage{}));
 }
@@ -90,7 +90,12 @@ template<int dim> void PointDamage<dim>::renew(const Body<dim>& body) {
   update(body.operators(), body.model.materials, point, 0, point.size(), 0.0);
 }
 
-template<int dim> void PointDamage<dim>::begin_stress(const Body<dim>&, const DuePoints& due) {
+template<int dim> void PointDamage<dim>::attach(const Body<dim>& body) {
+  if (average_.active()) average_.list(body.operators(), body.state.node.reference, body.state.point);
+}
+
+template<int dim> void PointDamage<dim>::begin_stress(const Body<dim>& body, const DuePoints& due) {
+  if (average_.active()) average_.begin(body.state.point);
   sums_.assign(due.ranges.size(), 0.0);
 }
 
@@ -105,7 +110,8 @@ void PointDamage<dim>::after_stress(const Body<dim>& body, const DuePoints& due,
                                    range.end, due.own(range));
 }
 
-template<int dim> void PointDamage<dim>::end_stress(const Body<dim>&, const DuePoints&) {
+template<int dim> void PointDamage<dim>::end_stress(const Body<dim>& body, const DuePoints&) {
+  if (average_.active()) average_.share(body.state.point);
   for (const double energy : sums_) released_.value += energy;
 }
 

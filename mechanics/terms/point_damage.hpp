@@ -1,5 +1,6 @@
 #pragma once
 // Damage of the stress points of a solver: what the pass of plasticity/damage.hpp needs beside the state.
+#include "mechanics/terms/damage_average.hpp"
 #include "mechanics/terms/term.hpp"
 #include "plasticity/damage.hpp"
 
@@ -34,6 +35,7 @@ public:
   void limit(const Body<dim>& body, StepLimit& limit) override;
   void carried(const Body<dim>& body) override;
   void renew(const Body<dim>& body) override;
+  void attach(const Body<dim>& body) override;
   void begin_stress(const Body<dim>& body, const DuePoints& due) override;
   void before_stress(const Body<dim>& body, const LevelRange& range) override;
   void after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) override;
@@ -42,6 +44,7 @@ public:
 private:
   bool active_;                                    ///< whether any material has a damage law
   std::vector<plasticity::JohnsonCookDamage> law_; ///< [material]; none: never softens
+  DamageAverage<dim> average_;
   FieldTable table_;
   ScalarField length_{table_, {"damage_length", "m", Carry::renewed, Checkpoint::holds}}; ///< ℓ
   std::vector<double> sums_; ///< [range] J/m^(3−dim)

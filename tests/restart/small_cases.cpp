@@ -292,6 +292,7 @@ rereference = { every = 40, strain = 0.2 }
 [adapt]
 resample = true
 separate = true
+cracks = true
 tool_spacing = "0.15 mm"
 [output]
 history_every = "0.2 us"

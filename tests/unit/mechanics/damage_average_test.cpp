@@ -1,0 +1,102 @@
+// Growth of damage averaged over a length of the material.
+#include "mechanics/kinematics.hpp"
+#include "mechanics/terms/damage_average.hpp"
+#include "tests/unit/mechanics/models.hpp"
+#include "tests/unit/plasticity/points.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::testing {
+namespace {
+
+constexpr double radius = 0.25, spacing = 0.05; // m
+
+struct Averaged {
+  DiscreteOperators<2> operators;
+  Fields<2> reference, at; ///< [component][node], [component][point] m
+  PointState<2> point;
+  DamageAverage<2> average;
+
+  static std::vector<plasticity::Material> materials() {
+    plasticity::Material with = steel_304L(), without = with;
+    with.damage = plasticity::JohnsonCookDamage{.length = radius};
+    without.damage = plasticity::JohnsonCookDamage{};
+    return {with, without};
+  }
+  explicit Averaged(Method method = Method::cnem) : average(materials()) {
+    const Cloud<2> cloud = rectangle(1.0, 0.6, spacing);
+    operators = make(method)->rebuild(cloud).mechanics;
+    for (const Vec2& x : cloud.position)
+      for (std::size_t k = 0; k < 2; ++k) reference[k].push_back(x[static_cast<Eigen::Index>(k)]);
+    const auto points = index_of(operators.points);
+    for (std::size_t k = 0; k < 2; ++k) {
+      at[k].resize(points);
+      interpolate<2>(operators, reference[k], at[k], 0, points);
+    }
+    point = plasticity::test::points_at_rest<2>(points, 300.0);
+    point.damage.assign(points, 0.0);
+    point.initiation_strain.assign(points, 0.0);
+    point.plastic_strain.assign(points, 0.3);
+  }
+  Vec2 place(std::size_t p) const { return {at[0][p], at[1][p]}; }
+  void grow(const std::function<double(const Vec2&)>& by) {
+    average.list(operators, reference, point);
+    average.begin(point);
+    for (std::size_t p = 0; p < point.damage.size(); ++p)
+      point.damage[p] = std::min(1.0, point.damage[p] + by(place(p)));
+    average.share(point);
+  }
+};
+
+TEST(DamageAverage, leaves_even_growth_even_whatever_the_cells) {
+  for (const Method method : {Method::cnem, Method::triangles}) {
+    Averaged a(method);
+    a.grow([](const Vec2&) { return 0.125; });
+    for (const double d : a.point.damage) EXPECT_NEAR(d, 0.125, 1e-15);
+  }
+}
+
+TEST(DamageAverage, of_a_narrow_band_is_as_wide_as_the_length) {
+  Averaged a;
+  a.grow([](const Vec2& x) { return std::abs(x.x() - 0.5) < 0.6 * spacing ? 0.5 : 0.0; });
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p) {
+    const double off = std::abs(a.place(p).x() - 0.5);
+    if (off > radius + 0.6 * spacing) EXPECT_EQ(a.point.damage[p], 0.0);
+    if (off < 0.7 * radius) EXPECT_GT(a.point.damage[p], 0.0);
+    EXPECT_LT(a.point.damage[p], 0.3);
+  }
+}
+
+TEST(DamageAverage, what_is_broken_neither_takes_nor_gives) {
+  Averaged a;
+  const auto in = [](const Vec2& x) { return std::abs(x.x() - 0.5) < 1.2 * spacing; };
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p)
+    if (in(a.place(p))) a.point.damage[p] = 1.0;
+  a.grow([](const Vec2&) { return 0.25; });
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p) {
+    EXPECT_NEAR(a.point.damage[p], in(a.place(p)) ? 1.0 : 0.25, 1e-15);
+    EXPECT_EQ(a.point.initiation_strain[p], 0.0);
+  }
+}
+
+TEST(DamageAverage, begins_to_soften_where_the_mean_reaches_one) {
+  Averaged a;
+  for (double& d : a.point.damage) d = 0.9;
+  a.grow([](const Vec2& x) { return x.y() > 0.3 ? 0.2 : 0.0; });
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p) {
+    if (a.place(p).y() > 0.3 + radius) EXPECT_EQ(a.point.damage[p], 1.0);
+    if (a.place(p).y() < 0.3) EXPECT_LT(a.point.damage[p], 1.0); // though cells beside it got there
+    EXPECT_EQ(a.point.initiation_strain[p], a.point.damage[p] >= 1.0 ? 0.3 : 0.0);
+  }
+}
+
+TEST(DamageAverage, does_not_mix_materials_and_leaves_those_without_a_length_alone) {
+  Averaged a;
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p) a.point.material[p] = a.place(p).x() > 0.5 ? 1 : 0;
+  a.grow([](const Vec2& x) { return x.x() > 0.5 ? 0.5 * x.x() : 0.0; });
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p)
+    EXPECT_EQ(a.point.damage[p], a.point.material[p] == 1 ? 0.5 * a.place(p).x() : 0.0);
+}
+
+} // namespace
+} // namespace cnem::testing

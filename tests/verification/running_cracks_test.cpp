@@ -1,0 +1,161 @@
+// Cracks that run: what they dissipate, and what their lips bear.
+#include "app/run.hpp"
+#include "input/case_reader.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace cnem::testing {
+namespace {
+
+/// A strip in tension between two notches at 45 degrees: one band goes from tip to tip.
+constexpr double fracture_energy = 60e3, ligament = 2.0 * std::numbers::sqrt2 * 1e-3;
+const std::string strip = R"toml(
+[time]
+end = "50 us"
+[domain]
+material = "steel"
+[domain.outer]
+start = "0 0 mm"
+path = [{ to = "4 0 mm", name = "bottom" }, { to = "4 2.8 mm" }, { to = "3 3 mm" }, { to = "4 3.2 mm" }, { to = "4 8 mm" }, { to = "0 8 mm", name = "top" }, { to = "0 5.2 mm" }, { to = "1 5 mm" }, { to = "0 4.8 mm" }, { to = "0 0 mm" }]
+[cloud]
+spacing = "0.1 mm"
+pattern = "jittered"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "500 MPa" }
+damage = { law = "johnson-cook", D1 = 0.005, D2 = 0, D3 = 0, fracture_energy = "60 kJ/m2" }
+[contact]
+deformable = true
+[initial]
+velocity_gradient = { centre = "0 4 mm", yy = "1000 1/s" }
+[boundary.bottom]
+pieces = ["bottom"]
+velocity = { y = "-4 m/s" }
+[boundary.top]
+pieces = ["top"]
+velocity = { y = "4 m/s" }
+[method]
+rereference = { every = 50, strain = 0.2 }
+[adapt]
+resample = true
+separate = true
+cracks = true
+[output]
+history_every = "0.5 us"
+pictures = []
+)toml";
+
+struct Run {
+  results::HistoryTable history, events;
+  results::RunStatus status;
+  double last(const std::string& name) const {
+    return history.column[static_cast<std::size_t>(history.find(name))].back();
+  }
+  const std::vector<double>& of(const std::string& name) const {
+    return history.column[static_cast<std::size_t>(history.find(name))];
+  }
+  double metric(const std::string& name) const {
+    for (const auto& [key, value] : status.metrics)
+      if (key == name) return value;
+    ADD_FAILURE() << name;
+    return 0.0;
+  }
+};
+
+Run run(const std::string& text, const std::vector<std::string>& set = {}) {
+  const TemporaryFolder folder("crack");
+  const input::Case input = input::read_case_text(text, "case.toml", set);
+  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
+  return {results::read_history(folder.path() / results::files::history),
+          results::read_history(folder.path() / results::files::adaptation),
+          results::read_status(folder.path())};
+}
+
+void expect_nothing_lost(const Run& done) {
+  for (const char* kept : {"mass_error", "momentum_error", "heat_error", "energy_error"})
+    EXPECT_LT(done.metric(std::string("adapt.") + kept), 1e-12) << kept;
+  EXPECT_LT(std::abs(done.metric("mass_drift")), 1e-12);
+  EXPECT_LT(done.status.energy_residual, 1e-3);
+}
+
+TEST(RunningCrack, takes_the_fracture_energy_times_its_length_whatever_the_spacing) {
+  for (const double spacing : {0.2, 0.14, 0.1}) {
+    const Run done = run(strip, {fmt::format("cloud.spacing=\"{} mm\"", spacing)});
+    expect_nothing_lost(done);
+    EXPECT_GE(done.metric("adapt.cracks"), 1.0) << spacing;
+    double taken = 0.0;
+    for (const char* energy : {"energy.plastic", "energy.damage"}) taken += done.last(energy);
+    EXPECT_NEAR(taken / (fracture_energy * ligament), 1.0, 0.1) << spacing;
+    EXPECT_LT(std::abs(done.metric("area_drift")), 0.005) << spacing;
+  }
+}
+
+/// A block that is sheared under a pressure of 200 MPa: rubble would bear 0.3/√3 of the flow stress, 87 MPa.
+const std::string pressed = R"toml(
+[time]
+end = "40 us"
+[domain]
+material = "steel"
+[domain.outer]
+start = "0 0 mm"
+path = [{ to = "4 0 mm", name = "bottom" }, { to = "4 0.45 mm" }, { to = "3.6 0.5 mm" }, { to = "4 0.55 mm" }, { to = "4 1 mm" }, { to = "0 1 mm", name = "top" }, { to = "0 0.55 mm" }, { to = "0.4 0.5 mm" }, { to = "0 0.45 mm" }, { to = "0 0 mm" }]
+[cloud]
+spacing = "0.08 mm"
+pattern = "hexagonal"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "500 MPa" }
+damage = { law = "johnson-cook", D1 = 0.005, D2 = 0, D3 = 0, fracture_energy = "15 kJ/m2", residual_strength = 0.3 }
+[contact]
+deformable = true
+friction = { law = "coulomb", coefficient = 0.2 }
+[boundary.bottom]
+pieces = ["bottom"]
+velocity = "0 0 m/s"
+[boundary.top]
+pieces = ["top"]
+velocity = { x = { value = "8 m/s", ramp = "10 us", smooth = true } }
+pressure = { value = "200 MPa", ramp = "10 us", smooth = true }
+[method]
+rereference = { every = 50, strain = 0.2 }
+[adapt]
+resample = true
+separate = true
+cracks = true
+[output]
+history_every = "0.2 us"
+pictures = []
+)toml";
+
+TEST(RunningCrack, lips_that_are_pressed_on_each_other_keep_their_friction) {
+  double shear[2];
+  for (const int k : {0, 1}) {
+    const Run done = run(pressed, {fmt::format("contact.friction.coefficient={}", k == 0 ? 0.2 : 0.05)});
+    expect_nothing_lost(done);
+    EXPECT_GE(done.metric("adapt.cracks"), 1.0);
+    const std::vector<double>&time = done.of("time"), &x = done.of("support.top.force_x"),
+          &y = done.of("support.bottom.force_y");
+    double force = 0.0, pressing = 0.0;
+    for (std::size_t r = 0; r < time.size(); ++r)
+      if (time[r] > 36e-6) {
+        force += x[r];
+        pressing += y[r];
+      }
+    shear[k] = force / pressing;
+  }
+  EXPECT_NEAR(shear[0], 0.2, 0.05);
+  EXPECT_NEAR(shear[0] - shear[1], 0.15, 0.05);
+}
+
+} // namespace
+} // namespace cnem::testing
