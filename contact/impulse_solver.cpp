@@ -11,8 +11,7 @@ namespace cnem::contact {
 namespace {
 
 constexpr double relative = 1e-9; ///< of the depth: what solved contacts may still move by
-constexpr int sweeps_before = 2;  ///< the first system
-constexpr int sweeps_between = 5; ///< systems that do not settle
+constexpr int sweeps_before = 2;  ///< the first system; before the next one three times as many, and so on
 
 /// Moves a free tool together with all nodes that press on its faces so that their gaps close: exact when the
 /// same nodes go on pressing without friction. Returns how far it moved anything, m.
@@ -98,7 +97,7 @@ void ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsOfN
       if constexpr (dim == 2)
         if (sweep == next) {
           system_.settle(contacts, group, nodes, tools, dt, depth);
-          next += sweeps_between;
+          next *= 3;
         }
     }
   }
