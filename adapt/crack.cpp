@@ -25,8 +25,7 @@ public:
         beside_(work.size(), 0) {
     for (const NodeIndex i : work.nodes()) {
       if (!work.on_boundary(i)) continue;
-      const bool is_face = face(i);
-      if (is_face) faces_.push_back(i);
+      if (face(i)) faces_.push_back(i);
       for (const NodeIndex k : structure.neighbours(i)) beside_[k] = 1;
     }
   }
@@ -55,14 +54,16 @@ public:
     return search.path_to(end);
   }
 
-  /// From the boundary to the deepest node of each set of broken nodes that has no crack yet.
-  std::vector<Path> begin() const {
+  /// From the boundary to the deepest node of a connected set of broken nodes: the longest of these ways that
+  /// is long and slender enough; empty where there is none.
+  Path begin() const {
     std::vector<NodeIndex> sources;
     for (const NodeIndex i : work_.nodes())
       if (work_.on_boundary(i)) sources.push_back(i);
     const Search depth = spread(sources, [](NodeIndex) { return true; });
     IndexedVector<NodeIndex, char> seen(work_.size(), 0);
-    std::vector<Path> list;
+    Path best;
+    double longest = 0.0;
     for (const NodeIndex start : work_.nodes()) {
       if (seen[start] || !broken(start) || work_.on_boundary(start)) continue;
       std::vector<NodeIndex> set{start};
@@ -81,16 +82,17 @@ public:
             set.push_back(next);
           }
       }
-      if (!exists(deepest)) continue;
+      if (!exists(deepest) || set.size() < 3) continue;
       Path path = to_mouth(deepest);
       if (path.empty()) continue;
       const double chord = (at(path.front()) - at(path.back())).norm();
       if (chord < rules_.first * work_.size_between(path.front(), path.back()) ||
-          chord * chord < rules_.slender * area)
+          chord * chord < rules_.slender * area || chord <= longest)
         continue;
-      list.push_back(std::move(path));
+      longest = chord;
+      best = std::move(path);
     }
-    return list;
+    return best;
   }
 
 private:
@@ -149,7 +151,7 @@ private:
   /// The cheapest way from a deep node to where a crack may begin, from there on; empty when it is crooked.
   Path to_mouth(NodeIndex deepest) const {
     const Search search = spread({deepest}, [](NodeIndex) { return true; });
-    NodeIndex mouth = NodeIndex::none;
+    NodeIndex mouth = NodeIndex::none, inside = mouth;
     double least = far;
     for (const NodeIndex i : work_.nodes()) {
       if (!may_begin(i)) continue;
@@ -159,11 +161,11 @@ private:
         if (cost >= least) continue;
         least = cost;
         mouth = i;
-        first_ = k;
+        inside = k;
       }
     }
     if (!exists(mouth)) return {};
-    Path path = search.path_to(first_);
+    Path path = search.path_to(inside);
     path.push_back(mouth);
     std::reverse(path.begin(), path.end());
     double length = 0.0;
@@ -211,7 +213,6 @@ private:
   const SplitRules& rules_;
   IndexedVector<NodeIndex, char> beside_; ///< has a neighbour on the boundary
   std::vector<NodeIndex> faces_;          ///< nodes of faces that separation has made
-  mutable NodeIndex first_ = NodeIndex::none;
 };
 
 bool open_to_tip(WorkingCloud& work, Structure& structure, const Path& path, const SplitRules& rules,
@@ -236,8 +237,12 @@ void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rul
     if (const Path path = Cracking(work, structure, rules).advance(tip);
         !path.empty() && open_to_tip(work, structure, path, rules, report))
       ++report.advances;
-  for (const Path& path : Cracking(work, structure, rules).begin())
-    if (open_to_tip(work, structure, path, rules, report)) ++report.cracks;
+  constexpr int most = 8; // new cracks in one pass
+  for (int k = 0; k < most; ++k) {
+    const Path path = Cracking(work, structure, rules).begin();
+    if (path.empty() || !open_to_tip(work, structure, path, rules, report)) return;
+    ++report.cracks;
+  }
 }
 
 } // namespace cnem::adapt

@@ -19,6 +19,8 @@ const std::vector<SmallCase>& small_cases();
 std::string space_case();
 /// Bonded, periodic and cracked.
 std::string parts_case();
+/// A crack that runs, with damage averaged over a length.
+std::string cracked_case();
 /// The case of a sheet that is cut, of two layers, and of a round one.
 std::string in_layers(std::string text);
 std::string of_revolution(std::string text);

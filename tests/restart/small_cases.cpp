@@ -292,7 +292,6 @@ rereference = { every = 40, strain = 0.2 }
 [adapt]
 resample = true
 separate = true
-cracks = true
 tool_spacing = "0.15 mm"
 [output]
 history_every = "0.2 us"
@@ -383,6 +382,7 @@ const std::vector<SmallCase>& small_cases() {
                                             {"breaking", breaking},
                                             {"adapted", adapted},
                                             {"separated", separated},
+                                            {"cracked", cracked_case()},
                                             {"round_slug", of_revolution(separated)},
                                             {"knocked_off", in_levels(separated)},
                                             {"touching", touching},

@@ -61,8 +61,8 @@ TEST(DamageAverage, of_a_narrow_band_is_as_wide_as_the_length) {
   a.grow([](const Vec2& x) { return std::abs(x.x() - 0.5) < 0.6 * spacing ? 0.5 : 0.0; });
   for (std::size_t p = 0; p < a.point.damage.size(); ++p) {
     const double off = std::abs(a.place(p).x() - 0.5);
-    if (off > radius + 0.6 * spacing) EXPECT_EQ(a.point.damage[p], 0.0);
-    if (off < 0.7 * radius) EXPECT_GT(a.point.damage[p], 0.0);
+    if (off > radius + 0.6 * spacing) { EXPECT_EQ(a.point.damage[p], 0.0); }
+    if (off < 0.7 * radius) { EXPECT_GT(a.point.damage[p], 0.0); }
     EXPECT_LT(a.point.damage[p], 0.3);
   }
 }
@@ -84,8 +84,8 @@ TEST(DamageAverage, begins_to_soften_where_the_mean_reaches_one) {
   for (double& d : a.point.damage) d = 0.9;
   a.grow([](const Vec2& x) { return x.y() > 0.3 ? 0.2 : 0.0; });
   for (std::size_t p = 0; p < a.point.damage.size(); ++p) {
-    if (a.place(p).y() > 0.3 + radius) EXPECT_EQ(a.point.damage[p], 1.0);
-    if (a.place(p).y() < 0.3) EXPECT_LT(a.point.damage[p], 1.0); // though cells beside it got there
+    if (a.place(p).y() > 0.3 + radius) { EXPECT_EQ(a.point.damage[p], 1.0); }
+    if (a.place(p).y() < 0.3) { EXPECT_LT(a.point.damage[p], 1.0); } // though cells beside it got there
     EXPECT_EQ(a.point.initiation_strain[p], a.point.damage[p] >= 1.0 ? 0.3 : 0.0);
   }
 }
