@@ -69,24 +69,32 @@ void limit_growth(const Cloud<2>& cloud, const Structure& structure, double grow
   std::vector<std::array<NodeIndex, 2>> mates = mated_nodes(cloud);
   for (std::size_t k = mates.size(); k-- > 0;) mates.push_back({mates[k][1], mates[k][0]});
   std::sort(mates.begin(), mates.end());
+  /// visit(k, limit) for all that a node of spacing h keeps to a limit it is above.
+  const auto for_each_above = [&](NodeIndex i, double h, const auto& visit) {
+    const auto look = [&](NodeIndex k, double limit) {
+      if (limit < size[index_of(k)] * (1.0 - 1e-12)) visit(k, limit);
+    };
+    for (const NodeIndex k : structure.neighbours(i))
+      look(k, h + growth * (cloud.position[k] - cloud.position[i]).norm());
+    for (auto mate = std::lower_bound(mates.begin(), mates.end(), std::array{i, NodeIndex{}});
+         mate != mates.end() && (*mate)[0] == i; ++mate)
+      look((*mate)[1], h);
+  };
   using Entry = std::pair<double, NodeIndex>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  for (std::size_t i = 0; i < size.size(); ++i) front.emplace(size[i], as<NodeIndex>(i));
+  for (const NodeIndex i : cloud.position.indices()) { // who lowers none now lowers none later
+    bool lowers = false;
+    for_each_above(i, size[index_of(i)], [&](NodeIndex, double) { lowers = true; });
+    if (lowers) front.emplace(size[index_of(i)], i);
+  }
   while (!front.empty()) {
     const auto [h, i] = front.top();
     front.pop();
-    const auto at = index_of(i);
-    if (h > size[at]) continue; // lowered since
-    const auto keep_to = [&](NodeIndex k, double limit) {
-      if (!(limit < size[index_of(k)] * (1.0 - 1e-12))) return;
+    if (h > size[index_of(i)]) continue; // lowered since
+    for_each_above(i, h, [&](NodeIndex k, double limit) {
       size[index_of(k)] = limit;
       front.emplace(limit, k);
-    };
-    for (const NodeIndex k : structure.neighbours(i))
-      keep_to(k, h + growth * (cloud.position[k] - cloud.position[i]).norm());
-    for (auto mate = std::lower_bound(mates.begin(), mates.end(), std::array{i, NodeIndex{}});
-         mate != mates.end() && (*mate)[0] == i; ++mate)
-      keep_to((*mate)[1], h);
+    });
   }
 }
 
