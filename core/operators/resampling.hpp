@@ -32,7 +32,8 @@ template<int dim> struct Resampling {
   IndexedVector<NodeIndex, Vec<dim>> old_position; ///< [old node] m, present
   IndexedVector<NodeIndex, NodeIndex> new_of; ///< [old node] the new node that continues it; none: removed
   IndexedVector<NodeIndex, NodeIndex> old_of; ///< [new node] the old node that it continues; none: inserted
-  /// Nodes stay where they are and exchange mass alone: what is known at their stress points is known there still.
+  /// Nodes stay where they are and exchange mass alone: what is known at their stress points is known there
+  /// still.
   bool points_stay = false;
 
   /// Whether node p is other matter than one old node.
