@@ -12,4 +12,13 @@ plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0
 heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
 )toml";
 
+/// A metal that is softer, lighter and conducts better.
+inline const std::string soft_metal = R"toml(
+[materials.soft]
+density = "2700 kg/m3"
+elastic = { young = "70 GPa", poisson = 0.33 }
+plastic = { law = "johnson-cook", A = "80 MPa", B = "120 MPa", n = 0.3, C = 0.01, rate0 = "1 /s", m = 1.0, T0 = "296 K", Tmelt = "900 K" }
+heat = { specific_heat = "900 J/(kg K)", conductivity = "200 W/(m K)" }
+)toml";
+
 } // namespace cnem::testing

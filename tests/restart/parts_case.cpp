@@ -42,12 +42,8 @@ pictures = "8 us"
 picture_fields = ["plastic_strain", "level", "temperature"]
 [output.checkpoint]
 every_steps = 35
-[materials.soft]
-density = "2700 kg/m3"
-elastic = { young = "70 GPa", poisson = 0.33 }
-plastic = { law = "johnson-cook", A = "80 MPa", B = "120 MPa", n = 0.3, C = 0.01, rate0 = "1 /s", m = 1.0, T0 = "296 K", Tmelt = "900 K" }
-heat = { specific_heat = "900 J/(kg K)", conductivity = "200 W/(m K)" }
-)toml" + testing::steel_304l;
+)toml" + testing::soft_metal +
+         testing::steel_304l;
 }
 
 // The slug is round: its axis is the symmetry plane of the other.

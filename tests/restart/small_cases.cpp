@@ -1,6 +1,6 @@
 // The texts of the small cases.
 #include "tests/restart/runs.hpp"
-#include "tests/steel.hpp"
+#include "tests/shared_cases.hpp"
 
 #include <fmt/format.h>
 #include <stdexcept>
@@ -258,41 +258,13 @@ fracture_energy = "20 kJ/m2"
                             steel_304l;
 
 // A slug that comes off: the cloud is cut, and the faces touch.
-const std::string separated = R"toml(
+const std::string separated = testing::blanked_slug + R"toml(
 [time]
 end = "20 us"
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "5 1.5 mm" }
-[cloud]
-spacing = "0.3 mm"
-[materials.steel.damage]
-law = "johnson-cook"
-D1 = 0.1
-D2 = 0.1
-D3 = -1.5
-fracture_energy = "20 kJ/m2"
-residual_strength = 0.3
 [contact]
 deformable = true
 conductance = "1e6 W/(m2 K)"
 friction = { law = "coulomb", coefficient = 0.1 }
-[boundary.left]
-pieces = ["left"]
-symmetry = true
-[tools.punch]
-rectangle = { from = "-1 1.5 mm", to = "2.5 5 mm" }
-velocity = "0 -60 m/s"
-[tools.die]
-rectangle = { from = "2.65 -3 mm", to = "9 0 mm" }
-[tools.holder]
-rectangle = { from = "2.7 1.5 mm", to = "9 3 mm" }
-[method]
-rereference = { every = 40, strain = 0.2 }
-[adapt]
-resample = true
-separate = true
-tool_spacing = "0.15 mm"
 [output]
 history_every = "0.2 us"
 fields_every = "10 us"
@@ -300,7 +272,7 @@ pictures = "20 us"
 picture_fields = ["softening"]
 [output.checkpoint]
 every_steps = 100
-)toml" + steel_304l;
+)toml";
 
 // Two parts with a crack between them, pressed together by a tool that slides: friction, heat, renewals.
 const std::string touching = R"toml(

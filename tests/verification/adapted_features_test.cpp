@@ -2,7 +2,7 @@
 #include "app/run.hpp"
 #include "input/case_reader.hpp"
 #include "results/history_writer.hpp"
-#include "tests/steel.hpp"
+#include "tests/shared_cases.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <algorithm>
@@ -12,23 +12,9 @@
 namespace cnem::testing {
 namespace {
 
-// A punch goes into the left of a block.
-const std::string punched_block = steel_304l + R"toml(
+const std::string with_line = punched_block + R"toml(
 [time]
 end = "6 us"
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
-[cloud]
-spacing = "0.25 mm"
-[boundary.base]
-pieces = ["bottom"]
-symmetry = true
-[tools.punch]
-rectangle = { from = "-1 2 mm", to = "1.1 5 mm" }
-velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
-[method]
-rereference = { every = 40, strain = 0.1 }
 [output]
 pictures = []
 [output.lines.middle]
@@ -39,7 +25,7 @@ fields = ["displacement_x", "displacement_y"]
 
 results::HistoryTable middle_of(const std::vector<std::string>& set) {
   const TemporaryFolder folder("lines");
-  const input::Case input = input::read_case_text(punched_block, "case.toml", set);
+  const input::Case input = input::read_case_text(with_line, "case.toml", set);
   EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
   return results::read_history(folder.path() / "lines" / "middle.csv");
 }

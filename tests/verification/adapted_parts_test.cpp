@@ -6,7 +6,7 @@
 #include "core/geometry/mates.hpp"
 #include "input/case_reader.hpp"
 #include "results/adaptation_log.hpp"
-#include "tests/steel.hpp"
+#include "tests/shared_cases.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <algorithm>
@@ -21,32 +21,15 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-// A punch goes into the left of a block, which an interface divides under the punch.
-const std::string layered_block = steel_304l + R"toml(
-[materials.soft]
-density = "2700 kg/m3"
-elastic = { young = "70 GPa", poisson = 0.33 }
-plastic = { law = "johnson-cook", A = "80 MPa", B = "120 MPa", n = 0.3, C = 0.01, rate0 = "1 /s", m = 1.0, T0 = "296 K", Tmelt = "900 K" }
-heat = { specific_heat = "900 J/(kg K)", conductivity = "200 W/(m K)" }
+// An interface divides the block under the punch.
+const std::string layered_block = punched_block + soft_metal + R"toml(
 [time]
 end = "10 us"
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
-interfaces.joint.points = ["0 1.4 mm", "4 1.4 mm"]
-[cloud]
-spacing = "0.25 mm"
-[boundary.base]
-pieces = ["bottom"]
-symmetry = true
+[domain.interfaces.joint]
+points = ["0 1.4 mm", "4 1.4 mm"]
 [boundary.side]
 pieces = ["right"]
 symmetry = true
-[tools.punch]
-rectangle = { from = "-1 2 mm", to = "1.1 5 mm" }
-velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
-[method]
-rereference = { every = 40, strain = 0.1 }
 [adapt]
 resample = true
 [adapt.indicator]
@@ -241,40 +224,13 @@ TEST(AdaptedParts, faces_of_a_crack_match_until_they_part) {
 }
 
 // Two layers, bonded and not along the sheet, between a punch and a die.
-const std::string layered_sheet = steel_304l + R"toml(
+const std::string layered_sheet = blanked_slug + R"toml(
 [time]
 end = "9 us"
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "5 1.5 mm" }
-interfaces.joint.points = ["0 0.5 mm", "5 1.2 mm"]
-[cloud]
-spacing = "0.3 mm"
-[materials.steel.damage]
-law = "johnson-cook"
-D1 = 0.1
-D2 = 0.1
-D3 = -1.5
-fracture_energy = "20 kJ/m2"
-residual_strength = 0.3
+[domain.interfaces.joint]
+points = ["0 0.5 mm", "5 1.2 mm"]
 [contact]
 deformable = true
-[boundary.left]
-pieces = ["left"]
-symmetry = true
-[tools.punch]
-rectangle = { from = "-1 1.5 mm", to = "2.5 5 mm" }
-velocity = "0 -60 m/s"
-[tools.die]
-rectangle = { from = "2.65 -3 mm", to = "9 0 mm" }
-[tools.holder]
-rectangle = { from = "2.7 1.5 mm", to = "9 3 mm" }
-[method]
-rereference = { every = 40, strain = 0.2 }
-[adapt]
-resample = true
-separate = true
-tool_spacing = "0.15 mm"
 )toml";
 
 /// Bodies that nothing joins: neither cells nor mates.

@@ -4,6 +4,7 @@
 #include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
 #include "results/status.hpp"
+#include "tests/shared_cases.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -15,40 +16,11 @@
 namespace cnem::testing {
 namespace {
 
-/// A strip in tension between two notches at 45 degrees: one band goes from tip to tip.
 constexpr double fracture_energy = 60e3, ligament = 2.0 * std::numbers::sqrt2 * 1e-3;
-const std::string strip = R"toml(
+const std::string strip = notched_strip + R"toml(
+fracture_energy = "60 kJ/m2"
 [time]
 end = "50 us"
-[domain]
-material = "steel"
-[domain.outer]
-start = "0 0 mm"
-path = [{ to = "4 0 mm", name = "bottom" }, { to = "4 2.8 mm" }, { to = "3 3 mm" }, { to = "4 3.2 mm" }, { to = "4 8 mm" }, { to = "0 8 mm", name = "top" }, { to = "0 5.2 mm" }, { to = "1 5 mm" }, { to = "0 4.8 mm" }, { to = "0 0 mm" }]
-[cloud]
-spacing = "0.1 mm"
-pattern = "jittered"
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "perfect", yield = "500 MPa" }
-damage = { law = "johnson-cook", D1 = 0.005, D2 = 0, D3 = 0, fracture_energy = "60 kJ/m2" }
-[contact]
-deformable = true
-[initial]
-velocity_gradient = { centre = "0 4 mm", yy = "1000 1/s" }
-[boundary.bottom]
-pieces = ["bottom"]
-velocity = { y = "-4 m/s" }
-[boundary.top]
-pieces = ["top"]
-velocity = { y = "4 m/s" }
-[method]
-rereference = { every = 50, strain = 0.2 }
-[adapt]
-resample = true
-separate = true
-cracks = true
 [output]
 history_every = "0.5 us"
 pictures = []
@@ -111,11 +83,6 @@ path = [{ to = "4 0 mm", name = "bottom" }, { to = "4 0.45 mm" }, { to = "3.6 0.
 [cloud]
 spacing = "0.08 mm"
 pattern = "hexagonal"
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "perfect", yield = "500 MPa" }
-damage = { law = "johnson-cook", D1 = 0.005, D2 = 0, D3 = 0, fracture_energy = "15 kJ/m2", residual_strength = 0.3 }
 [contact]
 deformable = true
 friction = { law = "coulomb", coefficient = 0.2 }
@@ -128,14 +95,10 @@ velocity = { x = { value = "8 m/s", ramp = "10 us", smooth = true } }
 pressure = { value = "200 MPa", ramp = "10 us", smooth = true }
 [method]
 rereference = { every = 50, strain = 0.2 }
-[adapt]
-resample = true
-separate = true
-cracks = true
 [output]
 history_every = "0.2 us"
 pictures = []
-)toml";
+)toml" + cracking_steel + "fracture_energy = \"15 kJ/m2\"\nresidual_strength = 0.3\n";
 
 TEST(RunningCrack, lips_that_are_pressed_on_each_other_keep_their_friction) {
   double shear[2];
