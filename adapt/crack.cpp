@@ -1,13 +1,12 @@
 // Cracks: where matter is broken but not through the body, the cloud is opened from the boundary to a tip.
+#include "adapt/broken_matter.hpp"
 #include "adapt/cut.hpp"
 #include "adapt/resample.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -18,11 +17,10 @@ namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
 
-class Cracking {
+class Cracking : BrokenMatter {
 public:
   Cracking(const WorkingCloud& work, const Structure& structure, const SplitRules& rules)
-      : work_(work), structure_(structure), broken_(work.node().broken), rules_(rules),
-        beside_(work.size(), 0) {
+      : BrokenMatter(work, structure, rules), beside_(work.size(), 0) {
     for (const NodeIndex i : work.nodes()) {
       if (!work.on_boundary(i)) continue;
       if (face(i)) faces_.push_back(i);
@@ -110,13 +108,6 @@ private:
     }
   };
 
-  const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
-  bool broken(NodeIndex i) const { return broken_[index_of(i)] >= 1.0; }
-  /// On a face that separation has made.
-  bool face(NodeIndex i) const {
-    return work_.piece(i) == rules_.piece || work_.piece(work_.previous(i)) == rules_.piece;
-  }
-
   /// All boundary nodes beside i are among `own`.
   bool beside_only(NodeIndex i, const std::array<NodeIndex, 3>& own) const {
     const auto around = structure_.neighbours(i);
@@ -141,13 +132,6 @@ private:
                         [&](NodeIndex k) { return (at(k) - at(i)).squaredNorm() < apart * apart; });
   }
 
-  bool shaves(NodeIndex from, NodeIndex to) const {
-    const double steepest = std::cos(rules_.least_angle * std::numbers::pi / 180.0);
-    const Vec2 along = (at(to) - at(from)).normalized();
-    return std::max(along.dot((at(work_.next(from)) - at(from)).normalized()),
-                    along.dot((at(work_.previous(from)) - at(from)).normalized())) > steepest;
-  }
-
   /// The cheapest way from a deep node to where a crack may begin, from there on; empty when it is crooked.
   Path to_mouth(NodeIndex deepest) const {
     const Search search = spread({deepest}, [](NodeIndex) { return true; });
@@ -156,8 +140,8 @@ private:
     for (const NodeIndex i : work_.nodes()) {
       if (!may_begin(i)) continue;
       for (const NodeIndex k : structure_.neighbours(i)) {
-        if (work_.on_boundary(k) || search.cost[index_of(k)] == far || shaves(i, k)) continue;
-        const double cost = search.cost[index_of(k)] + step_cost(i, k);
+        if (work_.on_boundary(k) || search.cost[index_of(k)] == far || shaves(work_, i, k, rules_)) continue;
+        const double cost = search.cost[index_of(k)] + cost_of(i, k);
         if (cost >= least) continue;
         least = cost;
         mouth = i;
@@ -176,10 +160,6 @@ private:
     return path;
   }
 
-  double step_cost(NodeIndex i, NodeIndex k) const {
-    return (at(k) - at(i)).norm() * 2.0 / (broken_[index_of(i)] + broken_[index_of(k)]);
-  }
-
   /// Dijkstra's algorithm over broken interior nodes that `may` be entered.
   template<class May> Search spread(const std::vector<NodeIndex>& from, const May& may) const {
     Search search{Field(work_.size(), far), Field(work_.size(), far),
@@ -196,7 +176,7 @@ private:
       if (known > search.cost[index_of(i)]) continue;
       for (const NodeIndex k : structure_.neighbours(i)) {
         if (!broken(k) || work_.on_boundary(k) || !may(k)) continue;
-        const double reached = known + step_cost(i, k);
+        const double reached = known + cost_of(i, k);
         if (reached >= search.cost[index_of(k)]) continue;
         search.cost[index_of(k)] = reached;
         search.length[index_of(k)] = search.length[index_of(i)] + (at(k) - at(i)).norm();
@@ -207,25 +187,9 @@ private:
     return search;
   }
 
-  const WorkingCloud& work_;
-  const Structure& structure_;
-  const Field& broken_;
-  const SplitRules& rules_;
   IndexedVector<NodeIndex, char> beside_; ///< has a neighbour on the boundary
   std::vector<NodeIndex> faces_;          ///< nodes of faces that separation has made
 };
-
-bool open_to_tip(WorkingCloud& work, Structure& structure, const Path& path, const SplitRules& rules,
-                 PassReport& report) {
-  const std::array paths{path};
-  if (!open_cut(work, structure, paths, rules, rules.smoothed) &&
-      !open_cut(work, structure, paths, rules, 0.0)) {
-    ++report.undone;
-    return false;
-  }
-  report.opened += static_cast<int>(path.size()) - 1;
-  return true;
-}
 
 } // namespace
 
@@ -235,12 +199,12 @@ void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rul
     if (work.on_boundary(i) && work.is_tip(i)) tips.push_back(i);
   for (const NodeIndex tip : tips)
     if (const Path path = Cracking(work, structure, rules).advance(tip);
-        !path.empty() && open_to_tip(work, structure, path, rules, report))
+        !path.empty() && open_cut(work, structure, std::array{path}, rules, report))
       ++report.advances;
   constexpr int most = 8; // new cracks in one pass
   for (int k = 0; k < most; ++k) {
     const Path path = Cracking(work, structure, rules).begin();
-    if (path.empty() || !open_to_tip(work, structure, path, rules, report)) return;
+    if (path.empty() || !open_cut(work, structure, std::array{path}, rules, report)) return;
     ++report.cracks;
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace cnem::adapt {
@@ -95,6 +96,27 @@ bool open_cut(WorkingCloud& work, Structure& structure, std::span<const Path> pa
   work = std::move(opened);
   structure = std::move(*after);
   return true;
+}
+
+bool open_cut(WorkingCloud& work, Structure& structure, std::span<const Path> paths, const SplitRules& rules,
+              PassReport& report) {
+  if (!open_cut(work, structure, paths, rules, rules.smoothed) &&
+      !open_cut(work, structure, paths, rules, 0.0)) {
+    ++report.undone;
+    return false;
+  }
+  for (const Path& path : paths) report.opened += static_cast<int>(path.size()) - 1;
+  return true;
+}
+
+bool shaves(const WorkingCloud& work, NodeIndex from, NodeIndex to, const SplitRules& rules) {
+  const double steepest = std::cos(rules.least_angle * std::numbers::pi / 180.0);
+  const auto cosine = [&](NodeIndex beside) {
+    const auto& at = work.cloud().position;
+    const Vec2 a = at[to] - at[from], b = at[beside] - at[from];
+    return a.dot(b) / (a.norm() * b.norm());
+  };
+  return std::max(cosine(work.next(from)), cosine(work.previous(from))) > steepest;
 }
 
 } // namespace cnem::adapt

@@ -1,5 +1,5 @@
 #pragma once
-// What cuts through broken matter have in common, whoever finds them: split, cut_films.
+// What cuts through broken matter have in common, whoever finds them: split, open_cracks, cut_films.
 #include "adapt/resample.hpp"
 
 #include <span>
@@ -24,7 +24,10 @@ private:
   std::vector<int> nodes_;                      ///< [loop]
 };
 
-/// Two boundary nodes and the interior ones between them.
+/// The edge leaves a boundary node nearly along one of its facets: by less than rules.least_angle.
+bool shaves(const WorkingCloud& work, NodeIndex from, NodeIndex to, const SplitRules& rules);
+
+/// Two boundary nodes and the interior ones between them; of a crack, the last is its tip.
 using Path = std::vector<NodeIndex>;
 
 /// Opens the cloud along paths that go on from mate to mate. Inner nodes may be moved by `smoothed` spacings
@@ -32,5 +35,9 @@ using Path = std::vector<NodeIndex>;
 /// would have no valid structure: then nothing has changed.
 bool open_cut(WorkingCloud& work, Structure& structure, std::span<const Path> paths, const SplitRules& rules,
               double smoothed);
+/// The same, straightened by rules.smoothed or, where that has no valid structure, not at all; told in the
+/// report.
+bool open_cut(WorkingCloud& work, Structure& structure, std::span<const Path> paths, const SplitRules& rules,
+              PassReport& report);
 
 } // namespace cnem::adapt

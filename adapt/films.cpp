@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -77,22 +76,11 @@ NodeIndex insert_foot(WorkingCloud& work, Structure& structure, const Waist& wai
   return made;
 }
 
-/// The cut leaves the boundary at one of its ends nearly along it: the two faces would cross it.
-bool shaves(const WorkingCloud& work, NodeIndex from, NodeIndex to, double steepest) {
-  const auto direction = [&](NodeIndex a, NodeIndex b) {
-    return Vec2((work.cloud().position[b] - work.cloud().position[a]).normalized());
-  };
-  for (const auto& [one, other] : {std::pair(from, to), std::pair(to, from)})
-    for (const NodeIndex beside : {work.next(one), work.previous(one)})
-      if (direction(one, other).dot(direction(one, beside)) > steepest) return true;
-  return false;
-}
-
 bool cut_at(WorkingCloud& work, Structure& structure, const Waist& waist, const SplitRules& rules) {
   WorkingCloud opened = work;
   Structure after = structure;
   const NodeIndex to = waist.place > 0.0 ? insert_foot(opened, after, waist) : waist.start;
-  if (!exists(to) || shaves(opened, waist.node, to, std::cos(rules.least_angle * std::numbers::pi / 180.0)) ||
+  if (!exists(to) || shaves(opened, waist.node, to, rules) || shaves(opened, to, waist.node, rules) ||
       !open_cut(opened, after, std::array{Path{waist.node, to}}, rules, 0.0))
     return false;
   work = std::move(opened);

@@ -1,12 +1,11 @@
 // Separation: where broken matter goes through the body, the cloud is opened along Delaunay edges.
+#include "adapt/broken_matter.hpp"
 #include "adapt/cut.hpp"
 #include "adapt/resample.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <queue>
 #include <vector>
@@ -15,13 +14,10 @@ namespace cnem::adapt {
 
 namespace {
 
-double cosine(const Vec2& a, const Vec2& b) { return a.dot(b) / (a.norm() * b.norm()); }
-
-class Cutting {
+class Cutting : BrokenMatter {
 public:
   Cutting(const WorkingCloud& work, const Structure& structure, const SplitRules& rules)
-      : work_(work), structure_(structure), broken_(work.node().broken), rules_(rules), loops_(work),
-        steepest_(std::cos(rules.least_angle * std::numbers::pi / 180.0)) {
+      : BrokenMatter(work, structure, rules), loops_(work) {
     number_chains();
   }
 
@@ -48,8 +44,6 @@ public:
   }
 
 private:
-  const Vec2& at(NodeIndex i) const { return work_.cloud().position[i]; }
-  bool broken(NodeIndex i) const { return broken_[index_of(i)] >= 1.0; }
   bool may_end(NodeIndex i) const { return work_.on_boundary(i) && !work_.has_mates(i) && broken(i); }
   /// Whether a cut can go on at the mate of a boundary node.
   bool crosses(NodeIndex i) const { return exists(work_.mate(i)) && broken(work_.mate(i)); }
@@ -71,13 +65,6 @@ private:
     longest_ = as<std::int32_t>(std::max_element(length.begin(), length.end()) - length.begin());
   }
 
-  /// The edge leaves a boundary node nearly along one of its facets.
-  bool shaves(NodeIndex from, NodeIndex to) const {
-    const Vec2 along = at(to) - at(from);
-    return std::max(cosine(along, at(work_.next(from)) - at(from)),
-                    cosine(along, at(work_.previous(from)) - at(from))) > steepest_;
-  }
-
   /// Cuts run inside, not in the layer of nodes beside the boundary.
   double detour(NodeIndex i) const {
     constexpr double beside = 4.0;
@@ -90,8 +77,7 @@ private:
   /// What a cut costs that leaves the lip of a crack elsewhere than at its tip, m.
   double lip(NodeIndex i) const {
     if (!rules_.cracks || work_.is_tip(i)) return 0.0;
-    const bool face = work_.piece(i) == rules_.piece || work_.piece(work_.previous(i)) == rules_.piece;
-    return face ? rules_.from_lip * work_.node().size[index_of(i)] / broken_[index_of(i)] : 0.0;
+    return face(i) ? rules_.from_lip * work_.node().size[index_of(i)] / broken_[index_of(i)] : 0.0;
   }
 
   /// The cheapest cut from a boundary node to another chain, and its cost (Dijkstra's algorithm).
@@ -127,17 +113,15 @@ private:
       }
       for (const NodeIndex k : structure_.neighbours(i)) {
         if (!broken(k)) continue;
-        if (work_.on_boundary(i) && (work_.on_boundary(k) || shaves(i, k))) continue;
+        if (work_.on_boundary(i) && (work_.on_boundary(k) || shaves(work_, i, k, rules_))) continue;
         if (work_.on_boundary(k) &&
-            (!(crosses(k) || may_end(k)) || chain_[k] == chain_[from] || shaves(k, i)))
+            (!(crosses(k) || may_end(k)) || chain_[k] == chain_[from] || shaves(work_, k, i, rules_)))
           continue;
-        const double step = (at(k) - at(i)).norm();
         const double reached = known + (work_.on_boundary(k) ? lip(k) : 0.0) +
-                               step * (work_.on_boundary(k) ? 1.0 : detour(k)) * 2.0 /
-                                   (broken_[index_of(i)] + broken_[index_of(k)]);
+                               cost_of(i, k, work_.on_boundary(k) ? 1.0 : detour(k));
         if (reached >= cost[index_of(k)]) continue;
         cost[index_of(k)] = reached;
-        length[index_of(k)] = length[index_of(i)] + step;
+        length[index_of(k)] = length[index_of(i)] + (at(k) - at(i)).norm();
         came[k] = i;
         front.emplace(reached, k);
       }
@@ -145,12 +129,7 @@ private:
     return {{}, far};
   }
 
-  const WorkingCloud& work_;
-  const Structure& structure_;
-  const Field& broken_;
-  const SplitRules& rules_;
   BoundaryLoops loops_;
-  double steepest_;
   IndexedVector<NodeIndex, std::int32_t> chain_; ///< −1: none
   std::int32_t longest_ = -1;
 };
@@ -162,13 +141,8 @@ void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, Pa
   for (int k = 0; k < most; ++k) {
     const std::vector<Path> paths = Cutting(work, structure, rules).best();
     if (paths.empty()) return;
-    if (!open_cut(work, structure, paths, rules, rules.smoothed) &&
-        !open_cut(work, structure, paths, rules, 0.0)) {
-      ++report.undone;
-      return;
-    }
+    if (!open_cut(work, structure, paths, rules, report)) return;
     ++report.cuts;
-    for (const Path& path : paths) report.opened += static_cast<int>(path.size()) - 1;
   }
 }
 
