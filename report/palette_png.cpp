@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace cnem::report {
 namespace {
@@ -25,12 +27,17 @@ std::uint32_t packed(const Colour& colour, double factor) {
   return pixel;
 }
 
-// Looks up colours of a palette.
+// Looks up colours of a palette, which is searched outwards from the pixel's green.
 class Palette {
 public:
-  explicit Palette(std::span<const std::uint32_t> colours) : size_(colours.size()) {
-    for (std::size_t k = 0; k < size_; ++k)
-      for (int c = 0; c < 3; ++c) channel_[index_of(c)][k] = channel(colours[k], c);
+  explicit Palette(std::span<const std::uint32_t> colours) {
+    for (std::size_t k = 0; k < colours.size(); ++k)
+      entry_.push_back({channel(colours[k], 0), channel(colours[k], 1), channel(colours[k], 2),
+                        static_cast<std::uint8_t>(k)});
+    std::stable_sort(entry_.begin(), entry_.end(),
+                     [](const Entry& a, const Entry& b) { return a.green < b.green; });
+    for (const Entry& entry : entry_) ++first_[index_of(entry.green) + 1];
+    for (std::size_t green = 0; green < 256; ++green) first_[green + 1] += first_[green];
   }
 
   std::uint8_t nearest(std::uint32_t pixel) {
@@ -40,25 +47,31 @@ public:
   }
 
 private:
+  struct Entry {
+    int red, green, blue;
+    std::uint8_t index; ///< in the palette
+  };
   struct Known {
     std::uint32_t pixel = 0xFFFFFFFF; // no pixel
     std::uint8_t index = 0;
   };
 
   std::uint8_t search(std::uint32_t pixel) const {
-    std::array<int, 256> distance;
-    for (std::size_t k = 0; k < size_; ++k) {
-      const int red = channel_[0][k] - channel(pixel, 0), green = channel_[1][k] - channel(pixel, 1),
-                blue = channel_[2][k] - channel(pixel, 2);
-      distance[k] = red * red + green * green + blue * blue;
-    }
-    return static_cast<std::uint8_t>(
-        std::min_element(distance.begin(), distance.begin() + static_cast<std::ptrdiff_t>(size_)) -
-        distance.begin());
+    const int red = channel(pixel, 0), green = channel(pixel, 1), blue = channel(pixel, 2);
+    std::pair<int, std::uint8_t> best{std::numeric_limits<int>::max(), 0}; // distance, the first of equals
+    const auto apart = [&](const Entry& e) { return (e.green - green) * (e.green - green); };
+    const auto look = [&](const Entry& e) {
+      best = std::min(
+          best, {(e.red - red) * (e.red - red) + apart(e) + (e.blue - blue) * (e.blue - blue), e.index});
+    };
+    const auto middle = entry_.begin() + first_[index_of(green)];
+    for (auto e = middle; e != entry_.end() && apart(*e) <= best.first; ++e) look(*e);
+    for (auto e = middle; e != entry_.begin() && apart(*(e - 1)) <= best.first; --e) look(*(e - 1));
+    return best.second;
   }
 
-  std::size_t size_;
-  std::array<std::array<int, 256>, 3> channel_;
+  std::vector<Entry> entry_;                ///< by green
+  std::array<std::ptrdiff_t, 257> first_{}; ///< [green] the first entry with as much or more
   std::vector<Known> known_ = std::vector<Known>(std::size_t{1} << 14); // by the pixel's hash
 };
 

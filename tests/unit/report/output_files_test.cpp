@@ -129,6 +129,27 @@ TEST(Palette, every_colour_of_the_drawing_is_its_own_nearest) {
   }
 }
 
+TEST(Palette, any_pixel_has_the_nearest_colour_and_the_first_of_equals) {
+  const std::vector<std::uint32_t> palette = drawing_palette(ColourMap::heat, 0.4);
+  const auto distance = [](std::uint32_t a, std::uint32_t b) {
+    int sum = 0;
+    for (const int shift : {0, 8, 16}) {
+      const int d = static_cast<int>(a >> shift & 0xFF) - static_cast<int>(b >> shift & 0xFF);
+      sum += d * d;
+    }
+    return sum;
+  };
+  std::uint32_t pixel = 1;
+  for (int k = 0; k < 20000; ++k) {
+    pixel = (pixel * 1664525U + 1013904223U) & 0xFFFFFFU;
+    const auto first =
+        std::min_element(palette.begin(), palette.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return distance(a, pixel) < distance(b, pixel);
+        });
+    EXPECT_EQ(nearest_colours({&pixel, 1, 1, 1}, palette)[0], first - palette.begin()) << pixel;
+  }
+}
+
 TEST(Palette, the_colour_map_is_met_within_what_can_be_seen) {
   for (const ColourMap map : {ColourMap::strain, ColourMap::heat, ColourMap::diverging}) {
     const std::vector<std::uint32_t> palette = drawing_palette(map, 0.4);
