@@ -20,7 +20,7 @@ constexpr std::size_t shaded_colours = 40, greys = 31; // and one for what is in
 
 constexpr int channel(std::uint32_t pixel, int k) { return static_cast<int>(pixel >> (16 - 8 * k) & 0xFFU); }
 
-std::uint32_t packed(const Colour& colour, double factor) {
+std::uint32_t darkened(const Colour& colour, double factor) {
   std::uint32_t pixel = 0;
   for (const double c : {colour.red, colour.green, colour.blue})
     pixel = pixel << 8 | static_cast<std::uint32_t>(std::lround(255.0 * factor * c));
@@ -77,17 +77,19 @@ private:
 
 } // namespace
 
+std::uint32_t packed(const Colour& colour) { return darkened(colour, 1.0); }
+
 std::vector<std::uint32_t> drawing_palette(ColourMap map, double shade) {
   std::vector<std::uint32_t> palette;
   const auto ramp = [&](std::size_t count, auto&& colour) {
     for (std::size_t k = 0; k < count; ++k)
       palette.push_back(colour(static_cast<double>(k) / static_cast<double>(count - 1)));
   };
-  ramp(drawing_levels, [&](double s) { return packed(map_colour(map, s), 1.0); });
+  ramp(drawing_levels, [&](double s) { return packed(map_colour(map, s)); });
   for (const double part : {0.5, 1.0}) // lines cover some pixels by halves
-    ramp(shaded_colours, [&](double s) { return packed(map_colour(map, s), 1.0 - part * shade); });
-  ramp(greys, [](double s) { return packed({1.0, 1.0, 1.0}, s); });
-  palette.push_back(packed(invalid_colour, 1.0));
+    ramp(shaded_colours, [&](double s) { return darkened(map_colour(map, s), 1.0 - part * shade); });
+  ramp(greys, [](double s) { return darkened({1.0, 1.0, 1.0}, s); });
+  palette.push_back(packed(invalid_colour));
   return palette;
 }
 

@@ -23,6 +23,9 @@ struct PixelView {
 /// Colours of a drawing that are its colour map's, at equal distances from 0 to 1.
 inline constexpr int drawing_levels = 144;
 
+/// 0x00RRGGBB.
+std::uint32_t packed(const Colour& colour);
+
 /// What a picture of a field is drawn with: `drawing_levels` of the colour map, fewer darkened by `shade`
 /// (lines between cells) and by half of it, greys from black to white, and the colour of invalid values. 256
 /// colours as 0x00RRGGBB.

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "report/cell_raster.hpp"
 #include "report/palette_png.hpp"
 #include "report/picture_parts.hpp"
 #include "results/si_format.hpp"
@@ -166,7 +167,10 @@ std::string draw_png(const Picture& picture) {
     cairo_fill(cr);
   }
   const bool lines = picture.edges.value_or(cell_size(layout, *picture.cells, vertices) > 7.0 * unit);
-  paint_cells(cr, layout, picture, vertices, range, lines ? 0.7 * unit : 0.0);
+  CellRasters own;
+  CellRasters& rasters = picture.rasters ? *picture.rasters : own;
+  paint_cells(surface, picture, *rasters.of(layout, *picture.cells, vertices, lines ? 0.7 * unit : 0.0),
+              range);
   for (const PictureTool& tool : picture.tools) {
     trace(cr, layout, tool);
     cairo_set_source_rgb(cr, 0.30, 0.34, 0.40);

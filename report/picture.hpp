@@ -23,6 +23,8 @@ struct PictureTool {
   std::string name;
 };
 
+class CellRasters;
+
 struct Picture {
   const CellGeometry<2>* cells = nullptr;
   std::array<std::span<const double>, 2> position; ///< [component][node] m, present positions
@@ -32,6 +34,7 @@ struct Picture {
   double unit_factor = 1.0;                        ///< value in SI = factor × value in `unit` (MPa: 1e6)
   ColourMap map = ColourMap::strain;
   std::optional<ColourRange> range; ///< SI; by default that of the values
+  CellRasters* rasters = nullptr;   ///< shared by pictures of the same cells and positions; null: by none
   std::vector<PictureTool> tools;
   std::optional<PictureWindow> window; ///< part shown; by default the whole body with a margin
   std::optional<bool> edges; ///< outlines of cells; by default where cells are large enough to be seen
@@ -53,6 +56,7 @@ struct PictureLayout {
   double scale = 1.0; ///< px per m
   Vec2 origin{0, 0};  ///< m, at the lower left corner of the plot
 
+  bool operator==(const PictureLayout&) const = default;
   Vec2 pixel(const Vec2& x) const {
     return {plot_left + (x.x() - origin.x()) * scale, plot_top + plot_height - (x.y() - origin.y()) * scale};
   }

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "report/cell_raster.hpp"
 #include "report/palette_png.hpp"
 #include "results/si_format.hpp"
 
@@ -18,89 +19,6 @@ void select_font(cairo_t* cr, double size, bool bold) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr, size);
-}
-
-// What can be seen of the plot, with a margin for the width of lines.
-struct View {
-  Vec2 low, high;
-
-  explicit View(const PictureLayout& layout)
-      : low(layout.plot_left - 4, layout.plot_top - 4),
-        high(layout.plot_left + layout.plot_width + 4, layout.plot_top + layout.plot_height + 4) {}
-  bool holds(const Vec2& least, const Vec2& most) const {
-    return (least.array() <= high.array()).all() && (most.array() >= low.array()).all() &&
-           (most - least).maxCoeff() < 1e5; // cairo works in 24.8 fixed point
-  }
-};
-
-void fill_cells(cairo_t* cr, const View& view, const std::vector<Vec2>& pixel, const Picture& picture,
-                const ColourRange& range) {
-  const CellGeometry<2>& cells = *picture.cells;
-  for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
-    const auto begin = index_of(cells.begin[c]), end = index_of(cells.begin[c + 1]);
-    if (begin == end) continue;
-    Vec2 low = pixel[index_of(cells.index[begin])], high = low;
-    bool finite = true;
-    for (std::size_t k = begin; k < end; ++k) {
-      const Vec2& p = pixel[index_of(cells.index[k])];
-      finite = finite && p.allFinite();
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    if (!finite || !view.holds(low, high)) continue;
-    cairo_new_path(cr);
-    for (std::size_t k = begin; k < end; ++k) {
-      const Vec2& p = pixel[index_of(cells.index[k])];
-      cairo_line_to(cr, p.x(), p.y());
-    }
-    cairo_close_path(cr);
-    const double s = (picture.value[c] - range.low) / (range.high - range.low), last = drawing_levels - 1;
-    const Colour colour = map_colour(picture.map, std::round(s * last) / last);
-    cairo_set_source_rgb(cr, colour.red, colour.green, colour.blue);
-    cairo_fill(cr);
-  }
-}
-
-// Edges of cells as pairs of vertices: those between two cells, and those at the rim of the body.
-struct CellEdges {
-  std::vector<std::array<std::int32_t, 2>> inner, rim;
-};
-
-CellEdges edges_of(const CellGeometry<2>& cells) {
-  std::vector<std::int32_t> begin(cells.vertex.size() + 1, 0);
-  const auto for_edges = [&](auto&& use) {
-    for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c)
-      for (auto b = cells.begin[c], e = cells.begin[c + 1], k = b; k < e; ++k)
-        use(cells.index[index_of(k)], cells.index[index_of(k + 1 < e ? k + 1 : b)]);
-  };
-  for_edges([&](std::int32_t from, std::int32_t) { ++begin[index_of(from) + 1]; });
-  for (std::size_t v = 0; v + 1 < begin.size(); ++v) begin[v + 1] += begin[v];
-  std::vector<std::int32_t> end(begin.begin(), begin.end() - 1), next(cells.index.size());
-  for_edges([&](std::int32_t from, std::int32_t to) { next[index_of(end[index_of(from)]++)] = to; });
-  CellEdges edges;
-  for_edges([&](std::int32_t from, std::int32_t to) {
-    const auto back = next.begin() + begin[index_of(to)], last = next.begin() + end[index_of(to)];
-    if (std::find(back, last, from) == last)
-      edges.rim.push_back({from, to});
-    else if (from < to)
-      edges.inner.push_back({from, to});
-  });
-  return edges;
-}
-
-void stroke_edges(cairo_t* cr, const View& view, const std::vector<Vec2>& pixel,
-                  const std::vector<std::array<std::int32_t, 2>>& edges) {
-  constexpr int most = 300; // cairo takes more than twice the time for all edges in one path
-  int count = 0;
-  cairo_new_path(cr);
-  for (const auto& [from, to] : edges) {
-    const Vec2 &a = pixel[index_of(from)], &b = pixel[index_of(to)];
-    if (!a.allFinite() || !b.allFinite() || !view.holds(a.cwiseMin(b), a.cwiseMax(b))) continue;
-    cairo_move_to(cr, a.x(), a.y());
-    cairo_line_to(cr, b.x(), b.y());
-    if (++count % most == 0) cairo_stroke(cr);
-  }
-  cairo_stroke(cr);
 }
 
 } // namespace
@@ -129,27 +47,43 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   cairo_new_path(cr); // showing text leaves a current point behind
 }
 
-void paint_cells(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
-                 const std::vector<Vec2>& vertices, const ColourRange& range, double line) {
-  std::vector<Vec2> pixel(vertices.size());
-  for (std::size_t v = 0; v < vertices.size(); ++v) pixel[v] = layout.pixel(vertices[v]);
-  const View view(layout);
-  const CellEdges edges = edges_of(*picture.cells);
-  // Without antialiasing neighbouring cells meet without seams, and are filled in a fraction of the time.
-  cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
-  fill_cells(cr, view, pixel, picture, range);
-  cairo_set_antialias(cr, CAIRO_ANTIALIAS_FAST);
-  if (line > 0.0) {
-    cairo_set_source_rgba(cr, 0.0, 0.0, 0.0, cell_line_shade);
-    cairo_set_line_width(cr, line);
-    stroke_edges(cr, view, pixel, edges.inner);
+namespace {
+
+/// A colour over a pixel of which it covers a part, of 255.
+std::uint32_t covered(std::uint32_t pixel, std::uint32_t colour, std::uint32_t part) {
+  std::uint32_t result = 0;
+  for (const int shift : {16, 8, 0})
+    result |= (((pixel >> shift & 0xFFU) * (255U - part) + (colour >> shift & 0xFFU) * part + 127U) / 255U)
+              << shift;
+  return result;
+}
+
+} // namespace
+
+void paint_cells(const Surface& surface, const Picture& picture, const CellRaster& raster,
+                 const ColourRange& range) {
+  std::vector<std::uint32_t> colour(picture.value.size());
+  for (std::size_t c = 0; c < colour.size(); ++c) {
+    const double s = (picture.value[c] - range.low) / (range.high - range.low), last = drawing_levels - 1;
+    colour[c] = packed(map_colour(picture.map, std::round(s * last) / last));
   }
-  cairo_set_source_rgb(cr, 0.12, 0.13, 0.16);
-  cairo_set_line_width(cr, layout.width / 700.0);
-  cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-  stroke_edges(cr, view, pixel, edges.rim);
-  cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
-  cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
+  const std::uint32_t rim = packed({0.12, 0.13, 0.16});
+  cairo_surface_flush(surface.get());
+  const int width = cairo_image_surface_get_width(surface.get()),
+            height = cairo_image_surface_get_height(surface.get());
+  std::size_t k = 0;
+  for (int y = 0; y < height; ++y) {
+    auto* row = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface.get()) +
+                                                 y * cairo_image_surface_get_stride(surface.get()));
+    for (int x = 0; x < width; ++x, ++k) {
+      if (raster.cell[k] >= 0) row[x] = colour[index_of(raster.cell[k])];
+      if (!raster.lines.empty() && raster.lines[k] > 0)
+        row[x] =
+            covered(row[x], 0, static_cast<std::uint32_t>(std::lround(cell_line_shade * raster.lines[k])));
+      if (raster.rim[k] > 0) row[x] = covered(row[x], rim, raster.rim[k]);
+    }
+  }
+  cairo_surface_mark_dirty(surface.get());
 }
 
 void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,

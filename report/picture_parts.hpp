@@ -26,10 +26,11 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
 /// How much darker lines between cells are than the cells.
 inline constexpr double cell_line_shade = 0.4;
 
-/// Cells filled with the colours of their values, seamless, lines of `line` px between them unless it is 0,
-/// and a thin dark rim around the body.
-void paint_cells(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
-                 const std::vector<Vec2>& vertices, const ColourRange& range, double line);
+struct CellRaster;
+/// Cells filled with the colours of their values, seamless, the lines between them, and a thin dark rim
+/// around the body.
+void paint_cells(const Surface& surface, const Picture& picture, const CellRaster& raster,
+                 const ColourRange& range);
 
 // `unit` is the size of a design pixel, `size` that of the font, both in px.
 void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,

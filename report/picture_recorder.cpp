@@ -1,5 +1,6 @@
 #include "report/picture_recorder.hpp"
 
+#include "report/cell_raster.hpp"
 #include "results/fields.hpp"
 
 #include <cmath>
@@ -20,7 +21,9 @@ struct PictureRecorder::Kept {
   CellGeometry<2> cells;
   Fields<2> position;
   std::deque<Field> values;
+  CellRasters rasters;
 
+  Kept(CellGeometry<2> of_cells, Fields<2> at) : cells(std::move(of_cells)), position(std::move(at)) {}
   std::size_t bytes() const {
     return sizeof(double) * (4 * cells.vertex.size() + 2 * cells.vertex_weight.size() +
                              (2 + values.size()) * position[0].size());
@@ -32,6 +35,7 @@ Picture PictureRecorder::picture_of(const results::Snapshot<2>& shot, const std:
   const FieldInfo<2>& info = field_info<2>(field);
   Picture picture;
   picture.cells = &kept.cells;
+  picture.rasters = &kept.rasters;
   picture.position = spans(kept.position);
   picture.value = kept.values.emplace_back(std::move(values));
   show_field(picture, info.shown);
@@ -60,7 +64,7 @@ std::string PictureRecorder::note_of(double time, const std::string& field) cons
 }
 
 void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<2>& shot) {
-  const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, shot.state.node.position, {}});
+  const auto kept = std::make_shared<Kept>(shot.approximation.cells, shot.state.node.position);
   Fields<2>& drawn = kept->position;
   if (shot.displacement_scale != 1.0)
     for (std::size_t k = 0; k < 2; ++k)
@@ -85,7 +89,7 @@ void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<
 std::string PictureRecorder::record_place(results::FileQueue& files, const results::Snapshot<2>& shot,
                                           const Vec2& centre, double radius) {
   const NodeState<2>& node = shot.state.node;
-  const auto kept = std::make_shared<Kept>(Kept{shot.approximation.cells, node.position, {}});
+  const auto kept = std::make_shared<Kept>(shot.approximation.cells, node.position);
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t i = 0; i < node.size(); ++i)
       if (!std::isfinite(kept->position[k][i])) kept->position[k][i] = node.reference[k][i];

@@ -1,5 +1,6 @@
 // What runs write: files of the queue, pictures and their palettes.
 #include "core/error.hpp"
+#include "report/cell_raster.hpp"
 #include "report/palette_png.hpp"
 #include "report/picture.hpp"
 #include "results/file_queue.hpp"
@@ -246,6 +247,30 @@ TEST_F(DrawnCells, cells_of_one_colour_stay_apart) {
   EXPECT_GT(green(at(10, 10)), 0xE0U);
   EXPECT_NE(at(30, 10), at(10, 10));
   EXPECT_EQ(at(30, 10), at(20, 28));
+}
+
+TEST_F(DrawnCells, pictures_of_several_fields_share_what_cells_cover) {
+  const std::vector<double> other{1.0, 0.5, 0.0};
+  std::array<std::string, 2> alone, together;
+  CellRasters rasters;
+  for (std::string& png : alone) {
+    png = draw_png(picture);
+    picture.value = other;
+  }
+  picture.value = value;
+  picture.rasters = &rasters;
+  for (std::string& png : together) {
+    png = draw_png(picture);
+    picture.value = other;
+  }
+  EXPECT_NE(alone[0], alone[1]);
+  EXPECT_EQ(together, alone);
+  const auto raster = rasters.of(layout, cells, cells.vertex, 0.0);
+  EXPECT_EQ(rasters.of(layout, cells, cells.vertex, 0.0), raster);
+  EXPECT_NE(rasters.of(layout, cells, cells.vertex, 1.0), raster);
+  PictureLayout shifted = layout;
+  shifted.origin.x() += 1.0;
+  EXPECT_NE(rasters.of(shifted, cells, cells.vertex, 0.0), raster);
 }
 
 TEST_F(DrawnCells, cells_that_are_not_finite_are_left_out) {
