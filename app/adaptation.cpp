@@ -152,8 +152,9 @@ void Adaptation::estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<
   error_norm_ = estimate.norm;
 }
 
-void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
+double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   adapt::PassReport report;
+  double changed = 0.0;
   Cloud<2> cloud = solver.present_cloud();
   part_faces(cloud, solver.conditions().ties,
              input_->adapt.separate ? Field(solver.state().point.softening) : Field());
@@ -181,6 +182,10 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
     wanted_ = std::move(wanted);
     follow_nodes(change, solver.state().time);
     follow(change);
+    const auto none = [](NodeIndex i) { return !exists(i); };
+    const auto came = std::count_if(change.old_of.begin(), change.old_of.end(), none),
+               went = std::count_if(change.new_of.begin(), change.new_of.end(), none);
+    changed = static_cast<double>(came + went) / static_cast<double>(change.old_of.size());
   } catch (const GeometryError&) {
     size_ = size_before;
     throw;
@@ -188,6 +193,7 @@ void Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   ++passes_;
   total_ += report;
   log_.record(solver.state(), report, before, results::audit(solver));
+  return changed;
 }
 
 void Adaptation::balance(ExplicitSolver<2>& solver) {

@@ -32,8 +32,9 @@ public:
   void fit_to_tools(ExplicitSolver<2>& solver, const Follow& follow);
 
   /// Estimates, marks, opens the cloud where it is broken if the case says so, resamples it and makes it the
-  /// reference. Throws GeometryError with the solver left as it was, IoError.
-  void renew(ExplicitSolver<2>& solver, const Follow& follow);
+  /// reference. Returns the share of the nodes that came or went. Throws GeometryError with the solver left
+  /// as it was, IoError.
+  double renew(ExplicitSolver<2>& solver, const Follow& follow);
 
   /// Without adaptation: makes the present configuration the reference, and lets neighbours exchange mass
   /// where it has come apart from volume, with methods whose cells are those of the cloud. Throws

@@ -22,11 +22,10 @@ void PlaneFeatures::resume(const std::filesystem::path& folder, double time) {
   pictures_->truncate(time);
 }
 
-void PlaneFeatures::renew(ExplicitSolver<2>& solver, const Adaptation::Follow& follow) {
-  if (adaptation_.active())
-    adaptation_.renew(solver, follow);
-  else
-    adaptation_.balance(solver);
+double PlaneFeatures::renew(ExplicitSolver<2>& solver, const Adaptation::Follow& follow) {
+  if (adaptation_.active()) return adaptation_.renew(solver, follow);
+  adaptation_.balance(solver);
+  return 1.0;
 }
 
 results::Snapshot<2> PlaneFeatures::snapshot(const ExplicitSolver<2>& solver) {

@@ -29,8 +29,9 @@ public:
   void resume(const std::filesystem::path& folder, double time);
   void archive(Archive& archive) { adaptation_.archive(archive); }
 
-  /// Makes a new reference. Throws GeometryError with the solver left as it was, IoError.
-  void renew(ExplicitSolver<2>& solver, const Adaptation::Follow& follow);
+  /// Makes a new reference. Returns the share of the nodes that came or went, 1 without adaptation. Throws
+  /// GeometryError with the solver left as it was, IoError.
+  double renew(ExplicitSolver<2>& solver, const Adaptation::Follow& follow);
 
   /// The state with all that is known of it, good until the next one.
   results::Snapshot<2> snapshot(const ExplicitSolver<2>& solver);

@@ -47,8 +47,8 @@ Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options)
       fields_due_(every(input.output.fields_every, input.time.end,
                         Schedule::at({0.0, input.time.end}, input.time.end))),
       pictures_due_(Schedule::at(input.output.pictures, input.time.end)), control_(input.time),
-      renewal_(input.method), retries_(renewal_.by_strain()), features_(input, solver_),
-      checkpoints_(input.output.checkpoint) {
+      renewal_(input.method, input.adapt.quiet_every), retries_(renewal_.by_strain()),
+      features_(input, solver_), checkpoints_(input.output.checkpoint) {
   for (std::string& warning : supersonic_tools(input, solver_)) warn(std::move(warning));
 }
 template<int dim> void Simulation<dim>::check_tools() {
@@ -216,10 +216,13 @@ template<int dim> void Simulation<dim>::adapt_and_step() {
   });
 }
 template<int dim> bool Simulation<dim>::new_reference() {
+  double changed = 1.0;
   const auto prepare = [&] {
-    features_.renew(solver_, [&](const Resampling<dim>& change) { follow(change); });
+    changed = features_.renew(solver_, [&](const Resampling<dim>& change) { follow(change); });
   };
-  return renewal_.renew(solver_, prepare, retries_.strain_share());
+  if (!renewal_.renew(solver_, prepare, retries_.strain_share())) return false;
+  renewal_.rest(changed);
+  return true;
 }
 /// What looks at material points goes with them.
 template<int dim> void Simulation<dim>::follow(const Resampling<dim>& change) {

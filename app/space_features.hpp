@@ -22,7 +22,7 @@ public:
   void start(const std::filesystem::path&, ExplicitSolver<3>&, const Follow&) {}
   void resume(const std::filesystem::path&, double) {}
   void archive(Archive&) {}
-  void renew(ExplicitSolver<3>& solver, const Follow&) { solver.prepare(); }
+  double renew(ExplicitSolver<3>& solver, const Follow&) { return solver.prepare(), 1.0; }
   results::Snapshot<3> snapshot(const ExplicitSolver<3>& solver) { return results::snapshot(solver); }
   void draw(results::FileQueue&, const results::Snapshot<3>&) {}
   std::string draw_place(results::FileQueue&, const ExplicitSolver<3>&, std::size_t) { return ""; }

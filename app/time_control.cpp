@@ -117,7 +117,7 @@ template<int dim> bool ReferenceRenewal::due(const ExplicitSolver<dim>& solver, 
     break;
   }
   const std::int64_t finest = solver.sub_steps();
-  if (method_->rereference_every > 0 && steps * finest >= method_->rereference_every) return true;
+  if (interval_ > 0 && steps * finest >= interval_) return true;
   const std::int64_t look_every = share < 1.0 ? 1 : std::max<std::int64_t>(1, 5 / finest);
   return by_strain() && steps > 0 && steps % look_every == 0 &&
          solver.strain_since_reference() > share * method_->rereference_strain;
@@ -142,6 +142,12 @@ bool ReferenceRenewal::renew(const ExplicitSolver<dim>& solver, const std::funct
   }
 }
 
+void ReferenceRenewal::rest(double changed) {
+  constexpr double hardly_any = 1.0 / 200.0;
+  interval_ = changed < hardly_any ? std::max(interval_, std::min(2 * interval_, quiet_every_))
+                                   : method_->rereference_every;
+}
+
 std::string ReferenceRenewal::warning() const {
   if (postponed_ == 0) return "";
   return fmt::format(
@@ -151,6 +157,7 @@ std::string ReferenceRenewal::warning() const {
 
 void ReferenceRenewal::archive(Archive& archive) {
   archive.integer("run/reference/last", last_);
+  archive.integer("run/reference/interval", interval_);
   archive.integer("run/reference/postponed", postponed_);
   archive.text("run/reference/first_postponed", first_);
 }

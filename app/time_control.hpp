@@ -68,7 +68,9 @@ private:
 /// unless it is stretched too far to mean anything.
 class ReferenceRenewal {
 public:
-  explicit ReferenceRenewal(const input::Method& method) : method_(&method) {}
+  /// quiet_every: steps between renewals by count at most (input::Adaptation); 0: as many as the method says.
+  explicit ReferenceRenewal(const input::Method& method, int quiet_every = 0)
+      : method_(&method), quiet_every_(quiet_every), interval_(method.rereference_every) {}
 
   /// Whether a strain of the case calls for renewals; nothing could come sooner otherwise.
   bool by_strain() const;
@@ -78,12 +80,17 @@ public:
   /// solver as it is when it throws one; it is tried again after so much less the smaller the share is.
   template<int dim>
   bool renew(const ExplicitSolver<dim>& solver, const std::function<void()>& prepare, double share = 1.0);
+  /// After a renewal that changed this share of the nodes: where it was hardly any the next one by count
+  /// comes after twice as many steps.
+  void rest(double changed);
   /// What to tell about it; empty when every renewal succeeded.
   std::string warning() const;
   void archive(Archive& archive);
 
 private:
   const input::Method* method_;
+  int quiet_every_;       ///< steps; 0: the interval stays
+  int interval_;          ///< steps to the next renewal by count; 0: none
   std::int64_t last_ = 0; ///< step of the last renewal, or when to try again
   int postponed_ = 0;
   std::string first_;

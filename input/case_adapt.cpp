@@ -18,6 +18,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   rules.separate = table.get<bool>("separate");
   rules.cracks = table.get<bool>("cracks");
   rules.placement = table.choice<adapt::Placement>("placement");
+  rules.quiet_every = static_cast<int>(table.get<std::int64_t>("quiet_every"));
   rules.growth = table.get<double>("growth");
   rules.tool_spacing = table.maybe<double>("tool_spacing");
   rules.indicator = adapt::indicated_field(table.get<std::string>("indicator.field"));
@@ -67,6 +68,10 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
       conflict("adapt.indicator.field",
                "found an indicator where adapt.resample is false, expected true: without "
                "resampling no node is added");
+    if (rules.quiet_every > 0)
+      conflict(
+          "adapt.quiet_every",
+          "found an interval between passes where adapt.resample is false, expected true: there are none");
     if (rules.tool_spacing)
       conflict(
           "adapt.tool_spacing",
@@ -83,6 +88,15 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
                      field.name));
     return;
   }
+  if (const int every = result.method.rereference_every; rules.quiet_every > 0 && rules.quiet_every < every)
+    conflict("adapt.quiet_every",
+             fmt::format("found {} steps, expected at least method.rereference.every = {}: it is where the "
+                         "interval begins",
+                         rules.quiet_every, every));
+  if (rules.quiet_every > 0 && result.method.rereference_every == 0)
+    conflict("adapt.quiet_every",
+             "found an interval where method.rereference.every is 0, expected steps there: "
+             "passes do not come by count");
   if (const Setting* least = table.find("indicator.h_min"); refines && least && !(rules.h_min < rules.h_max))
     diagnostics.add(Mistake::range, least->where, least->path,
                     fmt::format("found {:g} m, expected less than adapt.indicator.h_max = {:g} m",

@@ -103,6 +103,12 @@ void add_adaptation(Keys& k) {
         "split in the middle in any case).")
       .one_of({"between nodes", "voronoi vertices"})
       .fallback("\"between nodes\"");
+  k.add("adapt.quiet_every", integer,
+        "Longest interval between passes by count, in steps: after each pass that changes less than one node "
+        "in 200 the interval doubles, from `method.rereference.every` up to this, until a pass changes more. "
+        "0: it stays. With separation a crack is seen as much later.")
+      .in({.low = 0, .high = 1e9})
+      .fallback("0");
   k.add("adapt.growth", quantity, "How fast the wanted spacing may change: per unit of distance.")
       .in({.low = 0.0, .high = 1.0, .low_open = true})
       .fallback("0.3");

@@ -231,6 +231,7 @@ spacing = "0.3 mm"
 rereference = { every = 30, strain = 0.1 }
 [adapt]
 resample = true
+quiet_every = 60
 tool_spacing = "0.15 mm"
 [adapt.indicator]
 field = "plastic_strain"

@@ -243,6 +243,17 @@ TEST(Adaptation, refines_where_the_field_is_not_resolved) {
   }
 }
 
+TEST(Adaptation, passes_wait_where_they_change_hardly_a_node) {
+  const Texts counted = with(by_strain, {"method.rereference.strain=0", "method.rereference.every=10",
+                                         "tools.punch.velocity=0 -20 m/s"});
+  const Adapted often = run(punched, counted), waiting = run(punched, with(counted, {"adapt.quiet_every=80"}));
+  const auto steps = static_cast<double>(waiting.status.steps);
+  EXPECT_LT(waiting.counted("passes"), 0.5 * often.counted("passes"));
+  EXPECT_GT(waiting.counted("passes"), steps / 80);
+  EXPECT_NEAR(waiting.counted("inserted"), often.counted("inserted"), 0.15 * often.counted("inserted"));
+  EXPECT_NEAR(waiting.work(), often.work(), 0.01 * often.work());
+}
+
 TEST(Adaptation, keeps_to_the_least_spacing) {
   const Adapted coarse = run(punched, with(by_strain, {"adapt.indicator.h_min=0.18 mm"})),
                 fine = run(punched, by_strain);
