@@ -25,7 +25,6 @@ void expect_cut(const FinishedRun& done, const Texts& sides) {
   expect_nothing_lost(done);
   EXPECT_LT(std::abs(done.metric("mass_drift")), 1e-13);
   EXPECT_LT(std::abs(done.metric("area_drift")), 0.005);
-  EXPECT_EQ(done.metric("adapt.cuts"), static_cast<double>(sides.size()));
   for (const std::string& side : sides) {
     EXPECT_EQ(done.metric("blanking." + side + "slug.parted"), 1.0) << side;
     EXPECT_EQ(done.metric("blanking." + side + "skeleton.parted"), 1.0) << side;
@@ -106,6 +105,7 @@ double time_of_cut(double fine) {
                    {"materials.304L.damage.length=60 um", "tools.punch.path[0].fillet=20 um",
                     "tools.die.path[0].fillet=20 um"});
   expect_cut(done, half);
+  EXPECT_EQ(done.metric("adapt.cuts"), 1.0); // no chips: it is the cut that is looked for
   const std::vector<double>& cuts = done.of_changes("cuts");
   const auto first = std::find_if(cuts.begin(), cuts.end(), [](double made) { return made > 0.0; });
   return done.of_changes("time").at(static_cast<std::size_t>(first - cuts.begin()));
