@@ -137,6 +137,18 @@ void Conduction<dim>::add_flow(const Field& position, const Field& temperature, 
   });
 }
 
+/// det F with which the kernels let a row of the plane conduct.
+template<int dim> double Conduction<dim>::conducting_determinant(const Mat2& f, std::size_t p) const {
+  const DiscreteOperators<dim>& op = *operators_;
+  if (corner_.empty()) return conducting(f.determinant(), least_of_square * f.squaredNorm());
+  double squares = 0.0; // a side of a triangle is 2A |F⁻ᵀ b|, b the gradient opposite to it
+  for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
+    const double bx = op.gradient[0][e], by = op.gradient[1][e];
+    squares += Vec2(f(1, 1) * bx - f(1, 0) * by, f(0, 0) * by - f(0, 1) * bx).squaredNorm();
+  }
+  return conducting(f.determinant(), least_of_sides * 2.0 * op.volume[p] * squares);
+}
+
 template<int dim> double Conduction<dim>::fastest_decay(const Field& position, const Field& heat_capacity) {
   const DiscreteOperators<dim>& op = *operators_;
   const auto points = index_of(op.points);
@@ -145,8 +157,16 @@ template<int dim> double Conduction<dim>::fastest_decay(const Field& position, c
   std::vector<double> norm(op.node.size());
   for (std::size_t p = 0; p < points; ++p) {
     const Row<dim> row = row_of<dim>(op, position, p);
-    const Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
-    const double volume = op.volume[p] * row.deformation.determinant() * row.hoop;
+    Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
+    double determinant = row.deformation.determinant();
+    if constexpr (dim == 2)
+      if (const double conducting = conducting_determinant(row.deformation, p); conducting != determinant) {
+        determinant = conducting;
+        const Mat2& f = row.deformation;
+        inverse_transpose << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0);
+        inverse_transpose /= conducting;
+      }
+    const double volume = op.volume[p] * determinant * row.hoop;
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       Vec<dim> b;
       for (int k = 0; k < dim; ++k) b[k] = op.gradient[index_of(k)][e];

@@ -2,6 +2,7 @@
 // Explicit heat conduction on the deformed configuration, (57)–(61) with J F⁻¹ F⁻ᵀ in the kernel.
 #include "core/fields/state.hpp"
 #include "core/operators/operators.hpp"
+#include "core/vec.hpp"
 
 namespace cnem {
 
@@ -22,6 +23,7 @@ public:
 private:
   bool linear_triangles() const;
   void number_corners();
+  double conducting_determinant(const Mat2& deformation, std::size_t row) const;
   void add_triangle_flow(const Field& position, const Field& temperature, Field& flow);
 
   const DiscreteOperators<dim>* operators_ = nullptr;

@@ -25,7 +25,9 @@ void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const do
     const double det = cofactor(F, cof);
     auto spatial = Small<dim>::zero(); // det F · F⁻ᵀ ∇_X T
     for (int k = 0; k < dim; ++k) spatial += cof[k] * gradient[k];
-    const double scale = conductivity[p] * stretch / det;
+    double volume = det;
+    if constexpr (dim == 2) volume = conducting(det, least_of_square * (F[0].dot(F[0]) + F[1].dot(F[1])));
+    const double scale = conductivity[p] * stretch / volume;
     for (int k = 0; k < dim; ++k) flux[dim * p + k] = scale * cof[k].dot(spatial);
   }
 }
@@ -53,10 +55,13 @@ void conduction_triangles(const NodeIndex* node, const double* position, const d
                C = Small<2>::load(position + 2 * c);
     const Small<2> opposite_a = C - B, opposite_b = A - C, opposite_c = B - A;
     const double twice_area = opposite_c[0] * opposite_a[1] - opposite_c[1] * opposite_a[0];
+    const double squares =
+        opposite_a.dot(opposite_a) + opposite_b.dot(opposite_b) + opposite_c.dot(opposite_c);
+    const double carrying = conducting(twice_area, least_of_sides * squares);
     // ∇φ_a is opposite_a turned by 90° over twice the area: its products need no turning
     const Small<2> sum =
         opposite_a * temperature[a] + opposite_b * temperature[b] + opposite_c * temperature[c];
-    const Small<2> flux = sum * (-0.5 * conductivity[t] / twice_area);
+    const Small<2> flux = sum * (-0.5 * conductivity[t] / carrying);
     heat[3 * t] = opposite_a.dot(flux);
     heat[3 * t + 1] = opposite_b.dot(flux);
     heat[3 * t + 2] = opposite_c.dot(flux);

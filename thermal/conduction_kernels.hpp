@@ -7,6 +7,19 @@
 
 namespace cnem {
 
+// Triangles that carry heat may go flat and inside out between two references, as a film is drawn out. With
+// their area as it stands they would conduct without bound, and then from cold to hot. They conduct as if it
+// were positive and not below a share of what their sides allow: less than a hundred times as well as on the
+// reference. Conduction takes at most a hundredth of the step that was stable there
+// (mechanics/terms/heat.cpp).
+constexpr double least_of_square = 0.01; ///< of det F over ‖F‖², which is 0.5 on the reference
+constexpr double least_of_sides =
+    0.004; ///< of 2A over the sum of the squares of the sides, 0.29 if they are equal
+constexpr double conducting(double area, double least) {
+  const double size = area < 0.0 ? -area : area;
+  return size < least ? least : size;
+}
+
 #define CNEM_CONDUCTION_KERNELS(isa)                                                                         \
   namespace isa {                                                                                            \
   /* flux [point][k] = k J F⁻¹F⁻ᵀ ∇_X T; hoop [entry] of revolution, else null */                   \

@@ -92,6 +92,21 @@ TEST_F(Ladder, shear_band_up_to_the_peak) {
               "its strain");
 }
 
+/// Hill 1948 with σ_y = 300 MPa + 500 MPa ε̄p: along a sheet that keeps its width the metal takes
+/// k = (1 + r)/√(1 + 2r) of its flow stress, with τ_zz = s τ_xx, s = r/(1 + r). ε̄p is k times the strain
+/// without what is elastic, τ : ε_e = (1 − 2νs + s²) τ_xx²/E.
+TEST_F(Ladder, plane_strain_tension_of_rolled_sheet) {
+  for (const double r : {0.5, 1.0, 2.0}) {
+    run("hill_sheet", {"cloud.spacing=0.25 mm", "materials.sheet.anisotropy.r0=" + std::to_string(r)});
+    const double k = (1.0 + r) / std::sqrt(1.0 + 2.0 * r), stretch = 1.0 + 1000.0 * column("time[s]").back();
+    const double stress = column("support.grip.force_x[N/m]").back() * stretch / 0.5e-3;
+    const double strain = column("probe.middle.plastic_strain").back();
+    expect_near(stress / (300e6 + 500e6 * strain), k, 1e-4, "stress over flow stress");
+    const double s = r / (1.0 + r), elastic = (1.0 - 2.0 * 0.3 * s + s * s) * stress / 210e9;
+    expect_near(strain, k * (std::log(stretch) - elastic), 0.001, "plastic strain");
+  }
+}
+
 /// The bar carries most near 10 % elongation, then necks in the middle.
 TEST_F(Ladder, necking_bar) {
   run("necking_bar", {"cloud.spacing=1 mm", "cloud.refine.neck.spacing=0.6 mm", "time.end=0.7 ms"});

@@ -1,15 +1,7 @@
 // Cracks that run: what they dissipate, and what their lips bear.
-#include "app/run.hpp"
-#include "input/case_reader.hpp"
-#include "results/history_writer.hpp"
-#include "results/output_folder.hpp"
-#include "results/status.hpp"
+#include "tests/finished_run.hpp"
 #include "tests/shared_cases.hpp"
-#include "tests/temporary_folder.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -26,46 +18,17 @@ history_every = "0.5 us"
 pictures = []
 )toml";
 
-struct CrackRun {
-  results::HistoryTable history, events;
-  results::RunStatus status;
-  double last(const std::string& name) const {
-    return history.column[static_cast<std::size_t>(history.find(name))].back();
-  }
-  const std::vector<double>& of(const std::string& name) const {
-    return history.column[static_cast<std::size_t>(history.find(name))];
-  }
-  double metric(const std::string& name) const {
-    for (const auto& [key, value] : status.metrics)
-      if (key == name) return value;
-    ADD_FAILURE() << name;
-    return 0.0;
-  }
-};
-
-CrackRun run_cracks(const std::string& text, const std::vector<std::string>& set = {}) {
-  const TemporaryFolder folder("crack");
-  const input::Case input = input::read_case_text(text, "case.toml", set);
-  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
-  return {results::read_history(folder.path() / results::files::history),
-          results::read_history(folder.path() / results::files::adaptation),
-          results::read_status(folder.path())};
-}
-
-void expect_nothing_lost(const CrackRun& done) {
-  for (const char* kept : {"mass_error", "momentum_error", "heat_error", "energy_error"})
-    EXPECT_LT(done.metric(std::string("adapt.") + kept), 1e-12) << kept;
-  EXPECT_LT(std::abs(done.metric("mass_drift")), 1e-12);
-  EXPECT_LT(done.status.energy_residual, 3e-3);
+FinishedRun run_cracks(const std::string& text, const std::vector<std::string>& set = {}) {
+  return finish(input::read_case_text(text, "case.toml", set));
 }
 
 TEST(RunningCrack, takes_the_fracture_energy_times_its_length_whatever_the_spacing) {
   for (const double spacing : {0.2, 0.14, 0.1}) {
-    const CrackRun done = run_cracks(strip, {fmt::format("cloud.spacing=\"{} mm\"", spacing)});
+    const FinishedRun done = run_cracks(strip, {fmt::format("cloud.spacing=\"{} mm\"", spacing)});
     expect_nothing_lost(done);
     EXPECT_GE(done.metric("adapt.cracks"), 1.0) << spacing;
     double taken = 0.0;
-    for (const char* energy : {"energy.plastic", "energy.damage"}) taken += done.last(energy);
+    for (const char* energy : {"energy.plastic", "energy.damage"}) taken += done.of(energy).back();
     EXPECT_NEAR(taken / (fracture_energy * ligament), 1.0, 0.1) << spacing;
     EXPECT_LT(std::abs(done.metric("area_drift")), 0.005) << spacing;
   }
@@ -103,7 +66,7 @@ pictures = []
 TEST(RunningCrack, lips_that_are_pressed_on_each_other_keep_their_friction) {
   double shear[2];
   for (const int k : {0, 1}) {
-    const CrackRun done =
+    const FinishedRun done =
         run_cracks(pressed, {fmt::format("contact.friction.coefficient={}", k == 0 ? 0.2 : 0.05)});
     expect_nothing_lost(done);
     EXPECT_GE(done.metric("adapt.cracks"), 1.0);

@@ -1,18 +1,10 @@
 // A slug comes off: what is left of it are two bodies, with nothing lost, that do not go through each other.
 #include "adapt/structure.hpp"
 #include "app/adaptation.hpp"
-#include "app/run.hpp"
 #include "app/simulation.hpp"
-#include "input/case_reader.hpp"
-#include "results/history_writer.hpp"
-#include "results/output_folder.hpp"
-#include "results/status.hpp"
 #include "tests/clouds.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/finished_run.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 
@@ -72,40 +64,24 @@ pictures = []
                      fmt::arg("die", x(3.1)), fmt::arg("holder", x(3.4)));
 }
 
-double metric_of(const TemporaryFolder& folder, const std::string& name) {
-  for (const auto& [key, value] : results::read_status(folder.path()).metrics)
-    if (key == name) return value;
-  ADD_FAILURE() << name;
-  return 0.0;
+FinishedRun run_blank(const std::string& text, const std::vector<std::string>& set = {}) {
+  return finish(input::read_case_text(text, "case.toml", set));
 }
 
 void expect_to_lose_nothing(const std::string& text, const std::string& enclosed) {
-  const TemporaryFolder folder("separation");
-  const input::Case input = input::read_case_text(text, "case.toml", {});
-  ASSERT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
-  const results::RunStatus status = results::read_status(folder.path());
-  const auto metric = [&](const std::string& name) { return metric_of(folder, name); };
-  EXPECT_GE(metric("adapt.cuts"), 1.0);
-  EXPECT_GE(metric("adapt.opened"), 5.0);
-  EXPECT_LT(std::abs(metric("mass_drift")), 1e-12);
-  EXPECT_LT(std::abs(metric(enclosed + "_drift")), 0.005);
-  EXPECT_LT(status.energy_residual, 3e-3);
-  // the audit of every change of the cloud
-  for (const char* kept : {"mass_error", "momentum_error", "heat_error", "energy_error"})
-    EXPECT_LT(metric(std::string("adapt.") + kept), 1e-12) << kept;
-  const results::HistoryTable events = results::read_history(folder.path() / results::files::adaptation);
-  const auto column = [&](const char* name) {
-    return events.column[static_cast<std::size_t>(events.find(name))];
-  };
+  const FinishedRun done = run_blank(text);
+  EXPECT_GE(done.metric("adapt.cuts"), 1.0);
+  EXPECT_GE(done.metric("adapt.opened"), 5.0);
+  expect_nothing_lost(done);
+  EXPECT_LT(std::abs(done.metric(enclosed + "_drift")), 0.005);
   double cuts = 0.0;
-  for (const double c : column("cuts")) cuts += c;
-  EXPECT_EQ(cuts, metric("adapt.cuts"));
-  EXPECT_EQ(static_cast<double>(events.rows()), metric("adapt.passes"));
-  for (std::size_t e = 1; e < events.rows(); ++e)
-    EXPECT_EQ(column("before.nodes")[e], column("after.nodes")[e - 1]);
+  for (const double c : done.of_changes("cuts")) cuts += c;
+  EXPECT_EQ(cuts, done.metric("adapt.cuts"));
+  EXPECT_EQ(static_cast<double>(done.events.rows()), done.metric("adapt.passes"));
+  for (std::size_t e = 1; e < done.events.rows(); ++e)
+    EXPECT_EQ(done.of_changes("before.nodes")[e], done.of_changes("after.nodes")[e - 1]);
   // the punch pushes nothing but the slug any more
-  const results::HistoryTable history = results::read_history(folder.path() / results::files::history);
-  const auto& force = history.column[static_cast<std::size_t>(history.find("punch.force_y"))];
+  const std::vector<double>& force = done.of("punch.force_y");
   double last = 0.0, peak = 0.0;
   for (std::size_t r = 0; r < force.size(); ++r) {
     peak = std::max(peak, std::abs(force[r]));
@@ -121,10 +97,7 @@ TEST(Separation, of_a_round_slug_loses_nothing) {
 
 /// The largest force of the punch in the first 0.3 mm.
 double largest_force(const std::string& text) {
-  const TemporaryFolder folder("force");
-  const input::Case input = input::read_case_text(text, "case.toml", {"time.end=\"7 us\""});
-  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
-  return metric_of(folder, "peak_force.punch");
+  return run_blank(text, {"time.end=\"7 us\""}).metric("peak_force.punch");
 }
 
 TEST(Separation, a_slug_of_fifty_times_the_thickness_takes_the_force_of_the_plane_per_perimeter) {

@@ -23,8 +23,8 @@ struct Averaged {
     without.damage = plasticity::JohnsonCookDamage{};
     return {with, without};
   }
-  explicit Averaged(Method method = Method::cnem) : average(materials()) {
-    const Cloud<2> cloud = rectangle(1.0, 0.6, spacing);
+  explicit Averaged(Method method = Method::cnem, double step = spacing) : average(materials()) {
+    const Cloud<2> cloud = rectangle(1.0, 0.6, step);
     operators = make(method)->rebuild(cloud).mechanics;
     for (const Vec2& x : cloud.position)
       for (std::size_t k = 0; k < 2; ++k) reference[k].push_back(x[static_cast<Eigen::Index>(k)]);
@@ -54,6 +54,26 @@ TEST(DamageAverage, leaves_even_growth_even_whatever_the_cells) {
     a.grow([](const Vec2&) { return 0.125; });
     for (const double d : a.point.damage) EXPECT_NEAR(d, 0.125, 1e-15);
   }
+}
+
+// The transform of (1 − r²/R²)² over the plane: of a wave A cos(k x) it leaves 48 J₃(kR)/(kR)³.
+TEST(DamageAverage, leaves_of_a_wave_what_its_transform_says_whatever_the_cells) {
+  for (const Method method : {Method::cnem, Method::triangles})
+    for (const double step : {0.05, 0.03})
+      for (const double kR : {1.0, 3.0, 5.0}) {
+        Averaged a(method, step);
+        const auto wave = [&](const Vec2& x) { return 0.25 * std::cos(kR / radius * (x.x() - 0.5)); };
+        a.grow([&](const Vec2& x) { return 0.25 + wave(x); });
+        const double left = 48.0 * std::cyl_bessel_j(3.0, kR) / std::pow(kR, 3);
+        int inside = 0;
+        for (std::size_t p = 0; p < a.point.damage.size(); ++p) {
+          const Vec2 x = a.place(p);
+          if (std::min({x.x(), 1.0 - x.x(), x.y(), 0.6 - x.y()}) < radius) continue;
+          ++inside;
+          EXPECT_NEAR(a.point.damage[p], 0.25 + left * wave(x), 0.25 * 0.02) << kR << ", " << step;
+        }
+        EXPECT_GT(inside, 10);
+      }
 }
 
 TEST(DamageAverage, of_a_narrow_band_is_as_wide_as_the_length) {

@@ -3,11 +3,11 @@
 #include "core/operators/side_by_side.hpp"
 #include "tests/clouds.hpp"
 #include "tests/index_literals.hpp"
+#include "tests/unit/thermal/decay.hpp"
 #include "tests/unit/thermal/steel.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -282,24 +282,16 @@ TEST(Conduction, fastest_decay_bounds_the_exact_rate) {
     Body body(strip(1e-3, 1e-3, 1.25e-4, 0.25), [&](const Vec2& x) -> Vec2 {
       return deformed ? Vec2(1.5 * x.x() + 0.8 * x.y(), 0.6 * x.y()) : x;
     });
-    const auto n = static_cast<Eigen::Index>(body.temperature.size());
-    Eigen::MatrixXd K(n, n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      std::fill(body.temperature.begin(), body.temperature.end(), 0.0);
-      body.temperature[static_cast<std::size_t>(j)] = 1.0;
-      std::fill(body.flow.begin(), body.flow.end(), 0.0);
-      body.conduction.add_flow(side_by_side<2>(body.position), body.temperature, body.flow);
-      for (Eigen::Index i = 0; i < n; ++i)
-        K(i, j) =
-            -body.flow[static_cast<std::size_t>(i)] / std::sqrt(body.capacity[static_cast<std::size_t>(i)] *
-                                                                body.capacity[static_cast<std::size_t>(j)]);
-    }
-    const double exact =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[n - 1];
+    const double exact = decay_rates(decay_matrix(body)).maxCoeff();
     const double bound = body.conduction.fastest_decay(side_by_side<2>(body.position), body.capacity);
     EXPECT_GT(bound, exact);
     EXPECT_LT(bound, 6.0 * exact);
   }
+}
+
+TEST(Conduction, stays_bounded_and_from_hot_to_cold_in_triangles_that_turn_inside_out) {
+  Body body(strip(1e-3, 1e-3, 1.25e-4));
+  expect_bounded_conduction(body, {5e-4, 5e-4}, 1.25e-4);
 }
 
 } // namespace

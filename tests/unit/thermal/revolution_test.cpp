@@ -2,6 +2,7 @@
 #include "cnem/scni.hpp"
 #include "core/operators/side_by_side.hpp"
 #include "tests/clouds.hpp"
+#include "tests/unit/thermal/decay.hpp"
 #include "tests/unit/thermal/steel.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
@@ -120,6 +121,11 @@ TEST(Revolution, heat_is_conserved_and_a_uniform_temperature_stays) {
   body.run(5e-3, {});
   for (std::size_t i = 0; i < body.capacity.size(); ++i) after += body.capacity[i] * body.temperature[i];
   EXPECT_NEAR(after, before, 1e-11 * before);
+}
+
+TEST(Revolution, conduction_stays_bounded_in_triangles_that_turn_inside_out) {
+  Cylinder body(1e-3, 1e-3, 1.25e-4);
+  expect_bounded_conduction(body, {5e-4, 5e-4}, 1.25e-4);
 }
 
 } // namespace

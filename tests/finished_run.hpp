@@ -1,0 +1,55 @@
+#pragma once
+// A run to its end in a folder of its own, and what it left there.
+#include "app/run.hpp"
+#include "input/case_reader.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cnem::testing {
+
+struct FinishedRun {
+  results::HistoryTable history, events; ///< events: changes of the cloud, none without adaptation
+  results::RunStatus status;
+
+  /// A column of the history or of the changes, by its name with or without the unit.
+  const std::vector<double>& of(const std::string& name) const { return find(history, name); }
+  const std::vector<double>& of_changes(const std::string& name) const { return find(events, name); }
+  double metric(const std::string& name) const {
+    for (const auto& [key, value] : status.metrics)
+      if (key == name) return value;
+    ADD_FAILURE() << name;
+    return 0.0;
+  }
+
+private:
+  static const std::vector<double>& find(const results::HistoryTable& table, const std::string& name) {
+    return table.column.at(static_cast<std::size_t>(table.find(name)));
+  }
+};
+
+/// Runs the case with one thread, as tests run side by side; one that does not end with 0 is a failure.
+inline FinishedRun finish(const input::Case& input) {
+  const TemporaryFolder folder("run");
+  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .threads = 1, .version = "test"}),
+            Exit::done);
+  const std::filesystem::path events = folder.path() / results::files::adaptation;
+  return {.history = results::read_history(folder.path() / results::files::history),
+          .events = std::filesystem::exists(events) ? results::read_history(events) : results::HistoryTable{},
+          .status = results::read_status(folder.path())};
+}
+
+/// What every change of the cloud keeps, and the whole run.
+inline void expect_nothing_lost(const FinishedRun& done) {
+  for (const char* kept : {"mass_error", "momentum_error", "heat_error", "energy_error"})
+    EXPECT_LT(done.metric(std::string("adapt.") + kept), 1e-12) << kept;
+  EXPECT_LT(std::abs(done.metric("mass_drift")), 1e-12);
+  EXPECT_LT(done.status.energy_residual, 3e-3);
+}
+
+} // namespace cnem::testing
