@@ -104,8 +104,8 @@ TEST(Audit, damage_goes_with_the_mass_and_limits_mixed_stresses) {
     EXPECT_NEAR(solver.ledger().residual(), before.residual(), 1e-11 * before.total());
     int initiated = 0, limited = 0;
     for (std::size_t p = 0; p < point.size(); ++p) {
-      const auto first = change.parcels.node.begin() + change.parcels.begin[p],
-                 last = change.parcels.node.begin() + change.parcels.begin[p + 1];
+      const auto first = change.parcels.from.begin() + change.parcels.begin[p],
+                 last = change.parcels.from.begin() + change.parcels.begin[p + 1];
       if (last - first < 2) continue;
       if (std::all_of(first, last, [&](NodeIndex i) { return old_damage[std::size_t(i)] == 1.0; })) {
         ++initiated;
