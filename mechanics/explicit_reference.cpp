@@ -91,7 +91,8 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   copy_stress_columns<dim>(point.piola, stress_);
   rebuild_levels();
   bound_.forget();
-  ++references_;
+  // what nodes exchange by the points of a reference follows it, and makes none of its own
+  if (!(change && change->points_stay && points_change)) ++references_;
   if (change) ++resamplings_;
   each([&](Term<dim>& term) { term.settle(body(), change || points_change); });
 }

@@ -5,35 +5,49 @@
 #include "tests/unit/mechanics/models.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <gtest/gtest.h>
 
 namespace cnem::testing {
 namespace {
 
+/// Nodes on the sides of a rectangle that move as given.
+Supports<2> led(const Cloud<2>& cloud, const std::function<Vec2(const Vec2&)>& velocity) {
+  Vec2 low = cloud.position[0], high = low;
+  for (const Vec2& x : cloud.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  std::vector<Support<2>> supports;
+  for (const NodeIndex i : cloud.position.indices()) {
+    const Vec2& x = cloud.position[i];
+    if ((x.array() > low.array()).all() && (x.array() < high.array()).all()) continue;
+    const Vec2 v = velocity(x);
+    supports.push_back({"x", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(v.x()), {i}});
+    supports.push_back({"y", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(v.y()), {i}});
+  }
+  return {std::move(supports), index_of(cloud.nodes())};
+}
+
 class Points : public ::testing::TestWithParam<Space> {
 protected:
-  /// A block, sheared and waved so fast that its triangles turn over into others within some hundred steps;
-  /// of revolution away from the axis.
+  /// A block whose sides are sheared, with waves inside: its triangles turn into others within some hundred
+  /// steps. Of revolution it is a tube, sheared along its axis.
   static ExplicitSolver<2> block(const plasticity::Material& material) {
     Cloud<2> cloud = rectangle(1e-3, 1e-3, 1e-4, Lattice::hexagonal, 0.2);
     for (Vec2& x : cloud.position) x.x() += GetParam() == Space::revolution ? 1e-3 : 0.0;
     Problem<2> model = model_of(std::move(cloud), Method::triangles, material);
     model.method = make(Method::triangles, GetParam());
     model.thermal = true;
-    return start(std::move(model), [](const Vec2& x) -> Vec2 {
-      return {6e5 * (x.y() - 5e-4), 4e4 * std::sin(x.x() / 2e-4) * 1e-3};
-    });
+    const auto shear = [](const Vec2& x) -> Vec2 { return {0.0, 6e5 * x.x()}; };
+    model.supports = led(model.cloud, shear);
+    return start(std::move(model),
+                 [&](const Vec2& x) -> Vec2 { return shear(x) + Vec2(40.0 * std::sin(x.y() / 2e-4), 0.0); });
   }
 };
 
 void advance(ExplicitSolver<2>& solver, int steps) {
   for (int n = 0; n < steps; ++n) solver.advance(solver.stable_step().dt);
-}
-
-double sum(const Field& a, const Field& b) {
-  double total = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) total += a[i] * b[i];
-  return total;
 }
 
 /// ρ0 times the stress-free volume of each triangle.
@@ -77,17 +91,16 @@ TEST_P(Points, mass_momenta_heat_and_work_are_kept_and_energy_is_booked) {
     renewed += other_triangles(solver.approximation().mechanics, old);
     const State<2>& now = solver.state();
     const Field mass = masses(solver), one(mass.size(), 1.0);
-    EXPECT_NEAR(sum(mass, one), total, 1e-13 * total) << "pass " << pass;
+    EXPECT_NEAR(sum_of_products(mass, one), total, 1e-13 * total) << "pass " << pass;
     // nodes stay what they are, to the bit
     EXPECT_EQ(now.node.mass, before.node.mass);
     EXPECT_EQ(now.node.temperature, before.node.temperature);
     EXPECT_EQ(now.node.velocity[0], before.node.velocity[0]);
     EXPECT_EQ((momenta(solver).linear - momentum.linear).norm(), 0.0);
     EXPECT_EQ(momenta(solver).angular, momentum.angular);
-    for (const auto field :
-         {&PointState<2>::plastic_strain, &PointState<2>::plastic_work, &PointState<2>::dissipation}) {
-      const double carried = sum(old_mass, before.point.*field);
-      EXPECT_NEAR(sum(mass, now.point.*field), carried, 1e-13 * std::abs(carried));
+    for (const auto field : {&PointState<2>::plastic_strain, &PointState<2>::plastic_work}) {
+      const double carried = sum_of_products(old_mass, before.point.*field);
+      EXPECT_NEAR(sum_of_products(mass, now.point.*field), carried, 1e-13 * std::abs(carried));
       EXPECT_GT(carried, 0.0);
     }
     const EnergyLedger after = solver.ledger();
@@ -101,7 +114,7 @@ TEST_P(Points, mass_momenta_heat_and_work_are_kept_and_energy_is_booked) {
     EXPECT_LT(after["rereference"] - ledger["rereference"], 0.2 * ledger["elastic"]);
   }
   EXPECT_GT(renewed, initial.size()) << "the triangles are all others";
-  EXPECT_LT(std::abs(solver.ledger().residual()), 2e-3 * solver.ledger().initial());
+  EXPECT_LT(std::abs(solver.ledger().residual()), 2e-3 * solver.ledger().external());
 }
 
 // The stress of a triangle is that of the volume it has and the mass it is made of.
@@ -154,9 +167,9 @@ TEST_P(Points, damage_goes_with_the_mass) {
     const PointState<2>& now = solver.state().point;
     const Field mass = masses(solver);
     for (const auto field : {&PointState<2>::damage, &PointState<2>::softening}) {
-      const double carried = sum(old_mass, before.*field);
+      const double carried = sum_of_products(old_mass, before.*field);
       EXPECT_GT(carried, 0.0);
-      EXPECT_NEAR(sum(mass, now.*field), carried, 1e-13 * carried);
+      EXPECT_NEAR(sum_of_products(mass, now.*field), carried, 1e-13 * carried);
     }
     EXPECT_LE(*std::max_element(now.softening.begin(), now.softening.end()), 1.0);
     EXPECT_NEAR(solver.ledger().residual(), ledger.residual(), 1e-11 * ledger.total());
@@ -232,9 +245,9 @@ TEST(PartedPoints, keep_their_material) {
   ASSERT_EQ(cloud.facets.size(), 60U);
   std::vector<std::array<NodeIndex, 2>> pairs(cloud.twins.begin(), cloud.twins.end());
   model.ties = Ties<2>(pairs, cloud.position);
-  ExplicitSolver<2> solver = start(std::move(model), [](const Vec2& x) -> Vec2 {
-    return {6e5 * (x.y() - 5e-4), 0.0};
-  });
+  const auto shear = [](const Vec2& x) -> Vec2 { return {6e5 * x.y(), 0.0}; };
+  model.supports = led(cloud, shear);
+  ExplicitSolver<2> solver = start(std::move(model), shear);
   const auto of_material = [&](std::int32_t material) {
     const Field mass = masses(solver);
     double total = 0.0;
