@@ -348,7 +348,8 @@ const std::vector<SmallCase>& small_cases() {
   static const std::vector<SmallCase> cases{
       {"punched", punched},
       {"levels", levels},
-      {"levels_of_triangles", in_triangles(levels)},
+      {"levels_of_triangles", in_triangles(levels, "lagrangian = \"total\"\n")},
+      {"levels_of_renewed_triangles", in_triangles(levels, "rereference = { every = 20 }\n")},
       {"loaded", loaded},
       {"round_bar", round_bar},
       {"triangles", triangles},
