@@ -21,6 +21,7 @@ PassReport& PassReport::operator+=(const PassReport& other) {
 
 double volume_ratio(const WorkingCloud& work, const Structure& structure, NodeIndex node) {
   const NodeProperties& p = work.node();
+  if (!p.matter.empty()) return p.matter[index_of(node)] / p.mass[index_of(node)];
   return p.density[index_of(node)] * structure.volume(node) /
          (p.mass[index_of(node)] * p.jacobian[index_of(node)]);
 }

@@ -128,7 +128,7 @@ void balance(WorkingCloud& work, const Structure& structure, const Thresholds& t
 std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
                            const IndexedVector<NodeIndex, char>& made);
 
-/// r_i = ρ₀ V_i/(m_i J_i) of one node, –.
+/// r_i = ρ₀ V_i/(m_i J_i) of one node, or the matter in its share over m_i, –.
 double volume_ratio(const WorkingCloud& work, const Structure& structure, NodeIndex node);
 
 } // namespace cnem::adapt

@@ -360,10 +360,10 @@ NodeRows WorkingCloud::in_order(IndexedVector<NodeIndex, Row>& rows, const std::
   result.begin.push_back(0);
   for (const std::int32_t i : order) {
     for (const auto& [node, weight] : row(rows, as<NodeIndex>(i))) {
-      result.node.push_back(node);
+      result.from.push_back(node);
       result.weight.push_back(weight);
     }
-    result.begin.push_back(as<std::int32_t>(result.node.size()));
+    result.begin.push_back(as<std::int32_t>(result.from.size()));
   }
   return result;
 }

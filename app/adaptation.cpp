@@ -76,6 +76,18 @@ std::vector<Vec2> features(const Curve& outline, double spacing) {
   return points;
 }
 
+/// Of nodes that share the points around them.
+adapt::NodeProperties shares_of(const ExplicitSolver<2>& solver) {
+  const NodeState<2>& node = solver.state().node;
+  adapt::NodeProperties properties;
+  properties.mass = properties.matter = node.mass;
+  for (std::size_t i = 0; i < node.size(); ++i) properties.matter[i] *= solver.volume_ratio(i);
+  for (Field* same : {&properties.jacobian, &properties.density, &properties.size})
+    same->assign(node.size(), 1.0);
+  properties.held.assign(node.size(), 0);
+  return properties;
+}
+
 } // namespace
 
 Adaptation::Adaptation(const input::Case& input, const ExplicitSolver<2>& solver) : input_(&input) {
@@ -198,15 +210,21 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
 
 void Adaptation::balance(ExplicitSolver<2>& solver) {
   const Promises& promises = solver.model().method->promises();
-  if (!solver.model().mechanical || !promises.keep(Promise::identity_values) ||
-      !promises.keep(Promise::tiling_cells))
-    return solver.prepare();
+  if (!solver.model().mechanical || !promises.keep(Promise::tiling_cells)) return solver.prepare();
+  const bool at_nodes = promises.keep(Promise::identity_values);
+  const adapt::Thresholds thresholds;
+  if (!at_nodes) { // what their shares of new points hold is known once there are these
+    solver.prepare();
+    const auto [low, high] = solver.mass_balance();
+    if (low >= thresholds.light && high <= thresholds.heavy) return;
+  }
   const Cloud<2> cloud = solver.present_cloud();
   const adapt::Structure structure = adapt::build_structure(cloud, input_->analysis.space());
   adapt::PassReport report;
-  if (const auto change = adapt::balanced(cloud, structure, properties(solver, {}), {}, report))
+  if (const auto change = adapt::balanced(
+          cloud, structure, at_nodes ? properties(solver, {}) : shares_of(solver), thresholds, report))
     solver.prepare(*change);
-  else
+  else if (at_nodes)
     solver.prepare();
   total_ += report;
 }

@@ -37,8 +37,8 @@ public:
   double renew(ExplicitSolver<2>& solver, const Follow& follow);
 
   /// Without adaptation: makes the present configuration the reference, and lets neighbours exchange mass
-  /// where it has come apart from volume, with methods whose cells are those of the cloud. Throws
-  /// GeometryError with the solver left as it was.
+  /// where it has come apart from volume, with methods whose cells tile the body. Throws GeometryError with
+  /// the solver left as it was.
   void balance(ExplicitSolver<2>& solver);
 
   /// For pictures and files at a time, s.

@@ -30,10 +30,9 @@ struct Need {
 };
 
 constexpr std::array needs{
-    Need{Promise::one_point_per_node, "method.lagrangian",
+    Need{Promise::carried_history, "method.lagrangian",
          [](const Case& c) { return dynamic(c) && c.method.lagrangian != Method::Lagrangian::total; },
-         "a reference that is renewed",
-         "points of other kinds carry their history in elements that the new reference does not have",
+         "a reference that is renewed", "what its points have undergone would not reach those of the new one",
          "\"total\""},
     Need{Promise::one_point_per_node, "method.pressure_exchange",
          [](const Case& c) { return c.method.pressure_exchange > 0.0; },

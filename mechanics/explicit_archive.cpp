@@ -38,7 +38,9 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
       conditions_.cloud.facets.push_back(facet);
     }
     for (FieldTable* table : node_tables()) table->rest(n);
-    for (FieldTable* table : point_tables()) table->rest(n); // only nodal methods are resampled
+    // of other methods nodes exchange mass, and are as many as before, which makes as many points
+    const std::size_t points = approximation_.mechanics.nodal ? n : state_.point.size();
+    for (FieldTable* table : point_tables()) table->rest(points);
   }
   conditions_.ties.archive_nodes(archive, "solver/ties", n);
   conditions_.heat_ties.archive_nodes(archive, "solver/heat_ties", n);

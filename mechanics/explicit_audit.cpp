@@ -1,9 +1,9 @@
 // What a run of the explicit solver is audited by: energies, mass, strain since the last reference.
+#include "core/index.hpp"
 #include "core/machine/parallel.hpp"
 #include "mechanics/explicit_solver.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace cnem {
@@ -47,14 +47,21 @@ template<int dim> std::vector<Metric> ExplicitSolver<dim>::metrics() const {
 }
 
 template<int dim> double ExplicitSolver<dim>::volume_ratio(std::size_t node) const {
-  assert(approximation_.mechanics.nodal);
-  return body().material_of(node).density * approximation_.mechanics.volume[node] *
-         state_.point.stress_free[node] / state_.node.mass[node];
+  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  const Field& stress_free = state_.point.stress_free;
+  if (op.nodal)
+    return body().material_of(node).density * op.volume[node] * stress_free[node] / state_.node.mass[node];
+  if (references_ == 1) return 1.0; // that of its points
+  double share = 0.0;
+  for (auto e = index_of(op.col_begin[node]); e < index_of(op.col_begin[node + 1]); ++e) {
+    const auto p = index_of(op.point[e]);
+    share += body().material_of(p).density * op.weighted_value[e] * stress_free[p];
+  }
+  return share / state_.node.mass[node];
 }
 
 template<int dim> std::array<double, 2> ExplicitSolver<dim>::mass_balance() const {
   std::array<double, 2> range{1.0, 1.0};
-  if (!approximation_.mechanics.nodal) return range;
   for (std::size_t i = 0; i < state_.node.size(); ++i) {
     const double r = volume_ratio(i);
     range = {std::min(range[0], r), std::max(range[1], r)};

@@ -55,13 +55,15 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
   if (references_ > 0)
-    require(model_.method->promises(), Promise::one_point_per_node, model_.method->name(), "a new reference");
+    require(model_.method->promises(), Promise::carried_history, model_.method->name(), "a new reference");
   Approximation<dim> rebuilt = model_.method->rebuild(cloud);
+  const std::optional<PointChange> points_change =
+      references_ > 0 ? change_of_points(change, cloud, rebuilt.mechanics) : std::nullopt;
   if (references_ > 0) {
     each([&](Term<dim>& term) { term.leave(body()); });
     push_forward(point);
   }
-  if (change) carry_over(*change);
+  if (change || points_change) carry_over(change, points_change, rebuilt.mechanics);
   conditions_.cloud = std::move(cloud);
   approximation_ = std::move(rebuilt);
   node.reference = node.position;
@@ -89,9 +91,10 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   copy_stress_columns<dim>(point.piola, stress_);
   rebuild_levels();
   bound_.forget();
-  ++references_;
+  // what nodes exchange by the points of a reference follows it, and makes none of its own
+  if (!(change && change->points_stay && points_change)) ++references_;
   if (change) ++resamplings_;
-  each([&](Term<dim>& term) { term.settle(body(), change != nullptr); });
+  each([&](Term<dim>& term) { term.settle(body(), change || points_change); });
 }
 
 /// What gathering passes read, on a new reference.

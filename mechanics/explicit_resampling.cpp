@@ -1,28 +1,93 @@
-// What goes over to the nodes of a resampled cloud: each field by the rule of its line.
+// What goes over to the nodes of a resampled cloud and to new stress points: each field by the rule of its
+// line.
+#include "core/index.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "mechanics/kinematics.hpp"
 #include "mechanics/mixing.hpp"
+
+#include <cassert>
 
 namespace cnem {
 
-/// Expects b_e in place of C_p⁻¹ (push_forward).
-template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& change) {
-  NodeState<dim>& node = state_.node;
-  PointState<dim>& point = state_.point;
-  const std::size_t n = change.cloud.position.size();
-  const CarryWeights weights{.parcels = change.parcels,
-                             .labels = change.labels,
-                             .mass = node.mass,
-                             .inertia = node.inertia(),
-                             // without heat there may be no capacity
-                             .capacity = model_.thermal ? node.heat_capacity : node.mass};
-  Field tension;
-  std::vector<FieldTable*> tables = node_tables();
-  if (!change.points_stay) {
-    tension = held_tension(model_.materials, point);
-    if (!tension.empty()) carry_mean(change.parcels, weights.mass, tension);
-    for (FieldTable* table : point_tables()) tables.push_back(table);
+namespace {
+
+/// Whether no point is made of the matter of two materials.
+[[maybe_unused]] bool keeps_materials_apart(const PointRows& parcels, const LabelField& material) {
+  for (std::size_t p = 0; p < parcels.size(); ++p) {
+    const auto first = index_of(parcels.begin[p]), last = index_of(parcels.begin[p + 1]);
+    for (std::size_t e = first; e < last; ++e)
+      if (material[index_of(parcels.from[e])] != material[index_of(parcels.from[first])]) return false;
   }
-  for (FieldTable* table : tables) {
+  return true;
+}
+
+} // namespace
+
+/// How points go over to a new reference with these operators; none where they stay what they are.
+template<int dim>
+std::optional<typename ExplicitSolver<dim>::PointChange>
+ExplicitSolver<dim>::change_of_points(const Resampling<dim>* change, const Cloud<dim>& cloud,
+                                      const DiscreteOperators<dim>& now) const {
+  if (change && !change->points_stay) {
+    require(model_.method->promises(), Promise::one_point_per_node, model_.method->name(), "resampling");
+    return PointChange{rows_of_points(change->parcels), rows_of_points(change->labels)};
+  }
+  std::optional<PointRows> parcels = model_.method->point_parcels(approximation_.mechanics, now, cloud);
+  if (!parcels) return std::nullopt;
+  assert(keeps_materials_apart(*parcels, state_.point.material));
+  PointRows labels = *parcels;
+  return PointChange{std::move(*parcels), std::move(labels)};
+}
+
+/// What a point carries, kg/m^(3−dim): ρ0 times its stress-free volume; the mass of its node where it has
+/// one.
+template<int dim> double ExplicitSolver<dim>::point_mass(std::size_t p) const {
+  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  if (op.nodal) return state_.node.mass[p];
+  return body().material_of(p).density * op.volume[p] * state_.point.stress_free[p];
+}
+
+/// Expects b_e in place of C_p⁻¹ (push_forward). now: the operators of the new reference.
+template<int dim>
+void ExplicitSolver<dim>::carry_over(const Resampling<dim>* change, const std::optional<PointChange>& points,
+                                     const DiscreteOperators<dim>& now) {
+  PointState<dim>& point = state_.point;
+  Field mass(points ? point.size() : 0);
+  for (std::size_t p = 0; p < mass.size(); ++p) mass[p] = point_mass(p);
+  Field tension = points ? held_tension(model_.materials, point) : Field();
+  if (change) carry_nodes(*change);
+  if (points) {
+    for (FieldTable* table : point_tables()) {
+      table->carry_over(CarryWeights<PointIndex>{points->parcels, points->labels, mass});
+      table->rest_renewed(points->parcels.size());
+    }
+    if (!tension.empty()) carry_mean(points->parcels, mass, tension);
+  }
+  interpolate<dim>(now, state_.node.temperature, point.temperature, 0, point.size());
+  set_moduli();
+  if (points) {
+    Field elastic_volume;
+    if (!now.nodal) {
+      elastic_volume = mass;
+      carry_sum(points->parcels, elastic_volume);
+      for (std::size_t p = 0; p < point.size(); ++p)
+        elastic_volume[p] = body().material_of(p).density * now.volume[p] / elastic_volume[p];
+    }
+    mix_elastic(points->parcels, mass, tension, elastic_volume, model_.materials, point);
+  }
+  each([&](Term<dim>& term) { term.carried(body()); });
+}
+
+template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& change) {
+  NodeState<dim>& node = state_.node;
+  const std::size_t n = change.cloud.position.size();
+  const CarryWeights<NodeIndex> weights{.parcels = change.parcels,
+                                        .labels = change.labels,
+                                        .mass = node.mass,
+                                        .inertia = node.inertia(),
+                                        // without heat there may be no capacity
+                                        .capacity = model_.thermal ? node.heat_capacity : node.mass};
+  for (FieldTable* table : node_tables()) {
     table->carry_over(weights);
     table->rest_renewed(n);
   }
@@ -33,11 +98,7 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
   conditions_.ties.resample(change);
   conditions_.heat_ties.resample(change);
   if (!conditions_.heat_ties.empty()) conditions_.heat_ties.share(node.heat_capacity, node.temperature);
-  point.temperature = node.temperature;
-  set_moduli();
-  each([&](Term<dim>& term) { term.carried(body()); });
-  if (!change.points_stay) mix_elastic(change, weights.mass, tension, model_.materials, point);
-  if (local_.on()) local_.follow(change.labels);
+  if (local_.on() && !change.points_stay) local_.follow(change.labels);
   start_weight_.clear();
   conditions_.supports.resample(change, conditions_.ties);
   conditions_.loads.resample(change.cloud, node.initial_position);
@@ -46,7 +107,15 @@ template<int dim> void ExplicitSolver<dim>::carry_over(const Resampling<dim>& ch
   });
 }
 
-template void ExplicitSolver<2>::carry_over(const Resampling<2>&);
-template void ExplicitSolver<3>::carry_over(const Resampling<3>&);
+#define CNEM_INSTANTIATE(dim)                                                                                \
+  template std::optional<ExplicitSolver<dim>::PointChange> ExplicitSolver<dim>::change_of_points(            \
+      const Resampling<dim>*, const Cloud<dim>&, const DiscreteOperators<dim>&) const;                       \
+  template double ExplicitSolver<dim>::point_mass(std::size_t) const;                                        \
+  template void ExplicitSolver<dim>::carry_over(const Resampling<dim>*, const std::optional<PointChange>&,   \
+                                                const DiscreteOperators<dim>&);                              \
+  template void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>&);
+CNEM_INSTANTIATE(2)
+CNEM_INSTANTIATE(3)
+#undef CNEM_INSTANTIATE
 
 } // namespace cnem

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,14 +38,16 @@ public:
   const LocalSteps<dim>& local_steps() const { return local_; }
 
   /// Makes the present configuration the reference: cells and functions are rebuilt, b_e is pushed forward,
-  /// nodes keep mass, velocity and temperature, and what this changes in energy is booked. Start-up comes
-  /// through here too. Throws, with everything left as it was, GeometryError when the cloud has no valid
-  /// structure, InputError at a renewal of a method that does not promise one point per node.
+  /// nodes keep mass, velocity and temperature, new points take what those before them have undergone in
+  /// parcels, and what this changes in energy is booked. Start-up comes through here too. Throws, with
+  /// everything left as it was, GeometryError when the cloud has no valid structure, InputError at a renewal
+  /// of a method that does not promise carried history.
   void prepare();
 
   /// prepare() on a resampled cloud: nodes keep mass, momentum and heat in parcels, b_e is averaged as its
   /// logarithm, and the kinetic energy that averaging loses is booked. Throws as the other, with everything
-  /// left as it was.
+  /// left as it was, and InputError where nodes come or go with a method that does not promise one point per
+  /// node.
   void prepare(const Resampling<dim>& change);
 
   /// Stable step for the present configuration with the safety factor, and what limits it. With local time
@@ -76,7 +79,7 @@ public:
   int references() const { return references_; }
   int resamplings() const { return resamplings_; } ///< how many of them changed the nodes
   const StepTimes& times() const { return times_; }
-  /// r = ρ0 V/(m J) of a node, of methods with nodal points.
+  /// r of a node: the matter in its cell, or its share of that in its points, over its mass; ρ0 V/(m J).
   double volume_ratio(std::size_t node) const;
   /// Extremes of r: how far geometric volume and carried mass have parted.
   std::array<double, 2> mass_balance() const;
@@ -99,7 +102,16 @@ private:
   void set_moduli();
   void place_reference();
   void scale_masses();
-  void carry_over(const Resampling<dim>& change);
+  /// How points go over: their rows, and those of their labels.
+  struct PointChange {
+    PointRows parcels, labels;
+  };
+  std::optional<PointChange> change_of_points(const Resampling<dim>* change, const Cloud<dim>& cloud,
+                                              const DiscreteOperators<dim>& now) const;
+  double point_mass(std::size_t p) const;
+  void carry_nodes(const Resampling<dim>& change);
+  void carry_over(const Resampling<dim>* change, const std::optional<PointChange>& points,
+                  const DiscreteOperators<dim>& now);
   // Checkpoints.
   void archive_cloud(Archive& archive);
   void archive_energies(Archive& archive);

@@ -120,7 +120,7 @@ template<int dim> void LocalSteps<dim>::follow(const NodeRows& labels) {
   Levels followed(blocks_of(labels.size(), block), std::numeric_limits<std::int8_t>::max());
   for (std::size_t i = 0; i < labels.size(); ++i)
     followed[i / block] =
-        std::min(followed[i / block], level_[index_of(labels.node[index_of(labels.begin[i])]) / block]);
+        std::min(followed[i / block], level_[index_of(labels.from[index_of(labels.begin[i])]) / block]);
   level_ = std::move(followed);
 }
 

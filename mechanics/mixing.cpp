@@ -36,20 +36,21 @@ Field held_tension(const std::vector<plasticity::Material>& materials, const Poi
 }
 
 template<int dim>
-void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& tension,
-                 const std::vector<plasticity::Material>& materials, PointState<dim>& point) {
+void mix_elastic(const PointRows& parcels, const Field& mass, const Field& tension,
+                 const Field& elastic_volume, const std::vector<plasticity::Material>& materials,
+                 PointState<dim>& point) {
   Fields<symmetric_size<dim>> mixed;
-  for (std::size_t k = 0; k < mixed.size(); ++k) mixed[k].resize(change.parcels.size());
-  for (std::size_t p = 0; p < change.parcels.size(); ++p) {
-    const auto first = index_of(change.parcels.begin[p]), last = index_of(change.parcels.begin[p + 1]);
+  for (std::size_t k = 0; k < mixed.size(); ++k) mixed[k].resize(parcels.size());
+  for (std::size_t p = 0; p < parcels.size(); ++p) {
+    const auto first = index_of(parcels.begin[p]), last = index_of(parcels.begin[p + 1]);
     auto elastic =
-        plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, index_of(change.parcels.node[first]));
+        plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, index_of(parcels.from[first]));
     if (last - first > 1) {
       elastic.setZero();
       double total = 0.0, volume = 0.0;
       for (std::size_t e = first; e < last; ++e) {
-        const auto k = index_of(change.parcels.node[e]);
-        const double share = change.parcels.weight[e] * mass[k];
+        const auto k = index_of(parcels.from[e]);
+        const double share = parcels.weight[e] * mass[k];
         const auto part =
             plasticity::logarithm<dim>(plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, k));
         elastic += share * part;
@@ -59,9 +60,11 @@ void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& 
       elastic /= total;
       const plasticity::Material& material = materials[index_of(point.material[p])];
       const double softening = material.damage ? point.softening[p] : 0.0;
-      if (softening > 0.0) // gaps are volumes, which add
+      if (softening > 0.0 || !elastic_volume.empty()) { // gaps are volumes, which add
+        const double dilated = elastic_volume.empty() ? volume / total : elastic_volume[p];
         elastic.template head<3>().array() +=
-            2.0 / 3.0 * (std::log(volume / total) - 0.5 * elastic.template head<3>().sum());
+            2.0 / 3.0 * (std::log(dilated) - 0.5 * elastic.template head<3>().sum());
+      }
       if (softening > 0.0 && softening < 1.0) {
         double& opening = point.opening[p];
         opening = std::max(opening, dilatation<dim>(elastic, material, point.temperature[p]) -
@@ -84,9 +87,9 @@ void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& 
 
 template Field held_tension<2>(const std::vector<plasticity::Material>&, const PointState<2>&);
 template Field held_tension<3>(const std::vector<plasticity::Material>&, const PointState<3>&);
-template void mix_elastic<2>(const Resampling<2>&, const Field&, const Field&,
+template void mix_elastic<2>(const PointRows&, const Field&, const Field&, const Field&,
                              const std::vector<plasticity::Material>&, PointState<2>&);
-template void mix_elastic<3>(const Resampling<3>&, const Field&, const Field&,
+template void mix_elastic<3>(const PointRows&, const Field&, const Field&, const Field&,
                              const std::vector<plasticity::Material>&, PointState<3>&);
 
 } // namespace cnem

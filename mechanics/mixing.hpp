@@ -1,7 +1,7 @@
 #pragma once
-// The elastic state of nodes that resampling made of the matter of several.
+// The elastic state of stress points that are made of the matter of several.
 #include "core/fields/state.hpp"
-#include "core/operators/resampling.hpp"
+#include "core/operators/parcels.hpp"
 #include "plasticity/material.hpp"
 
 #include <vector>
@@ -13,13 +13,15 @@ namespace cnem {
 template<int dim>
 Field held_tension(const std::vector<plasticity::Material>& materials, const PointState<dim>& point);
 
-/// ln b_e averaged over the parcels of a node, so that the mean is objective and its volume change additive,
+/// ln b_e averaged over the parcels of a point, so that the mean is objective and its volume change additive,
 /// drawn back to the yield surface of the averaged state without counting plastic work. Where broken matter
 /// is mixed with sound matter its gap must not come to bear on the latter: as much of the dilatation becomes
 /// an opening as leaves no more than the tension that the parts held. Expects all other fields of the points
-/// carried over already; mass [old node] kg/m^(3−dim); tension: held_tension() carried over.
+/// carried over already; mass [old point] kg/m^(3−dim); tension: held_tension() carried over; elastic_volume
+/// [new point]: the volume over the stress-free one, –, where cells tile the matter, else empty.
 template<int dim>
-void mix_elastic(const Resampling<dim>& change, const Field& mass, const Field& tension,
-                 const std::vector<plasticity::Material>& materials, PointState<dim>& point);
+void mix_elastic(const PointRows& parcels, const Field& mass, const Field& tension,
+                 const Field& elastic_volume, const std::vector<plasticity::Material>& materials,
+                 PointState<dim>& point);
 
 } // namespace cnem

@@ -1,8 +1,10 @@
 #include "methods/fe_simplices.hpp"
 
 #include "core/error.hpp"
+#include "voronoi/overlaps.hpp"
 #include "voronoi/triangulation.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <numeric>
@@ -30,6 +32,14 @@ CellGeometry<dim> simplex_cells(const Cloud<dim>& cloud, std::span<const voronoi
   return cells;
 }
 
+/// The triangles whose rows these are.
+std::vector<voronoi::Simplex<2>> triangles_of(const DiscreteOperators<2>& op) {
+  std::vector<voronoi::Simplex<2>> triangles(index_of(op.points));
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    std::copy_n(op.node.begin() + op.row_begin[t], 3, triangles[t].begin());
+  return triangles;
+}
+
 } // namespace
 
 template<int dim>
@@ -54,6 +64,21 @@ template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>&
   result.links.begin.assign(cloud.position.size() + 1, 0);
   result.cells = simplex_cells<dim>(cloud, simplices);
   return result;
+}
+
+template<int dim>
+std::optional<PointRows> FeSimplices<dim>::point_parcels(const DiscreteOperators<dim>& old,
+                                                         const DiscreteOperators<dim>& now,
+                                                         const Cloud<dim>& cloud) const {
+  if constexpr (dim == 2) {
+    auto parts = voronoi::overlaps(cloud.position, triangles_of(old), triangles_of(now), space_);
+    PointRows rows{std::move(parts.begin), {}, std::move(parts.weight)};
+    rows.from.reserve(parts.from.size());
+    for (const SimplexIndex t : parts.from) rows.from.push_back(as<PointIndex>(index_of(t)));
+    return rows;
+  } else {
+    return Discretisation<dim>::point_parcels(old, now, cloud); // the mesh stays: there is no better one
+  }
 }
 
 template class FeSimplices<2>;

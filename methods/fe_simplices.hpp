@@ -14,7 +14,8 @@ namespace cnem::methods {
 template<int dim> class FeSimplices final : public Discretisation<dim> {
 public:
   static constexpr Promises promised =
-      dim == 2 ? Promises{Promise::interpolating_values, Promise::non_negative_values, Promise::tiling_cells,
+      dim == 2 ? Promises{Promise::carried_history,          Promise::interpolating_values,
+                          Promise::non_negative_values,      Promise::tiling_cells,
                           Promise::balanced_constant_stress, Promise::hoop_rows}
                : Promises{Promise::interpolating_values, Promise::non_negative_values, Promise::tiling_cells,
                           Promise::balanced_constant_stress};
@@ -27,6 +28,9 @@ public:
   /// Throws GeometryError as voronoi::triangulate and voronoi::linear_simplices do, and with its position for
   /// a node that belongs to no simplex.
   Approximation<dim> rebuild(const Cloud<dim>& cloud) override;
+  /// In the plane: by what new triangles cover of old ones (voronoi/overlaps.hpp).
+  std::optional<PointRows> point_parcels(const DiscreteOperators<dim>& old, const DiscreteOperators<dim>& now,
+                                         const Cloud<dim>& cloud) const override;
   std::string name() const override { return dim == 2 ? "fe_triangle" : "fe_tetrahedron"; }
   Promises promises() const override { return promised; }
 

@@ -9,7 +9,7 @@ namespace cnem::app {
 
 template<int dim> void MassBalanceWatch::look(const ExplicitSolver<dim>& solver) {
   constexpr double most = 2.0; // times
-  if (!warning_.empty() || !solver.approximation().mechanics.nodal) return;
+  if (!warning_.empty()) return;
   const State<dim>& state = solver.state();
   std::size_t worst = 0;
   double ratio = 1.0;

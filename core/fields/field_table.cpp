@@ -11,7 +11,8 @@ void rest_entry(const FieldTable::Entry& entry, std::size_t size) {
   for (std::size_t k = 0; k < entry.components; ++k) entry.component[k].assign(size, entry.line.rest[k]);
 }
 
-void carry_entry(const FieldTable::Entry& entry, const CarryWeights& weights) {
+template<IndexKind Index>
+void carry_entry(const FieldTable::Entry& entry, const CarryWeights<Index>& weights) {
   if (entry.label) return carry_label(weights.labels, *entry.label);
   for (std::size_t k = 0; k < entry.components; ++k) {
     Field& values = entry.component[k];
@@ -50,10 +51,12 @@ void FieldTable::rest_renewed(std::size_t size) {
     if (entry.line.carry == Carry::renewed) rest_entry(entry, size);
 }
 
-void FieldTable::carry_over(const CarryWeights& weights) {
+template<IndexKind Index> void FieldTable::carry_over(const CarryWeights<Index>& weights) {
   if (!on_) return;
   for (const Entry& entry : entries_) carry_entry(entry, weights);
 }
+template void FieldTable::carry_over(const CarryWeights<NodeIndex>&);
+template void FieldTable::carry_over(const CarryWeights<PointIndex>&);
 
 void FieldTable::archive(Archive& archive) {
   if (!on_) return;

@@ -4,7 +4,7 @@
 // files, pictures and the reference of names follow from that line.
 #include "core/fields/aligned.hpp"
 #include "core/fields/archive.hpp"
-#include "core/operators/resampling.hpp"
+#include "core/operators/parcels.hpp"
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,8 @@
 
 namespace cnem {
 
-/// How a field goes over to the nodes of a resampled cloud (core/operators/resampling.hpp).
+/// How a field goes over to the nodes of a resampled cloud and to new stress points
+/// (core/operators/parcels.hpp); fields of points are carried by mass, or as labels.
 enum class Carry {
   sum,              ///< what adds up: mass, heat capacity
   mass_mean,        ///< mean by mass
@@ -61,13 +62,13 @@ struct FieldLine {
   Shown shown = {};
 };
 
-/// What the rules of carrying take their weights from, all of the old nodes.
-struct CarryWeights {
-  const NodeRows& parcels;
-  const NodeRows& labels;
-  Field mass;     ///< kg/m^(3−dim)
-  Field inertia;  ///< kg/m^(3−dim)
-  Field capacity; ///< J/(K m^(3−dim))
+/// What the rules of carrying take their weights from, all of the old nodes or points.
+template<IndexKind Index> struct CarryWeights {
+  const SourceRows<Index>& parcels;
+  const SourceRows<Index>& labels;
+  Field mass;       ///< kg/m^(3−dim)
+  Field inertia{};  ///< kg/m^(3−dim); empty for points
+  Field capacity{}; ///< J/(K m^(3−dim)); empty for points
 };
 
 /// The fields of one group: those at nodes, at stress points, or those of one term of the step. Fields enter
@@ -102,8 +103,8 @@ public:
   void rest(std::size_t size);
   /// Fields that each step or reference makes anew, alone.
   void rest_renewed(std::size_t size);
-  /// Sums, means and labels over the parcels of a resampled cloud.
-  void carry_over(const CarryWeights& weights);
+  /// Sums, means and labels over parcels.
+  template<IndexKind Index> void carry_over(const CarryWeights<Index>& weights);
   /// Fields that checkpoints hold, at their present lengths.
   void archive(Archive& archive);
 

@@ -3,9 +3,11 @@
 // nodes.
 #include "core/geometry/cloud.hpp"
 #include "core/operators/operators.hpp"
+#include "core/operators/parcels.hpp"
 #include "core/operators/promises.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,17 @@ public:
   /// Throws GeometryError when the cloud has no valid structure. May keep the last structure as a hint for
   /// speed, but the result depends on the cloud alone.
   virtual Approximation<dim> rebuild(const Cloud<dim>& cloud) = 0;
+
+  /// Of what matter the points of `now` are, which was built on `cloud`: of each point of `old`, built on the
+  /// same nodes elsewhere, the fractions that they take where the nodes are now, so that Σ_p f_pk = 1. A
+  /// point that is in both has the row {itself, 1}. Empty where points are those of nodes, which stay what
+  /// they are. For methods that promise carried_history. Throws GeometryError where the two do not fill the
+  /// same domain.
+  virtual std::optional<PointRows> point_parcels(const DiscreteOperators<dim>& /*old*/,
+                                                 const DiscreteOperators<dim>& /*now*/,
+                                                 const Cloud<dim>& /*cloud*/) const {
+    return std::nullopt;
+  }
 
   virtual std::string name() const = 0;
 

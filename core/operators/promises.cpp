@@ -8,6 +8,8 @@ namespace cnem {
 
 std::string_view name_of(Promise promise) {
   switch (promise) {
+  case Promise::carried_history:
+    return "history that is carried to new points";
   case Promise::one_point_per_node:
     return "one stress point per node";
   case Promise::identity_values:

@@ -11,8 +11,10 @@
 namespace cnem {
 
 enum class Promise : std::uint8_t {
-  one_point_per_node,   ///< row i is the stress point of node i and moves with it
-  identity_values,      ///< N is the identity; holds one_point_per_node and interpolating_values in it
+  carried_history,    ///< what points have undergone goes over to those of a new reference on the same
+                      ///< nodes (Discretisation::point_parcels)
+  one_point_per_node, ///< row i is the stress point of node i and moves with it; holds carried_history in it
+  identity_values,    ///< N is the identity; holds one_point_per_node and interpolating_values in it
   interpolating_values, ///< φ_J(x_K) = δ_JK: a nodal value is the value of the field there; otherwise values
                         ///< only reproduce linear fields
   non_negative_values,      ///< N_pJ >= 0
@@ -22,13 +24,10 @@ enum class Promise : std::uint8_t {
   hoop_rows,                ///< rows of bodies of revolution (core/operators/operators.hpp)
 };
 
-inline constexpr std::array all_promises{Promise::one_point_per_node,
-                                         Promise::identity_values,
-                                         Promise::interpolating_values,
-                                         Promise::non_negative_values,
-                                         Promise::tiling_cells,
-                                         Promise::balanced_constant_stress,
-                                         Promise::hoop_rows};
+inline constexpr std::array all_promises{Promise::carried_history,          Promise::one_point_per_node,
+                                         Promise::identity_values,          Promise::interpolating_values,
+                                         Promise::non_negative_values,      Promise::tiling_cells,
+                                         Promise::balanced_constant_stress, Promise::hoop_rows};
 
 /// A set of promises.
 class Promises {
@@ -37,6 +36,7 @@ public:
     for (const Promise promise : list) kept_ |= bit(promise);
     if (keep(Promise::identity_values))
       kept_ |= bit(Promise::one_point_per_node) | bit(Promise::interpolating_values);
+    if (keep(Promise::one_point_per_node)) kept_ |= bit(Promise::carried_history);
   }
   constexpr bool keep(Promise promise) const { return (kept_ & bit(promise)) != 0; }
 

@@ -5,52 +5,6 @@
 
 namespace cnem {
 
-namespace {
-
-/// f(first, last entry) for every row makes the new field.
-template<class RowValue> void carry(const NodeRows& rows, Field& value, const RowValue& row_value) {
-  Field made(rows.size());
-  for (std::size_t p = 0; p < made.size(); ++p) {
-    const std::size_t first = index_of(rows.begin[p]), last = index_of(rows.begin[p + 1]);
-    made[p] = last - first == 1 && rows.weight[first] == 1.0 ? value[index_of(rows.node[first])]
-                                                             : row_value(first, last);
-  }
-  value = std::move(made);
-}
-
-} // namespace
-
-void carry_sum(const NodeRows& parcels, Field& value) {
-  carry(parcels, value, [&](std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    for (std::size_t e = first; e < last; ++e) sum += parcels.weight[e] * value[index_of(parcels.node[e])];
-    return sum;
-  });
-}
-
-void carry_mean(const NodeRows& parcels, const Field& weight, Field& value) {
-  carry(parcels, value, [&](std::size_t first, std::size_t last) {
-    if (last - first == 1) return value[index_of(parcels.node[first])];
-    const double one = value[index_of(parcels.node[first])]; // equal values stay what they are to the bit
-    double sum = 0.0, total = 0.0;
-    for (std::size_t e = first; e < last; ++e) {
-      const double share = parcels.weight[e] * weight[index_of(parcels.node[e])];
-      sum += share * (value[index_of(parcels.node[e])] - one);
-      total += share;
-    }
-    return one + sum / total;
-  });
-}
-
-void carry_label(const NodeRows& labels, Field& value) { carry_sum(labels, value); }
-
-void carry_label(const NodeRows& labels, std::vector<std::int32_t>& value) {
-  std::vector<std::int32_t> made(labels.size());
-  for (std::size_t p = 0; p < made.size(); ++p)
-    made[p] = value[index_of(labels.node[index_of(labels.begin[p])])];
-  value = std::move(made);
-}
-
 template<int dim>
 std::vector<Facet<dim>> facets_of_pieces(const Cloud<dim>& cloud, std::span<const PieceIndex> pieces) {
   std::vector<Facet<dim>> facets;

@@ -1,23 +1,13 @@
 #pragma once
-// How the nodes of a new cloud are made of those of an old one, and what is carried over with them.
-#include "core/fields/aligned.hpp"
+// How the nodes of a new cloud are made of those of an old one, and what conditions hold on it.
 #include "core/geometry/cloud.hpp"
 #include "core/indexed.hpp"
+#include "core/operators/parcels.hpp"
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cnem {
-
-/// Sparse rows of weights: row n of the new cloud over nodes of the old one.
-struct NodeRows {
-  std::vector<std::int32_t> begin; ///< [new + 1]
-  std::vector<NodeIndex> node;     ///< of the old cloud
-  Field weight;                    ///< –
-
-  std::size_t size() const { return begin.size() - 1; }
-};
 
 /// A change of the cloud by insertion, removal and exchange of mass between neighbours.
 ///
@@ -37,21 +27,8 @@ template<int dim> struct Resampling {
   bool points_stay = false;
 
   /// Whether node p is other matter than one old node.
-  bool mixed(std::size_t p) const {
-    const auto first = index_of(parcels.begin[p]);
-    return parcels.begin[p + 1] - parcels.begin[p] != 1 || parcels.weight[first] != 1.0;
-  }
+  bool mixed(std::size_t p) const { return parcels.mixed(p); }
 };
-
-/// Sums over parcels: value'_p = Σ f_pk value_k. For mass, momentum, heat capacity.
-void carry_sum(const NodeRows& parcels, Field& value);
-/// Means over parcels weighted with an extensive quantity (mass before the change): value'_p = Σ f_pk m_k
-/// value_k / Σ f_pk m_k. Rows of one entry keep their bits.
-void carry_mean(const NodeRows& parcels, const Field& weight, Field& value);
-/// Interpolates labels: value'_p = Σ w_pk value_k.
-void carry_label(const NodeRows& labels, Field& value);
-/// A label that cannot be averaged: that of the first old node in the row.
-void carry_label(const NodeRows& labels, std::vector<std::int32_t>& value);
 
 /// Which facets and nodes a condition holds after a change of the cloud.
 template<int dim>

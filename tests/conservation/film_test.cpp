@@ -44,9 +44,9 @@ struct Waisted : Blank {
 /// Each old node is handed on whole, and no new one is without matter.
 void expect_all_handed_on(const Resampling<2>& change, std::size_t old_nodes) {
   Field sum(old_nodes, 0.0);
-  for (std::size_t e = 0; e < change.parcels.node.size(); ++e) {
+  for (std::size_t e = 0; e < change.parcels.from.size(); ++e) {
     EXPECT_GT(change.parcels.weight[e], 0.0);
-    sum[index_of(change.parcels.node[e])] += change.parcels.weight[e];
+    sum[index_of(change.parcels.from[e])] += change.parcels.weight[e];
   }
   for (const double s : sum) EXPECT_NEAR(s, 1.0, 1e-14);
   for (std::size_t p = 0; p < change.parcels.size(); ++p)

@@ -80,8 +80,8 @@ void expect_parcels(const Resampling<2>& change, const IndexedVector<NodeIndex, 
   Field of_old(change.new_of.size(), 0.0);
   for (std::size_t p = 0; p < change.parcels.size(); ++p)
     for (auto e = index_of(change.parcels.begin[p]); e < index_of(change.parcels.begin[p + 1]); ++e) {
-      of_old[index_of(change.parcels.node[e])] += change.parcels.weight[e];
-      if (!part.empty()) { ASSERT_EQ(old_part[change.parcels.node[e]], part[p]); }
+      of_old[index_of(change.parcels.from[e])] += change.parcels.weight[e];
+      if (!part.empty()) { ASSERT_EQ(old_part[change.parcels.from[e]], part[p]); }
     }
   for (const double sum : of_old) ASSERT_NEAR(sum, 1.0, 1e-12);
 }

@@ -93,9 +93,9 @@ void one_sequence(int kind, std::uint64_t seed, Placement placement, PassReport&
                         {.placement = placement}, report);
     } catch (const GeometryError&) { FAIL() << "kind " << kind << " seed " << seed << " pass " << pass; }
     Field of_old(c.mass.size(), 0.0);
-    for (std::size_t e = 0; e < change.parcels.node.size(); ++e) {
+    for (std::size_t e = 0; e < change.parcels.from.size(); ++e) {
       ASSERT_GT(change.parcels.weight[e], 0.0);
-      of_old[index_of(change.parcels.node[e])] += change.parcels.weight[e];
+      of_old[index_of(change.parcels.from[e])] += change.parcels.weight[e];
     }
     for (const double sum : of_old) ASSERT_NEAR(sum, 1.0, 1e-12);
     for (std::size_t p = 0; p < change.labels.size(); ++p) {

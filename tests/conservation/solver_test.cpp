@@ -35,19 +35,13 @@ ExplicitSolver<2> deformed_block(int steps, const plasticity::Material& material
   return solver;
 }
 
-double sum(const Field& a, const Field& b) {
-  double total = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) total += a[i] * b[i];
-  return total;
-}
-
 TEST(Audit, mass_momentum_and_heat_are_kept_and_energy_is_booked) {
   ExplicitSolver<2> solver = deformed_block(150);
   for (const double factor : {0.5, 1.0, 2.0}) {
     const State<2>& state = solver.state();
     const Momenta momentum = momenta(solver);
-    const double mass = sum(state.node.mass, Field(state.node.size(), 1.0)),
-                 heat = sum(state.node.heat_capacity, state.node.temperature);
+    const double mass = sum_of_products(state.node.mass, Field(state.node.size(), 1.0)),
+                 heat = sum_of_products(state.node.heat_capacity, state.node.temperature);
     const EnergyLedger before = solver.ledger();
     const auto nodes = state.node.size();
     double scale = 0.0;
@@ -55,9 +49,9 @@ TEST(Audit, mass_momentum_and_heat_are_kept_and_energy_is_booked) {
       scale += state.node.mass[i] * std::hypot(state.node.velocity[0][i], state.node.velocity[1][i]);
     solver.prepare(resampled(solver, factor));
     EXPECT_NE(solver.state().node.size(), nodes);
-    EXPECT_NEAR(sum(state.node.mass, Field(state.node.size(), 1.0)), mass, 1e-12 * mass);
+    EXPECT_NEAR(sum_of_products(state.node.mass, Field(state.node.size(), 1.0)), mass, 1e-12 * mass);
     EXPECT_NEAR((momenta(solver).linear - momentum.linear).norm(), 0.0, 1e-12 * scale);
-    EXPECT_NEAR(sum(state.node.heat_capacity, state.node.temperature), heat, 1e-12 * heat);
+    EXPECT_NEAR(sum_of_products(state.node.heat_capacity, state.node.temperature), heat, 1e-12 * heat);
     const EnergyLedger after = solver.ledger();
     EXPECT_NEAR(after.residual(), before.residual(), 1e-11 * after.total());
     EXPECT_NEAR(after.heat_residual(), before.heat_residual(), 1e-11 * heat);
@@ -92,20 +86,21 @@ TEST(Audit, damage_goes_with_the_mass_and_limits_mixed_stresses) {
   for (const double factor : {0.5, 2.0}) {
     const State<2>& state = solver.state();
     const PointState<2>& point = state.point;
-    const double damaged = sum(state.node.mass, point.damage), soft = sum(state.node.mass, point.softening);
+    const double damaged = sum_of_products(state.node.mass, point.damage),
+                 soft = sum_of_products(state.node.mass, point.softening);
     const Field old_damage = point.damage;
     const EnergyLedger before = solver.ledger();
     EXPECT_GT(before["damage"], 0.0);
     const Resampling<2> change = resampled(solver, factor);
     solver.prepare(change);
     ASSERT_EQ(point.softening.size(), state.node.size());
-    EXPECT_NEAR(sum(state.node.mass, point.damage), damaged, 1e-12 * damaged);
-    EXPECT_NEAR(sum(state.node.mass, point.softening), soft, 1e-12 * soft);
+    EXPECT_NEAR(sum_of_products(state.node.mass, point.damage), damaged, 1e-12 * damaged);
+    EXPECT_NEAR(sum_of_products(state.node.mass, point.softening), soft, 1e-12 * soft);
     EXPECT_NEAR(solver.ledger().residual(), before.residual(), 1e-11 * before.total());
     int initiated = 0, limited = 0;
     for (std::size_t p = 0; p < point.size(); ++p) {
-      const auto first = change.parcels.node.begin() + change.parcels.begin[p],
-                 last = change.parcels.node.begin() + change.parcels.begin[p + 1];
+      const auto first = change.parcels.from.begin() + change.parcels.begin[p],
+                 last = change.parcels.from.begin() + change.parcels.begin[p + 1];
       if (last - first < 2) continue;
       if (std::all_of(first, last, [&](NodeIndex i) { return old_damage[std::size_t(i)] == 1.0; })) {
         ++initiated;

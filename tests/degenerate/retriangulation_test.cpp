@@ -3,6 +3,7 @@
 #include "voronoi/retriangulation.hpp"
 
 #include "core/error.hpp"
+#include "core/fields/aligned.hpp"
 #include "core/index.hpp"
 #include "tests/clouds.hpp"
 #include "tests/degenerate/random_clouds.hpp"

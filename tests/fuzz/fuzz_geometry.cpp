@@ -257,9 +257,9 @@ private:
   /// Every old node's matter is given away exactly once, every label is a mean.
   void check_rows(const Resampling<2>& made) const {
     Field given(mass_.size(), 0.0);
-    for (std::size_t e = 0; e < made.parcels.node.size(); ++e) {
+    for (std::size_t e = 0; e < made.parcels.from.size(); ++e) {
       if (!(made.parcels.weight[e] > 0.0)) fail("weight of a parcel", made.parcels.weight[e], 0.0);
-      given[index_of(made.parcels.node[e])] += made.parcels.weight[e];
+      given[index_of(made.parcels.from[e])] += made.parcels.weight[e];
     }
     for (const double sum : given)
       if (!(std::abs(sum - 1.0) <= 1e-12)) fail("sum of the parcels of a node", sum, 1.0);

@@ -61,10 +61,10 @@ std::string in_layers(std::string text) {
 }
 
 /// The same in triangles.
-std::string in_triangles(std::string text) {
+std::string in_triangles(std::string text, const std::string& lagrangian) {
   const std::string from = "pressure_exchange", to = "[output]\n";
   const std::size_t begin = text.find(from);
-  return text.replace(begin, text.find(to) - begin, "name = \"fe-triangles\"\nlagrangian = \"total\"\n");
+  return text.replace(begin, text.find(to) - begin, "name = \"fe-triangles\"\n" + lagrangian);
 }
 
 /// The slug is knocked off by a punch with a mass, in local time steps of scaled masses.

@@ -24,7 +24,7 @@ std::string cracked_case();
 /// The case of a sheet that is cut, of two layers, and of a round one.
 std::string in_layers(std::string text);
 std::string of_revolution(std::string text);
-std::string in_triangles(std::string text);
+std::string in_triangles(std::string text, const std::string& lagrangian);
 std::string in_levels(std::string text);
 const std::string& small_case(const std::string& name);
 

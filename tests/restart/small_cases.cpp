@@ -51,10 +51,10 @@ keep = 3
 )toml" + base_and_punch("2", "2") +
                             steel_304l;
 
-/// The same with particles for natural elements.
-std::string with_particles(std::string text) {
+/// The same with other lines of the method.
+std::string with_method(std::string text, const std::string& lines) {
   const std::string table = "[method]\n";
-  return text.insert(text.find(table) + table.size(), "name = \"sph\"\nkernel = \"wendland_c2\"\n");
+  return text.insert(text.find(table) + table.size(), lines);
 }
 
 // Local time steps and an exchange of pressures in a block that is fine where a punch's corner goes in.
@@ -346,25 +346,31 @@ const char* const rolled = "[materials.steel.anisotropy]\nlaw = \"hill48\"\nr0 =
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
-  static const std::vector<SmallCase> cases{{"punched", punched},
-                                            {"levels", levels},
-                                            {"levels_of_triangles", in_triangles(levels)},
-                                            {"loaded", loaded},
-                                            {"round_bar", round_bar},
-                                            {"triangles", triangles},
-                                            {"breaking", breaking},
-                                            {"adapted", adapted},
-                                            {"separated", separated},
-                                            {"cracked", cracked_case()},
-                                            {"round_slug", of_revolution(separated)},
-                                            {"knocked_off", in_levels(separated)},
-                                            {"touching", touching},
-                                            {"parts", parts_case()},
-                                            {"layers", in_layers(separated)},
-                                            {"set_back", set_back},
-                                            {"particles", with_particles(punched)},
-                                            {"space", space_case()},
-                                            {"rolled", adapted + rolled}};
+  static const std::vector<SmallCase> cases{
+      {"punched", punched},
+      {"levels", levels},
+      {"levels_of_triangles", in_triangles(levels, "lagrangian = \"total\"\n")},
+      {"levels_of_renewed_triangles", in_triangles(levels, "rereference = { every = 20 }\n")},
+      {"loaded", loaded},
+      {"round_bar", round_bar},
+      {"triangles", triangles},
+      {"breaking", breaking},
+      {"adapted", adapted},
+      {"separated", separated},
+      {"cracked", cracked_case()},
+      {"round_slug", of_revolution(separated)},
+      {"knocked_off", in_levels(separated)},
+      {"touching", touching},
+      {"parts", parts_case()},
+      {"layers", in_layers(separated)},
+      {"set_back", set_back},
+      {"particles", with_method(punched, "name = \"sph\"\nkernel = \"wendland_c2\"\n")},
+      {"renewed_triangles", with_method(punched, "name = \"fe-triangles\"\n")},
+      {"round_triangles", with_method(round_bar, "name = \"fe-triangles\"\n")},
+      {"breaking_triangles", breaking + "[method]\nname = \"fe-triangles\"\nrereference = { every = 25 }\n"},
+      {"touching_triangles", with_method(touching, "name = \"fe-triangles\"\n")},
+      {"space", space_case()},
+      {"rolled", adapted + rolled}};
   return cases;
 }
 

@@ -13,7 +13,9 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <array>
 #include <filesystem>
+#include <tuple>
 
 namespace cnem::testing {
 namespace {
@@ -99,6 +101,39 @@ TEST(TaylorBar, plane_strain_slab) {
   expect_within(particles.centre, shape.centre, 0.15,
                 "plastic strain of particles"); // elsewhere: docs/methods.md
   EXPECT_LT(particles.residual, 1e-3);
+}
+
+/// Length and half width or radius of a run with triangles as a user makes it, m.
+std::array<double, 2> of_triangles(const std::string& name, const std::string& spacing,
+                                   const std::string& lagrangian) {
+  const TemporaryFolder temporary("taylor_triangles");
+  const input::Case input =
+      input::read_case(CNEM_SOURCE_DIR "/cases/verification/" + name + "/case.toml",
+                       {"method.name=fe-triangles", "method.lagrangian=" + lagrangian,
+                        "cloud.spacing=" + spacing, "output.pictures=[]", "output.fields_every=80 us"});
+  EXPECT_EQ(app::run(input, {.output = temporary.path(), .force = true, .version = "test"}), Exit::done);
+  const results::RunStatus status = results::read_status(temporary.path());
+  EXPECT_EQ(status.warnings, std::vector<std::string>{}) << "masses stay with the matter of the nodes";
+  EXPECT_LT(status.energy_residual, 1e-3);
+  const results::HistoryTable history = results::read_history(temporary.path() / "history.csv");
+  const auto last = [&](const std::string& column) {
+    return history.column.at(index_of(history.find(column))).back();
+  };
+  return {32.4e-3 + last("probe.free_end.displacement_y"), 3.2e-3 + last("probe.foot.displacement_x")};
+}
+
+// Linear triangles lock; metal that finds other ones on each new reference flows more freely.
+TEST(TaylorBar, of_triangles_is_wider_on_new_references) {
+  for (const auto& [name, spacing, length, width] :
+       {std::tuple("taylor_slab_copper", "0.32 mm", 28.830e-3, 6.372e-3),
+        {"taylor_copper", "0.64 mm", 21.438e-3, 7.225e-3}}) {
+    const auto total = of_triangles(name, spacing, "total"),
+               renewed = of_triangles(name, spacing, "periodic");
+    expect_within(total[0], length, 0.01, "length");
+    expect_within(renewed[0], length, 0.01, "length on new references");
+    expect_within(renewed[1], width, 0.1, "width on new references");
+    EXPECT_GT(renewed[1], total[1] + 0.1 * (width - total[1])) << name;
+  }
 }
 
 // 21.44 mm of the same bar (Q4, 20 × 120, and the literature), in linear tetrahedra, which lock.

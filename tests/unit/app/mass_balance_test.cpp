@@ -7,6 +7,7 @@
 #include "input/case_reader.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -14,7 +15,7 @@ namespace cnem::app {
 namespace {
 
 /// Sheared by 1/20 a step of a picosecond, in which no wave gets anywhere.
-const std::string sheared = R"toml(
+constexpr const char* sheared = R"toml(
 [time]
 end = "1 ns"
 [domain]
@@ -33,6 +34,12 @@ velocity_gradient.xy = "5e10 1/s"
 
 constexpr double step = 1e-12; // s
 
+class MassBalance : public ::testing::TestWithParam<const char*> {
+protected:
+  const input::Case input =
+      input::read_case_text(fmt::format("{}[method]\nname = \"{}\"\n", sheared, GetParam()), "case.toml");
+};
+
 ExplicitSolver<2> solver_of(const input::Case& input) {
   std::vector<std::string> none;
   return make_solver<2>(input, none);
@@ -40,8 +47,7 @@ ExplicitSolver<2> solver_of(const input::Case& input) {
 
 double sum(const Field& field) { return std::accumulate(field.begin(), field.end(), 0.0); }
 
-TEST(MassBalance, is_watched) {
-  const input::Case input = input::read_case_text(sheared, "case.toml");
+TEST_P(MassBalance, is_watched) {
   ExplicitSolver<2> solver = solver_of(input);
   MassBalanceWatch watch;
   watch.look(solver);
@@ -64,8 +70,7 @@ TEST(MassBalance, is_watched) {
   FAIL() << "the two stay together";
 }
 
-TEST(MassBalance, is_kept_on_new_references_without_adaptation) {
-  const input::Case input = input::read_case_text(sheared, "case.toml");
+TEST_P(MassBalance, is_kept_on_new_references_without_adaptation) {
   ExplicitSolver<2> solver = solver_of(input), left_alone = solver_of(input);
   Adaptation adaptation(input, solver);
   ASSERT_FALSE(adaptation.active());
@@ -94,7 +99,12 @@ TEST(MassBalance, is_kept_on_new_references_without_adaptation) {
   EXPECT_GT(adaptation.metrics().front().second, 10.0);
   const EnergyLedger ledger = solver.ledger();
   EXPECT_GE(ledger["resampling"], 0.0);
+  EXPECT_EQ(solver.references(), left_alone.references());
 }
+
+INSTANTIATE_TEST_SUITE_P(of, MassBalance, ::testing::Values("cnem", "fe-triangles"), [](const auto& test) {
+  return std::string(test.param == std::string("cnem") ? "cells" : "triangles");
+});
 
 } // namespace
 } // namespace cnem::app

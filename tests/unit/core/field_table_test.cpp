@@ -88,7 +88,8 @@ TEST(FieldTable, carries_each_field_by_its_rule) {
   // the first node, and one of half the second and all of the third
   const NodeRows parcels{{0, 1, 3}, {0_node, 1_node, 2_node}, {1.0, 0.5, 1.0}},
       labels{{0, 1, 2}, {0_node, 2_node}, {1.0, 1.0}};
-  group.table.carry_over({parcels, labels, group.mass, {1.0, 1.0, 4.0}, {1.0, 2.0, 3.0}});
+  group.table.carry_over(
+      CarryWeights<NodeIndex>{parcels, labels, group.mass, {1.0, 1.0, 4.0}, {1.0, 2.0, 3.0}});
   group.table.rest_renewed(2);
   EXPECT_EQ(group.mass, (Field{1.0, 3.5}));
   EXPECT_NEAR(group.strain[1], (1.5 * 0.5 + 2.0 * 0.9) / 3.5, 1e-15);

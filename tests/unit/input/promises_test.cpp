@@ -33,9 +33,12 @@ TEST(Promises, a_plain_total_lagrangian_case_needs_none) {
   EXPECT_TRUE(unmet_needs(read_small("[method]\nlagrangian = \"total\"\n"), nothing).empty());
 }
 
+TEST(Promises, new_references_need_history_that_is_carried) {
+  EXPECT_EQ(lacking("method.lagrangian", ""), List{Promise::carried_history});
+}
+
 TEST(Promises, history_at_nodes_needs_one_point_per_node) {
   const List one{Promise::one_point_per_node};
-  EXPECT_EQ(lacking("method.lagrangian", ""), one);
   EXPECT_EQ(lacking("method.pressure_exchange", "[method]\npressure_exchange = 0.3\n"), one);
   EXPECT_EQ(lacking("adapt.resample", "[adapt]\nresample = true\n"),
             (List{Promise::one_point_per_node, Promise::tiling_cells, Promise::balanced_constant_stress}));
@@ -63,6 +66,7 @@ TEST(Promises, what_holds_or_touches_nodes_needs_interpolation) {
 
 TEST(Promises, identity_holds_one_point_per_node_and_interpolation_in_it) {
   EXPECT_TRUE(everything.keep(Promise::one_point_per_node));
+  EXPECT_TRUE(everything.keep(Promise::carried_history)) << "held in one point per node";
   EXPECT_TRUE(everything.keep(Promise::interpolating_values));
   for (const Promise promise : all_promises) EXPECT_FALSE(name_of(promise).empty());
 }
@@ -74,6 +78,7 @@ TEST(Registry, names_methods_and_refuses_others) {
   EXPECT_EQ(methods::names_in(3), Names{"fe-tetrahedra"});
   EXPECT_EQ(methods::names().size(), 4U);
   EXPECT_EQ(methods::names_that_keep(Promise::balanced_constant_stress, 2), (Names{"cnem", "fe-triangles"}));
+  EXPECT_EQ(methods::names_that_keep(Promise::carried_history, 2), (Names{"cnem", "fe-triangles", "sph"}));
   EXPECT_EQ(methods::names_that_keep(Promise::hoop_rows, 3), Names{});
   EXPECT_THROW(methods::entry("sphe"), InputError);
 }
@@ -105,7 +110,7 @@ TEST(CaseReader, particles_have_a_kernel_and_its_support) {
 }
 
 TEST(Promises, a_case_that_its_method_alone_refuses_is_told_from_a_wrong_one) {
-  const std::string triangles = "[method]\nname = \"fe-triangles\"\n";
+  const std::string triangles = "[method]\nname = \"fe-triangles\"\npressure_exchange = 0.3\n";
   EXPECT_THROW(read_small(triangles), MethodRefusal);
   try {
     read_small(triangles + "functions = \"lagrange\"\n");

@@ -107,6 +107,12 @@ inline double total_mass(const ExplicitSolver<2>& solver) {
   return mass;
 }
 
+inline double sum_of_products(const Field& a, const Field& b) {
+  double total = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) total += a[i] * b[i];
+  return total;
+}
+
 /// What a term tells of the present state; NaN when none does under this name.
 inline double metric_of(const ExplicitSolver<2>& solver, const std::string& name) {
   for (const Metric& metric : solver.metrics())

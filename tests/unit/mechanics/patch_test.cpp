@@ -56,11 +56,11 @@ TEST_P(Patch, plastic_flow_stays_affine) {
   EXPECT_GT(solver.state().point.plastic_strain[0], 0.4);
 }
 
-TEST(PatchRereferenced, affine_through_new_references) {
+TEST_P(Patch, affine_through_new_references) {
   Mat2 H;
   H << 0.2, 0.5, -0.1, -0.2;
   const double end = 2e-5;
-  ExplicitSolver<2> solver = driven(Method::cnem, H, end, steel_304L());
+  ExplicitSolver<2> solver = driven(GetParam(), H, end, steel_304L());
   const int steps = 400;
   for (int n = 0; n < steps; ++n) {
     if (n % 50 == 49) solver.prepare();

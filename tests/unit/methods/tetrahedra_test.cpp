@@ -184,6 +184,19 @@ TEST(Tetrahedra, conserve_momentum_and_energy_in_plastic_flow) {
 }
 
 /// Layers from 0.03 to 0.6 mm.
+TEST(Tetrahedra, are_refused_a_new_reference_by_the_promise) {
+  ExplicitSolver<3> solver = start(problem_of(jittered(), steel()), [](const Vec3&) -> Vec3 {
+    return {0, 0, 0};
+  });
+  try {
+    solver.prepare();
+    FAIL() << "their mesh has no better ones";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'history that is carried to new points'"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Tetrahedra, take_local_time_steps) {
   plasticity::Material soft = steel();
   soft.hardening = plasticity::JohnsonCook{.A = 200e6, .B = 500e6};

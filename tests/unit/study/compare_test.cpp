@@ -89,6 +89,12 @@ protected:
     std::string text = upsetting;
     return text.replace(text.find("\"total\""), 7, "\"periodic\"");
   }
+  /// Which triangles refuse.
+  static std::string exchanging() {
+    const std::string table = "[method]\n";
+    std::string text = periodic();
+    return text.insert(text.find(table) + table.size(), "pressure_exchange = 0.3\n");
+  }
   fs::path file() const { return folder / "upsetting.toml"; }
   fs::path out() const { return folder / "results"; }
 
@@ -194,8 +200,24 @@ TEST_F(Compare, pictures_of_a_row_have_one_scale_of_colours) {
   expect_parts(text("compare.csv"), {"run,tools.punch.velocity,state,", "\nsph,0 -60 m/s,done,0,"});
 }
 
-TEST_F(Compare, a_method_that_refuses_the_case_is_told_and_stops_no_other) {
+TEST_F(Compare, references_are_renewed_by_all_methods_of_the_plane) {
   write(periodic());
+  ASSERT_EQ(run(comparison("cnem,fe-triangles,sph", {{"cnem", "method.rereference.every=20"},
+                                                     {"fe-triangles", "method.rereference.every=20"},
+                                                     {"sph", "method.rereference.every=20"}})),
+            0)
+      << message;
+  for (const char* method : {"cnem", "fe-triangles", "sph"}) {
+    const results::RunStatus status = results::read_status(out() / method);
+    const auto references = std::find_if(status.metrics.begin(), status.metrics.end(),
+                                         [](const auto& metric) { return metric.first == "references"; });
+    ASSERT_NE(references, status.metrics.end());
+    EXPECT_GT(references->second, 2.0) << method;
+  }
+}
+
+TEST_F(Compare, a_method_that_refuses_the_case_is_told_and_stops_no_other) {
+  write(exchanging());
   EXPECT_EQ(run(comparison("cnem,fe-triangles")), 2) << printed;
   expect_parts(message, {"refused: fe-triangles: ", "upsetting.toml:24:", "one stress point per node",
                          "--set-for fe-triangles KEY=VALUE"});
@@ -204,14 +226,14 @@ TEST_F(Compare, a_method_that_refuses_the_case_is_told_and_stops_no_other) {
   expect_parts(text("compare.html"), {"1 of 2 methods done, 1 refused", "one stress point per node"});
   EXPECT_FALSE(fs::exists(out() / "fe-triangles"));
 
-  ASSERT_EQ(run(comparison("cnem,fe-triangles", {{"fe-triangles", "method.lagrangian=total"}})), 0)
+  ASSERT_EQ(run(comparison("cnem,fe-triangles", {{"fe-triangles", "method.pressure_exchange=0"}})), 0)
       << message;
   expect_parts(printed, {"1 done before, 1 to do", "fe-triangles: done"});
-  expect_parts(text("compare.html"), {"as in the case", "<td>total</td>"});
+  expect_parts(text("compare.html"), {"as in the case", "<td>0</td>"});
 }
 
 TEST_F(Compare, what_all_methods_refuse_or_is_wrong_is_refused_before_anything_is_written) {
-  write(periodic());
+  write(exchanging());
   expect_parts(refusal(comparison("fe-triangles")), {"upsetting.toml:24:", "one stress point per node"});
   write(upsetting);
   expect_parts(
