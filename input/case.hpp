@@ -207,7 +207,7 @@ struct Adaptation {
   bool cracks = false;   ///< also from the boundary to a tip inside
   adapt::Placement placement = adapt::Placement::between_nodes;
   int quiet_every = 0; ///< steps between passes at most, where they change hardly anything; 0: as ever
-  double growth = 0.3;                              ///< – of the wanted spacing per distance
+  double growth = 0.3; ///< – of the wanted spacing per distance
   std::optional<double> tool_spacing;               ///< m, at corners and arcs of tools
   const adapt::IndicatedField* indicator = nullptr; ///< null: the spacing stays
   double tolerance = 0.1;          ///< – of the norm of the field, shared out among the cells

@@ -246,7 +246,8 @@ TEST(Adaptation, refines_where_the_field_is_not_resolved) {
 TEST(Adaptation, passes_wait_where_they_change_hardly_a_node) {
   const Texts counted = with(by_strain, {"method.rereference.strain=0", "method.rereference.every=10",
                                          "tools.punch.velocity=0 -20 m/s"});
-  const Adapted often = run(punched, counted), waiting = run(punched, with(counted, {"adapt.quiet_every=80"}));
+  const Adapted often = run(punched, counted),
+                waiting = run(punched, with(counted, {"adapt.quiet_every=80"}));
   const auto steps = static_cast<double>(waiting.status.steps);
   EXPECT_LT(waiting.counted("passes"), 0.5 * often.counted("passes"));
   EXPECT_GT(waiting.counted("passes"), steps / 80);
