@@ -177,8 +177,8 @@ void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics) 
       if (crack.name == interface.name)
         diagnostics.add(Mistake::conflict, interface.where, interface.path,
                         fmt::format("found the name of a crack, expected another name than {}", crack.name));
-    domain.interfaces.push_back(
-        {interface.name, interface.get<std::vector<Vec2>>("points"), interface.maybe<double>("conductance")});
+    domain.interfaces.push_back({{interface.name, interface.get<std::vector<Vec2>>("points")},
+                                 interface.maybe<double>("conductance")});
   }
 }
 

@@ -19,7 +19,11 @@ template<> struct PointLocator<2>::Structure {
         functions(cloud, mesh, circles) {}
 };
 
-template<> struct PointLocator<3>::Structure { const CellGeometry<3>& cells; };
+template<> struct PointLocator<3>::Structure {
+  const CellGeometry<3>& cells;
+
+  explicit Structure(const CellGeometry<3>& of) : cells(of) {}
+};
 
 template<>
 PointLocator<2>::PointLocator(const Cloud<2>& cloud, const CellGeometry<2>&)

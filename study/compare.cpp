@@ -135,7 +135,7 @@ Study study_of(const Comparison& comparison) {
   }
   for (const auto& [name, assignment] : comparison.set_for) {
     const auto run = std::find_if(study.runs.begin(), study.runs.end(),
-                                  [&](const StudyRun& other) { return other.name == name; });
+                                  [&wanted = name](const StudyRun& other) { return other.name == wanted; });
     const std::string option = "--set-for " + name;
     if (run == study.runs.end())
       throw InputError(fmt::format("{} {}: found method '{}', expected one of --methods {}{}", option,

@@ -135,7 +135,7 @@ Exit give_up(const StaticModel& model, const DivergenceError& error, const RunOp
       "their units.");
   dead.last_good = "nothing was solved";
   if (error.node >= 0) {
-    const Vec2 at = input.origin.head<2>() + model.setup.problem.cloud.position[error.node];
+    const Vec2 at = input.origin.head<2>() + model.setup.problem.cloud.position[index_of(error.node)];
     dead.x = at.x();
     dead.y = at.y();
   }

@@ -87,7 +87,7 @@ TEST(flow_stress, is_that_of_the_table) {
 TEST(flow_stress, slopes_and_curvature_are_derivatives) {
   const double h = 1e-5;
   for (const auto& [name, set] : sets())
-    with_law(HardeningLaws{}, set, [&](const auto& given) {
+    with_law(HardeningLaws{}, set, [h, &of = name](const auto& given) {
       const Hardening law = given;
       const auto& constants = law.as<std::decay_t<decltype(given)>>();
       using Jet = generic::Jet<double>;
@@ -100,16 +100,16 @@ TEST(flow_stress, slopes_and_curvature_are_derivatives) {
             const double by_rate =
                 law.flow_stress(e, rate + h * rate, t) - law.flow_stress(e, rate - h * rate, t);
             EXPECT_NEAR(law.hardening_modulus(e, rate, t) * e, by_strain / (2 * h), 1e-8 * stress)
-                << name << ' ' << e << ' ' << rate << ' ' << t;
+                << of << ' ' << e << ' ' << rate << ' ' << t;
             EXPECT_NEAR(law.rate_modulus(e, rate, t) * rate, by_rate / (2 * h), 1e-8 * stress)
-                << name << ' ' << e << ' ' << rate << ' ' << t;
+                << of << ' ' << e << ' ' << rate << ' ' << t;
             // along a step: strain and rate grow together
             const auto along = [&](double s) {
               return generic::flow_stress(constants, Jet(e + 0.1 * e * s, 0.1 * e, 0.0),
                                           Jet(rate * (1 + s), rate, 0.0), t);
             };
             const double second = along(0.0).second, steps = (along(h).first - along(-h).first) / (2 * h);
-            EXPECT_NEAR(second, steps, 1e-8 * stress) << name << ' ' << e << ' ' << rate << ' ' << t;
+            EXPECT_NEAR(second, steps, 1e-8 * stress) << of << ' ' << e << ' ' << rate << ' ' << t;
           }
     });
 }
@@ -276,7 +276,8 @@ TEST_P(FlowStress, falls_that_are_too_steep_are_reported) {
 
 template<int dim> void compare_all_laws() {
   for (const auto& [name, set] : sets())
-    with_law(HardeningLaws{}, set, [&](const auto& law) { compare_packs_with_doubles<dim>(name, law); });
+    with_law(HardeningLaws{}, set,
+             [&of = name](const auto& law) { compare_packs_with_doubles<dim>(of, law); });
 }
 
 TEST_P(FlowStress, plane_equal_to_doubles) { compare_all_laws<2>(); }

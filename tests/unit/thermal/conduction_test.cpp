@@ -124,7 +124,7 @@ TEST(Conduction, convection_settles_to_the_series_resistance) {
   Body body(strip(length, 0.3e-3, 1e-4));
   const ThermalBoundaries<2> boundaries(
       {{"hot", TimeTable(100.0), nodes_at_x(body.cloud, 0.0)}}, {},
-      {{"cold", TimeTable(h), TimeTable(0.0), facets_at_x(body.cloud, length)}});
+      {{{"cold", TimeTable(h), TimeTable(0.0)}, facets_at_x(body.cloud, length)}});
   body.run(0.6, boundaries);
   for (const NodeIndex i : nodes_at_x(body.cloud, length))
     EXPECT_NEAR(body.temperature[static_cast<std::size_t>(i)], 100.0 / (1.0 + h * length / k), 1e-3);

@@ -104,7 +104,7 @@ TEST(Revolution, flux_and_convection_act_on_areas_of_revolution) {
   EXPECT_NEAR(received({{}, {{"all", TimeTable(3.0), body.cloud.facets}}, {}, Space::revolution}), 3.0 * skin,
               1e-12 * skin);
   EXPECT_NEAR(
-      received({{}, {}, {{"all", TimeTable(2.0), TimeTable(5.0), body.cloud.facets}}, Space::revolution}),
+      received({{}, {}, {{{"all", TimeTable(2.0), TimeTable(5.0)}, body.cloud.facets}}, Space::revolution}),
       10.0 * skin, 1e-11 * skin);
 }
 
