@@ -12,6 +12,7 @@
 #include "core/geometry/revolution.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
+#include "input/case_cutting.hpp"
 #include "input/case_output.hpp"
 #include "mechanics/local_steps.hpp"
 #include "mechanics/mass_scaling.hpp"
@@ -246,6 +247,7 @@ struct Case {
   Method method;
   Adaptation adapt;
   Fracture fracture;
+  std::optional<CuttingSetup> cutting; ///< what the case was made of, where it says [cutting]
   Output output;
   Report report;
 
