@@ -1,6 +1,7 @@
 #include "input/case_reader.hpp"
 
 #include "input/case_parts.hpp"
+#include "input/cutting.hpp"
 #include "input/library.hpp"
 #include "input/local_origin.hpp"
 
@@ -158,6 +159,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   for (const auto& change : changes) apply_override(document, change);
   Diagnostics diagnostics;
   take_from_library(document, diagnostics);
+  take_from_cutting(document, diagnostics);
   diagnostics.throw_if_any();
   Setting root = apply_schema(document, diagnostics);
   const Member* time = document.find("time");
@@ -165,7 +167,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   if (const Setting* type = root.find("analysis.type");
       !ended && type && std::get<std::string>(type->value) != "static")
     diagnostics.add(Mistake::missing_key, time ? time->value.where : document.where, "time.end",
-                    "missing, expected " + find_key("time.end")->expectation());
+                    find_key("time.end")->missing());
   diagnostics.throw_if_any();
   compute_defaults(root);
 
@@ -183,6 +185,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_domain(root, result, diagnostics);
   read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
+  if (Setting* cutting = root.find("cutting")) result.cutting = read_cutting(*cutting, diagnostics);
   const bool plane = result.analysis.dimensions() == 2;
   if (plane) read_contact(root, result, diagnostics);
   diagnostics.throw_if_any();

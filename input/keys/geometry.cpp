@@ -60,7 +60,8 @@ void add_domain(Keys& k) {
   k.add("domain.outer", table,
         "Outline: either `start` and `path`, or `rectangle`, or `circle`. Names of its pieces are for "
         "`boundary`.")
-      .required();
+      .required()
+      .or_from_cutting();
   add_outline(k, "domain.outer", "");
   k.add("domain.holes", named_tables, "Holes.");
   k.add("domain.holes.*", table, "A hole: either `start` and `path`, or `rectangle`, or `circle`.");
@@ -110,7 +111,7 @@ void add_parts(Keys& k) {
 }
 
 void add_cloud(Keys& k) {
-  k.add("cloud", table, "The nodes.").required();
+  k.add("cloud", table, "The nodes.").required().or_from_cutting();
   k.add("cloud.pattern", choice,
         "`hexagonal`: near-equilateral; `regular`: square grid, uniform spacing only; `jittered`: hexagonal "
         "with random offsets; `list`: the nodes given in `nodes` or `nodes_file`.")

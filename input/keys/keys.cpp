@@ -41,6 +41,7 @@ void add_general(Keys& k) {
         "loads and displacements are taken.")
       .unit(d::time)
       .in(positive)
+      .or_from_cutting()
       .computed("1 s in static analyses");
   k.add("time.step", table, "Size of the explicit step.").always();
   k.add("time.step.safety", quantity, "Factor on the stable step.")
@@ -153,12 +154,16 @@ void add_conditions(Keys& k) {
       .example("\"0 -9.81 m/s2\"");
 }
 
+} // namespace
+
 void add_friction(Keys& k, const std::string& at, const std::string& doc) {
   const std::vector<LawText> laws = law_texts(contact::FrictionLaws{});
   k.add(at, table, doc).always();
   add_law_choice(k, at, laws).fallback("\"none\"");
   add_law_constants(k, at, laws);
 }
+
+namespace {
 
 void add_tools(Keys& k) {
   const std::string at = "tools.*.";
@@ -341,6 +346,7 @@ const std::vector<Key>& schema() {
   static const std::vector<Key> keys = [] {
     Keys k;
     add_general(k);
+    add_cutting(k);
     add_domain(k);
     add_block(k);
     add_parts(k);

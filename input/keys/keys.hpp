@@ -22,7 +22,10 @@ public:
     return key_.choices_in_space = std::move(choices), *this;
   }
   KeyDraft& required() { return key_.presence = Presence::required, *this; }
-  KeyDraft& or_in_library() { return key_.in_library = true, *this; }
+  KeyDraft& or_in_library() {
+    return key_.elsewhere = "a material of the library such as \"lib:304L\" where one is named", *this;
+  }
+  KeyDraft& or_from_cutting() { return key_.elsewhere = "[cutting], which makes it", *this; }
   /// Of a table: the defaults of its members hold without it.
   KeyDraft& always() { return key_.presence = Presence::fallback, *this; }
   KeyDraft& fallback(std::string toml) { return key_.fallback = std::move(toml), always(); }
@@ -50,6 +53,9 @@ public:
 
 /// The closed curve of a domain, a hole or a tool: members of the table `at`.
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
+/// The table of a law of friction.
+void add_friction(Keys& k, const std::string& at, const std::string& doc);
+void add_cutting(Keys& k);
 void add_domain(Keys& k);
 void add_block(Keys& k);
 void add_parts(Keys& k);

@@ -17,6 +17,7 @@ struct Scoped {
 };
 
 constexpr std::array scopes{
+    Scoped{"cutting", Scope::plane, "what it makes is an outline; a workpiece in space is a domain.block"},
     Scoped{"domain.outer", Scope::plane, "a workpiece in space is a domain.block"},
     Scoped{"domain.holes", Scope::plane, "outlines bound areas; a workpiece in space is a domain.block"},
     Scoped{"domain.cracks", Scope::plane, "a polyline does not cut a body in space"},

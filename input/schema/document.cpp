@@ -63,15 +63,6 @@ Value convert(const toml::node& node, const std::string& source, std::size_t dep
   return value;
 }
 
-void relocate(Value& value, const Location& where) {
-  value.where = where;
-  for (Value& element : value.elements) relocate(element, where);
-  for (Member& member : value.members) {
-    member.where = where;
-    relocate(member.value, where);
-  }
-}
-
 /// The text after '=' as TOML where it is TOML, else as it stands.
 Value override_value(std::string_view text, const Location& where) {
   Value value;
@@ -160,6 +151,15 @@ Value& descend(Value& value, const Step& step, const std::string& so_far, const 
 }
 
 } // namespace
+
+void relocate(Value& value, const Location& where) {
+  value.where = where;
+  for (Value& element : value.elements) relocate(element, where);
+  for (Member& member : value.members) {
+    member.where = where;
+    relocate(member.value, where);
+  }
+}
 
 std::string Location::text() const {
   return line == 0 ? source : fmt::format("{}:{}:{}", source, line, column);

@@ -76,6 +76,9 @@ void apply_override(Value& root, std::string_view assignment);
 /// The same for a value that was written elsewhere, in the file of a study say.
 void apply_override(Value& root, const Override& change);
 
+/// Says of a value and all in it that it was written at another place.
+void relocate(Value& value, const Location& where);
+
 /// The text as a TOML string, in quotes.
 std::string toml_quoted(std::string_view text);
 

@@ -76,6 +76,10 @@ std::string Key::expectation() const {
   return "";
 }
 
+std::string Key::missing() const {
+  return fmt::format("missing, expected {}{}{}", expectation(), elsewhere.empty() ? "" : ", or ", elsewhere);
+}
+
 const Key* find_key(std::string_view pattern) {
   static const std::map<std::string, const Key*, std::less<>> index = [] {
     std::map<std::string, const Key*, std::less<>> map;

@@ -61,14 +61,16 @@ struct Key {
   std::vector<std::string> choices = {};
   std::vector<std::string> choices_in_space = {}; ///< where they are others
   Condition when = {};
-  std::string example = {};  ///< TOML text
-  std::string computed = {}; ///< words for a default that depends on other keys
-  bool in_library = false;   ///< a required key that the library of materials may bring instead of the file
+  std::string example = {};   ///< TOML text
+  std::string computed = {};  ///< words for a default that depends on other keys
+  std::string elsewhere = {}; ///< of a required key: what may bring it instead of the file, in words
 
   std::string name() const;   ///< last part of the path
   std::string parent() const; ///< path of the table it belongs to; "" at the top
   /// What a value of this key looks like, for messages and documents: `a velocity such as "11 m/s"`.
   std::string expectation() const;
+  /// What is said where a key that has to be there is not.
+  std::string missing() const;
   /// TOML text of a value.
   std::string example_text() const;
 };

@@ -143,6 +143,11 @@ std::string scope_of(const Key& table) {
                      table.scope_reason);
 }
 
+std::string required_text(const Key& table) {
+  if (table.presence != Presence::required) return "";
+  return table.elsewhere.empty() ? " Required." : fmt::format(" Required, or {}.", table.elsewhere);
+}
+
 std::string default_text(const Key& key) {
   if (key.presence == Presence::required) return "**required**";
   if (!key.fallback.empty()) return fmt::format("`{}`", key.fallback);
@@ -172,7 +177,7 @@ std::string case_reference() {
     if ((table.type != Type::table && !is_list) || belongs_to_outline(table)) continue;
     const std::string pattern = is_list ? table.path + "[]" : table.path;
     text += fmt::format("\n### `{}`\n\n{}{}{}\n", readable(pattern), is_list ? "A piece." : table.doc,
-                        table.presence == Presence::required ? " Required." : "", scope_of(table));
+                        required_text(table), scope_of(table));
     std::string rows;
     for (const Key* key : members_of(pattern)) {
       if (belongs_to_outline(*key) || key->type == Type::table || key->type == Type::named_tables) continue;

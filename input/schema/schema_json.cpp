@@ -117,7 +117,6 @@ Json parsed_toml(const std::string& text) {
 
 Json object_schema(const std::string& pattern, Needs needs) {
   Json properties = Json::object(), required = Json::array();
-  Json in_plane = Json::array(), in_space = Json::array(); // required there: which it is another table says
   for (const Key* key : members_of(pattern)) {
     Json schema = value_schema(*key, needs);
     std::string description = key->doc;
@@ -137,15 +136,13 @@ Json object_schema(const std::string& pattern, Needs needs) {
     const bool outside =
         key->scope != Scope::everywhere &&
         (!find_key(pattern) || key->scope != find_key(pattern)->scope); // depends on the analysis
-    if (key->presence == Presence::required && key->when.sibling.empty() && !key->in_library &&
-        needs == Needs::as_written)
-      (!outside ? required : key->scope == Scope::plane ? in_plane : in_space).push_back(key->name());
+    if (key->presence == Presence::required && key->when.sibling.empty() && key->elsewhere.empty() &&
+        !outside && needs == Needs::as_written)
+      required.push_back(key->name());
     properties[key->name()] = std::move(schema);
   }
   Json object{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
   if (!required.empty()) object["required"] = std::move(required);
-  if (!in_plane.empty() && !in_space.empty())
-    object["anyOf"] = Json::array({Json{{"required", in_plane}}, Json{{"required", in_space}}});
   return object;
 }
 

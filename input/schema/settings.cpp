@@ -53,7 +53,8 @@ public:
       if (!in_scope(*key, found, path)) continue;
       if (!key->when.sibling.empty() && !applies(*key, setting, found, path)) continue;
       if (!found && key->presence != Presence::fallback) {
-        if (key->presence == Presence::required) report_missing(*key, setting.where, path);
+        if (key->presence == Presence::required)
+          diagnostics_.add(Mistake::missing_key, setting.where, path, key->missing());
         continue;
       }
       Setting member{key, key->name(), path, found ? found->where : setting.where, found != nullptr,
@@ -63,14 +64,6 @@ public:
   }
 
 private:
-  void report_missing(const Key& key, const Location& where, const std::string& path) {
-    diagnostics_.add(Mistake::missing_key, where, path,
-                     fmt::format("missing, expected {}{}", key.expectation(),
-                                 key.in_library ? ", or a material of the library such as \"lib:304L\" where "
-                                                  "one is named"
-                                                : ""));
-  }
-
   void report_unknown(const Value& written, const std::string& pattern, const std::string& path) {
     std::vector<std::string> known;
     for (const Key* key : members_of(pattern)) known.push_back(key->name());

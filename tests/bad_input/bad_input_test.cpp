@@ -92,7 +92,8 @@ TEST_P(BadInput, is_refused_as_promised) {
   for (const std::string& text : promise.expected) expect_message(refusal, text);
 
   // Whatever is wrong: each line says where, and what was expected; at most three of a kind.
-  static const std::regex place(R"(^(.*\.toml:\d+:\d+|--(set|set-for|methods) .*): .*(expected|not TOML).*)");
+  static const std::regex place(
+      R"(^(.*\.toml:\d+:\d+(, from \[cutting\])?|--(set|set-for|methods) .*): .*(expected|not TOML).*)");
   static const std::regex rest(R"(^(and \d+ more .*|in run '.*' of the study|in the run of method '.*')$)");
   std::istringstream lines(refusal.message);
   for (std::string line; std::getline(lines, line);)
