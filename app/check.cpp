@@ -1,4 +1,5 @@
 #include "app/divergence.hpp"
+#include "app/forecast.hpp"
 #include "app/places.hpp"
 #include "app/run.hpp"
 #include "app/simulation.hpp"
@@ -12,7 +13,6 @@
 #include "results/status.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace cnem::app {
@@ -38,8 +38,12 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
   fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
   if (!input.time.fixed) fmt::print("{}", input.placed(" at " + show_place<dim>(state.node.position, node)));
   if (solver.sub_steps() > 1) fmt::print(", in {} finest steps", solver.sub_steps());
-  fmt::print("\nsteps       about {:.12g} to t = {:.4g} s\n", std::ceil(input.time.end / control.limit()),
-             input.time.end);
+  const Forecast expected = forecast(input, solver, control);
+  fmt::print("\nsteps       about {:.12g} to t = {:.4g} s", expected.steps, input.time.end);
+  if (input.adapt.resample)
+    fmt::print(", with cells of {:.3g} m and {:.0f} to {:.0f} nodes", expected.finest, expected.nodes_first,
+               expected.nodes_last);
+  fmt::print("\n");
   fmt::print("memory      {:.0f} MB\n", static_cast<double>(results::peak_rss_bytes()) / 1e6);
   const auto overlaps = solver.conditions().contact.overlaps(state.node.position, 0.0);
   if (overlaps.empty()) {

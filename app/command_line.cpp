@@ -1,5 +1,6 @@
 #include "app/command_line.hpp"
 
+#include "app/explain.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/run.hpp"
 #include "app/version.hpp"
@@ -37,7 +38,7 @@ const CLI::Validator at_least_one(
     },
     "POSITIVE");
 
-/// What `run`, `check` and `compare` share.
+/// What commands that read a case share.
 struct CaseOptions {
   std::string path;
   std::vector<std::string> set;
@@ -45,11 +46,14 @@ struct CaseOptions {
   bool force = false;
   int threads = 0;
 
-  void declare(CLI::App& command, const char* folder = "folder of results (default: results/<case name>)",
-               const char* forced = "replace a run that the folder holds") {
+  void declare_case(CLI::App& command) {
     command.add_option("case", path, "case file (TOML), or a folder that holds case.toml")->required();
     command.add_option("--set", set, "key=value: overrides a key of the case, e.g. --set time.end=\"60 us\"")
         ->allow_extra_args(false);
+  }
+  void declare(CLI::App& command, const char* folder = "folder of results (default: results/<case name>)",
+               const char* forced = "replace a run that the folder holds") {
+    declare_case(command);
     command.add_option("--output", output, folder);
     command.add_flag("--force", force, forced);
     command.add_option("--threads", threads, "number of threads (default: all)")->check(at_least_one);
@@ -107,6 +111,10 @@ int act(CLI::App& program, int argc, char** argv) {
   CLI::App* check_command = program.add_subcommand(
       "check", "build a case without running it: nodes, first step, overlap, initial fields");
   check_options.declare(*check_command);
+  CLI::App* explain_command =
+      program.add_subcommand("explain", "say in plain words what a case does, and what a run of it takes");
+  CaseOptions explain_options;
+  explain_options.declare_case(*explain_command);
   CLI::App* restart_command = program.add_subcommand(
       "restart", "go on with a run that was stopped or killed, from its last checkpoint");
   RunOptions restart_options;
@@ -150,7 +158,8 @@ int act(CLI::App& program, int argc, char** argv) {
                    "method.lagrangian=total")
       ->allow_extra_args(false);
 
-  for (CLI::App* command : {run_command, check_command, restart_command, sweep_command, compare_command})
+  for (CLI::App* command :
+       {run_command, check_command, explain_command, restart_command, sweep_command, compare_command})
     command->footer("CNEM_ISA=baseline, avx2 or avx512 in the environment chooses the instruction set of the "
                     "kernels (default: the best one that the machine has).");
 
@@ -199,6 +208,8 @@ int act(CLI::App& program, int argc, char** argv) {
   if (*check_command) {
     const input::Case input = check_options.read();
     check(input, check_options.options(input));
+  } else if (*explain_command) {
+    fmt::print("{}", explanation(explain_options.read()));
   } else if (*schema_command) {
     fmt::print("{}", markdown ? input::case_reference() : input::json_schema());
   } else if (*materials.all) {

@@ -1,0 +1,99 @@
+#include "app/forecast.hpp"
+
+#include "adapt/structure.hpp"
+#include "app/divergence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cnem::app {
+
+namespace {
+
+const double hexagon = 0.5 * std::sqrt(3.0); ///< area of a cell over the square of the spacing
+
+/// Nodes that a spacing growing from `fine` to `coarse` takes per distance along a line, both of its sides.
+double beside_a_line(double fine, double coarse, double growth) {
+  return std::max(0.0, 2.0 / (hexagon * growth) * (1.0 / fine - 1.0 / coarse));
+}
+
+/// The same around the corner of a tool, with matter on three sides of four.
+double around_a_corner(double fine, double coarse, double growth) {
+  if (fine >= coarse) return 0.0;
+  return 1.5 * std::numbers::pi / (hexagon * growth * growth) *
+         (std::log(coarse / fine) - 1.0 + fine / coarse);
+}
+
+/// The smaller side of the workpiece, m.
+double least_side(const Curve& outline) {
+  Vec2 low = outline.pieces.front().from, high = low;
+  for (const CurvePiece& piece : outline.pieces) {
+    low = low.cwiseMin(piece.from);
+    high = high.cwiseMax(piece.from);
+  }
+  return (high - low).minCoeff();
+}
+
+/// What adaptation adds to the nodes there are; `spacing`: of these, where they limit the step, m.
+void add_nodes(const input::Case& input, double spacing, Forecast& expected) {
+  const input::Adaptation& rules = input.adapt;
+  const auto& cutting = input.cutting;
+  if (rules.tool_spacing) {
+    const double corners = cutting ? 1.0 : static_cast<double>(input.tools.size());
+    expected.nodes_first += corners * around_a_corner(*rules.tool_spacing, spacing, rules.growth);
+  }
+  if (rules.indicator) { // a band: shear plane and contact of the chip, else through the workpiece
+    const double band = cutting ? 3.0 * cutting->feed : least_side(input.domain.outer);
+    expected.nodes_first += band * beside_a_line(rules.h_min, rules.h_max, rules.growth);
+  }
+  expected.nodes_last = expected.nodes_first;
+  if (!cutting) return;
+  // Cells that were made fine stay within 0.4 of what is wanted there: along the machined surface, and in
+  // the chip, which a quarter more than the finest spacing was measured in.
+  const double way = std::min(cutting->length, input.time.end * cutting->speed);
+  expected.nodes_last += 0.5 * way * beside_a_line(0.4 * spacing, spacing, rules.growth);
+  if (rules.indicator)
+    expected.nodes_last += way * cutting->feed / (hexagon * std::pow(1.25 * rules.h_min, 2));
+}
+
+/// Of one thread on an idle core, from the runs of docs/cutting.md; docs/performance.md has the parts.
+double cost(const input::Case& input) {
+  double ns = 90.0; // of a node and step
+  if (input.adapt.resample) ns += 30.0;
+  if (input.adapt.indicator) ns += 40.0;
+  if (input.contact.active) ns += 30.0;
+  return ns * 1e-9;
+}
+
+} // namespace
+
+template<int dim>
+Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, const StepControl& control) {
+  const auto count = static_cast<double>(solver.state().node.size());
+  Forecast expected{.nodes_first = count, .nodes_last = count};
+  double step = control.limit();
+  if constexpr (dim == 2) {
+    const Cloud<2>& cloud = solver.conditions().cloud;
+    const Field spacing = adapt::spacing_of(cloud, adapt::build_structure(cloud, input.analysis.space()));
+    expected.finest = spacing[node_of(solver, control.point())];
+    if (input.adapt.resample) {
+      add_nodes(input, expected.finest, expected);
+      const double coarse = expected.finest;
+      if (input.adapt.tool_spacing && !input.tools.empty())
+        expected.finest = std::min(expected.finest, *input.adapt.tool_spacing);
+      if (input.adapt.indicator) expected.finest = std::min(expected.finest, input.adapt.h_min);
+      if (!input.time.fixed) step *= expected.finest / coarse;
+    }
+  }
+  expected.steps = std::ceil(input.time.end / step);
+  if (input.time.max_steps)
+    expected.steps = std::min(expected.steps, static_cast<double>(*input.time.max_steps));
+  expected.seconds = expected.steps * expected.nodes_mean() * cost(input);
+  return expected;
+}
+
+template Forecast forecast<2>(const input::Case&, const ExplicitSolver<2>&, const StepControl&);
+template Forecast forecast<3>(const input::Case&, const ExplicitSolver<3>&, const StepControl&);
+
+} // namespace cnem::app

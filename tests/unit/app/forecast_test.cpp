@@ -1,0 +1,118 @@
+// What a run will take, and a case in plain words.
+#include "app/forecast.hpp"
+
+#include "app/command_line.hpp"
+#include "app/explain.hpp"
+#include "app/run.hpp"
+#include "app/simulation.hpp"
+#include "input/case_reader.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace cnem::app {
+namespace {
+
+const std::string cut = R"toml(
+[cutting]
+feed = "0.3 mm"
+width = "4 mm"
+rake = "10 deg"
+clearance = "7 deg"
+edge_radius = "60 um"
+speed = "1600 m/min"
+length = "0.3 mm"
+[domain]
+material = "aluminium"
+[materials.aluminium]
+density = "2700 kg/m3"
+elastic = { young = "70 GPa", poisson = 0.33 }
+plastic = { law = "perfect", yield = "440 MPa" }
+)toml";
+
+const std::string heat = "heat = { specific_heat = \"900 J/(kg K)\", conductivity = \"120 W/(m K)\" }\n";
+
+input::Case read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return input::read_case_text(text, "case.toml", overrides);
+}
+
+Forecast expected_of(const input::Case& input) {
+  std::vector<std::string> warnings;
+  ExplicitSolver<2> solver = make_solver<2>(input, warnings);
+  StepControl control(input.time);
+  control.refresh(solver);
+  return forecast(input, solver, control);
+}
+
+TEST(Forecast, FitsTheRunOfACut) {
+  const input::Case input = read(cut, {"output.pictures=[]"});
+  const Forecast expected = expected_of(input);
+  const testing::TemporaryFolder folder("forecast");
+  ASSERT_EQ(run(input, {.output = folder.path() / "results", .version = "test"}), Exit::done);
+  const results::RunStatus status = results::read_status(folder.path() / "results");
+  const auto steps = static_cast<double>(status.steps);
+  for (const auto& [foretold, taken] :
+       {std::pair{expected.steps, steps},
+        {expected.nodes_last, static_cast<double>(status.nodes)},
+        {expected.nodes_mean(), static_cast<double>(status.node_steps) / steps}}) {
+    EXPECT_LT(foretold, 1.5 * taken);
+    EXPECT_GT(foretold, taken / 1.5);
+  }
+}
+
+TEST(Forecast, CountsWithWhatRefines) {
+  const Forecast plain = expected_of(read(cut)), finer = expected_of(read(cut, {"adapt.tool_spacing=5 um"})),
+                 longer = expected_of(read(cut, {"time.end=22.5 us", "cutting.length=0.6 mm"})),
+                 coarse = expected_of(read(cut, {"adapt.resample=false"}));
+  EXPECT_NEAR(finer.steps, 3.0 * plain.steps, 0.01 * finer.steps) << "cells of 5 µm for 15";
+  EXPECT_GT(finer.nodes_first, plain.nodes_first);
+  EXPECT_GT(longer.nodes_last, plain.nodes_last) << "the chip keeps its cells";
+  EXPECT_LT(coarse.steps, 0.3 * plain.steps);
+  EXPECT_EQ(coarse.nodes_first, coarse.nodes_last);
+}
+
+TEST(Explain, SaysWhatDecidesAboutACut) {
+  const std::string text = explanation(read(cut + heat));
+  const double peclet = (1600.0 / 60.0) * 3e-4 * 2700.0 * 900.0 / 120.0;
+  const double share = 0.5 * 2700.0 * std::pow(1600.0 / 60.0, 2) / 440e6;
+  for (const std::string& part :
+       {fmt::format("= {:.3g}: it goes with the chip", peclet), std::string("r/f = 0.2: honed"),
+        fmt::format("= {:.2g}: forces are those of a slow cut", share), std::string("20 over the feed"),
+        std::string("7 along the arc"), std::string("cutter moves at 26.67 m/s"),
+        std::string("steps       about ")})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+  EXPECT_EQ(explanation(read(cut)).find("Péclet"), std::string::npos) << "without heat";
+}
+
+TEST(Explain, SaysThatACutIsLong) {
+  const auto note = [](const std::vector<std::string>& overrides) {
+    return explanation(read(cut, overrides)).find("--set cutting.length=\"3 mm\"") != std::string::npos;
+  };
+  EXPECT_TRUE(note({"cutting.length=200 mm"}));
+  EXPECT_FALSE(note({}));
+  EXPECT_NE(explanation(read(cut, {"time.end=1 ms"})).find("beyond the length of cut"), std::string::npos);
+}
+
+TEST(Explain, SaysWhatOtherCasesAre) {
+  const std::string text = explanation(read(R"toml(analysis.type = "static"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "0.25 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+[boundary.base]
+pieces = "bottom"
+displacement = "0 0 m"
+)toml"));
+  EXPECT_NE(text.find("4 mm x 2 mm in the plane, steel"), std::string::npos) << text;
+  EXPECT_NE(text.find("of equilibrium"), std::string::npos) << text;
+}
+
+} // namespace
+} // namespace cnem::app
