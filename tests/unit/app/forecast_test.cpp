@@ -48,10 +48,10 @@ Forecast expected_of(const input::Case& input) {
 }
 
 TEST(Forecast, FitsTheRunOfACut) {
-  const input::Case input = read(cut, {"output.pictures=[]"});
+  const input::Case input = read(cut, {"output.pictures=[]", "cutting.length=0.2 mm"});
   const Forecast expected = expected_of(input);
   const testing::TemporaryFolder folder("forecast");
-  ASSERT_EQ(run(input, {.output = folder.path() / "results", .version = "test"}), Exit::done);
+  ASSERT_EQ(run(input, {.output = folder.path() / "results", .threads = 1, .version = "test"}), Exit::done);
   const results::RunStatus status = results::read_status(folder.path() / "results");
   const auto steps = static_cast<double>(status.steps);
   for (const auto& [foretold, taken] :
