@@ -94,12 +94,13 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
   const double f = cut.feed;
   const auto length = [](double x) { return fmt::format("\"{} m\"", format_number(x)); };
   const double end = cut.length + (cut.exit ? 0.0 : feeds::ahead * f);
+  // What is held at its foot alone must be sturdy, or it topples before the tool.
+  const double below = std::min(feeds::below * f, cut.exit ? 0.5 * cut.length : feeds::below * f);
   const double way = cut.length + (cut.exit ? feeds::beyond * f : 0.0), duration = way / cut.speed;
   const auto time = [](double t) { return fmt::format("\"{} s\"", format_number(t)); };
   std::string text =
       fmt::format("[time]\nend = {}\n", time(duration)) +
-      fmt::format("[domain.outer.rectangle]\nfrom = {}\nto = {}\n", point({0.0, -feeds::below * f}),
-                  point({end, f})) +
+      fmt::format("[domain.outer.rectangle]\nfrom = {}\nto = {}\n", point({0.0, -below}), point({end, f})) +
       fmt::format("[cloud]\nspacing = {}\n[cloud.refine.layer]\nbox = [{}, {}]\nspacing = {}\n",
                   length(feeds::coarse * f), point({0.0, -feeds::layer * f}), point({end, f}),
                   length(feeds::fine * f)) +

@@ -140,6 +140,9 @@ TEST(Cutting, LeavesThroughAFreeEnd) {
   EXPECT_EQ(c.boundary[0].pieces, std::vector<std::string>{"bottom"});
   EXPECT_DOUBLE_EQ(bounds(c.domain.outer)[1].x(), 0.01);
   EXPECT_GT(c.time.end * c.cutting->speed, 0.01 + 4e-4) << "and is out at the end";
+  EXPECT_DOUBLE_EQ(bounds(c.domain.outer)[0].y(), -2e-3);
+  const Case brief = read(cut, {"cutting.exit=true", "cutting.length=1 mm"});
+  EXPECT_DOUBLE_EQ(bounds(brief.domain.outer)[0].y(), -5e-4) << "no pillar";
 }
 
 TEST(Cutting, GivesWayToWhatTheCaseSays) {
