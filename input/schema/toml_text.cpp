@@ -76,12 +76,11 @@ private:
   /// The parser keeps a table for each part of a dotted key, in one another, and some hundred bytes for each
   /// key.
   void count_keys(char c) {
-    constexpr int deepest = 64, most_keys = 1000000;
-    if (c == '.' && ++dots_ == deepest)
-      fail(fmt::format("found a key of more than {} parts, expected fewer", deepest));
+    constexpr int most_parts = 64, most = 1000000;
+    if (c == '.' && ++dots_ == most_parts)
+      fail(fmt::format("found a key of more than {} parts, expected fewer", most_parts));
     if (c == '\n' || c == ',' || c == '{' || c == '=') dots_ = 0;
-    if (c == '=' && ++keys_ > most_keys)
-      fail(fmt::format("found more than {} keys, expected fewer", most_keys));
+    if (c == '=' && ++keys_ > most) fail(fmt::format("found more than {} keys, expected fewer", most));
   }
 
   /// Whether a quote here begins a text; elsewhere the parser looks beyond it for the end of a word.
