@@ -76,7 +76,7 @@ void CuttingCourse::record(const ExplicitSolver<2>& solver) {
   const Vec2 own = cut_.turned(contact.velocity(asked.tool, state.time));
   const double hottest = *std::max_element(state.node.temperature.begin(), state.node.temperature.end());
   writer_.front().write(
-      std::vector<double>{state.time, moved.dot(cut_.along), force.x(), -force.y(), face.contact_length,
+      std::vector<double>{state.time, moved.dot(cut_.along), force.x(), 0.0 - force.y(), face.contact_length,
                           thermal ? face.mean_temperature : unknown, thermal ? hottest : unknown, chip.length,
                           fresh_thickness(chip, asked.feed), chip.shear_plane, chip.shear_plane_angle,
                           (speed - own).dot(cut_.face()), std::atan2(speed.y(), speed.x())});
