@@ -1,6 +1,7 @@
 #include "evaluate/chip.hpp"
 
 #include "core/index.hpp"
+#include "core/parameter.hpp"
 
 #include <algorithm>
 #include <cmath>

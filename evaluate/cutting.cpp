@@ -105,8 +105,7 @@ std::vector<double> wear_of(const input::UsuiWear& law, const RakeFace& face) {
   return rate;
 }
 
-void take_rake_face(CuttingResult& result, const input::Case& input, const input::CuttingTool& cut,
-                    const RakeFace& face) {
+void take_rake_face(CuttingResult& result, const input::Case& input, const RakeFace& face) {
   result.rake_face.names = {"distance[m]",    "normal_stress[Pa]", "shear_stress[Pa]",
                             "temperature[K]", "slip[m/s]",         "wear_rate[m/s]"};
   result.rake_face.column.resize(result.rake_face.names.size());
@@ -132,9 +131,8 @@ void take_rake_face(CuttingResult& result, const input::Case& input, const input
   }
   result.contact_length = face.contact_length;
   if (thermal) result.interface_temperature = face.mean_temperature;
-  const Vec2 on_chip = face.normal_force * cut.normal() - face.shear_force * cut.face();
-  result.edge_Fc = result.Fc - on_chip.x();
-  result.edge_Ft = result.Ft + on_chip.y();
+  result.edge_Fc = face.edge_Fc;
+  result.edge_Ft = face.edge_Ft;
 }
 
 void take_chip(CuttingResult& result, const Chip& chip, double feed) {
@@ -228,7 +226,7 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
   take_forces(result, asked, rows, tooth);
   const double from = result.steady_from, to = result.steady_to;
   const RakeFace face = course.rake().mean(from, to);
-  take_rake_face(result, input, cut, face);
+  take_rake_face(result, input, face);
   result.temperature_max = largest_in(rows, "temperature_max", from, to);
   result.chip_speed = mean_in(rows, "chip_speed", from, to);
   result.shear_angle_speed = mean_in(rows, "shear_angle_speed", from, to);

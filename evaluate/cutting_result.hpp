@@ -28,7 +28,7 @@ struct CuttingResult {
 
   // N per m of width; spreads are standard deviations of the filtered forces.
   double Fc = unknown, Fc_spread = unknown, Ft = unknown, Ft_spread = unknown;
-  double edge_Fc = unknown, edge_Ft = unknown; ///< of these what does not act on the rake face
+  double edge_Fc = unknown, edge_Ft = unknown; ///< of these on edge, chamfer and flank
   double specific_energy = unknown;            ///< J/m³
   double friction_angle = unknown;             ///< rad, of the whole force from the normal of the rake face
   double shear_stress = unknown;               ///< Pa, on a plane at the shear angle

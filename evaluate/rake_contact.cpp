@@ -16,7 +16,7 @@ constexpr double reach_of_face = 8.0; ///< feeds of the rake face are looked at
 constexpr double all_but = 0.99;      ///< of the normal force acts within the contact length
 
 constexpr std::array lists_of_sums{&RakeSums::normal, &RakeSums::shear, &RakeSums::temperature,
-                                   &RakeSums::slip};
+                                   &RakeSums::slip, &RakeSums::edge};
 
 } // namespace
 
@@ -52,9 +52,15 @@ void RakeContact::add_step(const ExplicitSolver<2>& solver) {
     const std::size_t i = index_of(point.node);
     const Vec2 x = cut_.place(vector_at<2>(state.node.position, i), moved);
     const double s = x.dot(face);
-    if (s < cut_.begin || s > cut_.end) continue; // on the edge
     const auto b = std::lower_bound(boundary.begin(), boundary.end(), point.node) - boundary.begin();
     const Vec2 impulse = cut_.turned(contact.nodal_impulse()[as<BoundaryNodeIndex>(b)]);
+    if (s < cut_.begin || s > cut_.end) {
+      for (RakeSums* one : {&sums, &recent_}) {
+        one->edge[0] += impulse.x();
+        one->edge[1] -= impulse.y();
+      }
+      continue;
+    }
     const double pressing = impulse.dot(normal), drag = -impulse.dot(face);
     const double slip = (cut_.turned(vector_at<2>(state.node.velocity, i)) - speed).dot(face);
     // Spread over the part of the boundary that is the node's.
@@ -83,10 +89,12 @@ RakeFace RakeContact::face_of(const RakeSums& sums) const {
     face.shear.push_back(sums.duration > 0.0 ? sums.shear[k] / (sums.duration * bin_) : 0.0);
     face.temperature.push_back(impulse > 0.0 ? sums.temperature[k] / impulse : unknown);
     face.slip.push_back(impulse > 0.0 ? sums.slip[k] / impulse : unknown);
-    face.normal_force += face.normal.back() * bin_;
-    face.shear_force += face.shear.back() * bin_;
     total += impulse;
     heat += sums.temperature[k];
+  }
+  if (sums.duration > 0.0) {
+    face.edge_Fc = sums.edge[0] / sums.duration;
+    face.edge_Ft = sums.edge[1] / sums.duration;
   }
   if (!(total > 0.0)) return face;
   face.mean_temperature = heat / total;

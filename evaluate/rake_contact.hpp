@@ -17,20 +17,22 @@ struct RakeSums {
   std::vector<double> temperature; ///< [bin] K N s/m, of the chip there, weighted with `normal`
   std::vector<double> slip;        ///< [bin] m/s N s/m, of the chip up the face, weighted with `normal`
 
+  std::vector<double> edge; ///< N s/m, along the cut and into the workpiece, by edge and flank
+
   explicit RakeSums(std::size_t bins = 0)
-      : normal(bins, 0.0), shear(bins, 0.0), temperature(bins, 0.0), slip(bins, 0.0) {}
+      : normal(bins, 0.0), shear(bins, 0.0), temperature(bins, 0.0), slip(bins, 0.0), edge(2, 0.0) {}
   RakeSums& operator+=(const RakeSums& other);
 };
 
 /// The face as it is on average over some cut.
 struct RakeFace {
-  std::vector<double> at;            ///< [bin] m, from the tip, of its middle
-  std::vector<double> normal, shear; ///< [bin] Pa, on the tool; shear > 0 along the way of the chip
-  std::vector<double> temperature;   ///< [bin] K; not-a-number where nothing touches
-  std::vector<double> slip;          ///< [bin] m/s
-  double contact_length = unknown;   ///< m, from the tip: 99% of the normal force act on it
-  double mean_temperature = unknown; ///< K, weighted with the normal force
-  double normal_force = 0.0, shear_force = 0.0; ///< N/m
+  std::vector<double> at;              ///< [bin] m, from the tip, of its middle
+  std::vector<double> normal, shear;   ///< [bin] Pa, on the tool; shear > 0 along the way of the chip
+  std::vector<double> temperature;     ///< [bin] K; not-a-number where nothing touches
+  std::vector<double> slip;            ///< [bin] m/s
+  double contact_length = unknown;     ///< m, from the tip: 99% of the normal force act on it
+  double mean_temperature = unknown;   ///< K, weighted with the normal force
+  double edge_Fc = 0.0, edge_Ft = 0.0; ///< N/m, of edge and flank
 };
 
 /// Adds up after every step; keeps sums for each half of a feed of cut.

@@ -55,8 +55,8 @@ std::string force_table_html(const evaluate::CuttingResult& result) {
   if (std::isfinite(result.Fc)) {
     table.add("Cutting force Fc", force_text(result, result.Fc, result.Fc_spread));
     table.add("Thrust force Ft", force_text(result, result.Ft, result.Ft_spread));
-    table.add("Fc on the edge, not the rake face", result.in_newton(result.edge_Fc), "N");
-    table.add("Ft on the edge, not the rake face", result.in_newton(result.edge_Ft), "N");
+    table.add("Fc on edge and flank", result.in_newton(result.edge_Fc), "N");
+    table.add("Ft on edge and flank", result.in_newton(result.edge_Ft), "N");
     table.add("Specific cutting energy", result.specific_energy, "J/m^3");
   }
   table.angle("Friction angle of the whole force", result.friction_angle);
