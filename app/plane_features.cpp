@@ -14,12 +14,14 @@ void PlaneFeatures::start(const std::filesystem::path& folder, ExplicitSolver<2>
   adaptation_.start_log(folder);
   adaptation_.fit_to_tools(solver, follow);
   pictures_.emplace(*input_, folder);
+  if (cutting_) cutting_->start(folder);
 }
 
 void PlaneFeatures::resume(const std::filesystem::path& folder, double time) {
   adaptation_.resume_log(folder);
   pictures_.emplace(*input_, folder);
   pictures_->truncate(time);
+  if (cutting_) cutting_->resume(folder);
 }
 
 double PlaneFeatures::renew(ExplicitSolver<2>& solver, const Adaptation::Follow& follow) {
@@ -57,11 +59,16 @@ std::string PlaneFeatures::unload(const ExplicitSolver<2>& solver) {
 }
 
 void PlaneFeatures::evaluate(const std::filesystem::path& folder, const ExplicitSolver<2>& solver) {
-  if (!(input_->report.blanking || springback_)) return;
-  blanking_ = evaluate::evaluate_blanking(*input_, snapshot(solver), solver.conditions().supports,
-                                          springback_ ? &*springback_ : nullptr,
-                                          results::read_history(folder / results::files::history));
-  evaluate::write_blanking(folder, *blanking_);
+  if (input_->report.blanking || springback_) {
+    blanking_ = evaluate::evaluate_blanking(*input_, snapshot(solver), solver.conditions().supports,
+                                            springback_ ? &*springback_ : nullptr,
+                                            results::read_history(folder / results::files::history));
+    evaluate::write_blanking(folder, *blanking_);
+  }
+  if (!cutting_) return;
+  cut_ = evaluate::evaluate_cutting(*input_, snapshot(solver), *cutting_,
+                                    results::read_history(folder / results::files::cutting_course));
+  evaluate::write_cutting(folder, *cut_);
 }
 
 std::vector<std::pair<std::string, double>> PlaneFeatures::metrics() const {
@@ -69,7 +76,12 @@ std::vector<std::pair<std::string, double>> PlaneFeatures::metrics() const {
   const auto add = [&](const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
   if (blanking_ && !blanking_->punch.empty()) add(evaluate::metrics_of(*blanking_));
   if (blanking_ && !blanking_->springback.empty()) add(evaluate::metrics_of(blanking_->springback));
+  if (cut_) add(evaluate::metrics_of(*cut_));
   return list;
+}
+
+std::vector<std::string> PlaneFeatures::flags() const {
+  return cut_ ? std::vector<std::string>{"cutting.steady"} : std::vector<std::string>{};
 }
 
 } // namespace cnem::app

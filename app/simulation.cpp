@@ -189,7 +189,11 @@ template<int dim> void Simulation<dim>::unload() {
   if (std::string reason = features_.unload(solver_); !reason.empty()) warn(input_.placed(reason));
 }
 template<int dim> void Simulation<dim>::record(bool history, bool fields, bool pictures) {
-  if (history) watch_.time("output.history", [&] { history_.record(solver_); });
+  if (history)
+    watch_.time("output.history", [&] {
+      history_.record(solver_);
+      features_.record(solver_);
+    });
   if (fields) watch_.time("output.fields", [&] { fields_->record(files_, features_.snapshot(solver_)); });
   if (pictures) watch_.time("output.pictures", [&] { features_.draw(files_, features_.snapshot(solver_)); });
 }
@@ -213,6 +217,7 @@ template<int dim> void Simulation<dim>::adapt_and_step() {
     if (good) retries_.keep();
     solver_.advance(
         control_.choose(state.time, std::min({input_.time.end, fields_due_.next(), pictures_due_.next()})));
+    features_.add_step(solver_);
   });
 }
 template<int dim> bool Simulation<dim>::new_reference() {
@@ -305,6 +310,7 @@ template<int dim> results::RunStatus Simulation<dim>::status() {
   status.metrics.emplace_back("references", solver_.references());
   status.metrics.emplace_back("retries", retries_.count());
   for (auto& metric : features_.metrics()) status.metrics.push_back(std::move(metric));
+  status.flags = features_.flags();
   status.step_limits = control_.shares();
   status.warnings = warnings_;
   for (std::string& warning : late_warnings()) status.warnings.push_back(std::move(warning));

@@ -23,12 +23,15 @@ public:
   void resume(const std::filesystem::path&, double) {}
   void archive(Archive&) {}
   double renew(ExplicitSolver<3>& solver, const Follow&) { return solver.prepare(), 1.0; }
+  void add_step(const ExplicitSolver<3>&) {}
+  void record(const ExplicitSolver<3>&) {}
   results::Snapshot<3> snapshot(const ExplicitSolver<3>& solver) { return results::snapshot(solver); }
   void draw(results::FileQueue&, const results::Snapshot<3>&) {}
   std::string draw_place(results::FileQueue&, const ExplicitSolver<3>&, std::size_t) { return ""; }
   std::string unload(const ExplicitSolver<3>&) { return ""; }
   void evaluate(const std::filesystem::path&, const ExplicitSolver<3>&) {}
   std::vector<std::pair<std::string, double>> metrics() const { return {}; }
+  std::vector<std::string> flags() const { return {}; }
 };
 
 } // namespace cnem::app

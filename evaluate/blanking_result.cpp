@@ -2,44 +2,18 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "evaluate/json_carrier.hpp"
 #include "results/output_folder.hpp"
 
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace cnem::evaluate {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::array<const char*, 7> zone_names{"surface",        "rollover", "burnish",  "fracture",
                                                 "second_burnish", "burr",     "burr_side"};
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-double as_number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
-/// Carries a record out to JSON or in from it: each member is named once.
-class Writer {
-public:
-  void operator()(const char* name, const std::string& value) { json_[name] = value; }
-  void operator()(const char* name, double value) { json_[name] = number(value); }
-  void operator()(const char* name, bool value) { json_[name] = value; }
-  Json json_ = Json::object();
-};
-
-class Reader {
-public:
-  explicit Reader(const Json& json) : json_(json) {}
-  void operator()(const char* name, std::string& value) { value = json_.at(name).get<std::string>(); }
-  void operator()(const char* name, double& value) { value = as_number(json_.at(name)); }
-  void operator()(const char* name, bool& value) { value = json_.at(name).get<bool>(); }
-  const Json& json_;
-};
 
 template<class Face, class Carry> void carry_face(Face& face, Carry& carry) {
   carry("cut", face.cut);
@@ -85,27 +59,6 @@ template<class Result, class Carry> void carry_result(Result& result, Carry& car
   carry("force_unit", result.force_unit);
   carry("work_unit", result.work_unit);
   carry("note", result.note);
-}
-
-template<class Record, class CarryRecord>
-Json list_of(const std::vector<Record>& records, const CarryRecord& carry_record) {
-  Json list = Json::array();
-  for (const Record& record : records) {
-    Writer writer;
-    carry_record(record, writer);
-    list.push_back(std::move(writer.json_));
-  }
-  return list;
-}
-
-template<class Record, class CarryRecord>
-std::vector<Record> records_of(const Json& list, const CarryRecord& carry_record) {
-  std::vector<Record> records;
-  for (const Json& json : list) {
-    Reader reader(json);
-    carry_record(records.emplace_back(), reader);
-  }
-  return records;
 }
 
 constexpr auto face_carrier = [](auto& face, auto& carry) { carry_face(face, carry); };
@@ -163,9 +116,9 @@ std::vector<std::pair<std::string, double>> metrics_of(const std::vector<BodySpr
 }
 
 void write_blanking(const std::filesystem::path& folder, const BlankingResult& result) {
-  Writer writer;
+  JsonWriter writer;
   carry_result(result, writer);
-  Json& json = writer.json_;
+  Json& json = writer.json;
   json["dies"] = result.dies;
   json["forces"] = list_of(result.forces, force_carrier);
   json["springback"] = list_of(result.springback, body_carrier);
@@ -186,7 +139,7 @@ std::optional<BlankingResult> read_blanking(const std::filesystem::path& folder)
   try {
     const Json json = Json::parse(text);
     BlankingResult result;
-    Reader reader(json);
+    JsonReader reader(json);
     carry_result(result, reader);
     result.dies = json.at("dies").get<std::vector<std::string>>();
     result.forces = records_of<ToolForce>(json.at("forces"), force_carrier);

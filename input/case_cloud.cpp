@@ -230,11 +230,19 @@ void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
                       "\"jittered\"",
                       table.get<std::string>("pattern")));
   }
-  for (const Setting& window : root.entries("output.windows")) {
-    const Setting& setting = *window.find("box");
+}
+
+void read_windows(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const std::vector<std::string> tools = tool_names(result);
+  for (const Setting& table : root.entries("output.windows")) {
+    const Setting& setting = *table.find("box");
     const std::array<Vec2, 2> corners = box(setting, diagnostics);
-    if (corners[0] != corners[1]) check_window(setting, corners, result.domain, diagnostics);
-    result.output.windows.push_back({window.name, corners[0], corners[1]});
+    Window window{table.name, corners[0], corners[1]};
+    if (const Setting* follow = table.find("follow"))
+      window.follow = index_of_tool(*follow, std::get<std::string>(follow->value), tools, diagnostics);
+    else if (corners[0] != corners[1])
+      check_window(setting, corners, result.domain, diagnostics);
+    result.output.windows.push_back(std::move(window));
   }
 }
 

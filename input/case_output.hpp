@@ -1,5 +1,6 @@
 #pragma once
 // What a case asks for: pictures, histories, checkpoints, evaluation.
+#include "core/parameter.hpp"
 #include "core/vec.hpp"
 
 #include <cstddef>
@@ -27,8 +28,9 @@ struct SampleLine {
 
 struct Window {
   std::string name;
-  Vec2 lower{0, 0}; ///< m
-  Vec2 upper{0, 0}; ///< m
+  Vec2 lower{0, 0};                    ///< m, at t = 0
+  Vec2 upper{0, 0};                    ///< m
+  std::optional<std::size_t> follow{}; ///< index of the tool that it moves with
 };
 
 /// What is said in the report beside the pictures of a field at one of their times.
@@ -66,10 +68,44 @@ struct BlankingReport {
   std::optional<double> smoothing; ///< m
 };
 
+/// Depth of wear of a tool per time: dW/dt = a σ_n v exp(−b/T), with the normal stress, the speed of sliding
+/// and the temperature (K) of the interface.
+struct UsuiWear {
+  double a = 0.0, b = 0.0;
+
+  static constexpr Parameter<UsuiWear> parameters[] = {{&UsuiWear::a,
+                                                        {.name = "a",
+                                                         .unit = "1/Pa",
+                                                         .range = positive,
+                                                         .required = true,
+                                                         .meaning = "Factor, of the pair of metals.",
+                                                         .source = "Usui, Shirakashi, Kitagawa 1984",
+                                                         .example = "7.8e-9 1/Pa"}},
+                                                       {&UsuiWear::b,
+                                                        {.name = "b",
+                                                         .unit = "K",
+                                                         .range = not_negative,
+                                                         .required = true,
+                                                         .meaning = "Of the temperature in the exponent.",
+                                                         .example = "5302 K"}}};
+};
+
+/// Who cuts, how much, and how a cut is evaluated.
+struct CuttingReport {
+  std::size_t tool = 0;          ///< index of the tool
+  double feed = 0.0;             ///< m, uncut chip thickness
+  double width = 0.0;            ///< m, of cut, out of the plane
+  double filter = 0.0;           ///< m of cut that forces are averaged over
+  double steady_feeds = 0.0;     ///< – feeds that the steady part is long at least
+  double steady_tolerance = 0.0; ///< –
+  std::optional<UsuiWear> wear;
+};
+
 /// What is evaluated at the end of an explicit run.
 struct Report {
   bool springback = false;
   std::optional<BlankingReport> blanking;
+  std::optional<CuttingReport> cutting;
 };
 
 } // namespace cnem::input

@@ -3,7 +3,9 @@
 #include "input/case.hpp"
 #include "input/schema/settings.hpp"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace cnem::input {
 
@@ -32,7 +34,16 @@ void read_initial_and_loads(const Setting& root, Case& result, Diagnostics& diag
 /// Pieces that continue at others. Expects the domain.
 void read_periodic(const Setting& root, Case& result, Diagnostics& diagnostics);
 
-/// Spacing, refinements, node lists and windows. A node file is read and its nodes are put into the settings,
+/// Names of the tools in their order.
+std::vector<std::string> tool_names(const Case& input);
+/// The index of the tool with that name; an unknown one is a mistake at `key`: then none.
+std::optional<std::size_t> index_of_tool(const Setting& key, const std::string& name,
+                                         const std::vector<std::string>& tools, Diagnostics& diagnostics);
+
+/// Parts of pictures that are drawn enlarged. Expects domain and tools.
+void read_windows(const Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// Spacing, refinements and node lists. A node file is read and its nodes are put into the settings,
 /// so that the resolved case stands alone. Expects the domain, which may lack its outline.
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics);
 
@@ -51,6 +62,18 @@ void read_boundary(const Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// How the cloud is adapted, with defaults from its spacing. Expects everything but crack tips.
 void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics);
+
+/// A key of a table of [report] that names the tool which leads: without it the usual one, else the only one
+/// that moves.
+struct LeadingTool {
+  const char *key, *usual;
+};
+/// Its index; none where there is none, which is a mistake.
+std::optional<std::size_t> read_leading_tool(Setting& root, const Case& input, const std::string& table,
+                                             const LeadingTool& tool, Diagnostics& diagnostics);
+
+/// What a cut is evaluated with, where [report.cutting] is there. Expects what read_report() does.
+void read_cutting_report(Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// What is evaluated at the end, with defaults from the tools. Expects tools, domain and periodic pieces.
 void read_report(Setting& root, Case& result, Diagnostics& diagnostics);

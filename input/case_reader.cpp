@@ -187,7 +187,10 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_tools(root, result, diagnostics);
   if (Setting* cutting = root.find("cutting")) result.cutting = read_cutting(*cutting, diagnostics);
   const bool plane = result.analysis.dimensions() == 2;
-  if (plane) read_contact(root, result, diagnostics);
+  if (plane) {
+    read_windows(root, result, diagnostics);
+    read_contact(root, result, diagnostics);
+  }
   diagnostics.throw_if_any();
   read_regions(root, result, diagnostics);
   read_boundary(root, result, diagnostics);

@@ -5,28 +5,12 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace cnem::input {
 namespace {
 
 bool moves(const Tool& tool) { return tool.drive || input::moves(tool.velocity); }
-
-std::vector<std::string> names_of(const std::vector<Tool>& tools) {
-  std::vector<std::string> names;
-  names.reserve(tools.size());
-  for (const Tool& tool : tools) names.push_back(tool.name);
-  return names;
-}
-
-/// The tool named `punch`, else the only one that moves; none when that is not one.
-std::optional<std::string> usual_punch(const std::vector<Tool>& tools) {
-  std::vector<std::string> moving;
-  for (const Tool& tool : tools) {
-    if (tool.name == "punch") return tool.name;
-    if (moves(tool)) moving.push_back(tool.name);
-  }
-  return moving.size() == 1 ? std::optional(moving.front()) : std::nullopt;
-}
 
 std::vector<std::string> usual_dies(const std::vector<Tool>& tools, const std::string& punch) {
   std::vector<std::string> named, resting;
@@ -40,35 +24,12 @@ std::vector<std::string> usual_dies(const std::vector<Tool>& tools, const std::s
 
 bool tied(const Case& input) { return !input.domain.interfaces.empty() || !input.periodic.empty(); }
 
-} // namespace
-
-void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
-  root.set_default("report.springback", root.find("report.blanking") != nullptr && !tied(result));
-  result.report.springback = root.get<bool>("report.springback");
-  const Setting* blanking = root.find("report.blanking");
-  if (!blanking) return;
-
-  const std::vector<std::string> names = names_of(result.tools);
-  if (names.empty())
-    return diagnostics.add(Mistake::conflict, blanking->where, blanking->path,
-                           "found without tools, expected [tools.NAME] that cut");
-  if (const auto punch = usual_punch(result.tools)) root.set_default("report.blanking.punch", *punch);
-  const Setting* punch = root.find("report.blanking.punch");
-  if (!punch)
-    return diagnostics.add(Mistake::missing_key, blanking->where, "report.blanking.punch",
-                           fmt::format("missing, expected one of the tools \"{}\": not one alone moves",
-                                       fmt::join(names, "\", \"")));
-  const auto place_of = [&](const Setting& key, const std::string& name) -> std::optional<std::size_t> {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return index_of(found - names.begin());
-    diagnostics.add(
-        Mistake::reference, key.where, key.path,
-        fmt::format("found '{}', expected the name of a tool{}", name, did_you_mean(name, names)));
-    return std::nullopt;
-  };
-  const std::string punch_name = std::get<std::string>(punch->value);
-  const auto punch_index = place_of(*punch, punch_name);
+void read_blanking(Setting& root, Case& result, Diagnostics& diagnostics) {
+  const auto punch_index =
+      read_leading_tool(root, result, "report.blanking", {"punch", "punch"}, diagnostics);
   if (!punch_index) return;
+  const std::vector<std::string> names = tool_names(result);
+  const std::string punch_name = names[*punch_index];
   if (const auto usual = usual_dies(result.tools, punch_name); !usual.empty())
     root.set_default("report.blanking.die", usual);
   else if (!root.find("report.blanking.die"))
@@ -82,12 +43,63 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
     if (name == punch_name)
       diagnostics.add(Mistake::conflict, dies.where, dies.path,
                       fmt::format("found the punch '{}', expected another tool", name));
-    else if (const auto index = place_of(dies, name))
+    else if (const auto index = index_of_tool(dies, name, names, diagnostics))
       report.dies.push_back(*index);
   }
   report.parallel = root.get<double>("report.blanking.parallel");
   report.smoothing = root.find("report.blanking")->maybe<double>("smoothing");
   result.report.blanking = std::move(report);
+}
+
+} // namespace
+
+std::vector<std::string> tool_names(const Case& input) {
+  std::vector<std::string> names;
+  names.reserve(input.tools.size());
+  for (const Tool& tool : input.tools) names.push_back(tool.name);
+  return names;
+}
+
+std::optional<std::size_t> index_of_tool(const Setting& key, const std::string& name,
+                                         const std::vector<std::string>& tools, Diagnostics& diagnostics) {
+  const auto found = std::find(tools.begin(), tools.end(), name);
+  if (found != tools.end()) return index_of(found - tools.begin());
+  diagnostics.add(Mistake::reference, key.where, key.path,
+                  fmt::format("found '{}', expected the name of a tool{}", name, did_you_mean(name, tools)));
+  return std::nullopt;
+}
+
+std::optional<std::size_t> read_leading_tool(Setting& root, const Case& input, const std::string& table,
+                                             const LeadingTool& tool, Diagnostics& diagnostics) {
+  const std::vector<std::string> names = tool_names(input);
+  const Location where = root.find(table)->where;
+  if (names.empty()) {
+    diagnostics.add(Mistake::conflict, where, table, "found without tools, expected [tools.NAME] that cut");
+    return std::nullopt;
+  }
+  const std::string path = fmt::format("{}.{}", table, tool.key);
+  std::vector<std::string> moving;
+  for (const Tool& one : input.tools)
+    if (moves(one)) moving.push_back(one.name);
+  if (std::find(names.begin(), names.end(), tool.usual) != names.end())
+    root.set_default(path, std::string(tool.usual));
+  else if (moving.size() == 1)
+    root.set_default(path, moving.front());
+  const Setting* key = root.find(path);
+  if (!key) {
+    diagnostics.add(Mistake::missing_key, where, path,
+                    fmt::format("missing, expected one of the tools \"{}\": not one alone moves",
+                                fmt::join(names, "\", \"")));
+    return std::nullopt;
+  }
+  return index_of_tool(*key, std::get<std::string>(key->value), names, diagnostics);
+}
+
+void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
+  root.set_default("report.springback", root.find("report.blanking") != nullptr && !tied(result));
+  result.report.springback = root.get<bool>("report.springback");
+  if (root.find("report.blanking")) read_blanking(root, result, diagnostics);
+  if (root.find("report.cutting")) read_cutting_report(root, result, diagnostics);
 }
 
 } // namespace cnem::input

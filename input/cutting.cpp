@@ -110,6 +110,8 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
       fmt::format("[output]\nhistory_every = {}\npictures = [{}, {}, {}]\n",
                   time(std::min(duration / 400.0, feeds::a_row * f / cut.speed)), time(duration / 3.0),
                   time(duration / 1.5), time(duration));
+  text += fmt::format("[report.cutting]\ntool = \"{}\"\nfeed = {}\nwidth = {}\n", cut.tool, length(f),
+                      length(cut.width));
   if (parts.window)
     text += fmt::format("[output.windows.tool]\nbox = [{}, {}]\n", point({way - 6.0 * f, -2.0 * f}),
                         point({way + 4.0 * f, 6.0 * f}));

@@ -16,6 +16,11 @@ std::array<std::span<const double>, 2> spans(const Fields<2>& field) { return {f
 
 } // namespace
 
+PictureWindow window_at(const input::Window& window, const std::vector<PictureTool>& tools) {
+  const Vec2 moved = window.follow ? tools[*window.follow].displacement : Vec2(0, 0);
+  return {window.lower + moved, window.upper + moved};
+}
+
 /// What the pictures of one time are drawn from, while the run goes on.
 struct PictureRecorder::Kept {
   CellGeometry<2> cells;
@@ -80,7 +85,7 @@ void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<
     const std::string note = note_of(shot.state.time, name);
     draw(files, kept, pictures[k], name, "", note);
     for (const input::Window& window : case_->output.windows) {
-      pictures[k].window = PictureWindow{window.lower, window.upper};
+      pictures[k].window = window_at(window, pictures[k].tools);
       draw(files, kept, pictures[k], name + "_" + window.name, window.name, note);
     }
   }

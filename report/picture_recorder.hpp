@@ -8,8 +8,12 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace cnem::report {
+
+/// A window of a case, where the tool that it follows has taken it. tools: all of the case, as they stand.
+PictureWindow window_at(const input::Window& window, const std::vector<PictureTool>& tools);
 
 /// Draws the case's pictures, in the background from a copy of what they show.
 class PictureRecorder {

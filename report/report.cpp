@@ -170,6 +170,8 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
   report.blanking = evaluate::read_blanking(folder);
   if (report.blanking && history) report.blanking_forces = force_stroke_chart(*report.blanking, *history);
 
+  report.cutting = evaluate::read_cutting(folder);
+
   const PictureAlbum album(folder);
   for (const AlbumEntry& entry : album.entries()) {
     ReportPicture picture{results::read_file(album.path(entry)), entry.field, entry.time, entry.caption,
@@ -183,7 +185,8 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
   if (!status.metrics.empty()) {
     ReportTable metrics{"Results", {}};
     for (const auto& [name, value] : status.metrics)
-      metrics.rows.emplace_back(words(name), results::number_format(value, 6));
+      if (!name.starts_with("cutting.")) // a section of its own has them, with units
+        metrics.rows.emplace_back(words(name), results::number_format(value, 6));
     report.tables.push_back(std::move(metrics));
   }
   report.tables.push_back(run_table(status));

@@ -1,6 +1,7 @@
 #pragma once
 // report.html: one file that needs nothing else, neither network nor the folder it came from.
 #include "evaluate/blanking_result.hpp"
+#include "evaluate/cutting_result.hpp"
 #include "report/chart.hpp"
 #include "results/status.hpp"
 
@@ -37,6 +38,7 @@ struct ReportData {
   std::vector<Chart> charts;
   std::optional<evaluate::BlankingResult> blanking;
   std::optional<Chart> blanking_forces;
+  std::optional<evaluate::CuttingResult> cutting;
   std::vector<ReportTable> tables;
   std::string case_text; ///< resolved case, shown verbatim
   std::string warnings_title = "Warnings", charts_title = "Histories",

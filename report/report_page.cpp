@@ -1,6 +1,7 @@
 #include "report/report.hpp"
 
 #include "report/blanking_page.hpp"
+#include "report/cutting_page.hpp"
 #include "report/html.hpp"
 #include "report/report_style.hpp"
 #include "results/si_format.hpp"
@@ -128,6 +129,7 @@ std::string render_report(const ReportData& data) {
     html += section("blanking", cut ? "Blanking" : "Springback",
                     render_blanking(*data.blanking, data.blanking_forces));
   }
+  if (data.cutting) html += section("cutting", "Cutting", render_cutting(*data.cutting));
   html += section("pictures", "Pictures", render_pictures(data));
   html += section("histories", data.charts_title, render_charts(data));
   html += section("numbers", "Numbers", render_tables(data));

@@ -11,7 +11,7 @@
 namespace cnem::report {
 namespace {
 
-constexpr double width = 720, left = 66, right = 18, plot_height = 290, bottom = 50, row = 20, font = 13;
+constexpr double width = 720, left = 66, right = 18, plot_height = 290, bottom = 50, row = 20, text_size = 13;
 
 struct Axis {
   double low = 0.0, high = 1.0; ///< in the displayed unit
@@ -155,7 +155,7 @@ std::vector<LegendPlace> place_legend(const Chart& chart, int& rows) {
       places.push_back({0, -1});
       continue;
     }
-    const double room = 48.0 + 0.56 * font * static_cast<double>(series.label.size());
+    const double room = 48.0 + 0.56 * text_size * static_cast<double>(series.label.size());
     if (rows == 0) rows = 1;
     if (x > left && x + room > width - right) {
       x = left;
@@ -185,7 +185,7 @@ std::string svg_chart(const Chart& chart) {
 
   std::string svg = fmt::format("<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
                                 "font-size=\"{:.0f}\">\n<title>{}</title>\n",
-                                width, base + bottom, font, html_escape(chart.title));
+                                width, base + bottom, text_size, html_escape(chart.title));
   for (std::size_t k = 0; k < chart.series.size(); ++k) {
     const ChartSeries& series = chart.series[k];
     if (series.label.empty()) continue;

@@ -170,8 +170,11 @@ std::string read_file(const fs::path& path) {
 
 namespace {
 
-constexpr std::array run_files{files::resolved_case, files::history,  files::adaptation, files::fields,
-                               files::checkpoint,    files::blanking, files::status,     files::report};
+constexpr std::array run_files{files::resolved_case, files::history,  files::adaptation,     files::fields,
+                               files::checkpoint,    files::blanking, files::cutting_course, files::cutting,
+                               files::status,        files::report};
+constexpr std::array run_folders{files::fields_folder, files::pictures_folder, files::lines_folder,
+                                 files::cutting_folder};
 
 // Every file in the folder that a run makes, and nothing else.
 std::vector<fs::path> files_of_a_run(const fs::path& folder) {
@@ -195,7 +198,8 @@ std::vector<fs::path> files_of_a_run(const fs::path& folder) {
   collect(folder / files::pictures_folder, [](const fs::path& file) {
     return is_numbered(file, files::pictures_folder, ".png") || file.filename() == "index.json";
   });
-  collect(folder / files::lines_folder, [](const fs::path& file) { return file.extension() == ".csv"; });
+  for (const char* tables : {files::lines_folder, files::cutting_folder})
+    collect(folder / tables, [](const fs::path& file) { return file.extension() == ".csv"; });
   return found;
 }
 
@@ -223,8 +227,7 @@ template<class Keep> void remove_files_of_a_run(const fs::path& folder, Keep&& k
     fs::remove(file, error);
     if (error) fail("remove", file, error.message());
   }
-  for (const char* sub : {files::fields_folder, files::pictures_folder, files::lines_folder})
-    fs::remove(folder / sub, error); // only when empty
+  for (const char* sub : run_folders) fs::remove(folder / sub, error); // only when empty
 }
 
 } // namespace

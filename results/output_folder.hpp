@@ -18,6 +18,9 @@ inline constexpr const char* lines_folder = "lines";       ///< fields along lin
 inline constexpr const char* checkpoint = "checkpoint.h5";
 inline constexpr const char* refused_checkpoint = "checkpoint.refused"; ///< how names of such files begin
 inline constexpr const char* blanking = "blanking.json";
+inline constexpr const char* cutting = "cutting.json";
+inline constexpr const char* cutting_course = "cutting.csv"; ///< chip and contact over the cut
+inline constexpr const char* cutting_folder = "cutting";     ///< tables of a cut, .csv
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <sys/resource.h>
 
@@ -28,7 +29,7 @@ Json object(const Pairs& pairs) {
 }
 
 // "a.b" → {"a": {"b": …}}
-Json tree(const Pairs& pairs) {
+Json tree(const Pairs& pairs, const std::vector<std::string>& flags) {
   Json json = Json::object();
   for (const auto& [name, value] : pairs) {
     Json* at = &json;
@@ -37,17 +38,22 @@ Json tree(const Pairs& pairs) {
       at = &(*at)[name.substr(from, dot - from)];
       if (!at->is_object()) *at = Json::object();
     }
-    (*at)[name.substr(from)] = number(value);
+    const bool flag = std::find(flags.begin(), flags.end(), name) != flags.end();
+    (*at)[name.substr(from)] = flag ? Json(value != 0.0) : number(value);
   }
   return json;
 }
 
-void flatten(const Json& json, const std::string& prefix, Pairs& pairs) {
+void flatten(const Json& json, const std::string& prefix, Pairs& pairs, std::vector<std::string>& flags) {
   for (const auto& [name, value] : json.items())
-    if (value.is_object())
-      flatten(value, prefix + name + ".", pairs);
-    else
+    if (value.is_object()) {
+      flatten(value, prefix + name + ".", pairs, flags);
+    } else if (value.is_boolean()) {
+      pairs.emplace_back(prefix + name, value.get<bool>() ? 1.0 : 0.0);
+      flags.push_back(prefix + name);
+    } else {
       pairs.emplace_back(prefix + name, as_number(value));
+    }
 }
 
 } // namespace
@@ -68,7 +74,7 @@ std::string status_json(const RunStatus& status) {
   json["cpu_s"] = number(status.cpu_s);
   json["peak_rss_bytes"] = status.peak_rss_bytes;
   json["energy_residual"] = number(status.energy_residual);
-  json["metrics"] = tree(status.metrics);
+  json["metrics"] = tree(status.metrics, status.flags);
   json["step_limits"] = object(status.step_limits);
   json["warnings"] = status.warnings;
   if (status.post_mortem) {
@@ -107,9 +113,10 @@ RunStatus read_status(const std::filesystem::path& folder) {
     status.threads = json.value("threads", 1);
     status.peak_rss_bytes = json.value("peak_rss_bytes", std::uint64_t{0});
     status.energy_residual = as_number(json.value("energy_residual", Json(nullptr)));
-    flatten(json.value("wall_s", Json::object()), "", status.wall_s);
-    flatten(json.value("metrics", Json::object()), "", status.metrics);
-    flatten(json.value("step_limits", Json::object()), "", status.step_limits);
+    for (const auto& [name, list] : {std::pair{"wall_s", &status.wall_s},
+                                     {"metrics", &status.metrics},
+                                     {"step_limits", &status.step_limits}})
+      flatten(json.value(name, Json::object()), "", *list, status.flags);
     status.warnings = json.value("warnings", std::vector<std::string>{});
     if (json.contains("post_mortem")) {
       const Json& post = json["post_mortem"];

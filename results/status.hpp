@@ -41,7 +41,8 @@ struct RunStatus {
   double cpu_s = 0.0;                                 ///< s, of processors, by all threads
   std::uint64_t peak_rss_bytes = 0;
   double energy_residual = std::numeric_limits<double>::quiet_NaN(); ///< –
-  std::vector<std::pair<std::string, double>> metrics;     ///< "K_I.right" becomes {"K_I": {"right": …}}
+  std::vector<std::pair<std::string, double>> metrics; ///< "K_I.right" becomes {"K_I": {"right": …}}
+  std::vector<std::string> flags;                      ///< names of metrics that are true or false, 1 or 0
   std::vector<std::pair<std::string, double>> step_limits; ///< what limited the step → fraction of the steps
   std::vector<std::string> warnings;
   std::optional<PostMortem> post_mortem;

@@ -2,6 +2,7 @@
 #include "core/index.hpp"
 #include "report/html.hpp"
 #include "report/picture.hpp"
+#include "report/picture_recorder.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
@@ -168,13 +169,13 @@ public:
     share_scale(compared);
   }
 
-  /// The PNG file of each method, "" for none. Without a window the same part is shown of all.
-  std::vector<std::string> draw(const std::optional<report::PictureWindow>& window) {
+  /// The PNG file of each method, "" for none. Without a window (null) the same part is shown of all.
+  std::vector<std::string> draw(const input::Window* window) {
     std::vector<std::string> png;
     for (std::optional<report::Picture>& picture : picture_) {
       png.emplace_back();
       if (!picture) continue;
-      picture->window = window ? window : common_;
+      picture->window = window ? report::window_at(*window, picture->tools) : common_;
       png.back() = report::draw_png(*picture);
     }
     return png;
@@ -265,9 +266,9 @@ std::string compare_pictures(const Compared& compared) {
     for (std::size_t f = 0; f < fields.size(); ++f) {
       Row row(compared, there, fields[f], f);
       const std::string label = field_info<2>(fields[f]).shown.label;
-      add(label, row.draw({}), time);
+      add(label, row.draw(nullptr), time);
       for (const input::Window& window : input.output.windows)
-        add(label + ", " + window.name, row.draw(report::PictureWindow{window.lower, window.upper}), time);
+        add(label + ", " + window.name, row.draw(&window), time);
     }
   }
   std::string html =

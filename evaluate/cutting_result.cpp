@@ -1,0 +1,180 @@
+#include "evaluate/cutting_result.hpp"
+
+#include "core/error.hpp"
+#include "core/index.hpp"
+#include "evaluate/json_carrier.hpp"
+#include "results/output_folder.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <numbers>
+
+namespace cnem::evaluate {
+namespace {
+
+namespace fs = std::filesystem;
+
+template<class Result, class Carry> void carry_conditions(Result& result, Carry& carry) {
+  carry("tool", result.tool);
+  carry("time[s]", result.time);
+  carry("cut[m]", result.cut);
+  carry("feed[m]", result.feed);
+  carry("width[m]", result.width);
+  carry("speed[m/s]", result.speed);
+  carry("rake[rad]", result.rake);
+  carry("along_x", result.along_x);
+  carry("along_y", result.along_y);
+  carry("away_x", result.away_x);
+  carry("away_y", result.away_y);
+}
+
+template<class Result, class Carry> void carry_forces(Result& result, Carry& carry) {
+  carry("steady", result.steady);
+  carry("steady_note", result.steady_note);
+  carry("steady_from[m]", result.steady_from);
+  carry("steady_to[m]", result.steady_to);
+  carry("filter[m]", result.filter);
+  carry("Fc[N/m]", result.Fc);
+  carry("Fc_spread[N/m]", result.Fc_spread);
+  carry("Ft[N/m]", result.Ft);
+  carry("Ft_spread[N/m]", result.Ft_spread);
+  carry("edge_Fc[N/m]", result.edge_Fc);
+  carry("edge_Ft[N/m]", result.edge_Ft);
+  carry("specific_energy[J/m^3]", result.specific_energy);
+  carry("friction_angle[rad]", result.friction_angle);
+  carry("shear_stress[Pa]", result.shear_stress);
+}
+
+template<class Result, class Carry> void carry_chip(Result& result, Carry& carry) {
+  carry("chip_note", result.chip_note);
+  carry("chip_thickness[m]", result.chip_thickness);
+  carry("chip_peak[m]", result.chip_peak);
+  carry("chip_valley[m]", result.chip_valley);
+  carry("chip_ratio", result.chip_ratio);
+  carry("chip_length[m]", result.chip_length);
+  carry("chip_from[m]", result.chip_from);
+  carry("chip_to[m]", result.chip_to);
+  carry("chip_speed[m/s]", result.chip_speed);
+  carry("curl_radius[m]", result.curl_radius);
+  carry("teeth", result.teeth);
+  carry("tooth_spacing[m]", result.tooth_spacing);
+  carry("tooth_frequency[1/s]", result.tooth_frequency);
+  carry("shear_angle[rad]", result.shear_angle);
+  carry("shear_angle_speed[rad]", result.shear_angle_speed);
+  carry("shear_angle_rate[rad]", result.shear_angle_rate);
+  carry("shear_plane[m]", result.shear_plane);
+  carry("shear_plane_angle[rad]", result.shear_plane_angle);
+}
+
+template<class Result, class Carry> void carry_faces(Result& result, Carry& carry) {
+  carry("contact_length[m]", result.contact_length);
+  carry("interface_temperature[K]", result.interface_temperature);
+  carry("temperature_max[K]", result.temperature_max);
+  carry("wear_rate[m/s]", result.wear_rate);
+  carry("wear_rate_max[m/s]", result.wear_rate_max);
+  carry("surface_note", result.surface_note);
+  carry("surface_from[m]", result.surface_from);
+  carry("surface_to[m]", result.surface_to);
+  carry("surface_height[m]", result.surface_height);
+  carry("roughness[m]", result.roughness);
+  carry("layer[m]", result.layer);
+}
+
+template<class Result, class Carry> void carry_cut(Result& result, Carry& carry) {
+  carry_conditions(result, carry);
+  carry_forces(result, carry);
+  carry_chip(result, carry);
+  carry_faces(result, carry);
+}
+
+/// Tables that are written at the end, by the names of their files.
+template<class Result, class Use> void each_table(Result& result, Use&& use) {
+  use("forces", result.forces);
+  use("rake_face", result.rake_face);
+  use("chip", result.chip);
+  use("depth", result.depth);
+}
+
+fs::path table_path(const fs::path& folder, const char* name) {
+  return folder / results::files::cutting_folder / fmt::format("{}.csv", name);
+}
+
+std::string csv_text(const results::HistoryTable& table) {
+  std::string text = fmt::format("{}\n", fmt::join(table.names, ","));
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    for (std::size_t k = 0; k < table.column.size(); ++k)
+      text += fmt::format("{}{}", k == 0 ? "" : ",", table.column[k][row]);
+    text += "\n";
+  }
+  return text;
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, double>> metrics_of(const CuttingResult& result) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  return {{"cutting.Fc", result.in_newton(result.Fc)},
+          {"cutting.Fc_spread", result.in_newton(result.Fc_spread)},
+          {"cutting.Ft", result.in_newton(result.Ft)},
+          {"cutting.Ft_spread", result.in_newton(result.Ft_spread)},
+          {"cutting.Fc_per_width", result.Fc},
+          {"cutting.Ft_per_width", result.Ft},
+          {"cutting.edge_Fc", result.in_newton(result.edge_Fc)},
+          {"cutting.edge_Ft", result.in_newton(result.edge_Ft)},
+          {"cutting.specific_energy", result.specific_energy},
+          {"cutting.friction_angle", result.friction_angle / degree},
+          {"cutting.shear_stress", result.shear_stress},
+          {"cutting.chip_thickness", result.chip_thickness},
+          {"cutting.chip_peak", result.chip_peak},
+          {"cutting.chip_valley", result.chip_valley},
+          {"cutting.chip_ratio", result.chip_ratio},
+          {"cutting.chip_length", result.chip_length},
+          {"cutting.chip_speed", result.chip_speed},
+          {"cutting.curl_radius", result.curl_radius},
+          {"cutting.shear_angle", result.shear_angle / degree},
+          {"cutting.shear_angle_speed", result.shear_angle_speed / degree},
+          {"cutting.shear_angle_rate", result.shear_angle_rate / degree},
+          {"cutting.shear_plane", result.shear_plane},
+          {"cutting.contact_length", result.contact_length},
+          {"cutting.tooth_spacing", result.tooth_spacing},
+          {"cutting.tooth_frequency", result.tooth_frequency},
+          {"cutting.interface_temperature", result.interface_temperature},
+          {"cutting.temperature_max", result.temperature_max},
+          {"cutting.wear_rate", result.wear_rate},
+          {"cutting.wear_rate_max", result.wear_rate_max},
+          {"cutting.roughness", result.roughness},
+          {"cutting.steady_from", result.steady_from},
+          {"cutting.steady_to", result.steady_to},
+          {"cutting.steady", result.steady ? 1.0 : 0.0}};
+}
+
+void write_cutting(const fs::path& folder, const CuttingResult& result) {
+  fs::create_directories(folder / results::files::cutting_folder);
+  each_table(result, [&](const char* name, const results::HistoryTable& table) {
+    results::write_atomically(table_path(folder, name), csv_text(table));
+  });
+  JsonWriter writer;
+  carry_cut(result, writer);
+  results::write_atomically(folder / results::files::cutting, writer.json.dump(1) + "\n");
+}
+
+std::optional<CuttingResult> read_cutting(const fs::path& folder) {
+  const fs::path path = folder / results::files::cutting;
+  if (!fs::exists(path)) return std::nullopt;
+  const std::string text = results::read_file(path);
+  CuttingResult result;
+  try {
+    const Json json = Json::parse(text);
+    JsonReader reader(json);
+    carry_cut(result, reader);
+  } catch (const Json::exception& error) {
+    throw IoError(fmt::format("{} is not the evaluation of a cut: {}", path.string(), error.what()));
+  }
+  each_table(result, [&](const char* name, results::HistoryTable& table) {
+    table = results::read_history(table_path(folder, name));
+  });
+  result.course = results::read_history(folder / results::files::cutting_course);
+  return result;
+}
+
+} // namespace cnem::evaluate

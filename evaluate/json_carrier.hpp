@@ -1,0 +1,56 @@
+#pragma once
+// Records out to JSON and in from it, with each member named once: carry(name, member) for both ways. Numbers
+// that are not finite are null.
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace cnem::evaluate {
+
+using Json = nlohmann::ordered_json;
+
+class JsonWriter {
+public:
+  void operator()(const char* name, const std::string& value) { json[name] = value; }
+  void operator()(const char* name, double value) {
+    json[name] = std::isfinite(value) ? Json(value) : Json(nullptr);
+  }
+  void operator()(const char* name, bool value) { json[name] = value; }
+  Json json = Json::object();
+};
+
+class JsonReader {
+public:
+  explicit JsonReader(const Json& from) : json(from) {}
+  void operator()(const char* name, std::string& value) { value = json.at(name).get<std::string>(); }
+  void operator()(const char* name, double& value) {
+    const Json& number = json.at(name);
+    value = number.is_null() ? std::numeric_limits<double>::quiet_NaN() : number.get<double>();
+  }
+  void operator()(const char* name, bool& value) { value = json.at(name).get<bool>(); }
+  const Json& json;
+};
+
+template<class Record, class Carry> Json list_of(const std::vector<Record>& records, const Carry& carry) {
+  Json list = Json::array();
+  for (const Record& record : records) {
+    JsonWriter writer;
+    carry(record, writer);
+    list.push_back(std::move(writer.json));
+  }
+  return list;
+}
+
+template<class Record, class Carry> std::vector<Record> records_of(const Json& list, const Carry& carry) {
+  std::vector<Record> records;
+  for (const Json& json : list) {
+    JsonReader reader(json);
+    carry(records.emplace_back(), reader);
+  }
+  return records;
+}
+
+} // namespace cnem::evaluate

@@ -1,0 +1,42 @@
+#pragma once
+// The surface that a tool has left behind, and what lies below it, in the frame of the tool (chip.hpp).
+#include "core/fields/aligned.hpp"
+#include "evaluate/chip.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cnem::evaluate {
+
+/// What is averaged below the surface; each list is [node].
+struct DepthFields {
+  std::span<const double> volume;         ///< m², shares of the area: weights of the means
+  std::span<const double> along, away;    ///< Pa, normal stresses along the cut and normal to the surface
+  std::span<const double> plastic_strain; ///< –
+  std::span<const double> temperature;    ///< K
+};
+
+/// Means over a layer of the measured length.
+struct DepthLayer {
+  double depth = 0.0; ///< m, below the mean height of the surface
+  double along = 0.0, along_spread = 0.0, away = 0.0, away_spread = 0.0; ///< Pa; standard deviations
+  double plastic_strain = 0.0, temperature = 0.0;
+  double nodes = 0.0;
+};
+
+/// What docs/cutting.md defines. What was not found is not-a-number, and `note` says why.
+struct MachinedSurface {
+  std::string note;
+  Stretch measured;           ///< m, x: behind the tool
+  double height = unknown;    ///< m, mean, above the tip
+  double roughness = unknown; ///< m, Σ|y|/n of its n nodes from the mean height (paper 003, (27))
+  double layer = unknown;     ///< m, thickness of layers: mean distance of nodes near the surface
+  std::vector<DepthLayer> layers;
+};
+
+/// position: [node] m, in the frame of the tool.
+MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2> position,
+                                const DepthFields& fields, double feed);
+
+} // namespace cnem::evaluate

@@ -1,0 +1,217 @@
+// Forces of known courses and their steady part, the file of a cut and its page, keys of [report.cutting].
+#include "evaluate/cutting_forces.hpp"
+#include "evaluate/cutting_result.hpp"
+#include "input/cutting_tool.hpp"
+#include "report/cutting_page.hpp"
+#include "report/picture_recorder.hpp"
+#include "results/output_folder.hpp"
+#include "results/status.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/unit/evaluate/degree.hpp"
+#include "tests/unit/input/case_text.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <numbers>
+
+namespace cnem::evaluate {
+namespace {
+
+constexpr double uncut = 3e-4, speed = 10.0;
+
+/// Sums of forces that are given over the cut in feeds, in steps of a hundredth of one.
+template<class Force> CutImpulse impulse_of_force(double feeds, Force&& force) {
+  CutImpulse impulse;
+  double Fc = 0.0, Ft = 0.0;
+  for (int k = 0; k <= static_cast<int>(100 * feeds); ++k) {
+    const double cut = 0.01 * k * uncut;
+    impulse.cut.push_back(cut);
+    impulse.time.push_back(cut / speed);
+    impulse.Fc.push_back(Fc);
+    impulse.Ft.push_back(Ft);
+    const double step = 0.01 * uncut / speed, f = force(0.01 * k + 0.005);
+    Fc += step * f;
+    Ft -= 0.3 * step * f;
+  }
+  return impulse;
+}
+
+const SteadyRule rule{.feed = uncut, .feeds = 3.0, .tolerance = 0.05, .window = 0.2 * uncut};
+
+TEST(CuttingForces, steady_part_leaves_the_run_in_out) {
+  const CutImpulse impulse = impulse_of_force(
+      10.0, [](double x) { return 1e5 * (1.0 - std::exp(-2.0 * x) + 0.03 * std::sin(40.0 * x)); });
+  const SteadyPart part = steady_part(impulse, rule);
+  EXPECT_TRUE(part.steady) << part.note;
+  EXPECT_GT(part.from, 0.5 * uncut);
+  EXPECT_LT(part.from, 2.5 * uncut);
+  EXPECT_NEAR(part.to, 10.0 * uncut, 0.2 * uncut);
+  EXPECT_NEAR(part.mean.Fc, 1e5, 1e3);
+  EXPECT_NEAR(part.mean.Ft, -0.3e5, 300.0);
+  EXPECT_LT(part.spread.Fc, 0.03e5);
+}
+
+TEST(CuttingForces, steady_part_ends_where_the_tool_leaves) {
+  const CutImpulse impulse = impulse_of_force(10.0, [](double x) { return x < 8.0 ? 1e5 : 1e4; });
+  const SteadyPart part = steady_part(impulse, rule);
+  EXPECT_TRUE(part.steady);
+  EXPECT_NEAR(part.to, 8.0 * uncut, 0.4 * uncut);
+  EXPECT_NEAR(part.mean.Fc, 1e5, 2e3);
+}
+
+TEST(CuttingForces, rising_force_and_short_cut_are_not_steady_and_say_why) {
+  const SteadyPart rising =
+      steady_part(impulse_of_force(6.0, [](double x) { return 1e4 * (1.0 + x); }), rule);
+  EXPECT_FALSE(rising.steady);
+  EXPECT_NE(rising.note.find("Fc"), std::string::npos) << rising.note;
+  EXPECT_NEAR(rising.mean.Fc, 1e4 * 5.5, 1.0) << "of the last three feeds";
+  const SteadyPart brief = steady_part(impulse_of_force(2.0, [](double) { return 1e5; }), rule);
+  EXPECT_FALSE(brief.steady);
+  EXPECT_EQ(brief.note, "the cut is 2 feeds long, 3 are needed");
+  EXPECT_NEAR(brief.mean.Fc, 1e5, 1.0);
+}
+
+TEST(CuttingForces, of_teeth_are_taken_over_whole_ones) {
+  const double pitch = 1.4; // feeds
+  const auto force = [&](double x) {
+    return 1e5 * (1.0 + 0.3 * std::sin(2.0 * std::numbers::pi * x / pitch));
+  };
+  SteadyRule of_teeth = rule;
+  of_teeth.tooth = pitch * uncut;
+  const SteadyPart part = steady_part(impulse_of_force(12.0, force), of_teeth);
+  EXPECT_TRUE(part.steady) << part.note;
+  EXPECT_NEAR((part.to - part.from) / (3.0 * pitch * uncut), 2.0, 1e-9);
+  EXPECT_NEAR(part.mean.Fc, 1e5, 300.0);
+}
+
+TEST(CuttingForces, filter_is_a_centred_mean_over_cut) {
+  const CutImpulse impulse = impulse_of_force(4.0, [](double x) { return 1e5 * x; });
+  const std::vector<CutForce> filtered = filtered_forces(impulse, 0.2 * uncut);
+  EXPECT_NEAR(filtered[200].Fc, 2e5, 1.0);
+  EXPECT_NEAR(filtered.front().Fc, 0.05e5, 1.0); // of the half that there is
+}
+
+CuttingResult example_cut() {
+  CuttingResult result;
+  result.tool = "cutter";
+  result.cut = 1e-3;
+  result.feed = uncut;
+  result.width = 4e-3;
+  result.steady = true;
+  result.steady_to = 1e-3;
+  result.Fc = 1.4e5;
+  result.Ft = -4e4;
+  result.Fc_spread = result.Ft_spread = 1e3;
+  result.chip_thickness = 4.2e-4;
+  result.chip_ratio = 1.4;
+  result.shear_angle = 41.0 * degree;
+  result.forces.names = {"cut[m]", "Fc[N/m]", "Ft[N/m]", "Fc.filtered[N/m]", "Ft.filtered[N/m]"};
+  result.forces.column = {
+      {0, 5e-4, 1e-3}, {0, 1e5, 1.4e5}, {0, -4e4, -4e4}, {0, 1e5, 1.4e5}, {0, -4e4, -4e4}};
+  result.chip.names = {"distance[m]", "thickness[m]"};
+  result.chip.column = {{1e-4, 2e-4}, {4e-4, 4.4e-4}};
+  for (auto* table : {&result.rake_face, &result.depth}) {
+    table->names = {"distance[m]"};
+    table->column.resize(1);
+  }
+  return result;
+}
+
+TEST(CuttingFile, comes_back_as_it_was_written) {
+  const testing::TemporaryFolder folder("cutting");
+  EXPECT_FALSE(read_cutting(folder.path()));
+  write_cutting(folder.path(), example_cut());
+  std::ofstream(folder.path() / results::files::cutting_course) << "time[s],cut[m]\n0,0\n1,0.001\n";
+  const auto back = read_cutting(folder.path());
+  ASSERT_TRUE(back);
+  const std::string text = results::read_file(folder.path() / results::files::cutting);
+  write_cutting(folder.path(), *back);
+  EXPECT_EQ(results::read_file(folder.path() / results::files::cutting), text);
+  EXPECT_EQ(back->forces.column, example_cut().forces.column);
+  EXPECT_EQ(back->course.rows(), 2U);
+  EXPECT_TRUE(std::isnan(back->tooth_spacing));
+  std::ofstream(folder.path() / results::files::cutting) << "{}";
+  EXPECT_THROW(read_cutting(folder.path()), IoError);
+}
+
+TEST(CuttingFile, status_has_newtons_degrees_null_and_a_boolean) {
+  results::RunStatus status;
+  status.metrics = metrics_of(example_cut());
+  status.flags = {"cutting.steady"};
+  const std::string text = results::status_json(status);
+  for (const char* part : {"\"Fc\": 560.0", "\"Ft\": -160.0", "\"shear_angle\": 41.0",
+                           "\"tooth_spacing\": null", "\"steady\": true"})
+    EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in:\n" << text;
+  const testing::TemporaryFolder folder("status");
+  results::write_status(folder.path(), status);
+  EXPECT_EQ(results::status_json(results::read_status(folder.path())), text);
+}
+
+TEST(CuttingPage, shows_forces_chip_and_why_a_cut_is_not_steady) {
+  CuttingResult result = example_cut();
+  const std::string html = report::render_cutting(result);
+  for (const char* part :
+       {"560 N ± 4 N", "41.0°", "Compression ratio", "Forces over the cut", "Thickness along the chip"})
+    EXPECT_NE(html.find(part), std::string::npos) << "no '" << part << "' in:\n" << html;
+  EXPECT_EQ(html.find("Tooth"), std::string::npos);
+  result.steady = false;
+  result.steady_note = "Fc rises";
+  EXPECT_NE(report::render_cutting(result).find("Not steady: Fc rises."), std::string::npos);
+}
+
+const std::string cutter =
+    "[tools.cutter]\nstart = \"-3 6 mm\"\npath = [{ to = \"-0.1 4.6 mm\" }, { to = \"-1 8 mm\" }, { "
+    "to = \"-3 8 mm\" }]\nvelocity = \"10 0 m/s\"\n";
+
+TEST(CuttingKeys, tool_and_feed_are_found_from_the_tools) {
+  EXPECT_FALSE(input::read_small(cutter).report.cutting);
+  const input::Case cut = input::read_small(cutter + "[report.cutting]\nwidth = \"4 mm\"\n");
+  ASSERT_TRUE(cut.report.cutting);
+  EXPECT_NEAR(cut.report.cutting->feed, 0.4e-3, 1e-12);
+  EXPECT_NEAR(cut.report.cutting->filter, 0.08e-3, 1e-12);
+  EXPECT_EQ(cut.report.cutting->width, 4e-3);
+  EXPECT_FALSE(cut.report.cutting->wear);
+  const input::CuttingTool tool = input::cutting_tool(cut, 0);
+  EXPECT_NEAR(tool.rake, std::atan(0.9 / 3.4), 1e-12);
+  EXPECT_NEAR((tool.tip - Vec2(-0.1e-3, 4.6e-3)).norm(), 0.0, 1e-12);
+  EXPECT_EQ(tool.away, Vec2(0, 1));
+  const std::string again = input::read_case_text(cut.resolved, "resolved.toml").resolved;
+  EXPECT_EQ(again.substr(again.find('\n')), cut.resolved.substr(cut.resolved.find('\n')));
+  const input::Case worn = input::read_small(
+      cutter + "[report.cutting]\nwear = { a = \"7.8e-9 1/Pa\", b = \"5302 K\" }\nfeed = \"0.3 mm\"\n");
+  EXPECT_NEAR(worn.report.cutting->wear->a, 7.8e-9, 1e-20);
+  EXPECT_EQ(worn.report.cutting->feed, 0.3e-3);
+}
+
+TEST(CuttingKeys, rounded_edges_and_any_direction_have_the_same_tip) {
+  // The same tool, turned by half a turn: it moves along −x below the workpiece.
+  const input::Case cut =
+      input::read_small("[tools.cutter]\nstart = \"13 -1 mm\"\npath = [{ to = \"10.1 0.4 mm\", fillet = "
+                        "\"0.05 mm\" }, { to = \"11 "
+                        "-3 mm\" }, { to = \"13 -3 mm\" }]\nvelocity = \"-10 0 m/s\"\n[report.cutting]\n");
+  const input::CuttingTool tool = input::cutting_tool(cut, 0);
+  EXPECT_EQ(tool.away, Vec2(0, -1));
+  EXPECT_NEAR(tool.rake, std::atan(0.9 / 3.4), 1e-12);
+  EXPECT_LT(cut.report.cutting->feed, 0.4e-3) << "the edge takes some of it";
+  EXPECT_GT(cut.report.cutting->feed, 0.35e-3);
+  EXPECT_GT(tool.begin, 0.0);
+  EXPECT_NEAR(tool.tip.y(), cut.report.cutting->feed, 1e-12);
+}
+
+TEST(CuttingKeys, a_window_follows_a_tool) {
+  const input::Case plain = input::read_small(
+      cutter + "[output.windows.edge]\nbox = [\"-20 3 mm\", \"-15 7 mm\"]\nfollow = \"cutter\"\n");
+  EXPECT_EQ(plain.output.windows.at(0).follow, 0U);
+  input::expect_parts(
+      input::refusal(cutter + "[output.windows.edge]\nbox = [\"0 3 mm\", \"5 7 mm\"]\nfollow = \"cuter\"\n"),
+      {"output.windows.edge.follow", "did you mean 'cutter'"});
+  const Curve none;
+  const report::PictureWindow moved =
+      report::window_at(plain.output.windows[0], {{&none, Vec2(0.001, 0.002), "cutter"}});
+  EXPECT_NEAR((moved.low - Vec2(-0.019, 0.005)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((moved.high - Vec2(-0.014, 0.009)).norm(), 0.0, 1e-12);
+}
+
+} // namespace
+} // namespace cnem::evaluate

@@ -1,0 +1,36 @@
+// What the report of a cut says of perfectly plastic metal without friction, on a coarse cloud.
+#include "evaluate/cutting_result.hpp"
+#include "tests/finished_run.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace cnem::testing {
+namespace {
+
+/// What acts on the rake face acts along its normal; the rounded edge ploughs.
+TEST(CuttingReport, of_a_frictionless_cut_has_its_force_along_the_normal_of_the_rake_face) {
+  const input::Case input =
+      input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/edge_flow/case.toml",
+                       {"cloud.spacing=0.1 mm", "adapt.tool_spacing=0.02 mm", "time.end=75 us",
+                        "output.pictures=[]", "output.fields_every=1 s", "report.cutting.width=4 mm"});
+  const FinishedRun done = finish(input);
+  expect_nothing_lost(done);
+  const double Fc = done.metric("cutting.Fc"), Ft = done.metric("cutting.Ft");
+  EXPECT_GT(Fc, 4.0 * 115.9); // Lee and Shaffer's, which coarse clouds are above
+  EXPECT_LT(Fc, 4.0 * 180.0);
+  EXPECT_LT(Ft, 0.0) << "the tool is drawn in";
+  const double edge_Fc = done.metric("cutting.edge_Fc"), edge_Ft = done.metric("cutting.edge_Ft");
+  EXPECT_NEAR((Ft - edge_Ft) / (Fc - edge_Fc), -std::tan(17.5 * std::numbers::pi / 180.0), 0.02);
+  EXPECT_GT(edge_Fc, 0.0);
+  EXPECT_LT(edge_Fc, 0.2 * Fc);
+  EXPECT_NEAR(done.metric("cutting.shear_angle_speed"), 42.0, 8.0);
+  EXPECT_GT(done.metric("cutting.contact_length"), 0.1e-3);
+  EXPECT_LT(done.metric("cutting.contact_length"), 1.0e-3);
+  EXPECT_TRUE(std::isnan(done.metric("cutting.tooth_spacing")));
+  EXPECT_TRUE(std::isnan(done.metric("cutting.temperature_max"))) << "without heat";
+  EXPECT_EQ(done.status.flags, std::vector<std::string>{"cutting.steady"});
+}
+
+} // namespace
+} // namespace cnem::testing
