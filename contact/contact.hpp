@@ -34,6 +34,8 @@ template<int dim> struct ContactStep {
   Fields<dim>& velocity;           ///< m/s, [node], at t_{n+½}; corrected in place
   const Field& mass;               ///< kg/m^(3−dim), [node]
   BoundaryValues flow_stress = {}; ///< Pa; needed where flow_stress_needed()
+  BoundaryValues temperature = {}; ///< K; empty: cold
+  BoundaryValues melting = {};     ///< K, of the material; empty: never
   BoundaryValues effusivity = {};  ///< W √s/(m² K), of the workpiece; empty: it keeps all friction
                                    ///< heat
   BoundaryValues window = {}; ///< –, over how many Δt̄ the forces that arrive in this step have gathered;
@@ -142,6 +144,7 @@ public:
   /// Of all free tools at t_{n−½}.
   DriveEnergy drive_energy() const { return motions_.energy(tools_); }
   bool flow_stress_needed() const;
+  bool rubs() const; ///< whether there is any friction
   /// Nodes of the boundary in increasing order.
   const IndexedVector<BoundaryNodeIndex, NodeIndex>& boundary_nodes() const { return surface_.node; }
 

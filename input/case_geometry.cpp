@@ -160,12 +160,23 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   check_points(root, domain, diagnostics);
 }
 
+namespace {
+
+contact::Friction read_friction(const Setting& table, Diagnostics& diagnostics) {
+  contact::Friction friction =
+      read_law<contact::Friction>(contact::FrictionLaws{}, table, diagnostics).value_or(contact::Friction());
+  contact::FrictionMelting melting;
+  read_constants(contact::FrictionMelting::parameters, table, melting);
+  friction.set_melting(melting);
+  return friction;
+}
+
+} // namespace
+
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("contact");
-  result.contact = {
-      table.get<bool>("deformable"),
-      *read_law<contact::Friction>(contact::FrictionLaws{}, *table.find("friction"), diagnostics),
-      table.get<double>("conductance")};
+  result.contact = {table.get<bool>("deformable"), read_friction(*table.find("friction"), diagnostics),
+                    table.get<double>("conductance")};
   const Setting& conductance = *table.find("conductance");
   if (result.contact.conductance > 0.0 && !result.contact.active)
     diagnostics.add(Mistake::conflict, conductance.where, conductance.path,
@@ -194,8 +205,7 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
       check_overlap(table, tool, result, diagnostics);
     tool.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     read_drive(table, result, tool, diagnostics);
-    tool.friction =
-        *read_law<contact::Friction>(contact::FrictionLaws{}, *table.find("friction"), diagnostics);
+    tool.friction = read_friction(*table.find("friction"), diagnostics);
     if (const Setting* heat = table.find("heat")) {
       if (!result.analysis.thermal)
         diagnostics.add(Mistake::conflict, heat->where, heat->path,

@@ -158,6 +158,7 @@ void add_friction(Keys& k, const std::string& at, const std::string& doc) {
   k.add(at, table, doc).always();
   add_law_choice(k, at, laws).fallback("\"none\"");
   add_law_constants(k, at, laws);
+  add_constants(k, at, constant_texts<contact::FrictionMelting>(contact::FrictionMelting::parameters));
 }
 
 void add_tools(Keys& k) {
