@@ -12,7 +12,13 @@ double Elasticity::shear_speed(double density) const { return std::sqrt(mu() / d
 double Elasticity::bar_speed(double density) const { return std::sqrt(young / density); }
 
 double Material::melting_temperature() const {
-  return std::min(hardening ? hardening->melting_temperature() : infinite, damage ? damage->Tmelt : infinite);
+  return std::min(hardening ? hardening->melting_temperature() : infinite,
+                  damage ? damage->melting_temperature() : infinite);
+}
+
+double Damage::melting_temperature() const {
+  const auto* johnson_cook = std::get_if<JohnsonCookDamage>(&law);
+  return johnson_cook ? johnson_cook->Tmelt : infinite;
 }
 
 } // namespace cnem::plasticity
