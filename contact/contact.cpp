@@ -60,6 +60,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
   nodal_impulse_.assign(n, Vec<dim>::Zero());
   points_.clear();
   touches_.clear();
+  rubbed_.clear();
 }
 
 template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) {

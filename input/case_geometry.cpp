@@ -206,23 +206,7 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     tool.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     read_drive(table, result, tool, diagnostics);
     tool.friction = read_friction(*table.find("friction"), diagnostics);
-    if (const Setting* heat = table.find("heat")) {
-      if (!result.analysis.thermal)
-        diagnostics.add(Mistake::conflict, heat->where, heat->path,
-                        "found the thermal side of a tool, expected it with analysis.thermal = true only");
-      read_constants(contact::ToolThermal::parameters, *heat, tool.thermal);
-      contact::ToolMetal metal;
-      read_constants(contact::ToolMetal::parameters, *heat, metal);
-      const auto given = [&](const auto& parameter) {
-        return heat->maybe<double>(parameter.info.name).has_value();
-      };
-      const auto parts = std::ranges::count_if(contact::ToolMetal::parameters, given);
-      if (parts > 0 && (parts < 3 || heat->maybe<double>("effusivity")))
-        diagnostics.add(Mistake::conflict, heat->where, heat->path,
-                        "expected either effusivity, or conductivity, density and specific_heat together");
-      else if (parts == 3)
-        tool.thermal.effusivity = metal.effusivity();
-    }
+    read_tool_heat(table, root, result, tool, diagnostics);
     result.tools.push_back(std::move(tool));
   }
 }

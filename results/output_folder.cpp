@@ -170,8 +170,9 @@ std::string read_file(const fs::path& path) {
 
 namespace {
 
-constexpr std::array run_files{files::resolved_case, files::history,  files::adaptation, files::fields,
-                               files::checkpoint,    files::blanking, files::status,     files::report};
+constexpr std::array run_files{files::resolved_case, files::history,     files::adaptation,
+                               files::fields,        files::tool_fields, files::checkpoint,
+                               files::blanking,      files::status,      files::report};
 
 // Every file in the folder that a run makes, and nothing else.
 std::vector<fs::path> files_of_a_run(const fs::path& folder) {

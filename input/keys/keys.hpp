@@ -50,6 +50,9 @@ public:
 
 /// The closed curve of a domain, a hole or a tool: members of the table `at`.
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
+/// Members of a table with a spacing: regions where it is finer, `of` what (" of the nodes"), at the ends of
+/// cracks too.
+void add_refinements(Keys& k, const std::string& table, const std::string& of, bool of_cracks);
 void add_domain(Keys& k);
 void add_block(Keys& k);
 void add_parts(Keys& k);
