@@ -5,6 +5,7 @@
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
@@ -59,6 +60,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
   nodal_impulse_.assign(n, Vec<dim>::Zero());
   points_.clear();
   touches_.clear();
+  rubbed_.clear();
 }
 
 template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) {
@@ -69,6 +71,12 @@ template<int dim> bool RigidContact<dim>::flow_stress_needed() const {
   return (law_.active && law_.friction.needs_flow_stress()) ||
          std::any_of(tools_.begin(), tools_.end(),
                      [](const Tool<dim>& tool) { return tool.friction.needs_flow_stress(); });
+}
+
+template<int dim> bool RigidContact<dim>::rubs() const {
+  return (law_.active && law_.friction.rubs()) ||
+         std::any_of(tools_.begin(), tools_.end(),
+                     [](const Tool<dim>& tool) { return tool.friction.rubs(); });
 }
 
 template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) {
@@ -316,14 +324,27 @@ template<class Area>
 void RigidContact<dim>::set_friction(Contact<dim>& contact, const ContactStep<dim>& step,
                                      Area&& rubbing_area) const {
   const Friction& friction = friction_of(contact);
-  if (exists(contact.tool)) contact.surface = tool_reactions_[contact.tool].velocity;
+  const bool on_tool = exists(contact.tool);
+  if (on_tool) contact.surface = tool_reactions_[contact.tool].velocity;
   Rubbing rubbing;
-  if (friction.needs_flow_stress()) {
-    double opposite = 0.0; // of two bodies the weaker one counts
+  const auto sides = [&](BoundaryValues values) { // mean of each: the node's, or edge's, and the facet's
+    std::array<double, 2> mean{};
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (const double w = contact.weight[a]; w != 0.0)
-        (w > 0.0 ? rubbing.flow_stress : opposite) += std::abs(w) * step.flow_stress[contact.node[a]];
-    if (!exists(contact.tool)) rubbing.flow_stress = std::min(rubbing.flow_stress, opposite);
+        mean[w > 0.0 ? 0 : 1] += std::abs(w) * values[contact.node[a]];
+    return mean;
+  };
+  if (friction.needs_flow_stress()) {
+    const auto [one, other] = sides(step.flow_stress);
+    rubbing.flow_stress = on_tool ? one : std::min(one, other);
+  }
+  if (friction.rubs() && !step.temperature.empty()) {
+    const auto [one, other] = sides(step.temperature);
+    rubbing.temperature = on_tool ? one : std::max(one, other);
+  }
+  if (friction.rubs() && !step.melting.empty()) {
+    const auto [one, other] = sides(step.melting);
+    rubbing.melting = on_tool ? one : std::min(one, other);
   }
   if (friction.needs_speed()) {
     const auto predicted = [&](BoundaryNodeIndex b) { return at<dim>(step.velocity, surface_.node[b]); };

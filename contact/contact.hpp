@@ -34,6 +34,8 @@ template<int dim> struct ContactStep {
   Fields<dim>& velocity;           ///< m/s, [node], at t_{n+½}; corrected in place
   const Field& mass;               ///< kg/m^(3−dim), [node]
   BoundaryValues flow_stress = {}; ///< Pa; needed where flow_stress_needed()
+  BoundaryValues temperature = {}; ///< K; empty: cold
+  BoundaryValues melting = {};     ///< K, of the material; empty: never
   BoundaryValues effusivity = {};  ///< W √s/(m² K), of the workpiece; empty: it keeps all friction
                                    ///< heat
   BoundaryValues window = {}; ///< –, over how many Δt̄ the forces that arrive in this step have gathered;
@@ -73,7 +75,15 @@ template<int dim> struct BodyResult {
 template<int dim> struct ContactPoint {
   NodeIndex node{};
   ToolIndex tool{};
-  double area = 0.0; ///< m^(dim−1), tributary, current
+  double area = 0.0;   ///< m^(dim−1), tributary, current
+  double facing = 0.0; ///< m^(dim−1), what of it faces the tool: half an edge at a corner
+};
+
+/// Friction heat that a tool took from where a boundary node touches it.
+struct RubbedTool {
+  NodeIndex node{};
+  ToolIndex tool{};
+  double heat = 0.0; ///< J/m^(3−dim)
 };
 
 /// A boundary node that touches a facet of the workpiece, another body's or its own.
@@ -142,6 +152,7 @@ public:
   /// Of all free tools at t_{n−½}.
   DriveEnergy drive_energy() const { return motions_.energy(tools_); }
   bool flow_stress_needed() const;
+  bool rubs() const; ///< whether there is any friction
   /// Nodes of the boundary in increasing order.
   const IndexedVector<BoundaryNodeIndex, NodeIndex>& boundary_nodes() const { return surface_.node; }
 
@@ -152,6 +163,8 @@ public:
   const std::vector<ContactPoint<dim>>& points() const { return points_; } ///< touching in the last step
   /// In the last step; listed where the law has a conductance.
   const std::vector<BodyTouch<dim>>& touches() const { return touches_; }
+  /// Tools' shares of the friction heat of the last step.
+  const std::vector<RubbedTool>& rubbed_tools() const { return rubbed_; }
   /// Workpiece's share of the friction heat of the last step, J/m^(3−dim).
   const IndexedVector<BoundaryNodeIndex, double>& friction_heat() const { return heat_; }
   /// Contact impulse of the last step, N s/m^(3−dim), before constraints take their part.
@@ -219,6 +232,7 @@ private:
   BodyResult<dim> body_result_;
   std::vector<ContactPoint<dim>> points_;
   std::vector<BodyTouch<dim>> touches_;
+  std::vector<RubbedTool> rubbed_;
   IndexedVector<BoundaryNodeIndex, double> heat_;
   IndexedVector<BoundaryNodeIndex, Vec<dim>> nodal_impulse_;
 
@@ -229,6 +243,7 @@ private:
     double pressing = 0.0; ///< N s/m^(3−dim), between bodies
     std::vector<ContactPoint<dim>> points;
     std::vector<BodyTouch<dim>> touches;
+    std::vector<RubbedTool> rubbed;
     IndexedVector<BoundaryNodeIndex, double> heat;
     IndexedVector<BoundaryNodeIndex, Vec<dim>> nodal_impulse;
   };

@@ -27,6 +27,7 @@ template<int dim> void RigidContact<dim>::book(const Poses<dim>& poses, const Co
   }
   body_result_.pressing = 0.0;
   body_result_.step = {};
+  rubbed_.clear();
   const Pose<dim> rest;
   for (const Contact<dim>& contact : contacts_) {
     const bool on_tool = exists(contact.tool);
@@ -61,7 +62,7 @@ template<int dim> void RigidContact<dim>::book(const Poses<dim>& poses, const Co
   body_result_.total += body_result_.step;
 }
 
-/// Friction heat of one contact, J/m^(3−dim): each side takes its effusivity's share. A tool's part leaves.
+/// Friction heat of one contact, J/m^(3−dim): each side takes its share.
 template<int dim>
 void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step) {
   if (heat == 0.0) return;
@@ -82,14 +83,15 @@ void RigidContact<dim>::share_heat(const Contact<dim>& contact, double heat, con
     return;
   }
   const ToolIndex t = contact.tool;
-  const double e_tool = tools_[t].thermal.effusivity;
+  const ToolThermal& tool = tools_[t].thermal;
   for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
     if (contact.weight[a] == 0.0) continue;
     const BoundaryNodeIndex b = contact.node[a];
-    const double share =
-        step.effusivity.empty() || e_tool == 0.0 ? 1.0 : step.effusivity[b] / (step.effusivity[b] + e_tool);
+    const double share = step.effusivity.empty() ? 1.0 : tool.share_of_workpiece(step.effusivity[b]);
+    const double taken = (1.0 - share) * contact.weight[a] * heat;
     heat_[b] += share * contact.weight[a] * heat;
-    results_[t].heat_to_tool += (1.0 - share) * contact.weight[a] * heat;
+    results_[t].heat_to_tool += taken;
+    if (taken > 0.0) rubbed_.push_back({surface_.node[b], t, taken});
   }
 }
 
@@ -98,8 +100,9 @@ template<int dim> void RigidContact<dim>::list_points() {
   for (const Contact<dim>& contact : contacts_)
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (contact.weight[a] != 0.0 && contact.pressing > 0.0 && exists(contact.tool))
-        points_.push_back(
-            {surface_.node[contact.node[a]], contact.tool, surface_.area(contact.node[a], end_, space_)});
+        points_.push_back({surface_.node[contact.node[a]], contact.tool,
+                           surface_.area(contact.node[a], end_, space_),
+                           surface_.area_against(contact.node[a], contact.normal, end_, space_)});
   merge_points();
 }
 

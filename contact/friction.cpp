@@ -2,12 +2,24 @@
 
 #include "core/error.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace cnem::contact {
 
+double FrictionMelting::share(const Rubbing& rubbing) const {
+  const double melting = std::isinf(temperature) ? rubbing.melting : temperature;
+  return std::clamp((melting - rubbing.temperature) / range, 0.0, 1.0);
+}
+
 FrictionBound Friction::bound(const Rubbing& rubbing) const {
-  return std::visit([&](const auto& law) { return law.bound(rubbing); }, law_);
+  FrictionBound bound = std::visit([&](const auto& law) { return law.bound(rubbing); }, law_);
+  const double share = melting_.share(rubbing);
+  if (share == 0.0) return {};
+  bound.coefficient *= share;
+  bound.shear *= share;
+  return bound;
 }
 
 bool Friction::needs_flow_stress() const {
@@ -32,6 +44,8 @@ bool Friction::needs_speed() const {
       law_);
 }
 
+bool Friction::rubs() const { return !std::holds_alternative<Frictionless>(law_); }
+
 void Friction::check(const std::string& owner) const {
   std::visit(
       [&](const auto& law) {
@@ -41,6 +55,10 @@ void Friction::check(const std::string& owner) const {
                 fmt::format("{}: {} = {} of its friction is out of range", owner, info.name, law.*member));
       },
       law_);
+  for (const auto& [member, info] : FrictionMelting::parameters)
+    if (!info.range.contains(melting_.*member))
+      throw InputError(
+          fmt::format("{}: {} = {} of its friction is out of range", owner, info.name, melting_.*member));
 }
 
 } // namespace cnem::contact

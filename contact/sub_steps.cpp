@@ -65,6 +65,7 @@ template<int dim> void RigidContact<dim>::begin_sub_steps() {
   sub_steps_.pressing = 0.0;
   sub_steps_.points.clear();
   sub_steps_.touches.clear();
+  sub_steps_.rubbed.clear();
   sub_steps_.heat.assign(heat_.size(), 0.0);
   sub_steps_.nodal_impulse.assign(nodal_impulse_.size(), Vec<dim>::Zero());
 }
@@ -73,6 +74,7 @@ template<int dim> void RigidContact<dim>::add_sub_step(double dt_mean) {
   sub_steps_.pressing += dt_mean * body_result_.pressing;
   sub_steps_.points.insert(sub_steps_.points.end(), points_.begin(), points_.end());
   sub_steps_.touches.insert(sub_steps_.touches.end(), touches_.begin(), touches_.end());
+  sub_steps_.rubbed.insert(sub_steps_.rubbed.end(), rubbed_.begin(), rubbed_.end());
   for (const BoundaryNodeIndex b : heat_.indices()) {
     sub_steps_.heat[b] += heat_[b];
     sub_steps_.nodal_impulse[b] += nodal_impulse_[b];
@@ -93,6 +95,7 @@ template<int dim> void RigidContact<dim>::end_sub_steps(double duration) {
   merge_points();
   std::swap(touches_, sub_steps_.touches);
   merge_touches();
+  std::swap(rubbed_, sub_steps_.rubbed);
   std::swap(heat_, sub_steps_.heat);
   std::swap(nodal_impulse_, sub_steps_.nodal_impulse);
 }

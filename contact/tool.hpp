@@ -39,11 +39,19 @@ template<int dim> struct ToolDrive {
   Mat<dim> free = Mat<dim>::Identity(); ///< projector on the directions it may move in; guides take the rest
 };
 
-/// Thermal side of a tool, which is held at one temperature.
+/// Thermal side of a tool, which is held at one temperature unless it has a section
+/// (thermal/tool_section.hpp).
 struct ToolThermal {
   double conductance = 0.0;
   double temperature = 293.15;
-  double effusivity = 0.0; ///< its share of the friction heat is e_t/(e_t + e_w)
+  double effusivity = 0.0;          ///< its share of the friction heat is e_t/(e_t + e_w) …
+  double friction_share = infinite; ///< … or this, where finite
+
+  /// Of the friction heat, where the effusivity of the workpiece is e_w (W √s/(m² K)).
+  double share_of_workpiece(double e_w) const {
+    if (friction_share < infinite) return 1.0 - friction_share;
+    return effusivity == 0.0 ? 1.0 : e_w / (e_w + effusivity);
+  }
 
   static constexpr Parameter<ToolThermal> parameters[] = {
       {&ToolThermal::conductance,
@@ -64,7 +72,13 @@ struct ToolThermal {
         .range = not_negative,
         .meaning = "√(kρc), which decides the tool's share of the friction heat; or give the next three.",
         .source = "Carslaw and Jaeger 1959",
-        .computed = "0: all of it goes to the workpiece"}}};
+        .computed = "0: all of it goes to the workpiece"}},
+      {&ToolThermal::friction_share,
+       {.name = "friction_share",
+        .range = fraction,
+        .meaning = "Share of the friction heat that the tool takes.",
+        .example = "0.5",
+        .computed = "by the effusivities"}}};
 };
 
 /// What the effusivity of a tool can be made of.

@@ -19,6 +19,7 @@
 #include "methods/registry.hpp"
 #include "plasticity/material.hpp"
 #include "thermal/boundaries.hpp"
+#include "thermal/tool_section.hpp"
 
 #include <array>
 #include <cstdint>
@@ -177,12 +178,22 @@ struct Plane {
   Vec3 normal{0, 0, 0}; ///< out of the tool, of any length but zero
 };
 
+/// The nodes that a tool conducts with.
+struct ToolNodes {
+  clouds::SpacingField spacing;
+  std::vector<std::string> held; ///< pieces of the outline that keep the temperature of the start
+  contact::ToolMetal metal;
+  double heat_capacity_factor = 1.0; ///< – of tool and coating
+  std::optional<ToolCoating> coating;
+};
+
 /// A rigid tool. Its shape is made of that by app/problem/registry.
 struct Tool : contact::ToolSurface {
   Curve outline;                              ///< in the plane: counter-clockwise, at t = 0, m
   std::optional<Plane> plane;                 ///< in space
   VectorFunction velocity;                    ///< m/s, without a drive; absent components are zero
   std::optional<contact::ToolDrive<2>> drive; ///< of the plane
+  std::optional<ToolNodes> section;           ///< none: at one temperature
 };
 
 struct Method {

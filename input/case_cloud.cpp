@@ -56,10 +56,11 @@ std::vector<Vec2> crack_ends(const Setting& names, const Setting& cracks, Diagno
   return ends;
 }
 
-/// A region of its own, or one at each end of cracks; none where the place is missing.
+} // namespace
+
 std::vector<clouds::Refinement> read_refinement(const Setting& root, const Setting& table,
                                                 double cloud_spacing, Diagnostics& diagnostics) {
-  using Region = clouds::Refinement::Region;
+  using Kind = clouds::Refinement::Region;
   const Setting *region = table.find("box"), *points = table.find("points");
   const Setting *spacing = table.find("spacing"), *factor = table.find("factor");
   const Setting* tips = table.find("tips");
@@ -73,24 +74,26 @@ std::vector<clouds::Refinement> read_refinement(const Setting& root, const Setti
   const double wanted = spacing ? std::get<double>(spacing->value)
                                 : table.maybe<double>("factor").value_or(1.0) * cloud_spacing;
   std::vector<clouds::Refinement> list;
-  const auto add = [&](Region kind, std::vector<Vec2> places) {
+  const auto add = [&](Kind kind, std::vector<Vec2> places) {
     list.push_back({kind, std::move(places), wanted, table.get<double>("growth")});
   };
   if (region) {
     const auto [low, high] = box(*region, diagnostics);
-    add(Region::box, {low, high});
+    add(Kind::box, {low, high});
   } else if (points) {
-    add(Region::path, std::get<std::vector<Vec2>>(points->value));
+    add(Kind::path, std::get<std::vector<Vec2>>(points->value));
     if (list.back().points.empty())
       diagnostics.add(Mistake::type, points->where, points->path, "found no points, expected at least one");
   }
   if (tips) {
     const Setting* cracks = root.find("domain.cracks");
     for (const Vec2& tip : crack_ends(*tips, cracks ? *cracks : Setting{}, diagnostics))
-      add(Region::path, {tip});
+      add(Kind::path, {tip});
   }
   return list;
 }
+
+namespace {
 
 /// Distance between the domain and a refinement outside it, m; 0 where they touch.
 double gap(const clouds::Refinement& refinement, const Domain& domain) {

@@ -160,12 +160,23 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   check_points(root, domain, diagnostics);
 }
 
+namespace {
+
+contact::Friction read_friction(const Setting& table, Diagnostics& diagnostics) {
+  contact::Friction friction =
+      read_law<contact::Friction>(contact::FrictionLaws{}, table, diagnostics).value_or(contact::Friction());
+  contact::FrictionMelting melting;
+  read_constants(contact::FrictionMelting::parameters, table, melting);
+  friction.set_melting(melting);
+  return friction;
+}
+
+} // namespace
+
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("contact");
-  result.contact = {
-      table.get<bool>("deformable"),
-      *read_law<contact::Friction>(contact::FrictionLaws{}, *table.find("friction"), diagnostics),
-      table.get<double>("conductance")};
+  result.contact = {table.get<bool>("deformable"), read_friction(*table.find("friction"), diagnostics),
+                    table.get<double>("conductance")};
   const Setting& conductance = *table.find("conductance");
   if (result.contact.conductance > 0.0 && !result.contact.active)
     diagnostics.add(Mistake::conflict, conductance.where, conductance.path,
@@ -194,25 +205,8 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
       check_overlap(table, tool, result, diagnostics);
     tool.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     read_drive(table, result, tool, diagnostics);
-    tool.friction =
-        *read_law<contact::Friction>(contact::FrictionLaws{}, *table.find("friction"), diagnostics);
-    if (const Setting* heat = table.find("heat")) {
-      if (!result.analysis.thermal)
-        diagnostics.add(Mistake::conflict, heat->where, heat->path,
-                        "found the thermal side of a tool, expected it with analysis.thermal = true only");
-      read_constants(contact::ToolThermal::parameters, *heat, tool.thermal);
-      contact::ToolMetal metal;
-      read_constants(contact::ToolMetal::parameters, *heat, metal);
-      const auto given = [&](const auto& parameter) {
-        return heat->maybe<double>(parameter.info.name).has_value();
-      };
-      const auto parts = std::ranges::count_if(contact::ToolMetal::parameters, given);
-      if (parts > 0 && (parts < 3 || heat->maybe<double>("effusivity")))
-        diagnostics.add(Mistake::conflict, heat->where, heat->path,
-                        "expected either effusivity, or conductivity, density and specific_heat together");
-      else if (parts == 3)
-        tool.thermal.effusivity = metal.effusivity();
-    }
+    tool.friction = read_friction(*table.find("friction"), diagnostics);
+    read_tool_heat(table, root, result, tool, diagnostics);
     result.tools.push_back(std::move(tool));
   }
 }

@@ -47,23 +47,27 @@ void warn_of_brittleness(const plasticity::JohnsonCookDamage& law, const Setting
                     table.path, law.D5, 1.0 + law.D5));
 }
 
-plasticity::JohnsonCookDamage read_damage(const Setting& table, const Setting& material,
-                                          std::vector<std::string>& warnings, Diagnostics& diagnostics) {
-  plasticity::JohnsonCookDamage law;
-  read_constants(plasticity::JohnsonCookDamage::parameters, table, law);
-  check_constants<plasticity::JohnsonCookDamage>(table, diagnostics);
-  if (const Setting& share = *table.find("D5"); law.D5 != 0.0 && !table.find("Tmelt"))
-    diagnostics.add(Mistake::missing_key, share.where, share.path,
-                    fmt::format("found {:g} without a melting temperature, expected damage.Tmelt or "
-                                "plastic.Tmelt beside it",
-                                law.D5));
+std::optional<plasticity::Damage> read_damage(const Setting& table, const Setting& material,
+                                              std::vector<std::string>& warnings, Diagnostics& diagnostics) {
+  const auto law = read_law<plasticity::DamageLaw>(plasticity::DamageLaws{}, table, diagnostics);
+  if (!law) return std::nullopt;
+  plasticity::Damage damage{{}, *law};
+  plasticity::Breaking& breaking = damage;
+  read_constants(plasticity::Breaking::parameters, table, breaking);
   if (!material.find("plastic"))
     diagnostics.add(Mistake::missing_key, table.where, table.path,
                     "found in an elastic material, expected a plastic law beside it: damage grows with "
                     "plastic strain");
-  check_ductility(law, table, diagnostics);
-  warn_of_brittleness(law, table, warnings);
-  return law;
+  const auto* johnson_cook = std::get_if<plasticity::JohnsonCookDamage>(&*law);
+  if (!johnson_cook) return damage;
+  if (const Setting& share = *table.find("D5"); johnson_cook->D5 != 0.0 && !table.find("Tmelt"))
+    diagnostics.add(Mistake::missing_key, share.where, share.path,
+                    fmt::format("found {:g} without a melting temperature, expected damage.Tmelt or "
+                                "plastic.Tmelt beside it",
+                                johnson_cook->D5));
+  check_ductility(*johnson_cook, table, diagnostics);
+  warn_of_brittleness(*johnson_cook, table, warnings);
+  return damage;
 }
 
 plasticity::Axis axis_of(const std::string& name) {
@@ -117,7 +121,7 @@ void set_material_defaults(Setting& root, double temperature) {
       for (const char* key : {"r45", "r90"})
         root.set_default(fmt::format("{}.anisotropy.{}", entry.path, key), *along);
   for (const Setting& entry : root.entries("materials")) {
-    if (!entry.find("damage")) continue;
+    if (entry.maybe<std::string>("damage.law") != plasticity::JohnsonCookDamage::name) continue;
     const auto from_plastic = [&](const char* key) {
       return entry.maybe<double>(fmt::format("plastic.{}", key));
     };

@@ -18,6 +18,15 @@ Plane read_plane(const Setting& table, Diagnostics& diagnostics);
 std::string outside_reason(const Block& block, const Vec3& x);
 
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics);
+/// The thermal side of a tool, with its section. Expects its outline.
+void read_tool_heat(const Setting& table, const Setting& root, const Case& input, Tool& tool,
+                    Diagnostics& diagnostics);
+
+/// A region of its own, or one at each end of cracks; none where the place is missing. cloud_spacing: m, of
+/// which it may be a share.
+std::vector<clouds::Refinement> read_refinement(const Setting& root, const Setting& table,
+                                                double cloud_spacing, Diagnostics& diagnostics);
+
 void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// The mass of a tool and what moves it. Expects the kinematics.

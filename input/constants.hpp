@@ -91,7 +91,7 @@ std::optional<Result> read_law(Laws<Law...>, const Setting& table, Diagnostics& 
     if constexpr (requires { One::lists; }) {
       for (const ListParameter<One>& list : One::lists)
         whole &= read_list(list.info, table, law.*list.value, diagnostics);
-      where = table.find(One::lists[0].info.name);
+      if (const Setting* first = table.find(One::lists[0].info.name)) where = first;
     }
     if (!whole) return;
     try {

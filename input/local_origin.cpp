@@ -68,6 +68,8 @@ void use_local_origin(Case& input) {
   for (Imperfection& imperfection : input.initial.imperfections) shift(imperfection.points);
   for (Tool& tool : input.tools) {
     shift(tool.outline);
+    if (tool.section)
+      for (clouds::Refinement& refinement : tool.section->spacing.refinements) shift(refinement.points);
     if (tool.plane) shift(tool.plane->at);
   }
   for (Window& window : input.output.windows)

@@ -28,7 +28,10 @@ double EnergyLedger::kinetic_share() const {
 }
 
 double EnergyLedger::heat_residual() const {
-  return sum(EnergyKind::heat_held, 0.0) - (*this)["heat_generated"] - (*this)["heat_exchanged"];
+  double residual = sum(EnergyKind::heat_held, 0.0);
+  for (const Energy& entry : entries_)
+    if (entry.kind == EnergyKind::heat_received) residual -= entry.value;
+  return residual;
 }
 
 } // namespace cnem

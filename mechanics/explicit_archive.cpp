@@ -78,6 +78,8 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
     }
   }
   for (FieldTable* table : point_tables()) table->archive(archive);
+  for (std::size_t s = 0; s < state_.tool_temperature.size(); ++s)
+    archive.field(fmt::format("solver/tool_heat/{}/temperature", s), "K", state_.tool_temperature[s]);
   archive_energies(archive);
   archive.integer("solver/references", references_);
   archive.number("solver/finest_before", "s", finest_before_);

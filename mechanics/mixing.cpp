@@ -1,6 +1,7 @@
 #include "mechanics/mixing.hpp"
 #include "core/index.hpp"
 
+#include "plasticity/damage.hpp"
 #include "plasticity/log_strain.hpp"
 
 #include <algorithm>
@@ -70,8 +71,11 @@ void mix_elastic(const PointRows& parcels, const Field& mass, const Field& tensi
         opening = std::max(opening, dilatation<dim>(elastic, material, point.temperature[p]) -
                                         std::sqrt(tension[p] / (1.0 - softening)));
       }
+      const double pressure =
+          -material.elasticity.kappa() * dilatation<dim>(elastic, material, point.temperature[p]);
       const double strength =
-          point.strength[p] * (material.damage ? material.damage->flow_share(softening) : 1.0);
+          point.strength[p] *
+          (material.damage ? plasticity::flow_share<dim>(material, point, p, pressure) : 1.0);
       if (material.hardening)
         elastic = plasticity::limited_to<dim>(
             elastic,

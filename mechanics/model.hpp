@@ -11,6 +11,7 @@
 #include "mechanics/ties.hpp"
 #include "plasticity/material.hpp"
 #include "thermal/boundaries.hpp"
+#include "thermal/tool_section.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -30,6 +31,7 @@ template<int dim> struct Model {
   double safety = 0.9;    ///< factor on the stable step
   LocalStepControl local; ///< local time steps
   MassScaling mass_scaling;
+  std::vector<ToolSection<dim>> tool_sections; ///< of tools that conduct
 };
 
 /// What acts on the body from outside or ties it, and the cloud it is known by: all of it follows the cloud

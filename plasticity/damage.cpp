@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cnem::plasticity {
 
@@ -17,17 +18,10 @@ double JohnsonCookDamage::fracture_strain(double triaxiality, double rate, doubl
 namespace {
 
 DamageParameters damage_parameters(const Material& material, double dt) {
-  const JohnsonCookDamage& law = *material.damage;
-  return {law.D1,
-          law.D2,
-          law.D3,
-          law.D4,
-          law.D5,
-          law.T0,
-          1.0 / (law.Tmelt - law.T0),
-          1.0 / law.rate0,
-          law.cut_off,
-          1.0 / law.fracture_energy,
+  const Damage& damage = *material.damage;
+  return {static_cast<int>(damage.law.index()),
+          std::visit([](const auto& law) { return static_cast<const void*>(&law); }, damage.law),
+          1.0 / damage.fracture_energy,
           material.elasticity.kappa(),
           0.5 / material.elasticity.kappa(),
           dt};
@@ -40,6 +34,21 @@ double on_active_isa(const DamageParameters& parameters, const DamagePoints<dim>
 }
 
 } // namespace
+
+template<int dim>
+double flow_share(const Material& material, const PointState<dim>& point, std::size_t p, double pressure) {
+  const Damage& damage = *material.damage;
+  const double softening = point.softening[p];
+  double rubbing = 0.0;
+  if (damage.friction > 0.0 && softening > 0.0 && pressure > 0.0 && material.hardening) {
+    const double sound =
+        point.strength[p] *
+        material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p], point.temperature[p]);
+    const double strength = std::numbers::sqrt3 * damage.friction * pressure;
+    rubbing = strength < sound ? strength / sound : 1.0;
+  }
+  return damage.flow_share(softening, rubbing);
+}
 
 template<int dim>
 DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, const Field& volume,
@@ -65,6 +74,8 @@ DamageSums update_damage(const std::vector<Material>& materials, const std::vect
   return sums;
 }
 
+template double flow_share(const Material&, const PointState<2>&, std::size_t, double);
+template double flow_share(const Material&, const PointState<3>&, std::size_t, double);
 template DamagePoints<2> damage_points(PointState<2>&, const Field&, const Field&, const Field&);
 template DamagePoints<3> damage_points(PointState<3>&, const Field&, const Field&, const Field&);
 template DamageSums update_damage(const std::vector<Material>&, const std::vector<std::int32_t>&,

@@ -1,10 +1,11 @@
 #pragma once
-// Ductile damage of Johnson and Cook (Eng. Fract. Mech. 21, 1985) with softening regularised by the fracture
+// Ductile damage by any law of plasticity/damage_laws/list.hpp with softening regularised by the fracture
 // energy (Hillerborg, Modéer, Petersson 1976), as a pass of its own after the return map.
 #include "core/fields/state.hpp"
 #include "plasticity/damage_points.hpp"
 #include "plasticity/material.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,6 +16,11 @@ struct DamageSums {
   double released = 0.0; ///< J/m^(3−dim), elastic energy of tension let go as points break, ≥ 0
 };
 
+/// Share of its flow stress that a point of a material with damage has left, for its softening and a pressure
+/// (Pa): broken matter under pressure rubs (Breaking::friction), with √3 times the strength in shear.
+template<int dim>
+double flow_share(const Material& material, const PointState<dim>& point, std::size_t p, double pressure);
+
 /// Pointers into the fields of `state` and to lengths [point], m, volumes [point] and openings [point], –;
 /// valid until one of them is resized.
 template<int dim>
@@ -22,7 +28,7 @@ DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, con
                                 const Field& opening);
 
 /// Takes the points [begin, end) from the stress that update_stress has just made (with the flow stress
-/// lowered by 1 − ω of the last step) to the damaged one:
+/// lowered by the softening ω of the last step) to the damaged one:
 ///
 ///   dD = dε̄p/ε_f up to D = 1, where ω begins;  d(1 − ω)² = −σ_eq dε̄p ℓ/G_f,
 ///

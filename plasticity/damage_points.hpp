@@ -21,13 +21,11 @@ template<int dim> struct DamagePoints {
 
 /// Constants of a material and a step. What would cost a division is kept inverted.
 struct DamageParameters {
-  double D1, D2, D3, D4, D5;   ///< –
-  double T0, by_melting_range; ///< K, 1/K
-  double by_rate0;             ///< s
-  double cut_off;              ///< –     σ_m/σ_eq at and below which nothing accumulates
-  double by_fracture_energy;   ///< m²/J
-  double kappa, by_two_kappa;  ///< Pa, 1/Pa
-  double dt;                   ///< s
+  int law;                    ///< its place in plasticity/damage_laws/list.hpp
+  const void* constants;      ///< its struct
+  double by_fracture_energy;  ///< m²/J
+  double kappa, by_two_kappa; ///< Pa, 1/Pa
+  double dt;                  ///< s
 };
 
 #define CNEM_DAMAGE(isa)                                                                                     \

@@ -1,6 +1,7 @@
 #include "plasticity/hill_return.hpp"
 #include "plasticity/laws/list.hpp"
 #include "plasticity/point_packs.hpp"
+#include "plasticity/with_law.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {
 

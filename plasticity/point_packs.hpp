@@ -1,7 +1,6 @@
 #pragma once
 // A range of stress points as packs (core/machine/simd.hpp), for the kernels of return maps.
 #include "core/machine/simd.hpp"
-#include "core/parameter.hpp"
 #include "plasticity/stress_points.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {
@@ -88,14 +87,6 @@ std::ptrdiff_t update(const Parameters& parameters, const Kernel& kernel, const 
     if (any(bad) && first_bad < 0 && first_lane(bad, count) < count) first_bad = i + first_lane(bad, count);
   }
   return first_bad;
-}
-
-/// f(constants of the law at `index` of the list).
-template<class First, class... Rest, class F>
-auto with_law(Laws<First, Rest...>, int index, const void* constants, const F& f) {
-  if constexpr (sizeof...(Rest) > 0)
-    if (index > 0) return with_law(Laws<Rest...>{}, index - 1, constants, f);
-  return f(*static_cast<const First*>(constants));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "plasticity/box2.hpp"
 #include "plasticity/laws/list.hpp"
 #include "plasticity/point_packs.hpp"
+#include "plasticity/with_law.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {
 

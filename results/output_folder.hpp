@@ -12,6 +12,7 @@ inline constexpr const char* resolved_case = "case.resolved.toml";
 inline constexpr const char* history = "history.csv";
 inline constexpr const char* adaptation = "adaptation.csv"; ///< a row for every change of the cloud
 inline constexpr const char* fields = "fields.pvd";
+inline constexpr const char* tool_fields = "tools.pvd";    ///< of tools that conduct
 inline constexpr const char* fields_folder = "fields";     ///< .vtu files
 inline constexpr const char* pictures_folder = "pictures"; ///< .png files and their index.json
 inline constexpr const char* lines_folder = "lines";       ///< fields along lines, .csv

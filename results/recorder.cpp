@@ -4,6 +4,7 @@
 #include "core/index.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
+#include "results/tool_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -263,6 +264,17 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
     frame.node_vectors.push_back(vector_field<dim>("springback [m]", kept->springback));
   }
   writer_.write(files, std::shared_ptr<const FieldFrame<dim>>(kept, &frame));
+  if constexpr (dim == 2)
+    if (const auto tools = tool_frame(shot, origin_)) {
+      if (!tools_) tools_.emplace(folder_, tool_series);
+      tools_->write(files, tools);
+    }
+}
+
+FieldRecorder::FieldRecorder(const std::filesystem::path& folder, const Vec3& origin, double time)
+    : writer_(FieldWriter::resume(folder, time)), folder_(folder), origin_(origin) {
+  if (std::filesystem::exists(folder / tool_series.list))
+    tools_ = FieldWriter::resume(folder, time, tool_series);
 }
 
 template class HistoryRecorder<2>;

@@ -9,6 +9,7 @@
 #include "results/vtk_writer.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,19 +71,22 @@ private:
   std::vector<std::pair<std::string, double>> metrics_;
 };
 
-/// Writes fields.pvd frames with every field of the catalogue, through a queue that must outlive the frames.
+/// Writes fields.pvd frames with every field of the catalogue, and tools.pvd with those of tools that
+/// conduct, through a queue that must outlive the frames.
 class FieldRecorder {
 public:
   /// origin: from which positions are counted, m.
-  FieldRecorder(const std::filesystem::path& folder, const Vec3& origin) : writer_(folder), origin_(origin) {}
+  FieldRecorder(const std::filesystem::path& folder, const Vec3& origin)
+      : writer_(folder), folder_(folder), origin_(origin) {}
   /// Goes on with the series that is there: frames later than `time` (s) are dropped. Throws IoError.
-  FieldRecorder(const std::filesystem::path& folder, const Vec3& origin, double time)
-      : writer_(FieldWriter::resume(folder, time)), origin_(origin) {}
+  FieldRecorder(const std::filesystem::path& folder, const Vec3& origin, double time);
   template<int dim> void record(FileQueue& files, const Snapshot<dim>& shot);
   int frames() const { return writer_.frames(); }
 
 private:
   FieldWriter writer_;
+  std::optional<FieldWriter> tools_; ///< begins with the first frame of tools that conduct
+  std::filesystem::path folder_;
   Vec3 origin_;
 };
 

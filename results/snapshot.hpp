@@ -14,13 +14,18 @@ template<int dim> struct Snapshot {
   const contact::RigidContact<dim>& contact;
   const AdaptationFields* adaptation = nullptr; ///< null: the cloud is not adapted
   double displacement_scale = 1.0;              ///< pictures draw initial position + scale · displacement
-  const Fields<dim>* springback = nullptr;      ///< [k][node] m; null: not asked for, or not the end
+  const std::vector<ToolSection<dim>>* tools = nullptr; ///< that conduct; null: not looked at
+  const Fields<dim>* springback = nullptr;              ///< [k][node] m; null: not asked for, or not the end
 };
 
 template<int dim>
 Snapshot<dim> snapshot(const ExplicitSolver<dim>& solver, const AdaptationFields* adaptation = nullptr) {
-  return {solver.state(), solver.approximation(), solver.conditions().cloud, solver.conditions().contact,
-          adaptation};
+  return {.state = solver.state(),
+          .approximation = solver.approximation(),
+          .cloud = solver.conditions().cloud,
+          .contact = solver.conditions().contact,
+          .adaptation = adaptation,
+          .tools = &solver.model().tool_sections};
 }
 
 } // namespace cnem::results

@@ -21,8 +21,8 @@ namespace cnem::results {
 
 namespace fs = std::filesystem;
 
-std::vector<FieldFiles> read_field_series(const fs::path& folder) {
-  const fs::path path = folder / files::fields;
+std::vector<FieldFiles> read_field_series(const fs::path& folder, const char* list) {
+  const fs::path path = folder / list;
   const std::string text = read_file(path);
   const auto root =
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str()));

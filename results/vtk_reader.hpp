@@ -1,6 +1,7 @@
 #pragma once
 // Fields that a run has written (results/vtk_writer.hpp), read back.
 #include "core/operators/discretisation.hpp"
+#include "results/output_folder.hpp"
 
 #include <array>
 #include <filesystem>
@@ -15,8 +16,10 @@ struct FieldFiles {
   std::string cells, nodes; ///< paths relative to the folder of results
 };
 
-/// What fields.pvd lists, in its order. Throws IoError when it cannot be read or is not such a list.
-std::vector<FieldFiles> read_field_series(const std::filesystem::path& folder);
+/// What fields.pvd, or another list, lists, in its order. Throws IoError when it cannot be read or is not
+/// such a list.
+std::vector<FieldFiles> read_field_series(const std::filesystem::path& folder,
+                                          const char* list = files::fields);
 
 /// What vertices of cells have where the frame has initial positions.
 inline constexpr const char* vertex_displacement = "displacement [m]";

@@ -165,25 +165,26 @@ void set_up_vtk() {
 
 } // namespace
 
-FieldWriter::FieldWriter(fs::path folder) : folder_(std::move(folder)) {
+FieldWriter::FieldWriter(fs::path folder, Series series) : folder_(std::move(folder)), series_(series) {
   std::error_code error;
   fs::create_directories(folder_ / files::fields_folder, error);
   if (error)
     throw IoError(
         fmt::format("cannot create {}: {}", (folder_ / files::fields_folder).string(), error.message()));
-  write_atomically(folder_ / files::fields, collection());
+  write_atomically(folder_ / series_.list, collection());
 }
 
-FieldWriter FieldWriter::resume(fs::path folder, double time) {
+FieldWriter FieldWriter::resume(fs::path folder, double time, Series series) {
   FieldWriter writer;
-  for (FieldFiles& frame : read_field_series(folder)) {
+  writer.series_ = series;
+  for (FieldFiles& frame : read_field_series(folder, series.list)) {
     if (frame.time <= time)
       writer.entries_.push_back(std::move(frame));
     else
       for (const std::string& file : {frame.cells, frame.nodes}) fs::remove(folder / file);
   }
   writer.folder_ = std::move(folder);
-  write_atomically(writer.folder_ / files::fields, writer.collection());
+  write_atomically(writer.folder_ / series.list, writer.collection());
   return writer;
 }
 
@@ -192,7 +193,7 @@ template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<cons
   check_lengths(frame->node_scalars, frame->node_vectors, frame->position[0].size());
   set_up_vtk();
   const auto name = [&](const char* part) {
-    return fmt::format("{}/{}_{:05}.vtu", files::fields_folder, part, entries_.size());
+    return fmt::format("{}/{}{}_{:05}.vtu", files::fields_folder, series_.prefix, part, entries_.size());
   };
   FieldFiles entry{frame->time, name("cells"), name("nodes")};
   const std::size_t bytes = bytes_of(*frame) / 2; // kept by both
@@ -201,7 +202,7 @@ template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<cons
   queue.put(
       folder_ / entry.nodes, [frame = std::move(frame)] { return nodes_text(*frame); }, bytes);
   entries_.push_back(std::move(entry));
-  queue.put(folder_ / files::fields, collection());
+  queue.put(folder_ / series_.list, collection());
 }
 
 template void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame<2>> frame);

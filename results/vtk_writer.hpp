@@ -3,6 +3,7 @@
 // stress points, polygons or tetrahedra, with cell data, and the nodes as points with point data.
 #include "core/operators/discretisation.hpp"
 #include "results/file_queue.hpp"
+#include "results/output_folder.hpp"
 #include "results/vtk_reader.hpp"
 
 #include <array>
@@ -53,16 +54,22 @@ std::vector<Vec<dim>> moved_vertices(const CellGeometry<dim>& cells,
   return moved;
 }
 
+/// What a series is called: its list, and how names of its files begin in the folder of fields.
+struct Series {
+  const char* list = files::fields;
+  const char* prefix = "";
+};
+
 /// Writes fields/cells_*.vtu, fields/nodes_*.vtu and, after each frame, fields.pvd (replaced atomically, so
 /// that a killed run leaves a valid series).
 class FieldWriter {
 public:
   /// A new series in `folder`.
-  explicit FieldWriter(std::filesystem::path folder);
+  explicit FieldWriter(std::filesystem::path folder, Series series = {});
 
   /// Goes on with the series in `folder` after a restart: frames later than `time` (s) are dropped from the
   /// series and their files removed. Throws IoError when fields.pvd cannot be read.
-  static FieldWriter resume(std::filesystem::path folder, double time);
+  static FieldWriter resume(std::filesystem::path folder, double time, Series series = {});
 
   /// Hands the files of the frame to `queue`, which makes them later. Throws InputError when a field has the
   /// wrong length, IoError.
@@ -75,6 +82,7 @@ private:
   std::string collection() const;
 
   std::filesystem::path folder_;
+  Series series_;
   std::vector<FieldFiles> entries_;
 };
 

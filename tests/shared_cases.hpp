@@ -68,6 +68,7 @@ law = "johnson-cook"
 D1 = 0.005
 D2 = 0
 D3 = 0
+cut_off = -1000 # none: it breaks wherever it flows
 )toml";
 
 /// A strip in tension between two notches at 45 degrees, whose ligament is 2√2 mm, of cracking_steel.

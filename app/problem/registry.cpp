@@ -3,6 +3,7 @@
 
 #include "app/places.hpp"
 #include "app/problem/bodies.hpp"
+#include "app/problem/tool_sections.hpp"
 #include "app/problem/workpiece.hpp"
 #include "contact/curve_shape.hpp"
 #include "contact/plane_shape.hpp"
@@ -171,6 +172,7 @@ template<int dim>
 contact::Tool<dim> make_tool(const input::Case& input, const input::Tool& spec, const Cloud<dim>& cloud) {
   contact::Tool<dim> tool;
   static_cast<contact::ToolSurface&>(tool) = spec;
+  if (spec.section) tool.thermal.conductance = 0.0; // its section exchanges heat, not one temperature
   tool.motion.velocity = components_of<dim>(spec.velocity);
   try {
     if constexpr (dim == 2) {
@@ -224,7 +226,10 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   model.cloud = std::move(workpiece.cloud);
   model.method = methods::make<dim>(input.method.name, workpiece.options);
   IndexedVector<NodeIndex, std::int32_t> region;
-  if constexpr (dim == 2) set_parts(input, model, region);
+  if constexpr (dim == 2) {
+    set_parts(input, model, region);
+    model.tool_sections = tool_sections(input, setup.warnings);
+  }
   set_materials(input, region, model);
   model.stabilisation = input.method.stabilisation;
   model.pressure_exchange = input.method.pressure_exchange;

@@ -3,22 +3,9 @@
 #include "app/places.hpp"
 #include "core/index.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace cnem::app {
-
-namespace {
-
-/// K; infinite where the material has none.
-double melting_temperature(const plasticity::Material& material) {
-  double melting = std::numeric_limits<double>::infinity();
-  if (material.hardening) melting = std::min(melting, material.hardening->melting_temperature());
-  if (material.damage) melting = std::min(melting, material.damage->Tmelt);
-  return melting;
-}
-
-} // namespace
 
 template<int dim> void MeltingWatch::look(const ExplicitSolver<dim>& solver) {
   if (!warning_.empty()) return;
@@ -26,7 +13,7 @@ template<int dim> void MeltingWatch::look(const ExplicitSolver<dim>& solver) {
   const State<dim>& state = solver.state();
   std::vector<double> melting;
   for (const plasticity::Material& material : model.materials)
-    melting.push_back(melting_temperature(material));
+    melting.push_back(material.melting_temperature());
   std::size_t hottest = 0, of_hottest = 0;
   double most = 0.0; // K above melting
   for (std::size_t i = 0; i < state.node.size(); ++i) {

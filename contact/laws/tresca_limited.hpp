@@ -11,7 +11,7 @@ struct TrescaLimited {
   double coefficient = 0.0, shear_factor = 1.0;
 
   static constexpr const char* name = "tresca-limited";
-  static constexpr const char* formula = "the same, at most `shear_factor` σ_y/√3";
+  static constexpr const char* formula = "`coefficient` times the pressure, at most `shear_factor` σ_y/√3";
   static constexpr const char* source = "Orowan 1943";
   static constexpr Parameter<TrescaLimited> parameters[] = {
       {&TrescaLimited::coefficient, Coulomb::parameters[0].info},

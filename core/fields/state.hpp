@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace cnem {
 
@@ -174,9 +175,10 @@ struct AdaptationFields {
 template<int dim> struct State {
   NodeState<dim> node;
   PointState<dim> point;
-  double time = 0.0;        ///< s     t_n
-  double step_before = 0.0; ///< s     Δt that led to t_n (0 before the first step)
-  std::int64_t step = 0;    ///< –     n
+  std::vector<Field> tool_temperature; ///< K, [section][node of it] of tools that conduct
+  double time = 0.0;                   ///< s     t_n
+  double step_before = 0.0;            ///< s     Δt that led to t_n (0 before the first step)
+  std::int64_t step = 0;               ///< –     n
 };
 
 } // namespace cnem

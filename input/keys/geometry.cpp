@@ -110,6 +110,32 @@ void add_parts(Keys& k) {
   k.add("domain.regions.*.velocity", vector, "At time 0.").unit(d::velocity).computed("`initial.velocity`");
 }
 
+void add_refinements(Keys& k, const std::string& table, const std::string& of, bool of_cracks) {
+  const std::string at = table + ".refine.*.";
+  k.add(table + ".refine", named_tables, "Regions with a finer spacing" + of + ".");
+  k.add(table + ".refine.*", Type::table,
+        of_cracks
+            ? "A region given by `box`, `points` or `tips`, with its `spacing` or `factor`; the finest one "
+              "wins."
+            : "A region given by `box` or `points`, with its `spacing` or `factor`; the finest one wins.");
+  k.add(at + "box", vectors, "Two opposite corners.").unit(d::length).example("[\"4 0 mm\", \"6 10 mm\"]");
+  k.add(at + "points", vectors, "A point, or the corners of a polyline.")
+      .unit(d::length)
+      .example("[\"5 0 mm\", \"5 10 mm\"]");
+  if (of_cracks)
+    k.add(at + "tips", texts, "Names of cracks, whose ends are refined, or `all`.").example("[\"all\"]");
+  k.add(at + "spacing", quantity, "Spacing in the region.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"0.05 mm\"");
+  k.add(at + "factor", quantity, "Spacing in the region over `" + table + ".spacing`.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true})
+      .example("0.25");
+  k.add(at + "growth", quantity, "Growth of the spacing per unit of distance outside.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true})
+      .fallback("0.3");
+}
+
 void add_cloud(Keys& k) {
   k.add("cloud", table, "The nodes.").required().or_from_cutting();
   k.add("cloud.pattern", choice,
@@ -133,27 +159,7 @@ void add_cloud(Keys& k) {
   k.add("cloud.nodes_file", text,
         "Pattern `list`: CSV file with a header such as `x[mm],y[mm]`, relative to the case file.")
       .example("\"cloud.csv\"");
-  k.add("cloud.refine", named_tables, "Regions with a finer spacing.");
-  k.add("cloud.refine.*", table,
-        "A region given by `box`, `points` or `tips`, with its `spacing` or `factor`; the finest one wins.");
-  k.add("cloud.refine.*.box", vectors, "Two opposite corners.")
-      .unit(d::length)
-      .example("[\"4 0 mm\", \"6 10 mm\"]");
-  k.add("cloud.refine.*.points", vectors, "A point, or the corners of a polyline.")
-      .unit(d::length)
-      .example("[\"5 0 mm\", \"5 10 mm\"]");
-  k.add("cloud.refine.*.tips", texts, "Names of cracks, whose ends are refined, or `all`.")
-      .example("[\"all\"]");
-  k.add("cloud.refine.*.spacing", quantity, "Spacing in the region.")
-      .unit(d::length)
-      .in(positive)
-      .example("\"0.05 mm\"");
-  k.add("cloud.refine.*.factor", quantity, "Spacing in the region over `cloud.spacing`.")
-      .in({.low = 0.0, .high = 1.0, .low_open = true})
-      .example("0.25");
-  k.add("cloud.refine.*.growth", quantity, "Growth of the spacing per unit of distance outside.")
-      .in({.low = 0.0, .high = 1.0, .low_open = true})
-      .fallback("0.3");
+  add_refinements(k, "cloud", "", true);
 }
 
 } // namespace cnem::input

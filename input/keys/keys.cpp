@@ -161,6 +161,33 @@ void add_friction(Keys& k, const std::string& at, const std::string& doc) {
   k.add(at, table, doc).always();
   add_law_choice(k, at, laws).fallback("\"none\"");
   add_law_constants(k, at, laws);
+  add_constants(k, at, constant_texts<contact::FrictionMelting>(contact::FrictionMelting::parameters));
+}
+
+void add_tool_section(Keys& k, const std::string& at) {
+  k.add(at, table,
+        "Nodes that let the tool conduct: it starts at `heat.temperature`, takes its share of the friction "
+        "heat "
+        "where it arises, and what passes through `heat.conductance`. Without it the tool stays at "
+        "`heat.temperature`.");
+  k.add(at + ".spacing", quantity, "Distance of neighbouring nodes away from refinements.")
+      .unit(d::length)
+      .in(positive)
+      .required()
+      .example("\"0.1 mm\"");
+  add_refinements(k, at, " of the nodes of the tool, as it stands at time 0", false);
+  k.add(at + ".held", texts,
+        "Names of pieces of the outline that keep `heat.temperature`, as the far end of a tool in its holder "
+        "does; the others are adiabatic but where they touch.")
+      .example("[\"shank\"]");
+  k.add(at + ".heat_capacity_factor", quantity,
+        "On the heat capacity of the tool and its coating: less than 1 brings a steady temperature, which "
+        "does "
+        "not depend on it, about within a shorter cut.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true})
+      .fallback("1.0");
+  k.add(at + ".coating", table, "A layer on all faces, across which heat flows.");
+  add_constants(k, at + ".coating", constant_texts<ToolCoating>(ToolCoating::parameters));
 }
 
 namespace {
@@ -184,6 +211,7 @@ void add_tools(Keys& k) {
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
   add_constants(k, at + "heat", constant_texts<contact::ToolThermal>(contact::ToolThermal::parameters));
   add_constants(k, at + "heat", constant_texts<contact::ToolMetal>(contact::ToolMetal::parameters));
+  add_tool_section(k, at + "heat.section");
 }
 
 void add_contact(Keys& k) {

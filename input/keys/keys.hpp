@@ -56,6 +56,9 @@ void add_outline(Keys& k, const std::string& at, const std::string& rectangle_na
 /// The table of a law of friction.
 void add_friction(Keys& k, const std::string& at, const std::string& doc);
 void add_cutting(Keys& k);
+/// Members of a table with a spacing: regions where it is finer, `of` what (" of the nodes"), at the ends of
+/// cracks too.
+void add_refinements(Keys& k, const std::string& table, const std::string& of, bool of_cracks);
 void add_domain(Keys& k);
 void add_block(Keys& k);
 void add_parts(Keys& k);

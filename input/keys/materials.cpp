@@ -34,17 +34,21 @@ void add_range(Keys& k, const std::string& at) {
 }
 
 void add_damage(Keys& k, const std::string& at) {
-  using Law = plasticity::JohnsonCookDamage;
-  k.add(at, table, "Ductile damage and separation; without it the material never breaks.");
-  k.add(at + ".law", choice, fmt::format("`{}`: {}.", Law::name, Law::formula))
-      .one_of({Law::name})
-      .required();
+  const std::vector<LawText> laws = law_texts(plasticity::DamageLaws{});
+  k.add(at, table,
+        "Ductile damage and separation; without it the material never breaks. At a damage of 1 the flow "
+        "stress, "
+        "and the mean stress in tension, begin to fall until `fracture_energy` is spent (Hillerborg, Modéer "
+        "and "
+        "Petersson 1976).");
+  add_law_choice(k, at, laws).required();
   add_source(k, at, " The report calls them generic without it.").example("\"Johnson and Cook 1985\"");
   k.add(at + ".calibration", choice,
         "`fitted`: all of these constants come from tests of this metal; `generic`: some do not, `source` "
         "says which.")
       .one_of({"fitted", "generic"});
-  add_constants(k, at, constant_texts<Law>(Law::parameters));
+  add_law_constants(k, at, laws);
+  add_constants(k, at, constant_texts<plasticity::Breaking>(plasticity::Breaking::parameters));
 }
 
 void add_anisotropy(Keys& k, const std::string& at) {

@@ -11,6 +11,10 @@ namespace {
 
 template<int dim> class ContactAndSupports : public Term<dim> {
 public:
+  explicit ContactAndSupports(const std::vector<plasticity::Material>& materials) {
+    for (const plasticity::Material& material : materials) melting_.push_back(material.melting_temperature());
+  }
+
   std::vector<Energy*> energies() override {
     return {&tool_kinetic_, &friction_, &impact_, &tools_, &drives_, &recovery_, &supports_};
   }
@@ -67,6 +71,12 @@ private:
       for (const NodeIndex i : boundary)
         flow_stress.push_back(average_at_node<dim>(body.operators(), body.state.point.flow_stress, i));
     }
+    IndexedVector<BoundaryNodeIndex, double> temperature, melting;
+    if (contact.rubs())
+      for (const NodeIndex i : boundary) {
+        temperature.push_back(node.temperature[index_of(i)]);
+        melting.push_back(melting_[index_of(node.material[index_of(i)])]);
+      }
     IndexedVector<BoundaryNodeIndex, double> effusivity;
     if (body.model.thermal)
       for (const NodeIndex i : boundary) {
@@ -80,6 +90,8 @@ private:
                      .velocity = node.velocity,
                      .mass = node.inertia(),
                      .flow_stress = flow_stress,
+                     .temperature = temperature,
+                     .melting = melting,
                      .effusivity = effusivity,
                      .window = window});
     const contact::ContactWork& bodies = contact.body_result().total;
@@ -103,14 +115,15 @@ private:
   Energy drives_{"drive_work", EnergyKind::received};         ///< on tools with a mass of their own
   Energy recovery_{"contact_recovery", EnergyKind::received}; ///< pushing nodes out of tools
   Energy supports_{"support_work", EnergyKind::received};     ///< of prescribed boundary motion
+  std::vector<double> melting_;                               ///< [material] K
   double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
   std::vector<IndexedVector<BoundaryNodeIndex, double>> window_; ///< [activity] as contact takes it
 };
 
 } // namespace
 
-template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<dim>&) {
-  return std::make_unique<ContactAndSupports<dim>>();
+template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<dim>& model) {
+  return std::make_unique<ContactAndSupports<dim>>(model.materials);
 }
 
 template std::unique_ptr<Term<2>> contact_and_supports(const Model<2>&);

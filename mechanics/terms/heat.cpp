@@ -4,6 +4,7 @@
 #include "core/machine/parallel.hpp"
 #include "mechanics/terms/list.hpp"
 #include "thermal/conduction.hpp"
+#include "thermal/conduction_interval.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +17,7 @@ namespace {
 template<int dim> class Heat : public Term<dim> {
 public:
   std::vector<Energy*> energies() override { return {&content_, &generated_, &exchanged_}; }
-  void archive(Archive& archive) override {
-    archive.number("solver/conduction_step", "s", stable_);
-    archive.number("solver/conduction_pending", "s", pending_);
-    archive.integer("solver/conduction_steps", steps_);
-  }
+  void archive(Archive& archive) override { interval_.archive(archive, "solver/"); }
 
   void audit(const BodyView<dim>& body) override {
     const NodeState<dim>& node = body.state.node;
@@ -31,15 +28,15 @@ public:
 
   void limit(const Body<dim>& body, StepLimit& limit) override {
     constexpr double far = 100.0; // so much longer than a step that no deformation makes it matter
-    if (stable_ < far * body.state.step_before) stable_ = 0.0; // measured anew
+    if (interval_.stable < far * body.state.step_before) interval_.stable = 0.0; // measured anew
     if (body.model.mechanical) return;
     measure_stable_step(body);
-    limit.heat = stable_;
+    limit.heat = interval_.stable;
   }
 
   void carried(const Body<dim>&) override { contacts_.clear(); }
 
-  void renew(const Body<dim>&) override { stable_ = 0.0; }
+  void renew(const Body<dim>&) override { interval_.stable = 0.0; }
 
   void attach(const Body<dim>& body) override {
     if (!body.model.thermal) return;
@@ -84,17 +81,9 @@ public:
     collect_from_contact(body);
     generate(body);
     exchange_in_contacts(body, dt);
-    // Explicit steps of motion are thousands of times shorter than those of conduction: it acts once in some.
-    // A mode of decay rate r loses r τ in the interval τ instead of r τ (1 − r τ/2 …), r τ ≤ 2 · share.
-    constexpr double share = 0.01; // of the stable step
-    constexpr int most = 16;
-    if (stable_ == 0.0) measure_stable_step(body);
+    if (interval_.stable == 0.0) measure_stable_step(body);
     hold(body);
-    pending_ += dt;
-    if (++steps_ < most && pending_ + dt <= share * stable_) return;
-    conduct(body, pending_);
-    pending_ = 0.0;
-    steps_ = 0;
+    if (const double interval = interval_.add(dt); interval > 0.0) conduct(body, interval);
   }
 
 private:
@@ -123,7 +112,7 @@ private:
     const double decay =
         conduction_.fastest_decay(body.position, node.heat_capacity) +
         body.conditions.heat_boundaries.fastest_decay(body.state.time, node.position, node.heat_capacity);
-    stable_ = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
+    interval_.stable = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
   }
 
   /// Friction heat and conductance of the contacts of the step.
@@ -193,15 +182,12 @@ private:
         body.conditions.heat_boundaries.hold(body.state.time, node.heat_capacity, node.temperature);
   }
 
-  /// For an interval times the decay rate.
-  static int stable_substeps(double decays) { return std::max(1, static_cast<int>(std::ceil(decays / 1.8))); }
-
   /// Explicit conduction (58) and boundaries over an interval, in as many sub-steps as are stable.
   void conduct(const Body<dim>& body, double dt) {
     NodeState<dim>& node = body.state.node;
     const ThermalBoundaries<dim>& boundaries = body.conditions.heat_boundaries;
     const std::size_t n = node.size();
-    const int substeps = stable_substeps(dt * 2.0 / stable_);
+    const int substeps = stable_substeps(dt * 2.0 / interval_.stable);
     const double h = dt / substeps;
     for (int s = 0; s < substeps; ++s) {
       std::fill(node.heat_flow.begin(), node.heat_flow.end(), 0.0);
@@ -223,10 +209,8 @@ private:
 
   Conduction<dim> conduction_;
   HeatContacts<dim> contacts_; ///< of this step
-  double stable_ = 0.0;        ///< s, stable for heat when it was measured last; 0: to be measured
-  double pending_ = 0.0;       ///< s, since conduction acted last
-  int steps_ = 0;              ///< in that time
-  std::vector<double> sums_;   ///< [range] J/m^(3−dim)
+  ConductionInterval interval_;
+  std::vector<double> sums_;                                      ///< [range] J/m^(3−dim)
   Energy content_{"heat_content", EnergyKind::heat_held};         ///< Σ C (T − T_start)
   Energy generated_{"heat_generated", EnergyKind::heat_received}; ///< from plastic work and friction
   Energy exchanged_{"heat_exchanged", EnergyKind::heat_received}; ///< received through the boundary

@@ -20,5 +20,8 @@ template<int dim> std::unique_ptr<Term<dim>> reference_energy(const Model<dim>& 
 template<int dim> std::unique_ptr<Term<dim>> pressure_exchange(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> applied_loads(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> heat(const Model<dim>& model);
+template<int dim> std::unique_ptr<Term<dim>> tool_heat(const Model<dim>& model);
+template<> std::unique_ptr<Term<2>> tool_heat(const Model<2>& model);
+template<> std::unique_ptr<Term<3>> tool_heat(const Model<3>& model);
 
 } // namespace cnem

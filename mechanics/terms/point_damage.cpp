@@ -14,10 +14,7 @@ template<int dim>
 PointDamage<dim>::PointDamage(const std::vector<plasticity::Material>& materials)
     : active_(std::any_of(materials.begin(), materials.end(),
                           [](const plasticity::Material& material) { return material.damage.has_value(); })),
-      average_(materials), table_("solver/point", active_) {
-  for (const plasticity::Material& material : materials)
-    law_.push_back(material.damage.value_or(plasticity::JohnsonCookDamage{}));
-}
+      average_(materials), table_("solver/point", active_) {}
 
 template<int dim>
 void PointDamage<dim>::measure(const DiscreteOperators<dim>& operators,
@@ -35,10 +32,14 @@ void PointDamage<dim>::measure(const DiscreteOperators<dim>& operators,
 }
 
 template<int dim>
-void PointDamage<dim>::weaken(PointState<dim>& point, std::size_t begin, std::size_t end) const {
-  for (std::size_t p = begin; p < end; ++p)
-    point.flow_factor[p] =
-        point.strength[p] * law_[index_of(point.material[p])].flow_share(point.softening[p]);
+void PointDamage<dim>::weaken(const std::vector<plasticity::Material>& materials, PointState<dim>& point,
+                              std::size_t begin, std::size_t end) const {
+  for (std::size_t p = begin; p < end; ++p) {
+    const plasticity::Material& material = materials[index_of(point.material[p])];
+    const double share =
+        material.damage ? plasticity::flow_share<dim>(material, point, p, point.pressure[p]) : 1.0;
+    point.flow_factor[p] = point.strength[p] * share;
+  }
 }
 
 template<int dim>
@@ -100,7 +101,7 @@ template<int dim> void PointDamage<dim>::begin_stress(const Body<dim>& body, con
 }
 
 template<int dim> void PointDamage<dim>::before_stress(const Body<dim>& body, const LevelRange& range) {
-  if (active_) weaken(body.state.point, range.begin, range.end);
+  if (active_) weaken(body.model.materials, body.state.point, range.begin, range.end);
 }
 
 template<int dim>

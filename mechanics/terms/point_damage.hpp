@@ -18,8 +18,10 @@ public:
   void measure(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
                const PointState<dim>& point);
 
-  /// Factor on the flow stress of the points [begin, end), strength and share left at ω, for the return map.
-  void weaken(PointState<dim>& point, std::size_t begin, std::size_t end) const;
+  /// Factor on the flow stress of the points [begin, end), strength and the share left at ω and the pressure
+  /// of the last step, for the return map.
+  void weaken(const std::vector<plasticity::Material>& materials, PointState<dim>& point, std::size_t begin,
+              std::size_t end) const;
 
   /// update_damage of the points [begin, end). Returns the energy let go, J/m^(3−dim).
   double update(const DiscreteOperators<dim>& operators, const std::vector<plasticity::Material>& materials,
@@ -42,8 +44,7 @@ public:
   void end_stress(const Body<dim>& body, const DuePoints& due) override;
 
 private:
-  bool active_;                                    ///< whether any material has a damage law
-  std::vector<plasticity::JohnsonCookDamage> law_; ///< [material]; none: never softens
+  bool active_; ///< whether any material has a damage law
   DamageAverage<dim> average_;
   FieldTable table_;
   ScalarField length_{table_, {"damage_length", "m", Carry::renewed, Checkpoint::holds}}; ///< ℓ

@@ -170,8 +170,8 @@ TEST_P(Points, stresses_of_mixed_points_do_not_exceed_the_yield_stress) {
 
 TEST_P(Points, damage_goes_with_the_mass) {
   plasticity::Material material = steel_304L();
-  plasticity::JohnsonCookDamage& damage = material.damage.emplace();
-  damage.D1 = 0.02;
+  plasticity::Damage& damage = material.damage.emplace();
+  damage.law = plasticity::JohnsonCookDamage{.D1 = 0.02};
   damage.fracture_energy = 1e3;
   ExplicitSolver<2> solver = block(material);
   for (int pass = 0; pass < 4; ++pass) {

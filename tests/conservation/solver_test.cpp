@@ -79,8 +79,8 @@ TEST(Audit, stresses_of_mixed_points_do_not_exceed_the_yield_stress) {
 
 TEST(Audit, damage_goes_with_the_mass_and_limits_mixed_stresses) {
   plasticity::Material material = steel_304L();
-  plasticity::JohnsonCookDamage& damage = material.damage.emplace();
-  damage.D1 = 0.005;
+  plasticity::Damage& damage = material.damage.emplace();
+  damage.law = plasticity::JohnsonCookDamage{.D1 = 0.005};
   damage.fracture_energy = 1e3;
   ExplicitSolver<2> solver = deformed_block(150, material);
   for (const double factor : {0.5, 2.0}) {
@@ -126,8 +126,8 @@ TEST(Audit, damage_goes_with_the_mass_and_limits_mixed_stresses) {
 TEST(Audit, mixing_broken_with_sound_points_creates_no_tension) {
   plasticity::Material material = steel_304L();
   material.hardening = plasticity::JohnsonCook{.A = 5e8};
-  plasticity::JohnsonCookDamage& damage = material.damage.emplace();
-  damage.D1 = 1e-3;
+  plasticity::Damage& damage = material.damage.emplace();
+  damage.law = plasticity::JohnsonCookDamage{.D1 = 1e-3};
   damage.fracture_energy = 1.0;
   Cloud<2> cloud = rectangle(1e-3, 1e-3, 1e-4, Lattice::hexagonal, 0.2);
   Problem<2> model = model_of(cloud, Method::cnem, material);

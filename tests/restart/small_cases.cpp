@@ -53,6 +53,31 @@ keep = 3
 )toml" + base_and_punch("2", "2") +
                             steel_304l;
 
+/// The same with a punch that conducts under a coating, and friction of a table.
+std::string with_conducting_punch(std::string text) {
+  const auto replace = [&](const std::string& old, const std::string& now) {
+    text.replace(text.find(old), old.size(), now);
+  };
+  replace(R"toml(to = "1.1 5 mm")toml", R"toml(to = "1.1 5 mm", names.top = "shank")toml");
+  replace(
+      R"toml(law = "tresca-limited", coefficient = 0.2)toml",
+      R"toml(law = "table", coefficient = 0.3, temperature = "300 600 K", over_temperature = [1.0, 0.5])toml");
+  replace(R"toml(heat = { conductance = "1e5 W/(m2 K)", effusivity = "1e4 W s^0.5/(m2 K)" })toml",
+          R"toml(heat.conductance = "1e5 W/(m2 K)"
+heat.conductivity = "60 W/(m K)"
+heat.density = "15000 kg/m3"
+heat.specific_heat = "200 J/(kg K)")toml");
+  text += R"toml(
+[tools.punch.heat.section]
+spacing = "0.3 mm"
+held = ["shank"]
+heat_capacity_factor = 0.1
+refine.corner = { points = ["1.1 2 mm"], factor = 0.4 }
+coating = { thickness = "5 um", conductivity = "12 W/(m K)", density = "4700 kg/m3", specific_heat = "600 J/(kg K)" }
+)toml";
+  return text;
+}
+
 /// The same with other lines of the method.
 std::string with_method(std::string text, const std::string& lines) {
   const std::string table = "[method]\n";
@@ -373,6 +398,7 @@ const std::vector<SmallCase>& small_cases() {
       {"round_slug", of_revolution(separated)},
       {"knocked_off", in_levels(separated)},
       {"touching", touching},
+      {"conducting_tool", with_conducting_punch(punched)},
       {"parts", parts_case()},
       {"layers", in_layers(separated)},
       {"set_back", set_back},

@@ -84,7 +84,7 @@ struct Masses {
   double time = 0.0, dt_before = 0.0;
   double applied_work = 0.0; ///< by gravity and springs on the nodes, same measure as contact's
   std::shared_ptr<RigidContact<2>> contact;
-  IndexedVector<BoundaryNodeIndex, double> flow_stress, effusivity;
+  IndexedVector<BoundaryNodeIndex, double> flow_stress, temperature, melting, effusivity;
 
   int add(const Vec2& at, double m, const Vec2& velocity = {0, 0}) {
     for (std::size_t k = 0; k < 2; ++k) {
@@ -135,7 +135,7 @@ struct Masses {
         v[k][i] += dt_mean * force[i][int(k)] / mass[i];
         x[k][i] += dt * v[k][i];
       }
-    contact->correct({time, dt, dt_mean, x, v, mass, flow_stress, effusivity});
+    contact->correct({time, dt, dt_mean, x, v, mass, flow_stress, temperature, melting, effusivity});
     for (int i = 0; i < int(mass.size()); ++i)
       applied_work += 0.5 * dt_mean * force[std::size_t(i)].dot(before[std::size_t(i)] + velocity(i));
     time += dt;

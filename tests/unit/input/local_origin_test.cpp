@@ -14,7 +14,7 @@ namespace {
 std::string everywhere(double x, double y, const std::string& kinematics = "plane strain") {
   const auto at = [&](double dx, double dy) { return fmt::format("\"{} {} m\"", x + dx, y + dy); };
   return fmt::format(
-      R"(analysis.kinematics = "{}"
+      R"toml(analysis.kinematics = "{}"
 time.end = "1 us"
 [domain]
 material = "steel"
@@ -32,6 +32,7 @@ refine.c = {{ tips = ["main"], spacing = "0.1 m" }}
 density = "7850 kg/m3"
 elastic = {{ young = "210 GPa", poisson = 0.3 }}
 plastic = {{ law = "perfect", yield = "1 MPa" }}
+heat = {{ specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }}
 [boundary.hold]
 points = [{}]
 velocity = {{ x = "0 m/s" }}
@@ -41,14 +42,22 @@ velocity_gradient = {{ xx = "1 1/s", centre = {} }}
 imperfections.weak = {{ points = [{}], width = "0.1 m", reduction = 0.1 }}
 [tools.punch]
 circle = {{ centre = {}, radius = "0.5 m" }}
+heat.conductivity = "60 W/(m K)"
+heat.density = "15000 kg/m3"
+heat.specific_heat = "200 J/(kg K)"
+[tools.punch.heat.section]
+spacing = "0.2 m"
+refine.a = {{ box = [{}, {}], spacing = "0.1 m" }}
+refine.b = {{ points = [{}], spacing = "0.1 m" }}
 [output]
 windows.corner.box = [{}, {}]
 probes.p = {{ at = {}, fields = ["pressure"] }}
 lines.l = {{ from = {}, to = {}, fields = ["pressure"] }}
-)",
+)toml",
       kinematics, at(0, 0), at(4, 0), at(4, 2), at(0, 2), at(1, 0.5), at(2.5, 1), at(2.75, 1), at(3, 0),
       at(3, 2), at(3.5, 0.5), at(0, 0), at(1, 1), at(0.5, 0.5), at(4, 0), at(2, 1), at(1, 1), at(1.5, 1.5),
-      at(2, 2.5), at(0, 0), at(1, 1), at(0.5, 1), at(0.25, 0.5), at(2, 0.5));
+      at(2, 2.5), at(2, 2), at(2.5, 3), at(1.5, 2.5), at(0, 0), at(1, 1), at(0.5, 1), at(0.25, 0.5),
+      at(2, 0.5));
 }
 
 std::vector<Vec2> places(const Case& c) {
@@ -75,6 +84,8 @@ std::vector<Vec2> places(const Case& c) {
   add({c.initial.spin->centre, c.initial.gradient->centre});
   add(c.initial.imperfections.at(0).points);
   outline(c.tools.at(0).outline);
+  for (const clouds::Refinement& refinement : c.tools.at(0).section->spacing.refinements)
+    add(refinement.points);
   add({c.output.windows.at(0).lower, c.output.windows.at(0).upper});
   add_places({c.output.probes.at(0).at, c.output.lines.at(0).from, c.output.lines.at(0).to});
   return all;
@@ -192,6 +203,8 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
                               "cloud.nodes",
                               "cloud.refine.*.box",
                               "cloud.refine.*.points",
+                              "tools.*.heat.section.refine.*.box",
+                              "tools.*.heat.section.refine.*.points",
                               "boundary.*.points",
                               "initial.spin.centre",
                               "initial.velocity_gradient.centre",

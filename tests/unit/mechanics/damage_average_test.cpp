@@ -19,8 +19,8 @@ struct Averaged {
 
   static std::vector<plasticity::Material> materials() {
     plasticity::Material with = steel_304L(), without = with;
-    with.damage = plasticity::JohnsonCookDamage{.length = radius};
-    without.damage = plasticity::JohnsonCookDamage{};
+    with.damage = plasticity::Damage{{.length = radius}, {}};
+    without.damage = plasticity::Damage{};
     return {with, without};
   }
   explicit Averaged(Method method = Method::cnem, double step = spacing) : average(materials()) {

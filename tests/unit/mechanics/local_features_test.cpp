@@ -81,8 +81,9 @@ TEST(LocalMassScaling, keeps_the_momenta_of_its_inertia) {
 TEST(LocalDamage, breaks_as_with_the_global_step) {
   const auto broken = [](bool local) {
     Problem<2> model = graded_shearing(60.0, 2e-4);
-    model.materials.front().damage = plasticity::JohnsonCookDamage{
-        .D1 = 0.05, .D2 = 0.05, .D3 = -1.5, .fracture_energy = 5e3, .residual_strength = 0.2};
+    model.materials.front().damage =
+        plasticity::Damage{{.fracture_energy = 5e3, .residual_strength = 0.2},
+                           plasticity::JohnsonCookDamage{.D1 = 0.05, .D2 = 0.05, .D3 = -1.5}};
     model.local = {.on = local, .least_gain = 0.0};
     ExplicitSolver<2> solver = at_rest(std::move(model));
     advance(solver, 4e-6, local ? 20 : 160);
@@ -243,7 +244,8 @@ TEST(LocalFeatures, same_bits_for_any_number_of_threads) {
       model.method = make(method);
       if (method == Method::cnem) model.pressure_exchange = 0.3;
       if (method == Method::triangles)
-        model.materials.front().damage = plasticity::JohnsonCookDamage{.D1 = 0.001, .fracture_energy = 5e3};
+        model.materials.front().damage =
+            plasticity::Damage{{.fracture_energy = 5e3}, plasticity::JohnsonCookDamage{.D1 = 0.001}};
       model.mass_scaling.factor = 2.0;
       model.local = {.on = true, .least_gain = 0.0};
       ExplicitSolver<2> solver = at_rest(std::move(model));

@@ -12,7 +12,7 @@ TEST(PointDamage, wave_moduli_of_broken_points_are_those_of_what_bears) {
   steel.elasticity = {.young = 210e9, .poisson = 0.3};
   steel.expansion = 1e-5;
   steel.expansion_reference = 300.0;
-  steel.damage = plasticity::JohnsonCookDamage{};
+  steel.damage = plasticity::Damage{};
   const PointDamage<2> damage({steel});
   const double shear = 4.0 / 3.0 * steel.elasticity.mu(), full = steel.elasticity.kappa() + shear;
 

@@ -1,15 +1,19 @@
-// Johnson-Cook damage: the table of fracture strains, single-point paths, what breaking costs.
+// Damage: the table of fracture strains, the work of the largest tension, single-point paths, what breaking
+// costs.
 #include "plasticity/damage.hpp"
 #include "tests/unit/plasticity/points.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <numbers>
+#include <random>
 #include <sstream>
 
 namespace cnem::plasticity::test {
@@ -33,13 +37,13 @@ JohnsonCookDamage law_of(const std::array<double, 5>& d) {
           .D5 = d[4],
           .T0 = 300.0,
           .Tmelt = 1300.0,
-          .fracture_energy = 1e5};
+          .cut_off = -infinite};
 }
 
-Material perfect_steel(const JohnsonCookDamage& law) {
+Material perfect_steel(const DamageLaw& law) {
   Material m = steel();
   m.hardening = Perfect{500e6};
-  m.damage = law;
+  m.damage = {{.fracture_energy = 1e5}, law};
   return m;
 }
 
@@ -58,7 +62,7 @@ struct Point {
 
   void step(const Mat3& f, double dt) {
     set_deformation<2>(state, 0, f);
-    Field factor{state.strength[0] * material.damage->flow_share(state.softening[0])};
+    Field factor{state.strength[0] * flow_share<2>(material, state, 0, state.pressure[0])};
     auto points = stress_points<2>(state);
     points.strength = factor.data();
     ASSERT_EQ(update_stress<2>({material}, state.material, points, 0, 1, dt), -1);
@@ -104,8 +108,9 @@ TEST(damage, fracture_strains_of_the_table) {
 
 /// Plastic strain at which softening begins on a path of constant triaxiality, by tension or simple shear.
 double initiation_strain(double triaxiality, bool shear) {
-  Point point{perfect_steel(law_of(constants.at("4340_JC85")))};
-  point.material.damage->D4 = point.material.damage->D5 = 0.0;
+  JohnsonCookDamage law = law_of(constants.at("4340_JC85"));
+  law.D4 = law.D5 = 0.0;
+  Point point{perfect_steel(law)};
   const double volume = std::exp(triaxiality * 500e6 / point.material.elasticity.kappa() / 3.0); // of an edge
   for (double e = 0.0; point.state.initiation_strain[0] == 0.0 && e < 20.0; e += 1e-3) {
     Mat3 f = Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal();
@@ -126,15 +131,74 @@ TEST(damage, begins_at_the_fracture_strain_of_its_path) {
 }
 
 TEST(damage, does_not_grow_below_the_cut_off) {
-  for (const double cut_off : {-std::numeric_limits<double>::infinity(), -1.0 / 3.0}) {
-    Point point{perfect_steel(law_of(constants.at("4340_JC85")))};
-    point.material.damage->cut_off = cut_off;
+  EXPECT_EQ(JohnsonCookDamage{}.cut_off, -1.0 / 3.0)
+      << "of uniaxial compression, unless a case says otherwise";
+  for (const double cut_off : {-infinite, -1.0 / 3.0}) {
+    JohnsonCookDamage law = law_of(constants.at("4340_JC85"));
+    law.cut_off = cut_off;
+    Point point{perfect_steel(law)};
     const double edge = std::exp(-0.5 * 500e6 / point.material.elasticity.kappa() / 3.0);
     for (double e = 0.0; e < 0.5; e += 1e-3)
       point.step(edge * Mat3(Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal()),
                  1e-3);
     EXPECT_EQ(point.state.damage[0] > 0.0, cut_off < -1.0);
   }
+}
+
+/// A perfectly plastic point under a mean stress of `triaxiality` flow stresses, stretched or sheared at an
+/// angle to the axes: D = ε̄p · (σ1/σ_eq) · rate_of_damage.
+void expect_damage(const DamageLaw& law, double per_strain_and_ratio) {
+  constexpr double yield = 500e6;
+  for (const double triaxiality : {-0.9, -0.2, 0.0, 1.0 / 3.0, 1.0})
+    for (const bool shear : {false, true}) {
+      Point point{perfect_steel(law)};
+      const double edge = std::exp(triaxiality * yield / point.material.elasticity.kappa() / 3.0);
+      const Mat3 turned = Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      for (double e = 0.0; e < 0.2; e += 1e-3) {
+        Mat3 f = Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal();
+        if (shear) f << 1, std::numbers::sqrt3 * e, 0, 0, 1, 0, 0, 0, 1;
+        point.step(edge * turned * f, 1e-3);
+      }
+      const double deviator = shear ? 1.0 / std::numbers::sqrt3 : 2.0 / 3.0;
+      const double ratio = std::max(triaxiality + deviator, 0.0); // σ1/σ_eq
+      const double expected = point.state.plastic_strain[0] * ratio * per_strain_and_ratio;
+      EXPECT_NEAR(point.state.damage[0], expected, 0.02 * expected) << triaxiality << ' ' << shear;
+      if (ratio == 0.0) { EXPECT_EQ(point.state.damage[0], 0.0); }
+    }
+}
+
+TEST(CockcroftLathamDamage, is_the_work_of_the_largest_tension) {
+  expect_damage(CockcroftLatham{.critical_work = 400e6}, 500e6 / 400e6);
+}
+
+TEST(CockcroftLathamDamage, by_the_flow_stress_is_a_strain) {
+  expect_damage(NormalisedCockcroftLatham{.critical_strain = 0.8}, 1.0 / 0.8);
+}
+
+/// In space, across packs and tails: σ1 from the definition.
+TEST(CockcroftLathamDamage, takes_the_largest_principal_stress_in_space) {
+  constexpr std::size_t n = 19;
+  PointState<3> s = points_at_rest<3>(n, 300.0);
+  for (Field* f : {&s.damage, &s.softening, &s.initiation_strain}) f->assign(n, 0.0);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-0.03, 0.03);
+  for (std::size_t p = 0; p < n; ++p) {
+    Mat3 f = Mat3::Identity();
+    for (double& component : f.reshaped()) component += number(random);
+    set_deformation<3>(s, p, f);
+  }
+  Material material = perfect_steel(NormalisedCockcroftLatham{.critical_strain = 1.0});
+  ASSERT_EQ(update_stress<3>({material}, s.material, stress_points<3>(s), 0, n, 1e-3), -1);
+  const Field length(n, 1e-4), volume(n, 1.0), opening(n, 0.0);
+  update_damage<3>({material}, s.material, damage_points<3>(s, length, volume, opening), 0, n, 1e-3);
+  int grown = 0;
+  for (std::size_t p = 0; p < n; ++p) {
+    const Eigen::SelfAdjointEigenSolver<Mat3> principal(kirchhoff<3>(s, p));
+    const double ratio = std::max(principal.eigenvalues()[2], 0.0) / s.equivalent_stress[p];
+    EXPECT_NEAR(s.damage[p], std::min(ratio * s.plastic_strain[p], 1.0), 1e-9) << p;
+    grown += s.damage[p] > 0.0;
+  }
+  EXPECT_GT(grown, 5);
 }
 
 /// Plastic work per area of band from initiation on, in units of the fracture energy.
@@ -167,6 +231,35 @@ TEST(damage, what_broken_matter_keeps_is_paid_from_the_fracture_energy) {
   for (double e = 0.01; e < 0.1; e += 1e-3) // in compression, as it is in shear
     point.step(f * Mat3(Eigen::Vector3d(std::exp(-e), std::exp(e / 2), std::exp(e / 2)).asDiagonal()), 1e-6);
   EXPECT_NEAR(point.state.equivalent_stress[0], 0.3 * 500e6, 1e-6 * 500e6);
+}
+
+/// Sheared under a pressure: √3 μ p, never more than sound matter bears and nothing in tension.
+TEST(damage, broken_matter_under_pressure_bears_friction) {
+  for (const double pressure : {-100e6, 0.0, 200e6, 600e6, 5e9})
+    for (const double residual : {0.0, 0.3}) {
+      Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
+      point.material.damage->friction = 0.4;
+      point.material.damage->residual_strength = residual;
+      point.state.damage[0] = point.state.softening[0] = 1.0;
+      const double edge = std::exp(-pressure / point.material.elasticity.kappa() / 3.0);
+      for (double e = 0.0; e < 0.05; e += 1e-3) {
+        Mat3 f;
+        f << 1, e, 0, 0, 1, 0, 0, 0, 1;
+        point.step(edge * f, 1e-3);
+      }
+      const double friction = std::numbers::sqrt3 * 0.4 * std::max(pressure, 0.0);
+      EXPECT_NEAR(point.state.equivalent_stress[0], std::clamp(friction, residual * 500e6, 500e6),
+                  1e-5 * 500e6)
+          << pressure << ' ' << residual;
+    }
+}
+
+TEST(damage, friction_comes_as_the_point_softens) {
+  Breaking breaking{.residual_strength = 0.2};
+  EXPECT_DOUBLE_EQ(breaking.flow_share(0.0, 0.5), 1.0);
+  EXPECT_DOUBLE_EQ(breaking.flow_share(0.5, 0.5), 0.75);
+  EXPECT_DOUBLE_EQ(breaking.flow_share(1.0, 0.5), 0.5);
+  EXPECT_DOUBLE_EQ(breaking.flow_share(1.0, 0.1), 0.2);
 }
 
 TEST(damage, strength_falls_linearly_with_the_opening) {
