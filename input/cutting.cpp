@@ -87,6 +87,7 @@ std::string tool_text(const CuttingSetup& cut) {
 struct Parts {
   bool window = true;     ///< of the pictures, at the end of the cut in a workpiece of ours
   bool resampling = true; ///< and what needs it
+  bool report = true;     ///< [report.cutting], of a tool of ours or where it is asked for
 };
 
 /// What follows from a cut, as a case would say it.
@@ -110,8 +111,9 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
       fmt::format("[output]\nhistory_every = {}\npictures = [{}, {}, {}]\n",
                   time(std::min(duration / 400.0, feeds::a_row * f / cut.speed)), time(duration / 3.0),
                   time(duration / 1.5), time(duration));
-  text += fmt::format("[report.cutting]\ntool = \"{}\"\nfeed = {}\nwidth = {}\n", cut.tool, length(f),
-                      length(cut.width));
+  if (parts.report)
+    text += fmt::format("[report.cutting]\ntool = \"{}\"\nfeed = {}\nwidth = {}\n", cut.tool, length(f),
+                        length(cut.width));
   if (parts.window)
     text += fmt::format("[output.windows.tool]\nbox = [{}, {}]\n", point({way - 6.0 * f, -2.0 * f}),
                         point({way + 4.0 * f, 6.0 * f}));
@@ -158,6 +160,12 @@ const Value* value_at(const Value& document, std::string_view table, std::string
 bool resampling_refused(const Value& document) {
   const Value* resample = value_at(document, "adapt", "resample");
   return resample && resample->kind == Value::Kind::boolean && !resample->boolean;
+}
+
+/// Whether a tool of the document has an outline of its own.
+bool has_outline(const Value& document, const std::string& tool) {
+  const Value* given = value_at(document, "tools", tool);
+  return given && given->kind == Value::Kind::table && has_rival(*given, "path");
 }
 
 /// What is wrong with the angles and the edge together.
@@ -245,7 +253,8 @@ void take_from_cutting(Value& document, Diagnostics& diagnostics) {
 
   const Location from{cutting.where.text() + ", from [cutting]", 0, 0};
   const Parts parts{.window = !value_at(document, "domain", "outer"),
-                    .resampling = !resampling_refused(document)};
+                    .resampling = !resampling_refused(document),
+                    .report = value_at(document, "report", "cutting") || !has_outline(document, cut.tool)};
   Value derived = parse_document(case_text(cut, parts), from.source);
   relocate(derived, from);
   if (const Member* friction = cutting.value.find("friction"))

@@ -33,7 +33,7 @@ void add_blanking(Keys& k) {
       .computed("a fiftieth of the thickness");
 }
 
-void add_cutting(Keys& k) {
+void add_cutting_report(Keys& k) {
   k.add(
       "report.cutting", table,
       "What machinists read of an orthogonal cut: forces and their steady part, chip, shear angle, stresses "
@@ -83,7 +83,7 @@ void add_report(Keys& k) {
         "supports are taken away.")
       .computed("true where `report.blanking` is given and no nodes are tied");
   add_blanking(k);
-  add_cutting(k);
+  add_cutting_report(k);
 }
 
 } // namespace cnem::input

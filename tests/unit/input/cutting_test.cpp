@@ -169,6 +169,7 @@ TEST(Cutting, GivesWayAsAWholeWhereKeysExcludeEachOther) {
       read(cut, {"tools.cutter.circle={ centre = \"-2 2 mm\", radius = \"1 mm\" }",
                  "tools.cutter.friction.law=none", "cloud.refine.layer.points=[\"0 0.2 mm\", \"5 0.2 mm\"]"});
   EXPECT_TRUE(round.tools[0].outline.pieces[0].is_arc());
+  EXPECT_FALSE(round.report.cutting);
   EXPECT_EQ(round.tools[0].friction.bound({}).coefficient, 0.0);
   EXPECT_DOUBLE_EQ(round.cloud.at({1e-3, 2e-4}), 8e-5);
   const Case still = read(cut, {"adapt.resample=false"});
@@ -176,8 +177,11 @@ TEST(Cutting, GivesWayAsAWholeWhereKeysExcludeEachOther) {
   EXPECT_EQ(still.adapt.indicator, nullptr);
 }
 
-TEST(Cutting, NamesItsTool) {
+TEST(Cutting, NamesItsToolAndReportsOfIt) {
   const Case c = read(cut, {"cutting.tool=insert"});
+  ASSERT_TRUE(c.report.cutting);
+  EXPECT_DOUBLE_EQ(c.report.cutting->feed, c.cutting->feed);
+  EXPECT_DOUBLE_EQ(c.report.cutting->width, c.cutting->width);
   EXPECT_EQ(c.tools[0].name, "insert");
   EXPECT_EQ(c.cutting->tool, "insert");
 }
