@@ -128,7 +128,7 @@ TEST(LocalSteps, energy_stays_bounded) {
   });
   const double dt = solver.stable_step().dt;
   double worst[2] = {0.0, 0.0};
-  const int count = 100000 / solver.sub_steps();
+  const int count = 40000 / solver.sub_steps();
   for (int n = 0; n < count; ++n) {
     solver.advance(dt);
     if (n % 5 != 0) continue;
