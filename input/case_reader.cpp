@@ -95,6 +95,7 @@ void read_method(const Setting& root, Case& result) {
   method.options.space = result.analysis.space();
   method.stabilisation = table.get<double>("stabilisation");
   method.pressure_exchange = table.get<double>("pressure_exchange");
+  method.stress_annealing = table.get<double>("stress_annealing");
   method.lagrangian = table.choice<Method::Lagrangian>("lagrangian");
   method.rereference_every = static_cast<int>(table.get<std::int64_t>("rereference.every"));
   method.rereference_strain = table.get<double>("rereference.strain");

@@ -23,6 +23,7 @@ ExplicitSolver<dim>::ExplicitSolver(Problem<dim> problem, Fields<dim> velocity, 
   state_.point.oriented.switch_on(
       std::any_of(model_.materials.begin(), model_.materials.end(),
                   [](const plasticity::Material& material) { return material.anisotropy.has_value(); }));
+  state_.point.traded.switch_on(model_.pressure_exchange > 0.0 || model_.stress_annealing > 0.0);
   for (FieldTable* table : node_tables()) table->rest(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < dim; ++k)
@@ -84,6 +85,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
       plasticity::update_stress(model_.materials, point.material, plasticity::stress_points(point), 0,
                                 static_cast<std::ptrdiff_t>(points), 0.0);
   if (bad >= 0) diverged(index_of(bad), "elastic strain");
+  each([&](Term<dim>& term) { term.stressed(body()); });
   each([&](Term<dim>& term) { term.renew(body()); });
   for (std::size_t p = 0; p < points; ++p)
     point.density[p] = body().material_of(p).density * point.stress_free[p];
@@ -128,7 +130,8 @@ template<int dim> std::vector<FieldTable*> ExplicitSolver<dim>::node_tables() {
 
 /// Those of the state and of the terms.
 template<int dim> std::vector<FieldTable*> ExplicitSolver<dim>::point_tables() {
-  std::vector<FieldTable*> tables{&state_.point.table, &state_.point.damaged, &state_.point.oriented};
+  std::vector<FieldTable*> tables{&state_.point.table, &state_.point.damaged, &state_.point.traded,
+                                  &state_.point.oriented};
   each([&](Term<dim>& term) {
     if (FieldTable* table = term.fields()) tables.push_back(table);
   });

@@ -73,15 +73,9 @@ void mix_elastic(const PointRows& parcels, const Field& mass, const Field& tensi
       }
       const double pressure =
           -material.elasticity.kappa() * dilatation<dim>(elastic, material, point.temperature[p]);
-      const double strength =
-          point.strength[p] *
-          (material.damage ? plasticity::flow_share<dim>(material, point, p, pressure) : 1.0);
-      if (material.hardening)
-        elastic = plasticity::limited_to<dim>(
-            elastic,
-            strength * material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],
-                                                       point.temperature[p]),
-            plasticity::equivalent_stress<dim>(material, elastic, point, p));
+      elastic = plasticity::within_yield<dim>(
+          material, elastic, point, p,
+          material.damage ? plasticity::flow_share<dim>(material, point, p, pressure) : 1.0);
       elastic = plasticity::exponential<dim>(elastic);
     }
     for (std::size_t k = 0; k < mixed.size(); ++k) mixed[k][p] = elastic[static_cast<Eigen::Index>(k)];

@@ -25,6 +25,7 @@ template<int dim> struct Model {
   std::vector<plasticity::Material> materials;
   double stabilisation = 0.05;    ///< α of the edge defect
   double pressure_exchange = 0.0; ///< α of the exchange of volume between flowing neighbours
+  double stress_annealing = 0.0;  ///< strength of the annealing of stresses where flow has ceased
   BulkViscosity viscosity;
   bool thermal = true;
   bool mechanical = true; ///< false: nothing moves, heat alone

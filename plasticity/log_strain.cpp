@@ -90,12 +90,25 @@ template<int dim> Symmetric<dim> limited_to(const Symmetric<dim>& log_elastic, d
   return deviator;
 }
 
+template<int dim>
+Symmetric<dim> within_yield(const Material& material, const Symmetric<dim>& log_elastic,
+                            const PointState<dim>& point, std::size_t p, double share) {
+  if (!material.hardening) return log_elastic;
+  const double yield = share * point.strength[p] *
+                       material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],
+                                                       point.temperature[p]);
+  return limited_to<dim>(log_elastic, yield,
+                         equivalent_stress<dim>(material, log_elastic, point, p));
+}
+
 #define CNEM_INSTANTIATE(dim)                                                                                \
   template Symmetric<dim> logarithm<dim>(const Symmetric<dim>&);                                             \
   template Symmetric<dim> exponential<dim>(const Symmetric<dim>&);                                           \
   template double equivalent_stress<dim>(const Material&, const Symmetric<dim>&, const PointState<dim>&,     \
                                          std::size_t);                                                       \
-  template Symmetric<dim> limited_to<dim>(const Symmetric<dim>&, double, double);
+  template Symmetric<dim> limited_to<dim>(const Symmetric<dim>&, double, double);                            \
+  template Symmetric<dim> within_yield<dim>(const Material&, const Symmetric<dim>&, const PointState<dim>&,  \
+                                            std::size_t, double);
 CNEM_INSTANTIATE(2)
 CNEM_INSTANTIATE(3)
 #undef CNEM_INSTANTIATE

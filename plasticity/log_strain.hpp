@@ -33,4 +33,10 @@ double equivalent_stress(const Material& material, const Symmetric<dim>& log_ela
 /// The volume change stays.
 template<int dim> Symmetric<dim> limited_to(const Symmetric<dim>& log_elastic, double yield, double stress);
 
+/// The same of point p of a material with its strain, rate and temperature: no further than `share` of its
+/// flow stress.
+template<int dim>
+Symmetric<dim> within_yield(const Material& material, const Symmetric<dim>& log_elastic,
+                            const PointState<dim>& point, std::size_t p, double share);
+
 } // namespace cnem::plasticity

@@ -233,6 +233,7 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   set_materials(input, region, model);
   model.stabilisation = input.method.stabilisation;
   model.pressure_exchange = input.method.pressure_exchange;
+  model.stress_annealing = input.method.stress_annealing;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
   model.thermal = input.analysis.thermal;
   model.mechanical = input.analysis.mechanical;

@@ -132,6 +132,10 @@ template<int dim> struct PointState {
   /// on the flow stress: strength and what softening leaves of it
   ScalarField flow_factor{damaged, {"flow_factor", "1"}};
 
+  FieldTable traded{"solver/point", false}; ///< on where neighbours trade elastic volume
+  /// ln of b_e's J over the geometric one, up to what new references add
+  ScalarField volume_drift{traded, {"volume_drift", "1", Carry::mass_mean, Checkpoint::holds}};
+
   FieldTable oriented{"solver/point", false}; ///< on where a material is anisotropic
   /// F₀ of the reference configuration since the start: axes of the material turn with the whole F F₀
   TensorField<tensor_size<dim>> earlier_deformation{

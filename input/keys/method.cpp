@@ -42,6 +42,12 @@ void add_method(Keys& k) {
         "where pressures matter: docs/pressure_exchange.md.")
       .in(not_negative)
       .fallback("0.0");
+  k.add("method.stress_annealing", quantity,
+        "Strength of the annealing of stresses on new references where the metal has lately ceased to flow, which "
+        "takes the noise out of residual stresses; 0: off (cnem, sph). 1 where these matter: "
+        "docs/pressure_exchange.md.")
+      .in(not_negative)
+      .fallback("0.0");
   k.add("method.lagrangian", choice,
         "Reference configuration: `total`: the initial one; `periodic`: renewed as `rereference` says; "
         "`updated`: renewed every step.")

@@ -64,10 +64,13 @@ public:
     kinetic_ = kinetic_energy<dim>(body);
     left_ = true;
   }
-  void settle(const Body<dim>& body, bool resampled) override {
+  void stressed(const Body<dim>& body) override {
     if (!left_) return;
     rereference_.value += elastic_ - integral<dim>(body, body.state.point.stored_energy);
     body.plastic_offset += plastic_ - integral<dim>(body, body.state.point.plastic_work);
+  }
+  void settle(const Body<dim>& body, bool resampled) override {
+    if (!left_) return;
     if (resampled) resampling_.value += kinetic_ - kinetic_energy<dim>(body);
     left_ = false;
   }

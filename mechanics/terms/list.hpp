@@ -18,6 +18,7 @@ template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<di
 template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> reference_energy(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> pressure_exchange(const Model<dim>& model);
+template<int dim> std::unique_ptr<Term<dim>> stress_annealing(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> applied_loads(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> heat(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> tool_heat(const Model<dim>& model);

@@ -17,6 +17,15 @@ template<int dim> std::vector<char> boundary_nodes(const std::vector<Facet<dim>>
   return on_boundary;
 }
 
+/// Of a record, in doubles.
+template<int dim> constexpr std::size_t stride = dim + 5;
+constexpr double most_drift = 0.1; ///< of Σ δθ: measured, docs/pressure_exchange.md
+
+/// What a node lets of an exchange pass that changes its volume by `flow` times something positive.
+double room_to_drift(double drift, double flow) {
+  return drift * flow > 0.0 ? std::max(0.0, 1.0 - std::abs(drift) / most_drift) : 1.0;
+}
+
 /// F⁻ᵀ as PointState lays tensors.
 template<int dim>
 std::array<double, tensor_size<dim>> inverse_transposed(const Fields<tensor_size<dim>>& f, std::size_t p) {
@@ -54,11 +63,9 @@ void swell(PointState<dim>& point, ColumnStress<dim>& stress, std::size_t p, dou
 } // namespace
 
 template<int dim>
-void PressureExchange<dim>::reset(const std::vector<Facet<dim>>& facets, Field bulk_modulus) {
+void PressureExchange<dim>::reset(Field bulk_modulus) {
   bulk_modulus_ = std::move(bulk_modulus);
-  boundary_ = boundary_nodes(facets, bulk_modulus_.size());
-  record_.assign((dim + 4) * bulk_modulus_.size(), 0.0);
-  drift_.resize(bulk_modulus_.size(), 0.0);
+  record_.assign(stride<dim> * bulk_modulus_.size(), 0.0);
 }
 
 template<int dim> void PressureExchange<dim>::remember(const Field& pressure, const DuePoints& due) {
@@ -73,7 +80,9 @@ typename PressureExchange<dim>::Change
 PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const StabilisationLinks<dim>& links,
                              const Field& reference, const DuePoints& due, PointState<dim>& point,
                              ColumnStress<dim>& stress) {
-  constexpr std::size_t stride = dim + 4, increment = dim + 1, strength = dim + 2, room = dim + 3;
+  constexpr std::size_t stride = cnem::stride<dim>, increment = dim + 1, strength = dim + 2, room = dim + 3,
+                        drift = dim + 4;
+  const auto whole = [&](std::size_t i) { return !point.damaged.on() || point.softening[i] == 0.0; };
   const auto level_of = [&](std::size_t i) { return level_.empty() ? 0 : int{level_[i]}; };
   const std::int32_t *row = operators.row_begin.data(), *first = links.begin.data();
   const NodeIndex *node = operators.node.data(), *neighbour = links.neighbour.data();
@@ -83,7 +92,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
     for (std::size_t i = range.begin; i < range.end; ++i) {
       double* own = record_.data() + stride * i;
       own[increment] = 0.0;
-      if (level_of(i) > due.activity || boundary_[i] || !(point.plastic_rate[i] > 0.0)) continue;
+      if (level_of(i) > due.activity || !(point.plastic_rate[i] > 0.0) || !whole(i)) continue;
       double g[dim] = {};
       for (std::int32_t e = row[i]; e < row[i + 1]; ++e) {
         const double jump = pressure[index_of(point_of(node[e]))] - pressure[i];
@@ -94,6 +103,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       own[increment] = point.plastic_rate[i] * due.dt;
       own[strength] = point.equivalent_stress[i];
       own[room] = operators.volume[i] / (first[i + 1] - first[i]);
+      own[drift] = point.volume_drift[i];
     }
   });
   std::vector<Change> energy(due.ranges.size());
@@ -120,7 +130,9 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
             std::min(own[increment], other[increment]) * (1 << std::max(level, level_of(j)));
         const double plastic =
             alpha_ * weight[e] * distance2 * 3.0 * flowed / (own[strength] + other[strength]);
-        flow += std::min(plastic, 0.5 * std::min(own[room], other[room]) / kappa) * jump;
+        const double free =
+            std::min(room_to_drift(own[drift], -jump), room_to_drift(other[drift], jump));
+        flow += std::min(plastic, 0.5 * std::min(own[room], other[room]) / kappa) * free * jump;
       }
       if (flow == 0.0) continue;
       const double volume = operators.volume[i], dtheta = -flow / volume, stress_free = point.stress_free[i];
@@ -129,7 +141,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       sum.dissipated += volume * stress_free * 0.5 * (before_[i] + point.pressure[i]) * dtheta +
                         traded * point.stored_energy[i];
       sum.plastic += traded * point.plastic_work[i];
-      drift_[i] += dtheta;
+      point.volume_drift[i] += dtheta;
     }
   });
   Change total;
@@ -145,7 +157,7 @@ template<int dim> void PressureExchange<dim>::attach(const Body<dim>& body) {
   Field bulk_modulus(body.state.point.size());
   for (std::size_t p = 0; p < bulk_modulus.size(); ++p)
     bulk_modulus[p] = body.material_of(p).elasticity.kappa();
-  reset(body.conditions.cloud.facets, std::move(bulk_modulus));
+  reset(std::move(bulk_modulus));
 }
 
 template<int dim> void PressureExchange<dim>::set_levels(const Body<dim>& body) {
@@ -176,13 +188,14 @@ template<int dim> void PressureExchange<dim>::end_stress(const Body<dim>& body, 
 
 template<int dim> std::vector<Metric> PressureExchange<dim>::metrics(const BodyView<dim>& body) const {
   double sum = 0.0, most = 0.0;
-  for (const double theta : drift_) {
+  const Field& drift = body.state.point.volume_drift;
+  for (const double theta : drift) {
     sum += theta * theta;
     most = std::max(most, std::abs(theta));
   }
   return {{"pressure_noise",
            pressure_noise<dim>(body.approximation.links, body.conditions.cloud.facets, body.state.point)},
-          {"volume_drift", drift_.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift_.size())),
+          {"volume_drift", drift.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(drift.size())),
            "volume_drift", Keep::largest},
           {"max.volume_drift", most, "max.volume_drift", Keep::largest}};
 }

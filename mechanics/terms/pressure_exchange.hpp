@@ -6,7 +6,7 @@
 
 namespace cnem {
 
-/// After the return map, on the links between two nodes that both flow and are not on the boundary:
+/// After the return map, on the links between two nodes that both flow and are whole:
 ///
 ///   Δp_ij = p_j − p_i − ½ (g_i + g_j)·X_ij,  g_i = Σ_k b_ik (p_k − p_i)
 ///   w_ij = min[α L_ij d_ij 3 min(Δγ_i, Δγ_j)/(σ_i + σ_j), ½ min(V_i/n_i, V_j/n_j)/κ]
@@ -15,7 +15,9 @@ namespace cnem {
 /// (Bochev and Dohrmann's projection with the plastic tangent viscosity; n_i is the number of links of node
 /// i.) w_ij Δp_ij changes its sign alone when i and j are exchanged, so that Σ V δθ = 0; nodes do not move
 /// and momenta are untouched, as are constant and linear pressures and elastic zones. What b_e's J and the
-/// geometric one part by is Σ δθ of each node.
+/// geometric one part by is Σ δθ of each node, `PointState::volume_drift`. Where it would grow at an end of a
+/// link, w_ij is less by the smaller of both ends' 1 − |Σ δθ|/0.1 (0 beyond), so that corners, where pressures
+/// are singular, do not drift on.
 ///
 /// With local time steps a link exchanges when all points whose pressures enter are due, over the time since
 /// they were due together: pressures of one time, and as much out of i as into j.
@@ -25,8 +27,8 @@ public:
 
   bool active(const StabilisationLinks<dim>& links) const { return alpha_ > 0.0 && !links.neighbour.empty(); }
 
-  /// Takes a new reference: its boundary, and the bulk moduli of the nodes, Pa.
-  void reset(const std::vector<Facet<dim>>& facets, Field bulk_modulus);
+  /// Takes a new reference: the bulk moduli of its nodes, Pa.
+  void reset(Field bulk_modulus);
   /// Keeps the pressures of points that are due, of the start of their step, for the energy of this step.
   void remember(const Field& pressure, const DuePoints& due);
 
@@ -42,10 +44,6 @@ public:
                const Field& reference, const DuePoints& due, PointState<dim>& point,
                ColumnStress<dim>& stress);
 
-  /// Σ δθ since the start, [node]: log of b_e's J over the geometric one, up to what re-references add. Empty
-  /// when there was no exchange.
-  const Field& drift() const { return drift_; }
-
   FieldTable* fields() override { return &table_; }
   std::vector<Energy*> energies() override { return {&dissipated_}; }
   std::vector<Metric> metrics(const BodyView<dim>& body) const override;
@@ -57,12 +55,10 @@ public:
 private:
   double alpha_;
   FieldTable table_;
-  ScalarField drift_{table_, {"volume_drift", "1", Carry::mass_mean, Checkpoint::holds}};
   ScalarField bulk_modulus_{table_, {"bulk_modulus", "Pa"}};
   ScalarField before_{table_, {"pressure_before", "Pa"}};
-  std::vector<char> boundary_;     ///< [node]
   std::vector<std::int8_t> level_; ///< [node] of the coarsest point in its stencil; empty: one level
-  Field record_;                   ///< [node] p, g, Δγ (0: no part in it), σ, V/n
+  Field record_;                   ///< [node] p, g, Δγ (0: no part in it), σ, V/n, Σ δθ
   Energy dissipated_{"pressure_exchange", EnergyKind::dissipated};
 };
 

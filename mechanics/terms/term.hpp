@@ -112,6 +112,8 @@ public:
   virtual void leave(const Body<dim>&) {}
   /// Fields went over to the nodes of a resampled cloud.
   virtual void carried(const Body<dim>&) {}
+  /// Stresses are those of a new reference, and nothing else has been made of them yet.
+  virtual void stressed(const Body<dim>&) {}
   /// Operators and stresses are those of a new reference.
   virtual void renew(const Body<dim>&) {}
   /// The same, or a checkpoint has been read.

@@ -1,0 +1,80 @@
+#include "mechanics/terms/stress_annealing.hpp"
+
+#include "core/index.hpp"
+#include "mechanics/terms/link_smoother.hpp"
+#include "mechanics/terms/list.hpp"
+#include "plasticity/log_strain.hpp"
+#include "plasticity/return_map.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+
+namespace cnem {
+
+namespace {
+
+constexpr double least_strain = 1e-3;    ///< ε̄p of what has flowed
+constexpr double least_increment = 1e-4; ///< Δε̄p of what flows
+const double decay = std::getenv("KDECAY") ? std::atof(std::getenv("KDECAY")) : 100.0; ///< K
+
+} // namespace
+
+/// s of each node, 0 where it takes no part.
+template<int dim> Field StressAnnealing<dim>::shares(const PointState<dim>& point) {
+  Field share(point.size(), 0.0);
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const double strain = point.plastic_strain[i];
+    idle_[i] = strain - strain_before_[i] > least_increment ? 0.0 : idle_[i] + 1.0;
+    strain_before_[i] = strain;
+    const bool whole = !point.damaged.on() || point.softening[i] == 0.0;
+    if (strain > least_strain && idle_[i] >= 1.0 && idle_[i] < 5.0 * decay && whole)
+      share[i] = std::exp(-idle_[i] / decay);
+  }
+  return share;
+}
+
+template<int dim> void StressAnnealing<dim>::stressed(const Body<dim>& body) {
+  const StabilisationLinks<dim>& links = body.approximation.links;
+  if (links.neighbour.empty()) return;
+  PointState<dim>& point = body.state.point;
+  const Field share = shares(point);
+  Field mass(point.size());
+  for (std::size_t i = 0; i < mass.size(); ++i)
+    mass[i] = body.operators().volume[i] * point.stress_free[i];
+  const LinkSmoother<dim> smoother(links, body.reference, share, point.material, mass, strength_);
+  if (smoother.nodes().empty()) return;
+  const double elastic = integral<dim>(body, point.stored_energy),
+               plastic = integral<dim>(body, point.plastic_work);
+  std::vector<typename LinkSmoother<dim>::Values> strains;
+  strains.reserve(smoother.nodes().size());
+  Fields<symmetric_size<dim>>& elastic_tensor = point.inverse_plastic_cauchy_green;
+  for (const std::int32_t node : smoother.nodes())
+    strains.push_back(plasticity::logarithm<dim>(plasticity::at_point<dim>(elastic_tensor, index_of(node))));
+  const auto change = smoother.change(strains);
+  for (std::size_t a = 0; a < change.size(); ++a) {
+    const auto i = index_of(smoother.nodes()[a]);
+    const plasticity::Symmetric<dim> annealed = plasticity::exponential<dim>(plasticity::within_yield<dim>(
+        body.material_of(i), (strains[a] + change[a]).matrix(), point, i, 1.0));
+    for (std::size_t k = 0; k < elastic_tensor.size(); ++k)
+      elastic_tensor[k][i] = annealed[static_cast<Eigen::Index>(k)];
+    point.volume_drift[i] += 0.5 * change[a].template head<3>().sum();
+  }
+  const std::ptrdiff_t bad =
+      plasticity::update_stress(body.model.materials, point.material, plasticity::stress_points(point), 0,
+                                static_cast<std::ptrdiff_t>(point.size()), 0.0);
+  assert(bad < 0);
+  static_cast<void>(bad);
+  dissipated_.value += elastic - integral<dim>(body, point.stored_energy);
+  body.plastic_offset += plastic - integral<dim>(body, point.plastic_work);
+}
+
+template<int dim> std::unique_ptr<Term<dim>> stress_annealing(const Model<dim>& model) {
+  if (!(model.stress_annealing > 0.0)) return nullptr;
+  return std::make_unique<StressAnnealing<dim>>(model.stress_annealing);
+}
+
+template std::unique_ptr<Term<2>> stress_annealing(const Model<2>&);
+template std::unique_ptr<Term<3>> stress_annealing(const Model<3>&);
+
+} // namespace cnem
