@@ -29,13 +29,6 @@ Text in_dynamics(const Case& c) { return when(!is_static(c), "in an explicit ana
 Text without_motion(const Case& c) {
   return when(!is_static(c) && c.analysis.thermal && !c.analysis.mechanical, "in an analysis without motion");
 }
-/// "with material 'steel', which has a damage law"
-Text with_damage(const Case& c) {
-  for (const plasticity::Material& material : c.materials)
-    if (material.damage) return fmt::format("with material '{}', which has a damage law", material.name);
-  return "";
-}
-
 Text with_averaged_damage(const Case& c) {
   for (const plasticity::Material& material : c.materials)
     if (material.damage && material.damage->length > 0.0)
@@ -88,9 +81,6 @@ const std::vector<Pair>& pairs() {
        "them with analysis.mechanical = true", "conduction is stable at a thousand times the step", local},
       {"time.step.local", "local steps", "`materials.*.damage.length`", with_averaged_damage, one_of_them,
        "what is averaged has to grow over the same time", local},
-      {"method.pressure_exchange", "an exchange", "a damage law", with_damage, one_of_them,
-       "volumes of gaps must not be shared with what is whole",
-       [](const Case& c) { return !is_static(c) && c.method.pressure_exchange > 0.0; }},
 
       {"analysis.mechanical", "false", "`analysis.thermal = false`",
        [](const Case& c) {

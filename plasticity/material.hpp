@@ -58,6 +58,7 @@ struct Material {
   double specific_heat = 0.0, conductivity = 0.0, taylor_quinney = 0.9, expansion = 0.0;
   double expansion_reference = 293.15;
 
+  double thermal_strain(double temperature) const { return expansion * (temperature - expansion_reference); }
   double melting_temperature() const; ///< K, of hardening or damage, the lower; infinite: neither knows one
 
   static const Parameter<Material> parameters[1];      ///< of mechanics

@@ -43,7 +43,8 @@ void add_method(Keys& k) {
       .in(not_negative)
       .fallback("0.0");
   k.add("method.stress_annealing", quantity,
-        "Strength of the annealing of stresses on new references where the metal has lately ceased to flow, which "
+        "Strength of the annealing of stresses on new references where the metal has lately ceased to flow, "
+        "which "
         "takes the noise out of residual stresses; 0: off (cnem, sph). 1 where these matter: "
         "docs/pressure_exchange.md.")
       .in(not_negative)

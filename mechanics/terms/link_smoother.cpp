@@ -29,7 +29,7 @@ template<int dim> Mat<dim> pseudo_inverse(const Mat<dim>& matrix) {
 
 template<int dim>
 LinkSmoother<dim>::LinkSmoother(const StabilisationLinks<dim>& links, const Field& reference,
-                                const Field& share, const LabelField& kind, const Field& mass,
+                                const Field& share, const std::vector<std::int32_t>& kind, const Field& mass,
                                 double strength) {
   const std::size_t n = share.size();
   const auto joined = [&](std::size_t i, std::size_t j) {
@@ -37,7 +37,8 @@ LinkSmoother<dim>::LinkSmoother(const StabilisationLinks<dim>& links, const Fiel
   };
   const auto each_link = [&](std::size_t i, auto&& act) {
     for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e)
-      if (const auto j = index_of(links.neighbour[index_of(e)]); joined(i, j)) act(j, links.weight[index_of(e)]);
+      if (const auto j = index_of(links.neighbour[index_of(e)]); joined(i, j))
+        act(j, links.weight[index_of(e)]);
   };
   std::vector<std::int32_t> place(n, -1);
   for (std::size_t i = 0; i < n; ++i) {
@@ -58,8 +59,8 @@ LinkSmoother<dim>::LinkSmoother(const StabilisationLinks<dim>& links, const Fiel
         way[static_cast<Eigen::Index>(k)] = reference[dim * j + k] - reference[dim * i + k];
       const double distance2 = way.squaredNorm();
       matrix += way * way.transpose() / distance2;
-      links_.push_back({place[j], strength * length * distance2 * std::min(share[i], share[j]),
-                        1.0 / distance2, way});
+      links_.push_back(
+          {place[j], strength * length * distance2 * std::min(share[i], share[j]), 1.0 / distance2, way});
     });
     begin_.push_back(links_.size());
     inverse_.push_back(pseudo_inverse<dim>(matrix));
@@ -67,8 +68,7 @@ LinkSmoother<dim>::LinkSmoother(const StabilisationLinks<dim>& links, const Fiel
 }
 
 template<int dim>
-std::vector<typename LinkSmoother<dim>::Values>
-LinkSmoother<dim>::apply(const std::vector<Values>& x) const {
+std::vector<typename LinkSmoother<dim>::Values> LinkSmoother<dim>::apply(const std::vector<Values>& x) const {
   const std::size_t n = nodes_.size();
   std::vector<Gradient> gradient(n), moment(n);
   std::vector<Values> result(n);
@@ -90,8 +90,7 @@ LinkSmoother<dim>::apply(const std::vector<Values>& x) const {
     for (std::size_t e = begin_[a]; e < begin_[a + 1]; ++e) {
       const Link& link = links_[e];
       const auto b = index_of(link.other);
-      const Values defect =
-          link.weight * (x[b] - x[a] - 0.5 * along(gradient[a] + gradient[b], link.way));
+      const Values defect = link.weight * (x[b] - x[a] - 0.5 * along(gradient[a] + gradient[b], link.way));
       pull -= defect;
       sum -= 0.5 * outer(defect, link.way);
     }

@@ -15,9 +15,9 @@ namespace cnem {
 ///   (Dx)_ij = x_j − x_i − ½ (g_i + g_j)·X_ij,  W_ij = c L_ij d_ij min(s_i, s_j)
 ///
 /// and g_i the least-squares gradient of x over these links (weights 1/d²; eigenvalues of its matrix below a
-/// twentieth of the largest are dropped, as at the end of a row of nodes). D annihilates linear fields, so that
-/// Σ M δ = 0 and Σ M δ X = 0. Solved by conjugate gradients preconditioned with M, which keep both sums in
-/// every iteration.
+/// twentieth of the largest are dropped, as at the end of a row of nodes). D annihilates linear fields, so
+/// that Σ M δ = 0 and Σ M δ X = 0. Solved by conjugate gradients preconditioned with M, which keep both sums
+/// in every iteration.
 template<int dim> class LinkSmoother {
 public:
   using Values = Eigen::Array<double, symmetric_size<dim>, 1>;
@@ -25,7 +25,7 @@ public:
   /// reference: [node · dim + component] m; share: [node] s, 0 for nodes that take no part; kind: [node],
   /// links between different ones do not count; mass: [node] M, m² or m³; strength: c.
   LinkSmoother(const StabilisationLinks<dim>& links, const Field& reference, const Field& share,
-               const LabelField& kind, const Field& mass, double strength);
+               const std::vector<std::int32_t>& kind, const Field& mass, double strength);
 
   /// The nodes that take part and have a link, in increasing order.
   const std::vector<std::int32_t>& nodes() const { return nodes_; }

@@ -19,7 +19,8 @@ template<int dim> std::vector<char> boundary_nodes(const std::vector<Facet<dim>>
 
 /// Of a record, in doubles.
 template<int dim> constexpr std::size_t stride = dim + 5;
-constexpr double most_drift = 0.1; ///< of Σ δθ: measured, docs/pressure_exchange.md
+
+constexpr double most_drift = 0.05; ///< of Σ δθ: measured, docs/pressure_exchange.md
 
 /// What a node lets of an exchange pass that changes its volume by `flow` times something positive.
 double room_to_drift(double drift, double flow) {
@@ -62,8 +63,7 @@ void swell(PointState<dim>& point, ColumnStress<dim>& stress, std::size_t p, dou
 
 } // namespace
 
-template<int dim>
-void PressureExchange<dim>::reset(Field bulk_modulus) {
+template<int dim> void PressureExchange<dim>::reset(Field bulk_modulus) {
   bulk_modulus_ = std::move(bulk_modulus);
   record_.assign(stride<dim> * bulk_modulus_.size(), 0.0);
 }
@@ -130,8 +130,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
             std::min(own[increment], other[increment]) * (1 << std::max(level, level_of(j)));
         const double plastic =
             alpha_ * weight[e] * distance2 * 3.0 * flowed / (own[strength] + other[strength]);
-        const double free =
-            std::min(room_to_drift(own[drift], -jump), room_to_drift(other[drift], jump));
+        const double free = std::min(room_to_drift(own[drift], -jump), room_to_drift(other[drift], jump));
         flow += std::min(plastic, 0.5 * std::min(own[room], other[room]) / kappa) * free * jump;
       }
       if (flow == 0.0) continue;

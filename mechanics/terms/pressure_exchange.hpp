@@ -16,8 +16,10 @@ namespace cnem {
 /// i.) w_ij Δp_ij changes its sign alone when i and j are exchanged, so that Σ V δθ = 0; nodes do not move
 /// and momenta are untouched, as are constant and linear pressures and elastic zones. What b_e's J and the
 /// geometric one part by is Σ δθ of each node, `PointState::volume_drift`. Where it would grow at an end of a
-/// link, w_ij is less by the smaller of both ends' 1 − |Σ δθ|/0.1 (0 beyond), so that corners, where pressures
-/// are singular, do not drift on.
+/// link, w_ij is less by the smaller of both ends' 1 − |Σ δθ|/0.05 (0 beyond), so that corners, where
+/// pressures are singular, do not drift on.
+///
+/// Softened points take no part: the volume of gaps is not shared with what is whole.
 ///
 /// With local time steps a link exchanges when all points whose pressures enter are due, over the time since
 /// they were due together: pressures of one time, and as much out of i as into j.

@@ -8,7 +8,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 
 namespace cnem {
 
@@ -16,21 +15,31 @@ namespace {
 
 constexpr double least_strain = 1e-3;    ///< ε̄p of what has flowed
 constexpr double least_increment = 1e-4; ///< Δε̄p of what flows
-const double decay = std::getenv("KDECAY") ? std::atof(std::getenv("KDECAY")) : 100.0; ///< K
+constexpr double lasting = 3.0;          ///< τ over the time in flow: measured, docs/pressure_exchange.md
+constexpr double amount = 100.0;         ///< A, the same
+constexpr double longest = 5.0;          ///< t over τ
 
 } // namespace
+
+double annealing_due(double idle, double elapsed, double flow_time) {
+  const double time = lasting * flow_time;
+  return idle < longest * time ? amount * std::exp(-idle / time) * std::expm1(elapsed / time) : 0.0;
+}
 
 /// s of each node, 0 where it takes no part.
 template<int dim> Field StressAnnealing<dim>::shares(const PointState<dim>& point) {
   Field share(point.size(), 0.0);
   for (std::size_t i = 0; i < share.size(); ++i) {
     const double strain = point.plastic_strain[i];
-    idle_[i] = strain - strain_before_[i] > least_increment ? 0.0 : idle_[i] + 1.0;
+    const bool flows = strain - strain_before_[i] > least_increment;
     strain_before_[i] = strain;
+    idle_[i] = flows ? 0.0 : idle_[i] + elapsed_;
+    if (flows) flow_time_[i] += elapsed_;
     const bool whole = !point.damaged.on() || point.softening[i] == 0.0;
-    if (strain > least_strain && idle_[i] >= 1.0 && idle_[i] < 5.0 * decay && whole)
-      share[i] = std::exp(-idle_[i] / decay);
+    if (strain > least_strain && idle_[i] > 0.0 && whole)
+      share[i] = annealing_due(idle_[i], elapsed_, flow_time_[i]);
   }
+  elapsed_ = 0.0;
   return share;
 }
 
@@ -40,8 +49,7 @@ template<int dim> void StressAnnealing<dim>::stressed(const Body<dim>& body) {
   PointState<dim>& point = body.state.point;
   const Field share = shares(point);
   Field mass(point.size());
-  for (std::size_t i = 0; i < mass.size(); ++i)
-    mass[i] = body.operators().volume[i] * point.stress_free[i];
+  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = body.operators().volume[i] * point.stress_free[i];
   const LinkSmoother<dim> smoother(links, body.reference, share, point.material, mass, strength_);
   if (smoother.nodes().empty()) return;
   const double elastic = integral<dim>(body, point.stored_energy),
@@ -49,13 +57,18 @@ template<int dim> void StressAnnealing<dim>::stressed(const Body<dim>& body) {
   std::vector<typename LinkSmoother<dim>::Values> strains;
   strains.reserve(smoother.nodes().size());
   Fields<symmetric_size<dim>>& elastic_tensor = point.inverse_plastic_cauchy_green;
-  for (const std::int32_t node : smoother.nodes())
-    strains.push_back(plasticity::logarithm<dim>(plasticity::at_point<dim>(elastic_tensor, index_of(node))));
-  const auto change = smoother.change(strains);
+  std::vector<typename LinkSmoother<dim>::Values> causes; // of stress: without expansion by heat
+  for (const std::int32_t node : smoother.nodes()) {
+    const std::size_t i = index_of(node);
+    strains.push_back(plasticity::logarithm<dim>(plasticity::at_point<dim>(elastic_tensor, i)));
+    causes.push_back(strains.back());
+    causes.back().template head<3>() -= 2.0 * body.material_of(i).thermal_strain(point.temperature[i]);
+  }
+  const auto change = smoother.change(causes);
   for (std::size_t a = 0; a < change.size(); ++a) {
     const auto i = index_of(smoother.nodes()[a]);
-    const plasticity::Symmetric<dim> annealed = plasticity::exponential<dim>(plasticity::within_yield<dim>(
-        body.material_of(i), (strains[a] + change[a]).matrix(), point, i, 1.0));
+    const plasticity::Symmetric<dim> annealed = plasticity::exponential<dim>(
+        plasticity::within_yield<dim>(body.material_of(i), (strains[a] + change[a]).matrix(), point, i, 1.0));
     for (std::size_t k = 0; k < elastic_tensor.size(); ++k)
       elastic_tensor[k][i] = annealed[static_cast<Eigen::Index>(k)];
     point.volume_drift[i] += 0.5 * change[a].template head<3>().sum();
