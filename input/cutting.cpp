@@ -118,7 +118,8 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
     text += fmt::format("[output.windows.tool]\nbox = [{}, {}]\n", point({way - 6.0 * f, -2.0 * f}),
                         point({way + 4.0 * f, 6.0 * f}));
   if (parts.resampling)
-    text += "[method.rereference]\nevery = 100\nstrain = 0.25\n" +
+    text += "[method]\npressure_exchange = 2.0\nstress_annealing = 1.0\n"
+            "[method.rereference]\nevery = 100\nstrain = 0.25\n" +
             fmt::format("[adapt]\nresample = true\ntool_spacing = {}\n", length(0.25 * cut.edge_radius)) +
             fmt::format("[adapt.indicator]\nfield = \"plastic_power\"\nh_min = {}\nh_max = {}\n",
                         length(feeds::finest * f), length(feeds::fine * f));

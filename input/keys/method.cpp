@@ -38,14 +38,12 @@ void add_method(Keys& k) {
       .computed("0.05; in axisymmetric analyses 0.2");
   k.add("method.pressure_exchange", quantity,
         "Factor of the exchange of volume between flowing neighbours, which smooths their pressure; 0: off "
-        "(cnem, sph). 0.3 "
-        "where pressures matter: docs/pressure_exchange.md.")
+        "(cnem, sph). 0.3 to 2 where pressures matter: docs/pressure_exchange.md.")
       .in(not_negative)
       .fallback("0.0");
   k.add("method.stress_annealing", quantity,
         "Strength of the annealing of stresses on new references where the metal has lately ceased to flow, "
-        "which "
-        "takes the noise out of residual stresses; 0: off (cnem, sph). 1 where these matter: "
+        "which takes the noise out of residual stresses; 0: off (cnem, sph). 1 where these matter: "
         "docs/pressure_exchange.md.")
       .in(not_negative)
       .fallback("0.0");
