@@ -101,6 +101,11 @@ TEST(Explain, SaysWhatOtherCasesAre) {
   const std::string text = explanation(read(testing::pulled_block));
   EXPECT_NE(text.find("4 mm x 2 mm in the plane, steel"), std::string::npos) << text;
   EXPECT_NE(text.find("of equilibrium"), std::string::npos) << text;
+  const std::string round = explanation(
+      read(testing::pulled_block,
+           {"domain.outer={ circle = { centre = \"1 1 mm\", radius = \"1 mm\", name = \"bottom\" } }",
+            "boundary.top={ pieces = \"bottom\", pressure = \"1 MPa\" }"}));
+  EXPECT_NE(round.find("2 mm x 2 mm in the plane"), std::string::npos) << round;
 }
 
 } // namespace
