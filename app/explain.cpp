@@ -3,6 +3,7 @@
 #include "app/forecast.hpp"
 #include "app/simulation.hpp"
 #include "clouds/generate.hpp"
+#include "input/curve_checks.hpp"
 #include "results/si_format.hpp"
 
 #include <algorithm>
@@ -27,11 +28,7 @@ std::string size_of(const input::Domain& domain) {
     return fmt::format("{} x {} x {}", si_format(high.x() - low.x(), "m"), si_format(high.y() - low.y(), "m"),
                        si_format(high.z() - low.z(), "m"));
   }
-  Vec2 low = domain.outer.pieces.front().from, high = low;
-  for (const CurvePiece& piece : domain.outer.pieces) {
-    low = low.cwiseMin(piece.from);
-    high = high.cwiseMax(piece.from);
-  }
+  const auto [low, high] = input::bounds(domain.outer);
   return fmt::format("{} x {}", si_format(high.x() - low.x(), "m"), si_format(high.y() - low.y(), "m"));
 }
 

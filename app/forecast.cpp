@@ -2,6 +2,7 @@
 
 #include "adapt/structure.hpp"
 #include "app/divergence.hpp"
+#include "input/curve_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,11 +28,7 @@ double around_a_corner(double fine, double coarse, double growth) {
 
 /// The smaller side of the workpiece, m.
 double least_side(const Curve& outline) {
-  Vec2 low = outline.pieces.front().from, high = low;
-  for (const CurvePiece& piece : outline.pieces) {
-    low = low.cwiseMin(piece.from);
-    high = high.cwiseMax(piece.from);
-  }
+  const auto [low, high] = input::bounds(outline);
   return (high - low).minCoeff();
 }
 

@@ -133,11 +133,7 @@ void write_blanking(const std::filesystem::path& folder, const BlankingResult& r
 }
 
 std::optional<BlankingResult> read_blanking(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / results::files::blanking;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  const std::string text = results::read_file(path);
-  try {
-    const Json json = Json::parse(text);
+  return read_evaluation(folder / results::files::blanking, [](const Json& json) {
     BlankingResult result;
     JsonReader reader(json);
     carry_result(result, reader);
@@ -153,9 +149,7 @@ std::optional<BlankingResult> read_blanking(const std::filesystem::path& folder)
         result.faces[k].zone.push_back(static_cast<Zone>(zone_index(zone.get<std::string>())));
     }
     return result;
-  } catch (const Json::exception& error) {
-    throw IoError(fmt::format("{} is not the evaluation of a cut: {}", path.string(), error.what()));
-  }
+  });
 }
 
 } // namespace cnem::evaluate

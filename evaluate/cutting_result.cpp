@@ -1,6 +1,5 @@
 #include "evaluate/cutting_result.hpp"
 
-#include "core/error.hpp"
 #include "core/index.hpp"
 #include "evaluate/json_carrier.hpp"
 #include "results/output_folder.hpp"
@@ -159,21 +158,18 @@ void write_cutting(const fs::path& folder, const CuttingResult& result) {
 }
 
 std::optional<CuttingResult> read_cutting(const fs::path& folder) {
-  const fs::path path = folder / results::files::cutting;
-  if (!fs::exists(path)) return std::nullopt;
-  const std::string text = results::read_file(path);
-  CuttingResult result;
-  try {
-    const Json json = Json::parse(text);
-    JsonReader reader(json);
-    carry_cut(result, reader);
-  } catch (const Json::exception& error) {
-    throw IoError(fmt::format("{} is not the evaluation of a cut: {}", path.string(), error.what()));
-  }
-  each_table(result, [&](const char* name, results::HistoryTable& table) {
+  std::optional<CuttingResult> result =
+      read_evaluation(folder / results::files::cutting, [](const Json& json) {
+        CuttingResult written;
+        JsonReader reader(json);
+        carry_cut(written, reader);
+        return written;
+      });
+  if (!result) return result;
+  each_table(*result, [&](const char* name, results::HistoryTable& table) {
     table = results::read_history(table_path(folder, name));
   });
-  result.course = results::read_history(folder / results::files::cutting_course);
+  result->course = results::read_history(folder / results::files::cutting_course);
   return result;
 }
 

@@ -1,10 +1,16 @@
 #pragma once
 // Records out to JSON and in from it, with each member named once: carry(name, member) for both ways. Numbers
-// that are not finite are null.
+// that are not finite are null. And files of them that are read back.
+#include "core/error.hpp"
+#include "results/output_folder.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +57,20 @@ template<class Record, class Carry> std::vector<Record> records_of(const Json& l
     carry(records.emplace_back(), reader);
   }
   return records;
+}
+
+/// read(json) of an evaluation that a run has left in a file; empty when there is no such file. Throws
+/// IoError when it cannot be read.
+template<class Read>
+auto read_evaluation(const std::filesystem::path& path, const Read& read)
+    -> std::optional<decltype(read(Json()))> {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const std::string text = results::read_file(path);
+  try {
+    return read(Json::parse(text));
+  } catch (const Json::exception& error) {
+    throw IoError(fmt::format("{} is not the evaluation of a cut: {}", path.string(), error.what()));
+  }
 }
 
 } // namespace cnem::evaluate

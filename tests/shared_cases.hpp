@@ -4,6 +4,27 @@
 
 namespace cnem::testing {
 
+/// A block in tension, in equilibrium.
+inline const std::string pulled_block = R"toml(
+[analysis]
+type = "static"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
+[cloud]
+spacing = "0.25 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "100 MPa" }
+[boundary.base]
+pieces = "bottom"
+displacement = { x = "0 m", y = "0 m" }
+[boundary.top]
+pieces = "top"
+traction = "0 20 MPa"
+)toml";
+
 /// A punch goes into the left of a block.
 inline const std::string punched_block = steel_304l + R"toml(
 [domain]

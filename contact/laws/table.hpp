@@ -19,8 +19,8 @@ struct Table {
   static constexpr const char* name = "table";
   static constexpr const char* formula =
       "`coefficient` times `over_temperature` at the `temperature` of the interface times `over_speed` at "
-      "the "
-      "`speed` of slip, straight between points and constant beyond the ends, times the pressure; at most "
+      "the `speed` of slip, straight between points and constant beyond the ends, times the pressure; at "
+      "most "
       "`shear_limit` and `shear_factor` σ_y/√3";
   static constexpr const char* source = "";
   static constexpr ListParameter<Table> lists[] = {{&Table::temperature,

@@ -8,15 +8,20 @@ namespace {
 namespace d = dimension;
 using enum Type;
 
+/// The tool that does what a report is about.
+void add_leading_tool(Keys& k, const std::string& path, const std::string& usual) {
+  k.add(path, text, "A tool.")
+      .example("\"" + usual + "\"")
+      .computed("the tool named `" + usual + "`, else the only one that moves");
+}
+
 void add_blanking(Keys& k) {
   k.add("report.blanking", table,
         "Sheared faces of slug and skeleton (rollover, burnish, fracture, burr), largest forces, work. The "
-        "cuts "
-        "are where a side of the punch passes an edge of the die; the cutting direction is that of the punch "
+        "cuts are where a side of the punch passes an edge of the die; the cutting direction is that of the "
+        "punch "
         "against the die.");
-  k.add("report.blanking.punch", text, "A tool.")
-      .example("\"punch\"")
-      .computed("the tool named `punch`, else the only one that moves");
+  add_leading_tool(k, "report.blanking.punch", "punch");
   k.add("report.blanking.die", texts, "One or several tools.")
       .example("\"die\"")
       .computed("the tools whose names begin with `die`, else those at rest");
@@ -39,9 +44,7 @@ void add_cutting_report(Keys& k) {
       "What machinists read of an orthogonal cut: forces and their steady part, chip, shear angle, stresses "
       "along the rake face, the surface left behind (docs/cutting.md). The tool moves through the "
       "workpiece; its rake face is the longest straight side that faces the cut.");
-  k.add("report.cutting.tool", text, "A tool.")
-      .example("\"cutter\"")
-      .computed("the tool named `cutter`, else the only one that moves");
+  add_leading_tool(k, "report.cutting.tool", "cutter");
   k.add("report.cutting.feed", quantity, "Uncut chip thickness.")
       .unit(d::length)
       .in(positive)
@@ -78,8 +81,7 @@ void add_report(Keys& k) {
       .always();
   k.add("report.springback", boolean,
         "The bodies are let go: field `springback` in the last frame of `fields.pvd`, largest displacement "
-        "and "
-        "change of shape of each body in `status.json`. Planes of symmetry stay, tools, loads and other "
+        "and change of shape of each body in `status.json`. Planes of symmetry stay, tools, loads and other "
         "supports are taken away.")
       .computed("true where `report.blanking` is given and no nodes are tied");
   add_blanking(k);

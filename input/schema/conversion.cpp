@@ -24,7 +24,7 @@ void check_range(double number, const Value& value, const Key& key) {
   if (key.range.contains(number)) return;
   throw ConversionError(Mistake::range, value.where,
                         fmt::format("found {}, expected {} {}", value.show(), describe(key.dimension).name,
-                                    range_text(key.range, describe(key.dimension).si_unit)));
+                                    range_text(key.range, key.dimension)));
 }
 
 /// Whether a text can be repeated in a message of one line.

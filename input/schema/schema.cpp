@@ -2,15 +2,22 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <numbers>
 
 namespace cnem::input {
 
-std::string range_text(const Range& range, std::string_view unit) {
-  const auto [low, high, low_open, high_open] = range;
-  const std::string suffix = unit.empty() || unit == "1" ? "" : fmt::format(" {}", unit);
-  if (low == anything.low) return fmt::format("{} {}{}", high_open ? "<" : "≤", high, suffix);
-  if (high == anything.high) return fmt::format("{} {}{}", low_open ? ">" : "≥", low, suffix);
-  return fmt::format("in {}{}, {}{}{}", low_open ? "(" : "[", low, high, high_open ? ")" : "]", suffix);
+std::string range_text(const Range& range, const Dimension& dimension) {
+  const bool angle = dimension == dimension::angle;
+  const auto bound = [&](double x) {
+    return angle ? fmt::format("{:.12g}", x * 180.0 / std::numbers::pi) : fmt::format("{}", x);
+  };
+  const std::string low = bound(range.low), high = bound(range.high),
+                    unit = angle ? "deg" : describe(dimension).si_unit;
+  const std::string suffix = unit.empty() || unit == "1" ? "" : " " + unit;
+  if (range.low == anything.low) return fmt::format("{} {}{}", range.high_open ? "<" : "≤", high, suffix);
+  if (range.high == anything.high) return fmt::format("{} {}{}", range.low_open ? ">" : "≥", low, suffix);
+  return fmt::format("in {}{}, {}{}{}", range.low_open ? "(" : "[", low, high, range.high_open ? ")" : "]",
+                     suffix);
 }
 
 std::string Key::name() const { return path.substr(path.rfind('.') + 1); }

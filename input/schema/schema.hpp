@@ -37,8 +37,8 @@ enum class Scope { everywhere, plane, space };
 /// Whether a key has to be written. For a table, `fallback` means that its own defaults hold without it.
 enum class Presence { required, fallback, optional };
 
-/// "> 0 m", "in [0, 1]", "≥ 1".
-std::string range_text(const Range& range, std::string_view unit);
+/// "> 0 m", "in [0, 1]", "≥ 1"; angles in degrees, as they are written: "in [-60, 60] deg".
+std::string range_text(const Range& range, const Dimension& dimension);
 
 /// A key only makes sense when a sibling has one of these values.
 struct Condition {

@@ -162,8 +162,7 @@ std::string meaning(const Key& key) {
                                               : "Three-dimensional analyses only.");
   if (!key.when.sibling.empty())
     parts.push_back(fmt::format("With `{}` = `{}`.", key.when.sibling, fmt::join(key.when.values, "` or `")));
-  if (key.range.bounded())
-    parts.push_back(fmt::format("Must be {}.", range_text(key.range, describe(key.dimension).si_unit)));
+  if (key.range.bounded()) parts.push_back(fmt::format("Must be {}.", range_text(key.range, key.dimension)));
   if (!key.example.empty()) parts.push_back(fmt::format("E.g. `{}`.", key.example));
   return fmt::format("{}", fmt::join(parts, " "));
 }

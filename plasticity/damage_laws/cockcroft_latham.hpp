@@ -25,10 +25,6 @@ struct CockcroftLatham {
 
 namespace CNEM_ISA {
 
-template<class T> CNEM_INLINE Mask<T> breaks(const CockcroftLatham&, const Flowing<T>& at) {
-  return at.largest > T(0.0);
-}
-
 template<class T> CNEM_INLINE T fracture_strain(const CockcroftLatham& law, const Flowing<T>& at) {
   return T(law.critical_work) / max(at.largest, T(1e-100));
 }

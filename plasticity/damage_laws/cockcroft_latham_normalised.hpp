@@ -25,10 +25,6 @@ struct NormalisedCockcroftLatham {
 
 namespace CNEM_ISA {
 
-template<class T> CNEM_INLINE Mask<T> breaks(const NormalisedCockcroftLatham&, const Flowing<T>& at) {
-  return at.largest > T(0.0);
-}
-
 template<class T> CNEM_INLINE T fracture_strain(const NormalisedCockcroftLatham& law, const Flowing<T>& at) {
   return T(law.critical_strain) * at.equivalent / max(at.largest, T(1e-100));
 }

@@ -16,4 +16,10 @@ template<class T> struct Flowing {
   T temperature; ///< K
 };
 
+/// Laws of the largest principal stress: damage grows where it is tension.
+template<class Law, class T>
+requires(Law::of_largest_stress) CNEM_INLINE Mask<T> breaks(const Law&, const Flowing<T>& at) {
+  return at.largest > T(0.0);
+}
+
 } // namespace cnem::plasticity::CNEM_ISA

@@ -14,8 +14,7 @@ struct JohnsonCookDamage {
   static constexpr const char* name = "johnson-cook";
   static constexpr const char* formula =
       "damage grows by dε̄p/ε_f, ε_f = [D1 + D2 exp(D3 σ*)] [1 + D4 ln(ε̄̇p/rate0)] [1 + D5 T*], σ* = mean "
-      "stress "
-      "over von Mises stress, positive in tension";
+      "stress over von Mises stress, positive in tension";
   static constexpr const char* source = "Johnson and Cook 1985";
   static constexpr Parameter<JohnsonCookDamage> parameters[] = {
       {&JohnsonCookDamage::D1,

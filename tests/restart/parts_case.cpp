@@ -1,4 +1,4 @@
-// The texts of small cases of several parts that adapt, and what becomes of a sheet that is cut.
+// The text of the small case of several parts that adapt.
 #include "tests/restart/runs.hpp"
 #include "tests/steel.hpp"
 
@@ -44,36 +44,6 @@ picture_fields = ["plastic_strain", "level", "temperature"]
 every_steps = 35
 )toml" + testing::soft_metal +
          testing::steel_304l;
-}
-
-// The slug is round: its axis is the symmetry plane of the other.
-std::string of_revolution(std::string text) {
-  const std::string plane = "[boundary.left]\npieces = [\"left\"]\nsymmetry = true\n";
-  text.erase(text.find(plane), plane.size());
-  return "[analysis]\nkinematics = \"axisymmetric\"\n" + text;
-}
-
-// The cut goes through both layers and what bonds them.
-std::string in_layers(std::string text) {
-  const std::string outline = "outer.rectangle = { from = \"0 0 mm\", to = \"5 1.5 mm\" }\n";
-  return text.insert(text.find(outline) + outline.size(),
-                     "interfaces.joint.points = [\"0 0.5 mm\", \"5 1.2 mm\"]\n");
-}
-
-/// The same in triangles.
-std::string in_triangles(std::string text, const std::string& lagrangian) {
-  const std::string from = "pressure_exchange", to = "[output]\n";
-  const std::size_t begin = text.find(from);
-  return text.replace(begin, text.find(to) - begin, "name = \"fe-triangles\"\n" + lagrangian);
-}
-
-/// The slug is knocked off by a punch with a mass, in local time steps of scaled masses.
-std::string in_levels(std::string text) {
-  const std::string motion = "velocity = \"0 -60 m/s\"\n", spacing = "tool_spacing = \"0.15 mm\"\n";
-  text.replace(text.find(motion), motion.size(),
-               "mass = \"1 kg/m\"\ninitial_velocity = \"0 -60 m/s\"\nforce = \"0 -1e5 N/m\"\n");
-  text.replace(text.find(spacing), spacing.size(), "tool_spacing = \"0.05 mm\"\n");
-  return text + "[time.step]\nlocal = true\n[time.mass_scaling]\nfactor = 2\n";
 }
 
 } // namespace cnem::app

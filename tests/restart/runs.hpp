@@ -24,8 +24,13 @@ std::string cracked_case();
 /// The case of a sheet that is cut, of two layers, and of a round one.
 std::string in_layers(std::string text);
 std::string of_revolution(std::string text);
-std::string in_triangles(std::string text, const std::string& lagrangian);
 std::string in_levels(std::string text);
+/// A case with other lines of the method, in triangles with others, with a punch that conducts.
+std::string with_method(std::string text, const std::string& lines);
+std::string in_triangles(std::string text, const std::string& lagrangian);
+std::string with_conducting_punch(std::string text);
+/// The case that goes back, which does not adapt in triangles: once.
+std::string set_back_in_triangles(std::string text);
 const std::string& small_case(const std::string& name);
 
 /// Differences of two output folders in history, fields, lines, pictures and in what status.json says of the

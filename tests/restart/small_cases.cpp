@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 #include <stdexcept>
-#include <string_view>
-#include <utility>
 
 namespace cnem::app {
 
@@ -52,37 +50,6 @@ every_wall = "0 s"
 keep = 3
 )toml" + base_and_punch("2", "2") +
                             steel_304l;
-
-/// The same with a punch that conducts under a coating, and friction of a table.
-std::string with_conducting_punch(std::string text) {
-  const auto replace = [&](const std::string& old, const std::string& now) {
-    text.replace(text.find(old), old.size(), now);
-  };
-  replace(R"toml(to = "1.1 5 mm")toml", R"toml(to = "1.1 5 mm", names.top = "shank")toml");
-  replace(
-      R"toml(law = "tresca-limited", coefficient = 0.2)toml",
-      R"toml(law = "table", coefficient = 0.3, temperature = "300 600 K", over_temperature = [1.0, 0.5])toml");
-  replace(R"toml(heat = { conductance = "1e5 W/(m2 K)", effusivity = "1e4 W s^0.5/(m2 K)" })toml",
-          R"toml(heat.conductance = "1e5 W/(m2 K)"
-heat.conductivity = "60 W/(m K)"
-heat.density = "15000 kg/m3"
-heat.specific_heat = "200 J/(kg K)")toml");
-  text += R"toml(
-[tools.punch.heat.section]
-spacing = "0.3 mm"
-held = ["shank"]
-heat_capacity_factor = 0.1
-refine.corner = { points = ["1.1 2 mm"], factor = 0.4 }
-coating = { thickness = "5 um", conductivity = "12 W/(m K)", density = "4700 kg/m3", specific_heat = "600 J/(kg K)" }
-)toml";
-  return text;
-}
-
-/// The same with other lines of the method.
-std::string with_method(std::string text, const std::string& lines) {
-  const std::string table = "[method]\n";
-  return text.insert(text.find(table) + table.size(), lines);
-}
 
 // Local time steps and an exchange of pressures in a block that is fine where a punch's corner goes in.
 const std::string levels = R"toml(
@@ -367,16 +334,6 @@ every_wall = "0 s"
 keep = 3
 )toml" + steel_304l;
 
-/// The same in triangles, which do not adapt: it goes back once.
-std::string set_back_in_triangles() {
-  std::string text = set_back;
-  for (const auto& [from, to] : {std::pair("20.8 ns", "13.5 ns"),
-                                 {"strain = 0.4", "strain = 0.35"},
-                                 {"[adapt]\nresample = true\n", ""}})
-    text.replace(text.find(from), std::string_view(from).size(), to);
-  return with_method(text, "name = \"fe-triangles\"\n");
-}
-
 // Rolled sheet, whose axes turn over references and go over to new nodes.
 const char* const rolled = "[materials.steel.anisotropy]\nlaw = \"hill48\"\nr0 = 1.8\nr45 = 1.2\nr90 = 2.3\n";
 
@@ -406,7 +363,7 @@ const std::vector<SmallCase>& small_cases() {
       {"renewed_triangles", with_method(punched, "name = \"fe-triangles\"\n")},
       {"round_triangles", with_method(round_bar, "name = \"fe-triangles\"\n")},
       {"breaking_triangles", breaking + "[method]\nname = \"fe-triangles\"\nrereference = { every = 25 }\n"},
-      {"set_back_triangles", set_back_in_triangles()},
+      {"set_back_triangles", set_back_in_triangles(set_back)},
       {"touching_triangles", with_method(touching, "name = \"fe-triangles\"\n")},
       {"space", space_case()},
       {"rolled", adapted + rolled}};

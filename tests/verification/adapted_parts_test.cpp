@@ -1,12 +1,12 @@
 // Adaptation of bodies of several parts: bonded interfaces, periodic sides and cracks stay what they are
 // while their nodes come and go.
 #include "app/adaptation.hpp"
-#include "app/problem/registry.hpp"
 #include "core/error.hpp"
 #include "core/geometry/mates.hpp"
 #include "input/case_reader.hpp"
 #include "results/adaptation_log.hpp"
 #include "tests/shared_cases.hpp"
+#include "tests/solver_of.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <algorithm>
@@ -44,8 +44,8 @@ const std::string whole = "domain.interfaces={}";
 class Course {
 public:
   Course(const std::string& text, const Texts& overrides)
-      : folder_("parts"), input_(input::read_case_text(text, "case.toml", overrides)), solver_(start()),
-        adaptation_(input_, solver_) {
+      : folder_("parts"), input_(input::read_case_text(text, "case.toml", overrides)),
+        solver_(solver_of(input_)), adaptation_(input_, solver_) {
     adaptation_.start_log(folder_.path());
   }
 
@@ -108,11 +108,6 @@ public:
   }
 
 private:
-  ExplicitSolver<2> start() const {
-    app::Setup<2> setup = app::build<2>(input_);
-    return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
-  }
-
   TemporaryFolder folder_;
   input::Case input_;
   ExplicitSolver<2> solver_;

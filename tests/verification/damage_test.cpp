@@ -1,6 +1,7 @@
 // Material that breaks: what it takes does not depend on the spacing.
 #include "app/simulation.hpp"
 #include "input/case_reader.hpp"
+#include "tests/solver_of.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -69,8 +70,7 @@ struct Breaking {
 Breaking break_it(const std::string& text, const std::string& spacing, std::vector<std::string> more = {}) {
   more.push_back(fmt::format("cloud.spacing=\"{}\"", spacing));
   const input::Case input = input::read_case_text(text, "case.toml", more);
-  std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = make_solver<2>(input, warnings);
+  ExplicitSolver<2> solver = testing::solver_of(input);
   StepControl control(input.time);
   ReferenceRenewal renewal(input.method);
   Breaking result;
@@ -136,8 +136,7 @@ lagrangian = "periodic"
       "case.toml",
       {"materials.steel.damage.D1=1e-9", "materials.steel.damage.fracture_energy=\"1 J/m2\"",
        "method.bulk_viscosity.linear=0", "method.bulk_viscosity.quadratic=0"});
-  std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = make_solver<2>(input, warnings);
+  ExplicitSolver<2> solver = testing::solver_of(input);
   const double first = solver.stable_step().dt;
   while (solver.state().time < 0.05e-6) solver.advance(0.02 * first);
   const State<2>& state = solver.state();

@@ -4,6 +4,7 @@
 #include "app/simulation.hpp"
 #include "tests/clouds.hpp"
 #include "tests/finished_run.hpp"
+#include "tests/solver_of.hpp"
 
 #include <fmt/format.h>
 #include <numbers>
@@ -109,8 +110,7 @@ TEST(Separation, a_slug_of_fifty_times_the_thickness_takes_the_force_of_the_plan
 TEST(Separation, makes_two_bodies) {
   const input::Case input = input::read_case_text(blank(), "case.toml", {});
   const TemporaryFolder folder("separation");
-  std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = app::make_solver<2>(input, warnings);
+  ExplicitSolver<2> solver = testing::solver_of(input);
   app::StepControl control(input.time);
   app::ReferenceRenewal renewal(input.method);
   app::Adaptation adaptation(input, solver);

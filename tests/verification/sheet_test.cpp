@@ -1,6 +1,7 @@
 // Rolled sheet through the whole program: plane strain compression of a section against Hill's closed form.
 #include "app/simulation.hpp"
 #include "input/case_reader.hpp"
+#include "tests/solver_of.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,8 +43,7 @@ double worst(const std::string& anisotropy, double expected) {
   std::vector<std::string> more;
   if (!anisotropy.empty()) more.push_back("materials.sheet.anisotropy=" + anisotropy);
   const input::Case input = input::read_case_text(block, "case.toml", more);
-  std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = make_solver<2>(input, warnings);
+  ExplicitSolver<2> solver = testing::solver_of(input);
   StepControl control(input.time);
   ReferenceRenewal renewal(input.method);
   int references = 0;

@@ -1,9 +1,9 @@
 // Taylor bars on coarse clouds against independent finite-element solutions (cases/verification/taylor_*).
-#include "app/problem/registry.hpp"
 #include "app/run.hpp"
 #include "input/case_reader.hpp"
 #include "results/history_writer.hpp"
 #include "results/status.hpp"
+#include "tests/solver_of.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -32,8 +32,7 @@ Shape run(const std::string& name, const std::string& spacing, const std::string
   const input::Case input =
       input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/" + name + "/case.toml",
                        {"cloud.spacing=\"" + spacing + "\"", "method.name=" + method});
-  app::Setup<2> setup = app::build<2>(input);
-  ExplicitSolver<2> solver(std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature));
+  ExplicitSolver<2> solver = testing::solver_of(input);
   while (solver.state().time < input.time.end) {
     const double dt = solver.stable_step().dt;
     for (int n = 0; n < 10; ++n) solver.advance(dt);

@@ -3,6 +3,7 @@
 #include "app/problem/registry.hpp"
 #include "core/error.hpp"
 #include "input/case_reader.hpp"
+#include "tests/solver_of.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -37,8 +38,7 @@ input::Case read(const std::vector<std::string>& overrides) {
 }
 
 ExplicitSolver<2> start(const std::vector<std::string>& overrides) {
-  Setup<2> setup = build<2>(read(overrides));
-  return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
+  return testing::solver_of(read(overrides));
 }
 
 std::string refusal(const std::vector<std::string>& overrides) {

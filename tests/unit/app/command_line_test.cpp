@@ -5,6 +5,7 @@
 #include "results/fields.hpp"
 #include "results/history_writer.hpp"
 #include "results/status.hpp"
+#include "tests/shared_cases.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 namespace cnem::app {
 namespace {
 
-constexpr const char* block = R"toml(
+const std::string block = testing::steel_304l + R"toml(
 [time]
 end = "2 us"
 [domain]
@@ -24,11 +25,6 @@ material = "steel"
 outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
 [cloud]
 spacing = "0.4 mm"
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "johnson-cook", A = "253 MPa", B = "685 MPa", n = 0.312, C = 0.0973, rate0 = "1 /s", m = 2.044, T0 = "296 K", Tmelt = "1698 K" }
-heat = { specific_heat = "500 J/(kg K)", conductivity = "15 W/(m K)" }
 [boundary.base]
 pieces = ["bottom"]
 symmetry = true
@@ -37,26 +33,6 @@ rectangle = { from = "-1 2 mm", to = "1.1 4 mm" }
 velocity = "0 -30 m/s"
 [output]
 history_every = "0.1 us"
-)toml";
-
-constexpr const char* pulled_block = R"toml(
-[analysis]
-type = "static"
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
-[cloud]
-spacing = "0.25 mm"
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "perfect", yield = "100 MPa" }
-[boundary.base]
-pieces = "bottom"
-displacement = { x = "0 m", y = "0 m" }
-[boundary.top]
-pieces = "top"
-traction = "0 20 MPa"
 )toml";
 
 class CommandLine : public ::testing::Test {
@@ -77,7 +53,7 @@ protected:
   std::string file() const { return (folder / "block.toml").string(); }
   std::string pulled() const {
     const std::filesystem::path path = folder / "pulled.toml";
-    std::ofstream(path) << pulled_block;
+    std::ofstream(path) << testing::pulled_block;
     return path.string();
   }
   std::string results() const { return (folder / "results").string(); }

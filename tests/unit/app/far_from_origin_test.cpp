@@ -5,6 +5,7 @@
 #include "input/case_reader.hpp"
 #include "results/fields.hpp"
 #include "results/history_writer.hpp"
+#include "tests/solver_of.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <cmath>
@@ -50,8 +51,7 @@ TEST(FarFromOrigin, the_patch_test_holds_in_dynamics) {
   for (const int renew_every : {1000, 7})
     for (const Vec2& place : far_places) {
       const input::Case input = input::read_case_text(stretched(place, rate), "case.toml");
-      std::vector<std::string> warnings;
-      ExplicitSolver<2> solver = make_solver<2>(input, warnings);
+      ExplicitSolver<2> solver = testing::solver_of(input);
       for (int step = 1; step <= 100; ++step) {
         if (step % renew_every == 0) solver.prepare();
         solver.advance(dt);

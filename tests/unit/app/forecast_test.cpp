@@ -8,6 +8,8 @@
 #include "input/case_reader.hpp"
 #include "results/output_folder.hpp"
 #include "results/status.hpp"
+#include "tests/shared_cases.hpp"
+#include "tests/solver_of.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <fmt/format.h>
@@ -40,8 +42,7 @@ input::Case read(const std::string& text, const std::vector<std::string>& overri
 }
 
 Forecast expected_of(const input::Case& input) {
-  std::vector<std::string> warnings;
-  ExplicitSolver<2> solver = make_solver<2>(input, warnings);
+  ExplicitSolver<2> solver = testing::solver_of(input);
   StepControl control(input.time);
   control.refresh(solver);
   return forecast(input, solver, control);
@@ -97,21 +98,14 @@ TEST(Explain, SaysThatACutIsLong) {
 }
 
 TEST(Explain, SaysWhatOtherCasesAre) {
-  const std::string text = explanation(read(R"toml(analysis.type = "static"
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
-[cloud]
-spacing = "0.25 mm"
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-[boundary.base]
-pieces = "bottom"
-displacement = "0 0 m"
-)toml"));
+  const std::string text = explanation(read(testing::pulled_block));
   EXPECT_NE(text.find("4 mm x 2 mm in the plane, steel"), std::string::npos) << text;
   EXPECT_NE(text.find("of equilibrium"), std::string::npos) << text;
+  const std::string round = explanation(
+      read(testing::pulled_block,
+           {"domain.outer={ circle = { centre = \"1 1 mm\", radius = \"1 mm\", name = \"bottom\" } }",
+            "boundary.top={ pieces = \"bottom\", pressure = \"1 MPa\" }"}));
+  EXPECT_NE(round.find("2 mm x 2 mm in the plane"), std::string::npos) << round;
 }
 
 } // namespace

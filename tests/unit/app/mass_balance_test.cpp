@@ -5,6 +5,7 @@
 #include "app/adaptation.hpp"
 #include "app/simulation.hpp"
 #include "input/case_reader.hpp"
+#include "tests/solver_of.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -40,15 +41,10 @@ protected:
       input::read_case_text(fmt::format("{}[method]\nname = \"{}\"\n", sheared, GetParam()), "case.toml");
 };
 
-ExplicitSolver<2> solver_of(const input::Case& input) {
-  std::vector<std::string> none;
-  return make_solver<2>(input, none);
-}
-
 double sum(const Field& field) { return std::accumulate(field.begin(), field.end(), 0.0); }
 
 TEST_P(MassBalance, is_watched) {
-  ExplicitSolver<2> solver = solver_of(input);
+  ExplicitSolver<2> solver = testing::solver_of(input);
   MassBalanceWatch watch;
   watch.look(solver);
   EXPECT_EQ(watch.warning(), "");
@@ -71,7 +67,7 @@ TEST_P(MassBalance, is_watched) {
 }
 
 TEST_P(MassBalance, is_kept_on_new_references_without_adaptation) {
-  ExplicitSolver<2> solver = solver_of(input), left_alone = solver_of(input);
+  ExplicitSolver<2> solver = testing::solver_of(input), left_alone = testing::solver_of(input);
   Adaptation adaptation(input, solver);
   ASSERT_FALSE(adaptation.active());
   const double mass = sum(solver.state().node.mass);

@@ -1,7 +1,7 @@
 // Tools that conduct: the flow through a contact, energy, coatings, held faces, friction.
-#include "app/problem/registry.hpp"
 #include "core/index.hpp"
 #include "input/case_reader.hpp"
+#include "tests/solver_of.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +43,7 @@ section.spacing = "20 um"
 )toml";
 
 ExplicitSolver<2> start(const std::vector<std::string>& overrides) {
-  Setup<2> setup = build<2>(input::read_case_text(column, "column.toml", overrides));
-  return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
+  return testing::solver_of(input::read_case_text(column, "column.toml", overrides));
 }
 
 void advance(ExplicitSolver<2>& solver, double end) {

@@ -5,6 +5,7 @@
 #include "app/simulation.hpp"
 #include "input/case_reader.hpp"
 #include "results/status.hpp"
+#include "tests/solver_of.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <fstream>
@@ -40,8 +41,7 @@ std::string punch(const std::string& velocity) {
 }
 
 std::vector<std::string> warnings_of(const input::Case& input) {
-  std::vector<std::string> none;
-  return supersonic_tools(input, make_solver<2>(input, none));
+  return supersonic_tools(input, testing::solver_of(input));
 }
 
 TEST(ToolSpeed, of_sound_is_a_warning) {
@@ -73,8 +73,7 @@ TEST(ToolSpeed, of_more_than_its_thickness_a_step_is_refused) {
   const std::string foil =
       "[tools.punch]\nrectangle = { from = \"-1 2.1 mm\", to = \"5 2.2 mm\" }\nvelocity = \"0 -1 km/s\"\n";
   const input::Case input = read_with(foil);
-  std::vector<std::string> none;
-  const ExplicitSolver<2> solver = make_solver<2>(input, none);
+  const ExplicitSolver<2> solver = testing::solver_of(input);
   EXPECT_NO_THROW(check_tool_steps(input, solver, 0.99e-7));
   EXPECT_THROW(check_tool_steps(input, solver, 1.01e-7), InputError);
   EXPECT_NO_THROW(check_tool_steps(read_with(foil, {"time.end=90 ns"}), solver, 1.0))
