@@ -222,6 +222,8 @@ outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
 [cloud]
 spacing = "0.3 mm"
 [method]
+pressure_exchange = 2.0
+stress_annealing = 1.0
 rereference = { every = 30, strain = 0.1 }
 [adapt]
 resample = true

@@ -332,10 +332,12 @@ TEST(Adaptation, carries_local_time_steps) {
   EXPECT_NEAR(local.energy("plastic"), global.energy("plastic"), 0.01 * global.energy("plastic"));
 }
 
-TEST(Adaptation, carries_the_pressure_exchange) {
+TEST(Adaptation, carries_the_exchange_and_the_annealing_of_stresses) {
   const Adapted plain = run(punched, by_strain),
-                exchanged = run(punched, with(by_strain, {"method.pressure_exchange=0.3"}));
+                exchanged = run(punched,
+                                with(by_strain, {"method.pressure_exchange=2", "method.stress_annealing=1"}));
   EXPECT_GT(exchanged.energy("pressure_exchange"), 0.0);
+  EXPECT_GT(exchanged.energy("stress_annealing"), 0.0);
   EXPECT_GT(exchanged.metric("max.volume_drift"), 0.0);
   EXPECT_NEAR(exchanged.energy("plastic"), plain.energy("plastic"), 0.01 * plain.energy("plastic"));
 }
