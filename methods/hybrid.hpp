@@ -10,15 +10,14 @@ IndexedVector<SimplexIndex, bool> natural_zone(const Cloud<2>& cloud,
 
 /// C-NEM with two kinds of functions: on the face between two cells Sibson's where a triangle beside it is of
 /// the zone, and beyond those of the linear triangles, which have fewer neighbours. Each cell integrates what
-/// stands on its faces,
+/// stands on its faces (Chen, Wu, Yoon, You, Int. J. Numer. Meth. Eng. 50, 2001),
 ///
 ///   b_iJ = 1/V_i ∮ φ_J n dΓ,
 ///
 /// and each face gives its two cells the same with either sign: forces balance whichever functions it has,
-/// and linear fields are exact because both kinds reproduce them (Chen, Wu, Yoon, You, Int. J. Numer. Meth.
-/// Eng. 50, 2001, section 3). Stress points stay those of nodes, so that the border may lie elsewhere in each
-/// reference and nothing is carried across it. Nodal integration of linear triangles does not lock as
-/// `fe-triangles` do.
+/// and linear fields are exact because both kinds reproduce them. Stress points stay those of nodes, so that
+/// the border may lie elsewhere in each reference and nothing is carried across it. Nodal integration of
+/// linear triangles does not lock as `fe-triangles` do.
 class Hybrid final : public Discretisation<2> {
 public:
   static constexpr Promises promised = scni::Cnem::promised;
