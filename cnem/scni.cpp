@@ -11,34 +11,42 @@
 
 namespace cnem::scni {
 
-Cnem::Cnem(Options options) : options_(options) {
-  if (options.gauss_points < 1 || options.gauss_points > 3)
-    throw InputError(
-        fmt::format("{} Gauss points per Voronoi edge: expected 1, 2 or 3", options.gauss_points));
+void check_gauss_points(int gauss_points) {
+  if (gauss_points < 1 || gauss_points > 3)
+    throw InputError(fmt::format("{} Gauss points per Voronoi edge: expected 1, 2 or 3", gauss_points));
 }
+
+Cnem::Cnem(Options options) : options_(options) { check_gauss_points(options.gauss_points); }
 
 std::string Cnem::name() const {
   return options_.functions == Functions::sibson ? "cnem_sibson" : "cnem_laplace";
 }
 
 Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
-  const auto triangulation = voronoi::triangulate(cloud);
-  const auto circles = voronoi::circumcircles(cloud, triangulation);
-  const auto cells = voronoi::constrained_cells(cloud, triangulation, circles);
-  const auto means = face_means(cloud, triangulation, circles, cells, options_.functions,
-                                options_.gauss_points, options_.space);
-  const auto faces = faces_of_cells(cells);
+  const Diagram diagram(cloud);
+  const FaceMeans means = face_means(cloud, diagram.triangulation, diagram.circles, diagram.cells,
+                                     options_.functions, options_.gauss_points, options_.space);
+  return integrate_at_nodes(cloud, diagram, means, options_.functions, options_.space);
+}
 
+Diagram::Diagram(const Cloud<2>& cloud)
+    : triangulation(voronoi::triangulate(cloud)), circles(voronoi::circumcircles(cloud, triangulation)),
+      cells(voronoi::constrained_cells(cloud, triangulation, circles)) {}
+
+Approximation<2> integrate_at_nodes(const Cloud<2>& cloud, const Diagram& diagram, const FaceMeans& means,
+                                    Functions at_centroids, Space space) {
+  const auto& [triangulation, circles, cells] = diagram;
+  const auto faces = faces_of_cells(cells);
   Approximation<2> result;
-  if (options_.space == Space::revolution) {
-    const auto values = centroid_values(cloud, triangulation, circles, cells, options_.functions);
+  if (space == Space::revolution) {
+    const auto values = centroid_values(cloud, triangulation, circles, cells, at_centroids);
     result.mechanics = smoothed_gradients<2>(cloud, cells, faces, means, &values);
   } else {
     result.mechanics = smoothed_gradients<2>(cloud, cells, faces, means);
   }
-  result.conduction = voronoi::linear_simplices<2>(cloud, triangulation.node, options_.space);
+  result.conduction = voronoi::linear_simplices<2>(cloud, triangulation.node, space);
   result.links = stabilisation_links<2>(cloud, cells, faces);
-  if (options_.space == Space::revolution) revolve(result.mechanics.radius, result.links);
+  if (space == Space::revolution) revolve(result.mechanics.radius, result.links);
   result.node_volume = result.mechanics.volume;
   result.cells = voronoi::cell_geometry(cloud, triangulation, circles, cells);
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 // The constrained natural element method: smoothed gradients on constrained Voronoi cells by stabilised
 // conforming nodal integration (paper 004, section 5.3 and (75)–(79)).
+#include "cnem/quadrature.hpp"
 #include "core/geometry/revolution.hpp"
 #include "core/operators/discretisation.hpp"
 #include "voronoi/natural_neighbours.hpp"
@@ -16,6 +17,23 @@ struct Options {
   int gauss_points = 2;
   Space space = Space::plane; ///< of revolution at least 2 Gauss points are taken
 };
+
+/// Throws InputError unless there are 1, 2 or 3.
+void check_gauss_points(int gauss_points);
+
+/// The constrained Voronoi diagram of a cloud. Throws GeometryError as voronoi::triangulate does.
+struct Diagram {
+  voronoi::Triangulation triangulation;
+  voronoi::Circumcircles circles;
+  voronoi::Cells cells;
+
+  explicit Diagram(const Cloud<2>& cloud);
+};
+
+/// Everything that nodal integration on the cells of a diagram makes of the means of functions on their inner
+/// faces (face_means); of revolution also of functions at the centroids of cells.
+Approximation<2> integrate_at_nodes(const Cloud<2>& cloud, const Diagram& diagram, const FaceMeans& means,
+                                    Functions at_centroids, Space space);
 
 /// C-NEM: rows are nodes with their constrained Voronoi cells, N is the identity, and
 ///   b_iJ = 1/V_i ∮ φ_J n dΓ

@@ -82,7 +82,19 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
                     "found a fixed step and a least step, expected one of them");
 }
 
-void read_method(const Setting& root, Case& result) {
+void read_zone(Setting& root, Case& result, Diagnostics& diagnostics) {
+  if (result.cloud.spacing > 0.0) root.set_default("method.zone_spacing", 0.75 * result.cloud.spacing);
+  const Setting& table = *root.find("method");
+  if (const auto spacing = table.maybe<double>("zone_spacing"))
+    result.method.options.zone_spacing = *spacing;
+  else
+    diagnostics.add(Mistake::missing_key, table.where, "method.zone_spacing",
+                    "missing, expected " + find_key("method.zone_spacing")->expectation() +
+                        ": a list of nodes has no cloud.spacing to take it from");
+}
+
+void read_method(Setting& root, Case& result, Diagnostics& diagnostics) {
+  if (root.get<std::string>("method.name") == "hybrid") read_zone(root, result, diagnostics);
   const Setting& table = *root.find("method");
   Method& method = result.method;
   method.name = table.get<std::string>("name");
@@ -197,7 +209,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   read_boundary(root, result, diagnostics);
   read_periodic(root, result, diagnostics);
   read_initial_and_loads(root, result, diagnostics);
-  read_method(root, result);
+  read_method(root, result, diagnostics);
   if (plane) {
     read_adaptation(root, result, diagnostics);
     read_fracture(root, result, diagnostics);

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "methods/fe_simplices.hpp"
+#include "methods/hybrid.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,11 @@ constexpr std::array list{
           [](const Options& o) -> Made<3> { return std::make_unique<FeTetrahedra>(o.tetrahedra); }},
     Entry{"sph", Sph::promised,
           [](const Options& o) -> Made<2> { return std::make_unique<Sph>(o.kernel, o.smoothing); }, nullptr},
+    Entry{"hybrid", Hybrid::promised,
+          [](const Options& o) -> Made<2> {
+            return std::make_unique<Hybrid>(o.zone_spacing, o.gauss_points, o.space);
+          },
+          nullptr},
 };
 
 std::vector<std::string> names_where(auto&& wanted) {

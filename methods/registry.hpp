@@ -19,7 +19,8 @@ struct Options {
   scni::Functions functions = scni::Functions::sibson;
   int gauss_points = 2; ///< per edge of a Voronoi cell, 1 to 3
   Kernel kernel = Kernel::cubic_spline;
-  double smoothing = 2.4; ///< – support of the kernel in spacings, 1.5 to 5
+  double smoothing = 2.4;    ///< – support of the kernel in spacings, 1.5 to 5
+  double zone_spacing = 0.0; ///< m: natural elements of the hybrid where nodes are as close as this
   Space space = Space::plane;
   std::vector<voronoi::Simplex<3>> tetrahedra{}; ///< in space: the mesh that tiles the domain
 };

@@ -244,14 +244,15 @@ void NaturalNeighbours::evaluate(Functions functions, const Vec2& x, SimplexInde
   if (!at.inside)
     throw GeometryError(fmt::format("the point ({:.9g}, {:.9g}) m lies outside the domain", x.x(), x.y()));
   // Only rounding in triangles of hardly any area gets x lost once it is located.
-  if (!finish(collect(x, at.triangle, true), functions)) linear_on(at);
+  if (functions == Functions::linear || !finish(collect(x, at.triangle, true), functions)) linear_on(at);
   assert(part_unity(value_));
 }
 
 void NaturalNeighbours::evaluate_on_facet(Functions functions, const Vec2& x,
                                           const std::array<SimplexIndex, 2>& triangle) {
   for (const SimplexIndex t : triangle)
-    if (exists(t) && in_circle(t, x) && finish(collect(x, t, false), functions)) {
+    if (functions != Functions::linear && exists(t) && in_circle(t, x) &&
+        finish(collect(x, t, false), functions)) {
       assert(part_unity(value_));
       return;
     }
@@ -262,6 +263,10 @@ void NaturalNeighbours::evaluate_with_gradients(Functions functions, const Vec2&
   const Location at = locate(cloud_, mesh_, x, hint);
   if (!at.inside)
     throw GeometryError(fmt::format("the point ({:.9g}, {:.9g}) m lies outside the domain", x.x(), x.y()));
+  if (functions == Functions::linear) {
+    linear_on(at);
+    return linear_gradients_on(at.triangle);
+  }
   const Outcome outcome = collect(x, at.triangle, true);
   const bool found = finish(outcome, functions);
   if (!found) linear_on(at);

@@ -11,7 +11,8 @@
 namespace cnem::voronoi {
 
 /// Sibson: ratios of stolen areas, C¹ but at nodes. Laplace (non-Sibson): ratios of facet to distance, C⁰.
-enum class Functions { sibson, laplace };
+/// Linear: those of the Delaunay triangle, with the same properties but fewer neighbours.
+enum class Functions { sibson, laplace, linear };
 
 /// Evaluates shape functions on one triangulation. Cheap to construct; holds references and scratch memory,
 /// so use one per thread. Nothing is allocated in an evaluation once the scratch has grown to the largest

@@ -9,8 +9,9 @@ void add_method(Keys& k) {
   using enum Type;
   k.add("method", table, "How it is solved.").always();
   k.add("method.name", choice,
-        "Constrained natural elements, linear triangles, or total-Lagrangian corrected particles (SPH): "
-        "docs/methods.md.")
+        "Constrained natural elements, linear triangles, total-Lagrangian corrected particles (SPH), or "
+        "natural "
+        "elements where the cloud is fine and triangles beyond (hybrid): docs/methods.md.")
       .one_of(methods::names_in(2))
       .in_space_one_of(methods::names_in(3))
       .fallback("\"cnem\"");
@@ -18,7 +19,7 @@ void add_method(Keys& k) {
       .one_of({"sibson", "laplace"})
       .fallback("\"sibson\"");
   k.add("method.gauss_points", integer,
-        "Per edge of a Voronoi cell (cnem); axisymmetric analyses take at least 2.")
+        "Per edge of a Voronoi cell (cnem, hybrid); axisymmetric analyses take at least 2.")
       .in({.low = 1, .high = 3})
       .fallback("2");
   k.add("method.kernel", choice, "Kernel of the particles.")
@@ -32,18 +33,27 @@ void add_method(Keys& k) {
       .in({.low = 1.5, .high = 5.0})
       .fallback("2.4")
       .when("name", {"sph"});
-  k.add("method.stabilisation", quantity, "Factor of the edge-defect stabilisation; 0: off (cnem, sph).")
+  k.add("method.zone_spacing", quantity,
+        "Natural elements where all edges of a triangle between nodes are at most so long, linear triangles "
+        "beyond: with adaptation the zone follows the tool and what flows.")
+      .unit(dimension::length)
+      .in(not_negative)
+      .when("name", {"hybrid"})
+      .example("\"0.1 mm\"")
+      .computed("three quarters of `cloud.spacing`");
+  k.add("method.stabilisation", quantity,
+        "Factor of the edge-defect stabilisation; 0: off (cnem, sph, hybrid).")
       .in(not_negative)
       .example("0.1")
       .computed("0.05; in axisymmetric analyses 0.2");
   k.add("method.pressure_exchange", quantity,
         "Factor of the exchange of volume between flowing neighbours, which smooths their pressure; 0: off "
-        "(cnem, sph). 0.3 to 2 where pressures matter: docs/pressure_exchange.md.")
+        "(cnem, sph, hybrid). 0.3 to 2 where pressures matter: docs/pressure_exchange.md.")
       .in(not_negative)
       .fallback("0.0");
   k.add("method.stress_annealing", quantity,
         "Strength of the annealing of stresses on new references where the metal has lately ceased to flow, "
-        "which takes the noise out of residual stresses; 0: off (cnem, sph). 1 where these matter: "
+        "which takes the noise out of residual stresses; 0: off (cnem, sph, hybrid). 1 where these matter: "
         "docs/pressure_exchange.md.")
       .in(not_negative)
       .fallback("0.0");

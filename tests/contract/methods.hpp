@@ -1,6 +1,6 @@
 #pragma once
 // Every discretisation that has to keep the contract: all of the registry in each dimension it exists in,
-// C-NEM and SPH with all their options.
+// C-NEM and SPH with all their options, the hybrid with both kinds of functions.
 #include "domains.hpp"
 #include "methods/registry.hpp"
 
@@ -48,6 +48,7 @@ inline std::vector<Method> methods(Space space = Space::plane) {
         list.push_back({methods::make<2>(entry.name, options)->name(), &entry, options});
       }
     } else {
+      options.zone_spacing = 0.13; // m: jittered domains are split by it
       std::string name(entry.name);
       std::replace(name.begin(), name.end(), '-', '_');
       for (const int dim : {2, 3})

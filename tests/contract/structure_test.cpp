@@ -183,8 +183,8 @@ TEST_P(Contract, rebuilding_on_a_used_object_gives_the_bits_of_a_fresh_one) {
 
 TEST_P(Contract, operators_move_and_turn_with_the_cloud) {
   on_every_domain([]<int dim>(const Domain<dim>& domain, const Approximation<dim>& before) {
-    // Where nodes are cocircular the triangles may flip, which cells and their functions do not notice.
-    if (domain.ties && !before.mechanics.nodal) return;
+    // Where nodes are cocircular the triangles may flip, which cells and natural neighbours do not notice.
+    if (domain.ties && (!before.mechanics.nodal || GetParam().entry->name == "hybrid")) return;
     Cloud<dim> moved = domain.cloud;
     for (Vec<dim>& x : moved.position) x = rotation<dim>() * x + Vec<dim>::LinSpaced(0.4, -0.9);
     const auto after = GetParam().make(domain)->rebuild(moved);

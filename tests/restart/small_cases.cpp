@@ -368,7 +368,8 @@ const std::vector<SmallCase>& small_cases() {
       {"set_back_triangles", set_back_in_triangles(set_back)},
       {"touching_triangles", with_method(touching, "name = \"fe-triangles\"\n")},
       {"space", space_case()},
-      {"rolled", adapted + rolled}};
+      {"rolled", adapted + rolled},
+      {"hybrid", with_method(adapted, "name = \"hybrid\"\n")}};
   return cases;
 }
 

@@ -100,6 +100,13 @@ TEST(TaylorBar, plane_strain_slab) {
   expect_within(particles.centre, shape.centre, 0.15,
                 "plastic strain of particles"); // elsewhere: docs/methods.md
   EXPECT_LT(particles.residual, 1e-3);
+
+  // Triangles everywhere: integrated at nodes they do not lock.
+  const Shape triangles = run("taylor_slab_copper", "0.32 mm", "hybrid");
+  expect_within(triangles.length, shape.length, 0.001, "length of nodal triangles");
+  expect_within(triangles.radius, shape.radius, 0.01, "half width of nodal triangles");
+  expect_within(triangles.centre, shape.centre, 0.05, "plastic strain of nodal triangles");
+  EXPECT_LT(triangles.residual, 1e-3);
 }
 
 /// Length and half width or radius of a run with triangles as a user makes it, m.

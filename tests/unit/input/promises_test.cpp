@@ -74,11 +74,13 @@ TEST(Promises, identity_holds_one_point_per_node_and_interpolation_in_it) {
 using Names = std::vector<std::string>;
 
 TEST(Registry, names_methods_and_refuses_others) {
-  EXPECT_EQ(methods::names_in(2), (Names{"cnem", "fe-triangles", "sph"}));
+  EXPECT_EQ(methods::names_in(2), (Names{"cnem", "fe-triangles", "sph", "hybrid"}));
   EXPECT_EQ(methods::names_in(3), Names{"fe-tetrahedra"});
-  EXPECT_EQ(methods::names().size(), 4U);
-  EXPECT_EQ(methods::names_that_keep(Promise::balanced_constant_stress, 2), (Names{"cnem", "fe-triangles"}));
-  EXPECT_EQ(methods::names_that_keep(Promise::carried_history, 2), (Names{"cnem", "fe-triangles", "sph"}));
+  EXPECT_EQ(methods::names().size(), 5U);
+  EXPECT_EQ(methods::names_that_keep(Promise::balanced_constant_stress, 2),
+            (Names{"cnem", "fe-triangles", "hybrid"}));
+  EXPECT_EQ(methods::names_that_keep(Promise::carried_history, 2),
+            (Names{"cnem", "fe-triangles", "sph", "hybrid"}));
   EXPECT_EQ(methods::names_that_keep(Promise::hoop_rows, 3), Names{});
   EXPECT_THROW(methods::entry("sphe"), InputError);
 }
@@ -95,7 +97,7 @@ TEST(Registry, refuses_methods_that_do_not_exist_in_the_dimension) {
   EXPECT_EQ(refusal<2>("fe-triangles"), "");
   EXPECT_EQ(refusal<3>("cnem"), "found method 'cnem' in 3 dimensions, expected one of fe-tetrahedra");
   EXPECT_EQ(refusal<2>("fe-tetrahedra"),
-            "found method 'fe-tetrahedra' in 2 dimensions, expected one of cnem, fe-triangles, sph");
+            "found method 'fe-tetrahedra' in 2 dimensions, expected one of cnem, fe-triangles, sph, hybrid");
   EXPECT_NE(refusal<3>("fe-tetrahedra").find("found no tetrahedra"), std::string::npos);
 }
 
@@ -107,6 +109,13 @@ TEST(CaseReader, particles_have_a_kernel_and_its_support) {
   EXPECT_EQ(chosen.method.options.kernel, methods::Kernel::wendland_c2);
   EXPECT_EQ(chosen.method.options.smoothing, 3.0);
   EXPECT_EQ(methods::make<2>(chosen.method.name, chosen.method.options)->name(), "sph_wendland_c2");
+}
+
+TEST(CaseReader, the_zone_of_natural_elements_is_where_the_cloud_is_finer) {
+  const Case plain = read_small("[method]\nname = \"hybrid\"\n");
+  EXPECT_EQ(plain.method.options.zone_spacing, 0.75 * plain.cloud.spacing);
+  const Case chosen = read_small("[method]\nname = \"hybrid\"\nzone_spacing = \"0.1 mm\"\n");
+  EXPECT_EQ(chosen.method.options.zone_spacing, 1e-4);
 }
 
 TEST(Promises, a_case_that_its_method_alone_refuses_is_told_from_a_wrong_one) {

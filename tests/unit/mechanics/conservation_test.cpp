@@ -53,7 +53,7 @@ TEST_P(Conservation, plastic_impact_closes_the_ledger) {
 }
 
 INSTANTIATE_TEST_SUITE_P(methods, Conservation,
-                         ::testing::Values(Method::cnem, Method::triangles, Method::sph));
+                         ::testing::Values(Method::cnem, Method::triangles, Method::sph, Method::hybrid));
 
 } // namespace
 } // namespace cnem::testing

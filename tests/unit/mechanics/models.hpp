@@ -3,6 +3,7 @@
 #include "cnem/scni.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "methods/fe_simplices.hpp"
+#include "methods/hybrid.hpp"
 #include "methods/sph.hpp"
 #include "plasticity/hardening_laws.hpp"
 #include "tests/clouds.hpp"
@@ -16,14 +17,17 @@ namespace cnem::testing {
 
 using namespace literals;
 
-enum class Method { cnem, triangles, sph };
+enum class Method { cnem, triangles, sph, hybrid };
 inline void PrintTo(Method method, std::ostream* out) {
-  *out << (method == Method::cnem ? "cnem" : method == Method::sph ? "sph" : "triangles");
+  const char* const names[] = {"cnem", "triangles", "sph", "hybrid"};
+  *out << names[static_cast<int>(method)];
 }
 
 inline std::unique_ptr<Discretisation<2>> make(Method method, Space space = Space::plane) {
   if (method == Method::triangles) return std::make_unique<methods::FeTriangles>(space);
   if (method == Method::sph) return std::make_unique<methods::Sph>();
+  if (method == Method::hybrid) // both kinds of functions in a jittered cloud of 1 mm
+    return std::make_unique<methods::Hybrid>(1.1e-3, 2, space);
   return std::make_unique<scni::Cnem>(scni::Options{.space = space});
 }
 

@@ -75,7 +75,7 @@ TEST_P(Patch, affine_through_new_references) {
   EXPECT_EQ(solver.references(), 1 + steps / 50);
 }
 
-INSTANTIATE_TEST_SUITE_P(patch, Patch, ::testing::Values(Method::cnem, Method::triangles));
+INSTANTIATE_TEST_SUITE_P(patch, Patch, ::testing::Values(Method::cnem, Method::triangles, Method::hybrid));
 
 } // namespace
 } // namespace cnem::testing

@@ -291,7 +291,8 @@ TEST_P(Revolution, bound_on_the_step_holds_and_is_not_far) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(methods, Revolution, ::testing::Values(Method::cnem, Method::triangles));
+INSTANTIATE_TEST_SUITE_P(methods, Revolution,
+                         ::testing::Values(Method::cnem, Method::triangles, Method::hybrid));
 
 } // namespace
 } // namespace cnem::testing
