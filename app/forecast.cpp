@@ -44,7 +44,7 @@ void add_nodes(const input::Case& input, double spacing, Forecast& expected) {
     expected.nodes_first += corners * around_a_corner(*rules.tool_spacing, spacing, rules.growth);
   }
   // A band: shear plane and contact of the chip, else through the workpiece; what flows of its surface.
-  const double band = cutting ? 3.0 * cutting->feed : least_side(input.domain.outer);
+  const double band = cutting ? 4.5 * cutting->feed : least_side(input.domain.outer);
   double refined = 0.0;
   if (rules.indicator) refined = band * beside_a_line(rules.h_min, rules.h_max, rules.growth);
   if (rules.surface_spacing)
