@@ -99,6 +99,8 @@ Adaptation::Adaptation(const input::Case& input, const ExplicitSolver<2>& solver
   wanted_ = size_ = adapt::spacing_of(cloud, adapt::build_structure(cloud, input.analysis.space()));
   birth_.assign(size_.size(), 0.0);
   corner_ = corners(cloud);
+  if (follows_flow()) flow_ = adapt::Flow(size_.size());
+  if (input.adapt.rest_factor > 0.0) first_ = size_;
   coarsest_ = input.cloud.spacing > 0.0 ? input.cloud.spacing : *std::max_element(size_.begin(), size_.end());
 }
 
@@ -164,6 +166,33 @@ void Adaptation::estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<
   error_norm_ = estimate.norm;
 }
 
+Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
+                                 const adapt::Structure& structure) const {
+  const input::Adaptation& rules = input_->adapt;
+  Field wanted = size_;
+  if (rules.rest_factor > 0.0) {
+    constexpr double least = 0.01; // what was strained less has not flowed
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (flow_.rests(i) && solver.state().point.plastic_strain[i] > least)
+        wanted[i] = std::max(wanted[i], rules.rest_factor * first_[i]);
+  }
+  if (rules.surface_spacing) {
+    IndexedVector<NodeIndex, char> free(wanted.size(), 0);
+    for (const CloudFacetIndex f : cloud.facets.indices())
+      if (cloud.mates.empty() || !exists(cloud.mates[f]))
+        for (const NodeIndex i : cloud.facets[f].node) free[i] = 1;
+    for (const auto& held : solver.conditions().supports.prescribed()) free[held.node] = 0;
+    for (const NodeIndex i : free.indices())
+      if (free[i] && !flow_.rests(index_of(i)))
+        wanted[index_of(i)] = std::min(wanted[index_of(i)], *rules.surface_spacing);
+  }
+  if (!tips_.empty())
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      wanted[i] = std::min(wanted[i], tool_limit(solver, cloud.position[i]));
+  adapt::limit_growth(cloud, structure, rules.growth, wanted);
+  return wanted;
+}
+
 double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   adapt::PassReport report;
   double changed = 0.0;
@@ -171,17 +200,15 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   part_faces(cloud, solver.conditions().ties,
              input_->adapt.separate ? Field(solver.state().point.softening) : Field());
   const Field size_before = size_;
+  const adapt::Flow flow_before = flow_;
   const results::Audit before = results::audit(solver);
   try {
     std::optional<adapt::Structure> structure = adapt::structure_if_valid(cloud, input_->analysis.space());
     Field wanted = wanted_; // where nodes have passed each other there is nothing to estimate on
     if (structure) {
       if (input_->adapt.indicator) estimate_and_mark(solver, cloud, *structure);
-      wanted = size_;
-      if (!tips_.empty())
-        for (std::size_t i = 0; i < wanted.size(); ++i)
-          wanted[i] = std::min(wanted[i], tool_limit(solver, cloud.position[i]));
-      adapt::limit_growth(cloud, *structure, input_->adapt.growth, wanted);
+      if (follows_flow()) flow_.look(solver.state().point, *structure, solver.state().time);
+      wanted = wanted_spacing(solver, cloud, *structure);
     }
     adapt::ResampleRules rules;
     rules.space = input_->analysis.space();
@@ -200,6 +227,7 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
     changed = static_cast<double>(came + went) / static_cast<double>(change.old_of.size());
   } catch (const GeometryError&) {
     size_ = size_before;
+    flow_ = flow_before;
     throw;
   }
   ++passes_;
@@ -230,8 +258,9 @@ void Adaptation::balance(ExplicitSolver<2>& solver) {
 }
 
 void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
-  for (Field* label : {&error_, &size_, &wanted_, &birth_})
+  for (Field* label : {&error_, &size_, &first_, &wanted_, &birth_})
     if (!label->empty()) carry_label(change.labels, *label);
+  if (follows_flow()) flow_.resample(change);
   IndexedVector<NodeIndex, std::int32_t> corner(change.old_of.size(), 0);
   for (std::size_t p = 0; p < corner.size(); ++p)
     if (exists(change.old_of[p]))
@@ -306,6 +335,11 @@ void Adaptation::archive(Archive& archive) {
     archive.number("run/adapt/error_norm", "m", error_norm_);
     error_.resize(corner_.size());
     archive.field("run/adapt/error", "m", error_);
+  }
+  if (follows_flow()) flow_.archive(archive, corner_.size());
+  if (input_->adapt.rest_factor > 0.0) {
+    if (archive.loading()) first_.resize(corner_.size());
+    archive.field("run/adapt/first", "m", first_);
   }
   archive.field("run/adapt/size", "m", size_);
   archive.field("run/adapt/wanted", "m", wanted_);

@@ -1,5 +1,6 @@
 #pragma once
 // Estimate, mark, resample, transfer: what happens to the cloud at a new reference.
+#include "adapt/flow.hpp"
 #include "adapt/marking.hpp"
 #include "adapt/resample.hpp"
 #include "input/case.hpp"
@@ -50,8 +51,12 @@ public:
 private:
   void estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
                          const adapt::Structure& structure);
+  /// m, [node] the spacing that marks, flow, tools and growth ask for.
+  Field wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
+                       const adapt::Structure& structure) const;
   /// Takes over to a changed cloud what this object knows of nodes.
   void follow_nodes(const Resampling<2>& change, double time);
+  bool follows_flow() const { return input_->adapt.surface_spacing || input_->adapt.rest_factor > 0.0; }
   double tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) const;
   adapt::NodeProperties properties(const ExplicitSolver<2>& solver, Field wanted) const;
 
@@ -59,6 +64,8 @@ private:
   Field size_, birth_;    ///< [node] m, wanted spacing before tools and growth; s, when it was inserted
   Field wanted_;          ///< [node] m, wanted spacing of the last pass
   Field error_;           ///< [node] indicator at the last new reference; empty before the first estimate
+  adapt::Flow flow_;      ///< where surface_spacing or rest_factor ask for it
+  Field first_;           ///< [node] m, spacing at the start; with rest_factor
   double coarsest_ = 0.0; ///< m, the spacing of level 0
   std::vector<std::vector<Vec2>> tips_;           ///< [tool] m, points of its corners and arcs at time 0
   double error_total_ = 0.0, error_norm_ = 0.0;   ///< of the last estimate

@@ -40,15 +40,17 @@ void add_nodes(const input::Case& input, double spacing, Forecast& expected) {
     const double corners = cutting ? 1.0 : static_cast<double>(input.tools.size());
     expected.nodes_first += corners * around_a_corner(*rules.tool_spacing, spacing, rules.growth);
   }
-  if (rules.indicator) { // a band: shear plane and contact of the chip, else through the workpiece
-    const double band = cutting ? 3.0 * cutting->feed : least_side(input.domain.outer);
-    expected.nodes_first += band * beside_a_line(rules.h_min, rules.h_max, rules.growth);
-  }
-  expected.nodes_last = expected.nodes_first;
-  if (!cutting) return;
+  // A band: shear plane and contact of the chip, else through the workpiece; what flows of its surface.
+  const double band = cutting ? 4.5 * cutting->feed : least_side(input.domain.outer);
+  double refined = 0.0;
+  if (rules.indicator) refined = band * beside_a_line(rules.h_min, rules.h_max, rules.growth);
+  if (rules.surface_spacing)
+    refined = std::max(refined, 0.4 * band * beside_a_line(*rules.surface_spacing, spacing, rules.growth));
+  expected.nodes_last = expected.nodes_first += refined;
+  if (!cutting || rules.rest_factor > 0.0) return; // what rests takes as many as the cloud had there
+  const double way = std::min(cutting->length, input.time.end * cutting->speed);
   // Cells that were made fine stay within 0.4 of what is wanted there: along the machined surface, and in
   // the chip, which a quarter more than the finest spacing was measured in.
-  const double way = std::min(cutting->length, input.time.end * cutting->speed);
   expected.nodes_last += 0.5 * way * beside_a_line(0.4 * spacing, spacing, rules.growth);
   if (rules.indicator)
     expected.nodes_last += way * cutting->feed / (hexagon * std::pow(1.25 * rules.h_min, 2));
@@ -79,6 +81,8 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
       const double coarse = expected.finest;
       if (input.adapt.tool_spacing && !input.tools.empty())
         expected.finest = std::min(expected.finest, *input.adapt.tool_spacing);
+      if (input.adapt.surface_spacing)
+        expected.finest = std::min(expected.finest, *input.adapt.surface_spacing);
       if (input.adapt.indicator) expected.finest = std::min(expected.finest, input.adapt.h_min);
       if (!input.time.fixed) step *= expected.finest / coarse;
     }

@@ -221,7 +221,9 @@ struct Adaptation {
   adapt::Placement placement = adapt::Placement::between_nodes;
   int quiet_every = 0; ///< steps between passes at most, where they change hardly anything; 0: as ever
   double growth = 0.3; ///< – of the wanted spacing per distance
-  std::optional<double> tool_spacing;               ///< m, at corners and arcs of tools
+  std::optional<double> tool_spacing;    ///< m, at corners and arcs of tools
+  std::optional<double> surface_spacing; ///< m, of free surfaces that flow
+  double rest_factor = 0.0; ///< – of the first spacing, for what has flowed and rests; 0: it keeps its own
   const adapt::IndicatedField* indicator = nullptr; ///< null: the spacing stays
   double tolerance = 0.1;          ///< – of the norm of the field, shared out among the cells
   double coarsen = 0.05;           ///< – of the limit; 0: never

@@ -21,6 +21,8 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   rules.quiet_every = static_cast<int>(table.get<std::int64_t>("quiet_every"));
   rules.growth = table.get<double>("growth");
   rules.tool_spacing = table.maybe<double>("tool_spacing");
+  rules.surface_spacing = table.maybe<double>("surface_spacing");
+  rules.rest_factor = table.get<double>("rest_factor");
   rules.indicator = adapt::indicated_field(table.get<std::string>("indicator.field"));
   rules.tolerance = table.get<double>("indicator.tolerance");
   rules.coarsen = table.get<double>("indicator.coarsen");
@@ -77,6 +79,14 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
           "adapt.tool_spacing",
           "found a spacing at tools where adapt.resample is false, expected true: without resampling no node "
           "is added");
+    if (rules.surface_spacing)
+      conflict("adapt.surface_spacing",
+               "found a spacing of surfaces where adapt.resample is false, expected true: without resampling "
+               "no node is added");
+    if (rules.rest_factor > 0.0)
+      conflict("adapt.rest_factor",
+               "found a spacing of matter at rest where adapt.resample is false, expected true: without "
+               "resampling no node is removed");
     for (const FieldInfo<2>& field : field_catalogue<2>())
       if (field.adaptive &&
           std::find(result.output.picture_fields.begin(), result.output.picture_fields.end(), field.name) !=

@@ -159,7 +159,8 @@ const std::vector<Pair>& pairs() {
        "\"periodic\"", "nodes are changed at a new reference", resampled},
       {"time.mass_scaling.step", "a step", "refinement",
        [](const Case& c) {
-         const bool refines = resampled(c) && (c.adapt.indicator || c.adapt.tool_spacing);
+         const bool refines =
+             resampled(c) && (c.adapt.indicator || c.adapt.tool_spacing || c.adapt.surface_spacing);
          return when(refines && c.time.mass_scaling, "for a cloud that is refined");
        },
        "time.mass_scaling.factor", "the factors of the first cloud do not bring finer cells to that step",

@@ -15,16 +15,20 @@ constexpr double pi = std::numbers::pi;
 
 /// Sizes in feeds; docs/cutting.md says why.
 namespace feeds {
-constexpr double below = 5.0;   ///< matter under the cut
-constexpr double ahead = 8.0;   ///< and beyond its end, up to the support
-constexpr double beyond = 4.0;  ///< way of the tool after it has left
-constexpr double faces = 10.0;  ///< of the tool, on top of the length of cut
-constexpr double layer = 0.5;   ///< depth of fine cells under the cut
-constexpr double coarse = 0.5;  ///< spacing away from the cut
-constexpr double fine = 0.2;    ///< spacing of what becomes the chip
-constexpr double finest = 0.05; ///< spacing where it flows, by the indicator
-constexpr double a_row = 0.05;  ///< way of the tool between rows of the history
+constexpr double below = 5.0;          ///< matter under the cut
+constexpr double ahead = 8.0;          ///< and beyond its end, up to the support
+constexpr double beyond = 4.0;         ///< way of the tool after it has left
+constexpr double faces = 10.0;         ///< of the tool, on top of the length of cut
+constexpr double layer = 0.5;          ///< depth of fine cells under the cut
+constexpr double coarse = 0.5;         ///< spacing away from the cut
+constexpr double fine = 0.2;           ///< spacing of what becomes the chip
+constexpr double finest = 0.05;        ///< spacing where it flows, by the indicator
+constexpr double surface = 1.0 / 17.0; ///< spacing of free surfaces that flow
+constexpr double a_row = 0.05;         ///< way of the tool between rows of the history
 } // namespace feeds
+
+/// Spacing of what has flowed and rests, over that of the cloud there.
+constexpr double rest_factor = 1.5;
 
 /// Radius at the ends of a land over its width, unless it is given.
 constexpr double sharpest = 0.2;
@@ -118,11 +122,13 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
     text += fmt::format("[output.windows.tool]\nbox = [{}, {}]\n", point({way - 6.0 * f, -2.0 * f}),
                         point({way + 4.0 * f, 6.0 * f}));
   if (parts.resampling)
-    text += "[method]\npressure_exchange = 2.0\nstress_annealing = 1.0\n"
-            "[method.rereference]\nevery = 100\nstrain = 0.25\n" +
-            fmt::format("[adapt]\nresample = true\ntool_spacing = {}\n", length(0.25 * cut.edge_radius)) +
-            fmt::format("[adapt.indicator]\nfield = \"plastic_power\"\nh_min = {}\nh_max = {}\n",
-                        length(feeds::finest * f), length(feeds::fine * f));
+    text +=
+        "[method]\npressure_exchange = 2.0\nstress_annealing = 1.0\n"
+        "[method.rereference]\nevery = 400\nstrain = 0.25\n" +
+        fmt::format("[adapt]\nresample = true\ntool_spacing = {}\nsurface_spacing = {}\nrest_factor = {}\n",
+                    length(0.25 * cut.edge_radius), length(feeds::surface * f), format_number(rest_factor)) +
+        fmt::format("[adapt.indicator]\nfield = \"plastic_power\"\nh_min = {}\nh_max = {}\n",
+                    length(feeds::finest * f), length(feeds::fine * f));
   return text;
 }
 

@@ -257,7 +257,7 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
   const PageTexts texts = pages.write(runs);
   results::write_atomically(table, texts.table);
   results::write_atomically(report, texts.report);
-  if (pages.warn) pages.warn(runs);
+  if (pages.tell) pages.tell(runs);
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (runs[k].state == State::failed)
       fmt::print(stderr, "failed: {}: {} (exit code {}, log {})\n", study.runs[k].name, runs[k].reason,

@@ -48,7 +48,8 @@ struct Pages {
   std::string kind;          ///< in words: "sweep"
   std::string table, report; ///< names of the files
   std::function<PageTexts(const std::vector<RunRecord>&)> write;
-  std::function<void(const std::vector<RunRecord>&)> warn = nullptr; ///< of what users may have misspelt
+  /// Prints what users shall see in the end: results, and what they may have misspelt.
+  std::function<void(const std::vector<RunRecord>&)> tell = nullptr;
 };
 
 /// Runs what the folder does not hold yet and writes manifest.json, the table and the report. Runs that were

@@ -273,11 +273,13 @@ void read_charts(const input::Value& list, Study& study, input::Diagnostics& dia
                       fmt::format("found {}, expected tables with x and y", entry.show()));
       continue;
     }
-    TableReader table(entry, "charts.", {"x", "y"}, diagnostics);
+    TableReader table(entry, "charts.", {"x", "y", "extrapolate"}, diagnostics);
     StudyChart chart;
     chart.where = entry.where;
     if (table.require("x", Kind::text, "a key of the grid or a column")) chart.x = table.text("x");
     if (table.require("y", Kind::array, "a list of columns")) chart.y = table.texts("y");
+    if (const input::Value* value = table.find("extrapolate", Kind::boolean, "true or false"))
+      chart.extrapolate = value->boolean;
     if (!chart.x.empty()) check_column(chart.x, entry.where, "charts.x", study.keys, diagnostics);
     for (const std::string& column : chart.y) check_column(column, entry.where, "charts.y", {}, diagnostics);
     check_axis(study, chart, diagnostics);

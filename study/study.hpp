@@ -25,6 +25,7 @@ struct StudyChart {
   std::string x; ///< a key of the grid or a column
   std::vector<std::string> y;
   input::Location where;
+  bool extrapolate = false; ///< curves go on to x = 0
 };
 
 struct Study {

@@ -58,7 +58,11 @@ Exit sweep(const Study& study, const BatchOptions& options) {
                           return PageTexts{sweep_table(study, runs),
                                            sweep_report(study, runs, options.output, options.version)};
                         },
-                    .warn = [&](const Runs& runs) { warn_of_absent_numbers(study, runs); }});
+                    .tell =
+                        [&](const Runs& runs) {
+                          warn_of_absent_numbers(study, runs);
+                          fmt::print("{}", extrapolations(study, runs));
+                        }});
 }
 
 } // namespace cnem::study

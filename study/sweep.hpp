@@ -19,6 +19,11 @@ std::vector<std::string> table_columns(const Study& study, const std::vector<Run
 /// A number of a status by its dotted name: "nodes", "metrics.K_I.right". None when the status lacks it.
 std::optional<double> status_number(const results::RunStatus& status, const std::string& name);
 
+/// What the curves of charts that are extrapolated come to at x = 0, a line of text each: the straight line
+/// through the two points nearest to it, for errors in proportion to a spacing. Curves of one point have
+/// none.
+std::string extrapolations(const Study& study, const std::vector<RunRecord>& runs);
+
 /// table.csv, as csv_table() writes it.
 std::string sweep_table(const Study& study, const std::vector<RunRecord>& runs);
 

@@ -48,6 +48,22 @@ std::string x_label(const Study& study, const std::string& x) {
   return column_name(x);
 }
 
+/// Continues a curve to x = 0, and says where it comes to; nothing where it has no two points to go by.
+std::string extrapolate(report::ChartSeries& line, const std::string& name) {
+  std::vector<std::size_t> known;
+  for (std::size_t k = 0; k < line.x.size(); ++k)
+    if (line.x[k] > 0.0 && line.y[k] == line.y[k] && (known.empty() || line.x[k] > line.x[known.back()]))
+      known.push_back(k);
+  if (known.size() < 2) return "";
+  const double x = line.x[known[0]], y = line.y[known[0]], dx = line.x[known[1]] - x,
+               dy = line.y[known[1]] - y, limit = y - dy / dx * x;
+  line.x.insert(line.x.begin(), 0.0);
+  line.y.insert(line.y.begin(), limit);
+  return fmt::format("{}: {} at 0, from {} at {} and {} at {}\n", name, results::number_format(limit, 5),
+                     results::number_format(y, 5), results::number_format(x, 5),
+                     results::number_format(y + dy, 5), results::number_format(x + dx, 5));
+}
+
 /// One curve per column and per value of the other keys of a grid.
 report::Chart column_chart(const Study& study, const std::vector<RunRecord>& runs, const StudyChart& wanted) {
   report::Chart chart;
@@ -79,6 +95,8 @@ report::Chart column_chart(const Study& study, const std::vector<RunRecord>& run
         line.y.push_back(
             status_number(*runs[k].status, column).value_or(std::numeric_limits<double>::quiet_NaN()));
       }
+      if (wanted.extrapolate)
+        chart.note += extrapolate(line, column_name(column) + (group.empty() ? "" : ", " + group));
       chart.series.push_back(std::move(line));
     }
   }
@@ -134,6 +152,13 @@ std::string warnings(const Study& study, const std::vector<RunRecord>& runs) {
 }
 
 } // namespace
+
+std::string extrapolations(const Study& study, const std::vector<RunRecord>& runs) {
+  std::string text;
+  for (const StudyChart& wanted : study.charts)
+    if (wanted.extrapolate) text += column_chart(study, runs, wanted).note;
+  return text;
+}
 
 std::string sweep_report(const Study& study, const std::vector<RunRecord>& runs,
                          const std::filesystem::path& folder, const std::string& version) {

@@ -133,6 +133,17 @@ void add_adaptation(Keys& k) {
       .unit(d::length)
       .in(positive)
       .example("\"0.02 mm\"");
+  k.add("adapt.surface_spacing", quantity,
+        "Largest wanted spacing of free surfaces that flow, from where it grows; a jump of velocity that "
+        "arrives there spreads over an edge of the boundary at least.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"0.02 mm\"");
+  k.add("adapt.rest_factor", quantity,
+        "Wanted spacing of matter that has flowed and rests now, over that which the cloud had there at the "
+        "start: what refinement leaves behind is removed. 0: it stays.")
+      .in({.low = 0.0, .high = 100.0})
+      .fallback("0");
   k.add("adapt.indicator", table, "Refinement where a field is not resolved (paper 004, (80)-(82)).")
       .always();
   k.add("adapt.indicator.field", choice,

@@ -229,6 +229,8 @@ rereference = { every = 30, strain = 0.1 }
 resample = true
 quiet_every = 60
 tool_spacing = "0.15 mm"
+surface_spacing = "0.2 mm"
+rest_factor = 1.5
 [adapt.indicator]
 field = "plastic_strain"
 h_min = "0.12 mm"

@@ -278,16 +278,17 @@ TEST(Adaptation, coarsens_up_to_the_largest_spacing) {
   EXPECT_LT(spacing / few, 0.55e-3);
 }
 
+// In the track of the roller, which has gone on to x = 4.1 mm, and under it.
+bool is_behind(const Node& n) { return n.at.x() > 0.5e-3 && n.at.x() < 2.2e-3; }
+bool is_under(const Node& n) { return n.at.x() > 3.3e-3 && n.at.x() < 5e-3; }
+
 TEST(Adaptation, coarsens_where_the_band_has_passed) {
   const Adapted followed = run(rolled, {}, 2e-3), kept = run(rolled, {"adapt.indicator.coarsen=0"}, 2e-3);
-  // in the track of the roller, which has gone on to x = 4.1 mm
-  const auto behind = [](const Node& n) { return n.at.x() > 0.5e-3 && n.at.x() < 2.2e-3; };
-  const auto under = [](const Node& n) { return n.at.x() > 3.3e-3 && n.at.x() < 5e-3; };
   EXPECT_EQ(kept.counted("coarsened"), 0.0);
   EXPECT_GT(followed.counted("coarsened"), 50);
   EXPECT_GT(followed.counted("removed"), 30);
-  EXPECT_LT(followed.count(behind), 0.75 * kept.count(behind));
-  EXPECT_GT(followed.count(under), 0.8 * kept.count(under));
+  EXPECT_LT(followed.count(is_behind), 0.75 * kept.count(is_behind));
+  EXPECT_GT(followed.count(is_under), 0.8 * kept.count(is_under));
   EXPECT_NEAR(followed.energy("plastic"), kept.energy("plastic"), 0.05 * kept.energy("plastic"));
 }
 
@@ -314,6 +315,25 @@ TEST(Adaptation, spacing_grows_from_tools_no_faster_than_asked) {
       EXPECT_LT(node.nearest, 1.6 * std::min(0.25e-3, 0.06e-3 + growth * (away + 0.06e-3)));
     }
   EXPECT_LT(fast.finest(), 0.08e-3);
+}
+
+TEST(Adaptation, refines_the_surface_that_flows) {
+  const Texts alone{"adapt.indicator.field=none"};
+  const Adapted plain = run(rolled, alone, 2e-3),
+                fine = run(rolled, with(alone, {"adapt.surface_spacing=0.06 mm"}), 2e-3);
+  const auto on_top = [](const Node& n) { return n.at.y() > 0.85e-3; };
+  const auto below = [](const Node& n) { return n.at.y() < 0.4e-3; };
+  const auto beneath = [&](const Node& n) { return is_under(n) && on_top(n); };
+  EXPECT_GT(fine.count(beneath), 2.0 * plain.count(beneath));
+  EXPECT_NEAR(fine.count(below), plain.count(below), 0.1 * plain.count(below)) << "the base is held";
+}
+
+TEST(Adaptation, coarsens_what_rests) {
+  const Adapted kept = run(rolled, {"adapt.indicator.coarsen=0"}, 2e-3),
+                resting = run(rolled, {"adapt.indicator.coarsen=0", "adapt.rest_factor=1"}, 2e-3);
+  EXPECT_LT(resting.count(is_behind), 0.75 * kept.count(is_behind));
+  EXPECT_GT(resting.count(is_under), 0.8 * kept.count(is_under));
+  EXPECT_NEAR(resting.energy("plastic"), kept.energy("plastic"), 0.05 * kept.energy("plastic"));
 }
 
 TEST(Adaptation, carries_scaled_masses) {

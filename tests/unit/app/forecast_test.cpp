@@ -66,11 +66,17 @@ TEST(Forecast, FitsTheRunOfACut) {
 
 TEST(Forecast, CountsWithWhatRefines) {
   const Forecast plain = expected_of(read(cut)), finer = expected_of(read(cut, {"adapt.tool_spacing=5 um"})),
-                 longer = expected_of(read(cut, {"time.end=22.5 us", "cutting.length=0.6 mm"})),
+                 longer = expected_of(read(cut, {"adapt.rest_factor=0", "cutting.length=0.6 mm"})),
+                 surface =
+                     expected_of(read(cut, {"adapt.indicator.field=none", "adapt.surface_spacing=5 um"})),
+                 none = expected_of(read(cut, {"adapt.indicator.field=none", "adapt.surface_spacing=60 um"})),
                  coarse = expected_of(read(cut, {"adapt.resample=false"}));
   EXPECT_NEAR(finer.steps, 3.0 * plain.steps, 0.01 * finer.steps) << "cells of 5 µm for 15";
   EXPECT_GT(finer.nodes_first, plain.nodes_first);
-  EXPECT_GT(longer.nodes_last, plain.nodes_last) << "the chip keeps its cells";
+  EXPECT_EQ(plain.nodes_last, plain.nodes_first) << "what rests is made coarse";
+  EXPECT_GT(longer.nodes_last, plain.nodes_last + 100.0) << "the chip keeps its cells";
+  EXPECT_EQ(surface.finest, 5e-6);
+  EXPECT_GT(surface.nodes_first, none.nodes_first + 100.0);
   EXPECT_LT(coarse.steps, 0.3 * plain.steps);
   EXPECT_EQ(coarse.nodes_first, coarse.nodes_last);
 }

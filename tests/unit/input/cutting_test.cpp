@@ -77,6 +77,8 @@ TEST(Cutting, MakesAWholeCase) {
   ASSERT_EQ(c.tools.size(), 1U);
   EXPECT_EQ(c.tools[0].velocity[0]->values().front(), 800.0 / 60.0);
   EXPECT_DOUBLE_EQ(c.adapt.tool_spacing.value(), 5e-6) << "a quarter of the edge radius";
+  EXPECT_DOUBLE_EQ(c.adapt.surface_spacing.value(), 4e-4 / 17.0);
+  EXPECT_DOUBLE_EQ(c.adapt.rest_factor, 1.5);
   EXPECT_TRUE(c.adapt.resample);
   EXPECT_DOUBLE_EQ(c.adapt.h_min, 2e-5) << "a twentieth of the feed";
   EXPECT_STREQ(c.adapt.indicator->name, "plastic_power");
@@ -174,6 +176,8 @@ TEST(Cutting, GivesWayAsAWholeWhereKeysExcludeEachOther) {
   EXPECT_DOUBLE_EQ(round.cloud.at({1e-3, 2e-4}), 8e-5);
   const Case still = read(cut, {"adapt.resample=false"});
   EXPECT_FALSE(still.adapt.tool_spacing);
+  EXPECT_FALSE(still.adapt.surface_spacing);
+  EXPECT_EQ(still.adapt.rest_factor, 0.0);
   EXPECT_EQ(still.adapt.indicator, nullptr);
 }
 

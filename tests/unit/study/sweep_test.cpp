@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -268,6 +269,26 @@ TEST_F(Sweep, texts_in_the_table_are_no_formulas) {
   const std::string table = sweep_table(s, std::vector<RunRecord>(4));
   expect_parts(table, {"\n'+A1,'@SUM(A1),-11 m/s,", "\nb,'\t=2,'-1+cmd|' /C calc'!A0,",
                        "\nc,\"'+A1,2\",-3.5,", "\nd,\"'\r=2\",-1 +5 mm,"});
+}
+
+TEST_F(Sweep, extrapolates_along_the_two_finest) {
+  const std::string grid = "[grid]\n\"cloud.spacing\" = [\"0.4 mm\", \"0.1 mm\", \"0.2 mm\"]\n";
+  const auto with = [&](const char* options) {
+    return study(fmt::format("charts = [{{ x = \"cloud.spacing\", y = [\"metrics.F\"]{} }}]\n", options) +
+                 grid);
+  };
+  std::vector<RunRecord> runs(3);
+  for (const auto& [k, force] : {std::pair{0, 17.0}, {1, 10.5}, {2, 11.0}})
+    runs[static_cast<std::size_t>(k)].status.emplace().metrics = {{"F", force}};
+  const Study asked = with(", extrapolate = true");
+  EXPECT_EQ(extrapolations(asked, runs), "F: 10 at 0, from 10.5 at 0.1 and 11 at 0.2\n");
+  expect_parts(sweep_report(asked, runs, out(), "test"), {"F: 10 at 0"});
+  EXPECT_EQ(extrapolations(with(""), runs), "");
+  EXPECT_EQ(extrapolations(with(", extrapolate = false"), runs), "");
+  for (const std::size_t k : {1U, 2U}) runs[k].status.reset();
+  EXPECT_EQ(extrapolations(asked, runs), "") << "one run is no line";
+  expect_parts(refusal("charts = [{ x = \"cloud.spacing\", y = [\"nodes\"], extrapolate = 1 }]\n" + grid),
+               {"loads.toml:2:", "true or false"});
 }
 
 } // namespace
