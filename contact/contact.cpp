@@ -1,5 +1,6 @@
 #include "contact/contact.hpp"
 
+#include "contact/arc_offset.hpp"
 #include "contact/contact_parts.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
@@ -217,11 +218,16 @@ bool RigidContact<dim>::find_on_faces(const Poses<dim>& poses, const ContactStep
     const Box<dim> box = tools_[t].shape->bounds();
     inside_.clear(), from_.clear(), to_.clear(), entries_.clear();
     for (const BoundaryNodeIndex b : near_.nodes(t)) {
-      const Vec<dim> x = end_[b] - poses[t].end;
-      if (!box.contains(x) || (stands(t) && !is_taken_[b])) continue;
+      if (stands(t) && !is_taken_[b]) continue;
+      Vec<dim> from = start_[b] - poses[t].start, to = end_[b] - poses[t].end;
+      if (tools_[t].equal_areas) {
+        const Vec<dim> ahead = arc_offset<dim>(surface_, *tools_[t].shape, b, start_, poses[t].start);
+        from += ahead, to += ahead;
+      }
+      if (!box.contains(to)) continue;
       inside_.push_back(b);
-      from_.push_back(start_[b] - poses[t].start);
-      to_.push_back(x);
+      from_.push_back(from);
+      to_.push_back(to);
     }
     if (inside_.empty()) continue;
     tools_[t].shape->entries(from_, to_, entries_);

@@ -58,6 +58,11 @@ double Ridge<2>::sagitta(double l) const {
   return std::min(most, 0.25 * l * l / (radius + std::sqrt(radius * radius - 0.25 * l * l)));
 }
 
+double Ridge<2>::sharpness(double l) const {
+  const double chord = 2.0 * radius * std::sin(0.5 * std::min(angle, std::numbers::pi));
+  return chord > 0.0 ? smooth_step(l / chord - 1.0) : 1.0;
+}
+
 CurveShape::Face::Face(const CurvePiece& piece)
     : from(piece.from), to(piece.to), along(piece.tangent(0.0)), normal(right_normal(along)),
       length(piece.length()), centre(piece.centre), radius(piece.radius), side(piece.clockwise ? -1.0 : 1.0),

@@ -56,12 +56,16 @@ void NearTools<dim>::list(const Surface<dim>& surface, const Tools<dim>& tools, 
     Near& near = of_tool_[t];
     near.nodes.clear();
     near.facets.clear();
+    double reach = skin_;
+    if constexpr (dim == 2)
+      if (tools[t].equal_areas) // nodes stay off its arcs, by less than their radius
+        for (const Ridge<2>& ridge : shape.ridges()) reach = std::max(reach, skin_ + ridge.radius);
     Box<dim> box = shape.bounds();
-    box.low.array() -= skin_;
-    box.high.array() += skin_;
+    box.low.array() -= reach;
+    box.high.array() += reach;
     for (const BoundaryNodeIndex b : position.indices()) {
       const Vec<dim> x = position[b] - shift;
-      if (box.contains(x) && shape.closest(x).distance <= skin_) near.nodes.push_back(b);
+      if (box.contains(x) && shape.closest(x).distance <= reach) near.nodes.push_back(b);
     }
     if constexpr (dim == 2)
       for (const FacetIndex f : surface.facets.indices()) {

@@ -9,9 +9,9 @@
 
 namespace cnem::contact {
 
-/// Lists for each tool the nodes nearer than a skin, and the facets that nearly reach one of its ridges. The
-/// lists cover the boundary until a node or a tool has moved by half the skin; they say where to look, never
-/// what is found, so that results do not depend on when they were made.
+/// Lists for each tool the nodes nearer than a skin (beyond what they stay off its arcs), and the facets that
+/// nearly reach one of its ridges. The lists cover the boundary until a node or a tool has moved by half the
+/// skin; they say where to look, never what is found, so that results do not depend on when they were made.
 template<int dim> class NearTools {
 public:
   /// Forgets the lists: another boundary.

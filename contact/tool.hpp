@@ -101,6 +101,7 @@ struct ToolSurface {
   std::string name;
   Friction friction;
   ToolThermal thermal;
+  bool equal_areas = false; ///< whether nodes stay off its arcs as contact/arc_offset.hpp says
 };
 
 template<int dim> struct Tool : ToolSurface {

@@ -2,6 +2,7 @@
 // What contact has to know about the shape of a rigid tool, in the tool's own frame (its place at t = 0).
 #include "core/vec.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,7 +41,16 @@ template<> struct Ridge<2> {
   /// How far a chord of length l with both ends on the ridge lies inside the tool, m; never more than the
   /// whole ridge allows, so that it vanishes with the radius.
   double sagitta(double l) const;
+  /// How far an edge of length l meets the ridge as a corner: 0 where it is no longer than the chord of the
+  /// whole arc, 1 from twice that on, smooth between.
+  double sharpness(double l) const;
 };
+
+/// 0 up to x = 0, 1 from x = 1 on, with continuous slope.
+inline double smooth_step(double x) {
+  x = std::clamp(x, 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
 
 /// In space only smooth tools are known (contact/plane_shape.hpp): none has a ridge.
 template<> struct Ridge<3> {};

@@ -83,7 +83,8 @@ std::string tool_text(const CuttingSetup& cut) {
   std::string path = fmt::format("{{ to = {}, {} }}", point(corners.edge), fillet);
   if (corners.land_end) path += fmt::format(", {{ to = {}, {} }}", point(*corners.land_end), fillet);
   path += fmt::format(", {{ to = {} }}", point(corners.top));
-  return fmt::format("[tools.{}]\nstart = {}\npath = [{}]\nvelocity = {{ x = \"{} m/s\", y = \"0 m/s\" }}\n",
+  return fmt::format("[tools.{}]\nstart = {}\npath = [{}]\nvelocity = {{ x = \"{} m/s\", y = \"0 m/s\" "
+                     "}}\nequal_areas = true\n",
                      cut.tool, point(corners.back), path, format_number(cut.speed));
 }
 

@@ -207,6 +207,10 @@ void add_tools(Keys& k) {
       .example("\"0 -11 m/s\"")
       .computed("0 without `mass`");
   add_drive(k, at);
+  k.add(at + "equal_areas", boolean,
+        "Nodes stay so far off its rounded edges that chords between them and arcs enclose equal areas; else "
+        "nodes lie on arcs and chords inside the tool. For edges in fine cells, as in cutting.")
+      .fallback("false");
   add_friction(k, at + "friction", "Friction on the workpiece.");
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
   add_constants(k, at + "heat", constant_texts<contact::ToolThermal>(contact::ToolThermal::parameters));

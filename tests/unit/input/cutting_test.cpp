@@ -79,6 +79,9 @@ TEST(Cutting, MakesAWholeCase) {
   EXPECT_DOUBLE_EQ(c.adapt.tool_spacing.value(), 5e-6) << "a quarter of the edge radius";
   EXPECT_DOUBLE_EQ(c.adapt.surface_spacing.value(), 4e-4 / 17.0);
   EXPECT_DOUBLE_EQ(c.adapt.rest_factor, 1.5);
+  EXPECT_TRUE(c.tools[0].equal_areas);
+  EXPECT_DOUBLE_EQ(c.method.pressure_exchange, 2.0);
+  EXPECT_DOUBLE_EQ(c.method.stress_annealing, 1.0);
   EXPECT_TRUE(c.adapt.resample);
   EXPECT_DOUBLE_EQ(c.adapt.h_min, 2e-5) << "a twentieth of the feed";
   EXPECT_STREQ(c.adapt.indicator->name, "plastic_power");
@@ -148,11 +151,13 @@ TEST(Cutting, LeavesThroughAFreeEnd) {
 }
 
 TEST(Cutting, GivesWayToWhatTheCaseSays) {
-  const Case given = read(cut, {"tools.cutter.friction.coefficient=0.3", "cloud.refine.layer.spacing=50 um",
-                                "time.end=1 us", "boundary.bed.pieces=bottom", "adapt.indicator.h_min=30 um",
+  const Case given = read(cut, {"tools.cutter.friction.coefficient=0.3", "tools.cutter.equal_areas=false",
+                                "cloud.refine.layer.spacing=50 um", "time.end=1 us",
+                                "boundary.bed.pieces=bottom", "adapt.indicator.h_min=30 um",
                                 "output.pictures=0.5 us", "domain.outer.rectangle.to=5 0.4 mm"});
   const Case plain = read(cut);
   EXPECT_DOUBLE_EQ(given.tools[0].friction.bound({}).coefficient, 0.3);
+  EXPECT_FALSE(given.tools[0].equal_areas);
   EXPECT_EQ(given.tools[0].outline.pieces.size(), plain.tools[0].outline.pieces.size());
   EXPECT_DOUBLE_EQ(given.cloud.at({1e-3, 2e-4}), 5e-5);
   EXPECT_EQ(given.time.end, 1e-6);
