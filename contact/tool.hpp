@@ -2,6 +2,7 @@
 // Rigid tools: shape, motion or mass, friction and what they do to heat.
 #include "contact/friction.hpp"
 #include "contact/tool_shape.hpp"
+#include "core/heat_curves.hpp"
 #include "core/indexed.hpp"
 #include "core/parameter.hpp"
 #include "core/time_table.hpp"
@@ -84,6 +85,7 @@ struct ToolThermal {
 /// What the effusivity of a tool can be made of.
 struct ToolMetal {
   double conductivity = infinite, density = infinite, specific_heat = infinite;
+  HeatCurves heat_curves;
 
   static constexpr Parameter<ToolMetal> parameters[] = {
       {&ToolMetal::conductivity,

@@ -4,6 +4,7 @@
 #include "evaluate/cut_flow.hpp"
 #include "evaluate/cutting_forces.hpp"
 #include "evaluate/machined_surface.hpp"
+#include "evaluate/tool_isotherms.hpp"
 #include "results/fields.hpp"
 
 #include <algorithm>
@@ -195,6 +196,23 @@ void take_surface(CuttingResult& result, const MachinedSurface& surface, bool th
   }
 }
 
+void take_tool(CuttingResult& result, const input::CuttingReport& asked, const input::CuttingTool& cut,
+               const results::Snapshot<2>& shot) {
+  result.isotherms.names = {"temperature[K]", "depth[m]", "face_from[m]", "face_to[m]"};
+  result.isotherms.column.resize(result.isotherms.names.size());
+  for (std::size_t s = 0; s < shot.state.tool_temperature.size(); ++s) {
+    const ToolSection<2>& section = (*shot.tools)[s];
+    if (section.tool != as<ToolIndex>(asked.tool)) continue;
+    const Field& temperature = shot.state.tool_temperature[s];
+    for (const Isotherm& line :
+         tool_isotherms(section, temperature, cut,
+                        asked.isotherms.empty() ? round_temperatures(temperature) : asked.isotherms)) {
+      const double row[] = {line.temperature, line.depth, line.face_from, line.face_to};
+      for (std::size_t c = 0; c < std::size(row); ++c) result.isotherms.column[c].push_back(row[c]);
+    }
+  }
+}
+
 } // namespace
 
 CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot<2>& shot,
@@ -228,6 +246,8 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
   const RakeFace face = course.rake().mean(from, to);
   take_rake_face(result, input, face);
   result.temperature_max = largest_in(rows, "temperature_max", from, to);
+  result.tool_temperature_max = largest_in(rows, "tool_temperature_max", from, to);
+  take_tool(result, asked, cut, shot);
   result.chip_speed = mean_in(rows, "chip_speed", from, to);
   result.shear_angle_speed = mean_in(rows, "shear_angle_speed", from, to);
   result.tooth_frequency = result.chip_speed / result.tooth_spacing;

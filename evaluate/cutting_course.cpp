@@ -19,6 +19,7 @@ const std::vector<std::string>& columns() {
                                               "contact_length[m]",
                                               "interface_temperature[K]",
                                               "temperature_max[K]",
+                                              "tool_temperature_max[K]",
                                               "chip_length[m]",
                                               "chip_thickness[m]",
                                               "shear_plane[m]",
@@ -75,11 +76,16 @@ void CuttingCourse::record(const ExplicitSolver<2>& solver) {
   const Vec2 speed = mean_velocity(fresh_chip(chip, asked.feed), cut_, place, state.node);
   const Vec2 own = cut_.turned(contact.velocity(asked.tool, state.time));
   const double hottest = *std::max_element(state.node.temperature.begin(), state.node.temperature.end());
-  writer_.front().write(
-      std::vector<double>{state.time, moved.dot(cut_.along), force.x(), 0.0 - force.y(), face.contact_length,
-                          thermal ? face.mean_temperature : unknown, thermal ? hottest : unknown, chip.length,
-                          fresh_thickness(chip, asked.feed), chip.shear_plane, chip.shear_plane_angle,
-                          (speed - own).dot(cut_.face()), std::atan2(speed.y(), speed.x())});
+  double hottest_of_tool = unknown;
+  for (std::size_t s = 0; s < state.tool_temperature.size(); ++s)
+    if (const Field& of_tool = state.tool_temperature[s];
+        solver.model().tool_sections[s].tool == as<ToolIndex>(asked.tool))
+      hottest_of_tool = *std::max_element(of_tool.begin(), of_tool.end());
+  writer_.front().write(std::vector<double>{
+      state.time, moved.dot(cut_.along), force.x(), 0.0 - force.y(), face.contact_length,
+      thermal ? face.mean_temperature : unknown, thermal ? hottest : unknown, hottest_of_tool, chip.length,
+      fresh_thickness(chip, asked.feed), chip.shear_plane, chip.shear_plane_angle,
+      (speed - own).dot(cut_.face()), std::atan2(speed.y(), speed.x())});
   ++rows_;
 }
 

@@ -69,6 +69,7 @@ template<class Result, class Carry> void carry_faces(Result& result, Carry& carr
   carry("contact_length[m]", result.contact_length);
   carry("interface_temperature[K]", result.interface_temperature);
   carry("temperature_max[K]", result.temperature_max);
+  carry("tool_temperature_max[K]", result.tool_temperature_max);
   carry("wear_rate[m/s]", result.wear_rate);
   carry("wear_rate_max[m/s]", result.wear_rate_max);
   carry("surface_note", result.surface_note);
@@ -92,6 +93,7 @@ template<class Result, class Use> void each_table(Result& result, Use&& use) {
   use("rake_face", result.rake_face);
   use("chip", result.chip);
   use("depth", result.depth);
+  use("tool_isotherms", result.isotherms);
 }
 
 fs::path table_path(const fs::path& folder, const char* name) {
@@ -139,6 +141,7 @@ std::vector<std::pair<std::string, double>> metrics_of(const CuttingResult& resu
           {"cutting.tooth_frequency", result.tooth_frequency},
           {"cutting.interface_temperature", result.interface_temperature},
           {"cutting.temperature_max", result.temperature_max},
+          {"cutting.tool_temperature_max", result.tool_temperature_max},
           {"cutting.wear_rate", result.wear_rate},
           {"cutting.wear_rate_max", result.wear_rate_max},
           {"cutting.roughness", result.roughness},

@@ -48,6 +48,7 @@ struct CuttingResult {
 
   double contact_length = unknown;                                   ///< m
   double interface_temperature = unknown, temperature_max = unknown; ///< K
+  double tool_temperature_max = unknown;                             ///< K, of a tool that conducts
   double wear_rate = unknown, wear_rate_max = unknown;               ///< m/s
 
   std::string surface_note;
@@ -60,6 +61,7 @@ struct CuttingResult {
   results::HistoryTable rake_face; ///< along it
   results::HistoryTable chip;      ///< thickness along it
   results::HistoryTable depth;     ///< below the machined surface
+  results::HistoryTable isotherms; ///< of the tool
 
   double in_newton(double per_width) const { return per_width * width; }
 };

@@ -135,6 +135,12 @@ struct BoundaryCondition {
   std::optional<ConvectionLaw> convection;
 };
 
+/// A coolant; its box as in a window.
+struct Coolant : ConvectionLaw {
+  std::optional<std::array<Vec2, 2>> box; ///< m
+  std::optional<std::size_t> follow;      ///< index of the tool that the box moves with
+};
+
 struct Spin {
   double rate = 0.0; ///< rad/s, counter-clockwise
   Vec2 centre{0, 0}; ///< m
@@ -253,6 +259,7 @@ struct Case {
   CloudSpec cloud;
   std::vector<plasticity::Material> materials;
   std::vector<BoundaryCondition> boundary;
+  std::vector<Coolant> coolants;
   std::vector<Periodicity> periodic;
   InitialState initial;
   Loads loads;

@@ -13,23 +13,6 @@
 namespace cnem::input {
 namespace {
 
-/// Opposite corners of a box, the lower left one first.
-std::array<Vec2, 2> box(const Setting& setting, Diagnostics& diagnostics) {
-  const auto& corners = std::get<std::vector<Vec2>>(setting.value);
-  if (corners.size() != 2) {
-    diagnostics.add(Mistake::type, setting.where, setting.path,
-                    fmt::format("found {} points, expected two opposite corners such as {}", corners.size(),
-                                setting.key->example_text()));
-    return {Vec2(0, 0), Vec2(0, 0)};
-  }
-  const Vec2 low = corners[0].cwiseMin(corners[1]), high = corners[0].cwiseMax(corners[1]);
-  if (!((high - low).minCoeff() > 0.0))
-    diagnostics.add(Mistake::geometry, setting.where, setting.path,
-                    fmt::format("a box from {} to {} has no area, expected two opposite corners such as {}",
-                                show(corners[0]), show(corners[1]), setting.key->example_text()));
-  return {low, high};
-}
-
 /// Ends of the cracks named, or of all.
 std::vector<Vec2> crack_ends(const Setting& names, const Setting& cracks, Diagnostics& diagnostics) {
   std::vector<Vec2> ends;
@@ -78,7 +61,7 @@ std::vector<clouds::Refinement> read_refinement(const Setting& root, const Setti
     list.push_back({kind, std::move(places), wanted, table.get<double>("growth")});
   };
   if (region) {
-    const auto [low, high] = box(*region, diagnostics);
+    const auto [low, high] = read_box(*region, diagnostics);
     add(Kind::box, {low, high});
   } else if (points) {
     add(Kind::path, std::get<std::vector<Vec2>>(points->value));
@@ -181,6 +164,22 @@ void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, co
 
 } // namespace
 
+std::array<Vec2, 2> read_box(const Setting& setting, Diagnostics& diagnostics) {
+  const auto& corners = std::get<std::vector<Vec2>>(setting.value);
+  if (corners.size() != 2) {
+    diagnostics.add(Mistake::type, setting.where, setting.path,
+                    fmt::format("found {} points, expected two opposite corners such as {}", corners.size(),
+                                setting.key->example_text()));
+    return {Vec2(0, 0), Vec2(0, 0)};
+  }
+  const Vec2 low = corners[0].cwiseMin(corners[1]), high = corners[0].cwiseMax(corners[1]);
+  if (!((high - low).minCoeff() > 0.0))
+    diagnostics.add(Mistake::geometry, setting.where, setting.path,
+                    fmt::format("a box from {} to {} has no area, expected two opposite corners such as {}",
+                                show(corners[0]), show(corners[1]), setting.key->example_text()));
+  return {low, high};
+}
+
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
   Setting& table = *root.find("cloud");
   CloudSpec& cloud = result.cloud;
@@ -239,7 +238,7 @@ void read_windows(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const std::vector<std::string> tools = tool_names(result);
   for (const Setting& table : root.entries("output.windows")) {
     const Setting& setting = *table.find("box");
-    const std::array<Vec2, 2> corners = box(setting, diagnostics);
+    const std::array<Vec2, 2> corners = read_box(setting, diagnostics);
     Window window{table.name, corners[0], corners[1]};
     if (const Setting* follow = table.find("follow"))
       window.follow = index_of_tool(*follow, std::get<std::string>(follow->value), tools, diagnostics);

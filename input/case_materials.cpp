@@ -171,7 +171,10 @@ plasticity::Material read_material(const Setting& table, std::vector<std::string
   }
   if (const Setting* damage = table.find("damage"))
     material.damage = read_damage(*damage, table, warnings, diagnostics);
-  if (const Setting* heat = table.find("heat")) read_constants(Material::heat_parameters, *heat, material);
+  if (const Setting* heat = table.find("heat")) {
+    read_constants(Material::heat_parameters, *heat, material);
+    read_lists(*heat, material.heat_curves, diagnostics);
+  }
   return material;
 }
 

@@ -99,6 +99,7 @@ struct CuttingReport {
   double steady_feeds = 0.0;     ///< – feeds that the steady part is long at least
   double steady_tolerance = 0.0; ///< –
   std::optional<UsuiWear> wear;
+  std::vector<double> isotherms; ///< K, of the tool; empty: whole hundreds
 };
 
 /// What is evaluated at the end of an explicit run.

@@ -49,6 +49,12 @@ std::vector<std::string> tool_names(const Case& input);
 std::optional<std::size_t> index_of_tool(const Setting& key, const std::string& name,
                                          const std::vector<std::string>& tools, Diagnostics& diagnostics);
 
+/// Opposite corners of a box, the lower left one first.
+std::array<Vec2, 2> read_box(const Setting& setting, Diagnostics& diagnostics);
+
+/// Coolants of the boundary. Expects the tools.
+void read_coolants(const Setting& root, Case& result, Diagnostics& diagnostics);
+
 /// Parts of pictures that are drawn enlarged. Expects domain and tools.
 void read_windows(const Setting& root, Case& result, Diagnostics& diagnostics);
 

@@ -202,6 +202,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
   const bool plane = result.analysis.dimensions() == 2;
   if (plane) {
     read_windows(root, result, diagnostics);
+    read_coolants(root, result, diagnostics);
     read_contact(root, result, diagnostics);
   }
   diagnostics.throw_if_any();

@@ -29,6 +29,14 @@ void read_cutting_report(Setting& root, Case& result, Diagnostics& diagnostics) 
   report.filter = root.get<double>(at + ".filter");
   report.steady_feeds = root.get<double>(at + ".steady.feeds");
   report.steady_tolerance = root.get<double>(at + ".steady.tolerance");
+  if (const Setting* isotherms = root.find(at + ".isotherms")) {
+    report.isotherms = std::get<std::vector<double>>(isotherms->value);
+    if (!result.tools[*tool].section)
+      diagnostics.add(Mistake::conflict, isotherms->where, isotherms->path,
+                      fmt::format("found isotherms of a tool that does not conduct, expected "
+                                  "tools.{}.heat.section beside them",
+                                  result.tools[*tool].name));
+  }
   if (const Setting* wear = root.find(at + ".wear"))
     read_constants(UsuiWear::parameters, *wear, report.wear.emplace());
   result.report.cutting = report;

@@ -59,6 +59,7 @@ void read_tool_heat(const Setting& table, const Setting& root, const Case& input
   read_constants(contact::ToolThermal::parameters, *heat, tool.thermal);
   contact::ToolMetal metal;
   read_constants(contact::ToolMetal::parameters, *heat, metal);
+  read_lists(*heat, metal.heat_curves, diagnostics);
   const auto given = [&](const auto& parameter) {
     return heat->maybe<double>(parameter.info.name).has_value();
   };
@@ -69,6 +70,10 @@ void read_tool_heat(const Setting& table, const Setting& root, const Case& input
   else if (parts == 3)
     tool.thermal.effusivity = metal.effusivity();
   const Setting* section = heat->find("section");
+  if (const Setting* factors = heat->find("factors_at"); factors && !section)
+    diagnostics.add(Mistake::missing_key, factors->where, factors->path,
+                    fmt::format("found factors of a tool at one temperature, expected {}.section beside them",
+                                heat->path));
   if (!section) return;
   if (parts < 3)
     diagnostics.add(Mistake::missing_key, section->where, section->path,

@@ -32,11 +32,16 @@ template<class Owner> std::vector<ConstantText> constant_texts(std::span<const P
   return texts;
 }
 
+template<class Owner> std::vector<ConstantText> list_texts() {
+  std::vector<ConstantText> texts;
+  for (const ListParameter<Owner>& list : Owner::lists) texts.push_back({list.info, infinite, true});
+  return texts;
+}
+
 /// Constants of a law, its lists before the others.
 template<class Law> std::vector<ConstantText> law_constant_texts() {
   std::vector<ConstantText> texts;
-  if constexpr (requires { Law::lists; })
-    for (const ListParameter<Law>& list : Law::lists) texts.push_back({list.info, infinite, true});
+  if constexpr (requires { Law::lists; }) texts = list_texts<Law>();
   for (const ConstantText& text : constant_texts<Law>(Law::parameters)) texts.push_back(text);
   return texts;
 }
@@ -65,6 +70,21 @@ void read_constants(std::span<const std::type_identity_t<Parameter<Owner>>> para
 
 /// Takes a list, if the table gives it. One that is too long is a mistake: then false.
 bool read_list(const ParameterInfo& info, const Setting& table, NumberList& list, Diagnostics& diagnostics);
+
+/// Takes the lists that the table gives and works out what follows; where they do not fit the first one is
+/// named.
+template<class Owner> void read_lists(const Setting& table, Owner& owner, Diagnostics& diagnostics) {
+  const Setting* first = nullptr;
+  for (const ListParameter<Owner>& list : Owner::lists) {
+    if (!read_list(list.info, table, owner.*list.value, diagnostics)) return;
+    if (!first) first = table.find(list.info.name);
+  }
+  try {
+    owner.complete();
+  } catch (const InputError& error) {
+    diagnostics.add(Mistake::range, first->where, first->path, error.what());
+  }
+}
 
 void check_order(const Order& order, const Setting& table, Diagnostics& diagnostics);
 void check_strength(const std::vector<std::string>& names, const Setting& table, Diagnostics& diagnostics);

@@ -63,6 +63,9 @@ void use_local_origin(Case& input) {
   shift(input.cloud.nodes);
   for (clouds::Refinement& refinement : input.cloud.refinements) shift(refinement.points);
   for (BoundaryCondition& condition : input.boundary) shift(condition.points);
+  for (Coolant& coolant : input.coolants)
+    if (coolant.box)
+      for (Vec2& corner : *coolant.box) shift(corner);
   if (input.initial.spin) shift(input.initial.spin->centre);
   if (input.initial.gradient) shift(input.initial.gradient->centre);
   for (Imperfection& imperfection : input.initial.imperfections) shift(imperfection.points);

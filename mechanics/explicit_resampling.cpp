@@ -4,6 +4,7 @@
 #include "mechanics/explicit_solver.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/mixing.hpp"
+#include "mechanics/node_heat.hpp"
 
 #include <cassert>
 
@@ -81,6 +82,7 @@ void ExplicitSolver<dim>::carry_over(const Resampling<dim>* change, const std::o
 template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& change) {
   NodeState<dim>& node = state_.node;
   const std::size_t n = change.cloud.position.size();
+  to_enthalpy<dim>(model_, node);
   const CarryWeights<NodeIndex> weights{.parcels = change.parcels,
                                         .labels = change.labels,
                                         .mass = node.mass,
@@ -91,13 +93,14 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
     table->carry_over(weights);
     table->rest_renewed(n);
   }
+  to_temperature<dim>(model_, node);
   for (std::size_t k = 0; k < dim; ++k)
     for (std::size_t i = 0; i < n; ++i)
       node.position[k][i] = change.cloud.position[i][static_cast<Eigen::Index>(k)];
   node.velocity_before = node.velocity;
   conditions_.ties.resample(change);
   conditions_.heat_ties.resample(change);
-  if (!conditions_.heat_ties.empty()) conditions_.heat_ties.share(node.heat_capacity, node.temperature);
+  share_heat<dim>(model_, conditions_.heat_ties, node);
   if (local_.on() && !change.points_stay) local_.follow(change.labels);
   start_weight_.clear();
   conditions_.supports.resample(change, conditions_.ties);

@@ -2,12 +2,14 @@
 // Nodes that move as one: the two faces of a bonded interface, the two sides of a periodic strip.
 #include "core/fields/archive.hpp"
 #include "core/fields/state.hpp"
+#include "core/index.hpp"
 #include "core/indexed.hpp"
 #include "core/operators/resampling.hpp"
 #include "core/vec.hpp"
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,11 @@ public:
   /// The list with all nodes tied to its members, each once, given ones first.
   std::vector<NodeIndex> with_partners(std::vector<NodeIndex> nodes) const;
 
+  /// visit(nodes) for every group.
+  template<class Visit> void each_group(Visit&& visit) const {
+    for (std::size_t g = 0; g + 1 < begin_.size(); ++g)
+      visit(std::span(node_).subspan(index_of(begin_[g]), index_of(begin_[g + 1] - begin_[g])));
+  }
   /// Every group's values become Σ w v / Σ w.
   void share(const Field& weight, Field& value) const;
   /// The same for velocities, m/s, at positions, m, that have moved by dt, s, times them: those follow the

@@ -1,5 +1,6 @@
 #pragma once
 // Materials as plain structs that can be tried at a single point.
+#include "core/heat_curves.hpp"
 #include "core/index.hpp"
 #include "core/parameter.hpp"
 #include "plasticity/breaking.hpp"
@@ -57,6 +58,7 @@ struct Material {
   MeasuredRange measured;             ///< of the hardening; it holds beyond as well
   double specific_heat = 0.0, conductivity = 0.0, taylor_quinney = 0.9, expansion = 0.0;
   double expansion_reference = 293.15;
+  HeatCurves heat_curves; ///< factors of specific heat and conductivity
 
   double thermal_strain(double temperature) const { return expansion * (temperature - expansion_reference); }
   double melting_temperature() const; ///< K, of hardening or damage, the lower; infinite: neither knows one

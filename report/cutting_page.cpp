@@ -94,6 +94,7 @@ std::string face_table_html(const evaluate::CuttingResult& result) {
   table.add("Contact length", result.contact_length, "m");
   table.add("Interface temperature, mean", result.interface_temperature, "K");
   table.add("Largest temperature", result.temperature_max, "K");
+  table.add("Largest temperature of the tool", result.tool_temperature_max, "K");
   table.add("Wear rate (Usui), mean", result.wear_rate, "m/s");
   table.add("Wear rate (Usui), largest", result.wear_rate_max, "m/s");
   table.add("Roughness", result.roughness, "m");
@@ -174,6 +175,7 @@ std::vector<Chart> cutting_charts(const evaluate::CuttingResult& result) {
   Chart heat = chart_of("Temperature over the cut", "length of cut", "temperature", "K");
   add_series(heat, course, "temperature_max", "largest", 0);
   add_series(heat, course, "interface_temperature", "interface, mean", 1);
+  add_series(heat, course, "tool_temperature_max", "tool, largest", 2);
   charts.push_back(std::move(heat));
   Chart thickness =
       chart_of("Thickness along the chip", "along the rake side from the tip", "thickness", "m");
@@ -185,6 +187,12 @@ std::vector<Chart> cutting_charts(const evaluate::CuttingResult& result) {
   stress.note =
       "Means over the part of the cut that forces are taken from; shear > 0 along the way of the chip.";
   charts.push_back(std::move(stress));
+  Chart reach = chart_of("Reach of temperatures in the tool", "temperature", "length", "m");
+  reach.x_unit = "K";
+  add_series(reach, result.isotherms, "depth", "depth below the rake face", 0);
+  add_series(reach, result.isotherms, "face_to", "along the rake face from the tip", 1);
+  reach.note = "At the end of the run, without the coating: what is at least as warm.";
+  charts.push_back(std::move(reach));
   Chart residual = chart_of("Stress below the machined surface", "depth", "stress", "Pa");
   add_series(residual, result.depth, "stress_along", "along the cut", 0);
   add_series(residual, result.depth, "stress_away", "normal to the surface", 1);

@@ -35,6 +35,15 @@ std::string unit_of(const Setting& constant) {
   return dimension.dimensionless() ? "" : input::describe(dimension).si_unit;
 }
 
+/// "1, 1.2, 1.4", with the unit behind.
+std::string list_text(const Setting& list) {
+  std::string text;
+  for (const double value : std::get<std::vector<double>>(list.value))
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", results::number_format(value, 6));
+  const std::string unit = unit_of(list);
+  return unit.empty() ? text : text + " " + unit;
+}
+
 std::string value_text(const Setting& constant) {
   return results::si_format(std::get<double>(constant.value), unit_of(constant), 6);
 }
@@ -45,6 +54,7 @@ std::vector<std::pair<std::string, std::string>> constants_of(const Setting& tab
   for (const Setting& member : table.members) {
     if (!member.given) continue;
     if (member.key->type == input::Type::quantity) rows.emplace_back(member.name, value_text(member));
+    if (member.key->type == input::Type::quantities) rows.emplace_back(member.name, list_text(member));
     if (member.key->type == input::Type::choice)
       rows.emplace_back(member.name, std::get<std::string>(member.value));
   }

@@ -166,6 +166,7 @@ std::string draw_png(const Picture& picture) {
     cairo_set_source_rgb(cr, 0.775, 0.798, 0.832);
     cairo_fill(cr);
   }
+  paint_tools(cr, layout, picture, range);
   const bool lines = picture.edges.value_or(cell_size(layout, *picture.cells, vertices) > 7.0 * unit);
   CellRasters own;
   CellRasters& rasters = picture.rasters ? *picture.rasters : own;

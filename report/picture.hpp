@@ -3,8 +3,10 @@
 #include "core/geometry/curve.hpp"
 #include "core/operators/discretisation.hpp"
 #include "report/colour_map.hpp"
+#include "results/vtk_writer.hpp"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,6 +38,8 @@ struct Picture {
   std::optional<ColourRange> range; ///< SI; by default that of the values
   CellRasters* rasters = nullptr;   ///< shared by pictures of the same cells and positions; null: by none
   std::vector<PictureTool> tools;
+  std::shared_ptr<const results::FieldFrame<2>>
+      warm_tools;                      ///< drawn with their first scalar of cells; null: none
   std::optional<PictureWindow> window; ///< part shown; by default the whole body with a margin
   std::optional<bool> edges; ///< outlines of cells; by default where cells are large enough to be seen
   std::string title;         ///< upper left: the case

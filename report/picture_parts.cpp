@@ -15,6 +15,12 @@
 namespace cnem::report {
 namespace {
 
+/// One of the levels of a drawing.
+Colour drawn_colour(ColourMap map, double value, const ColourRange& range) {
+  const double s = (value - range.low) / (range.high - range.low), last = drawing_levels - 1;
+  return map_colour(map, std::round(s * last) / last);
+}
+
 void select_font(cairo_t* cr, double size, bool bold) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
@@ -47,6 +53,25 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   cairo_new_path(cr); // showing text leaves a current point behind
 }
 
+void paint_tools(cairo_t* cr, const PictureLayout& layout, const Picture& picture, const ColourRange& range) {
+  if (!picture.warm_tools) return;
+  const CellGeometry<2>& cells = *picture.warm_tools->cells;
+  const std::span<const double> value = picture.warm_tools->cell_scalars.front().values;
+  const std::vector<Vec2> vertices = results::moved_vertices<2>(cells, picture.warm_tools->position);
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
+  for (std::size_t c = 0; c < value.size(); ++c) {
+    for (auto e = index_of(cells.begin[c]); e < index_of(cells.begin[c + 1]); ++e) {
+      const Vec2 x = layout.pixel(vertices[index_of(cells.index[e])]);
+      cairo_line_to(cr, x.x(), x.y());
+    }
+    cairo_close_path(cr);
+    const Colour colour = drawn_colour(picture.map, value[c], range);
+    cairo_set_source_rgb(cr, colour.red, colour.green, colour.blue);
+    cairo_fill(cr);
+  }
+  cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
+}
+
 namespace {
 
 /// A colour over a pixel of which it covers a part, of 255.
@@ -63,10 +88,8 @@ std::uint32_t covered(std::uint32_t pixel, std::uint32_t colour, std::uint32_t p
 void paint_cells(const Surface& surface, const Picture& picture, const CellRaster& raster,
                  const ColourRange& range) {
   std::vector<std::uint32_t> colour(picture.value.size());
-  for (std::size_t c = 0; c < colour.size(); ++c) {
-    const double s = (picture.value[c] - range.low) / (range.high - range.low), last = drawing_levels - 1;
-    colour[c] = packed(map_colour(picture.map, std::round(s * last) / last));
-  }
+  for (std::size_t c = 0; c < colour.size(); ++c)
+    colour[c] = packed(drawn_colour(picture.map, picture.value[c], range));
   const std::uint32_t rim = packed({0.12, 0.13, 0.16});
   cairo_surface_flush(surface.get());
   const int width = cairo_image_surface_get_width(surface.get()),

@@ -32,6 +32,9 @@ struct CellRaster;
 void paint_cells(const Surface& surface, const Picture& picture, const CellRaster& raster,
                  const ColourRange& range);
 
+/// Tools that conduct, with the colours of their temperatures on the scale of the body.
+void paint_tools(cairo_t* cr, const PictureLayout& layout, const Picture& picture, const ColourRange& range);
+
 // `unit` is the size of a design pixel, `size` that of the font, both in px.
 void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
                      const ColourRange& range, double unit, double size);

@@ -2,6 +2,7 @@
 
 #include "report/cell_raster.hpp"
 #include "results/fields.hpp"
+#include "results/tool_fields.hpp"
 
 #include <cmath>
 #include <deque>
@@ -46,6 +47,7 @@ Picture PictureRecorder::picture_of(const results::Snapshot<2>& shot, const std:
   show_field(picture, info.shown);
   picture.title = case_->title;
   picture.time = shot.state.time;
+  if (field == "temperature") picture.warm_tools = results::tool_frame(shot, {0, 0, 0});
   const auto& contact = shot.contact;
   for (std::size_t t = 0; t < contact.tools().size(); ++t)
     picture.tools.push_back(

@@ -1,5 +1,6 @@
 #include "results/adaptation_log.hpp"
 
+#include "mechanics/node_heat.hpp"
 #include "results/output_folder.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ Audit audit(const ExplicitSolver<2>& solver) {
     sums.angular_momentum += inertia[i] * cross(x, v);
     sums.momentum_scale += inertia[i] * v.norm();
     sums.angular_scale += inertia[i] * x.norm() * v.norm();
-    sums.heat += node.heat_capacity[i] * node.temperature[i];
+    sums.heat += node.heat_capacity[i] * curves_of<2>(solver.model(), node, i).enthalpy(node.temperature[i]);
   }
   const EnergyLedger energy = solver.ledger();
   sums.energy = energy.total();

@@ -49,6 +49,37 @@ template<int dim> void ThermalBoundaries<dim>::resample(const Cloud<dim>& cloud)
   for (HeatFlux<dim>& flux : fluxes_) renew_facets(cloud, flux.facets);
   for (Convection<dim>& convection : convections_) renew_facets(cloud, convection.facets);
   for (ContactConductance<dim>& interface : interfaces_) renew_faces(cloud, interface);
+  if (cooled()) boundary_ = cloud.facets;
+}
+
+template<int dim>
+void ThermalBoundaries<dim>::cool(std::vector<Coolant<dim>> coolants, const Cloud<dim>& cloud) {
+  coolants_ = std::move(coolants);
+  if (cooled()) boundary_ = cloud.facets;
+}
+
+template<int dim>
+void ThermalBoundaries<dim>::add_coolant_flow(double time, const Exposure<dim>& exposure,
+                                              const Fields<dim>& position, const Field& temperature,
+                                              Field& flow) const {
+  for (const Coolant<dim>& coolant : coolants_) {
+    const double h = coolant.coefficient(time), ambient = coolant.ambient(time);
+    const Vec<dim> moved =
+        exists(coolant.follow) ? exposure.tool_moved[coolant.follow] : Vec<dim>(Vec<dim>::Zero());
+    const auto reached = [&](const Vec<dim>& x) {
+      return !coolant.box || ((x.array() >= (coolant.box->front() + moved).array()).all() &&
+                              (x.array() <= (coolant.box->back() + moved).array()).all());
+    };
+    for (const Facet<dim>& facet : boundary_) {
+      const auto corner = corners_of<dim>(facet, position);
+      const auto area = corner_areas<dim>(space_, corner);
+      for (std::size_t end = 0; end < dim; ++end) {
+        const NodeIndex node = facet.node[end];
+        if ((!exposure.covered.empty() && exposure.covered[node]) || !reached(corner[end])) continue;
+        flow[index_of(node)] += h * (ambient - temperature[index_of(node)]) * area[end];
+      }
+    }
+  }
 }
 
 template<int dim>
@@ -114,30 +145,21 @@ template<int dim> double HeatContacts<dim>::fastest_decay(const Field& heat_capa
 }
 
 template<int dim>
-double ThermalBoundaries<dim>::hold(double time, const Field& heat_capacity, Field& temperature) const {
-  double heat = 0.0;
-  for (const FixedTemperature& fixed : fixed_) {
-    const double value = fixed.value(time);
-    for (const NodeIndex node : fixed.nodes) {
-      const auto i = index_of(node);
-      heat += heat_capacity[i] * (value - temperature[i]);
-      temperature[i] = value;
-    }
-  }
-  return heat;
-}
-
-template<int dim>
 double ThermalBoundaries<dim>::fastest_decay(double time, const Fields<dim>& position,
                                              const Field& heat_capacity) const {
   double worst = 0.0;
-  for (const Convection<dim>& convection : convections_)
-    for (const Facet<dim>& facet : convection.facets) {
+  const auto exchange = [&](double coefficient, const std::vector<Facet<dim>>& facets) {
+    for (const Facet<dim>& facet : facets) {
       const auto area = areas<dim>(space_, facet, position);
       for (std::size_t end = 0; end < dim; ++end)
-        worst = std::max(worst, 2.0 * convection.coefficient(time) * area[end] /
-                                    heat_capacity[index_of(facet.node[end])]);
+        worst = std::max(worst, 2.0 * coefficient * area[end] / heat_capacity[index_of(facet.node[end])]);
     }
+  };
+  for (const Convection<dim>& convection : convections_)
+    exchange(convection.coefficient(time), convection.facets);
+  double cooling = 0.0;
+  for (const Coolant<dim>& coolant : coolants_) cooling += coolant.coefficient(time);
+  exchange(cooling, boundary_);
   for (const ContactConductance<dim>& interface : interfaces_)
     for (std::size_t f = 0; f < interface.facets.size(); ++f) {
       const auto area = areas<dim>(space_, interface.facets[f], position);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,18 @@ struct ConvectionLaw {
   TimeTable ambient;     ///< K
 };
 template<int dim> struct Convection : ConvectionLaw { std::vector<Facet<dim>> facets; };
+
+/// Exchange with a coolant of the whole boundary, faces that a cut makes included, where it touches nothing.
+template<int dim> struct Coolant : ConvectionLaw {
+  std::optional<std::array<Vec<dim>, 2>> box; ///< m, lower and upper corner at t = 0; none: everywhere
+  ToolIndex follow = ToolIndex::none;         ///< that the box moves with
+};
+
+/// What of the boundary a coolant reaches.
+template<int dim> struct Exposure {
+  IndexedVector<NodeIndex, bool> covered;        ///< touch something; empty: none
+  IndexedVector<ToolIndex, Vec<dim>> tool_moved; ///< m, since t = 0
+};
 
 /// Exchange between the two faces of an interface: conductance in W/(m² K).
 template<int dim> struct ContactConductance {
@@ -96,6 +109,10 @@ public:
       : fixed_(std::move(fixed)), fluxes_(std::move(fluxes)), convections_(std::move(convections)),
         interfaces_(std::move(interfaces)), space_(space) {}
 
+  /// Coolants on the boundary of a cloud, which they follow.
+  void cool(std::vector<Coolant<dim>> coolants, const Cloud<dim>& cloud);
+  bool cooled() const { return !coolants_.empty(); }
+
   /// A list of nodes with those that have one temperature with them.
   using WithPartners = std::function<std::vector<NodeIndex>(std::vector<NodeIndex>)>;
   /// Acts on a changed cloud, whose mates are the faces of interfaces.
@@ -106,9 +123,17 @@ public:
 
   /// Adds what flows into the nodes at `time` to `flow`, W/m^(3−dim).
   void add_flow(double time, const Fields<dim>& position, const Field& temperature, Field& flow) const;
+  /// The same of coolants.
+  void add_coolant_flow(double time, const Exposure<dim>& exposure, const Fields<dim>& position,
+                        const Field& temperature, Field& flow) const;
 
-  /// Sets the held temperatures of `time`. Returns the heat this brought in, J/m^(3−dim).
-  double hold(double time, const Field& heat_capacity, Field& temperature) const;
+  /// set(node, temperature) for every node that is held, K at `time`.
+  template<class Set> void hold(double time, Set&& set) const {
+    for (const FixedTemperature& fixed : fixed_) {
+      const double value = fixed.value(time);
+      for (const NodeIndex node : fixed.nodes) set(node, value);
+    }
+  }
 
   /// Largest share the exchange adds to the decay rate Q/(C T) of a node, 1/s.
   double fastest_decay(double time, const Fields<dim>& position, const Field& heat_capacity) const;
@@ -118,6 +143,8 @@ private:
   std::vector<HeatFlux<dim>> fluxes_;
   std::vector<Convection<dim>> convections_;
   std::vector<ContactConductance<dim>> interfaces_;
+  std::vector<Coolant<dim>> coolants_;
+  std::vector<Facet<dim>> boundary_; ///< all of it, where there are coolants
   Space space_ = Space::plane;
 };
 

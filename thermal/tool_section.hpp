@@ -2,6 +2,7 @@
 // A tool that conducts: the nodes of its section, what heat they hold and where it is exchanged.
 #include "core/fields/aligned.hpp"
 #include "core/geometry/cloud.hpp"
+#include "core/heat_curves.hpp"
 #include "core/operators/discretisation.hpp"
 #include "core/parameter.hpp"
 
@@ -62,6 +63,7 @@ template<int dim> struct ToolSection {
   Cloud<dim> cloud;
   Approximation<dim> approximation; ///< of which heat needs `conduction`, and pictures the cells
   double conductivity = 0.0;        ///< W/(m K)
+  HeatCurves heat_curves;           ///< factors of conductivity and heat capacity, but for a coating
   Field heat_capacity; ///< [node] J/(K m^(3−dim)), those of a coating behind those of the cloud
   std::vector<NodeIndex> held;
   std::optional<ToolCoating> coating;
@@ -72,6 +74,10 @@ template<int dim> struct ToolSection {
   void complete(double capacity_per_volume, double factor, Space space);
 
   std::size_t nodes() const { return heat_capacity.size(); }
+  const HeatCurves& curves_of(std::size_t node) const {
+    static const HeatCurves none;
+    return node < cloud.position.size() ? heat_curves : none;
+  }
   /// W/(m² K) between the workpiece and a node of the face: of the contact, and of half the coating.
   double contact_conductance() const;
   /// The place on the faces that is nearest to x (m, as the tool stood at t = 0): nodes of the coating where

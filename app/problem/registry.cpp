@@ -199,6 +199,13 @@ void check_overlap(const input::Case& input, const contact::Tool<3>& tool, const
                                     -distance, show_place<3>(x)));
 }
 
+std::vector<Coolant<2>> coolants(const input::Case& input) {
+  std::vector<Coolant<2>> list;
+  for (const input::Coolant& spec : input.coolants)
+    list.push_back({spec, spec.box, spec.follow ? as<ToolIndex>(*spec.follow) : ToolIndex::none});
+  return list;
+}
+
 /// What only workpieces of the plane have: regions, imperfections, ties.
 void set_parts(const input::Case& input, Problem<2>& model, IndexedVector<NodeIndex, std::int32_t>& region) {
   region = region_of_nodes(input, model.cloud);
@@ -261,6 +268,7 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   if constexpr (dim == 2) interfaces = conductances(input, model.cloud);
   model.heat_boundaries = ThermalBoundaries<dim>(std::move(all.temperatures), std::move(all.fluxes),
                                                  std::move(all.convections), space, std::move(interfaces));
+  if constexpr (dim == 2) model.heat_boundaries.cool(coolants(input), model.cloud);
 
   set_initial_state<dim>(input, model.cloud, region, setup.velocity, setup.temperature);
   for (std::string& warning : setup.warnings) warning = input.placed(warning);

@@ -28,6 +28,7 @@ ToolSection<2> make_section(const input::Case& input, const input::Tool& tool, T
   section.cloud = std::move(generated.cloud);
   section.approximation = methods::make<2>("fe-triangles", {.space = space})->rebuild(section.cloud);
   section.conductivity = nodes.metal.conductivity;
+  section.heat_curves = nodes.metal.heat_curves;
   section.coating = nodes.coating;
   section.held = nodes_of(facets_of(section.cloud, nodes.held));
   section.complete(nodes.metal.density * nodes.metal.specific_heat, nodes.heat_capacity_factor, space);

@@ -111,6 +111,19 @@ void add_conditions(Keys& k) {
   k.add(at + "convection", table, "Heat flux coefficient (ambient − T).");
   k.add(at + "convection.coefficient", quantity, "").unit(d::heat_transfer).in(not_negative).required();
   k.add(at + "convection.ambient", function, "").unit(d::temperature).in(temperature_range).required();
+  k.add("coolants", named_tables,
+        "Coolants: heat flux `coefficient` (`temperature` − T) wherever the boundary touches neither a tool "
+        "nor "
+        "itself, on faces that a cut makes, too.");
+  k.add("coolants.*", table, "A coolant.");
+  k.add("coolants.*.coefficient", quantity, "").unit(d::heat_transfer).in(not_negative).required();
+  k.add("coolants.*.temperature", function, "").unit(d::temperature).in(temperature_range).required();
+  k.add("coolants.*.box", vectors, "Two opposite corners of what it reaches.")
+      .unit(d::length)
+      .example("[\"-2 -0.1 mm\", \"0 0.1 mm\"]")
+      .computed("everywhere");
+  k.add("coolants.*.follow", text, "A tool that `box` moves with; `box` is where it begins.")
+      .example("\"cutter\"");
   k.add("initial", table, "The state at time 0, without stress and plastic strain.").always();
   k.add("initial.temperature", quantity, "")
       .unit(d::temperature)
@@ -215,6 +228,7 @@ void add_tools(Keys& k) {
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
   add_constants(k, at + "heat", constant_texts<contact::ToolThermal>(contact::ToolThermal::parameters));
   add_constants(k, at + "heat", constant_texts<contact::ToolMetal>(contact::ToolMetal::parameters));
+  add_constants(k, at + "heat", list_texts<HeatCurves>());
   add_tool_section(k, at + "heat.section");
 }
 

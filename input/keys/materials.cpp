@@ -115,6 +115,7 @@ void add_materials(Keys& k) {
   k.add(at + ".heat", table, "Thermal properties.");
   add_source(k, at + ".heat");
   add_constants(k, at + ".heat", constant_texts<plasticity::Material>(plasticity::Material::heat_parameters));
+  add_constants(k, at + ".heat", list_texts<HeatCurves>());
 }
 
 } // namespace cnem::input

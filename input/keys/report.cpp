@@ -68,6 +68,14 @@ void add_cutting_report(Keys& k) {
         "The means of its thirds differ from its mean by at most this share of the mean cutting force.")
       .in({.low = 0.0, .high = 1.0, .low_open = true})
       .fallback("0.05");
+  k.add("report.cutting.isotherms", quantities,
+        "Temperatures of the tool: how deep and how far along the rake face what is as warm reaches, at the "
+        "end "
+        "of the run.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .example("\"500 700 900 K\"")
+      .computed("whole hundreds, with `heat.section` of the tool");
   k.add("report.cutting.wear", table,
         "Usui's law of wear, to be told the rate at which the rake face wears.");
   add_constants(k, "report.cutting.wear", constant_texts<UsuiWear>(UsuiWear::parameters));

@@ -49,6 +49,7 @@ constexpr std::array scopes{
     Scoped{"tools.*.equal_areas", Scope::plane, "a plane has no arcs"},
     Scoped{"tools.*.heat.section", Scope::plane, "a half-space has no outline to fill with nodes"},
     Scoped{"contact", Scope::plane, "faces that touch each other are found along outlines"},
+    Scoped{"coolants", Scope::plane, "faces that a cut makes are of the plane"},
     Scoped{"adapt", Scope::plane, "nodes are put into Voronoi cells of the plane"},
     Scoped{"fracture", Scope::plane, "a crack front in space is a line, not a tip"},
     Scoped{"output.pictures", Scope::plane, "pictures show the plane; fields.pvd shows space"},

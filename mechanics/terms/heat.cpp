@@ -2,6 +2,7 @@
 // behind the mechanics (paper 004, 5.1.4).
 #include "core/index.hpp"
 #include "core/machine/parallel.hpp"
+#include "mechanics/node_heat.hpp"
 #include "mechanics/terms/list.hpp"
 #include "thermal/conduction.hpp"
 #include "thermal/conduction_interval.hpp"
@@ -23,7 +24,9 @@ public:
     const NodeState<dim>& node = body.state.node;
     content_.value = 0.0;
     for (std::size_t i = 0; i < node.size(); ++i)
-      content_.value += node.heat_capacity[i] * (node.temperature[i] - node.initial_temperature[i]);
+      content_.value +=
+          node.heat_capacity[i] *
+          curves_of<dim>(body.model, node, i).rise(node.initial_temperature[i], node.temperature[i]);
   }
 
   void limit(const Body<dim>& body, StepLimit& limit) override {
@@ -45,6 +48,9 @@ public:
     for (std::size_t p = 0; p < conductivity.size(); ++p)
       conductivity[p] = body.material_of_node(op.first_node(p)).conductivity;
     conduction_.set_operators(op, std::move(conductivity));
+    quickest_ = body.state.node.heat_capacity;
+    for (std::size_t i = 0; i < quickest_.size(); ++i)
+      quickest_[i] *= curves_of<dim>(body.model, body.state.node, i).quickest;
   }
 
   // Dissipation is that of each point's own step. At nodes it is heat at once: what it reads has just been
@@ -56,7 +62,7 @@ public:
     double sum = 0.0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const double q = plastic_heat_of_node(body, i);
-      node.temperature[i] += q / node.heat_capacity[i];
+      warm<dim>(body.model, node, i, q);
       sum += q;
     }
     sums_[due.index(range)] = sum;
@@ -69,7 +75,7 @@ public:
       double sum = 0.0;
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const double q = with_heat_of_points(body, i, due.activity, 0.0);
-        node.temperature[i] += q / node.heat_capacity[i];
+        warm<dim>(body.model, node, i, q);
         sum += q;
       }
       return sum;
@@ -110,8 +116,8 @@ private:
   void measure_stable_step(const Body<dim>& body) {
     const NodeState<dim>& node = body.state.node;
     const double decay =
-        conduction_.fastest_decay(body.position, node.heat_capacity) +
-        body.conditions.heat_boundaries.fastest_decay(body.state.time, node.position, node.heat_capacity);
+        conduction_.fastest_decay(body.position, quickest_) +
+        body.conditions.heat_boundaries.fastest_decay(body.state.time, node.position, quickest_);
     interval_.stable = decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
   }
 
@@ -139,7 +145,7 @@ private:
     if (body.operators().nodal) {
       for (const NodeIndex touching : body.conditions.contact.boundary_nodes()) {
         const auto i = index_of(touching);
-        node.temperature[i] += node.contact_heat[i] / node.heat_capacity[i];
+        warm<dim>(body.model, node, i, node.contact_heat[i]);
         generated_.value += node.contact_heat[i];
       }
       return;
@@ -148,7 +154,7 @@ private:
       double sum = 0.0;
       for (std::size_t i = begin; i < end; ++i) {
         const double heat = with_heat_of_points(body, i, body.levels.highest(), node.contact_heat[i]);
-        node.temperature[i] += heat / node.heat_capacity[i];
+        warm<dim>(body.model, node, i, heat);
         sum += heat;
       }
       return sum;
@@ -160,13 +166,13 @@ private:
     if (contacts_.empty()) return;
     NodeState<dim>& node = body.state.node;
     contacts_.each_node([&](NodeIndex i) { node.heat_flow[index_of(i)] = 0.0; });
-    const int substeps = stable_substeps(dt * contacts_.fastest_decay(node.heat_capacity));
+    const int substeps = stable_substeps(dt * contacts_.fastest_decay(quickest_));
     const double h = dt / substeps;
     for (int s = 0; s < substeps; ++s) {
       contacts_.add_flow(node.temperature, node.heat_flow);
       contacts_.each_node([&](NodeIndex touching) {
         const auto i = index_of(touching);
-        node.temperature[i] += h * node.heat_flow[i] / node.heat_capacity[i];
+        warm<dim>(body.model, node, i, h * node.heat_flow[i]);
         exchanged_.value += h * node.heat_flow[i];
         node.heat_flow[i] = 0.0;
       });
@@ -176,10 +182,28 @@ private:
   /// Tied nodes are one place, and what is prescribed holds, in every step.
   void hold(const Body<dim>& body) {
     NodeState<dim>& node = body.state.node;
-    const Ties<dim>& ties = body.conditions.heat_ties;
-    if (!ties.empty()) ties.share(node.heat_capacity, node.temperature);
-    exchanged_.value +=
-        body.conditions.heat_boundaries.hold(body.state.time, node.heat_capacity, node.temperature);
+    share_heat<dim>(body.model, body.conditions.heat_ties, node);
+    double heat = 0.0;
+    body.conditions.heat_boundaries.hold(body.state.time, [&](NodeIndex held, double value) {
+      const auto i = index_of(held);
+      heat += node.heat_capacity[i] * curves_of<dim>(body.model, node, i).rise(node.temperature[i], value);
+      node.temperature[i] = value;
+    });
+    exchanged_.value += heat;
+  }
+
+  /// Nodes that contact presses on or holds, and where tools are.
+  void look_at_exposure(const Body<dim>& body) {
+    const contact::RigidContact<dim>& contact = body.conditions.contact;
+    exposure_.covered.assign(body.state.node.size(), false);
+    exposure_.tool_moved.clear();
+    if (!contact.active()) return;
+    for (const contact::ContactPoint<dim>& touch : contact.points()) exposure_.covered[touch.node] = true;
+    const IndexedVector<BoundaryNodeIndex, NodeIndex>& boundary = contact.boundary_nodes();
+    for (const BoundaryNodeIndex b : boundary.indices())
+      if (contact.nodal_impulse()[b] != Vec<dim>::Zero()) exposure_.covered[boundary[b]] = true;
+    for (std::size_t t = 0; t < contact.tools().size(); ++t)
+      exposure_.tool_moved.push_back(contact.displacement(t, body.state.time));
   }
 
   /// Explicit conduction (58) and boundaries over an interval, in as many sub-steps as are stable.
@@ -189,18 +213,20 @@ private:
     const std::size_t n = node.size();
     const int substeps = stable_substeps(dt * 2.0 / interval_.stable);
     const double h = dt / substeps;
+    if (boundaries.cooled()) look_at_exposure(body);
     for (int s = 0; s < substeps; ++s) {
       std::fill(node.heat_flow.begin(), node.heat_flow.end(), 0.0);
       boundaries.add_flow(body.state.time, node.position, node.temperature, node.heat_flow);
+      boundaries.add_coolant_flow(body.state.time, exposure_, node.position, node.temperature,
+                                  node.heat_flow);
       const double received = h * sum_blocks(n, [&](std::size_t begin, std::size_t end) {
                                 double sum = 0.0;
                                 for (std::size_t i = begin; i < end; ++i) sum += node.heat_flow[i];
                                 return sum;
                               });
-      conduction_.add_flow(body.position, node.temperature, node.heat_flow);
+      conduction_.add_flow(body.position, potential<dim>(body.model, node, potential_), node.heat_flow);
       for_each_block(n, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          node.temperature[i] += h * node.heat_flow[i] / node.heat_capacity[i];
+        for (std::size_t i = begin; i < end; ++i) warm<dim>(body.model, node, i, h * node.heat_flow[i]);
       });
       exchanged_.value += received;
       hold(body);
@@ -209,8 +235,11 @@ private:
 
   Conduction<dim> conduction_;
   HeatContacts<dim> contacts_; ///< of this step
+  Exposure<dim> exposure_;     ///< to coolants, scratch
   ConductionInterval interval_;
-  std::vector<double> sums_;                                      ///< [range] J/m^(3−dim)
+  Field quickest_;           ///< [node] heat capacities that no exchange goes faster than
+  Field potential_;          ///< [node] K, scratch
+  std::vector<double> sums_; ///< [range] J/m^(3−dim)
   Energy content_{"heat_content", EnergyKind::heat_held};         ///< Σ C (T − T_start)
   Energy generated_{"heat_generated", EnergyKind::heat_received}; ///< from plastic work and friction
   Energy exchanged_{"heat_exchanged", EnergyKind::heat_received}; ///< received through the boundary

@@ -1,6 +1,7 @@
 // Heat in tools that conduct: their share of the friction heat, what passes through the contact, and
 // conduction in their sections, staggered behind the heat of the workpiece.
 #include "core/fields/vector_at.hpp"
+#include "mechanics/node_heat.hpp"
 #include "mechanics/terms/list.hpp"
 #include "thermal/conduction.hpp"
 #include "thermal/conduction_interval.hpp"
@@ -50,7 +51,8 @@ public:
       const ToolSection<2>& section = body.model.tool_sections[s];
       const Field& temperature = body.state.tool_temperature[s];
       for (std::size_t i = 0; i < temperature.size(); ++i)
-        content_.value += section.heat_capacity[i] * (temperature[i] - section.temperature);
+        content_.value +=
+            section.heat_capacity[i] * section.curves_of(i).rise(section.temperature, temperature[i]);
     }
   }
 
@@ -77,7 +79,7 @@ public:
       Field& temperature = body.state.tool_temperature[s];
       find_passages(body, section);
       take_friction_heat(body, section, temperature);
-      pass(section, dt, temperature, body.state.node);
+      pass(body.model, section, dt, temperature, body.state.node);
       hold(section, temperature);
       Course& course = course_[s];
       if (course.interval.stable == 0.0) course.interval.stable = stable_step(section, course);
@@ -116,23 +118,27 @@ private:
       const FacePlace<2> face = face_at(body, section, rubbed.node);
       for (std::size_t a = 0; a < 2; ++a) {
         const auto i = index_of(face.node[a]);
-        temperature[i] += face.weight[a] * rubbed.heat / section.heat_capacity[i];
+        warm(section, i, face.weight[a] * rubbed.heat, temperature);
       }
       generated_.value += rubbed.heat;
     }
   }
 
   /// Through the contact, in as many sub-steps as are stable: what leaves one side arrives at the other.
-  void pass(const ToolSection<2>& section, double dt, Field& temperature, NodeState<2>& node) {
+  void pass(const Model<2>& model, const ToolSection<2>& section, double dt, Field& temperature,
+            NodeState<2>& node) {
     if (passages_.empty()) return;
     Field& rate = rate_; // Gershgorin: a row of exchange is twice what its node gives
     rate.assign(section.nodes(), 0.0);
     double fastest = 0.0;
     for (const Passage& passage : passages_) {
-      fastest = std::max(fastest, 2.0 * passage.conductance / node.heat_capacity[index_of(passage.node)]);
+      const auto n = index_of(passage.node);
+      fastest = std::max(fastest, 2.0 * passage.conductance /
+                                      (node.heat_capacity[n] * curves_of<2>(model, node, n).quickest));
       for (std::size_t a = 0; a < 2; ++a) {
         const auto i = index_of(passage.face.node[a]);
-        rate[i] += 2.0 * passage.face.weight[a] * passage.conductance / section.heat_capacity[i];
+        rate[i] += 2.0 * passage.face.weight[a] * passage.conductance /
+                   (section.heat_capacity[i] * section.curves_of(i).quickest);
         fastest = std::max(fastest, rate[i]);
       }
     }
@@ -146,32 +152,46 @@ private:
             dt / substeps * passage.conductance * (node.temperature[index_of(passage.node)] - opposite);
       }
       for (const Passage& passage : passages_) {
-        const auto i = index_of(passage.node);
-        node.temperature[i] -= passage.heat / node.heat_capacity[i];
+        cnem::warm<2>(model, node, index_of(passage.node), -passage.heat);
         for (std::size_t a = 0; a < 2; ++a) {
           const auto k = index_of(passage.face.node[a]);
-          temperature[k] += passage.face.weight[a] * passage.heat / section.heat_capacity[k];
+          warm(section, k, passage.face.weight[a] * passage.heat, temperature);
         }
       }
     }
   }
 
+  /// Heat arrives at a node of the section, J/m.
+  static void warm(const ToolSection<2>& section, std::size_t i, double heat, Field& temperature) {
+    temperature[i] = section.curves_of(i).warmed(temperature[i], heat / section.heat_capacity[i]);
+  }
+
+  const Field& potential(const ToolSection<2>& section, const Field& temperature) {
+    if (!section.heat_curves.given()) return temperature;
+    potential_.resize(temperature.size());
+    for (std::size_t i = 0; i < temperature.size(); ++i)
+      potential_[i] = section.curves_of(i).potential(temperature[i]);
+    return potential_;
+  }
+
   void hold(const ToolSection<2>& section, Field& temperature) {
     for (const NodeIndex held : section.held) {
       const auto i = index_of(held);
-      exchanged_.value += section.heat_capacity[i] * (section.temperature - temperature[i]);
+      exchanged_.value +=
+          section.heat_capacity[i] * section.curves_of(i).rise(temperature[i], section.temperature);
       temperature[i] = section.temperature;
     }
   }
 
   static double stable_step(const ToolSection<2>& section, Course& course) {
-    double decay = course.conduction.fastest_decay(course.position, section.heat_capacity);
+    Field quickest = section.heat_capacity;
+    for (std::size_t i = 0; i < quickest.size(); ++i) quickest[i] *= section.curves_of(i).quickest;
+    double decay = course.conduction.fastest_decay(course.position, quickest);
     double through = 0.0;
     for (std::size_t i = 0; i < section.through_coating.size(); ++i)
       if (const NodeIndex over = section.coating_node[i]; exists(over))
         through = std::max(through, 2.0 * section.through_coating[i] *
-                                        std::max(1.0 / section.heat_capacity[i],
-                                                 1.0 / section.heat_capacity[index_of(over)]));
+                                        std::max(1.0 / quickest[i], 1.0 / quickest[index_of(over)]));
     decay += through;
     return decay > 0.0 ? 2.0 / decay : std::numeric_limits<double>::infinity();
   }
@@ -180,7 +200,7 @@ private:
     const int substeps = stable_substeps(interval * 2.0 / course.interval.stable);
     for (int s = 0; s < substeps; ++s) {
       std::fill(course.flow.begin(), course.flow.end(), 0.0);
-      course.conduction.add_flow(course.position, temperature, course.flow);
+      course.conduction.add_flow(course.position, potential(section, temperature), course.flow);
       for (std::size_t i = 0; i < section.through_coating.size(); ++i) {
         if (!exists(section.coating_node[i])) continue;
         const auto over = index_of(section.coating_node[i]);
@@ -189,14 +209,14 @@ private:
         course.flow[over] -= inwards;
       }
       for (std::size_t i = 0; i < temperature.size(); ++i)
-        temperature[i] += interval / substeps * course.flow[i] / section.heat_capacity[i];
+        warm(section, i, interval / substeps * course.flow[i], temperature);
       hold(section, temperature);
     }
   }
 
   std::vector<Course> course_;                                         ///< [section]
   std::vector<Passage> passages_;                                      ///< of a section in this step
-  Field rate_;                                                         ///< scratch
+  Field rate_, potential_;                                             ///< scratch
   Energy content_{"tool_heat_content", EnergyKind::heat_held};         ///< Σ C (T − T_start) of tools
   Energy generated_{"tool_heat_generated", EnergyKind::heat_received}; ///< their share of friction
   Energy exchanged_{"tool_heat_exchanged", EnergyKind::heat_received}; ///< received through held nodes

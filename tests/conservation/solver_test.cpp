@@ -60,6 +60,30 @@ TEST(Audit, mass_momentum_and_heat_are_kept_and_energy_is_booked) {
   }
 }
 
+TEST(Audit, heat_is_kept_where_specific_heat_changes_with_it) {
+  plasticity::Material material = steel_304L();
+  material.heat_curves.at = {.value = {280.0, 320.0, 500.0}, .size = 3};
+  material.heat_curves.specific_heat = {.value = {1.0, 2.0, 1.5}, .size = 3};
+  material.heat_curves.complete();
+  ExplicitSolver<2> solver = deformed_block(150, material);
+  const auto heat = [&] {
+    double sum = 0.0;
+    const NodeState<2>& node = solver.state().node;
+    for (std::size_t i = 0; i < node.size(); ++i)
+      sum += node.heat_capacity[i] * material.heat_curves.enthalpy(node.temperature[i]);
+    return sum;
+  };
+  for (const double factor : {0.5, 2.0}) {
+    const double before = heat();
+    solver.prepare(resampled(solver, factor));
+    EXPECT_NEAR(heat(), before, 1e-13 * before);
+    const EnergyLedger ledger = solver.ledger();
+    EXPECT_GT(ledger["heat_content"], 0.0);
+    EXPECT_NEAR(ledger.heat_residual(), 0.0, 1e-12 * before);
+    for (int n = 0; n < 20; ++n) solver.advance(solver.stable_step().dt);
+  }
+}
+
 TEST(Audit, stresses_of_mixed_points_do_not_exceed_the_yield_stress) {
   ExplicitSolver<2> solver = deformed_block(150);
   const Resampling<2> change = resampled(solver, 0.5);

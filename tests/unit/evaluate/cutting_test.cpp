@@ -111,7 +111,7 @@ CuttingResult example_cut() {
       {0, 5e-4, 1e-3}, {0, 1e5, 1.4e5}, {0, -4e4, -4e4}, {0, 1e5, 1.4e5}, {0, -4e4, -4e4}};
   result.chip.names = {"distance[m]", "thickness[m]"};
   result.chip.column = {{1e-4, 2e-4}, {4e-4, 4.4e-4}};
-  for (auto* table : {&result.rake_face, &result.depth}) {
+  for (auto* table : {&result.rake_face, &result.depth, &result.isotherms}) {
     table->names = {"distance[m]"};
     table->column.resize(1);
   }

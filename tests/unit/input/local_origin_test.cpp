@@ -49,6 +49,10 @@ heat.specific_heat = "200 J/(kg K)"
 spacing = "0.2 m"
 refine.a = {{ box = [{}, {}], spacing = "0.1 m" }}
 refine.b = {{ points = [{}], spacing = "0.1 m" }}
+[coolants.jet]
+coefficient = "1e4 W/(m2 K)"
+temperature = "293 K"
+box = [{}, {}]
 [output]
 windows.corner.box = [{}, {}]
 probes.p = {{ at = {}, fields = ["pressure"] }}
@@ -56,8 +60,8 @@ lines.l = {{ from = {}, to = {}, fields = ["pressure"] }}
 )toml",
       kinematics, at(0, 0), at(4, 0), at(4, 2), at(0, 2), at(1, 0.5), at(2.5, 1), at(2.75, 1), at(3, 0),
       at(3, 2), at(3.5, 0.5), at(0, 0), at(1, 1), at(0.5, 0.5), at(4, 0), at(2, 1), at(1, 1), at(1.5, 1.5),
-      at(2, 2.5), at(2, 2), at(2.5, 3), at(1.5, 2.5), at(0, 0), at(1, 1), at(0.5, 1), at(0.25, 0.5),
-      at(2, 0.5));
+      at(2, 2.5), at(2, 2), at(2.5, 3), at(1.5, 2.5), at(1, 1), at(2, 1.5), at(0, 0), at(1, 1), at(0.5, 1),
+      at(0.25, 0.5), at(2, 0.5));
 }
 
 std::vector<Vec2> places(const Case& c) {
@@ -81,6 +85,7 @@ std::vector<Vec2> places(const Case& c) {
   add({c.domain.regions.at(0).at});
   for (const clouds::Refinement& refinement : c.cloud.refinements) add(refinement.points);
   add_places(c.boundary.at(0).points);
+  add({c.coolants.at(0).box->front(), c.coolants.at(0).box->back()});
   add({c.initial.spin->centre, c.initial.gradient->centre});
   add(c.initial.imperfections.at(0).points);
   outline(c.tools.at(0).outline);
@@ -206,6 +211,7 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
                               "tools.*.heat.section.refine.*.box",
                               "tools.*.heat.section.refine.*.points",
                               "boundary.*.points",
+                              "coolants.*.box",
                               "initial.spin.centre",
                               "initial.velocity_gradient.centre",
                               "initial.imperfections.*.points",

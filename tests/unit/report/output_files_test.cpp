@@ -224,6 +224,27 @@ TEST_F(DrawnCells, cells_meet_without_seams_and_notches_stay_free) {
   EXPECT_LT(darkest(40, 10), 0x70U); // the rim
 }
 
+TEST_F(DrawnCells, tools_that_conduct_have_the_colours_of_the_scale) {
+  CellGeometry<2> tool;
+  tool.vertex = {{20, 31}, {36, 39.5}, {4, 39.5}};
+  tool.vertex_begin = {0, 1, 2, 3};
+  for (std::int32_t v = 0; v < 3; ++v) {
+    tool.vertex_node.push_back(as<NodeIndex>(v));
+    tool.vertex_weight.push_back(1.0);
+    tool.index.push_back(v);
+  }
+  tool.begin = {0, 3};
+  const std::vector<double> x{20, 36, 4}, y{31, 39.5, 39.5}, warm{1.0};
+  auto frame = std::make_shared<results::FieldFrame<2>>();
+  frame->cells = &tool;
+  frame->position = {x, y};
+  frame->cell_scalars = {{"temperature [K]", warm}};
+  picture.warm_tools = frame;
+  draw();
+  EXPECT_EQ(at(20, 37), at(30, 5)) << "a tool in the notch, as warm as a cell";
+  EXPECT_NE(at(5, 5), at(20, 37));
+}
+
 TEST_F(DrawnCells, lines_between_cells_are_darker_than_the_cells) {
   value = {1.0, 1.0, 1.0};
   picture.value = value;

@@ -56,7 +56,7 @@ struct Body {
     touching.add_flow(temperature, flow);
     conduction.add_flow(side_by_side<2>(position), temperature, flow);
     for (std::size_t i = 0; i < flow.size(); ++i) temperature[i] += dt * flow[i] / capacity[i];
-    boundaries.hold(time + dt, capacity, temperature);
+    boundaries.hold(time + dt, [&](NodeIndex node, double value) { temperature[index_of(node)] = value; });
   }
   void run(double end, const ThermalBoundaries<2>& boundaries) {
     const int steps = static_cast<int>(std::ceil(end / (0.9 * stable_step())));

@@ -46,7 +46,7 @@ struct Cylinder {
       boundaries.add_flow(0.0, position, temperature, flow);
       conduction.add_flow(side_by_side<2>(position), temperature, flow);
       for (std::size_t i = 0; i < flow.size(); ++i) temperature[i] += end / steps * flow[i] / capacity[i];
-      boundaries.hold(0.0, capacity, temperature);
+      boundaries.hold(0.0, [&](NodeIndex node, double value) { temperature[index_of(node)] = value; });
     }
   }
 };
