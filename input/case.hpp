@@ -207,7 +207,7 @@ struct Method {
   std::string name = "cnem"; ///< as in the registry of methods
   methods::Options options;
   double stabilisation = 0.05;    ///< – α of the edge defect; 0: off
-  double stress_annealing = 0.0; ///< – strength of the annealing of stresses where flow has ceased; 0: off
+  double stress_annealing = 0.0;  ///< – strength of the annealing of stresses where flow has ceased; 0: off
   double pressure_exchange = 0.0; ///< – α of the exchange of volume between flowing nodes; 0: off
   Lagrangian lagrangian = Lagrangian::periodic;
   int rereference_every = 0;        ///< steps (periodic); 0: never by count

@@ -15,8 +15,7 @@ namespace {
 template<int dim>
 double dilatation(const plasticity::Symmetric<dim>& log_elastic, const plasticity::Material& material,
                   double temperature) {
-  return 0.5 * log_elastic.template head<3>().sum() -
-         3.0 * material.thermal_strain(temperature);
+  return 0.5 * log_elastic.template head<3>().sum() - 3.0 * material.thermal_strain(temperature);
 }
 
 } // namespace

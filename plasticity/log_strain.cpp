@@ -94,11 +94,10 @@ template<int dim>
 Symmetric<dim> within_yield(const Material& material, const Symmetric<dim>& log_elastic,
                             const PointState<dim>& point, std::size_t p, double share) {
   if (!material.hardening) return log_elastic;
-  const double yield = share * point.strength[p] *
-                       material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p],
-                                                       point.temperature[p]);
-  return limited_to<dim>(log_elastic, yield,
-                         equivalent_stress<dim>(material, log_elastic, point, p));
+  const double yield =
+      share * point.strength[p] *
+      material.hardening->flow_stress(point.plastic_strain[p], point.plastic_rate[p], point.temperature[p]);
+  return limited_to<dim>(log_elastic, yield, equivalent_stress<dim>(material, log_elastic, point, p));
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \
