@@ -371,6 +371,7 @@ const std::vector<SmallCase>& small_cases() {
       {"touching_triangles", with_method(touching, "name = \"fe-triangles\"\n")},
       {"space", space_case()},
       {"rolled", adapted + rolled},
+      {"adapted_particles", with_method(adapted, "name = \"sph\"\n")},
       {"hybrid", with_method(adapted, "name = \"hybrid\"\n")}};
   return cases;
 }

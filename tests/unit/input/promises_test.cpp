@@ -41,7 +41,7 @@ TEST(Promises, history_at_nodes_needs_one_point_per_node) {
   const List one{Promise::one_point_per_node};
   EXPECT_EQ(lacking("method.pressure_exchange", "[method]\npressure_exchange = 0.3\n"), one);
   EXPECT_EQ(lacking("adapt.resample", "[adapt]\nresample = true\n"),
-            (List{Promise::one_point_per_node, Promise::tiling_cells, Promise::balanced_constant_stress}));
+            (List{Promise::one_point_per_node, Promise::tiling_cells}));
 }
 
 TEST(Promises, kinematics_statics_and_heat) {
