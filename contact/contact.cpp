@@ -2,6 +2,7 @@
 
 #include "contact/arc_offset.hpp"
 #include "contact/contact_parts.hpp"
+#include "contact/covered_edges.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 
@@ -255,6 +256,8 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
     hits.clear();
     ridge_hits<dim>(surface_, near_.facets(t), *tools_[t].shape, start_, end_, poses[t].start, poses[t].end,
                     hits);
+    if (tools_[t].equal_areas)
+      share_with_faces<dim>(surface_, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
     for (const RidgeHit<dim>& hit : hits) {
       Contact<dim> contact;
       contact.tool = t;

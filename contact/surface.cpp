@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace cnem::contact {
 
@@ -121,48 +120,6 @@ struct EdgeView {
   }
 };
 
-/// How a ridge bears on an edge that it meets at `place`. Where the face of the tool beside it lies on the
-/// workpiece it covers the edge up to there and presses on what it covers: evenly, so that the resultant is
-/// in the middle of that part, along the normal of the face, and the gap is the mean over it. Were the ridge
-/// to keep off the edge there too, the node beyond it would have to go with the tool, and a punch would bear
-/// as if it reached to that node. The ridge bears alone where the node before the edge does not touch the
-/// face, as where a sheet bends over it, where the edge is turned from the face by half of the ridge, and
-/// where it is no longer than the arc of a rounded ridge. What has been let in while the edge turned stays
-/// in: to push it out would be work from nothing.
-struct Bearing {
-  double share = 0.0; ///< of the face: 1 where the edge lies along it, 0 where the ridge bears alone
-  Vec2 face{0, 0};    ///< –, outward normal
-  double place = 0.0; ///< of the resultant on the edge
-
-  Bearing(const Surface<2>& surface, FacetIndex facet, PlacesOnBoundary<2> position, const EdgeView& edge,
-          const Ridge<2>& ridge, const Vec2& shift, double at)
-      : place(at) {
-    const Vec2 last = Eigen::Rotation2Dd(ridge.angle) * ridge.first;
-    const double to_first = ridge.first.dot(edge.normal), to_last = last.dot(edge.normal);
-    const bool before = to_first > to_last; // tools run counter-clockwise: it covers the edge towards its end
-    face = before ? ridge.first : last;
-    const FacetIndex next =
-        before ? surface.leaving[surface.facets[facet][1]] : surface.entering[surface.facets[facet][0]];
-    if (!exists(next)) return;
-    const Vec2& beside = position[surface.facets[next][before ? 1 : 0]];
-    constexpr double touching = 0.1; // of the edge's length: a gap of more is none
-    const double gap = face.dot(beside - ridge.extreme(face) - shift) / (touching * edge.length);
-    const double turn = std::acos(std::min(1.0, std::max(to_first, to_last))) / ridge.angle;
-    share = smooth_step(1.0 - gap) * smooth_step(4.0 * (0.5 - turn)) * ridge.sharpness(edge.length);
-    place += 0.5 * share * ((before ? 1.0 : 0.0) - at);
-  }
-  Vec2 normal(const EdgeView& edge) const {
-    return share > 0.0 ? Vec2((share * face + (1.0 - share) * edge.normal).normalized()) : edge.normal;
-  }
-  /// m, at the place; the edge may have moved.
-  double gap(const EdgeView& edge, const Ridge<2>& ridge, const Vec2& shift) const {
-    if (share == 0.0) return edge.gap(ridge, shift);
-    const Vec2 n = normal(edge);
-    return n.dot(edge.a + place * edge.length * edge.along - ridge.extreme(n) - shift) +
-           (1.0 - share) * ridge.sagitta(edge.length);
-  }
-};
-
 /// Beyond an end at which the workpiece is concave, a ridge that is also beyond the neighbouring edge presses
 /// on the node between them.
 bool presses_on_notch(const Surface<2>& surface, const EdgeView& edge, FacetIndex facet,
@@ -226,19 +183,15 @@ void ridge_hits<2>(const Surface<2>& surface, std::span<const FacetIndex> facets
       constexpr double rounding = 1e-9;
       if (place < -rounding && !presses_on_notch(surface, now, f, end, tip, false)) continue;
       if (place > 1.0 + rounding && !presses_on_notch(surface, now, f, end, tip, true)) continue;
-      const Bearing bearing(surface, f, end, now, ridge, shift_end, std::clamp(place, 0.0, 1.0));
-      double left = bearing.gap(now, ridge, shift_end);
       const EdgeView before(surface, f, start);
-      double passed = bearing.gap(before, ridge, shift_start);
+      double passed = before.gap(ridge, shift_start);
       if (passed < -rounding * now.length) {
         if (!encloses(surface, start, ridge.extreme(before.normal) + shift_start)) continue;
       } else {
         passed = std::max(passed, 0.0);
       }
-      if (bearing.share > 0.0 && passed < 0.0) left -= std::exchange(passed, 0.0);
-      if (left >= 0.0) continue;
-      const double s = bearing.place;
-      hits.push_back({as<std::int32_t>(r), f, {1.0 - s, s}, bearing.normal(now), left, passed});
+      const double s = std::clamp(place, 0.0, 1.0);
+      hits.push_back({as<std::int32_t>(r), f, {1.0 - s, s}, now.normal, gap, passed});
     }
     keep_last_passed(surface, end, hits, first);
   }

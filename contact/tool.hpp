@@ -103,7 +103,7 @@ struct ToolSurface {
   std::string name;
   Friction friction;
   ToolThermal thermal;
-  bool equal_areas = false; ///< whether nodes stay off its arcs as contact/arc_offset.hpp says
+  bool equal_areas = false; ///< as contact/arc_offset.hpp and contact/covered_edges.hpp say
 };
 
 template<int dim> struct Tool : ToolSurface {

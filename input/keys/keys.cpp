@@ -221,8 +221,9 @@ void add_tools(Keys& k) {
       .computed("0 without `mass`");
   add_drive(k, at);
   k.add(at + "equal_areas", boolean,
-        "Nodes stay so far off its rounded edges that chords between them and arcs enclose equal areas; else "
-        "nodes lie on arcs and chords inside the tool. For edges in fine cells, as in cutting.")
+        "Edges of the workpiece lie as much inside the tool as outside: nodes stay off its arcs, else "
+        "they lie on them and chords inside; and where a corner falls between two nodes the face beside "
+        "it presses on what it covers of the edge, else it bears as if it reached to the next node.")
       .fallback("false");
   add_friction(k, at + "friction", "Friction on the workpiece.");
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");

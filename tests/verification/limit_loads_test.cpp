@@ -13,15 +13,14 @@ constexpr double spacing = 0.0625e-3; ///< m, of the case at the surface
 /// over the last sixth. The corner is `beyond` spacings past the node at 1 mm.
 double prandtl(double beyond, const std::vector<std::string>& changes = {}) {
   const double half_width = 1e-3 + beyond * spacing, k = 100e6 / std::numbers::sqrt3;
-  std::vector<std::string> overrides{
-      fmt::format("tools.punch.rectangle.to={{ x = \"{:.12g} m\", y = \"2 mm\" }}", half_width),
-      "time.end=24 us", "output.pictures=[]"};
+  std::vector<std::string> overrides{fmt::format("tools.punch.rectangle.to={:.12g} 2 mm", 1e3 * half_width),
+                                     "time.end=24 us", "output.pictures=[]"};
   overrides.insert(overrides.end(), changes.begin(), changes.end());
   const FinishedRun done = finish(input::read_case(
       std::string(CNEM_SOURCE_DIR) + "/cases/verification/prandtl_punch/case.toml", overrides));
   EXPECT_LT(done.status.energy_residual, 1e-4);
   EXPECT_LT(done.of("energy.contact_recovery").back() + done.of("energy.contact_impact").back(),
-            1e-3 * done.of("energy.tool_work").back());
+            3e-3 * done.of("energy.tool_work").back());
   const std::vector<double>& force = done.of("punch.force_y");
   double sum = 0.0;
   std::size_t rows = 0;
