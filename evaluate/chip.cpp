@@ -14,7 +14,7 @@ constexpr double out_of_shear = 0.25; ///< of the feed: so far beyond the shear 
 constexpr double at_end = 0.5;        ///< of the thickness: so far from its end it is not
 constexpr double longest_chip = 10.0; ///< feeds: what was made before is not looked at
 constexpr double shortest_chip = 0.5; ///< of the feed: a chip of which less can be measured is none yet
-constexpr double stands_out = 0.15;   ///< of the thickness: what is smaller is roughness, no tooth
+constexpr double stands_out = 0.10;   ///< of the thickness: what is smaller is roughness, no tooth
 
 /// A polyline by its length.
 struct ChipSide {
