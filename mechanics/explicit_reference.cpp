@@ -85,7 +85,8 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
       plasticity::update_stress(model_.materials, point.material, plasticity::stress_points(point), 0,
                                 static_cast<std::ptrdiff_t>(points), 0.0);
   if (bad >= 0) diverged(index_of(bad), "elastic strain");
-  each([&](Term<dim>& term) { term.stressed(body()); });
+  double booked = 0.0; // J/m^(3−dim), of the stored energy
+  each([&](Term<dim>& term) { booked += term.stressed(body()); });
   each([&](Term<dim>& term) { term.renew(body()); });
   for (std::size_t p = 0; p < points; ++p)
     point.density[p] = body().material_of(p).density * point.stress_free[p];
@@ -96,7 +97,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   // what nodes exchange by the points of a reference follows it, and makes none of its own
   if (!(change && change->points_stay && points_change)) ++references_;
   if (change) ++resamplings_;
-  each([&](Term<dim>& term) { term.settle(body(), change || points_change); });
+  each([&](Term<dim>& term) { term.settle(body(), change || points_change, booked); });
 }
 
 /// What gathering passes read, on a new reference.

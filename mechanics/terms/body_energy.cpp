@@ -64,13 +64,10 @@ public:
     kinetic_ = kinetic_energy<dim>(body);
     left_ = true;
   }
-  void stressed(const Body<dim>& body) override {
+  void settle(const Body<dim>& body, bool resampled, double booked) override {
     if (!left_) return;
-    rereference_.value += elastic_ - integral<dim>(body, body.state.point.stored_energy);
+    rereference_.value += elastic_ - booked - integral<dim>(body, body.state.point.stored_energy);
     body.plastic_offset += plastic_ - integral<dim>(body, body.state.point.plastic_work);
-  }
-  void settle(const Body<dim>& body, bool resampled) override {
-    if (!left_) return;
     if (resampled) resampling_.value += kinetic_ - kinetic_energy<dim>(body);
     left_ = false;
   }

@@ -43,17 +43,16 @@ template<int dim> Field StressAnnealing<dim>::shares(const PointState<dim>& poin
   return share;
 }
 
-template<int dim> void StressAnnealing<dim>::stressed(const Body<dim>& body) {
+template<int dim> double StressAnnealing<dim>::stressed(const Body<dim>& body) {
   const StabilisationLinks<dim>& links = body.approximation.links;
-  if (links.neighbour.empty()) return;
+  if (links.neighbour.empty()) return 0.0;
   PointState<dim>& point = body.state.point;
   const Field share = shares(point);
   Field mass(point.size());
   for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = body.operators().volume[i] * point.stress_free[i];
   const LinkSmoother<dim> smoother(links, body.reference, share, point.material, mass, strength_);
-  if (smoother.nodes().empty()) return;
-  const double elastic = integral<dim>(body, point.stored_energy),
-               plastic = integral<dim>(body, point.plastic_work);
+  if (smoother.nodes().empty()) return 0.0;
+  const double before = integral<dim>(body, point.stored_energy);
   std::vector<typename LinkSmoother<dim>::Values> strains;
   strains.reserve(smoother.nodes().size());
   Fields<symmetric_size<dim>>& elastic_tensor = point.inverse_plastic_cauchy_green;
@@ -78,8 +77,9 @@ template<int dim> void StressAnnealing<dim>::stressed(const Body<dim>& body) {
                                 static_cast<std::ptrdiff_t>(point.size()), 0.0);
   assert(bad < 0);
   static_cast<void>(bad);
-  dissipated_.value += elastic - integral<dim>(body, point.stored_energy);
-  body.plastic_offset += plastic - integral<dim>(body, point.plastic_work);
+  const double lost = before - integral<dim>(body, point.stored_energy);
+  dissipated_.value += lost;
+  return lost;
 }
 
 template<int dim> std::unique_ptr<Term<dim>> stress_annealing(const Model<dim>& model) {

@@ -112,16 +112,17 @@ public:
   virtual void leave(const Body<dim>&) {}
   /// Fields went over to the nodes of a resampled cloud.
   virtual void carried(const Body<dim>&) {}
-  /// Stresses are those of a new reference, and nothing else has been made of them yet.
-  virtual void stressed(const Body<dim>&) {}
+  /// Stresses are those of a new reference, and nothing else has been made of them yet. Returns what of the
+  /// stored energy its own entries have taken, J/m^(3−dim).
+  virtual double stressed(const Body<dim>&) { return 0.0; }
   /// Operators and stresses are those of a new reference.
   virtual void renew(const Body<dim>&) {}
   /// The same, or a checkpoint has been read.
   virtual void attach(const Body<dim>&) {}
   /// The levels of points are set.
   virtual void set_levels(const Body<dim>&) {}
-  /// The new reference is complete with its forces.
-  virtual void settle(const Body<dim>&, bool /*resampled*/) {}
+  /// The new reference is complete with its forces; `booked` is what terms have taken when stressed.
+  virtual void settle(const Body<dim>&, bool /*resampled*/, double /*booked*/) {}
   /// Stresses are about to be taken back to what they were before impulses were made of them.
   virtual void restore(const Body<dim>&) {}
 
