@@ -172,8 +172,11 @@ Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>
   Field wanted = size_;
   if (rules.rest_factor > 0.0) {
     constexpr double least = 0.01; // what was strained less has not flowed
+    const PointState<2>& point = solver.state().point;
+    // bands that broke keep their cells: mixed with what is whole beside them they would be smeared
+    const auto whole = [&](std::size_t i) { return !point.damaged.on() || point.softening[i] == 0.0; };
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (flow_.rests(i) && solver.state().point.plastic_strain[i] > least)
+      if (flow_.rests(i) && point.plastic_strain[i] > least && whole(i))
         wanted[i] = std::max(wanted[i], rules.rest_factor * first_[i]);
   }
   if (rules.surface_spacing) {

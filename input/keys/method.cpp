@@ -140,7 +140,8 @@ void add_adaptation(Keys& k) {
       .in(positive)
       .example("\"0.02 mm\"");
   k.add("adapt.rest_factor", quantity,
-        "Wanted spacing of matter that has flowed and rests now, over that which the cloud had there at the "
+        "Wanted spacing of whole matter that has flowed and rests now, over that which the cloud had there "
+        "at the "
         "start: what refinement leaves behind is removed. 0: it stays.")
       .in({.low = 0.0, .high = 100.0})
       .fallback("0");

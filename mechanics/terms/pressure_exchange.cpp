@@ -213,7 +213,7 @@ double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Fa
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < point.size(); ++i) {
-    if (on_boundary[i] || !(point.plastic_rate[i] > 0.0)) continue;
+    if (on_boundary[i] || !(point.plastic_rate[i] > 0.0) || !(point.equivalent_stress[i] > 0.0)) continue;
     double mean = 0.0;
     for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e)
       mean += point.pressure[index_of(point_of(links.neighbour[index_of(e)]))];

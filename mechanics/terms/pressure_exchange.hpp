@@ -64,8 +64,8 @@ private:
   Energy dissipated_{"pressure_exchange", EnergyKind::dissipated};
 };
 
-/// Root mean square of (p − mean of the neighbours' p)/σ_eq over interior nodes that flow; 0 when there is
-/// none.
+/// Root mean square of (p − mean of the neighbours' p)/σ_eq over interior nodes that flow and have not
+/// melted; 0 when there is none.
 template<int dim>
 double pressure_noise(const StabilisationLinks<dim>& links, const std::vector<Facet<dim>>& facets,
                       const PointState<dim>& point);

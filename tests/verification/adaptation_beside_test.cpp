@@ -29,15 +29,6 @@ rectangle = { from = "-1 2 mm", to = "5 3 mm" }
 velocity = "0 -60 m/s"
 )toml" + steel_body;
 
-const std::string brittle = R"toml(
-[materials.steel.damage]
-law = "johnson-cook"
-D1 = 0.05
-D2 = 0.1
-D3 = -1.5
-fracture_energy = "20 kJ/m2"
-)toml";
-
 TEST(Adaptation, carries_scaled_masses) {
   const Adapted plain = run(punched, by_strain),
                 scaled = run(punched, with(by_strain, {"time.mass_scaling.factor=4"}));

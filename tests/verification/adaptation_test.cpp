@@ -121,6 +121,18 @@ TEST(Adaptation, coarsens_where_the_band_has_passed) {
   }
 }
 
+TEST(Adaptation, keeps_the_cells_of_what_softens) {
+  const Texts resting{"adapt.indicator.coarsen=0", "adapt.rest_factor=1"};
+  const Adapted sound = run(rolled, resting, 2e-3),
+                softened = run(rolled + brittle,
+                               with(resting, {"materials.steel.damage.cut_off=-1000",
+                                              "materials.steel.damage.D1=0.01", "materials.steel.damage.D2=0",
+                                              "materials.steel.damage.fracture_energy=500 kJ/m2"}),
+                               2e-3);
+  EXPECT_EQ(softened.metric("max_damage"), 1.0);
+  EXPECT_GT(softened.count(is_behind), 1.3 * sound.count(is_behind));
+}
+
 TEST(Adaptation, stays_near_the_budget_of_nodes) {
   const Adapted free = run(punched, by_strain),
                 held = run(punched, with(by_strain, {"adapt.indicator.max_nodes=220"}));
