@@ -124,20 +124,11 @@ TEST(ArcOffset, IsNothingWhereAnEdgeLeavesTheToolOrIsLongerThanTheArc) {
 
 TEST(ArcOffset, KeepsNodesOffATool) {
   constexpr double r = 0.5, h = 0.1;
+  const Vec2 velocity(0.0, -1.0);
   Masses scene;
-  std::vector<int> loop;
-  for (int i = 0; i <= 8; ++i) {
-    const double angle = (i - 4) * h / r;
-    loop.push_back(scene.add({-r * std::sin(angle), -r * std::cos(angle)}, 1.0));
-  }
-  loop.push_back(scene.add({-0.5, -0.8}, 1.0));
-  loop.push_back(scene.add({0.5, -0.8}, 1.0));
-  scene.loop(loop);
+  scene.under_disc(r, h, velocity);
   Curve circle;
   circle.pieces = {arc({r, 0}, {r, 0}, {0, 0})};
-  const Vec2 velocity(0.0, -1.0);
-  for (int i = 0; i < int(scene.mass.size()); ++i)
-    for (std::size_t k = 0; k < 2; ++k) scene.v[k][std::size_t(i)] = velocity[int(k)];
   Tool<2> rounded = tool(circle, velocity);
   rounded.equal_areas = true;
   scene.start({rounded});

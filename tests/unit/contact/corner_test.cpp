@@ -86,21 +86,12 @@ TEST(Corner, SmallRadiusDoesNotPassBetweenNodes) {
 TEST(Corner, LargeRadiusLeavesTheSagittaOfAChord) {
   // all upper nodes on a disc: the chords between them cut into it, and must not be pushed off
   const double r = 0.5, h = 0.1;
-  Masses scene;
-  std::vector<int> loop;
-  for (int i = 0; i <= 8; ++i) {
-    const double angle = (i - 4) * h / r;
-    loop.push_back(scene.add({-r * std::sin(angle), -r * std::cos(angle)}, 1.0));
-  }
-  loop.push_back(scene.add({-0.5, -0.8}, 1.0));
-  loop.push_back(scene.add({0.5, -0.8}, 1.0));
-  scene.loop(loop);
-  Curve disc;
-  disc.pieces = {arc({r, 0}, {r, 0}, {0, 0})};
   // all travel together, so that nothing acts, not even the slow push that frees penetrating nodes
   const Vec2 velocity(0.3, -1.0);
-  for (int i = 0; i < int(scene.mass.size()); ++i)
-    for (std::size_t k = 0; k < 2; ++k) scene.v[k][std::size_t(i)] = velocity[int(k)];
+  Masses scene;
+  scene.under_disc(r, h, velocity);
+  Curve disc;
+  disc.pieces = {arc({r, 0}, {r, 0}, {0, 0})};
   scene.start({tool(disc, velocity)});
   EXPECT_TRUE(scene.contact->overlaps(scene.x, 0.0).empty());
   for (int i = 0; i < 20; ++i) scene.step(1e-3);

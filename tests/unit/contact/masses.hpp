@@ -110,6 +110,16 @@ struct Masses {
     for (const Vec2& corner : {Vec2(side, 0), Vec2(side, side), Vec2(0, side)}) add(low + corner, 1.0);
     loop({first, first + 1, first + 2, first + 3});
   }
+  /// A body with nine nodes `spacing` apart on the lower side of a disc round the origin; all move alike.
+  void under_disc(double radius, double spacing, const Vec2& velocity) {
+    std::vector<int> nodes;
+    for (int i = -4; i <= 4; ++i) {
+      const double angle = i * spacing / radius;
+      nodes.push_back(add({-radius * std::sin(angle), -radius * std::cos(angle)}, 1.0, velocity));
+    }
+    for (const double x : {-0.5, 0.5}) nodes.push_back(add({x, -0.8}, 1.0, velocity));
+    loop(nodes);
+  }
   void start(std::vector<Tool<2>> tools) {
     contact = std::make_shared<RigidContact<2>>(std::move(tools));
     contact->set_boundary(facets, mass.size(), constraints);
