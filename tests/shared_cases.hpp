@@ -25,8 +25,8 @@ pieces = "top"
 traction = "0 20 MPa"
 )toml";
 
-/// A punch goes into the left of a block.
-inline const std::string punched_block = steel_304l + R"toml(
+/// A block that slides on its base.
+inline const std::string steel_block = steel_304l + R"toml(
 [domain]
 material = "steel"
 outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
@@ -35,9 +35,16 @@ spacing = "0.25 mm"
 [boundary.base]
 pieces = ["bottom"]
 symmetry = true
-[tools.punch]
+)toml";
+
+/// A punch for its left; a test may go on with its friction.
+inline const std::string left_punch = R"toml([tools.punch]
 rectangle = { from = "-1 2 mm", to = "1.1 5 mm" }
 velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
+)toml";
+
+/// A punch goes into the left of a block.
+inline const std::string punched_block = steel_block + left_punch + R"toml(
 [method]
 rereference = { every = 40, strain = 0.1 }
 )toml";

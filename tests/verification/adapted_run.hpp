@@ -6,7 +6,7 @@
 #include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
 #include "results/status.hpp"
-#include "tests/steel.hpp"
+#include "tests/shared_cases.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace cnem::testing {
 
 using Texts = std::vector<std::string>;
 
-inline const std::string steel_body = steel_304l + R"toml(
+inline const std::string adapting = R"toml(
 [method]
 rereference = { every = 40, strain = 0.1 }
 [adapt]
@@ -35,26 +35,12 @@ resample = true
 history_every = "0.1 us"
 fields_every = "10 us"
 )toml";
+inline const std::string steel_body = steel_304l + adapting;
 
 // A punch goes into the left of a block.
-inline const std::string block_case = R"toml(
-[time]
-end = "10 us"
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "4 2 mm" }
-[cloud]
-spacing = "0.25 mm"
-[boundary.base]
-pieces = ["bottom"]
-symmetry = true
-)toml" + steel_body;
-inline const std::string punched = block_case + R"toml(
-[tools.punch]
-rectangle = { from = "-1 2 mm", to = "1.1 5 mm" }
-velocity = { y = { value = "-60 m/s", ramp = "2 us" } }
-friction = { law = "tresca-limited", coefficient = 0.2 }
-)toml";
+inline const std::string block_case = steel_block + adapting + "[time]\nend = \"10 us\"\n";
+inline const std::string punched =
+    block_case + left_punch + "friction = { law = \"tresca-limited\", coefficient = 0.2 }\n";
 
 inline const std::string brittle = R"toml(
 [materials.steel.damage]
