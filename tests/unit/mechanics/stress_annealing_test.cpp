@@ -1,4 +1,5 @@
 // Annealing of stresses where metal has ceased to flow: what it conserves, books and rubs out.
+#include "graded.hpp"
 #include "mechanics/terms/stress_annealing.hpp"
 #include "models.hpp"
 
@@ -18,16 +19,23 @@ TEST(StressAnnealing, is_as_much_however_often_references_are_renewed) {
   EXPECT_EQ(annealing_due(1e-7, 1e-7, 0.0), 0.0);
 }
 
-/// A block that was set in motion, flows and comes to rest, on references renewed every 100 steps.
-ExplicitSolver<2> stirred(double annealing) {
-  Problem<2> model = model_of(rectangle(2e-3, 1e-3, 1e-4), Method::cnem, steel_304L());
+/// A block, or a ring of its section, that was set in motion, flows and comes to rest.
+ExplicitSolver<2> stirred(double annealing, Space space = Space::plane, bool local = false) {
+  Cloud<2> cloud = local ? graded_rectangle(2e-3, 1e-3, 1.2e-4, 3e-5, {{0.9e-3, 5e-4}, {1.1e-3, 5e-4}})
+                         : rectangle(2e-3, 1e-3, 1e-4);
+  if (space == Space::revolution)
+    for (Vec2& at : cloud.position) at.x() += 3e-3;
+  Problem<2> model = model_of(std::move(cloud), Method::cnem, steel_304L());
+  model.method = make(Method::cnem, space);
   model.stress_annealing = annealing;
   model.viscosity = {1.2, 0.06};
+  model.local = {.on = local, .least_gain = 0.0};
   return start(std::move(model), [](const Vec2& x) -> Vec2 {
     return {60.0 * std::sin(2000.0 * x.y()), -80.0 * std::sin(1500.0 * x.x())};
   });
 }
 
+/// On references renewed every 100 steps.
 void run(ExplicitSolver<2>& solver, int steps) {
   const double dt = 0.8 * solver.stable_step().dt;
   for (int n = 0; n < steps; ++n) {
@@ -50,6 +58,18 @@ TEST(StressAnnealing, keeps_momenta_and_the_energy_balance_of_a_run) {
     EXPECT_LT(std::abs(ledger.residual()), 1e-3 * initial) << strength;
     if (strength == 0.0) continue;
     EXPECT_GT(ledger["stress_annealing"], 0.0);
+  }
+}
+
+TEST(StressAnnealing, balances_of_revolution_and_with_local_steps) {
+  for (const bool local : {false, true}) {
+    ExplicitSolver<2> solver = stirred(1.0, local ? Space::plane : Space::revolution, local);
+    run(solver, local ? 600 : 1500);
+    EXPECT_EQ(solver.sub_steps() > 1, local);
+    const EnergyLedger ledger = solver.ledger();
+    EXPECT_GT(ledger["plastic"], 0.1 * ledger.initial());
+    EXPECT_GT(ledger["stress_annealing"], 0.0);
+    EXPECT_LT(std::abs(ledger.residual()), 2e-3 * ledger.initial()) << local;
   }
 }
 
