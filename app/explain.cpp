@@ -88,6 +88,12 @@ std::string cut_text(const input::Case& input, const Forecast& expected) {
     text += line("inertia",
                  fmt::format("½ρV²/σ = {}: {}", number_format(share, 2),
                              share < 0.01 ? "forces are those of a slow cut" : "it acts on the forces"));
+    constexpr double little = 0.005, heavy = 400.0, tedious = 900.0;
+    const bool scaled = input.time.mass_scaling && input.time.mass_scaling->factor > 1.0;
+    if (!scaled && heavy * share < little && expected.seconds > tedious)
+      text += line("note", fmt::format("inertia permits --set time.mass_scaling.factor={:g}, in place of "
+                                       "time.mass_scaling.cell: {:g} times the step that cells have without",
+                                       heavy, std::sqrt(heavy)));
   }
   constexpr double steady = 10.0, long_run = 3600.0;
   if (cut.length > 2.0 * steady * f && expected.seconds > long_run)

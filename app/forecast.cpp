@@ -84,7 +84,8 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
       if (input.adapt.surface_spacing)
         expected.finest = std::min(expected.finest, *input.adapt.surface_spacing);
       if (input.adapt.indicator) expected.finest = std::min(expected.finest, input.adapt.h_min);
-      if (!input.time.fixed) step *= expected.finest / coarse;
+      if (!input.time.fixed)
+        step = std::max(step * expected.finest / coarse, std::min(step, solver.wanted_step()));
     }
   }
   expected.steps = std::ceil(input.time.end / step);

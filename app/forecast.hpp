@@ -17,7 +17,8 @@ struct Forecast {
 };
 
 /// Of a solver at its start, whose stable step `control` has looked at. The step is that of the cells there
-/// are, shorter in proportion where adaptation makes finer ones. How good it is says docs/cutting.md.
+/// are, shorter in proportion where adaptation makes finer ones, but not than mass scaling asks for. How good
+/// it is says docs/cutting.md.
 template<int dim>
 Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, const StepControl& control);
 

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace cnem::input {
 void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics) {
@@ -63,12 +67,18 @@ void read_mass_scaling(const Setting& root, Case& result, Diagnostics& diagnosti
   const Setting* table = root.find("time.mass_scaling");
   if (!table) return;
   MassScaling& scaling = result.time.mass_scaling.emplace();
-  const auto factor = table->maybe<double>("factor"), step = table->maybe<double>("step");
-  scaling = {factor.value_or(1.0), step.value_or(0.0)};
-  if (factor.has_value() == step.has_value())
-    diagnostics.add(Mistake::conflict, table->where, table->path,
-                    factor ? "found both factor and step, expected one of them"
-                           : "found neither factor nor step, expected one of them");
+  const auto factor = table->maybe<double>("factor"), step = table->maybe<double>("step"),
+             cell = table->maybe<double>("cell");
+  scaling = {factor.value_or(1.0), step.value_or(0.0), cell.value_or(0.0)};
+  std::vector<std::string_view> found;
+  for (const auto& [name, value] :
+       {std::pair{"factor", &factor}, std::pair{"step", &step}, std::pair{"cell", &cell}})
+    if (*value) found.emplace_back(name);
+  if (found.size() != 1)
+    diagnostics.add(
+        Mistake::conflict, table->where, table->path,
+        fmt::format("found {}, expected one of factor, step, cell",
+                    found.empty() ? "none of them" : fmt::format("{}", fmt::join(found, " and "))));
 }
 
 } // namespace cnem::input

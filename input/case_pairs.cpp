@@ -157,14 +157,6 @@ const std::vector<Pair>& pairs() {
          return when(c.method.lagrangian == Method::Lagrangian::total, "with method.lagrangian = \"total\"");
        },
        "\"periodic\"", "nodes are changed at a new reference", resampled},
-      {"time.mass_scaling.step", "a step", "refinement",
-       [](const Case& c) {
-         const bool refines =
-             resampled(c) && (c.adapt.indicator || c.adapt.tool_spacing || c.adapt.surface_spacing);
-         return when(refines && c.time.mass_scaling, "for a cloud that is refined");
-       },
-       "time.mass_scaling.factor", "the factors of the first cloud do not bring finer cells to that step",
-       [](const Case& c) { return c.time.mass_scaling && c.time.mass_scaling->step > 0.0; }},
       {"report.springback", "true", "ties",
        [](const Case& c) {
          return when(!c.domain.interfaces.empty(), "with domain.interfaces") +

@@ -24,11 +24,16 @@ constexpr double coarse = 0.5;         ///< spacing away from the cut
 constexpr double fine = 0.2;           ///< spacing of what becomes the chip
 constexpr double finest = 0.05;        ///< spacing where it flows, by the indicator
 constexpr double surface = 1.0 / 17.0; ///< spacing of free surfaces that flow
+constexpr double cell = 0.02;          ///< width of cells whose step finer ones take, heavier than they are
 constexpr double a_row = 0.05;         ///< way of the tool between rows of the history
 } // namespace feeds
 
 /// Spacing of what has flowed and rests, over that of the cloud there.
 constexpr double rest_factor = 1.5;
+
+/// Spacing at the edge over its radius, and that whose step these cells take over theirs at most: they grow
+/// heavier by the square of it.
+constexpr double edge_spacing = 0.25, heaviest = 4.0;
 
 /// Radius at the ends of a land over its width, unless it is given.
 constexpr double sharpest = 0.2;
@@ -105,7 +110,8 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
   const double way = cut.length + (cut.exit ? feeds::beyond * f : 0.0), duration = way / cut.speed;
   const auto time = [](double t) { return fmt::format("\"{} s\"", format_number(t)); };
   std::string text =
-      fmt::format("[time]\nend = {}\n", time(duration)) +
+      fmt::format("[time]\nend = {}\n[time.mass_scaling]\ncell = {}\n", time(duration),
+                  length(std::min(feeds::cell * f, heaviest * edge_spacing * cut.edge_radius))) +
       fmt::format("[domain.outer.rectangle]\nfrom = {}\nto = {}\n", point({0.0, -below}), point({end, f})) +
       fmt::format("[cloud]\nspacing = {}\n[cloud.refine.layer]\nbox = [{}, {}]\nspacing = {}\n",
                   length(feeds::coarse * f), point({0.0, -feeds::layer * f}), point({end, f}),
@@ -127,15 +133,18 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
         "[method]\npressure_exchange = 2.0\nstress_annealing = 1.0\n"
         "[method.rereference]\nevery = 400\nstrain = 0.25\n" +
         fmt::format("[adapt]\nresample = true\ntool_spacing = {}\nsurface_spacing = {}\nrest_factor = {}\n",
-                    length(0.25 * cut.edge_radius), length(feeds::surface * f), format_number(rest_factor)) +
+                    length(edge_spacing * cut.edge_radius), length(feeds::surface * f),
+                    format_number(rest_factor)) +
         fmt::format("[adapt.indicator]\nfield = \"plastic_power\"\nh_min = {}\nh_max = {}\n",
                     length(feeds::finest * f), length(feeds::fine * f));
   return text;
 }
 
 /// Members of which one leaves no room for the others.
-constexpr std::array<std::array<const char*, 5>, 3> rivals{
-    {{"start", "path", "close", "rectangle", "circle"}, {"box", "points", "tips"}, {"spacing", "factor"}}};
+constexpr std::array<std::array<const char*, 5>, 4> rivals{{{"start", "path", "close", "rectangle", "circle"},
+                                                            {"box", "points", "tips"},
+                                                            {"spacing", "factor"},
+                                                            {"cell", "factor", "step"}}};
 
 bool has_rival(const Value& table, const std::string& key) {
   return std::any_of(rivals.begin(), rivals.end(), [&](const auto& group) {

@@ -81,6 +81,9 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   for (std::size_t s = 0; s < state_.tool_temperature.size(); ++s)
     archive.field(fmt::format("solver/tool_heat/{}/temperature", s), "K", state_.tool_temperature[s]);
   archive_energies(archive);
+  if (node.scaling.on())
+    for (Eigen::Index k = 0; k < dim; ++k)
+      archive.number(fmt::format("solver/scaling_momentum/{}", k), "N s/m", scaling_momentum_[k]);
   archive.integer("solver/references", references_);
   archive.number("solver/finest_before", "s", finest_before_);
   bound_.archive(archive);

@@ -6,6 +6,7 @@
 #include "plasticity/return_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cnem {
 
@@ -70,16 +71,17 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   node.reference = node.position;
   if (references_ == 0) start_points();
   place_reference();
-  scale_masses();
-  if (change) {
-    share_velocities();
-    node.velocity_before = node.velocity;
-  }
   const std::size_t points = point.size();
   const LevelRange all{0, points, 0, false};
   for (std::size_t k = 0; k < point.deformation.size(); ++k)
     point.deformation[k].assign(points, rest_unit_general<dim>[k]);
   point.jacobian.assign(points, 1.0);
+  if (references_ == 0 || change) choose_mass_factors();
+  scale_masses();
+  if (change) {
+    share_velocities();
+    node.velocity_before = node.velocity;
+  }
   each([&](Term<dim>& term) { term.before_stress(body(), all); });
   const std::ptrdiff_t bad =
       plasticity::update_stress(model_.materials, point.material, plasticity::stress_points(point), 0,
@@ -107,21 +109,45 @@ template<int dim> void ExplicitSolver<dim>::place_reference() {
   copy_stress_columns<dim>(state_.point.piola, stress_);
 }
 
-/// Inertia on a new reference; factors that depend on cells are those of the start.
-template<int dim> void ExplicitSolver<dim>::scale_masses() {
+template<int dim> double ExplicitSolver<dim>::wanted_step() const {
+  const MassScaling& scaling = model_.mass_scaling;
+  if (scaling.cell <= 0.0) return scaling.step;
+  double fastest = 0.0; // m²/s²
+  for (const plasticity::Material& material : model_.materials)
+    fastest =
+        std::max(fastest, (material.elasticity.lambda() + 2.0 * material.elasticity.mu()) / material.density);
+  return 2.0 * model_.safety * scaling.cell / std::sqrt(fastest);
+}
+
+/// Factors on masses: those of a step follow the cells of each cloud, others stay. Nodes keep their speed,
+/// and what inertia is added has it too.
+template<int dim> void ExplicitSolver<dim>::choose_mass_factors() {
   const MassScaling& scaling = model_.mass_scaling;
   NodeState<dim>& node = state_.node;
   if (!scaling.active() || !model_.mechanical) return;
-  if (scaling.step <= 0.0) {
+  if (!scaling.wants_step()) {
     node.mass_scale.assign(node.size(), scaling.factor);
-  } else if (references_ == 0) {
-    const double omega = 2.0 * model_.safety / scaling.step;
-    StepLimit limit;
-    each([&](Term<dim>& term) { term.limit(body(), limit); });
-    const PointState<dim>& point = state_.point;
-    node.mass_scale = scales_for_frequency(approximation_.mechanics, point.deformation, point.wave_modulus,
-                                           node.mass, omega * omega / (1.0 + limit.stabilisation));
+    return;
   }
+  const double omega = 2.0 * model_.safety / wanted_step();
+  StepLimit limit;
+  each([&](Term<dim>& term) { term.limit(body(), limit); });
+  const PointState<dim>& point = state_.point;
+  const bool first = references_ == 0;
+  const int rounds = first ? 8 : 0; // the step in use is the stable one whatever they come to
+  Field factor = scales_for_frequency(approximation_.mechanics, point.deformation, point.wave_modulus,
+                                      node.mass, omega * omega / (1.0 + limit.stabilisation), rounds);
+  if (!first)
+    for (std::size_t i = 0; i < node.size(); ++i)
+      for (std::size_t k = 0; k < dim; ++k)
+        scaling_momentum_[static_cast<Eigen::Index>(k)] +=
+            (factor[i] - node.mass_scale[i]) * node.mass[i] * node.velocity[k][i];
+  node.mass_scale = std::move(factor);
+}
+
+template<int dim> void ExplicitSolver<dim>::scale_masses() {
+  NodeState<dim>& node = state_.node;
+  if (!node.scaling.on() || !model_.mechanical) return;
   for (std::size_t i = 0; i < node.size(); ++i) node.scaled_mass[i] = node.mass_scale[i] * node.mass[i];
 }
 
@@ -195,6 +221,10 @@ template std::vector<FieldTable*> ExplicitSolver<2>::point_tables();
 template std::vector<FieldTable*> ExplicitSolver<3>::point_tables();
 template void ExplicitSolver<2>::place_reference();
 template void ExplicitSolver<3>::place_reference();
+template double ExplicitSolver<2>::wanted_step() const;
+template double ExplicitSolver<3>::wanted_step() const;
+template void ExplicitSolver<2>::choose_mass_factors();
+template void ExplicitSolver<3>::choose_mass_factors();
 template void ExplicitSolver<2>::scale_masses();
 template void ExplicitSolver<3>::scale_masses();
 template void ExplicitSolver<2>::share_velocities();

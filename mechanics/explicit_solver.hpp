@@ -58,11 +58,17 @@ public:
     std::string limit; ///< by what
   };
   Step stable_step();
+  /// Step that mass scaling asks for, s; 0: none. That of cells of width h is one of ω = c/h, the largest
+  /// frequency of natural elements on a square lattice, c the speed of waves in the fastest material.
+  double wanted_step() const;
 
   /// max over points of ‖F − 1‖ (Frobenius) since the last reference.
   double strain_since_reference() const;
 
   EnergyLedger ledger() const;
+  /// N s/m^(3−dim), that inertia came with where the mass scaling of a changed cloud added it to moving
+  /// nodes.
+  const Vec<dim>& momentum_of_scaling() const { return scaling_momentum_; }
   /// What the terms tell of the present state.
   std::vector<Metric> metrics() const;
 
@@ -101,6 +107,7 @@ private:
   void start_points();
   void set_moduli();
   void place_reference();
+  void choose_mass_factors();
   void scale_masses();
   /// How points go over: their rows, and those of their labels.
   struct PointChange {
@@ -143,6 +150,7 @@ private:
   EdgePoints edge_{};
   double plastic_offset_ = 0.0; ///< J/m^(3−dim), keeps plastic work continuous over references
   double initial_energy_ = 0.0; ///< J/m^(3−dim)
+  Vec<dim> scaling_momentum_ = Vec<dim>::Zero();
   int references_ = 0;
   int resamplings_ = 0;
   StepTimes times_;

@@ -48,27 +48,28 @@ Field scales_for_rows(const DiscreteOperators<dim>& operators, const Field& wave
 template<int dim>
 Field scales_for_frequency(const DiscreteOperators<dim>& operators,
                            const Fields<tensor_size<dim>>& deformation, const Field& wave_modulus,
-                           const Field& mass, double most) {
+                           const Field& mass, double most, int rounds) {
   // Rows are above the bound: they may stay above `most` by as much as the bound with scaled masses allows.
-  constexpr int passes = 8;
+  const auto bound = [&](const Field& factor) {
+    Field scaled = mass;
+    for (std::size_t i = 0; i < mass.size(); ++i) scaled[i] *= factor[i];
+    return SpectralBound<dim>().of_all(operators, deformation, wave_modulus, scaled).value;
+  };
   Field scale = scales_for_rows(operators, wave_modulus, mass, most);
-  for (double rows = most, pass = 0; pass < passes; ++pass) {
-    const auto bound = [&](const Field& factor) {
-      Field scaled = mass;
-      for (std::size_t i = 0; i < mass.size(); ++i) scaled[i] *= factor[i];
-      return SpectralBound<dim>().of_all(operators, deformation, wave_modulus, scaled).value;
-    };
-    rows *= most / bound(scale);
+  double rows = most * (most / bound(scale));
+  if (rounds == 0) return scales_for_rows(operators, wave_modulus, mass, rows);
+  for (int round = 0; round < rounds; ++round) {
     Field lighter = scales_for_rows(operators, wave_modulus, mass, rows);
     if (!(bound(lighter) <= most)) break;
     scale = std::move(lighter);
+    rows *= most / bound(scale);
   }
   return scale;
 }
 
 template Field scales_for_frequency<2>(const DiscreteOperators<2>&, const Fields<5>&, const Field&,
-                                       const Field&, double);
+                                       const Field&, double, int);
 template Field scales_for_frequency<3>(const DiscreteOperators<3>&, const Fields<9>&, const Field&,
-                                       const Field&, double);
+                                       const Field&, double, int);
 
 } // namespace cnem

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "methods/fe_simplices.hpp"
 #include "methods/hybrid.hpp"
+#include "methods/sph_consistent.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,9 @@ constexpr std::array list{
           [](const Options& o) -> Made<3> { return std::make_unique<FeTetrahedra>(o.tetrahedra); }},
     Entry{"sph", Sph::promised,
           [](const Options& o) -> Made<2> { return std::make_unique<Sph>(o.kernel, o.smoothing); }, nullptr},
+    Entry{"sph-consistent", ConsistentSph::promised,
+          [](const Options& o) -> Made<2> { return std::make_unique<ConsistentSph>(o.kernel, o.smoothing); },
+          nullptr},
     Entry{"hybrid", Hybrid::promised,
           [](const Options& o) -> Made<2> {
             return std::make_unique<Hybrid>(o.zone_spacing, o.gauss_points, o.space);

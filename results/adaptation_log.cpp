@@ -54,6 +54,7 @@ Audit audit(const ExplicitSolver<2>& solver) {
     sums.angular_scale += inertia[i] * x.norm() * v.norm();
     sums.heat += node.heat_capacity[i] * curves_of<2>(solver.model(), node, i).enthalpy(node.temperature[i]);
   }
+  sums.momentum -= solver.momentum_of_scaling();
   const EnergyLedger energy = solver.ledger();
   sums.energy = energy.total();
   sums.lost = energy["resampling"] + energy["rereference"] + energy["penalty_release"];

@@ -18,7 +18,7 @@ namespace cnem::results {
 struct Audit {
   double nodes = 0.0, enclosed = 0.0; ///< –, m² (m³ of revolution)
   double mass = 0.0;
-  Vec2 momentum = Vec2::Zero();                     ///< of v_{n−½}
+  Vec2 momentum = Vec2::Zero();                     ///< of v_{n−½}, without what mass scaling added
   double angular_momentum = 0.0;                    ///< about the origin
   double momentum_scale = 0.0, angular_scale = 0.0; ///< Σ m|v|, Σ m|x||v|: what errors are relative to
   double heat = 0.0;                                ///< Σ C T

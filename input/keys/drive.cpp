@@ -36,17 +36,21 @@ void add_mass_scaling(Keys& k) {
       "More inertia, for longer steps in processes that are slow enough: `energy.kinetic` must stay a small "
       "part "
       "of the deformation energy (`kinetic_share` in `history.csv`). Heat capacity, body forces and reported "
-      "masses stay as they are. Either `factor` or `step`.");
+      "masses stay as they are. One of `factor`, `step` and `cell`.");
   k.add("time.mass_scaling.factor", quantity, "On the inertia of all nodes; the step grows by its root.")
       .in({.low = 1.0})
       .example("100");
   k.add("time.mass_scaling.step", quantity,
-        "Nodes with a shorter stable step at the start get as much inertia as this step asks for, the others "
-        "keep "
-        "theirs.")
+        "Nodes with a shorter stable step get as much inertia as this step asks for, the others keep theirs; "
+        "where adaptation changes the cloud, factors are chosen anew.")
       .unit(d::time)
       .in(positive)
       .example("\"20 ns\"");
+  k.add("time.mass_scaling.cell", quantity,
+        "Instead of `step`: that of square cells so wide, in the material with the fastest waves.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"10 um\"");
 }
 
 } // namespace cnem::input

@@ -8,10 +8,12 @@ namespace cnem::input {
 void add_method(Keys& k) {
   using enum Type;
   k.add("method", table, "How it is solved.").always();
-  k.add("method.name", choice,
-        "Constrained natural elements, linear triangles, total-Lagrangian corrected particles (SPH), or "
-        "natural "
-        "elements where the cloud is fine and triangles beyond (hybrid): docs/methods.md.")
+  k.add(
+       "method.name", choice,
+       "Constrained natural elements, linear triangles, corrected particles (SPH), particles that have "
+       "constant "
+       "stress in balance (sph-consistent), or natural elements where the cloud is fine and triangles beyond "
+       "(hybrid): docs/methods.md.")
       .one_of(methods::names_in(2))
       .in_space_one_of(methods::names_in(3))
       .fallback("\"cnem\"");
@@ -25,14 +27,14 @@ void add_method(Keys& k) {
   k.add("method.kernel", choice, "Kernel of the particles.")
       .one_of({"cubic_spline", "wendland_c2"})
       .fallback("\"cubic_spline\"")
-      .when("name", {"sph"});
+      .when("name", {"sph", "sph-consistent"});
   k.add("method.smoothing", quantity,
         "Support of the kernel in spacings, twice the smoothing length; each node counts the distance to its "
         "natural "
         "neighbours as its spacing.")
       .in({.low = 1.5, .high = 5.0})
       .fallback("2.4")
-      .when("name", {"sph"});
+      .when("name", {"sph", "sph-consistent"});
   k.add("method.zone_spacing", quantity,
         "Natural elements where all edges of a triangle between nodes are at most so long, linear triangles "
         "beyond: with adaptation the zone follows the tool and what flows.")
@@ -42,18 +44,19 @@ void add_method(Keys& k) {
       .example("\"0.1 mm\"")
       .computed("three quarters of `cloud.spacing`");
   k.add("method.stabilisation", quantity,
-        "Factor of the edge-defect stabilisation; 0: off (cnem, sph, hybrid).")
+        "Factor of the edge-defect stabilisation; 0: off (cnem, sph, sph-consistent, hybrid).")
       .in(not_negative)
       .example("0.1")
       .computed("0.05; in axisymmetric analyses 0.2");
   k.add("method.pressure_exchange", quantity,
         "Factor of the exchange of volume between flowing neighbours, which smooths their pressure; 0: off "
-        "(cnem, sph, hybrid). 0.3 to 2 where pressures matter: docs/pressure_exchange.md.")
+        "(cnem, sph, sph-consistent, hybrid). 0.3 to 2 where pressures matter: docs/pressure_exchange.md.")
       .in(not_negative)
       .fallback("0.0");
   k.add("method.stress_annealing", quantity,
         "Strength of the annealing of stresses on new references where the metal has lately ceased to flow, "
-        "which takes the noise out of residual stresses; 0: off (cnem, sph, hybrid). 1 where these matter: "
+        "which takes the noise out of residual stresses; 0: off (cnem, sph, sph-consistent, hybrid). 1 where "
+        "these matter: "
         "docs/pressure_exchange.md.")
       .in(not_negative)
       .fallback("0.0");

@@ -65,13 +65,16 @@ TEST(Forecast, FitsTheRunOfACut) {
 }
 
 TEST(Forecast, CountsWithWhatRefines) {
-  const Forecast plain = expected_of(read(cut)), finer = expected_of(read(cut, {"adapt.tool_spacing=5 um"})),
+  const std::string light = "time.mass_scaling.factor=1", fine = "adapt.tool_spacing=5 um";
+  const Forecast plain = expected_of(read(cut, {light})), finer = expected_of(read(cut, {light, fine})),
+                 heavier = expected_of(read(cut, {"time.mass_scaling.cell=15 um", fine})),
                  longer = expected_of(read(cut, {"adapt.rest_factor=0", "cutting.length=0.6 mm"})),
                  surface =
                      expected_of(read(cut, {"adapt.indicator.field=none", "adapt.surface_spacing=5 um"})),
                  none = expected_of(read(cut, {"adapt.indicator.field=none", "adapt.surface_spacing=60 um"})),
                  coarse = expected_of(read(cut, {"adapt.resample=false"}));
   EXPECT_NEAR(finer.steps, 3.0 * plain.steps, 0.01 * finer.steps) << "cells of 5 µm for 15";
+  EXPECT_LT(heavier.steps, 0.5 * finer.steps) << "they take the step of wider ones";
   EXPECT_GT(finer.nodes_first, plain.nodes_first);
   EXPECT_EQ(plain.nodes_last, plain.nodes_first) << "what rests is made coarse";
   EXPECT_GT(longer.nodes_last, plain.nodes_last + 100.0) << "the chip keeps its cells";
@@ -101,6 +104,15 @@ TEST(Explain, SaysThatACutIsLong) {
   EXPECT_TRUE(note({"cutting.length=200 mm"}));
   EXPECT_FALSE(note({}));
   EXPECT_NE(explanation(read(cut, {"time.end=1 ms"})).find("beyond the length of cut"), std::string::npos);
+}
+
+TEST(Explain, SaysThatASlowCutMayBeHeavier) {
+  const auto note = [](const std::vector<std::string>& overrides) {
+    return explanation(read(cut, overrides)).find("--set time.mass_scaling.factor=400") != std::string::npos;
+  };
+  EXPECT_TRUE(note({"cutting.speed=10 m/min", "cutting.length=3 mm"}));
+  EXPECT_FALSE(note({"cutting.speed=10 m/min", "cutting.length=3 mm", "time.mass_scaling.factor=400"}));
+  EXPECT_FALSE(note({"cutting.length=200 mm"})) << "inertia would act";
 }
 
 TEST(Explain, SaysWhatOtherCasesAre) {

@@ -80,6 +80,11 @@ TEST(Cutting, MakesAWholeCase) {
   EXPECT_DOUBLE_EQ(c.adapt.surface_spacing.value(), 4e-4 / 17.0);
   EXPECT_DOUBLE_EQ(c.adapt.rest_factor, 1.5);
   EXPECT_TRUE(c.tools[0].equal_areas);
+  EXPECT_DOUBLE_EQ(c.time.mass_scaling->cell, 8e-6) << "a fiftieth of the feed";
+  EXPECT_DOUBLE_EQ(read(cut, {"cutting.edge_radius=2 um"}).time.mass_scaling->cell, 2e-6)
+      << "four cells at the edge";
+  const Case heavy = read(cut, {"time.mass_scaling.factor=10"});
+  EXPECT_EQ(heavy.time.mass_scaling->cell, 0.0);
   EXPECT_DOUBLE_EQ(c.method.pressure_exchange, 2.0);
   EXPECT_DOUBLE_EQ(c.method.stress_annealing, 1.0);
   EXPECT_TRUE(c.adapt.resample);

@@ -63,13 +63,15 @@ TEST(Tools, MassAndForceArePerThicknessOrOfTheWholeBody) {
   EXPECT_EQ(again.resolved.substr(again.resolved.find('\n')), body.resolved.substr(body.resolved.find('\n')));
 }
 
-TEST(MassScaling, IsAFactorOrAStep) {
+TEST(MassScaling, IsAFactorAStepOrACell) {
   EXPECT_FALSE(read_case_text(with_press(""), "x").time.mass_scaling);
   const Case factor = read_case_text(with_press(""), "x", {"time.mass_scaling.factor=25"});
   EXPECT_EQ(factor.time.mass_scaling->factor, 25.0);
   EXPECT_EQ(factor.time.mass_scaling->step, 0.0);
   const Case step = read_case_text(with_press(""), "x", {"time.mass_scaling.step=\"20 ns\""});
   EXPECT_NEAR(step.time.mass_scaling->step, 20e-9, 1e-20);
+  const Case cell = read_case_text(with_press(""), "x", {"time.mass_scaling.cell=\"20 um\""});
+  EXPECT_DOUBLE_EQ(cell.time.mass_scaling->cell, 20e-6);
 }
 
 } // namespace

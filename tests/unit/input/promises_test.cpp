@@ -74,13 +74,13 @@ TEST(Promises, identity_holds_one_point_per_node_and_interpolation_in_it) {
 using Names = std::vector<std::string>;
 
 TEST(Registry, names_methods_and_refuses_others) {
-  EXPECT_EQ(methods::names_in(2), (Names{"cnem", "fe-triangles", "sph", "hybrid"}));
+  EXPECT_EQ(methods::names_in(2), (Names{"cnem", "fe-triangles", "sph", "sph-consistent", "hybrid"}));
   EXPECT_EQ(methods::names_in(3), Names{"fe-tetrahedra"});
-  EXPECT_EQ(methods::names().size(), 5U);
+  EXPECT_EQ(methods::names().size(), 6U);
   EXPECT_EQ(methods::names_that_keep(Promise::balanced_constant_stress, 2),
-            (Names{"cnem", "fe-triangles", "hybrid"}));
+            (Names{"cnem", "fe-triangles", "sph-consistent", "hybrid"}));
   EXPECT_EQ(methods::names_that_keep(Promise::carried_history, 2),
-            (Names{"cnem", "fe-triangles", "sph", "hybrid"}));
+            (Names{"cnem", "fe-triangles", "sph", "sph-consistent", "hybrid"}));
   EXPECT_EQ(methods::names_that_keep(Promise::hoop_rows, 3), Names{});
   EXPECT_THROW(methods::entry("sphe"), InputError);
 }
@@ -96,8 +96,8 @@ template<int dim> std::string refusal(std::string_view name) {
 TEST(Registry, refuses_methods_that_do_not_exist_in_the_dimension) {
   EXPECT_EQ(refusal<2>("fe-triangles"), "");
   EXPECT_EQ(refusal<3>("cnem"), "found method 'cnem' in 3 dimensions, expected one of fe-tetrahedra");
-  EXPECT_EQ(refusal<2>("fe-tetrahedra"),
-            "found method 'fe-tetrahedra' in 2 dimensions, expected one of cnem, fe-triangles, sph, hybrid");
+  EXPECT_EQ(refusal<2>("fe-tetrahedra"), "found method 'fe-tetrahedra' in 2 dimensions, expected one of "
+                                         "cnem, fe-triangles, sph, sph-consistent, hybrid");
   EXPECT_NE(refusal<3>("fe-tetrahedra").find("found no tetrahedra"), std::string::npos);
 }
 

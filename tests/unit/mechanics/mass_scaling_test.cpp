@@ -61,6 +61,20 @@ TEST_P(StepWanted, makes_only_the_nodes_heavier_that_limit_it) {
   EXPECT_GT(heavier, 4U);
   EXPECT_LT(heavier, scaled.state().node.inertia().size() / 2);
   EXPECT_EQ(plain.state().node.inertia(), plain.state().node.mass);
+  EXPECT_EQ(plain.wanted_step(), 0.0);
+}
+
+/// Square cells of a spacing have the step that is asked for by it, but for the stabilisation.
+TEST(MassScaling, by_spacing_is_that_of_the_step_of_square_cells) {
+  constexpr double spacing = 1e-4;
+  Problem<2> model = model_of(rectangle(2e-3, 2e-3, spacing, Lattice::square, 0.0), Method::cnem, steel());
+  model.mass_scaling.cell = spacing;
+  ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
+  const double wanted = solver.wanted_step();
+  const plasticity::Material& metal = solver.model().materials.front();
+  const double speed = std::sqrt((metal.elasticity.lambda() + 2.0 * metal.elasticity.mu()) / metal.density);
+  EXPECT_NEAR(wanted, 2.0 * solver.model().safety * spacing / speed, 1e-12 * wanted);
+  EXPECT_NEAR(solver.stable_step().dt, wanted, 0.05 * wanted);
 }
 INSTANTIATE_TEST_SUITE_P(Of, StepWanted, ::testing::Values(Space::plane, Space::revolution),
                          [](const auto& space) {
