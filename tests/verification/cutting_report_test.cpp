@@ -25,6 +25,11 @@ TEST(CuttingReport, of_a_frictionless_cut_has_its_force_along_the_normal_of_the_
   EXPECT_GT(edge_Fc, 0.0);
   EXPECT_LT(edge_Fc, 0.2 * Fc);
   EXPECT_NEAR(done.metric("cutting.shear_angle_speed"), 42.0, 8.0);
+  // One of the chips that slip lines admit, with the curl that goes with its thickness (docs/slip_lines.md).
+  const double ratio = done.metric("cutting.chip_ratio");
+  EXPECT_GT(ratio, 1.016);
+  EXPECT_LT(ratio, 1.64);
+  EXPECT_NEAR(done.metric("cutting.curl_radius") / 0.3e-3, 3.4, 0.7) << ratio;
   EXPECT_GT(done.metric("cutting.contact_length"), 0.1e-3);
   EXPECT_LT(done.metric("cutting.contact_length"), 1.0e-3);
   EXPECT_TRUE(std::isnan(done.metric("cutting.tooth_spacing")));
