@@ -84,7 +84,8 @@ std::string cut_text(const input::Case& input, const Forecast& expected) {
   }
   if (metal.hardening) {
     const double stress = metal.hardening->flow_stress(1.0, cut.speed / f, input.initial.temperature);
-    const double share = 0.5 * metal.density * cut.speed * cut.speed / stress;
+    const double scaling = input.time.mass_scaling.value_or(MassScaling{}).factor;
+    const double share = 0.5 * scaling * metal.density * cut.speed * cut.speed / stress;
     text += line("inertia",
                  fmt::format("½ρV²/σ = {}: {}", number_format(share, 2),
                              share < 0.01 ? "forces are those of a slow cut" : "it acts on the forces"));

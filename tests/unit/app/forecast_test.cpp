@@ -95,6 +95,9 @@ TEST(Explain, SaysWhatDecidesAboutACut) {
         std::string("steps       about ")})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
   EXPECT_EQ(explanation(read(cut)).find("Péclet"), std::string::npos) << "without heat";
+  const std::string heavy = explanation(read(cut, {"time.mass_scaling.factor=100"}));
+  EXPECT_NE(heavy.find(fmt::format("= {:.2g}: it acts on the forces", 100.0 * share)), std::string::npos)
+      << heavy;
 }
 
 TEST(Explain, SaysThatACutIsLong) {
