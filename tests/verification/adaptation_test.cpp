@@ -159,7 +159,7 @@ TEST(Adaptation, spacing_grows_from_tools_no_faster_than_asked) {
 }
 
 TEST(Adaptation, keeps_the_step_that_mass_scaling_asks_for) {
-  const Texts fine{"adapt.tool_spacing=0.05 mm", "time.end=4 us"}, every{"output.history_every=step"};
+  const Texts fine{"adapt.tool_spacing=0.05 mm", "time.end=4 us"}, every{"output.history_every=0 s"};
   const Adapted plain = run(punched, with(fine, every)),
                 scaled = run(punched, with(with(fine, every), {"time.mass_scaling.cell=0.1 mm"}));
   const auto least = [](const Adapted& done) {
