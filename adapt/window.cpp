@@ -129,7 +129,8 @@ struct Line {
     const double la = left_of(a), lb = left_of(b);
     if ((la > 0.0) == (lb > 0.0)) return false;
     const double place = foot_on(a + la / (la - lb) * (b - a), from, to).place;
-    return place > 0.0 && place < 1.0;
+    constexpr double end = 1e-3; // that of a facet which the line ends on is crossed
+    return place > -end && place < 1.0 + end;
   }
 };
 
