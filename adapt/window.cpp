@@ -48,15 +48,15 @@ std::vector<NodeIndex> leading_side(const CloudEdit& edit, const Vec2& along) {
 /// Nodes of the boundary from a corner of the leading side, without it, back along the strip; empty where
 /// they do not lie on a straight line along the strip.
 template<class Step>
-std::vector<NodeIndex> flank(const CloudEdit& edit, NodeIndex corner, const Vec2& along, double from,
-                             const Step& step) {
+std::optional<std::vector<NodeIndex>> flank(const CloudEdit& edit, NodeIndex corner, const Vec2& along,
+                                            double from, const Step& step) {
   const Vec2 across = left_normal(along);
   const double level = edit.at(corner).dot(across);
   std::vector<NodeIndex> nodes;
   for (NodeIndex i = step(corner); edit.at(i).dot(along) > from; i = step(i)) {
     if (i == corner || std::abs(edit.at(i).dot(across) - level) > straight * edit.size(i) ||
         edit.has_mates(i))
-      return {};
+      return std::nullopt;
     nodes.push_back(i);
   }
   return nodes;
@@ -70,13 +70,11 @@ std::optional<Resampling<2>> feed(const Cloud<2>& cloud, const Structure& struct
   const std::vector<NodeIndex> side = leading_side(edit, along);
   if (side.empty()) return std::nullopt;
   const double end = edit.at(side.front()).dot(along), from = end - length;
-  const std::vector<NodeIndex> before = flank(edit, side.front(), along, from,
-                                              [&](NodeIndex i) { return edit.previous(i); }),
-                               after = flank(edit, side.back(), along, from,
-                                             [&](NodeIndex i) { return edit.next(i); });
-  if (before.empty() || after.empty()) return std::nullopt;
-  const PieceIndex piece_before = edit.piece(before.front()), piece_side = edit.piece(side.front()),
-                   piece_after = edit.piece(side.back());
+  const auto before = flank(edit, side.front(), along, from, [&](NodeIndex i) { return edit.previous(i); }),
+             after = flank(edit, side.back(), along, from, [&](NodeIndex i) { return edit.next(i); });
+  if (!before || !after) return std::nullopt;
+  const PieceIndex piece_before = edit.piece(edit.previous(side.front())),
+                   piece_side = edit.piece(side.front()), piece_after = edit.piece(side.back());
 
   // the inside of the strip; nothing else of the boundary may lie in it
   const auto copy = [&](NodeIndex i) { return edit.add(edit.at(i) + length * along, i, true); };
@@ -91,7 +89,7 @@ std::optional<Resampling<2>> feed(const Cloud<2>& cloud, const Structure& struct
     else if (clear(i, clear_node))
       copy(i);
   }
-  if (of_boundary != side.size() + before.size() + after.size()) return std::nullopt;
+  if (of_boundary != side.size() + before->size() + after->size()) return std::nullopt;
 
   // nodes of the side go inside, but for its ends
   const NodeIndex enters = edit.previous(side.front()), leaves = edit.next(side.back());
@@ -103,10 +101,10 @@ std::optional<Resampling<2>> feed(const Cloud<2>& cloud, const Structure& struct
   NodeIndex last = replaced.front();
   edit.link(enters, last, piece_before);
   const auto go_on = [&](NodeIndex to, PieceIndex piece) { edit.link(std::exchange(last, to), to, piece); };
-  for (auto i = before.rbegin(); i != before.rend(); ++i)
+  for (auto i = before->rbegin(); i != before->rend(); ++i)
     if (clear(*i, clear_facet)) go_on(copy(*i), piece_before);
   for (std::size_t k = 0; k < side.size(); ++k) go_on(copy(side[k]), k == 0 ? piece_before : piece_side);
-  for (const NodeIndex i : after)
+  for (const NodeIndex i : *after)
     if (clear(i, clear_facet)) go_on(copy(i), piece_after);
   go_on(replaced.back(), piece_after);
   go_on(leaves, piece_after);

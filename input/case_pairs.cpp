@@ -168,6 +168,9 @@ const std::vector<Pair>& pairs() {
       {"adapt.window", "", "`adapt.resample = false`",
        [](const Case& c) { return when(!resampled(c), "where adapt.resample is false"); }, "true there",
        "matter comes and goes at passes"},
+      {"cutting.window", "true", "`adapt.resample = false`",
+       [](const Case& c) { return when(!resampled(c), "where adapt.resample is false"); }, "true there",
+       "matter comes and goes at passes", [](const Case& c) { return c.cutting && c.cutting->window; }},
       {"adapt.window", "", "ties", with_ties, one_of_them, "ties have no partners beyond the end"},
       {"time.mass_scaling.step", "a step", "refinement",
        [](const Case& c) {

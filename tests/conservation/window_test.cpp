@@ -65,7 +65,8 @@ void expect_accounts(const Loaded& before, const Resampling<2>& change) {
 double side_length(const Cloud<2>& cloud, PieceIndex piece) {
   double length = 0.0;
   for (const Facet<2>& facet : cloud.facets)
-    if (facet.piece == piece) length += (cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).norm();
+    if (facet.piece == piece)
+      length += (cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).norm();
   return length;
 }
 
@@ -95,9 +96,7 @@ TEST(Feed, copies_the_strip_at_the_end_again_and_again) {
   for (int k = 0; k < 4; ++k) {
     const auto change = before.fed(length);
     ASSERT_TRUE(change);
-    if (k > 0) {
-      EXPECT_EQ(change->virgin.size(), count);
-    }
+    if (k > 0) { EXPECT_EQ(change->virgin.size(), count); }
     count = change->virgin.size();
     Blank next{change->cloud, {}};
     next.weigh(spacing);
@@ -166,7 +165,7 @@ TEST(TakeOff, cuts_aslant_and_takes_holes_with_it) {
   ASSERT_TRUE(change);
   EXPECT_NEAR(testing::area(change->cloud), 0.6 * (1.0 - 0.525), 1e-14);
   expect_accounts(before, *change);
-  EXPECT_FALSE(before.cut({0.2, 0.6}, {0.2, 0.0})); // through the hole
+  EXPECT_FALSE(before.cut({0.2, 0.6}, {0.2, 0.0}));  // through the hole
   EXPECT_FALSE(before.cut({0.2, 0.6}, {0.2, 0.37})); // from one loop to another
 }
 
@@ -215,14 +214,16 @@ TEST(Window, moves_through_a_body_that_keeps_its_state) {
   double scale = 0.0;
   for (std::size_t i = 0; i < state.node.size(); ++i)
     scale += state.node.mass[i] * std::hypot(state.node.velocity[0][i], state.node.velocity[1][i]);
-  const double mass = total_mass(solver), heat = sum_of_products(state.node.heat_capacity, state.node.temperature);
+  const double mass = total_mass(solver),
+               heat = sum_of_products(state.node.heat_capacity, state.node.temperature);
   const Vec2 momentum = momenta(solver).linear;
   const double area = enclosed_measure(solver.present_cloud());
   for (int k = 0; k < 2; ++k) {
     const Cloud<2> cloud = solver.present_cloud();
     const adapt::Structure structure = adapt::build_structure(cloud);
-    const auto change = k == 0 ? adapt::feed(cloud, structure, properties_of(solver), {1, 0}, 4e-4)
-                               : adapt::take_off(cloud, structure, properties_of(solver), {5e-4, 5e-4}, {5e-4, 0.0});
+    const auto change =
+        k == 0 ? adapt::feed(cloud, structure, properties_of(solver), {1, 0}, 4e-4)
+               : adapt::take_off(cloud, structure, properties_of(solver), {5e-4, 5e-4}, {5e-4, 0.0});
     ASSERT_TRUE(change);
     const Field strain = state.point.plastic_strain, stress = state.point.pressure;
     const EnergyLedger before = solver.ledger();
@@ -248,7 +249,8 @@ TEST(Window, moves_through_a_body_that_keeps_its_state) {
   const Departed<2>& gone = state.departed;
   EXPECT_NEAR(total_mass(solver) + gone.mass, mass, 1e-13 * mass);
   EXPECT_NEAR((momenta(solver).linear + gone.momentum - momentum).norm(), 0.0, 1e-13 * scale);
-  EXPECT_NEAR(sum_of_products(state.node.heat_capacity, state.node.temperature) + gone.enthalpy, heat, 1e-13 * heat);
+  EXPECT_NEAR(sum_of_products(state.node.heat_capacity, state.node.temperature) + gone.enthalpy, heat,
+              1e-13 * heat);
   EXPECT_NEAR(enclosed_measure(solver.present_cloud()) + gone.volume, area, 1e-13 * area);
   EXPECT_NEAR(solver.ledger().residual(), residual, 1e-12 * solver.ledger().total());
   EXPECT_NEAR(solver.ledger().heat_residual(), heat_residual, 1e-12 * heat);
