@@ -65,7 +65,9 @@ std::optional<std::vector<NodeIndex>> flank(const CloudEdit& edit, NodeIndex cor
 } // namespace
 
 std::optional<Resampling<2>> feed(const Cloud<2>& cloud, const Structure& structure,
-                                  const NodeProperties& node, const Vec2& along, double length) {
+                                  const NodeProperties& node,
+                                  const IndexedVector<NodeIndex, Vec2>& undeformed, const Vec2& along,
+                                  double length) {
   CloudEdit edit(cloud, structure, node);
   const std::vector<NodeIndex> side = leading_side(edit, along);
   if (side.empty()) return std::nullopt;
@@ -77,7 +79,9 @@ std::optional<Resampling<2>> feed(const Cloud<2>& cloud, const Structure& struct
                    piece_side = edit.piece(side.front()), piece_after = edit.piece(side.back());
 
   // the inside of the strip; nothing else of the boundary may lie in it
-  const auto copy = [&](NodeIndex i) { return edit.add(edit.at(i) + length * along, i, true); };
+  Vec2 way = length * along; // of copies, with the side
+  for (const NodeIndex i : side) way += (edit.at(i) - undeformed[i]) / static_cast<double>(side.size());
+  const auto copy = [&](NodeIndex i) { return edit.add(undeformed[i] + way, i, true); };
   const auto clear = [&](NodeIndex i, double distance) {
     return edit.at(i).dot(along) - from > distance * edit.size(i);
   };

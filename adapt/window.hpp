@@ -13,11 +13,15 @@ namespace cnem::adapt {
 
 /// Prolongs the body by `length` (m) in the direction of the unit vector `along`, beyond the straight side
 /// that lies furthest there and stands square to it. The strip next to that side is copied: its nodes, at
-/// rest (Resampling::virgin), and the pieces of its boundary; the side moves on, and nodes that it had are
-/// new ones in the same places, which no condition holds. Empty where the body beside the strip is not
-/// bounded by straight lines along that direction alone, or the cloud would have no valid structure.
+/// rest (Resampling::virgin) and where they were before it deformed, and the pieces of its boundary; the side
+/// moves on, and nodes that it had are new ones in the same places, which no condition holds. undeformed: m,
+/// [node] where they began; from there the side may have moved as a whole. Empty where the body beside the
+/// strip is not bounded by straight lines along that direction alone, or the cloud would have no valid
+/// structure.
 std::optional<Resampling<2>> feed(const Cloud<2>& cloud, const Structure& structure,
-                                  const NodeProperties& node, const Vec2& along, double length);
+                                  const NodeProperties& node,
+                                  const IndexedVector<NodeIndex, Vec2>& undeformed, const Vec2& along,
+                                  double length);
 
 /// Cuts the body along the straight line from one point of the boundary to another (m; the nearest points of
 /// the boundary are taken) and takes off what lies on its right, where the boundary goes on at `from`. The

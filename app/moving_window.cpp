@@ -1,5 +1,6 @@
 #include "app/moving_window.hpp"
 
+#include "core/fields/vector_at.hpp"
 #include "core/index.hpp"
 #include "evaluate/chip.hpp"
 #include "evaluate/cut_flow.hpp"
@@ -98,10 +99,13 @@ std::optional<Resampling<2>> MovingWindow::next(End end, const ExplicitSolver<2>
   const auto in_space = [&](const Vec2& x) -> Vec2 {
     return tool_.tip + moved + x.x() * tool_.along + x.y() * tool_.away;
   };
+  IndexedVector<NodeIndex, Vec2> undeformed;
+  for (std::size_t i = 0; i < place.size(); ++i)
+    undeformed.push_back(vector_at<2>(solver.state().node.initial_position, i));
   std::optional<Resampling<2>> change;
   if (const auto structure = adapt::structure_if_valid(cloud, solver.approximation().mechanics.space()))
     change = cut ? adapt::take_off(cloud, *structure, node, in_space(cut->from), in_space(cut->to))
-                 : adapt::feed(cloud, *structure, node, tool_.along, rules_->strip);
+                 : adapt::feed(cloud, *structure, node, undeformed, tool_.along, rules_->strip);
   if (!change) {
     ++refused_;
     return std::nullopt;

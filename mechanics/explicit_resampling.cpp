@@ -112,8 +112,7 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
   for (const NodeIndex virgin : change.virgin) {
     const auto i = index_of(virgin);
     node.temperature[i] = node.initial_temperature[i];
-    const Vec<dim> way = change.cloud.position[i] - change.old_position[change.model_of(virgin).first];
-    for (std::size_t k = 0; k < dim; ++k) node.initial_position[k][i] += way[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < dim; ++k) node.initial_position[k][i] = node.position[k][i];
   }
   node.velocity_before = node.velocity;
   conditions_.ties.resample(change);

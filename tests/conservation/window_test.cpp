@@ -1,6 +1,7 @@
 // Matter that is fed in at one end of a body and taken off at the other: no state changes, and what comes and
 // goes is all that is missing.
 #include "adapt/window.hpp"
+#include "core/fields/vector_at.hpp"
 #include "mechanics/kinematics.hpp"
 #include "tests/conservation/blank.hpp"
 #include "tests/unit/mechanics/models.hpp"
@@ -23,7 +24,7 @@ struct Loaded : Blank {
     }
   }
   std::optional<Resampling<2>> fed(double length, const Vec2& along = {1, 0}) const {
-    return feed(cloud, structure, node, along, length);
+    return feed(cloud, structure, node, cloud.position, along, length);
   }
   std::optional<Resampling<2>> cut(const Vec2& from, const Vec2& to) const {
     return take_off(cloud, structure, node, from, to);
@@ -103,6 +104,26 @@ TEST(Feed, copies_the_strip_at_the_end_again_and_again) {
     before = Loaded(std::move(next));
   }
   EXPECT_NEAR(testing::area(before.cloud), 0.6 * (1.0 + 4 * length), 1e-13);
+}
+
+TEST(Feed, copies_what_it_was_before_it_deformed) {
+  const Loaded undeformed(named_blank());
+  Blank raised = undeformed;
+  const Vec2 moved(0.03, -0.02);
+  for (Vec2& x : raised.cloud.position) x += moved + Vec2(0.0, 0.02 * x.y() * (1.0 - x.x()));
+  const Loaded before(std::move(raised));
+  const auto change =
+      feed(before.cloud, before.structure, before.node, undeformed.cloud.position, {1, 0}, 0.24);
+  ASSERT_TRUE(change);
+  const auto beyond = undeformed.fed(0.24);
+  ASSERT_TRUE(beyond);
+  ASSERT_EQ(change->virgin.size(), beyond->virgin.size());
+  for (const NodeIndex p : change->virgin) {
+    double nearest = 1.0;
+    for (const NodeIndex q : beyond->virgin)
+      nearest = std::min(nearest, (change->cloud.position[p] - beyond->cloud.position[q] - moved).norm());
+    EXPECT_LT(nearest, 1e-14);
+  }
 }
 
 TEST(Feed, goes_any_way) {
@@ -206,6 +227,13 @@ adapt::NodeProperties properties_of(const ExplicitSolver<2>& solver) {
   return node;
 }
 
+IndexedVector<NodeIndex, Vec2> undeformed(const ExplicitSolver<2>& solver) {
+  IndexedVector<NodeIndex, Vec2> places;
+  for (std::size_t i = 0; i < solver.state().node.size(); ++i)
+    places.push_back(vector_at<2>(solver.state().node.initial_position, i));
+  return places;
+}
+
 TEST(Window, moves_through_a_body_that_keeps_its_state) {
   ExplicitSolver<2> solver = pulled_bar();
   for (int n = 0; n < 60; ++n) solver.advance(solver.stable_step().dt);
@@ -222,7 +250,7 @@ TEST(Window, moves_through_a_body_that_keeps_its_state) {
     const Cloud<2> cloud = solver.present_cloud();
     const adapt::Structure structure = adapt::build_structure(cloud);
     const auto change =
-        k == 0 ? adapt::feed(cloud, structure, properties_of(solver), {1, 0}, 4e-4)
+        k == 0 ? adapt::feed(cloud, structure, properties_of(solver), undeformed(solver), {1, 0}, 4e-4)
                : adapt::take_off(cloud, structure, properties_of(solver), {5e-4, 5e-4}, {5e-4, 0.0});
     ASSERT_TRUE(change);
     const Field strain = state.point.plastic_strain, stress = state.point.pressure;
@@ -259,7 +287,8 @@ TEST(Window, moves_through_a_body_that_keeps_its_state) {
 TEST(Window, lets_the_end_go_that_has_moved_on) {
   ExplicitSolver<2> solver = pulled_bar();
   const Cloud<2> cloud = solver.present_cloud();
-  const auto change = adapt::feed(cloud, adapt::build_structure(cloud), properties_of(solver), {1, 0}, 4e-4);
+  const auto change = adapt::feed(cloud, adapt::build_structure(cloud), properties_of(solver),
+                                  undeformed(solver), {1, 0}, 4e-4);
   ASSERT_TRUE(change);
   solver.prepare(*change);
   std::size_t held = 0;
@@ -278,7 +307,8 @@ TEST(Window, of_a_body_at_rest_changes_nothing_but_the_matter) {
   double mass = total_mass(solver);
   for (int k = 0; k < 3; ++k) {
     const Cloud<2> now = solver.present_cloud();
-    const auto change = adapt::feed(now, adapt::build_structure(now), properties_of(solver), {1, 0}, 3e-4);
+    const auto change = adapt::feed(now, adapt::build_structure(now), properties_of(solver),
+                                    undeformed(solver), {1, 0}, 3e-4);
     ASSERT_TRUE(change);
     solver.prepare(*change);
     const double left = 3e-4 * (k + 1) + 40.0 * solver.state().time;
