@@ -30,9 +30,10 @@ plastic = { law = "perfect", yield = "440 MPa" }
 )toml";
 
 TEST(MovingWindow, changes_nothing_near_the_tool) {
-  const Adapted whole = run(cut), window = run(cut, {"cutting.window=true", "adapt.window.ahead=1.8 mm",
-                                                     "adapt.window.behind=0.9 mm", "adapt.window.chip=0.9 mm",
-                                                     "domain.outer.rectangle.to=1.9 0.3 mm"});
+  const Adapted whole = testing::run(cut),
+                window = testing::run(cut, {"cutting.window=true", "adapt.window.ahead=1.8 mm",
+                                            "adapt.window.behind=0.9 mm", "adapt.window.chip=0.9 mm",
+                                            "domain.outer.rectangle.to=1.9 0.3 mm"});
   const auto metric = [&](const Adapted& of, const char* name) {
     return of.metric(std::string("cutting.") + name);
   };
