@@ -101,6 +101,7 @@ Adaptation::Adaptation(const input::Case& input, const ExplicitSolver<2>& solver
   corner_ = corners(cloud);
   if (follows_flow()) flow_ = adapt::Flow(size_.size());
   if (input.adapt.rest_factor > 0.0) first_ = size_;
+  if (input.adapt.window) window_.emplace(input);
   coarsest_ = input.cloud.spacing > 0.0 ? input.cloud.spacing : *std::max_element(size_.begin(), size_.end());
 }
 
@@ -196,7 +197,21 @@ Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>
   return wanted;
 }
 
+void Adaptation::move_window(ExplicitSolver<2>& solver, const Follow& follow) {
+  using End = MovingWindow::End;
+  for (const End end : {End::ahead, End::behind, End::chip}) {
+    const std::optional<Resampling<2>> change =
+        window_->next(end, solver, solver.present_cloud(), properties(solver, wanted_));
+    if (!change) continue;
+    solver.prepare(*change);
+    follow_nodes(*change, solver.state().time);
+    follow(*change);
+  }
+}
+
 double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
+  const results::Audit before = results::audit(solver);
+  if (window_) move_window(solver, follow);
   adapt::PassReport report;
   double changed = 0.0;
   Cloud<2> cloud = solver.present_cloud();
@@ -204,7 +219,6 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
              input_->adapt.separate ? Field(solver.state().point.softening) : Field());
   const Field size_before = size_;
   const adapt::Flow flow_before = flow_;
-  const results::Audit before = results::audit(solver);
   try {
     std::optional<adapt::Structure> structure = adapt::structure_if_valid(cloud, input_->analysis.space());
     Field wanted = wanted_; // where nodes have passed each other there is nothing to estimate on
@@ -264,7 +278,9 @@ void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
   for (Field* label : {&error_, &size_, &first_, &wanted_, &birth_})
     if (!label->empty()) carry_label(change.labels, *label);
   if (follows_flow()) flow_.resample(change);
-  IndexedVector<NodeIndex, std::int32_t> corner(change.old_of.size(), 0);
+  // a body that was cut has new corners
+  auto corner =
+      change.open() ? corners(change.cloud) : IndexedVector<NodeIndex, std::int32_t>(change.old_of.size(), 0);
   for (std::size_t p = 0; p < corner.size(); ++p)
     if (exists(change.old_of[p]))
       corner[p] = corner_[change.old_of[p]];
@@ -320,6 +336,8 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
            {"adapt.coarsened", static_cast<double>(coarsened_)},
            {"adapt.error", error_norm_ > 0.0 ? error_total_ / error_norm_ : 0.0}})
     list.emplace_back(name, value);
+  if (window_)
+    for (auto& metric : window_->metrics()) list.push_back(std::move(metric));
   return list;
 }
 
@@ -348,6 +366,7 @@ void Adaptation::archive(Archive& archive) {
   archive.field("run/adapt/wanted", "m", wanted_);
   archive.field("run/adapt/birth", "s", birth_);
   archive.integer("run/adapt/passes", passes_);
+  if (window_) window_->archive(archive);
   log_.archive(archive);
   for (auto& [name, count] : {std::pair{"cracks", &total_.cracks},
                               {"advances", &total_.advances},

@@ -3,12 +3,14 @@
 #include "adapt/flow.hpp"
 #include "adapt/marking.hpp"
 #include "adapt/resample.hpp"
+#include "app/moving_window.hpp"
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "results/adaptation_log.hpp"
 #include "results/snapshot.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +56,8 @@ private:
   /// m, [node] the spacing that marks, flow, tools and growth ask for.
   Field wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
                        const adapt::Structure& structure) const;
+  /// Moves the ends of the window that are due.
+  void move_window(ExplicitSolver<2>& solver, const Follow& follow);
   /// Takes over to a changed cloud what this object knows of nodes.
   void follow_nodes(const Resampling<2>& change, double time);
   bool follows_flow() const { return input_->adapt.surface_spacing || input_->adapt.rest_factor > 0.0; }
@@ -71,6 +75,7 @@ private:
   double error_total_ = 0.0, error_norm_ = 0.0;   ///< of the last estimate
   std::int64_t refined_ = 0, coarsened_ = 0;      ///< cells marked so far
   IndexedVector<NodeIndex, std::int32_t> corner_; ///< 1: stays
+  std::optional<MovingWindow> window_;
   adapt::PassReport total_;
   std::int64_t passes_ = 0;
   results::AdaptationLog log_;

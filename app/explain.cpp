@@ -70,6 +70,11 @@ std::string cut_text(const input::Case& input, const Forecast& expected) {
                                    r <= 0.1 * f   ? "sharp, forces are those of the chip"
                                    : r <= 0.5 * f ? "honed, ploughing shows in the forces"
                                                   : "blunt, the rake that cuts is that of the arc"));
+  if (const auto& window = input.adapt.window)
+    text +=
+        line("window", fmt::format("goes with the tool: {} ahead of it, {} behind{}",
+                                   si_format(window->ahead, "m"), si_format(window->behind, "m"),
+                                   window->chip ? ", " + si_format(*window->chip, "m") + " of chip" : ""));
   const double first = cut.rake - (cut.chamfer ? cut.chamfer->angle : 0.0);
   const double arc = r * (0.5 * std::numbers::pi + cut.clearance + first);
   const double flowing = input.adapt.indicator ? input.adapt.h_min : input.cloud.at({0.0, 0.5 * f});

@@ -3,6 +3,7 @@
 #include "adapt/structure.hpp"
 #include "app/divergence.hpp"
 #include "input/curve_checks.hpp"
+#include "input/cutting_tool.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,17 @@ void add_nodes(const input::Case& input, double spacing, Forecast& expected) {
     expected.nodes_last += way * cutting->feed / (hexagon * std::pow(1.25 * rules.h_min, 2));
 }
 
+/// Share of the matter there is at the start that a window which moves has gained when it is full: what the
+/// tool has passed, and half of a strip.
+double gained_by_window(const input::Case& input) {
+  if (!input.adapt.window) return 0.0;
+  const input::MovingWindow& window = *input.adapt.window;
+  const input::CuttingTool cut = input::cutting_tool(input, window.tool);
+  const auto [low, high] = input::bounds(input.domain.outer);
+  const double there = std::abs((high - low).dot(cut.along));
+  return std::max(0.0, window.ahead + window.behind + window.strip - there) / there;
+}
+
 /// Of one thread on an idle core, from the runs of docs/cutting.md; docs/performance.md has the parts.
 double cost(const input::Case& input) {
   double ns = 90.0; // of a node and step
@@ -78,6 +90,7 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
     expected.finest = spacing[node_of(solver, control.point())];
     if (input.adapt.resample) {
       add_nodes(input, expected.finest, expected);
+      expected.nodes_last += gained_by_window(input) * count;
       const double coarse = expected.finest;
       if (input.adapt.tool_spacing && !input.tools.empty())
         expected.finest = std::min(expected.finest, *input.adapt.tool_spacing);

@@ -217,6 +217,16 @@ struct Method {
   double energy_tolerance = 0.05; ///< – |residual|/(work + initial energy) beyond which a run has diverged
 };
 
+/// A part of a longer workpiece that goes with a tool: matter is fed in ahead and taken off behind, in
+/// strips.
+struct MovingWindow {
+  std::size_t tool = 0;       ///< index of the tool
+  double ahead = 0.0;         ///< m of workpiece from the tip of the tool on, at least
+  double behind = 0.0;        ///< m behind the tip that are kept
+  std::optional<double> chip; ///< m of its rake side that are kept; absent: all
+  double strip = 0.0;         ///< m, by which it moves
+};
+
 /// How the cloud follows the deformation.
 struct Adaptation {
   /// The boundary piece that separation makes.
@@ -235,6 +245,7 @@ struct Adaptation {
   double coarsen = 0.05;           ///< – of the limit; 0: never
   double h_min = 0.0, h_max = 0.0; ///< m
   std::int64_t max_nodes = 100000;
+  std::optional<MovingWindow> window;
 };
 
 /// Evaluation of crack tips.

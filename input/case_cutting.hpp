@@ -25,6 +25,7 @@ struct CuttingSetup {
   double speed = 0.0;                   ///< m/s
   double length = 0.0;                  ///< m, of cut
   bool exit = false;                    ///< the tool leaves through the far end, which is free
+  bool window = false;                  ///< the workpiece goes with the tool
 };
 
 } // namespace cnem::input

@@ -29,6 +29,10 @@ Text in_dynamics(const Case& c) { return when(!is_static(c), "in an explicit ana
 Text without_motion(const Case& c) {
   return when(!is_static(c) && c.analysis.thermal && !c.analysis.mechanical, "in an analysis without motion");
 }
+Text with_ties(const Case& c) {
+  return when(!c.domain.interfaces.empty(), "with domain.interfaces") +
+         when(c.domain.interfaces.empty() && !c.periodic.empty(), "with periodic");
+}
 Text with_averaged_damage(const Case& c) {
   for (const plasticity::Material& material : c.materials)
     if (material.damage && material.damage->length > 0.0)
@@ -157,12 +161,19 @@ const std::vector<Pair>& pairs() {
          return when(c.method.lagrangian == Method::Lagrangian::total, "with method.lagrangian = \"total\"");
        },
        "\"periodic\"", "nodes are changed at a new reference", resampled},
-      {"report.springback", "true", "ties",
-       [](const Case& c) {
-         return when(!c.domain.interfaces.empty(), "with domain.interfaces") +
-                when(c.domain.interfaces.empty() && !c.periodic.empty(), "with periodic");
-       },
-       one_of_them, "tied nodes are not let go", [](const Case& c) { return c.report.springback; }},
+      {"adapt.window", "", "axisymmetric analyses",
+       [](const Case& c) { return when(is_round(c), "in an axisymmetric analysis"); },
+       "it with analysis.kinematics = \"plane strain\"",
+       "what is fed in along the radius is not as wide as what is there"},
+      {"adapt.window", "", "`adapt.resample = false`",
+       [](const Case& c) { return when(!resampled(c), "where adapt.resample is false"); }, "true there",
+       "matter comes and goes at passes"},
+      {"cutting.window", "true", "`adapt.resample = false`",
+       [](const Case& c) { return when(!resampled(c), "where adapt.resample is false"); }, "true there",
+       "matter comes and goes at passes", [](const Case& c) { return c.cutting && c.cutting->window; }},
+      {"adapt.window", "", "ties", with_ties, one_of_them, "ties have no partners beyond the end"},
+      {"report.springback", "true", "ties", with_ties, one_of_them, "tied nodes are not let go",
+       [](const Case& c) { return c.report.springback; }},
   };
   return table;
 }

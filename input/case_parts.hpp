@@ -93,6 +93,9 @@ void read_cutting_report(Setting& root, Case& result, Diagnostics& diagnostics);
 /// What is evaluated at the end, with defaults from the tools. Expects tools, domain and periodic pieces.
 void read_report(Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// A window that moves with a tool, where [adapt.window] is there. Expects adaptation and what is evaluated.
+void read_moving_window(Setting& root, Case& result, Diagnostics& diagnostics);
+
 /// Crack tips: enrichment and domain of the interaction integral.
 void read_fracture(const Setting& root, Case& result, Diagnostics& diagnostics);
 

@@ -215,6 +215,7 @@ template<class Changes> Case read(Value document, const std::string& path, const
     read_adaptation(root, result, diagnostics);
     read_fracture(root, result, diagnostics);
     read_report(root, result, diagnostics);
+    if (root.find("adapt.window")) read_moving_window(root, result, diagnostics);
   }
   check_promises(root, result, diagnostics);
   check_pairs(root, result, diagnostics);

@@ -19,6 +19,9 @@ constexpr double below = 5.0;          ///< matter under the cut
 constexpr double ahead = 8.0;          ///< and beyond its end, up to the support
 constexpr double beyond = 4.0;         ///< way of the tool after it has left
 constexpr double faces = 10.0;         ///< of the tool, on top of the length of cut
+constexpr double window = 12.0;        ///< matter ahead of the tip in a window that moves
+constexpr double behind = 8.0;         ///< and behind it: surfaces are measured up to six feeds from the tip
+constexpr double chip = 15.0;          ///< chip kept in it: measured over ten feeds beyond the shear zone
 constexpr double layer = 0.5;          ///< depth of fine cells under the cut
 constexpr double coarse = 0.5;         ///< spacing away from the cut
 constexpr double fine = 0.2;           ///< spacing of what becomes the chip
@@ -58,7 +61,8 @@ Vec2 rounding_centre(const Vec2& corner, const Vec2& side, const Vec2& other, do
 
 /// The lowest point lies at y = 0; what of the tool is no higher than the uncut surface touches x = 0.
 ToolCorners tool_corners(const CuttingSetup& cut) {
-  const double length = cut.length + feeds::faces * cut.feed, r = cut.edge_radius;
+  const double cut_before = cut.window ? std::min(cut.length, feeds::chip * cut.feed) : cut.length;
+  const double length = cut_before + feeds::faces * cut.feed, r = cut.edge_radius;
   const Vec2 first = face(rake_at_edge(cut)), rake = face(cut.rake);
   ToolCorners corners;
   corners.back = length * flank(cut.clearance);
@@ -104,10 +108,11 @@ struct Parts {
 std::string case_text(const CuttingSetup& cut, const Parts& parts) {
   const double f = cut.feed;
   const auto length = [](double x) { return fmt::format("\"{} m\"", format_number(x)); };
-  const double end = cut.length + (cut.exit ? 0.0 : feeds::ahead * f);
+  const double end = cut.window ? feeds::window * f : cut.length + (cut.exit ? 0.0 : feeds::ahead * f);
   // What is held at its foot alone must be sturdy, or it topples before the tool.
   const double below = std::min(feeds::below * f, cut.exit ? 0.5 * cut.length : feeds::below * f);
   const double way = cut.length + (cut.exit ? feeds::beyond * f : 0.0), duration = way / cut.speed;
+  const double seen = cut.window ? 0.0 : way; // where the tool is in the window of the pictures
   const auto time = [](double t) { return fmt::format("\"{} s\"", format_number(t)); };
   std::string text =
       fmt::format("[time]\nend = {}\n[time.mass_scaling]\ncell = {}\n", time(duration),
@@ -126,8 +131,9 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
     text += fmt::format("[report.cutting]\ntool = \"{}\"\nfeed = {}\nwidth = {}\n", cut.tool, length(f),
                         length(cut.width));
   if (parts.window)
-    text += fmt::format("[output.windows.tool]\nbox = [{}, {}]\n", point({way - 6.0 * f, -2.0 * f}),
-                        point({way + 4.0 * f, 6.0 * f}));
+    text += fmt::format("[output.windows.tool]\nbox = [{}, {}]\n{}", point({seen - 6.0 * f, -2.0 * f}),
+                        point({seen + 4.0 * f, 6.0 * f}),
+                        cut.window ? fmt::format("follow = \"{}\"\n", cut.tool) : "");
   if (parts.resampling)
     text +=
         "[method]\npressure_exchange = 2.0\nstress_annealing = 1.0\n"
@@ -137,6 +143,10 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
                     format_number(rest_factor)) +
         fmt::format("[adapt.indicator]\nfield = \"plastic_power\"\nh_min = {}\nh_max = {}\n",
                     length(feeds::finest * f), length(feeds::fine * f));
+  if (parts.resampling && cut.window)
+    text += fmt::format("[adapt.window]\nfollow = \"{}\"\nahead = {}\nbehind = {}\n{}", cut.tool,
+                        length(feeds::window * f), length(feeds::behind * f),
+                        parts.report ? fmt::format("chip = {}\n", length(feeds::chip * f)) : "");
   return text;
 }
 
@@ -232,6 +242,13 @@ CuttingSetup read_cutting(Setting& table, Diagnostics& diagnostics) {
     *value = table.get<double>(name);
   cut.tool = table.get<std::string>("tool");
   cut.exit = table.get<bool>("exit");
+  cut.window = table.get<bool>("window");
+  if (cut.exit && cut.window) {
+    const Setting& window = *table.find("window");
+    diagnostics.add(Mistake::conflict, window.where, window.path,
+                    "found true beside exit = true, expected one of them: a workpiece that goes on ahead of "
+                    "the tool has no end to leave through");
+  }
   if (const Setting* land = table.find("chamfer"))
     cut.chamfer = {land->get<double>("width"), land->get<double>("angle")};
   if (!cut.chamfer && !table.find("edge_radius"))

@@ -80,6 +80,13 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   for (FieldTable* table : point_tables()) table->archive(archive);
   for (std::size_t s = 0; s < state_.tool_temperature.size(); ++s)
     archive.field(fmt::format("solver/tool_heat/{}/temperature", s), "K", state_.tool_temperature[s]);
+  if (model_.open) {
+    Departed<dim>& gone = state_.departed;
+    archive.number("solver/departed/mass", "kg/m", gone.mass);
+    archive.number("solver/departed/volume", "m^2", gone.volume);
+    archive.vector<dim>("solver/departed/momentum", "N s/m", gone.momentum);
+    archive.number("solver/departed/enthalpy", "J/m", gone.enthalpy);
+  }
   archive_energies(archive);
   if (node.scaling.on())
     for (Eigen::Index k = 0; k < dim; ++k)

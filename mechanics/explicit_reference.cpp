@@ -61,8 +61,10 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   Approximation<dim> rebuilt = model_.method->rebuild(cloud);
   const std::optional<PointChange> points_change =
       references_ > 0 ? change_of_points(change, cloud, rebuilt.mechanics) : std::nullopt;
+  Booked booked;
   if (references_ > 0) {
     each([&](Term<dim>& term) { term.leave(body()); });
+    if (change && change->open()) each([&](Term<dim>& term) { term.exchange(body(), *change, booked); });
     push_forward(point);
   }
   if (change || points_change) carry_over(change, points_change, rebuilt.mechanics);
@@ -87,8 +89,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
       plasticity::update_stress(model_.materials, point.material, plasticity::stress_points(point), 0,
                                 static_cast<std::ptrdiff_t>(points), 0.0);
   if (bad >= 0) diverged(index_of(bad), "elastic strain");
-  double booked = 0.0; // J/m^(3−dim), of the stored energy
-  each([&](Term<dim>& term) { booked += term.stressed(body()); });
+  each([&](Term<dim>& term) { term.stressed(body(), booked); });
   each([&](Term<dim>& term) { term.renew(body()); });
   for (std::size_t p = 0; p < points; ++p)
     point.density[p] = body().material_of(p).density * point.stress_free[p];
@@ -190,10 +191,14 @@ template<int dim> void ExplicitSolver<dim>::start_points() {
     interpolate<dim>(op, node.strength, point.strength, 0, points);
   for (std::size_t p = 0; p < points; ++p) point.material[p] = node.material[index_of(op.first_node(p))];
   set_moduli();
-  for (std::size_t p = 0; p < points; ++p)
-    if (const auto& hardening = body().material_of(p).hardening)
-      point.flow_stress[p] = point.strength[p] * hardening->flow_stress(0.0, 0.0, point.temperature[p]);
+  for (std::size_t p = 0; p < points; ++p) start_flow_stress(p);
   each([&](Term<dim>& term) { term.start(body()); });
+}
+
+template<int dim> void ExplicitSolver<dim>::start_flow_stress(std::size_t p) {
+  PointState<dim>& point = state_.point;
+  if (const auto& hardening = body().material_of(p).hardening)
+    point.flow_stress[p] = point.strength[p] * hardening->flow_stress(0.0, 0.0, point.temperature[p]);
 }
 
 template<int dim> void ExplicitSolver<dim>::set_moduli() {
@@ -231,6 +236,8 @@ template void ExplicitSolver<2>::share_velocities();
 template void ExplicitSolver<3>::share_velocities();
 template void ExplicitSolver<2>::start_points();
 template void ExplicitSolver<3>::start_points();
+template void ExplicitSolver<2>::start_flow_stress(std::size_t);
+template void ExplicitSolver<3>::start_flow_stress(std::size_t);
 template void ExplicitSolver<2>::set_moduli();
 template void ExplicitSolver<3>::set_moduli();
 

@@ -76,7 +76,19 @@ void ExplicitSolver<dim>::carry_over(const Resampling<dim>* change, const std::o
     }
     mix_elastic(points->parcels, mass, tension, elastic_volume, model_.materials, point);
   }
+  if (change && change->open()) rest_virgin(*change);
   each([&](Term<dim>& term) { term.carried(body()); });
+}
+
+/// Points of virgin matter are at rest; what terms keep at them is as at the nodes that they take after.
+template<int dim> void ExplicitSolver<dim>::rest_virgin(const Resampling<dim>& change) {
+  PointState<dim>& point = state_.point;
+  for (const NodeIndex node : change.virgin) {
+    const auto p = index_of(point_of(node));
+    for (FieldTable* table : {&point.table, &point.damaged, &point.traded, &point.oriented})
+      table->rest_at(p);
+    start_flow_stress(p);
+  }
 }
 
 template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& change) {
@@ -97,6 +109,11 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
   for (std::size_t k = 0; k < dim; ++k)
     for (std::size_t i = 0; i < n; ++i)
       node.position[k][i] = change.cloud.position[i][static_cast<Eigen::Index>(k)];
+  for (const NodeIndex virgin : change.virgin) {
+    const auto i = index_of(virgin);
+    node.temperature[i] = node.initial_temperature[i];
+    for (std::size_t k = 0; k < dim; ++k) node.initial_position[k][i] = node.position[k][i];
+  }
   node.velocity_before = node.velocity;
   conditions_.ties.resample(change);
   conditions_.heat_ties.resample(change);
@@ -116,7 +133,8 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
   template double ExplicitSolver<dim>::point_mass(std::size_t) const;                                        \
   template void ExplicitSolver<dim>::carry_over(const Resampling<dim>*, const std::optional<PointChange>&,   \
                                                 const DiscreteOperators<dim>&);                              \
-  template void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>&);
+  template void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>&);                                    \
+  template void ExplicitSolver<dim>::rest_virgin(const Resampling<dim>&);
 CNEM_INSTANTIATE(2)
 CNEM_INSTANTIATE(3)
 #undef CNEM_INSTANTIATE

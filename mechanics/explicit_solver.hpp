@@ -105,6 +105,7 @@ private:
   void renew(Cloud<dim> cloud, const Resampling<dim>* change);
   void share_velocities();
   void start_points();
+  void start_flow_stress(std::size_t p);
   void set_moduli();
   void place_reference();
   void choose_mass_factors();
@@ -117,6 +118,7 @@ private:
                                               const DiscreteOperators<dim>& now) const;
   double point_mass(std::size_t p) const;
   void carry_nodes(const Resampling<dim>& change);
+  void rest_virgin(const Resampling<dim>& change);
   void carry_over(const Resampling<dim>* change, const std::optional<PointChange>& points,
                   const DiscreteOperators<dim>& now);
   // Checkpoints.

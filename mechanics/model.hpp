@@ -32,6 +32,7 @@ template<int dim> struct Model {
   double safety = 0.9;    ///< factor on the stable step
   LocalStepControl local; ///< local time steps
   MassScaling mass_scaling;
+  bool open = false;                           ///< matter comes and goes: a window moves with a tool
   std::vector<ToolSection<dim>> tool_sections; ///< of tools that conduct
 };
 

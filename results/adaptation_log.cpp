@@ -55,6 +55,10 @@ Audit audit(const ExplicitSolver<2>& solver) {
     sums.heat += node.heat_capacity[i] * curves_of<2>(solver.model(), node, i).enthalpy(node.temperature[i]);
   }
   sums.momentum -= solver.momentum_of_scaling();
+  sums.enclosed += state.departed.volume;
+  sums.mass += state.departed.mass;
+  sums.momentum += state.departed.momentum;
+  sums.heat += state.departed.enthalpy;
   const EnergyLedger energy = solver.ledger();
   sums.energy = energy.total();
   sums.lost = energy["resampling"] + energy["rereference"] + energy["penalty_release"];

@@ -14,7 +14,8 @@
 
 namespace cnem::results {
 
-/// What a change of the cloud keeps, or books. Of revolution in kg, N s, J; else per thickness.
+/// What a change of the cloud keeps, or books, with what a window that moves has taken off. Of revolution in
+/// kg, N s, J; else per thickness.
 struct Audit {
   double nodes = 0.0, enclosed = 0.0; ///< –, m² (m³ of revolution)
   double mass = 0.0;

@@ -128,9 +128,10 @@ template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSo
                      weighted_value(snapshot(solver), name, probe.node, probe.weight)});
   const double mass = total_mass(solver), enclosed = enclosed_measure(snapshot(solver));
   row.push_back({"mass" + units_.mass, mass});
-  row.push_back({"", mass / initial_mass_ - 1.0, "mass_drift"});
+  row.push_back({"", (mass + state.departed.mass) / initial_mass_ - 1.0, "mass_drift"});
   row.push_back({units_.enclosed + units_.measure, enclosed});
-  row.push_back({"", enclosed / initial_measure_ - 1.0, units_.enclosed + "_drift"});
+  row.push_back(
+      {"", (enclosed + state.departed.volume) / initial_measure_ - 1.0, units_.enclosed + "_drift"});
   return row;
 }
 

@@ -243,6 +243,7 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   model.stress_annealing = input.method.stress_annealing;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
   model.thermal = input.analysis.thermal;
+  model.open = input.adapt.window.has_value();
   model.mechanical = input.analysis.mechanical;
   model.safety = input.time.safety;
   model.local = input.time.local;

@@ -51,6 +51,13 @@ void FieldTable::rest_renewed(std::size_t size) {
     if (entry.line.carry == Carry::renewed) rest_entry(entry, size);
 }
 
+void FieldTable::rest_at(std::size_t place) {
+  if (!on_) return;
+  for (const Entry& entry : entries_)
+    if (!entry.label && entry.line.carry != Carry::renewed)
+      for (std::size_t k = 0; k < entry.components; ++k) entry.component[k][place] = entry.line.rest[k];
+}
+
 template<IndexKind Index> void FieldTable::carry_over(const CarryWeights<Index>& weights) {
   if (!on_) return;
   for (const Entry& entry : entries_) carry_entry(entry, weights);

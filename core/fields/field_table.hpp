@@ -103,6 +103,8 @@ public:
   void rest(std::size_t size);
   /// Fields that each step or reference makes anew, alone.
   void rest_renewed(std::size_t size);
+  /// One place to values at rest, but for labels and fields that are made anew.
+  void rest_at(std::size_t place);
   /// Sums, means and labels over parcels.
   template<IndexKind Index> void carry_over(const CarryWeights<Index>& weights);
   /// Fields that checkpoints hold, at their present lengths.

@@ -2,6 +2,7 @@
 // Everything that evolves in a run: one line per field says its name, unit, how it goes over to a resampled
 // cloud, whether checkpoints hold it, its value at rest and how users see it.
 #include "core/fields/field_table.hpp"
+#include "core/vec.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -176,9 +177,17 @@ struct AdaptationFields {
   AdaptationFields& operator=(const AdaptationFields&) = default;
 };
 
+/// What a moving window has taken off of the body, less what it has fed in; per metre of thickness.
+template<int dim> struct Departed {
+  double mass = 0.0, volume = 0.0;      ///< kg/m^(3−dim), m^dim
+  Vec<dim> momentum = Vec<dim>::Zero(); ///< of v_{n−½}, N s/m^(3−dim)
+  double enthalpy = 0.0;                ///< Σ C h(T), J/m^(3−dim)
+};
+
 template<int dim> struct State {
   NodeState<dim> node;
   PointState<dim> point;
+  Departed<dim> departed;
   std::vector<Field> tool_temperature; ///< K, [section][node of it] of tools that conduct
   double time = 0.0;                   ///< s     t_n
   double step_before = 0.0;            ///< s     Δt that led to t_n (0 before the first step)

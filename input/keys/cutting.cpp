@@ -64,6 +64,11 @@ void add_cutting(Keys& k) {
   k.add(at + "length", quantity, "Of cut.").unit(d::length).in(positive).required().example("\"10 mm\"");
   k.add(at + "exit", boolean, "The far end is free and lies at `length`: the tool leaves through it.")
       .fallback("false");
+  k.add(at + "window", boolean,
+        "The workpiece is a window that goes with the tool (`adapt.window`): 12 feeds ahead of it, 8 behind, "
+        "15 "
+        "of chip, whatever `length` is.")
+      .fallback("false");
   k.add(at + "tool", text, "What the tool is called.").fallback("\"cutter\"");
   add_friction(k, at + "friction", "Friction of the tool on the workpiece.");
 }

@@ -181,6 +181,32 @@ void add_adaptation(Keys& k) {
         "The tolerance is raised when more nodes than this were needed.")
       .in({.low = 10, .high = 1e8})
       .fallback("100000");
+  const std::string at = "adapt.window";
+  k.add(at, table,
+        "The workpiece is a window on a longer one, which goes with a tool: at passes a strip of it, an "
+        "eighth of `ahead`, is fed in ahead and taken off behind, for any length of cut at the same number "
+        "of nodes (docs/cutting.md). What comes is like the strip at the end, at rest and as warm as that "
+        "was at the start; what comes and goes is booked.");
+  k.add(at + ".follow", text, "The tool, which moves through the workpiece and has a rake face.")
+      .example("\"cutter\"")
+      .computed("the tool named `cutter`, else the only one that moves");
+  k.add(at + ".ahead", quantity,
+        "Workpiece ahead of the tip of the tool, at least; at least eight times `cloud.spacing`.")
+      .unit(d::length)
+      .in(positive)
+      .required()
+      .example("\"4.8 mm\"");
+  k.add(at + ".behind", quantity, "Workpiece behind the tip that is kept.")
+      .unit(d::length)
+      .in(positive)
+      .required()
+      .example("\"3.2 mm\"");
+  k.add(at + ".chip", quantity,
+        "Chip that is kept, along the side on the rake face; needs `report.cutting`, whose feed says where a "
+        "chip begins. Without it the chip stays whole.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"6 mm\"");
 }
 
 } // namespace cnem::input

@@ -64,11 +64,11 @@ public:
     kinetic_ = kinetic_energy<dim>(body);
     left_ = true;
   }
-  void settle(const Body<dim>& body, bool resampled, double booked) override {
+  void settle(const Body<dim>& body, bool resampled, const Booked& booked) override {
     if (!left_) return;
-    rereference_.value += elastic_ - booked - integral<dim>(body, body.state.point.stored_energy);
+    rereference_.value += elastic_ - booked.elastic - integral<dim>(body, body.state.point.stored_energy);
     body.plastic_offset += plastic_ - integral<dim>(body, body.state.point.plastic_work);
-    if (resampled) resampling_.value += kinetic_ - kinetic_energy<dim>(body);
+    if (resampled) resampling_.value += kinetic_ - booked.kinetic - kinetic_energy<dim>(body);
     left_ = false;
   }
 

@@ -19,6 +19,7 @@ template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model
 template<int dim> std::unique_ptr<Term<dim>> reference_energy(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> pressure_exchange(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> stress_annealing(const Model<dim>& model);
+template<int dim> std::unique_ptr<Term<dim>> matter_flow(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> applied_loads(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> heat(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> tool_heat(const Model<dim>& model);

@@ -43,15 +43,15 @@ template<int dim> Field StressAnnealing<dim>::shares(const PointState<dim>& poin
   return share;
 }
 
-template<int dim> double StressAnnealing<dim>::stressed(const Body<dim>& body) {
+template<int dim> void StressAnnealing<dim>::stressed(const Body<dim>& body, Booked& booked) {
   const StabilisationLinks<dim>& links = body.approximation.links;
-  if (links.neighbour.empty()) return 0.0;
+  if (links.neighbour.empty()) return;
   PointState<dim>& point = body.state.point;
   const Field share = shares(point);
   Field mass(point.size());
   for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = body.operators().volume[i] * point.stress_free[i];
   const LinkSmoother<dim> smoother(links, body.reference, share, point.material, mass, strength_);
-  if (smoother.nodes().empty()) return 0.0;
+  if (smoother.nodes().empty()) return;
   const double before = integral<dim>(body, point.stored_energy);
   std::vector<typename LinkSmoother<dim>::Values> strains;
   strains.reserve(smoother.nodes().size());
@@ -79,7 +79,7 @@ template<int dim> double StressAnnealing<dim>::stressed(const Body<dim>& body) {
   static_cast<void>(bad);
   const double lost = before - integral<dim>(body, point.stored_energy);
   dissipated_.value += lost;
-  return lost;
+  booked.elastic += lost;
 }
 
 template<int dim> std::unique_ptr<Term<dim>> stress_annealing(const Model<dim>& model) {

@@ -24,7 +24,7 @@ public:
 
   FieldTable* fields() override { return &table_; }
   std::vector<Energy*> energies() override { return {&dissipated_}; }
-  double stressed(const Body<dim>& body) override;
+  void stressed(const Body<dim>& body, Booked& booked) override;
   void end_step(const Body<dim>&, double dt) override { elapsed_ += dt; }
   void archive(Archive& archive) override { archive.number("solver/annealing/elapsed", "s", elapsed_); }
 

@@ -75,6 +75,11 @@ struct StepLimit {
   double heat = 0.0;             ///< s, of heat where nothing moves
 };
 
+/// What terms have booked of a change of the reference, so that nobody books it again, J/m^(3−dim).
+struct Booked {
+  double elastic = 0.0, kinetic = 0.0; ///< of these energies, that is gone
+};
+
 /// Which value of a run its status keeps.
 enum class Keep { last, largest };
 
@@ -110,19 +115,20 @@ public:
   virtual void start(const Body<dim>&) {}
   /// The old reference is about to be left.
   virtual void leave(const Body<dim>&) {}
+  /// Matter comes and goes with a change of the cloud (Resampling::open); the fields are those before it.
+  virtual void exchange(const Body<dim>&, const Resampling<dim>&, Booked&) {}
   /// Fields went over to the nodes of a resampled cloud.
   virtual void carried(const Body<dim>&) {}
-  /// Stresses are those of a new reference, and nothing else has been made of them yet. Returns what of the
-  /// stored energy its own entries have taken, J/m^(3−dim).
-  virtual double stressed(const Body<dim>&) { return 0.0; }
+  /// Stresses are those of a new reference, and nothing else has been made of them yet.
+  virtual void stressed(const Body<dim>&, Booked&) {}
   /// Operators and stresses are those of a new reference.
   virtual void renew(const Body<dim>&) {}
   /// The same, or a checkpoint has been read.
   virtual void attach(const Body<dim>&) {}
   /// The levels of points are set.
   virtual void set_levels(const Body<dim>&) {}
-  /// The new reference is complete with its forces; `booked` is what terms have taken when stressed.
-  virtual void settle(const Body<dim>&, bool /*resampled*/, double /*booked*/) {}
+  /// The new reference is complete with its forces.
+  virtual void settle(const Body<dim>&, bool /*resampled*/, const Booked&) {}
   /// Stresses are about to be taken back to what they were before impulses were made of them.
   virtual void restore(const Body<dim>&) {}
 

@@ -13,7 +13,7 @@ struct SmallCase {
 
 /// Plasticity, heat, contact with friction, re-references, bulk viscosity, loads, supports, bodies of
 /// revolution, finite elements, particles, damage, parts that touch or are bonded and adapt, a failure that
-/// is gone back from, space.
+/// is gone back from, a window that moves, space.
 const std::vector<SmallCase>& small_cases();
 /// The one of them that is three-dimensional.
 std::string space_case();
@@ -21,6 +21,8 @@ std::string space_case();
 std::string parts_case();
 /// A crack that runs, with damage averaged over a length.
 std::string cracked_case();
+/// A cut through a window that moves.
+std::string window_case();
 /// The case of a sheet that is cut, of two layers, and of a round one.
 std::string in_layers(std::string text);
 std::string of_revolution(std::string text);

@@ -361,6 +361,7 @@ const std::vector<SmallCase>& small_cases() {
       {"touching", touching},
       {"conducting_tool", with_conducting_punch(punched)},
       {"parts", parts_case()},
+      {"window", window_case()},
       {"layers", in_layers(separated)},
       {"set_back", set_back},
       {"particles", with_method(punched, "name = \"sph\"\nkernel = \"wendland_c2\"\n")},

@@ -48,6 +48,18 @@ Forecast expected_of(const input::Case& input) {
   return forecast(input, solver, control);
 }
 
+TEST(Forecast, OfAWindowIsOfAsManyNodesForAnyLength) {
+  const auto in_window = [](const std::string& length) {
+    return read(cut, {"cutting.window=true", "cutting.length=" + length});
+  };
+  const Forecast expected = expected_of(in_window("3 mm"));
+  EXPECT_GT(expected.nodes_last, 1.2 * expected.nodes_first);
+  EXPECT_EQ(expected.nodes_last, expected_of(in_window("30 mm")).nodes_last);
+  EXPECT_NE(explanation(in_window("3 mm"))
+                .find("goes with the tool: 3.6 mm ahead of it, 2.4 mm behind, 4.5 mm of chip"),
+            std::string::npos);
+}
+
 TEST(Forecast, FitsTheRunOfACut) {
   const input::Case input = read(cut, {"output.pictures=[]", "cutting.length=0.2 mm"});
   const Forecast expected = expected_of(input);
