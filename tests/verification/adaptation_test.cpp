@@ -161,17 +161,17 @@ TEST(Adaptation, spacing_grows_from_tools_no_faster_than_asked) {
 TEST(Adaptation, keeps_the_step_that_mass_scaling_asks_for) {
   const Texts fine{"adapt.tool_spacing=0.05 mm", "time.end=4 us"}, every{"output.history_every=0 s"};
   const Adapted plain = run(punched, with(fine, every)),
-                scaled = run(punched, with(with(fine, every), {"time.mass_scaling.cell=0.1 mm"}));
+                scaled = run(punched, with(with(fine, every), {"time.mass_scaling.cell=0.08 mm"}));
   const auto least = [](const Adapted& done) {
     const auto& step = done.column("dt[s]");
     return *std::min_element(step.begin() + 5, step.end() - 1);
   };
-  const double wanted = 0.9 * 2.0 * 0.1e-3 / 6001.0; // m/s, √((λ + 2μ)/ρ)
+  const double wanted = 0.9 * 2.0 * 0.08e-3 / 6001.0; // m/s, √((λ + 2μ)/ρ)
   EXPECT_LT(least(plain), 0.5 * wanted);
   EXPECT_GT(least(scaled), 0.85 * wanted) << "nodes come where the punch goes";
   EXPECT_LT(least(scaled), 1.2 * wanted);
-  EXPECT_GT(scaled.counted("inserted"), 50);
-  EXPECT_NEAR(scaled.work(), plain.work(), 0.02 * plain.work());
+  EXPECT_GT(scaled.counted("inserted"), 10);
+  EXPECT_NEAR(scaled.work(), plain.work(), 0.05 * plain.work()) << "the punch is fast: inertia acts";
 }
 
 TEST(Adaptation, refines_the_surface_that_flows) {

@@ -14,6 +14,8 @@ clearance = "7 deg"
 edge_radius = "40 um"
 speed = "3200 m/min"
 length = "1.8 mm"
+[time.mass_scaling]
+factor = 1 # inertia acts at this speed
 [domain]
 material = "aluminium"
 [cloud]

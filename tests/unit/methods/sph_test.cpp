@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "methods/registry.hpp"
-#include "tests/unit/mechanics/models.hpp"
+#include "tests/unit/methods/patch.hpp"
 
 #include <gtest/gtest.h>
 #include <numbers>
@@ -105,47 +105,19 @@ TEST(Sph, refuses_supports_without_neighbours_and_nodes_in_one_line) {
   EXPECT_THROW(Sph().rebuild(needle), GeometryError);
 }
 
-/// Largest deviation of the interior from x = (1 + H) X, over |H X|, after the boundary has been moved by it.
-double patch_error(double spacing, int rereference_every) {
-  Mat2 H;
-  H << 2e-3, 5e-3, -1e-3, -2e-3;
-  const double end = 2e-5, width = 1e-2;
-  Cloud<2> cloud = rectangle(width, 0.8 * width, spacing, Lattice::hexagonal, 0.1);
-  std::vector<Support<2>> supports;
-  for (const NodeIndex i : IndexRange<NodeIndex>(cloud.facets.size()))
-    for (int k = 0; k < 2; ++k)
-      supports.push_back({"side",
-                          Support<2>::Kind::velocity,
-                          k == 0 ? Vec2(1, 0) : Vec2(0, 1),
-                          TimeTable(H.row(k).dot(cloud.position[i]) / end),
-                          {i}});
-  Problem<2> model = model_of(cloud, Method::sph, steel());
-  model.supports = Supports<2>(std::move(supports), index_of(cloud.nodes()));
-  ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 { return H * x / end; });
-  const int steps = static_cast<int>(0.4 / spacing);
-  for (int n = 1; n <= steps; ++n) {
-    solver.advance(end / steps);
-    if (rereference_every > 0 && n % rereference_every == 0) solver.prepare();
-  }
-  double worst = 0.0;
-  for (std::size_t i = 0; i < solver.state().node.size(); ++i) {
-    const Vec2 X(solver.state().node.initial_position[0][i], solver.state().node.initial_position[1][i]);
-    const Vec2 x(solver.state().node.position[0][i], solver.state().node.position[1][i]);
-    worst = std::max(worst, (x - X - H * X).norm());
-  }
-  return worst / (H.norm() * width);
-}
-
 /// Without balanced constant stress the affine patch test is passed in the limit only: layers of the width of
 /// the kernel along the boundary are not in balance.
 TEST(Sph, patch_test_is_passed_in_the_limit_to_first_order) {
-  const double coarse = patch_error(1e-3, 0), fine = patch_error(0.5e-3, 0);
+  const double coarse = patch_error(std::make_unique<Sph>(), 1e-3, 0),
+               fine = patch_error(std::make_unique<Sph>(), 0.5e-3, 0);
   EXPECT_GT(coarse, 1e-3) << "then balance could be promised";
   EXPECT_LT(coarse, 0.07);
   EXPECT_LT(fine, 0.65 * coarse);
 }
 
-TEST(Sph, patch_goes_through_new_references) { EXPECT_LT(patch_error(1e-3, 50), 0.15); }
+TEST(Sph, patch_goes_through_new_references) {
+  EXPECT_LT(patch_error(std::make_unique<Sph>(), 1e-3, 50), 0.15);
+}
 
 /// Forces sum to nothing, whether or not they are balanced at each node.
 TEST(Sph, struck_block_keeps_both_momenta_through_flow_and_a_new_reference) {
