@@ -74,9 +74,7 @@ double cost_of_steps(const input::Case& input) { return (input.contact.active ? 
 
 /// The same of passes, over the steps there would be with masses as they are: they come by the strain, which
 /// longer steps do not change.
-double cost_of_passes(const input::Case& input) {
-  return (input.adapt.resample ? 30.0 : 0.0) * 1e-9;
-}
+double cost_of_passes(const input::Case& input) { return (input.adapt.resample ? 30.0 : 0.0) * 1e-9; }
 
 } // namespace
 
