@@ -123,7 +123,8 @@ inline Adapted run(const std::string& text, Texts overrides = {}, double residua
   overrides.emplace_back("output.pictures=[]");
   const input::Case input = input::read_case_text(text, "case.toml", overrides);
   const TemporaryFolder folder("adaptation");
-  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .version = "test"}), Exit::done);
+  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .threads = 1, .version = "test"}),
+            Exit::done);
   Adapted result{results::read_status(folder.path()),
                  results::read_history(folder.path() / results::files::history), last_nodes(folder.path())};
   EXPECT_LT(std::abs(result.metric("mass_drift")), 1e-12);
