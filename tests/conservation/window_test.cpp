@@ -4,12 +4,15 @@
 #include "core/fields/vector_at.hpp"
 #include "mechanics/kinematics.hpp"
 #include "tests/conservation/blank.hpp"
+#include "tests/index_literals.hpp"
 #include "tests/unit/mechanics/models.hpp"
 
 #include <gtest/gtest.h>
 
 namespace cnem::adapt {
 namespace {
+
+using namespace testing::literals;
 
 constexpr double spacing = 0.08;
 
