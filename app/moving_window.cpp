@@ -37,26 +37,6 @@ std::vector<double> crossings(const Cloud<2>& cloud, const std::vector<Vec2>& pl
   return heights;
 }
 
-/// The point of a walk at a distance along it from its beginning.
-Vec2 point_along(const std::vector<Vec2>& walk, double distance) {
-  for (std::size_t k = 0; k + 1 < walk.size(); ++k) {
-    const double length = (walk[k + 1] - walk[k]).norm();
-    if (distance <= length) return walk[k] + distance / length * (walk[k + 1] - walk[k]);
-    distance -= length;
-  }
-  return walk.back();
-}
-
-Vec2 nearest_on(const std::vector<Vec2>& walk, const Vec2& x) {
-  Vec2 best = walk.front();
-  for (std::size_t k = 0; k + 1 < walk.size(); ++k) {
-    const double s = std::clamp(adapt::foot_on(x, walk[k], walk[k + 1]).place, 0.0, 1.0);
-    const Vec2 foot = (1.0 - s) * walk[k] + s * walk[k + 1];
-    if ((foot - x).norm() < (best - x).norm()) best = foot;
-  }
-  return best;
-}
-
 } // namespace
 
 MovingWindow::MovingWindow(const input::Case& input)
@@ -83,9 +63,9 @@ std::optional<MovingWindow::Cut> MovingWindow::across_chip(const Cloud<2>& cloud
   const evaluate::Chip chip =
       evaluate::measure_chip(evaluate::cut_outline(cloud.facets, place), feed_, tool_.rake);
   if (!chip.note.empty() || chip.length < *rules_->chip + rules_->strip) return std::nullopt;
-  const Vec2 rake = point_along(chip.rake_side, *rules_->chip), free = nearest_on(chip.free_side, rake);
-  if ((rake - free).norm() > widest * chip.thickness) return std::nullopt;
-  return oriented(free, rake);
+  const evaluate::Section section = evaluate::section_across(chip, *rules_->chip);
+  if (section.length() > widest * chip.thickness) return std::nullopt;
+  return oriented(section.free, section.rake);
 }
 
 std::optional<Resampling<2>> MovingWindow::next(End end, const ExplicitSolver<2>& solver,

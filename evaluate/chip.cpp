@@ -26,6 +26,15 @@ struct ChipSide {
     for (std::size_t k = 0; k < point.size(); ++k)
       at.push_back(k == 0 ? 0.0 : at.back() + (point[k] - point[k - 1]).norm());
   }
+
+  /// The point at a length, m; the last one beyond the end.
+  Vec2 place(double length) const {
+    const auto after = std::upper_bound(at.begin(), at.end(), length) - at.begin();
+    if (after == std::ssize(at)) return point.back();
+    const auto k = index_of(std::max<std::ptrdiff_t>(after, 1));
+    const double s = std::max(0.0, (length - at[k - 1]) / (at[k] - at[k - 1]));
+    return (1.0 - s) * point[k - 1] + s * point[k];
+  }
 };
 
 /// The nearest point of the segments of a walk within [from, to] of its length.
@@ -240,6 +249,12 @@ double curl_radius(const Chip& chip, const Stretch& part) {
   constexpr double straight = 0.05; // rad
   const double bend = chip.rake_side.empty() ? unknown : curvature(ChipSide(chip.rake_side), part);
   return std::abs(bend) * part.length() > straight ? -1.0 / bend : unknown;
+}
+
+Section section_across(const Chip& chip, double at) {
+  const ChipSide free(chip.free_side);
+  const Vec2 rake = ChipSide(chip.rake_side).place(at);
+  return {rake, free.place(foot_of(rake, free, 0.0, infinite).at)};
 }
 
 std::vector<Vec2> fresh_chip(const Chip& chip, double feed) {

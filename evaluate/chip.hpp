@@ -70,6 +70,13 @@ Teeth measure_teeth(const ThicknessProfile& profile);
 /// > 0: it curls away from the tool. Not-a-number where it turns by less than 0.05 rad.
 double curl_radius(const Chip& chip, const Stretch& part);
 
+/// From a place on the rake side of a chip, m along it from the tip, to the nearest point of its free side.
+struct Section {
+  Vec2 rake{0, 0}, free{0, 0}; ///< m
+  double length() const { return (free - rake).norm(); }
+};
+Section section_across(const Chip& chip, double at);
+
 /// Where the chip lies that has just left the shear zone: between the shear plane and half a feed beyond its
 /// end. A closed polygon, m; empty without a chip.
 std::vector<Vec2> fresh_chip(const Chip& chip, double feed);

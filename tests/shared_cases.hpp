@@ -49,6 +49,34 @@ inline const std::string punched_block = steel_block + left_punch + R"toml(
 rereference = { every = 40, strain = 0.1 }
 )toml";
 
+/// Damage of steel_304l that is not far from where it begins to flow.
+inline const std::string brittle = R"toml(
+[materials.steel.damage]
+law = "johnson-cook"
+D1 = 0.05
+D2 = 0.1
+D3 = -1.5
+fracture_energy = "20 kJ/m2"
+)toml";
+
+/// A cut of perfectly plastic metal.
+inline const std::string aluminium_cut = R"toml(
+[cutting]
+feed = "0.3 mm"
+width = "4 mm"
+rake = "10 deg"
+clearance = "7 deg"
+edge_radius = "60 um"
+speed = "1600 m/min"
+length = "0.3 mm"
+[domain]
+material = "aluminium"
+[materials.aluminium]
+density = "2700 kg/m3"
+elastic = { young = "70 GPa", poisson = 0.33 }
+plastic = { law = "perfect", yield = "440 MPa" }
+)toml";
+
 /// Half of a blank between punch, die and holder, which is cut; without [contact].
 inline const std::string blanked_slug = steel_304l + R"toml(
 [domain]

@@ -1,6 +1,7 @@
 // The audit of every change of a cloud: what the solver has before and after.
 #include "adapt/resample.hpp"
 #include "mechanics/kinematics.hpp"
+#include "tests/conservation/nodes_of.hpp"
 #include "tests/unit/mechanics/models.hpp"
 
 #include <gtest/gtest.h>
@@ -8,17 +9,10 @@
 namespace cnem::testing {
 namespace {
 
+/// Finer on the left, coarser on the right.
 Resampling<2> resampled(const ExplicitSolver<2>& solver, double factor) {
-  const State<2>& state = solver.state();
-  adapt::NodeProperties node;
-  node.mass = state.node.mass;
-  for (std::size_t i = 0; i < node.mass.size(); ++i) {
-    node.jacobian.push_back(jacobian<2>(state.point.deformation, i) / state.point.stress_free[i]);
-    node.density.push_back(solver.model().materials[0].density);
-    // finer on the left, coarser on the right
-    node.size.push_back(1e-4 * (solver.state().node.initial_position[0][i] < 5e-4 ? factor : 1.0 / factor));
-    node.held.push_back(0);
-  }
+  adapt::NodeProperties node =
+      nodes_of(solver, [&](const Vec2& X) { return 1e-4 * (X.x() < 5e-4 ? factor : 1.0 / factor); });
   adapt::PassReport report;
   const Cloud<2> cloud = solver.present_cloud();
   return adapt::resample(cloud, adapt::structure_if_valid(cloud), std::move(node), {}, report);

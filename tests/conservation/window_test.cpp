@@ -2,8 +2,8 @@
 // goes is all that is missing.
 #include "adapt/window.hpp"
 #include "core/fields/vector_at.hpp"
-#include "mechanics/kinematics.hpp"
 #include "tests/conservation/blank.hpp"
+#include "tests/conservation/nodes_of.hpp"
 #include "tests/index_literals.hpp"
 #include "tests/unit/mechanics/models.hpp"
 
@@ -143,6 +143,15 @@ TEST(Feed, goes_any_way) {
   EXPECT_FALSE(before.fed(0.2, Vec2(1, 0))); // a corner
 }
 
+Blank hollow_blank(const Vec2& centre, double radius) {
+  Blank hollow;
+  testing::add_loop(hollow.cloud, testing::rectangle(1.0, 0.6), spacing);
+  testing::add_loop(hollow.cloud, testing::ring(centre, radius, radius, 8, true), spacing);
+  testing::fill(hollow.cloud, testing::Lattice::hexagonal, spacing, 0.1, 0.5 * spacing, 1);
+  hollow.weigh(spacing);
+  return hollow;
+}
+
 TEST(Feed, leaves_what_is_not_a_straight_end) {
   Blank round;
   testing::add_loop(round.cloud, testing::ring({0, 0}, 0.5, 0.5, 24), spacing);
@@ -150,12 +159,7 @@ TEST(Feed, leaves_what_is_not_a_straight_end) {
   round.weigh(spacing);
   EXPECT_FALSE(Loaded(std::move(round)).fed(0.2));
 
-  Blank hollow;
-  testing::add_loop(hollow.cloud, testing::rectangle(1.0, 0.6), spacing);
-  testing::add_loop(hollow.cloud, testing::ring({0.8, 0.3}, 0.1, 0.1, 8, true), spacing);
-  testing::fill(hollow.cloud, testing::Lattice::hexagonal, spacing, 0.1, 0.5 * spacing, 1);
-  hollow.weigh(spacing);
-  const Loaded before(std::move(hollow));
+  const Loaded before(hollow_blank({0.8, 0.3}, 0.1));
   EXPECT_FALSE(before.fed(0.2)); // the hole reaches into the strip
   EXPECT_TRUE(before.fed(0.08));
 }
@@ -179,12 +183,7 @@ TEST(TakeOff, leaves_a_straight_face_of_the_piece_that_went) {
 }
 
 TEST(TakeOff, cuts_aslant_and_takes_holes_with_it) {
-  Blank hollow;
-  testing::add_loop(hollow.cloud, testing::rectangle(1.0, 0.6), spacing);
-  testing::add_loop(hollow.cloud, testing::ring({0.2, 0.3}, 0.08, 0.08, 8, true), spacing);
-  testing::fill(hollow.cloud, testing::Lattice::hexagonal, spacing, 0.1, 0.5 * spacing, 1);
-  hollow.weigh(spacing);
-  const Loaded before(std::move(hollow));
+  const Loaded before(hollow_blank({0.2, 0.3}, 0.08));
   const auto change = before.cut({0.6, 0.6}, {0.45, 0.0});
   ASSERT_TRUE(change);
   EXPECT_NEAR(testing::area(change->cloud), 0.6 * (1.0 - 0.525), 1e-14);
@@ -218,16 +217,7 @@ ExplicitSolver<2> pulled_bar() {
 }
 
 adapt::NodeProperties properties_of(const ExplicitSolver<2>& solver) {
-  const State<2>& state = solver.state();
-  adapt::NodeProperties node;
-  node.mass = state.node.mass;
-  for (std::size_t i = 0; i < node.mass.size(); ++i) {
-    node.jacobian.push_back(jacobian<2>(state.point.deformation, i) / state.point.stress_free[i]);
-    node.density.push_back(solver.model().materials[0].density);
-    node.size.push_back(1e-4);
-    node.held.push_back(0);
-  }
-  return node;
+  return nodes_of(solver, [](const Vec2&) { return 1e-4; });
 }
 
 IndexedVector<NodeIndex, Vec2> undeformed(const ExplicitSolver<2>& solver) {

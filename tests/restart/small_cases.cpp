@@ -247,13 +247,7 @@ picture_fields = ["plastic_strain", "level", "indicator", "age", "softening"]
 probes.corner = { at = "1 1.5 mm", fields = ["plastic_strain"] }
 [output.checkpoint]
 every_steps = 35
-[materials.steel.damage]
-law = "johnson-cook"
-D1 = 0.05
-D2 = 0.1
-D3 = -1.5
-fracture_energy = "20 kJ/m2"
-)toml" + base_and_punch("2", "1") +
+)toml" + testing::brittle + base_and_punch("2", "1") +
                             steel_304l;
 
 // A slug that comes off: the cloud is cut, and the faces touch.

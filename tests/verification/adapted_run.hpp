@@ -42,15 +42,6 @@ inline const std::string block_case = steel_block + adapting + "[time]\nend = \"
 inline const std::string punched =
     block_case + left_punch + "friction = { law = \"tresca-limited\", coefficient = 0.2 }\n";
 
-inline const std::string brittle = R"toml(
-[materials.steel.damage]
-law = "johnson-cook"
-D1 = 0.05
-D2 = 0.1
-D3 = -1.5
-fracture_energy = "20 kJ/m2"
-)toml";
-
 inline const Texts by_strain{"adapt.indicator.field=plastic_strain", "adapt.indicator.h_min=0.1 mm"};
 
 struct Node {

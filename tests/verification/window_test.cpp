@@ -5,19 +5,9 @@
 namespace cnem::testing {
 namespace {
 
-const std::string cut = R"toml(
-[cutting]
-feed = "0.3 mm"
-width = "4 mm"
-rake = "17.5 deg"
-clearance = "7 deg"
-edge_radius = "40 um"
-speed = "3200 m/min"
-length = "1.8 mm"
+const std::string cut = aluminium_cut + R"toml(
 [time.mass_scaling]
 factor = 1 # inertia acts at this speed
-[domain]
-material = "aluminium"
 [cloud]
 spacing = "0.12 mm"
 [adapt]
@@ -25,17 +15,16 @@ surface_spacing = "0.03 mm"
 indicator = { h_min = "0.03 mm", h_max = "0.06 mm" }
 [output]
 fields_every = "0 s"
-[materials.aluminium]
-density = "2700 kg/m3"
-elastic = { young = "70 GPa", poisson = 0.33 }
-plastic = { law = "perfect", yield = "440 MPa" }
 )toml";
+const Texts faster{"cutting.rake=17.5 deg", "cutting.edge_radius=40 um", "cutting.speed=3200 m/min",
+                   "cutting.length=1.8 mm"};
 
 TEST(MovingWindow, changes_nothing_near_the_tool) {
-  const Adapted whole = testing::run(cut),
-                window = testing::run(cut, {"cutting.window=true", "adapt.window.ahead=1.8 mm",
-                                            "adapt.window.behind=0.9 mm", "adapt.window.chip=0.9 mm",
-                                            "domain.outer.rectangle.to=1.9 0.3 mm"});
+  const Adapted whole = testing::run(cut, faster),
+                window =
+                    testing::run(cut, with(faster, {"cutting.window=true", "adapt.window.ahead=1.8 mm",
+                                                    "adapt.window.behind=0.9 mm", "adapt.window.chip=0.9 mm",
+                                                    "domain.outer.rectangle.to=1.9 0.3 mm"}));
   const auto metric = [&](const Adapted& of, const char* name) {
     return of.metric(std::string("cutting.") + name);
   };

@@ -18,22 +18,7 @@
 namespace cnem::app {
 namespace {
 
-const std::string cut = R"toml(
-[cutting]
-feed = "0.3 mm"
-width = "4 mm"
-rake = "10 deg"
-clearance = "7 deg"
-edge_radius = "60 um"
-speed = "1600 m/min"
-length = "0.3 mm"
-[domain]
-material = "aluminium"
-[materials.aluminium]
-density = "2700 kg/m3"
-elastic = { young = "70 GPa", poisson = 0.33 }
-plastic = { law = "perfect", yield = "440 MPa" }
-)toml";
+const std::string& cut = testing::aluminium_cut;
 
 const std::string heat = "heat = { specific_heat = \"900 J/(kg K)\", conductivity = \"120 W/(m K)\" }\n";
 

@@ -87,6 +87,8 @@ TEST(Chip, straight_one_has_its_thickness_shear_plane_and_angle) {
   EXPECT_NEAR(shear_angle(feed, chip.thickness, rake), cut.phi, 1e-4);
   EXPECT_NEAR(chip.length, cut.length, 0.5 * cut.thickness());
   EXPECT_TRUE(std::isnan(curl_radius(chip, chip.measured)));
+  EXPECT_NEAR(section_across(chip, 1.0).length(), cut.thickness(), 1e-6);
+  EXPECT_NEAR((section_across(chip, 1.0).rake - chip.rake_side.front()).norm(), 1.0, 1e-9);
   EXPECT_TRUE(std::isnan(chip.tooth_spacing));
 }
 
@@ -107,6 +109,7 @@ TEST(Chip, curled_one_has_its_radius_and_thickness) {
   const Chip chip = measure_chip(cut.loop(), feed, rake);
   EXPECT_NEAR(chip.thickness, cut.thickness(), 0.002);
   EXPECT_NEAR(curl_radius(chip, {1.2, chip.measured.to}), 2.0, 0.04);
+  EXPECT_NEAR(section_across(chip, 3.0).length(), cut.thickness(), 0.002);
 }
 
 TEST(Chip, one_that_comes_round_to_the_uncut_surface_is_measured_along_itself) {

@@ -82,7 +82,7 @@ TEST(Cutting, MakesAWholeCase) {
   EXPECT_TRUE(c.tools[0].equal_areas);
   EXPECT_DOUBLE_EQ(c.time.mass_scaling->cell, 8e-6) << "a fiftieth of the feed";
   EXPECT_DOUBLE_EQ(read(cut, {"cutting.edge_radius=2 um"}).time.mass_scaling->cell, 2e-6)
-      << "four cells at the edge";
+      << "the radius: four cells at the edge";
   const Case heavy = read(cut, {"time.mass_scaling.factor=10"});
   EXPECT_EQ(heavy.time.mass_scaling->cell, 0.0);
   EXPECT_DOUBLE_EQ(c.method.pressure_exchange, 2.0);
