@@ -1,6 +1,7 @@
 #include "contact/contact.hpp"
 
 #include "contact/arc_offset.hpp"
+#include "contact/contact_friction.hpp"
 #include "contact/contact_parts.hpp"
 #include "contact/covered_edges.hpp"
 #include "core/error.hpp"
@@ -96,20 +97,18 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
       bodies_.look(surface_, start_, end_);
       size_ = std::max(size_, bodies_.size());
     }
+  respond(poses, step);
+  move(poses, step.dt);
   for (int pass = 0; pass < passes; ++pass) {
     from_earlier_passes_ = contacts_.size();
     const bool faces = find_on_faces(poses, step), ridges = find_on_ridges(poses, step),
                bodies = find_on_bodies(poses, step);
     if (!faces && !ridges && !bodies) break;
     solver_.solve(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps);
-    for (const BoundaryNodeIndex b : taken_)
-      end_[b] = reactions_[b].position + step.dt * reactions_[b].change;
-    for (const ToolIndex t : poses.indices()) {
-      poses[t].end = tool_reactions_[t].position + step.dt * tool_reactions_[t].change;
-      poses[t].velocity = tool_reactions_[t].velocity + tool_reactions_[t].change;
-    }
+    move(poses, step.dt);
     near_.look(surface_, tools_, poses, end_, taken_);
   }
+  contacts_.insert(contacts_.end(), answered_.begin(), answered_.end());
   scatter(step);
   motions_.accept(tools_, poses);
   book(poses, step);
@@ -119,6 +118,15 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     add_sub_step(step.dt_mean);
   else
     merge_touches();
+}
+
+/// Takes nodes and tools to where the impulses found so far bring them.
+template<int dim> void RigidContact<dim>::move(Poses<dim>& poses, double dt) {
+  for (const BoundaryNodeIndex b : taken_) end_[b] = reactions_[b].position + dt * reactions_[b].change;
+  for (const ToolIndex t : poses.indices()) {
+    poses[t].end = tool_reactions_[t].position + dt * tool_reactions_[t].change;
+    poses[t].velocity = tool_reactions_[t].velocity + tool_reactions_[t].change;
+  }
 }
 
 /// Where all nodes are; returns the longest path of a node, m.
@@ -216,6 +224,7 @@ template<int dim>
 bool RigidContact<dim>::find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step) {
   bool any = false;
   for (const ToolIndex t : tools_.indices()) {
+    if (!tools_[t].response.exact()) continue;
     const Box<dim> box = tools_[t].shape->bounds();
     inside_.clear(), from_.clear(), to_.clear(), entries_.clear();
     for (const BoundaryNodeIndex b : near_.nodes(t)) {
@@ -253,6 +262,7 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
   bool any = false;
   std::vector<RidgeHit<dim>> hits;
   for (const ToolIndex t : tools_.indices()) {
+    if (!tools_[t].response.exact()) continue;
     hits.clear();
     ridge_hits<dim>(surface_, near_.facets(t), *tools_[t].shape, start_, end_, poses[t].start, poses[t].end,
                     hits);
@@ -321,49 +331,6 @@ bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactSte
     any |= add(contact, hit.start, hit.clearance, rest, step);
   }
   return any;
-}
-
-template<int dim> const Friction& RigidContact<dim>::friction_of(const Contact<dim>& contact) const {
-  return exists(contact.tool) ? tools_[contact.tool].friction : law_.friction;
-}
-
-/// Takes the law as it is for the contact; `rubbing_area` is asked where the law needs it.
-template<int dim>
-template<class Area>
-void RigidContact<dim>::set_friction(Contact<dim>& contact, const ContactStep<dim>& step,
-                                     Area&& rubbing_area) const {
-  const Friction& friction = friction_of(contact);
-  const bool on_tool = exists(contact.tool);
-  if (on_tool) contact.surface = tool_reactions_[contact.tool].velocity;
-  Rubbing rubbing;
-  const auto sides = [&](BoundaryValues values) { // mean of each: the node's, or edge's, and the facet's
-    std::array<double, 2> mean{};
-    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (const double w = contact.weight[a]; w != 0.0)
-        mean[w > 0.0 ? 0 : 1] += std::abs(w) * values[contact.node[a]];
-    return mean;
-  };
-  if (friction.needs_flow_stress()) {
-    const auto [one, other] = sides(step.flow_stress);
-    rubbing.flow_stress = on_tool ? one : std::min(one, other);
-  }
-  if (friction.rubs() && !step.temperature.empty()) {
-    const auto [one, other] = sides(step.temperature);
-    rubbing.temperature = on_tool ? one : std::max(one, other);
-  }
-  if (friction.rubs() && !step.melting.empty()) {
-    const auto [one, other] = sides(step.melting);
-    rubbing.melting = on_tool ? one : std::min(one, other);
-  }
-  if (friction.needs_speed()) {
-    const auto predicted = [&](BoundaryNodeIndex b) { return at<dim>(step.velocity, surface_.node[b]); };
-    const Vec<dim> slip = at_contact(contact, predicted) - contact.surface;
-    rubbing.speed = (slip - slip.dot(contact.normal) * contact.normal).norm();
-  }
-  const FrictionBound bound = friction.bound(rubbing);
-  contact.coulomb = bound.coefficient;
-  contact.smooth = bound.smooth;
-  contact.limit = std::isinf(bound.shear) ? infinite : bound.shear * rubbing_area() * step.dt_mean;
 }
 
 template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) {

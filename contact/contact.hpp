@@ -131,8 +131,9 @@ public:
 
   /// Corrects x_{n+1} and v_{n+½} so that nothing that was outside a tool or another part of the workpiece is
   /// inside, with friction, and existing penetration shrinks at no more than half the tool's (or the node's
-  /// slip) speed. Throws InputError when a shear factor is set and no flow stress given, DivergenceError when
-  /// a node would go through a tool in this step.
+  /// slip) speed. Tools with another response push nodes that were inside at t_n, and no corners. Throws
+  /// InputError when a shear factor is set and no flow stress given, DivergenceError when a node would go
+  /// through a tool in this step.
   void correct(const ContactStep<dim>& step);
 
   /// Between these two calls `correct` is called once in each of several steps, and then all results are
@@ -182,9 +183,13 @@ public:
 private:
   IndexedVector<BoundaryNodeIndex, Vec<dim>> places(const Fields<dim>& position) const;
   double gather(const ContactStep<dim>& step);
+  void move(Poses<dim>& poses, double dt);
   void look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step, double longest) const;
   bool stands(ToolIndex tool) const;
   void take(const Contact<dim>& contact, const ContactStep<dim>& step);
+  void respond(const Poses<dim>& poses, const ContactStep<dim>& step);
+  void answer(BoundaryNodeIndex node, ToolIndex tool, const SurfacePoint<dim>& at,
+              const ContactStep<dim>& step);
   bool find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);
@@ -224,7 +229,8 @@ private:
   std::vector<BoundaryNodeIndex> inside_; ///< the box of a tool
   std::vector<Vec<dim>> from_, to_;       ///< m, of these as the tool sees them
   std::vector<Entry<dim>> entries_;
-  std::vector<Contact<dim>> contacts_;
+  std::vector<Contact<dim>> contacts_; ///< in `correct` the exact ones, then all
+  std::vector<Contact<dim>> answered_; ///< of tools whose response is not exact
   ImpulseSolver<dim> solver_;
   std::size_t from_earlier_passes_ = 0; ///< how many of them
 

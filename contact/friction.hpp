@@ -1,9 +1,9 @@
 #pragma once
 // The law of friction of a tool or between bodies: any of contact/laws/list.hpp.
 #include "contact/laws/list.hpp"
+#include "core/law_variant.hpp"
 
 #include <string>
-#include <variant>
 
 namespace cnem::contact {
 
@@ -56,9 +56,7 @@ public:
   template<class Law> const Law& as() const { return std::get<Law>(law_); }
 
 private:
-  template<class List> struct VariantOf;
-  template<class... Law> struct VariantOf<Laws<Law...>> { using type = std::variant<Law...>; };
-  VariantOf<FrictionLaws>::type law_;
+  VariantOf<FrictionLaws> law_;
   FrictionMelting melting_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Rigid tools: shape, motion or mass, friction and what they do to heat.
 #include "contact/friction.hpp"
+#include "contact/response.hpp"
 #include "contact/tool_shape.hpp"
 #include "core/heat_curves.hpp"
 #include "core/indexed.hpp"
@@ -102,6 +103,7 @@ struct ToolMetal {
 struct ToolSurface {
   std::string name;
   Friction friction;
+  Response response;
   ToolThermal thermal;
   bool equal_areas = false; ///< as contact/arc_offset.hpp and contact/covered_edges.hpp say
 };

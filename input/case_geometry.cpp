@@ -206,6 +206,8 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     tool.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     read_drive(table, result, tool, diagnostics);
     tool.friction = read_friction(*table.find("friction"), diagnostics);
+    tool.response = read_law<contact::Response>(contact::Responses{}, *table.find("response"), diagnostics)
+                        .value_or(contact::Response());
     tool.equal_areas = table.maybe<bool>("equal_areas").value_or(false);
     read_tool_heat(table, root, result, tool, diagnostics);
     result.tools.push_back(std::move(tool));

@@ -63,6 +63,17 @@ const BoundaryCondition* moving(const Case& c) {
   return found == c.boundary.end() ? nullptr : &*found;
 }
 
+/// The first kinematic tool for which something holds.
+const Tool* kinematic(const Case& c, bool (*holds)(const Tool&)) {
+  const auto found = std::find_if(c.tools.begin(), c.tools.end(), [&](const Tool& tool) {
+    return tool.response.is<contact::Kinematic>() && holds(tool);
+  });
+  return found == c.tools.end() ? nullptr : &*found;
+}
+bool rubs(const Tool& tool) { return tool.friction.rubs(); }
+bool is_free(const Tool& tool) { return tool.drive.has_value(); }
+bool stands(const Tool& tool) { return !tool.drive && !moves(tool.velocity); }
+
 /// What is asked for at `path` is refused where `with` gives words. A key that is a default is dropped
 /// instead, so that the resolved case reads back.
 struct Pair {
@@ -101,6 +112,19 @@ const std::vector<Pair>& pairs() {
       {"initial.velocity_gradient", "", "`analysis.mechanical = false`", without_motion, motion,
        "nothing moves"},
       {"report", "", "`analysis.mechanical = false`", without_motion, motion, "nothing is cut"},
+
+      {"tools.*.friction.law", "friction", "`tools.*.response.law = \"kinematic\"`",
+       [](const Case& c) { return when(kinematic(c, rubs), "on a kinematic tool"); }, "\"none\"",
+       "what its faces bear along and across follows from the direction of its motion", nullptr,
+       [](const Case& c) { return "tools." + kinematic(c, rubs)->name + ".friction.law"; }},
+      {"tools.*.response.law", "\"kinematic\"", "`tools.*.mass`",
+       [](const Case& c) { return when(kinematic(c, is_free), "of a tool with a mass"); }, "\"exact\"",
+       "nodes take over a velocity that is prescribed", nullptr,
+       [](const Case& c) { return "tools." + kinematic(c, is_free)->name + ".response.law"; }},
+      {"tools.*.response.law", "\"kinematic\"", "a tool without `velocity`",
+       [](const Case& c) { return when(kinematic(c, stands), "of a tool at rest"); }, "\"exact\"",
+       "it pushes along its motion alone", nullptr,
+       [](const Case& c) { return "tools." + kinematic(c, stands)->name + ".response.law"; }},
 
       {"analysis.kinematics", "\"plane stress\"", "explicit analyses", in_dynamics,
        "it with analysis.type = \"static\" only", "the return map solves for no strain out of the plane",

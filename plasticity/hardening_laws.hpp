@@ -1,17 +1,13 @@
 #pragma once
 // For who makes hardening laws and looks at their constants.
+#include "core/law_variant.hpp"
 #include "plasticity/hardening.hpp"
 #include "plasticity/laws/list.hpp"
 
-#include <variant>
-
 namespace cnem::plasticity {
 
-template<class List> struct VariantOf;
-template<class... Law> struct VariantOf<Laws<Law...>> { using type = std::variant<Law...>; };
-
 struct AnyHardening {
-  VariantOf<HardeningLaws>::type law;
+  VariantOf<HardeningLaws> law;
 };
 
 template<class Law> Law completed(Law law) {

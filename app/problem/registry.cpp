@@ -246,6 +246,8 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   model.open = input.adapt.window.has_value();
   model.mechanical = input.analysis.mechanical;
   model.safety = input.time.safety;
+  for (const input::Tool& tool : input.tools)
+    model.safety = std::min(model.safety, input.time.safety * tool.response.step_share());
   model.local = input.time.local;
   model.mass_scaling = input.time.mass_scaling.value_or(MassScaling{});
 

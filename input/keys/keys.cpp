@@ -226,6 +226,14 @@ void add_tools(Keys& k) {
         "it presses on what it covers of the edge, else it bears as if it reached to the next node.")
       .fallback("false");
   add_friction(k, at + "friction", "Friction on the workpiece.");
+  const std::vector<LawText> responses = law_texts(contact::Responses{});
+  k.add(at + "response", table,
+        "What keeps the workpiece out of the tool. All but `\"exact\"` let nodes in first, and corners "
+        "between "
+        "nodes: they are there to compare with what others compute.")
+      .always();
+  add_law_choice(k, at + "response", responses).fallback("\"exact\"");
+  add_law_constants(k, at + "response", responses);
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
   add_constants(k, at + "heat", constant_texts<contact::ToolThermal>(contact::ToolThermal::parameters));
   add_constants(k, at + "heat", constant_texts<contact::ToolMetal>(contact::ToolMetal::parameters));
