@@ -40,7 +40,8 @@ Row<dim> row_of(const DiscreteOperators<dim>& operators, const Field& position, 
 template<int dim>
 void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Field conductivity) {
   operators_ = &operators;
-  conductivity_ = std::move(conductivity);
+  conductivity_ = given_ = std::move(conductivity);
+  limited_ = false;
   corner_.clear();
   const bool triangles = linear_triangles();
   flux_.assign((triangles ? 3 : dim) * index_of(operators.points), 0.0);
@@ -149,13 +150,13 @@ template<int dim> double Conduction<dim>::conducting_determinant(const Mat2& f, 
   return conducting(f.determinant(), least_of_sides * 2.0 * op.volume[p] * squares);
 }
 
-template<int dim> double Conduction<dim>::fastest_decay(const Field& position, const Field& heat_capacity) {
+/// Gershgorin's bound as for waves, with b = F⁻ᵀ b_r and V = V_r det F (mechanics/stable_step.hpp): |b| of
+/// the entries and Σ V k |b| of the nodes.
+template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) {
   const DiscreteOperators<dim>& op = *operators_;
-  const auto points = index_of(op.points);
   transfer_.assign(index_of(op.nodes), 0.0);
-  // The same Gershgorin bound as for waves, with b = F⁻ᵀ b_r and V = V_r det F (mechanics/stable_step.hpp).
-  std::vector<double> norm(op.node.size());
-  for (std::size_t p = 0; p < points; ++p) {
+  norm_.resize(op.node.size());
+  for (std::size_t p = 0; p < index_of(op.points); ++p) {
     const Row<dim> row = row_of<dim>(op, position, p);
     Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
     double determinant = row.deformation.determinant();
@@ -170,20 +171,55 @@ template<int dim> double Conduction<dim>::fastest_decay(const Field& position, c
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       Vec<dim> b;
       for (int k = 0; k < dim; ++k) b[k] = op.gradient[index_of(k)][e];
-      norm[e] = (inverse_transpose * b).norm();
-      transfer_[index_of(op.node[e])] += volume * conductivity_[p] * norm[e];
+      norm_[e] = (inverse_transpose * b).norm();
+      transfer_[index_of(op.node[e])] += volume * conductivity_[p] * norm_[e];
     }
   }
+}
+
+template<int dim> double Conduction<dim>::fastest_decay(const Field& position, const Field& heat_capacity) {
+  const DiscreteOperators<dim>& op = *operators_;
+  lift_limit();
+  look_at_transfer(position);
   double worst = 0.0;
-  for (std::size_t p = 0; p < points; ++p) {
+  for (std::size_t p = 0; p < index_of(op.points); ++p) {
     double sum = 0.0;
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       const auto j = index_of(op.node[e]);
-      sum += norm[e] * transfer_[j] / heat_capacity[j];
+      sum += norm_[e] * transfer_[j] / heat_capacity[j];
     }
     worst = std::max(worst, sum);
   }
   return worst;
+}
+
+template<int dim> void Conduction<dim>::lift_limit() {
+  if (limited_) conductivity_ = given_;
+  limited_ = false;
+}
+
+template<int dim>
+void Conduction<dim>::limit_decay(const Field& position, const Field& heat_capacity, double decay) {
+  const DiscreteOperators<dim>& op = *operators_;
+  lift_limit();
+  look_at_transfer(position);
+  limited_ = true;
+  // Each entry of a row may take an equal share of the rate. All rows of a node conduct less by the node's
+  // factor at least, so that its transfer is.
+  Field factor(index_of(op.nodes), 1.0);
+  const auto each_entry = [&](auto&& act) {
+    for (std::size_t p = 0; p < index_of(op.points); ++p)
+      for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e)
+        act(p, e, index_of(op.node[e]));
+  };
+  each_entry([&](std::size_t p, std::size_t e, std::size_t j) {
+    const double share = decay / static_cast<double>(op.row_begin[p + 1] - op.row_begin[p]);
+    if (const double taken = norm_[e] * transfer_[j] / heat_capacity[j]; taken > share)
+      factor[j] = std::min(factor[j], share / taken);
+  });
+  each_entry([&](std::size_t p, std::size_t, std::size_t j) {
+    conductivity_[p] = std::min(conductivity_[p], given_[p] * factor[j]);
+  });
 }
 
 template class Conduction<2>;

@@ -17,22 +17,29 @@ public:
   /// nodes add up to zero. Positions are the current ones, side by side (core/operators/side_by_side.hpp).
   void add_flow(const Field& position, const Field& temperature, Field& flow);
 
-  /// The decay rate no mode exceeds, 1/s: explicit steps are stable below 2 over it.
+  /// The decay rate no mode exceeds without limits, 1/s: explicit steps are stable below 2 over it.
   double fastest_decay(const Field& position, const Field& heat_capacity);
+
+  /// Lets points around nodes that are too light for the heat they pass on conduct less from now on, so that
+  /// no mode decays faster than `decay` (1/s) here; the others as before.
+  void limit_decay(const Field& position, const Field& heat_capacity, double decay);
+  void lift_limit();
 
 private:
   bool linear_triangles() const;
   void number_corners();
   double conducting_determinant(const Mat2& deformation, std::size_t row) const;
+  void look_at_transfer(const Field& position);
   void add_triangle_flow(const Field& position, const Field& temperature, Field& flow);
 
   const DiscreteOperators<dim>* operators_ = nullptr;
   std::vector<NodeIndex> triangle_;  ///< [3 · triangle + corner] node, counter-clockwise
   std::vector<std::int32_t> corner_; ///< [column entry] 3 · triangle + corner; empty but for plane triangles
-  Field conductivity_;
+  Field conductivity_, given_;       ///< as limited, and without limits
+  bool limited_ = false;
   Field flux_; ///< [row][k] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned; of plane
                ///< triangles [row][corner] the heat into it
-  Field transfer_; ///< [node] scratch of fastest_decay
+  Field norm_, transfer_; ///< [row entry], [node]: of the last look at decay rates
 };
 
 extern template class Conduction<2>;

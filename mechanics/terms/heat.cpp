@@ -206,12 +206,28 @@ private:
       exposure_.tool_moved.push_back(contact.displacement(t, body.state.time));
   }
 
+  /// How many steps of conduction an interval takes. Where it would be more than a few, nodes of films and
+  /// slivers are too light for what they pass on: they share it out within a sub-step as it is, and more
+  /// would only cost.
+  int substeps_of(const Body<dim>& body, double dt) {
+    constexpr int most = 8;
+    conduction_.lift_limit();
+    const int substeps = stable_substeps(dt * 2.0 / interval_.stable);
+    if (substeps <= most || !body.model.mechanical) return substeps;
+    const double of_boundaries =
+        body.conditions.heat_boundaries.fastest_decay(body.state.time, body.state.node.position, quickest_);
+    const int enough = most + stable_substeps(dt * of_boundaries);
+    if (substeps <= enough) return substeps;
+    conduction_.limit_decay(body.position, quickest_, most / dt);
+    return enough;
+  }
+
   /// Explicit conduction (58) and boundaries over an interval, in as many sub-steps as are stable.
   void conduct(const Body<dim>& body, double dt) {
     NodeState<dim>& node = body.state.node;
     const ThermalBoundaries<dim>& boundaries = body.conditions.heat_boundaries;
     const std::size_t n = node.size();
-    const int substeps = stable_substeps(dt * 2.0 / interval_.stable);
+    const int substeps = substeps_of(body, dt);
     const double h = dt / substeps;
     if (boundaries.cooled()) look_at_exposure(body);
     for (int s = 0; s < substeps; ++s) {

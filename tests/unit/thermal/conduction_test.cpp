@@ -8,6 +8,8 @@
 #include "thermal/boundaries.hpp"
 #include "thermal/conduction.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -275,6 +277,57 @@ TEST(Conduction, triangles_give_what_the_pulled_back_operator_gives) {
   fast.conduction.add_flow(position, fast.temperature, flow);
   general.add_flow(position, fast.temperature, expected);
   for (std::size_t i = 0; i < flow.size(); ++i) EXPECT_NEAR(flow[i], expected[i], 1e-12 * k * 900);
+}
+
+TEST(Conduction, a_limit_holds_back_light_nodes_alone) {
+  Body body(jittered_square(0.1, 0.2, 7));
+  const std::vector<Vec2>& place = body.cloud.position;
+  const auto light =
+      static_cast<std::size_t>(std::min_element(place.begin(), place.end(),
+                                                [](const Vec2& a, const Vec2& b) {
+                                                  const Vec2 middle(0.5, 0.5);
+                                                  return (a - middle).norm() < (b - middle).norm();
+                                                }) -
+                               place.begin());
+  const double usual = 2.0 / body.stable_step();
+  body.capacity[light] *= 1e-6;
+  const Field positions = side_by_side<2>(body.position);
+  EXPECT_GT(body.conduction.fastest_decay(positions, body.capacity), 1e4 * usual);
+  for (std::size_t i = 0; i < body.temperature.size(); ++i)
+    body.temperature[i] = std::sin(7.0 * place[i].x()) + place[i].y();
+  const auto flow = [&] {
+    Field result(body.flow.size(), 0.0);
+    body.conduction.add_flow(positions, body.temperature, result);
+    return result;
+  };
+  const Field before = flow();
+  body.conduction.limit_decay(positions, body.capacity, 2.0 * usual);
+  const Field limited = flow();
+  double sum = 0.0, largest = 0.0;
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < limited.size(); ++i) {
+    sum += limited[i];
+    largest = std::max(largest, std::abs(limited[i]));
+    changed += limited[i] != before[i];
+  }
+  EXPECT_NEAR(sum, 0.0, 1e-12 * largest);
+  EXPECT_GT(changed, 3u);
+  EXPECT_LT(changed, 12u); // the node and its neighbours
+  // Explicit steps that long bring it among its neighbours and stay there.
+  const double h = 1.0 / (2.0 * usual), high = 100.0;
+  std::fill(body.temperature.begin(), body.temperature.end(), 0.0);
+  body.temperature[light] = high;
+  const double heat = body.heat();
+  for (int i = 0; i < 100; ++i) {
+    body.step(h);
+    for (const double t : body.temperature) ASSERT_LT(std::abs(t), high);
+  }
+  EXPECT_NEAR(body.heat(), heat, 1e-12 * heat);
+  EXPECT_LT(std::abs(body.temperature[light]), 1e-2 * high);
+  body.conduction.lift_limit();
+  for (std::size_t i = 0; i < body.temperature.size(); ++i)
+    body.temperature[i] = std::sin(7.0 * place[i].x()) + place[i].y();
+  EXPECT_EQ(flow(), before);
 }
 
 TEST(Conduction, fastest_decay_bounds_the_exact_rate) {
