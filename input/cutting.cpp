@@ -34,9 +34,8 @@ constexpr double a_row = 0.05;         ///< way of the tool between rows of the 
 /// Spacing of what has flowed and rests, over that of the cloud there.
 constexpr double rest_factor = 1.5;
 
-/// Spacing at the edge over its radius, and that whose step these cells take over theirs at most: they grow
-/// heavier by the square of it.
-constexpr double edge_spacing = 0.25, heaviest = 4.0;
+/// Spacing whose step cells at the edge take, over their own, at most: they grow heavier by the square of it.
+constexpr double heaviest = 4.0;
 
 /// Radius at the ends of a land over its width, unless it is given.
 constexpr double sharpest = 0.2;
@@ -48,6 +47,10 @@ struct ToolCorners {
 };
 
 double rake_at_edge(const CuttingSetup& cut) { return cut.rake - (cut.chamfer ? cut.chamfer->angle : 0.0); }
+
+/// m, spacing at the edge: what chords cut off its arc, and with it the work that goes into pushing metal out
+/// of the arc as they grow, is the same share of the feed whatever the radius.
+double edge_spacing(const CuttingSetup& cut) { return std::sqrt(cut.edge_radius * cut.feed) / 30.0; }
 
 /// Along a face from the edge upwards.
 Vec2 face(double rake) { return {-std::sin(rake), std::cos(rake)}; }
@@ -116,7 +119,7 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
   const auto time = [](double t) { return fmt::format("\"{} s\"", format_number(t)); };
   std::string text =
       fmt::format("[time]\nend = {}\n[time.mass_scaling]\ncell = {}\n", time(duration),
-                  length(std::min(feeds::cell * f, heaviest * edge_spacing * cut.edge_radius))) +
+                  length(std::min(feeds::cell * f, heaviest * edge_spacing(cut)))) +
       fmt::format("[domain.outer.rectangle]\nfrom = {}\nto = {}\n", point({0.0, -below}), point({end, f})) +
       fmt::format("[cloud]\nspacing = {}\n[cloud.refine.layer]\nbox = [{}, {}]\nspacing = {}\n",
                   length(feeds::coarse * f), point({0.0, -feeds::layer * f}), point({end, f}),
@@ -139,8 +142,7 @@ std::string case_text(const CuttingSetup& cut, const Parts& parts) {
         "[method]\npressure_exchange = 2.0\nstress_annealing = 1.0\n"
         "[method.rereference]\nevery = 400\nstrain = 0.25\n" +
         fmt::format("[adapt]\nresample = true\ntool_spacing = {}\nsurface_spacing = {}\nrest_factor = {}\n",
-                    length(edge_spacing * cut.edge_radius), length(feeds::surface * f),
-                    format_number(rest_factor)) +
+                    length(edge_spacing(cut)), length(feeds::surface * f), format_number(rest_factor)) +
         fmt::format("[adapt.indicator]\nfield = \"plastic_power\"\nh_min = {}\nh_max = {}\n",
                     length(feeds::finest * f), length(feeds::fine * f));
   if (parts.resampling && cut.window)

@@ -2,6 +2,8 @@
 
 #include "core/operators/operators.hpp"
 
+#include <algorithm>
+
 namespace cnem {
 
 namespace {
@@ -32,14 +34,17 @@ void carry_mean(const SourceRows<Index>& parcels, const Field& weight, Field& va
   carry(parcels, value, [&](std::size_t first, std::size_t last) {
     const double one = value[index_of(parcels.from[first])]; // equal values stay what they are to the bit
     if (last - first == 1) return one;
-    double sum = 0.0, total = 0.0;
+    double sum = 0.0, total = 0.0, least = one, most = one;
     for (std::size_t e = first; e < last; ++e) {
       const std::size_t k = index_of(parcels.from[e]);
       const double share = parcels.weight[e] * weight[k];
       if (value[k] != one) sum += share * (value[k] - one);
       total += share;
+      least = std::min(least, value[k]);
+      most = std::max(most, value[k]);
     }
-    return one + sum / total;
+    // rounding takes it beyond where the first has hardly a share
+    return std::clamp(one + sum / total, least, most);
   });
 }
 

@@ -26,7 +26,8 @@ using PointRows = SourceRows<PointIndex>;
 /// Sums over parcels: value'_p = Σ f_pk value_k. For mass, momentum, heat capacity.
 template<IndexKind Index> void carry_sum(const SourceRows<Index>& parcels, Field& value);
 /// Means over parcels weighted with an extensive quantity (mass before the change): value'_p = Σ f_pk m_k
-/// value_k / Σ f_pk m_k. Rows of one entry keep their bits, and so do equal values, infinite ones too.
+/// value_k / Σ f_pk m_k, and to the last bit among the values that it is made of: what is never negative
+/// stays so. Rows of one entry keep their bits, and so do equal values, infinite ones too.
 template<IndexKind Index>
 void carry_mean(const SourceRows<Index>& parcels, const Field& weight, Field& value);
 /// Interpolates labels: value'_p = Σ w_pk value_k.

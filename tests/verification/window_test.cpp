@@ -11,6 +11,7 @@ factor = 1 # inertia acts at this speed
 [cloud]
 spacing = "0.12 mm"
 [adapt]
+tool_spacing = "10 um" # finer cells make short steps of masses as they are
 surface_spacing = "0.03 mm"
 indicator = { h_min = "0.03 mm", h_max = "0.06 mm" }
 [output]

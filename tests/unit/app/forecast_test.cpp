@@ -63,11 +63,12 @@ TEST(Forecast, FitsTheRunOfACut) {
 
 TEST(Forecast, CountsWithWhatRefines) {
   const std::string light = "time.mass_scaling.factor=1", fine = "adapt.tool_spacing=5 um";
-  const Forecast plain = expected_of(read(cut, {light})), finer = expected_of(read(cut, {light, fine})),
+  const Forecast plain = expected_of(read(cut, {light, "adapt.tool_spacing=15 um"})),
+                 finer = expected_of(read(cut, {light, fine})),
                  heavier = expected_of(read(cut, {"time.mass_scaling.cell=15 um", fine})),
                  longer = expected_of(read(cut, {"adapt.rest_factor=0", "cutting.length=0.6 mm"})),
                  surface =
-                     expected_of(read(cut, {"adapt.indicator.field=none", "adapt.surface_spacing=5 um"})),
+                     expected_of(read(cut, {"adapt.indicator.field=none", "adapt.surface_spacing=4 um"})),
                  none = expected_of(read(cut, {"adapt.indicator.field=none", "adapt.surface_spacing=60 um"})),
                  coarse = expected_of(read(cut, {"adapt.resample=false"}));
   EXPECT_NEAR(finer.steps, 3.0 * plain.steps, 0.01 * finer.steps) << "cells of 5 µm for 15";
@@ -75,7 +76,7 @@ TEST(Forecast, CountsWithWhatRefines) {
   EXPECT_GT(finer.nodes_first, plain.nodes_first);
   EXPECT_EQ(plain.nodes_last, plain.nodes_first) << "what rests is made coarse";
   EXPECT_GT(longer.nodes_last, plain.nodes_last + 100.0) << "the chip keeps its cells";
-  EXPECT_EQ(surface.finest, 5e-6);
+  EXPECT_EQ(surface.finest, 4e-6);
   EXPECT_GT(surface.nodes_first, none.nodes_first + 100.0);
   EXPECT_LT(coarse.steps, 0.3 * plain.steps);
   EXPECT_EQ(coarse.nodes_first, coarse.nodes_last);
@@ -88,7 +89,7 @@ TEST(Explain, SaysWhatDecidesAboutACut) {
   for (const std::string& part :
        {fmt::format("= {:.3g}: it goes with the chip", peclet), std::string("r/f = 0.2: honed"),
         fmt::format("= {:.2g}: forces are those of a slow cut", share), std::string("20 over the feed"),
-        std::string("7 along the arc"), std::string("cutter moves at 26.67 m/s"),
+        std::string("25 along the arc"), std::string("cutter moves at 26.67 m/s"),
         std::string("steps       about ")})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
   EXPECT_EQ(explanation(read(cut)).find("Péclet"), std::string::npos) << "without heat";

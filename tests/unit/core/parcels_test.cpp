@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <random>
 
 namespace cnem {
 namespace {
@@ -20,6 +21,20 @@ TEST(Parcels, equal_values_keep_their_bits_infinite_ones_too) {
   carry_mean(halves, mass, infinite);
   EXPECT_EQ(tenth, (Field{0.1, 0.1}));
   EXPECT_EQ(infinite, (Field{never, never}));
+}
+
+TEST(Parcels, means_lie_among_their_values_however_small_a_share_is) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.1, 1.0);
+  const NodeRows pair{{0, 2}, {0_node, 1_node}, {1.0, 1.0}};
+  int near = 0; // means that rounding alone could take below 0
+  for (int k = 0; k < 1000; ++k) {
+    Field rate{1e6 * uniform(random), 0.0};
+    carry_mean(pair, {1e-20 * uniform(random), uniform(random)}, rate);
+    EXPECT_GE(rate[0], 0.0);
+    if (rate[0] < 1e-9) ++near;
+  }
+  EXPECT_GT(near, 900);
 }
 
 TEST(Parcels, rows_of_points_are_those_of_their_nodes) {

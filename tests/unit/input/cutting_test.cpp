@@ -76,13 +76,14 @@ TEST(Cutting, MakesAWholeCase) {
   EXPECT_EQ(c.boundary[0].pieces, (std::vector<std::string>{"bottom", "right"}));
   ASSERT_EQ(c.tools.size(), 1U);
   EXPECT_EQ(c.tools[0].velocity[0]->values().front(), 800.0 / 60.0);
-  EXPECT_DOUBLE_EQ(c.adapt.tool_spacing.value(), 5e-6) << "a quarter of the edge radius";
+  EXPECT_DOUBLE_EQ(c.adapt.tool_spacing.value(), std::sqrt(2e-5 * 4e-4) / 30.0);
   EXPECT_DOUBLE_EQ(c.adapt.surface_spacing.value(), 4e-4 / 17.0);
   EXPECT_DOUBLE_EQ(c.adapt.rest_factor, 1.5);
   EXPECT_TRUE(c.tools[0].equal_areas);
   EXPECT_DOUBLE_EQ(c.time.mass_scaling->cell, 8e-6) << "a fiftieth of the feed";
-  EXPECT_DOUBLE_EQ(read(cut, {"cutting.edge_radius=2 um"}).time.mass_scaling->cell, 2e-6)
-      << "the radius: four cells at the edge";
+  const Case sharp = read(cut, {"cutting.edge_radius=2 um"});
+  EXPECT_DOUBLE_EQ(sharp.time.mass_scaling->cell, 4.0 * sharp.adapt.tool_spacing.value())
+      << "four cells at the edge";
   const Case heavy = read(cut, {"time.mass_scaling.factor=10"});
   EXPECT_EQ(heavy.time.mass_scaling->cell, 0.0);
   EXPECT_DOUBLE_EQ(c.method.pressure_exchange, 2.0);
