@@ -354,12 +354,18 @@ void WorkingCloud::refresh_facets() {
   }
 }
 
-NodeRows WorkingCloud::in_order(IndexedVector<NodeIndex, Row>& rows, const std::vector<std::int32_t>& order) {
+NodeRows WorkingCloud::in_order(const IndexedVector<NodeIndex, Row>& rows,
+                                const std::vector<std::int32_t>& order) const {
   NodeRows result;
   result.begin.reserve(order.size() + 1);
   result.begin.push_back(0);
-  for (const std::int32_t i : order) {
-    for (const auto& [node, weight] : row(rows, as<NodeIndex>(i))) {
+  for (const std::int32_t k : order) {
+    const auto i = as<NodeIndex>(k);
+    if (rows[i].empty() && exists(old_of_[i])) { // as most are
+      result.from.push_back(old_of_[i]);
+      result.weight.push_back(1.0);
+    }
+    for (const auto& [node, weight] : rows[i]) {
       result.from.push_back(node);
       result.weight.push_back(weight);
     }

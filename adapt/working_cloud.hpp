@@ -114,7 +114,7 @@ private:
   void be_mates(NodeIndex a, NodeIndex b);
   void renew_loops();
   Row& row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i);
-  NodeRows in_order(IndexedVector<NodeIndex, Row>& rows, const std::vector<std::int32_t>& order);
+  NodeRows in_order(const IndexedVector<NodeIndex, Row>& rows, const std::vector<std::int32_t>& order) const;
   NodeIndex append(const Vec2& x, const std::vector<std::pair<NodeIndex, double>>& parents);
 
   Cloud<2> cloud_;

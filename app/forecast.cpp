@@ -72,9 +72,13 @@ double gained_by_window(const input::Case& input) {
 /// docs/performance.md has the parts.
 double cost_of_steps(const input::Case& input) { return (input.contact.active ? 115.0 : 90.0) * 1e-9; }
 
-/// The same of passes, over the steps there would be with masses as they are: they come by the strain, which
-/// longer steps do not change.
-double cost_of_passes(const input::Case& input) { return (input.adapt.resample ? 30.0 : 0.0) * 1e-9; }
+/// The same of passes, over the steps there would be with masses as they are: they come by the strain, the
+/// rarer the more of it a reference bears, which longer steps do not change.
+double cost_of_passes(const input::Case& input) {
+  if (!input.adapt.resample) return 0.0;
+  const double strain = input.method.rereference_strain;
+  return (strain > 0.0 ? 7.5 / strain : 30.0) * 1e-9;
+}
 
 } // namespace
 

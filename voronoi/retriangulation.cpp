@@ -15,10 +15,10 @@ namespace {
 
 /// One side of a triangle on its way to that of the triangle across.
 struct HalfEdge {
-  NodeIndex other; ///< its later node, in the list of its earlier one
-  bool forwards;   ///< from the earlier to the later
-  SimplexIndex triangle;
-  std::int32_t corner; ///< opposite
+  NodeIndex other;       ///< its later node, in the list of its earlier one
+  bool forwards;         ///< from the earlier to the later
+  SimplexIndex triangle; ///< none: both of its triangles are known
+  std::int32_t corner;   ///< opposite
 };
 
 class Retriangulation {
@@ -59,31 +59,33 @@ private:
     for (std::size_t i = 0; i + 1 < begin.size(); ++i) begin[i + 1] += begin[i];
     std::vector<HalfEdge> sides(begin.back());
     std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
-    for_each_side([&](NodeIndex low, const HalfEdge& side) { sides[end[index_of(low)]++] = side; });
-    std::size_t facets = 0;
-    for (const NodeIndex low : cloud_.position.indices()) {
+    bool fits = true;
+    for_each_side([&](NodeIndex low, const HalfEdge& side) {
       const auto first = sides.begin() + static_cast<std::ptrdiff_t>(begin[index_of(low)]),
                  last = sides.begin() + static_cast<std::ptrdiff_t>(end[index_of(low)]);
-      std::sort(first, last, [](const HalfEdge& a, const HalfEdge& b) {
-        return a.other != b.other ? a.other < b.other : a.forwards < b.forwards;
-      });
-      for (auto side = first; side != last; ++side) {
-        const auto next = side + 1;
-        if (next != last && next->other == side->other) {
-          if (next->forwards == side->forwards) return false;
-          mesh_.neighbour[side->triangle][index_of(side->corner)] = next->triangle;
-          mesh_.neighbour[next->triangle][index_of(next->corner)] = side->triangle;
-          ++side;
-          if (side + 1 != last && (side + 1)->other == side->other) return false;
-          continue;
-        }
-        const NodeIndex from = side->forwards ? low : side->other, to = side->forwards ? side->other : low;
+      const auto across = std::find_if(first, last, [&](const HalfEdge& s) { return s.other == side.other; });
+      if (across == last) {
+        sides[end[index_of(low)]++] = side;
+        return;
+      }
+      fits = fits && exists(across->triangle) && across->forwards != side.forwards;
+      if (!fits) return;
+      mesh_.neighbour[side.triangle][index_of(side.corner)] = across->triangle;
+      mesh_.neighbour[across->triangle][index_of(across->corner)] = side.triangle;
+      across->triangle = SimplexIndex::none; // it has both
+    });
+    if (!fits) return false;
+    std::size_t facets = 0;
+    for (const NodeIndex low : cloud_.position.indices())
+      for (std::size_t s = begin[index_of(low)]; s < end[index_of(low)]; ++s) {
+        const HalfEdge& side = sides[s];
+        if (!exists(side.triangle)) continue;
+        const NodeIndex from = side.forwards ? low : side.other, to = side.forwards ? side.other : low;
         const CloudFacetIndex facet = leaving_[from];
         if (!exists(facet) || cloud_.facets[facet].node[1] != to) return false;
-        mesh_.facet[side->triangle][index_of(side->corner)] = facet;
+        mesh_.facet[side.triangle][index_of(side.corner)] = facet;
         ++facets;
       }
-    }
     return facets == cloud_.facets.size();
   }
 
