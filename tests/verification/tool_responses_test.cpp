@@ -4,10 +4,11 @@
 namespace cnem::testing {
 namespace {
 
-const std::string cut = aluminium_cut + R"toml(
+const std::string answered_cut = aluminium_cut + R"toml(
 [cloud]
 spacing = "0.12 mm"
 [adapt]
+tool_spacing = "15 um"
 surface_spacing = "0.03 mm"
 indicator = { h_min = "0.03 mm", h_max = "0.06 mm" }
 [output]
@@ -17,14 +18,15 @@ fields_every = "0 s"
 double force(const Adapted& of) { return of.metric("cutting.Fc"); }
 
 TEST(ToolResponse, a_penalty_spring_cuts_with_nearly_the_force_of_exact_contact) {
-  const Adapted exact = testing::run(cut), spring = testing::run(cut, {"tools.cutter.response.law=penalty",
-                                                                       "tools.cutter.response.scale=0.1"});
+  const Adapted exact = testing::run(answered_cut),
+                spring = testing::run(
+                    answered_cut, {"tools.cutter.response.law=penalty", "tools.cutter.response.scale=0.1"});
   EXPECT_NEAR(force(spring), force(exact), 0.02 * force(exact));
   EXPECT_NE(force(spring), force(exact));
 }
 
 TEST(ToolResponse, a_kinematic_tool_has_no_force_across_its_motion) {
-  const Adapted run = testing::run(cut, {"tools.cutter.response.law=kinematic"});
+  const Adapted run = testing::run(answered_cut, {"tools.cutter.response.law=kinematic"});
   EXPECT_GT(force(run), 0.0);
   EXPECT_EQ(run.metric("cutting.Ft"), 0.0);
 }
