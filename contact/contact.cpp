@@ -98,7 +98,10 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
       size_ = std::max(size_, bodies_.size());
     }
   respond(poses, step);
-  move(poses, step.dt);
+  if (!answered_.empty()) {
+    move(poses, step.dt);
+    near_.look(surface_, tools_, poses, end_, taken_);
+  }
   for (int pass = 0; pass < passes; ++pass) {
     from_earlier_passes_ = contacts_.size();
     const bool faces = find_on_faces(poses, step), ridges = find_on_ridges(poses, step),

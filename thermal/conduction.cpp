@@ -151,10 +151,11 @@ template<int dim> double Conduction<dim>::conducting_determinant(const Mat2& f, 
 }
 
 /// Gershgorin's bound as for waves, with b = F⁻ᵀ b_r and V = V_r det F (mechanics/stable_step.hpp): |b| of
-/// the entries and Σ V k |b| of the nodes.
+/// the entries, Σ V k |b| and Σ V of the nodes.
 template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) {
   const DiscreteOperators<dim>& op = *operators_;
   transfer_.assign(index_of(op.nodes), 0.0);
+  around_.assign(index_of(op.nodes), 0.0);
   norm_.resize(op.node.size());
   for (std::size_t p = 0; p < index_of(op.points); ++p) {
     const Row<dim> row = row_of<dim>(op, position, p);
@@ -173,14 +174,19 @@ template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) 
       for (int k = 0; k < dim; ++k) b[k] = op.gradient[index_of(k)][e];
       norm_[e] = (inverse_transpose * b).norm();
       transfer_[index_of(op.node[e])] += volume * conductivity_[p] * norm_[e];
+      around_[index_of(op.node[e])] += volume;
     }
   }
 }
 
 template<int dim> double Conduction<dim>::fastest_decay(const Field& position, const Field& heat_capacity) {
-  const DiscreteOperators<dim>& op = *operators_;
   lift_limit();
   look_at_transfer(position);
+  return decay_bound(heat_capacity);
+}
+
+template<int dim> double Conduction<dim>::decay_bound(const Field& heat_capacity) const {
+  const DiscreteOperators<dim>& op = *operators_;
   double worst = 0.0;
   for (std::size_t p = 0; p < index_of(op.points); ++p) {
     double sum = 0.0;
@@ -199,11 +205,17 @@ template<int dim> void Conduction<dim>::lift_limit() {
 }
 
 template<int dim>
-void Conduction<dim>::limit_decay(const Field& position, const Field& heat_capacity, double decay) {
+double Conduction<dim>::limit_decay(const Field& position, const Field& heat_capacity, double decay) {
   const DiscreteOperators<dim>& op = *operators_;
   lift_limit();
   look_at_transfer(position);
-  limited_ = true;
+  constexpr double light = 0.05;
+  Field density(index_of(op.nodes));
+  for (std::size_t j = 0; j < density.size(); ++j) density[j] = heat_capacity[j] / around_[j];
+  Field ordered = density;
+  const auto middle = ordered.begin() + std::ssize(ordered) / 2;
+  std::nth_element(ordered.begin(), middle, ordered.end());
+  const double usual = *middle;
   // Each entry of a row may take an equal share of the rate. All rows of a node conduct less by the node's
   // factor at least, so that its transfer is.
   Field factor(index_of(op.nodes), 1.0);
@@ -214,12 +226,18 @@ void Conduction<dim>::limit_decay(const Field& position, const Field& heat_capac
   };
   each_entry([&](std::size_t p, std::size_t e, std::size_t j) {
     const double share = decay / static_cast<double>(op.row_begin[p + 1] - op.row_begin[p]);
+    if (!(density[j] < light * usual)) return;
     if (const double taken = norm_[e] * transfer_[j] / heat_capacity[j]; taken > share)
       factor[j] = std::min(factor[j], share / taken);
   });
+  if (std::all_of(factor.begin(), factor.end(), [](double f) { return f == 1.0; }))
+    return decay_bound(heat_capacity);
+  limited_ = true;
   each_entry([&](std::size_t p, std::size_t, std::size_t j) {
     conductivity_[p] = std::min(conductivity_[p], given_[p] * factor[j]);
   });
+  look_at_transfer(position);
+  return decay_bound(heat_capacity);
 }
 
 template class Conduction<2>;

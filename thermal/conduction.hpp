@@ -20,9 +20,11 @@ public:
   /// The decay rate no mode exceeds without limits, 1/s: explicit steps are stable below 2 over it.
   double fastest_decay(const Field& position, const Field& heat_capacity);
 
-  /// Lets points around nodes that are too light for the heat they pass on conduct less from now on, so that
-  /// no mode decays faster than `decay` (1/s) here; the others as before.
-  void limit_decay(const Field& position, const Field& heat_capacity, double decay);
+  /// Lets points around light nodes conduct less from now on, so that these alone ask for no faster decay
+  /// than `decay` (1/s) here; the others as before. A node is light that has less than a twentieth of the
+  /// heat capacity of what conducts around it, by the median of all. The decay rate that no mode exceeds
+  /// then, 1/s.
+  double limit_decay(const Field& position, const Field& heat_capacity, double decay);
   void lift_limit();
 
 private:
@@ -30,6 +32,7 @@ private:
   void number_corners();
   double conducting_determinant(const Mat2& deformation, std::size_t row) const;
   void look_at_transfer(const Field& position);
+  double decay_bound(const Field& heat_capacity) const;
   void add_triangle_flow(const Field& position, const Field& temperature, Field& flow);
 
   const DiscreteOperators<dim>* operators_ = nullptr;
@@ -39,7 +42,7 @@ private:
   bool limited_ = false;
   Field flux_; ///< [row][k] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned; of plane
                ///< triangles [row][corner] the heat into it
-  Field norm_, transfer_; ///< [row entry], [node]: of the last look at decay rates
+  Field norm_, transfer_, around_; ///< [row entry], [node], [node]: of the last look at decay rates
 };
 
 extern template class Conduction<2>;

@@ -207,8 +207,7 @@ private:
   }
 
   /// How many steps of conduction an interval takes. Where it would be more than a few, nodes of films and
-  /// slivers are too light for what they pass on: they share it out within a sub-step as it is, and more
-  /// would only cost.
+  /// slivers that are too light for what they pass on are no reason for more.
   int substeps_of(const Body<dim>& body, double dt) {
     constexpr int most = 8;
     conduction_.lift_limit();
@@ -216,10 +215,8 @@ private:
     if (substeps <= most || !body.model.mechanical) return substeps;
     const double of_boundaries =
         body.conditions.heat_boundaries.fastest_decay(body.state.time, body.state.node.position, quickest_);
-    const int enough = most + stable_substeps(dt * of_boundaries);
-    if (substeps <= enough) return substeps;
-    conduction_.limit_decay(body.position, quickest_, most / dt);
-    return enough;
+    const double decay = conduction_.limit_decay(body.position, quickest_, most / dt);
+    return stable_substeps(dt * (decay + of_boundaries));
   }
 
   /// Explicit conduction (58) and boundaries over an interval, in as many sub-steps as are stable.

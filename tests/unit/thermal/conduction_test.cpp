@@ -301,7 +301,7 @@ TEST(Conduction, a_limit_holds_back_light_nodes_alone) {
     return result;
   };
   const Field before = flow();
-  body.conduction.limit_decay(positions, body.capacity, 2.0 * usual);
+  EXPECT_LE(body.conduction.limit_decay(positions, body.capacity, 2.0 * usual), 2.0 * usual);
   const Field limited = flow();
   double sum = 0.0, largest = 0.0;
   std::size_t changed = 0;
@@ -327,6 +327,22 @@ TEST(Conduction, a_limit_holds_back_light_nodes_alone) {
   body.conduction.lift_limit();
   for (std::size_t i = 0; i < body.temperature.size(); ++i)
     body.temperature[i] = std::sin(7.0 * place[i].x()) + place[i].y();
+  EXPECT_EQ(flow(), before);
+}
+
+TEST(Conduction, a_limit_leaves_fine_cells_of_usual_density_alone) {
+  Body body(jittered_square(0.1, 0.2, 7));
+  const Field positions = side_by_side<2>(body.position);
+  for (std::size_t i = 0; i < body.temperature.size(); ++i)
+    body.temperature[i] = std::sin(7.0 * body.cloud.position[i].x());
+  const auto flow = [&] {
+    Field result(body.flow.size(), 0.0);
+    body.conduction.add_flow(positions, body.temperature, result);
+    return result;
+  };
+  const Field before = flow();
+  const double usual = body.conduction.fastest_decay(positions, body.capacity);
+  EXPECT_EQ(body.conduction.limit_decay(positions, body.capacity, 1e-3 * usual), usual);
   EXPECT_EQ(flow(), before);
 }
 
