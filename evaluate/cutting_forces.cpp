@@ -107,6 +107,14 @@ private:
   std::vector<CutForce> filtered_;
 };
 
+/// Where the tool has met the workpiece: the last row before a force.
+double met(const CutImpulse& impulse) {
+  const auto touched =
+      std::ranges::find_if(impulse.Fc, [&](double sum) { return sum != impulse.Fc.front(); });
+  const auto row = touched - impulse.Fc.begin();
+  return impulse.cut[index_of(std::clamp<std::ptrdiff_t>(row - 1, 0, std::ssize(impulse.cut) - 1))];
+}
+
 SteadyPart taken(const Judged& judged, double from, double to) {
   return {judged.fault.empty(), judged.fault, from, to, judged.mean, judged.spread};
 }
@@ -140,18 +148,19 @@ SteadyPart steady_part(const CutImpulse& impulse, const SteadyRule& rule) {
     none.note = "the tool has not moved";
     return none;
   }
-  const double first = impulse.cut.front(), last = impulse.cut.back();
+  const double begin = met(impulse), last = impulse.cut.back();
+  const double first = begin + rule.feed; // before that there is no chip
   // Each third is of whole teeth.
-  const double fine = std::max(grid * rule.feed, of_whole * (last - first));
+  const double fine = std::max(grid * rule.feed, of_whole * (last - begin));
   const double unit = rule.tooth > 0.0 ? 3.0 * rule.tooth : fine;
   const double least = std::ceil(rule.feeds * rule.feed / unit - 1e-9) * unit;
   const Judge judge(impulse, rule);
   if (last - first < least * (1.0 - 1e-9)) {
-    const double from = 0.5 * (first + last);
+    const double from = 0.5 * (begin + last);
     none = taken(judge(from, last), from, last);
     none.steady = false;
-    none.note = fmt::format("the cut is {:.3g} feeds long, {:.3g} are needed", (last - first) / rule.feed,
-                            least / rule.feed);
+    none.note = fmt::format("the cut is {:.3g} feeds long, {:.3g} are needed, one of them for the entry",
+                            (last - begin) / rule.feed, least / rule.feed + 1.0);
     return none;
   }
   for (double length = std::floor((last - first) / unit + 1e-9) * unit; length >= least * (1.0 - 1e-9);

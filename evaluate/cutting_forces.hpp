@@ -41,8 +41,9 @@ struct SteadyPart {
   CutForce mean, spread;       ///< N/m; spread: standard deviation of the filtered forces
 };
 
-/// The longest part of the cut over which forces are steady (docs/cutting.md); where there is none, the last
-/// part as long as a steady one would have to be, or the last half of a shorter cut, and why.
+/// The longest part of the cut beyond its first feed over which forces are steady (docs/cutting.md); where
+/// there is none, the last part as long as a steady one would have to be, or the last half of a shorter cut,
+/// and why.
 SteadyPart steady_part(const CutImpulse& impulse, const SteadyRule& rule);
 
 } // namespace cnem::evaluate

@@ -21,6 +21,7 @@ struct CuttingSetup {
   double rake = 0.0;        ///< rad
   double clearance = 0.0;   ///< rad
   double edge_radius = 0.0; ///< m, where flank and what follows it meet
+  double friction = 0.0;    ///< –, coefficient with chip and workpiece; 0 where its law has none
   std::optional<ChamferedEdge> chamfer; ///< absent: the rake face begins at the edge
   double speed = 0.0;                   ///< m/s
   double length = 0.0;                  ///< m, of cut

@@ -49,8 +49,14 @@ struct ToolCorners {
 double rake_at_edge(const CuttingSetup& cut) { return cut.rake - (cut.chamfer ? cut.chamfer->angle : 0.0); }
 
 /// m, spacing at the edge: what chords cut off its arc, and with it the work that goes into pushing metal out
-/// of the arc as they grow, is the same share of the feed whatever the radius.
-double edge_spacing(const CuttingSetup& cut) { return std::sqrt(cut.edge_radius * cut.feed) / 30.0; }
+/// of the arc as they grow, is the same share of the feed whatever the radius. Under friction metal stretches
+/// less around the arc and the work is larger: cells may be wider, as far as they still show the arc.
+double edge_spacing(const CuttingSetup& cut) {
+  constexpr double rubbed = 0.5; // as far as it was measured
+  const double smooth = std::sqrt(cut.edge_radius * cut.feed) / 30.0;
+  const double rough = smooth * (1.0 + 2.0 * std::min(cut.friction, rubbed));
+  return std::max(smooth, std::min(rough, 0.5 * cut.edge_radius));
+}
 
 /// Along a face from the edge upwards.
 Vec2 face(double rake) { return {-std::sin(rake), std::cos(rake)}; }
@@ -242,6 +248,7 @@ CuttingSetup read_cutting(Setting& table, Diagnostics& diagnostics) {
                                     {"speed", &cut.speed},
                                     {"length", &cut.length}})
     *value = table.get<double>(name);
+  cut.friction = table.maybe<double>("friction.coefficient").value_or(0.0);
   cut.tool = table.get<std::string>("tool");
   cut.exit = table.get<bool>("exit");
   cut.window = table.get<bool>("window");

@@ -52,6 +52,15 @@ TEST(CuttingForces, steady_part_leaves_the_run_in_out) {
   EXPECT_LT(part.spread.Fc, 0.03e5);
 }
 
+TEST(CuttingForces, steady_part_leaves_the_entry_out_whatever_its_force) {
+  const double way = 2.0; // feeds before the tool meets the workpiece
+  const CutImpulse impulse = impulse_of_force(8.0, [&](double x) { return x < way ? 0.0 : 1e5; });
+  const SteadyPart part = steady_part(impulse, rule);
+  EXPECT_TRUE(part.steady) << part.note;
+  EXPECT_NEAR(part.from, (way + 1.0) * uncut, 0.13 * uncut);
+  EXPECT_NEAR(part.to, 8.0 * uncut, 1e-12);
+}
+
 TEST(CuttingForces, steady_part_ends_where_the_tool_leaves) {
   const CutImpulse impulse = impulse_of_force(10.0, [](double x) { return x < 8.0 ? 1e5 : 1e4; });
   const SteadyPart part = steady_part(impulse, rule);
@@ -68,7 +77,7 @@ TEST(CuttingForces, rising_force_and_short_cut_are_not_steady_and_say_why) {
   EXPECT_NEAR(rising.mean.Fc, 1e4 * 5.5, 1.0) << "of the last three feeds";
   const SteadyPart brief = steady_part(impulse_of_force(2.0, [](double) { return 1e5; }), rule);
   EXPECT_FALSE(brief.steady);
-  EXPECT_EQ(brief.note, "the cut is 2 feeds long, 3 are needed");
+  EXPECT_EQ(brief.note, "the cut is 2 feeds long, 4 are needed, one of them for the entry");
   EXPECT_NEAR(brief.mean.Fc, 1e5, 1.0);
 }
 

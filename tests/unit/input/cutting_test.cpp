@@ -76,7 +76,7 @@ TEST(Cutting, MakesAWholeCase) {
   EXPECT_EQ(c.boundary[0].pieces, (std::vector<std::string>{"bottom", "right"}));
   ASSERT_EQ(c.tools.size(), 1U);
   EXPECT_EQ(c.tools[0].velocity[0]->values().front(), 800.0 / 60.0);
-  EXPECT_DOUBLE_EQ(c.adapt.tool_spacing.value(), std::sqrt(2e-5 * 4e-4) / 30.0);
+  EXPECT_DOUBLE_EQ(c.adapt.tool_spacing.value(), std::sqrt(2e-5 * 4e-4) / 30.0 * (1.0 + 2.0 * 0.17));
   EXPECT_DOUBLE_EQ(c.adapt.surface_spacing.value(), 4e-4 / 17.0);
   EXPECT_DOUBLE_EQ(c.adapt.rest_factor, 1.5);
   EXPECT_TRUE(c.tools[0].equal_areas);
@@ -95,6 +95,19 @@ TEST(Cutting, MakesAWholeCase) {
   EXPECT_LT(c.cloud.at({5e-3, 2e-4}), 1.01 * 8e-5) << "a fifth of the feed in the layer";
   EXPECT_GT(c.cloud.at({5e-3, -1.9e-3}), 1.9e-4) << "coarse below";
   EXPECT_FALSE(c.output.windows.empty());
+}
+
+TEST(Cutting, CellsAtTheEdgeFollowRadiusAndFriction) {
+  const auto spacing = [](const char* radius, const char* friction) {
+    return read(cut, {fmt::format("cutting.edge_radius={}", radius), friction}).adapt.tool_spacing.value();
+  };
+  const char* smooth = "cutting.friction={ law = \"none\" }";
+  const double of_20 = std::sqrt(2e-5 * 4e-4) / 30.0;
+  EXPECT_DOUBLE_EQ(spacing("20 um", smooth), of_20);
+  EXPECT_DOUBLE_EQ(spacing("20 um", "cutting.friction.coefficient=0.5"), 2.0 * of_20);
+  EXPECT_DOUBLE_EQ(spacing("20 um", "cutting.friction.coefficient=0.9"), 2.0 * of_20) << "no wider than that";
+  EXPECT_DOUBLE_EQ(spacing("2 um", "cutting.friction.coefficient=0.5"), 1e-6) << "half the radius";
+  EXPECT_DOUBLE_EQ(spacing("1 um", "cutting.friction.coefficient=0.5"), std::sqrt(1e-6 * 4e-4) / 30.0);
 }
 
 /// The outline of a rounded tool: lowest point, angles of its faces, and where it meets the workpiece.
