@@ -96,6 +96,24 @@ plasticity::Hill48 read_anisotropy(const Setting& table, const Setting& material
   return law;
 }
 
+/// It gives a material its bulk modulus and its expansion by heat.
+void read_equation_of_state(const Setting& table, const Setting& of, plasticity::Material& material,
+                            Diagnostics& diagnostics) {
+  plasticity::MieGruneisen law;
+  read_constants(plasticity::MieGruneisen::parameters, table, law);
+  if (std::isfinite(law.C))
+    material.elasticity = material.elasticity.with_bulk_modulus(material.density * law.C * law.C);
+  if (const Setting* own = of.find("heat.expansion"); own && material.expansion != 0.0)
+    diagnostics.add(
+        Mistake::conflict, own->where, own->path,
+        fmt::format("found {:g} 1/K beside an equation of state, expected 0: heat would expand the "
+                    "metal by it and by gamma0",
+                    material.expansion));
+  material.expansion =
+      law.gamma0 * material.density * material.specific_heat / (3.0 * material.elasticity.kappa());
+  material.equation_of_state = law;
+}
+
 /// A lower and an upper value; no limits where the key is absent.
 Range read_limits(const Setting& table, const char* name, Diagnostics& diagnostics) {
   const Setting* limits = table.find(name);
@@ -175,6 +193,8 @@ plasticity::Material read_material(const Setting& table, std::vector<std::string
     read_constants(Material::heat_parameters, *heat, material);
     read_lists(*heat, material.heat_curves, diagnostics);
   }
+  if (const Setting* state = table.find("equation_of_state"))
+    read_equation_of_state(*state, table, material, diagnostics);
   return material;
 }
 

@@ -47,6 +47,13 @@ const plasticity::Material* expanding(const Case& c) {
   });
   return found == c.materials.end() ? nullptr : &*found;
 }
+/// The first of a case's materials with an equation of state.
+const plasticity::Material* compressible(const Case& c) {
+  const auto found = std::find_if(c.materials.begin(), c.materials.end(), [](const plasticity::Material& m) {
+    return m.equation_of_state.has_value();
+  });
+  return found == c.materials.end() ? nullptr : &*found;
+}
 /// The first of a case's materials whose sheet is not the same all around the axis.
 const plasticity::Material* planar(const Case& c) {
   const auto found = std::find_if(c.materials.begin(), c.materials.end(), [](const plasticity::Material& m) {
@@ -173,6 +180,10 @@ const std::vector<Pair>& pairs() {
        [](const Case& c) { return when(is_static(c) && expanding(c), "in a static analysis"); },
        "heat.reference_temperature = initial.temperature", "temperatures load nothing there", nullptr,
        [](const Case& c) { return "materials." + expanding(c)->name + ".heat.expansion"; }},
+      {"materials.*.equation_of_state", "", "static analyses",
+       [](const Case& c) { return when(is_static(c) && compressible(c), "in a static analysis"); }, dynamics,
+       "strains are small there, and pressure is proportional to them", nullptr,
+       [](const Case& c) { return "materials." + compressible(c)->name + ".equation_of_state"; }},
       {"boundary.*.velocity", "a velocity", "static analyses",
        [](const Case& c) { return when(is_static(c) && moving(c), "in a static analysis"); },
        "a displacement (or a velocity of 0)", "there is no time to move in", nullptr,

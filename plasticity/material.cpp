@@ -11,6 +11,11 @@ double Elasticity::dilatational_speed(double density) const {
 double Elasticity::shear_speed(double density) const { return std::sqrt(mu() / density); }
 double Elasticity::bar_speed(double density) const { return std::sqrt(young / density); }
 
+Elasticity Elasticity::with_bulk_modulus(double kappa) const {
+  const double shear = mu(), both = 3.0 * kappa + shear;
+  return {9.0 * kappa * shear / both, (1.5 * kappa - shear) / both};
+}
+
 double Material::melting_temperature() const {
   return std::min(hardening ? hardening->melting_temperature() : infinite,
                   damage ? damage->melting_temperature() : infinite);

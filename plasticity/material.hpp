@@ -4,6 +4,7 @@
 #include "core/index.hpp"
 #include "core/parameter.hpp"
 #include "plasticity/breaking.hpp"
+#include "plasticity/equation_of_state.hpp"
 #include "plasticity/hardening.hpp"
 #include "plasticity/hill48.hpp"
 
@@ -41,6 +42,9 @@ struct Elasticity {
   double dilatational_speed(double density) const; ///< m/s  √((λ + 2μ)/ρ)
   double shear_speed(double density) const;        ///< m/s  √(μ/ρ)
   double bar_speed(double density) const;          ///< m/s  √(E/ρ)
+
+  /// The same shear modulus with another bulk modulus, Pa.
+  Elasticity with_bulk_modulus(double kappa) const;
 };
 
 /// Where the constants of a hardening law were measured: plastic strain, its rate in 1/s, temperature in K.
@@ -52,10 +56,11 @@ struct Material {
   std::string name;
   double density = 0.0;
   Elasticity elasticity;
-  std::optional<Hardening> hardening; ///< none: elastic
-  std::optional<Hill48> anisotropy;   ///< none: von Mises
-  std::optional<Damage> damage;       ///< none: never breaks
-  MeasuredRange measured;             ///< of the hardening; it holds beyond as well
+  std::optional<Hardening> hardening;            ///< none: elastic
+  std::optional<Hill48> anisotropy;              ///< none: von Mises
+  std::optional<Damage> damage;                  ///< none: never breaks
+  std::optional<MieGruneisen> equation_of_state; ///< none: the logarithmic law in compression too
+  MeasuredRange measured;                        ///< of the hardening; it holds beyond as well
   double specific_heat = 0.0, conductivity = 0.0, taylor_quinney = 0.9, expansion = 0.0;
   double expansion_reference = 293.15;
   HeatCurves heat_curves; ///< factors of specific heat and conductivity

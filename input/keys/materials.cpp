@@ -74,6 +74,18 @@ void add_anisotropy(Keys& k, const std::string& at) {
       .fallback("\"y\"");
 }
 
+void add_equation_of_state(Keys& k, const std::string& at) {
+  using Law = plasticity::MieGruneisen;
+  k.add(at, table,
+        "Pressure of compressed metal; without it Kirchhoff's pressure is −κ times the logarithm of the "
+        "volume.");
+  k.add(at + ".law", choice, fmt::format("`{}`: {}.", Law::name, Law::formula))
+      .one_of({Law::name})
+      .required();
+  add_source(k, at);
+  add_constants(k, at, constant_texts<Law>(Law::parameters));
+}
+
 } // namespace
 
 void add_materials(Keys& k) {
@@ -88,7 +100,7 @@ void add_materials(Keys& k) {
         "own. A table with a `law` of its own replaces that of the base.")
       .example("\"lib:304L\"");
   k.add(at + ".leave_out", choices, "Tables of the `base` that are not taken.")
-      .one_of({"plastic", "anisotropy", "damage", "heat"})
+      .one_of({"plastic", "anisotropy", "equation_of_state", "damage", "heat"})
       .example("[\"damage\"]");
   k.add(at + ".origin", text,
         "Written into resolved cases: the material of the library, and which of its constants the case has "
@@ -111,6 +123,7 @@ void add_materials(Keys& k) {
   add_law_constants(k, at + ".plastic", hardening_laws);
   add_range(k, at + ".plastic.range");
   add_anisotropy(k, at + ".anisotropy");
+  add_equation_of_state(k, at + ".equation_of_state");
   add_damage(k, at + ".damage");
   k.add(at + ".heat", table, "Thermal properties.");
   add_source(k, at + ".heat");

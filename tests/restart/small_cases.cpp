@@ -335,6 +335,10 @@ keep = 3
 // Rolled sheet, whose axes turn over references and go over to new nodes.
 const char* const rolled = "[materials.steel.anisotropy]\nlaw = \"hill48\"\nr0 = 1.8\nr45 = 1.2\nr90 = 2.3\n";
 
+// Pressure of compressed metal that is not proportional to its strain, while it breaks.
+const char* const compressible =
+    "[materials.steel.equation_of_state]\nlaw = \"mie-gruneisen\"\nS1 = 1.49\ngamma0 = 2.17\nb = 0.5\n";
+
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
@@ -366,6 +370,7 @@ const std::vector<SmallCase>& small_cases() {
       {"touching_triangles", with_method(touching, "name = \"fe-triangles\"\n")},
       {"space", space_case()},
       {"rolled", adapted + rolled},
+      {"compressible", adapted + compressible},
       {"adapted_particles", with_method(adapted, "name = \"sph\"\n")},
       {"hybrid", with_method(adapted, "name = \"hybrid\"\n")}};
   return cases;
