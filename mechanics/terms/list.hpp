@@ -14,6 +14,7 @@ template<int dim> std::vector<std::unique_ptr<Term<dim>>> make_terms(const Model
 template<int dim> std::unique_ptr<Term<dim>> body_energy(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> equation_of_state(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> point_damage(const Model<dim>& model);
+template<int dim> std::unique_ptr<Term<dim>> thermal_expansion(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> bulk_viscosity(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model);
