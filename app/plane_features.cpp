@@ -8,6 +8,18 @@
 #include <fmt/format.h>
 
 namespace cnem::app {
+namespace {
+
+/// The state of a run as it is let go. cooled_to: [node] K, null: temperatures stay.
+StressedBody body_of(const ExplicitSolver<2>& solver, const Field* cooled_to = nullptr) {
+  const Model<2>& model = solver.model();
+  const State<2>& state = solver.state();
+  return {solver.approximation(), state.point,     state.node.position,
+          state.node.mass,        model.materials, solver.conditions().supports,
+          model.stabilisation,    cooled_to};
+}
+
+} // namespace
 
 void PlaneFeatures::start(const std::filesystem::path& folder, ExplicitSolver<2>& solver,
                           const Adaptation::Follow& follow) {
@@ -48,12 +60,9 @@ std::string PlaneFeatures::draw_place(results::FileQueue& files, const ExplicitS
 
 std::string PlaneFeatures::unload(const ExplicitSolver<2>& solver) {
   if (!input_->report.springback) return "";
-  const Model<2>& model = solver.model();
-  const State<2>& state = solver.state();
-  check_finite(state);
+  check_finite(solver.state());
   try {
-    springback_ = springback({solver.approximation(), state.point, state.node.position, state.node.mass,
-                              model.materials, solver.conditions().supports, model.stabilisation});
+    springback_ = springback(body_of(solver));
     return "";
   } catch (const InputError& error) { return fmt::format("there is no springback: {}", error.what()); }
 }
@@ -66,8 +75,10 @@ void PlaneFeatures::evaluate(const std::filesystem::path& folder, const Explicit
     evaluate::write_blanking(folder, *blanking_);
   }
   if (!cutting_) return;
+  const StressedBody body = body_of(solver, &solver.state().node.initial_temperature);
   cut_ = evaluate::evaluate_cutting(*input_, snapshot(solver), *cutting_,
-                                    results::read_history(folder / results::files::cutting_course));
+                                    results::read_history(folder / results::files::cutting_course),
+                                    solver.conditions().ties.empty() ? &body : nullptr);
   evaluate::write_cutting(folder, *cut_);
 }
 

@@ -5,10 +5,13 @@
 #include "evaluate/cutting_forces.hpp"
 #include "evaluate/machined_surface.hpp"
 #include "evaluate/tool_isotherms.hpp"
+#include "mechanics/kinematics.hpp"
 #include "results/fields.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
 
 namespace cnem::evaluate {
 namespace {
@@ -155,28 +158,83 @@ void take_chip(CuttingResult& result, const Chip& chip, double feed) {
   result.tooth_spacing = chip.tooth_spacing;
 }
 
-/// σ along a unit vector, [node].
-Field normal_stress(const results::Snapshot<2>& shot, const Vec2& n) {
-  const Field xx = results::values_at_nodes(shot, "stress_xx"),
-              yy = results::values_at_nodes(shot, "stress_yy"),
-              xy = results::values_at_nodes(shot, "stress_xy");
-  Field stress(xx.size());
-  for (std::size_t i = 0; i < stress.size(); ++i)
-    stress[i] = n.x() * n.x() * xx[i] + n.y() * n.y() * yy[i] + 2.0 * n.x() * n.y() * xy[i];
-  return stress;
+/// Stress at nodes, Pa: xx, yy, zz, xy.
+Fields<4> stress_at_nodes(const results::Snapshot<2>& shot) {
+  return {results::values_at_nodes(shot, "stress_xx"), results::values_at_nodes(shot, "stress_yy"),
+          results::values_at_nodes(shot, "stress_zz"), results::values_at_nodes(shot, "stress_xy")};
+}
+
+/// Normal stresses in the frame of the cut, [node] Pa.
+NormalStresses<Field> normal_stresses(const Fields<4>& stress, const input::CuttingTool& cut) {
+  const auto& [xx, yy, zz, xy] = stress;
+  const auto along = [&](const Vec2& n, std::size_t i) {
+    return n.x() * n.x() * xx[i] + n.y() * n.y() * yy[i] + 2.0 * n.x() * n.y() * xy[i];
+  };
+  NormalStresses<Field> normal{zz, zz, zz};
+  for (std::size_t i = 0; i < zz.size(); ++i) {
+    normal.along[i] = along(cut.along, i);
+    normal.away[i] = along(cut.away, i);
+  }
+  return normal;
+}
+
+struct Residual {
+  Fields<4> stress;  ///< [·][node] Pa: xx, yy, zz, xy
+  Field yield_ratio; ///< [node] von Mises stress over the flow stress at rest and at the temperature it has
+                     ///< then
+  std::string note;  ///< why it is not known
+};
+
+/// What is left when tool and supports are gone and the heat is.
+Residual residual_of(const results::Snapshot<2>& shot, const StressedBody* body) {
+  const auto& node = shot.state.node;
+  Residual residual;
+  resize_all(residual.stress, node.size(), unknown);
+  residual.yield_ratio.assign(node.size(), unknown);
+  if (!body) {
+    residual.note = "residual stresses are not told: tied nodes are not let go";
+    return residual;
+  }
+  Springback released;
+  try {
+    released = springback(*body);
+  } catch (const std::runtime_error& error) {
+    residual.note = fmt::format("residual stresses are not told: {}", error.what());
+    return residual;
+  }
+  const DiscreteOperators<2>& op = shot.approximation.mechanics;
+  residual.stress = stress_at_nodes(shot);
+  for (std::size_t c = 0; c < residual.stress.size(); ++c) {
+    const Field change = average_at_nodes<2>(op, released.stress_change[c]);
+    for (std::size_t i = 0; i < node.size(); ++i) residual.stress[c][i] += change[i];
+  }
+  const auto& [xx, yy, zz, xy] = residual.stress;
+  const Field strain = results::values_at_nodes(shot, "plastic_strain"),
+              strength = average_at_nodes<2>(op, shot.state.point.strength);
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const auto& hardening = body->materials[index_of(node.material[i])].hardening;
+    const double p = (xx[i] + yy[i] + zz[i]) / 3.0;
+    const double square = (xx[i] - p) * (xx[i] - p) + (yy[i] - p) * (yy[i] - p) + (zz[i] - p) * (zz[i] - p) +
+                          2.0 * xy[i] * xy[i];
+    residual.yield_ratio[i] =
+        hardening ? std::sqrt(1.5 * square) /
+                        (strength[i] * hardening->flow_stress(strain[i], 0.0, (*body->cooled_to)[i]))
+                  : 0.0;
+  }
+  return residual;
 }
 
 void take_surface(CuttingResult& result, const MachinedSurface& surface, bool thermal) {
   result.surface_note = surface.note;
-  result.depth.names = {"depth[m]",
-                        "stress_along[Pa]",
-                        "stress_along.spread[Pa]",
-                        "stress_away[Pa]",
-                        "stress_away.spread[Pa]",
-                        "plastic_strain",
-                        "temperature[K]",
-                        "nodes"};
-  result.depth.column.resize(result.depth.names.size());
+  std::vector<std::string>& names = result.depth.names;
+  names = {"depth[m]"};
+  for (const char* kind : {"stress", "residual"})
+    for (const char* direction : {"along", "away", "across"}) {
+      names.push_back(fmt::format("{}_{}[Pa]", kind, direction));
+      names.push_back(fmt::format("{}_{}.spread[Pa]", kind, direction));
+    }
+  names.insert(names.end(), {"plastic_strain", "temperature[K]", "nodes"});
+  result.depth.column.resize(names.size());
   if (!surface.note.empty()) return;
   result.surface_from = -surface.measured.to;
   result.surface_to = -surface.measured.from;
@@ -184,16 +242,20 @@ void take_surface(CuttingResult& result, const MachinedSurface& surface, bool th
   result.roughness = surface.roughness;
   result.layer = surface.layer;
   for (const DepthLayer& layer : surface.layers) {
-    const double row[] = {layer.depth,
-                          layer.along,
-                          layer.along_spread,
-                          layer.away,
-                          layer.away_spread,
-                          layer.plastic_strain,
-                          thermal ? layer.temperature : unknown,
-                          layer.nodes};
-    for (std::size_t c = 0; c < std::size(row); ++c) result.depth.column[c].push_back(row[c]);
+    std::vector<double> row{layer.depth};
+    for (const auto& stress : {layer.loaded, layer.residual})
+      for (const LayerMean& mean : {stress.along, stress.away, stress.across})
+        row.insert(row.end(), {mean.mean, mean.spread});
+    row.insert(row.end(), {layer.plastic_strain, thermal ? layer.temperature : unknown, layer.nodes});
+    for (std::size_t c = 0; c < row.size(); ++c) result.depth.column[c].push_back(row[c]);
   }
+  if (!surface.layers.empty()) result.residual_stress_surface = surface.layers.front().residual.along.mean;
+  result.residual_yield = surface.yield_ratio;
+  if (surface.yield_ratio > 1.0)
+    result.residual_note =
+        fmt::format("residual stresses are elastic: where they are largest they are {:.2f} "
+                    "times what the metal would flow at",
+                    surface.yield_ratio);
 }
 
 void take_tool(CuttingResult& result, const input::CuttingReport& asked, const input::CuttingTool& cut,
@@ -216,7 +278,8 @@ void take_tool(CuttingResult& result, const input::CuttingReport& asked, const i
 } // namespace
 
 CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot<2>& shot,
-                               const CuttingCourse& course, results::HistoryTable rows) {
+                               const CuttingCourse& course, results::HistoryTable rows,
+                               const StressedBody* body) {
   const input::CuttingReport& asked = *input.report.cutting;
   const input::CuttingTool& cut = course.tool();
   const State<2>& state = shot.state;
@@ -261,12 +324,20 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
     result.shear_stress =
         (result.Fc * std::cos(angle) - result.Ft * std::sin(angle)) * std::sin(angle) / asked.feed;
   }
-  const Field along = normal_stress(shot, cut.along), away = normal_stress(shot, cut.away),
-              strain = results::values_at_nodes(shot, "plastic_strain");
-  take_surface(
-      result,
-      measure_surface(outline, place, {volume, along, away, strain, state.node.temperature}, asked.feed),
-      input.analysis.thermal);
+  const Residual left = residual_of(shot, body);
+  result.residual_note = left.note;
+  const NormalStresses<Field> loaded = normal_stresses(stress_at_nodes(shot), cut),
+                              residual = normal_stresses(left.stress, cut);
+  const Field strain = results::values_at_nodes(shot, "plastic_strain");
+  const auto spans = [](const NormalStresses<Field>& s) {
+    return DepthFields::Stresses{s.along, s.away, s.across};
+  };
+  take_surface(result,
+               measure_surface(
+                   outline, place,
+                   {volume, spans(loaded), spans(residual), strain, state.node.temperature, left.yield_ratio},
+                   asked.feed),
+               input.analysis.thermal);
   result.course = std::move(rows);
   return result;
 }

@@ -2,6 +2,7 @@
 // What an orthogonal cut came to: looked at while it goes on, judged at its end.
 #include "evaluate/cutting_result.hpp"
 #include "evaluate/rake_contact.hpp"
+#include "evaluate/springback.hpp"
 #include "input/case.hpp"
 #include "results/history_writer.hpp"
 #include "results/snapshot.hpp"
@@ -41,8 +42,10 @@ private:
   Vec2 last_impulse_{0, 0}; ///< N s/m, of the tool until then
 };
 
-/// The state of a run at its end. course: what cutting.csv holds.
+/// The state of a run at its end. rows: what cutting.csv holds; body: that state as it is let go, null where
+/// nodes are tied.
 CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot<2>& shot,
-                               const CuttingCourse& course, results::HistoryTable rows);
+                               const CuttingCourse& course, results::HistoryTable rows,
+                               const StressedBody* body);
 
 } // namespace cnem::evaluate

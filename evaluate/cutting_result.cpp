@@ -78,6 +78,9 @@ template<class Result, class Carry> void carry_faces(Result& result, Carry& carr
   carry("surface_height[m]", result.surface_height);
   carry("roughness[m]", result.roughness);
   carry("layer[m]", result.layer);
+  carry("residual_note", result.residual_note);
+  carry("residual_stress_surface[Pa]", result.residual_stress_surface);
+  carry("residual_yield", result.residual_yield);
 }
 
 template<class Result, class Carry> void carry_cut(Result& result, Carry& carry) {
@@ -145,6 +148,8 @@ std::vector<std::pair<std::string, double>> metrics_of(const CuttingResult& resu
           {"cutting.wear_rate", result.wear_rate},
           {"cutting.wear_rate_max", result.wear_rate_max},
           {"cutting.roughness", result.roughness},
+          {"cutting.residual_stress_surface", result.residual_stress_surface},
+          {"cutting.residual_yield", result.residual_yield},
           {"cutting.steady_from", result.steady_from},
           {"cutting.steady_to", result.steady_to},
           {"cutting.steady", result.steady ? 1.0 : 0.0}};

@@ -54,6 +54,9 @@ struct CuttingResult {
   std::string surface_note;
   double surface_from = unknown, surface_to = unknown;                   ///< m, behind the tip
   double surface_height = unknown, roughness = unknown, layer = unknown; ///< m
+  std::string residual_note;
+  double residual_stress_surface = unknown; ///< Pa, along the cut, of the uppermost layer
+  double residual_yield = unknown;          ///< –, largest equivalent residual stress over the flow stress
 
   // cutting/NAME.csv
   results::HistoryTable forces;    ///< over the cut

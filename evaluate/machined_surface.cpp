@@ -28,20 +28,46 @@ std::vector<std::size_t> surface_of(const CutOutline& outline, double feed) {
   return places;
 }
 
-struct LayerSums {
-  double weight = 0.0, depth = 0.0, along = 0.0, along2 = 0.0, away = 0.0, away2 = 0.0, strain = 0.0,
-         temperature = 0.0, nodes = 0.0;
+struct Moments {
+  double sum = 0.0, squares = 0.0;
+
+  void add(double weight, double value) {
+    sum += weight * value;
+    squares += weight * value * value;
+  }
+  LayerMean over(double weight) const {
+    const double variance = squares / weight - sum * sum / (weight * weight);
+    return {sum / weight, std::sqrt(std::max(variance, 0.0))};
+  }
 };
 
-DepthLayer layer_of(const LayerSums& sums) {
-  const auto spread = [&](double sum, double squares) {
-    return std::sqrt(std::max(0.0, squares / sums.weight - sum * sum / (sums.weight * sums.weight)));
-  };
-  return {sums.depth / sums.weight,        sums.along / sums.weight,
-          spread(sums.along, sums.along2), sums.away / sums.weight,
-          spread(sums.away, sums.away2),   sums.strain / sums.weight,
-          sums.temperature / sums.weight,  sums.nodes};
-}
+struct LayerSums {
+  double weight = 0.0, depth = 0.0, strain = 0.0, temperature = 0.0, nodes = 0.0;
+  NormalStresses<Moments> loaded, residual;
+
+  void add(const DepthFields& fields, std::size_t i, double below) {
+    const double w = fields.volume[i];
+    const auto add_stresses = [&](NormalStresses<Moments>& sums, const DepthFields::Stresses& stress) {
+      sums.along.add(w, stress.along[i]);
+      sums.away.add(w, stress.away[i]);
+      sums.across.add(w, stress.across[i]);
+    };
+    weight += w;
+    depth += w * below;
+    add_stresses(loaded, fields.loaded);
+    add_stresses(residual, fields.residual);
+    strain += w * fields.plastic_strain[i];
+    temperature += w * fields.temperature[i];
+    ++nodes;
+  }
+  DepthLayer mean() const {
+    const auto means = [&](const NormalStresses<Moments>& sums) {
+      return NormalStresses<LayerMean>{sums.along.over(weight), sums.away.over(weight),
+                                       sums.across.over(weight)};
+    };
+    return {depth / weight, means(loaded), means(residual), strain / weight, temperature / weight, nodes};
+  }
+};
 
 } // namespace
 
@@ -101,20 +127,11 @@ MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2>
     if (!below(i, deepest_layer * feed)) continue;
     const auto k = index_of(std::lround(std::max(0.0, depth(i)) / surface.layer));
     if (layers.size() <= k) layers.resize(k + 1);
-    LayerSums& layer = layers[k];
-    const double w = fields.volume[i];
-    layer.weight += w;
-    layer.depth += w * depth(i);
-    layer.along += w * fields.along[i];
-    layer.along2 += w * fields.along[i] * fields.along[i];
-    layer.away += w * fields.away[i];
-    layer.away2 += w * fields.away[i] * fields.away[i];
-    layer.strain += w * fields.plastic_strain[i];
-    layer.temperature += w * fields.temperature[i];
-    ++layer.nodes;
+    layers[k].add(fields, i, depth(i));
+    surface.yield_ratio = std::fmax(surface.yield_ratio, fields.yield_ratio[i]);
   }
   for (const LayerSums& layer : layers)
-    if (layer.weight > 0.0) surface.layers.push_back(layer_of(layer));
+    if (layer.weight > 0.0) surface.layers.push_back(layer.mean());
   return surface;
 }
 

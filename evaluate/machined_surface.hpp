@@ -9,18 +9,27 @@
 
 namespace cnem::evaluate {
 
+/// Normal stresses along the cut, normal to the surface and out of the plane; what T says of each, in Pa.
+template<class T> struct NormalStresses { T along, away, across; };
+
 /// What is averaged below the surface; each list is [node].
 struct DepthFields {
+  using Stresses = NormalStresses<std::span<const double>>;
   std::span<const double> volume;         ///< m², shares of the area: weights of the means
-  std::span<const double> along, away;    ///< Pa, normal stresses along the cut and normal to the surface
+  Stresses loaded, residual;              ///< as it is; unloaded and cooled
   std::span<const double> plastic_strain; ///< –
   std::span<const double> temperature;    ///< K
+  std::span<const double> yield_ratio;    ///< –, equivalent residual stress over what it would flow at
+};
+
+struct LayerMean {
+  double mean = 0.0, spread = 0.0; ///< standard deviation
 };
 
 /// Means over a layer of the measured length.
 struct DepthLayer {
   double depth = 0.0; ///< m, below the mean height of the surface
-  double along = 0.0, along_spread = 0.0, away = 0.0, away_spread = 0.0; ///< Pa; standard deviations
+  NormalStresses<LayerMean> loaded, residual;
   double plastic_strain = 0.0, temperature = 0.0;
   double nodes = 0.0;
 };
@@ -33,6 +42,7 @@ struct MachinedSurface {
   double roughness = unknown; ///< m, Σ|y|/n of its n nodes from the mean height (paper 003, (27))
   double layer = unknown;     ///< m, thickness of layers: mean distance of nodes near the surface
   std::vector<DepthLayer> layers;
+  double yield_ratio = unknown; ///< –, the largest in the layers
 };
 
 /// position: [node] m, in the frame of the tool.

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cnem {
 
@@ -44,6 +45,33 @@ Fields<2> released_force(const StressedBody& body) {
   resize_all(force, body.mass.size(), 0.0);
   subtract_internal_force<2>(body.approximation.mechanics, stress, force, 0, body.mass.size());
   return force;
+}
+
+/// −3κα ΔT of each point, Pa.
+Field cooling_stress(const StressedBody& body) {
+  const DiscreteOperators<2>& op = body.approximation.mechanics;
+  Field stress(body.point.material.size());
+  if (!body.cooled_to) return stress;
+  Field end(stress.size());
+  if (op.nodal)
+    end = *body.cooled_to;
+  else
+    interpolate<2>(op, *body.cooled_to, end, 0, end.size());
+  for (std::size_t p = 0; p < stress.size(); ++p) {
+    const plasticity::Material& material = body.materials[index_of(body.point.material[p])];
+    stress[p] = 3.0 * material.elasticity.kappa() * material.expansion * (body.point.temperature[p] - end[p]);
+  }
+  return stress;
+}
+
+/// force −= Σ V s b of a stress s in all directions.
+void subtract_force(const DiscreteOperators<2>& op, const Field& stress, Fields<2>& force) {
+  for (std::size_t i = 0; i < force[0].size(); ++i)
+    for (auto e = index_of(op.col_begin[i]); e < index_of(op.col_begin[i + 1]); ++e) {
+      const double s = stress[index_of(op.point[e])];
+      for (std::size_t k = 0; k < 2; ++k) force[k][i] -= s * op.weighted_gradient[k][e];
+      if (op.of_revolution()) force[0][i] -= s * op.weighted_hoop[e];
+    }
 }
 
 /// A connected part and the rigid motions that planes of symmetry leave it.
@@ -169,7 +197,9 @@ Springback springback(const StressedBody& body) {
   std::vector<Vec2> position(n);
   for (std::size_t i = 0; i < n; ++i) position[i] = {body.position[0][i], body.position[1][i]};
   const DiscreteOperators<2> op = pushed_forward(body.approximation.mechanics, body.point);
-  const Fields<2> force = released_force(body);
+  Fields<2> force = released_force(body);
+  const Field cooling = cooling_stress(body);
+  if (body.cooled_to) subtract_force(op, cooling, force);
 
   std::vector<Support<2>> held;
   for (const Support<2>& support : body.supports.list())
@@ -183,15 +213,15 @@ Springback springback(const StressedBody& body) {
   std::vector<plasticity::Elasticity> elasticity;
   for (const std::int32_t material : body.point.material)
     elasticity.push_back(body.materials[index_of(material)].elasticity);
-  const StaticSolution solution = solve_statics({.operators = op,
-                                                 .position = position,
-                                                 .links = body.approximation.links,
-                                                 .link_points = op,
-                                                 .elasticity = {},
-                                                 .elasticity_of_point = elasticity,
-                                                 .stabilisation = body.stabilisation,
-                                                 .supports = supports,
-                                                 .force = force});
+  StaticSolution solution = solve_statics({.operators = op,
+                                           .position = position,
+                                           .links = body.approximation.links,
+                                           .link_points = op,
+                                           .elasticity = {},
+                                           .elasticity_of_point = elasticity,
+                                           .stabilisation = body.stabilisation,
+                                           .supports = supports,
+                                           .force = force});
   Springback result;
   result.displacement = solution.displacement;
   result.body = parts.of_node();
@@ -204,6 +234,9 @@ Springback springback(const StressedBody& body) {
       const double along = p.direction.dot(Vec2(solution.reaction[0][i], solution.reaction[1][i]));
       result.residual = std::max(result.residual, std::abs(along) / scale);
     }
+  result.stress_change = std::move(solution.stress);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t p = 0; p < cooling.size(); ++p) result.stress_change[k][p] += cooling[p];
   parts.relieve(body.mass, result.displacement);
   return result;
 }

@@ -99,6 +99,9 @@ std::string face_table_html(const evaluate::CuttingResult& result) {
   table.add("Wear rate (Usui), largest", result.wear_rate_max, "m/s");
   table.add("Roughness", result.roughness, "m");
   table.add("Mean height over the tool's lowest point", result.surface_height, "m");
+  table.add("Residual stress at the surface, along the cut", result.residual_stress_surface, "Pa");
+  if (std::isfinite(result.residual_yield))
+    table.add("Largest residual stress over flow stress", results::number_format(result.residual_yield));
   if (std::isfinite(result.surface_from))
     table.add("Measured behind the tool", fmt::format("{} to {}", si_format(result.surface_from, "m"),
                                                       si_format(result.surface_to, "m")));
@@ -194,16 +197,23 @@ std::vector<Chart> cutting_charts(const evaluate::CuttingResult& result) {
   reach.note = "At the end of the run, without the coating: what is at least as warm.";
   charts.push_back(std::move(reach));
   Chart residual = chart_of("Stress below the machined surface", "depth", "stress", "Pa");
-  add_series(residual, result.depth, "stress_along", "along the cut", 0);
-  add_series(residual, result.depth, "stress_away", "normal to the surface", 1);
-  residual.note = fmt::format("Means over layers of {} and the measured length, tool and supports in place.",
-                              si_format(result.layer, "m", 3));
+  add_series(residual, result.depth, "residual_along", "along the cut", 0);
+  add_series(residual, result.depth, "residual_away", "normal to the surface", 1);
+  add_series(residual, result.depth, "residual_across", "out of the plane", 2);
+  add_series(residual, result.depth, "stress_along", "", 0, true);
+  add_series(residual, result.depth, "stress_away", "", 1, true);
+  add_series(residual, result.depth, "stress_across", "", 2, true);
+  residual.note =
+      fmt::format("Means over layers of {} and the measured length. Full: unloaded and cooled; pale: at "
+                  "the end of the run, tool and supports in place.",
+                  si_format(result.layer, "m", 3));
   charts.push_back(std::move(residual));
   Chart strain =
       chart_of("Plastic strain below the machined surface", "depth", "equivalent plastic strain", "");
   add_series(strain, result.depth, "plastic_strain", "plastic strain", 0);
   charts.push_back(std::move(strain));
-  Chart below = chart_of("Temperature below the machined surface", "depth", "temperature", "K");
+  Chart below =
+      chart_of("Temperature below the machined surface at the end of the run", "depth", "temperature", "K");
   add_series(below, result.depth, "temperature", "temperature", 0);
   charts.push_back(std::move(below));
   std::erase_if(charts,
@@ -214,7 +224,7 @@ std::vector<Chart> cutting_charts(const evaluate::CuttingResult& result) {
 std::string render_cutting(const evaluate::CuttingResult& result) {
   std::string html;
   if (!result.steady) html += fmt::format("<p>Not steady: {}.</p>\n", html_escape(result.steady_note));
-  for (const std::string* note : {&result.chip_note, &result.surface_note})
+  for (const std::string* note : {&result.chip_note, &result.surface_note, &result.residual_note})
     if (!note->empty()) html += fmt::format("<p>{}</p>\n", html_escape(*note));
   html += fmt::format("<div class=\"tables\">\n{}{}{}</div>\n", force_table_html(result),
                       chip_table_html(result), face_table_html(result));

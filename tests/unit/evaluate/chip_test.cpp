@@ -166,11 +166,15 @@ TEST(Surface, has_its_height_roughness_and_layers) {
       position.emplace_back(x, -depth);
       volume.push_back(4e-4);
     }
-  std::vector<double> along, away(position.size(), 2.0), strain(position.size(), 0.1),
-      heat(position.size(), 300.0);
-  for (const Vec2& x : position) along.push_back(100.0 + 50.0 * x.y());
-  const MachinedSurface surface =
-      measure_surface(outline, position, {volume, along, away, strain, heat}, feed);
+  std::vector<double> along, away(position.size(), 2.0), left, across(position.size(), 3.0),
+      strain(position.size(), 0.1), heat(position.size(), 300.0), ratio(position.size(), 0.5);
+  for (const Vec2& x : position) {
+    along.push_back(100.0 + 50.0 * x.y());
+    left.push_back(10.0 + 20.0 * x.y());
+    if (x.y() < -1.2) ratio[left.size() - 1] = 2.0; // deeper than what is looked at
+  }
+  const MachinedSurface surface = measure_surface(
+      outline, position, {volume, {along, away, across}, {left, across, away}, strain, heat, ratio}, feed);
   EXPECT_EQ(surface.note, "");
   EXPECT_NEAR(surface.height, -0.01, 1e-6);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
@@ -178,10 +182,15 @@ TEST(Surface, has_its_height_roughness_and_layers) {
   EXPECT_NEAR(surface.layer, 0.02, 0.003);
   ASSERT_GT(surface.layers.size(), 20U);
   for (const DepthLayer& layer : surface.layers) {
-    EXPECT_NEAR(layer.along, 100.0 - 50.0 * (layer.depth + 0.01), 1e-9);
-    EXPECT_EQ(layer.away, 2.0);
-    EXPECT_EQ(layer.away_spread, 0.0);
+    EXPECT_NEAR(layer.loaded.along.mean, 100.0 - 50.0 * (layer.depth + 0.01), 1e-9);
+    EXPECT_EQ(layer.loaded.away.mean, 2.0);
+    EXPECT_EQ(layer.loaded.away.spread, 0.0);
+    EXPECT_EQ(layer.loaded.across.mean, 3.0);
+    EXPECT_NEAR(layer.residual.along.mean, 10.0 - 20.0 * (layer.depth + 0.01), 1e-9);
+    EXPECT_EQ(layer.residual.away.mean, 3.0);
+    EXPECT_EQ(layer.residual.across.mean, 2.0);
   }
+  EXPECT_EQ(surface.yield_ratio, 0.5);
 }
 
 TEST(Surface, behind_a_cut_that_has_hardly_begun_is_not_measured) {
@@ -190,7 +199,8 @@ TEST(Surface, behind_a_cut_that_has_hardly_begun_is_not_measured) {
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);
   const MachinedSurface surface =
-      measure_surface(cut_outline(cloud.facets, position), position, {none, none, none, none, none}, feed);
+      measure_surface(cut_outline(cloud.facets, position), position,
+                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed);
   EXPECT_NE(surface.note.find("too short"), std::string::npos);
   EXPECT_TRUE(std::isnan(surface.roughness));
 }
