@@ -185,9 +185,9 @@ TEST(Surface, has_its_height_roughness_and_layers) {
     EXPECT_NEAR(layer.loaded.along.mean, 100.0 - 50.0 * (layer.depth + 0.01), 1e-9);
     EXPECT_EQ(layer.loaded.away.mean, 2.0);
     EXPECT_EQ(layer.loaded.away.spread, 0.0);
-    EXPECT_EQ(layer.loaded.across.mean, 3.0);
+    EXPECT_NEAR(layer.loaded.across.mean, 3.0, 1e-12);
     EXPECT_NEAR(layer.residual.along.mean, 10.0 - 20.0 * (layer.depth + 0.01), 1e-9);
-    EXPECT_EQ(layer.residual.away.mean, 3.0);
+    EXPECT_NEAR(layer.residual.away.mean, 3.0, 1e-12);
     EXPECT_EQ(layer.residual.across.mean, 2.0);
   }
   EXPECT_EQ(surface.yield_ratio, 0.5);

@@ -25,6 +25,7 @@ struct Loaded {
   std::vector<plasticity::Material> materials{testing::steel()};
   Supports<2> supports;
   double stabilisation = 0.05;
+  Field cold; ///< [node] K; empty: temperatures stay
 
   Loaded(Cloud<2> given, Method method, Space space = Space::plane)
       : cloud(std::move(given)), approximation(testing::make(method, space)->rebuild(cloud)),
@@ -64,6 +65,18 @@ struct Loaded {
       point.piola[k][p] = P(static_cast<Eigen::Index>(k / 2), static_cast<Eigen::Index>(k % 2));
     point.piola[4][p] = J * hoop / point.deformation[4][p];
   }
+  /// Hotter than `end` by rise(x), with steel's expansion.
+  template<class Rise> void heat(double end, const Rise& rise) {
+    materials[0].expansion = 1.2e-5;
+    cold.assign(mass.size(), end);
+    Field hot(mass.size());
+    for (std::size_t i = 0; i < hot.size(); ++i) hot[i] = end + rise(cloud.position[i]);
+    point.temperature.assign(point.material.size(), 0.0);
+    if (approximation.mechanics.nodal)
+      point.temperature = hot;
+    else
+      interpolate<2>(approximation.mechanics, hot, point.temperature, 0, point.material.size());
+  }
   void stress_everywhere(const Mat2& sigma) {
     for (std::size_t p = 0; p < point.material.size(); ++p) stress(p, sigma);
   }
@@ -77,7 +90,8 @@ struct Loaded {
     return x / count;
   }
   Springback unload() const {
-    return springback({approximation, point, position, mass, materials, supports, stabilisation});
+    return springback({approximation, point, position, mass, materials, supports, stabilisation,
+                       cold.empty() ? nullptr : &cold});
   }
   Vec2 at(const Springback& s, std::size_t i) const { return {s.displacement[0][i], s.displacement[1][i]}; }
   Vec2 present(std::size_t i) const { return {position[0][i], position[1][i]}; }
@@ -202,10 +216,12 @@ TEST(Springback, bent_beam_opens_by_its_moment) {
   EXPECT_LT(s.residual, 1e-8);
 }
 
-// What a body keeps after it was let go is in equilibrium with itself: letting go once more moves nothing.
-TEST_P(SpringbackOf, stress_in_equilibrium_with_itself_gives_zero) {
+// What a body keeps after it was let go, and cooled, is in equilibrium with itself: letting go once more
+// moves nothing, and no section carries anything in the mean.
+TEST_P(SpringbackOf, stress_that_stays_is_in_equilibrium_with_itself) {
   Loaded block(testing::rectangle(2.0, 1.0, 0.1), GetParam());
   block.stabilisation = 0.0; // its forces are no stress
+  block.heat(293.0, [](const Vec2& x) { return 100.0 * std::sin(4.0 * x.x() + x.y()); });
   for (std::size_t p = 0; p < block.point.material.size(); ++p) {
     const Vec2 x = block.centroid_of_point(p);
     Mat2 sigma;
@@ -214,20 +230,33 @@ TEST_P(SpringbackOf, stress_in_equilibrium_with_itself_gives_zero) {
   }
   const Springback first = block.unload();
   const DiscreteOperators<2>& op = block.approximation.mechanics;
-  const plasticity::Elasticity& e = block.materials[0].elasticity;
+  const plasticity::Material& steel = block.materials[0];
+  const plasticity::Elasticity& e = steel.elasticity;
   double left = 0.0;
+  Mat2 resultant = Mat2::Zero();
   for (std::size_t p = 0; p < block.point.material.size(); ++p) {
     Mat2 g = Mat2::Zero();
     for (auto k = index_of(op.row_begin[p]); k < index_of(op.row_begin[p + 1]); ++k)
       g += block.at(first, index_of(op.node[k])) * Vec2(op.gradient[0][k], op.gradient[1][k]).transpose();
     const Mat2 strain = 0.5 * (g + g.transpose());
-    const Mat2 added = e.lambda() * strain.trace() * Mat2::Identity() + 2.0 * e.mu() * strain;
+    const double volumetric = e.lambda() * strain.trace() +
+                              3.0 * e.kappa() * steel.expansion * (block.point.temperature[p] - 293.0);
+    const Mat2 added = volumetric * Mat2::Identity() + 2.0 * e.mu() * strain;
+    const double change[] = {added(0, 0), added(1, 1), volumetric, added(0, 1)};
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(first.stress_change[c][p], change[c], 1e-9 * 200e6);
+    Mat2 stays;
     for (Eigen::Index a = 0; a < 2; ++a)
-      for (Eigen::Index b = 0; b < 2; ++b)
-        block.point.piola[index_of(static_cast<std::int32_t>(2 * a + b))][p] += added(a, b);
-    left = std::max(left, std::abs(block.point.piola[0][p]));
+      for (Eigen::Index b = 0; b < 2; ++b) {
+        double& piola = block.point.piola[index_of(static_cast<std::int32_t>(2 * a + b))][p];
+        piola += added(a, b);
+        stays(a, b) = piola;
+      }
+    left = std::max(left, std::abs(stays(0, 0)));
+    resultant += op.volume[p] * stays;
   }
   EXPECT_GT(left, 10e6); // a residual stress is there
+  EXPECT_LT(resultant.norm(), 1e-9 * left * 2.0);
+  block.cold.clear();
   EXPECT_LT(largest(block.unload().displacement), 1e-9 * largest(first.displacement));
 }
 
@@ -274,6 +303,70 @@ TEST(Springback, round_bar_returns_along_its_axis_and_grows_in_radius) {
     EXPECT_NEAR(s.displacement[0][i], 0.33e-3 * bar.present(i).x(), 1e-9);
     EXPECT_NEAR(s.displacement[1][i], -1e-3 * (bar.present(i).y() - 1.2), 1e-6);
   }
+}
+
+// Heat that leaves a body which is free to contract everywhere alike leaves no stress in the plane; out of it
+// the strain is held.
+TEST_P(SpringbackOf, uniform_cooling_contracts_and_leaves_no_stress_in_the_plane) {
+  Loaded block(testing::rectangle(2.0, 1.0, 0.2), GetParam());
+  block.deform(Vec2(1.1, 0.9).asDiagonal());
+  block.heat(293.0, [](const Vec2&) { return 400.0; });
+  const Springback s = block.unload();
+  const plasticity::Material& steel = block.materials[0];
+  const double contraction = 400.0 * steel.expansion, poisson = steel.elasticity.poisson;
+  expect_strain(block, s, -(1.0 + poisson) * contraction * Mat2::Identity());
+  expect_no_mean_motion(block, s);
+  const double held = steel.elasticity.young * contraction;
+  for (std::size_t p = 0; p < block.point.material.size(); ++p) {
+    for (const std::size_t c : {0U, 1U, 3U}) EXPECT_LT(std::abs(s.stress_change[c][p]), 1e-9 * held);
+    EXPECT_NEAR(s.stress_change[2][p], held, 1e-9 * held);
+  }
+}
+
+TEST(Springback, round_bar_cools_without_stress) {
+  Loaded bar(testing::rectangle(0.5, 2.0, 0.1), Method::cnem, Space::revolution);
+  bar.supports = Supports<2>(
+      {{"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, testing::nodes_on(bar.cloud, 3_piece)}},
+      index_of(bar.cloud.nodes()));
+  bar.heat(293.0, [](const Vec2&) { return 100.0; });
+  const Springback s = bar.unload();
+  for (std::size_t i = 0; i < bar.mass.size(); ++i)
+    EXPECT_NEAR(s.displacement[0][i], -1.2e-3 * bar.present(i).x(), 1e-12);
+  for (const Field& change : s.stress_change)
+    for (const double stress : change) EXPECT_LT(std::abs(stress), 1e-9 * 210e9 * 1.2e-3);
+}
+
+// A strip that is hotter at both faces, by A ξ² with ξ = ±1 there, and free of stress while it is: cooled,
+// its middle is in plane strain with σ_xx = E α A (ξ² − 1/3)/(1 − ν), which has neither resultant nor moment,
+// and σ_zz = ν σ_xx + E α A ξ².
+TEST(Springback, strip_hotter_at_its_faces_keeps_the_known_stress) {
+  const double length = 4.0, height = 1.0, hot = 300.0;
+  double error[2] = {};
+  for (const int fine : {0, 1}) {
+    Loaded strip(testing::rectangle(length, height, fine ? 0.04 : 0.08), Method::cnem);
+    const auto xi = [&](const Vec2& x) { return 2.0 * x.y() / height - 1.0; };
+    strip.heat(293.0, [&](const Vec2& x) { return hot * xi(x) * xi(x); });
+    const Springback s = strip.unload();
+    const plasticity::Material& steel = strip.materials[0];
+    const double poisson = steel.elasticity.poisson, held = steel.elasticity.young * steel.expansion * hot;
+    double area = 0.0, force = 0.0, moment = 0.0, square = 0.0;
+    for (std::size_t p = 0; p < strip.point.material.size(); ++p) {
+      const Vec2& x = strip.cloud.position[p];
+      if (std::abs(x.x() - 0.5 * length) > 0.2 * length) continue;
+      const double y = xi(x), along = (y * y - 1.0 / 3.0) / (1.0 - poisson);
+      const double known[] = {along, 0.0, poisson * along + y * y, 0.0};
+      area += strip.mass[p];
+      force += strip.mass[p] * s.stress_change[0][p] / held;
+      moment += strip.mass[p] * s.stress_change[0][p] / held * y;
+      for (std::size_t c = 0; c < 4; ++c)
+        square += strip.mass[p] * std::pow(s.stress_change[c][p] / held - known[c], 2);
+    }
+    error[fine] = std::sqrt(square / area);
+    EXPECT_LT(std::abs(force), 0.005 * area); // nodes of a window have no straight ends
+    EXPECT_LT(std::abs(moment), 0.005 * area);
+  }
+  EXPECT_LT(error[0], 0.08);
+  EXPECT_LT(error[1], 0.25 * error[0]);
 }
 
 } // namespace
