@@ -4,14 +4,13 @@
 #include "evaluate/cut_flow.hpp"
 #include "evaluate/cutting_forces.hpp"
 #include "evaluate/machined_surface.hpp"
+#include "evaluate/residual_stress.hpp"
 #include "evaluate/tool_isotherms.hpp"
-#include "mechanics/kinematics.hpp"
 #include "results/fields.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <stdexcept>
 
 namespace cnem::evaluate {
 namespace {
@@ -158,15 +157,9 @@ void take_chip(CuttingResult& result, const Chip& chip, double feed) {
   result.tooth_spacing = chip.tooth_spacing;
 }
 
-/// Stress at nodes, Pa: xx, yy, zz, xy.
-Fields<4> stress_at_nodes(const results::Snapshot<2>& shot) {
-  return {results::values_at_nodes(shot, "stress_xx"), results::values_at_nodes(shot, "stress_yy"),
-          results::values_at_nodes(shot, "stress_zz"), results::values_at_nodes(shot, "stress_xy")};
-}
-
 /// Normal stresses in the frame of the cut, [node] Pa.
 NormalStresses<Field> normal_stresses(const Fields<4>& stress, const input::CuttingTool& cut) {
-  const auto& [xx, yy, zz, xy] = stress;
+  const Field &xx = stress[0], &yy = stress[1], &zz = stress[2], &xy = stress[3];
   const auto along = [&](const Vec2& n, std::size_t i) {
     return n.x() * n.x() * xx[i] + n.y() * n.y() * yy[i] + 2.0 * n.x() * n.y() * xy[i];
   };
@@ -178,51 +171,7 @@ NormalStresses<Field> normal_stresses(const Fields<4>& stress, const input::Cutt
   return normal;
 }
 
-struct Residual {
-  Fields<4> stress;  ///< [·][node] Pa: xx, yy, zz, xy
-  Field yield_ratio; ///< [node] von Mises stress over the flow stress at rest and at the temperature it has
-                     ///< then
-  std::string note;  ///< why it is not known
-};
-
-/// What is left when tool and supports are gone and the heat is.
-Residual residual_of(const results::Snapshot<2>& shot, const StressedBody* body) {
-  const auto& node = shot.state.node;
-  Residual residual;
-  resize_all(residual.stress, node.size(), unknown);
-  residual.yield_ratio.assign(node.size(), unknown);
-  if (!body) {
-    residual.note = "residual stresses are not told: tied nodes are not let go";
-    return residual;
-  }
-  Springback released;
-  try {
-    released = springback(*body);
-  } catch (const std::runtime_error& error) {
-    residual.note = fmt::format("residual stresses are not told: {}", error.what());
-    return residual;
-  }
-  const DiscreteOperators<2>& op = shot.approximation.mechanics;
-  residual.stress = stress_at_nodes(shot);
-  for (std::size_t c = 0; c < residual.stress.size(); ++c) {
-    const Field change = average_at_nodes<2>(op, released.stress_change[c]);
-    for (std::size_t i = 0; i < node.size(); ++i) residual.stress[c][i] += change[i];
-  }
-  const auto& [xx, yy, zz, xy] = residual.stress;
-  const Field strain = results::values_at_nodes(shot, "plastic_strain"),
-              strength = average_at_nodes<2>(op, shot.state.point.strength);
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    const auto& hardening = body->materials[index_of(node.material[i])].hardening;
-    const double p = (xx[i] + yy[i] + zz[i]) / 3.0;
-    const double square = (xx[i] - p) * (xx[i] - p) + (yy[i] - p) * (yy[i] - p) + (zz[i] - p) * (zz[i] - p) +
-                          2.0 * xy[i] * xy[i];
-    residual.yield_ratio[i] =
-        hardening ? std::sqrt(1.5 * square) /
-                        (strength[i] * hardening->flow_stress(strain[i], 0.0, (*body->cooled_to)[i]))
-                  : 0.0;
-  }
-  return residual;
-}
+void add_note(std::string& note, const std::string& more) { note += (note.empty() ? "" : "; ") + more; }
 
 void take_surface(CuttingResult& result, const MachinedSurface& surface, bool thermal) {
   result.surface_note = surface.note;
@@ -252,10 +201,9 @@ void take_surface(CuttingResult& result, const MachinedSurface& surface, bool th
   if (!surface.layers.empty()) result.residual_stress_surface = surface.layers.front().residual.along.mean;
   result.residual_yield = surface.yield_ratio;
   if (surface.yield_ratio > 1.0)
-    result.residual_note =
-        fmt::format("residual stresses are elastic: where they are largest they are {:.2f} "
-                    "times what the metal would flow at",
-                    surface.yield_ratio);
+    add_note(result.residual_note,
+             fmt::format("residual stresses are elastic: the largest is {:.2f} times what the metal flows at",
+                         surface.yield_ratio));
 }
 
 void take_tool(CuttingResult& result, const input::CuttingReport& asked, const input::CuttingTool& cut,
@@ -324,8 +272,11 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
     result.shear_stress =
         (result.Fc * std::cos(angle) - result.Ft * std::sin(angle)) * std::sin(angle) / asked.feed;
   }
-  const Residual left = residual_of(shot, body);
+  const ResidualStress left = residual_stress(shot, body);
   result.residual_note = left.note;
+  if (input.analysis.thermal && std::none_of(input.materials.begin(), input.materials.end(),
+                                             [](const auto& material) { return material.expansion != 0.0; }))
+    add_note(result.residual_note, "heat leaves no stress: no material has a heat.expansion");
   const NormalStresses<Field> loaded = normal_stresses(stress_at_nodes(shot), cut),
                               residual = normal_stresses(left.stress, cut);
   const Field strain = results::values_at_nodes(shot, "plastic_strain");

@@ -34,7 +34,37 @@ TEST(CuttingReport, of_a_frictionless_cut_has_its_force_along_the_normal_of_the_
   EXPECT_LT(done.metric("cutting.contact_length"), 1.0e-3);
   EXPECT_TRUE(std::isnan(done.metric("cutting.tooth_spacing")));
   EXPECT_TRUE(std::isnan(done.metric("cutting.temperature_max"))) << "without heat";
+  // What the edge has burnished is pressed along the surface.
+  const double residual = done.metric("cutting.residual_stress_surface");
+  EXPECT_LT(residual, -0.05 * 440e6);
+  EXPECT_GT(residual, -440e6);
+  EXPECT_GT(done.metric("cutting.residual_yield"), -residual / 440e6 * 0.5);
+  EXPECT_LT(done.metric("cutting.residual_yield"), 1.0);
   EXPECT_EQ(done.status.flags, std::vector<std::string>{"cutting.steady"});
+}
+
+/// Heat that leaves a workpiece which expands draws its surface out; a bond is not let go.
+TEST(CuttingReport, residual_stress_has_the_share_of_heat_and_none_with_ties) {
+  const auto surface_of = [](const std::vector<std::string>& more) {
+    std::vector<std::string> overrides{"analysis.thermal=true",
+                                       "materials.aluminium.heat.specific_heat=\"900 J/(kg K)\"",
+                                       "materials.aluminium.heat.conductivity=\"150 W/(m K)\"",
+                                       "cloud.spacing=0.1 mm",
+                                       "adapt.tool_spacing=0.02 mm",
+                                       "tools.cutter.velocity=\"40 0 m/s\"",
+                                       "time.end=25 us",
+                                       "output.pictures=[]",
+                                       "output.fields_every=1 s"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const FinishedRun done = finish(input::read_case(
+        std::string(CNEM_SOURCE_DIR) + "/cases/verification/edge_flow/case.toml", overrides));
+    EXPECT_GT(done.metric("cutting.roughness"), 0.0);
+    return done.metric("cutting.residual_stress_surface");
+  };
+  const double pressed = surface_of({}),
+               drawn = surface_of({"materials.aluminium.heat.expansion=\"2.3e-5 1/K\""});
+  EXPECT_GT(drawn - pressed, 50e6);
+  EXPECT_TRUE(std::isnan(surface_of({"domain.interfaces.joint.points=[\"2.8 0 mm\", \"2.8 0.8 mm\"]"})));
 }
 
 } // namespace

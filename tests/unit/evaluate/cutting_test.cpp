@@ -166,7 +166,13 @@ TEST(CuttingPage, shows_forces_chip_and_why_a_cut_is_not_steady) {
   EXPECT_EQ(html.find("Tooth"), std::string::npos);
   result.steady = false;
   result.steady_note = "Fc rises";
-  EXPECT_NE(report::render_cutting(result).find("Not steady: Fc rises."), std::string::npos);
+  result.residual_note = "tied nodes";
+  result.residual_stress_surface = -2.1e8;
+  result.depth.names = {"depth[m]", "residual_along[Pa]", "stress_along[Pa]"};
+  result.depth.column = {{0.0, 1e-5}, {-2.1e8, -1e8}, {-2e8, -0.9e8}};
+  const std::string other = report::render_cutting(result);
+  for (const char* part : {"Not steady: Fc rises.", "<p>tied nodes</p>", "−210 MPa", "unloaded and cooled"})
+    EXPECT_NE(other.find(part), std::string::npos) << "no '" << part << "' in:\n" << other;
 }
 
 const std::string cutter =
