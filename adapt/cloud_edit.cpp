@@ -48,6 +48,7 @@ bool CloudEdit::renumber(Resampling<2>& change) {
   cloud.position.clear();
   cloud.facets.clear();
   cloud.simplices.clear();
+  cloud.across.clear();
   IndexedVector<NodeIndex, NodeIndex> number(place_.size(), NodeIndex::none);
   for (const NodeIndex i : place_.indices()) {
     if (gone(i)) continue;

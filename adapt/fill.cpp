@@ -192,7 +192,7 @@ bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   if (filled.size() == work.size()) return false;
 
   filled.refresh_facets();
-  filled.begin_with(simplices.list());
+  simplices.hand_to(filled);
   std::optional<Structure> after = structure_if_valid(filled.cloud(), structure.space);
   if (!after) {
     ++report.undone;

@@ -96,7 +96,7 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
     if (!fill(work, *structure, thresholds, rules.placement, report)) break;
   balance(work, *structure, thresholds, report);
   report.volume_change = enclosed_measure(work.cloud(), rules.space) - enclosed_measure(cloud, rules.space);
-  work.begin_with(structure->mesh.node);
+  work.begin_with(structure->mesh.node, structure->mesh.neighbour);
   Resampling<2> change = work.finish();
   change.old_position = cloud.position;
   return change;

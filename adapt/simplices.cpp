@@ -84,12 +84,32 @@ IndexedVector<SimplexIndex, Simplices::Corners> Simplices::list() const {
   return list;
 }
 
-IndexedVector<SimplexIndex, Simplices::Corners>
-Simplices::list(const IndexedVector<NodeIndex, NodeIndex>& number) const {
+/// Of triangles that stay, by their new numbers; of those that were made it is left to be found.
+IndexedVector<SimplexIndex, std::array<SimplexIndex, 3>> Simplices::across() const {
+  constexpr std::array unknown{SimplexIndex::none, SimplexIndex::none, SimplexIndex::none};
+  IndexedVector<SimplexIndex, SimplexIndex> number(mesh_.node.size(), SimplexIndex::none);
+  std::size_t kept = 0;
+  for (const SimplexIndex t : mesh_.node.indices())
+    if (!gone_[t]) number[t] = as<SimplexIndex>(kept++);
+  IndexedVector<SimplexIndex, std::array<SimplexIndex, 3>> across;
+  across.reserve(mesh_.node.size() + made_.size());
+  for (const SimplexIndex t : mesh_.node.indices()) {
+    if (gone_[t]) continue;
+    across.push_back(unknown);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (exists(mesh_.neighbour[t][k])) across.back()[k] = number[mesh_.neighbour[t][k]];
+  }
+  across.resize(across.size() + made_.size(), unknown);
+  return across;
+}
+
+void Simplices::hand_to(WorkingCloud& work) const { work.begin_with(list(), across()); }
+
+void Simplices::hand_to(WorkingCloud& work, const IndexedVector<NodeIndex, NodeIndex>& number) const {
   IndexedVector<SimplexIndex, Corners> renamed = list();
   for (Corners& corner : renamed)
     for (NodeIndex& i : corner) i = number[i];
-  return renamed;
+  work.begin_with(std::move(renamed), across());
 }
 
 } // namespace cnem::adapt

@@ -25,12 +25,15 @@ public:
   /// A node inside of a triangle.
   void divide(SimplexIndex triangle, NodeIndex made);
 
-  /// All that there are now, with new numbers for nodes.
-  IndexedVector<SimplexIndex, Corners> list(const IndexedVector<NodeIndex, NodeIndex>& number) const;
-  /// With the old ones.
-  IndexedVector<SimplexIndex, Corners> list() const;
+  /// All that there are now are what triangulating the cloud begins with.
+  void hand_to(WorkingCloud& work) const;
+  /// With new numbers for nodes.
+  void hand_to(WorkingCloud& work, const IndexedVector<NodeIndex, NodeIndex>& number) const;
 
 private:
+  IndexedVector<SimplexIndex, Corners> list() const;
+  IndexedVector<SimplexIndex, std::array<SimplexIndex, 3>> across() const;
+
   const voronoi::Triangulation& mesh_;
   IndexedVector<SimplexIndex, char> gone_;
   std::vector<Corners> made_;

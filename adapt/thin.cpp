@@ -293,7 +293,7 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
   WorkingCloud emptied = changed;
   const IndexedVector<NodeIndex, NodeIndex> number = emptied.drop(gone);
   emptied.refresh_facets();
-  emptied.begin_with(simplices.list(number));
+  simplices.hand_to(emptied, number);
   std::optional<Structure> after = structure_if_valid(emptied.cloud(), structure.space);
   std::vector<Parcel> parcels;
   IndexedVector<NodeIndex, char> orphaned = gone;

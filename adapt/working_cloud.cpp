@@ -74,7 +74,7 @@ Row& WorkingCloud::row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i) {
 NodeIndex WorkingCloud::append(const Vec2& x, const std::vector<std::pair<NodeIndex, double>>& parents) {
   const NodeIndex made = cloud_.position.next();
   cloud_.position.push_back(x);
-  cloud_.simplices.clear();
+  begin_with({}, {});
   Row label;
   double size = 0.0;
   for (const auto& [parent, weight] : parents) {
@@ -309,7 +309,7 @@ IndexedVector<NodeIndex, NodeIndex> WorkingCloud::drop(const IndexedVector<NodeI
   const auto rename = [&](NodeIndex& i) {
     if (exists(i)) i = number[i];
   };
-  cloud_.simplices.clear();
+  begin_with({}, {});
   compact(cloud_.position);
   compact(node_.mass);
   compact(node_.jacobian);

@@ -100,8 +100,10 @@ public:
   /// Writes the facets of the loops into cloud().
   void refresh_facets();
   /// Where triangulating cloud() begins (Cloud::simplices), until nodes come or go.
-  void begin_with(IndexedVector<SimplexIndex, std::array<NodeIndex, 3>> simplices) {
+  void begin_with(IndexedVector<SimplexIndex, std::array<NodeIndex, 3>> simplices,
+                  IndexedVector<SimplexIndex, std::array<SimplexIndex, 3>> across) {
     cloud_.simplices = std::move(simplices);
+    cloud_.across = std::move(across);
   }
 
   /// Everything since construction, with the nodes in space-filling order when any came or went.

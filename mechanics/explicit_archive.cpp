@@ -27,6 +27,7 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
   if (archive.loading()) {
     conditions_.cloud.position.resize(n);
     conditions_.cloud.simplices.clear();
+    conditions_.cloud.across.clear();
     conditions_.cloud.twins.clear();
     for (std::size_t at = 0; at + 1 < twins.size(); at += 2)
       conditions_.cloud.twins.push_back({twins[at], twins[at + 1]});

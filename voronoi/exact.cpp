@@ -15,11 +15,11 @@ Exact::Point_2 point(const Vec2& x) { return {x.x(), x.y()}; }
 
 } // namespace
 
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+int orientation_in_doubt(const Vec2& a, const Vec2& b, const Vec2& c) {
   return static_cast<int>(Exact().orientation_2_object()(point(a), point(b), point(c)));
 }
 
-bool in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+bool in_circle_in_doubt(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto side = Exact().side_of_oriented_circle_2_object()(point(a), point(b), point(c), point(d));
   if (side != CGAL::ON_ORIENTED_BOUNDARY) return side == CGAL::ON_POSITIVE_SIDE;
   // each point is lifted by an infinitely small amount, the more the later it is from left to right

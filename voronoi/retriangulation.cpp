@@ -30,26 +30,29 @@ public:
     for (const TriangleNodes& corner : cloud_.simplices)
       if (!std::all_of(corner.begin(), corner.end(), named)) return std::nullopt;
     mesh_.node = cloud_.simplices;
-    if (!connect() || !has_all_nodes() || !runs_counter_clockwise() || !is_plain_boundary(cloud_))
-      return std::nullopt;
-    if (flip()) number_by_nodes(mesh_, cloud_.position.size());
+    if (!connect() || !runs_counter_clockwise() || !is_plain_boundary(cloud_)) return std::nullopt;
+    flip();
+    number_by_nodes(mesh_, cloud_.position.size());
+    if (!has_all_nodes()) return std::nullopt;
     return std::move(mesh_);
   }
 
 private:
   const Vec2& at(NodeIndex i) const { return cloud_.position[i]; }
 
-  /// Orders the triangles and finds what is across their sides. False unless each side has one triangle to
+  /// Finds what is across the sides of which that is not known. False unless each side has one triangle to
   /// either side, or is a facet with one on its left.
   bool connect() {
-    order_by_nodes(mesh_.node, cloud_.position.size());
-    mesh_.neighbour.assign(mesh_.node.size(), {SimplexIndex::none, SimplexIndex::none, SimplexIndex::none});
+    constexpr std::array unknown{SimplexIndex::none, SimplexIndex::none, SimplexIndex::none};
+    mesh_.neighbour = cloud_.across;
+    mesh_.neighbour.resize(mesh_.node.size(), unknown);
     mesh_.facet.assign(mesh_.node.size(),
                        {CloudFacetIndex::none, CloudFacetIndex::none, CloudFacetIndex::none});
     std::vector<std::size_t> begin(cloud_.position.size() + 1, 0);
     const auto for_each_side = [&](const auto& visit) {
       for (const SimplexIndex t : mesh_.node.indices())
         for (std::int32_t k = 0; k < 3; ++k) {
+          if (exists(mesh_.neighbour[t][index_of(k)])) continue;
           const NodeIndex from = mesh_.node[t][index_of(next_corner(k))],
                           to = mesh_.node[t][index_of(next_corner(next_corner(k)))];
           visit(std::min(from, to), HalfEdge{std::max(from, to), from < to, t, k});
@@ -89,8 +92,7 @@ private:
     return facets == cloud_.facets.size();
   }
 
-  bool has_all_nodes() {
-    record_triangle_of_node(mesh_, cloud_.position.size());
+  bool has_all_nodes() const {
     return std::all_of(mesh_.triangle_of_node.begin(), mesh_.triangle_of_node.end(),
                        [](SimplexIndex t) { return exists(t); });
   }
@@ -100,9 +102,7 @@ private:
                        [&](const TriangleNodes& n) { return orientation(at(n[0]), at(n[1]), at(n[2])) > 0; });
   }
 
-  /// Whether any side was.
-  bool flip() {
-    bool any = false;
+  void flip() {
     for (const SimplexIndex t : mesh_.node.indices())
       for (std::int32_t k = 0; k < 3; ++k)
         if (mesh_.neighbour[t][index_of(k)] < t) waiting_.emplace_back(t, k);
@@ -117,9 +117,7 @@ private:
       const auto& [p, a, b] = mesh_.node[t];
       if (!in_circle(at(p), at(a), at(b), at(mesh_.node[o][index_of(m)]))) continue;
       flip(t, k, o, m);
-      any = true;
     }
-    return any;
   }
 
   /// pab and qba become paq and pqb, with p opposite the side in t and q in o.

@@ -7,15 +7,8 @@ namespace cnem::voronoi {
 using TriangleNodes = std::array<NodeIndex, 3>;
 
 /// Each triangle from its lowest node on, the list by first and second node: which belong to one triangle
-/// only. order[new] = old, with the corners turned. O(triangles).
-IndexedVector<SimplexIndex, SimplexIndex> order_by_nodes(IndexedVector<SimplexIndex, TriangleNodes>& node,
-                                                         std::size_t nodes);
-
-/// The same of a whole triangulation; triangle_of_node becomes the first triangle of each node, of boundary
-/// nodes that beside the facet which leaves them.
+/// only. triangle_of_node becomes the first triangle of each node, of boundary nodes that beside the facet
+/// which leaves them; none for nodes without a triangle. O(triangles).
 void number_by_nodes(Triangulation& mesh, std::size_t nodes);
-
-/// triangle_of_node from the other lists; none for nodes without a triangle.
-void record_triangle_of_node(Triangulation& mesh, std::size_t nodes);
 
 } // namespace cnem::voronoi

@@ -38,6 +38,8 @@ template<int dim> struct Cloud {
   /// what triangulating begins with, and what comes of it does not depend on it. Empty: it begins with
   /// nothing.
   IndexedVector<SimplexIndex, std::array<NodeIndex, dim + 1>> simplices{};
+  /// [simplex][k] the one across from its node k; none: not known, or a facet. Empty: none is known.
+  IndexedVector<SimplexIndex, std::array<SimplexIndex, dim + 1>> across{};
 
   int nodes() const { return static_cast<int>(position.size()); }
 };
