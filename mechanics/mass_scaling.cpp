@@ -18,23 +18,32 @@ template<int dim> double block_norm(const Fields<dim>& gradient, const Field& ho
   return std::sqrt(square);
 }
 
-/// Factors that bring every row of the bound (x = 1) to `most` or below: each node takes the largest excess
-/// of the stress points it belongs to.
+/// The rows of the bound (x = 1), 1/s².
 template<int dim>
-Field scales_for_rows(const DiscreteOperators<dim>& operators, const Field& wave_modulus, const Field& mass,
-                      double most) {
-  const auto points = index_of(operators.points);
-  Field transfer(mass.size(), 0.0), scale(mass.size(), 1.0);
+Field bound_rows(const DiscreteOperators<dim>& operators, const Field& wave_modulus, const Field& mass) {
+  Field transfer(mass.size(), 0.0), row(index_of(operators.points));
   for (std::size_t j = 0; j < mass.size(); ++j) {
     for (std::size_t e = index_of(operators.col_begin[j]); e < index_of(operators.col_begin[j + 1]); ++e)
       transfer[j] += block_norm<dim>(operators.weighted_gradient, operators.weighted_hoop, e);
     transfer[j] /= mass[j];
   }
-  for (std::size_t p = 0; p < points; ++p) {
+  for (std::size_t p = 0; p < row.size(); ++p) {
     double sum = 0.0;
     for (std::size_t e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e)
       sum += block_norm<dim>(operators.gradient, operators.hoop, e) * transfer[index_of(operators.node[e])];
-    const double excess = wave_modulus[p] * sum / most;
+    row[p] = wave_modulus[p] * sum;
+  }
+  return row;
+}
+
+/// Factors that bring every row to `most` or below: each node takes the largest excess of the stress points
+/// it belongs to.
+template<int dim>
+Field scales_for_rows(const DiscreteOperators<dim>& operators, const Field& row, double most) {
+  Field scale(index_of(operators.nodes), 1.0);
+  for (std::size_t p = 0; p < row.size(); ++p) {
+    const double excess = row[p] / most;
+    if (!(excess > 1.0)) continue;
     for (std::size_t e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e) {
       double& own = scale[index_of(operators.node[e])];
       own = std::max(own, excess);
@@ -55,11 +64,12 @@ Field scales_for_frequency(const DiscreteOperators<dim>& operators,
     for (std::size_t i = 0; i < mass.size(); ++i) scaled[i] *= factor[i];
     return SpectralBound<dim>().of_all(operators, deformation, wave_modulus, scaled).value;
   };
-  Field scale = scales_for_rows(operators, wave_modulus, mass, most);
+  const Field row = bound_rows(operators, wave_modulus, mass);
+  Field scale = scales_for_rows(operators, row, most);
   double rows = most * (most / bound(scale));
-  if (rounds == 0) return scales_for_rows(operators, wave_modulus, mass, rows);
+  if (rounds == 0) return scales_for_rows(operators, row, rows);
   for (int round = 0; round < rounds; ++round) {
-    Field lighter = scales_for_rows(operators, wave_modulus, mass, rows);
+    Field lighter = scales_for_rows(operators, row, rows);
     if (!(bound(lighter) <= most)) break;
     scale = std::move(lighter);
     rows *= most / bound(scale);

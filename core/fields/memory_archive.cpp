@@ -7,6 +7,7 @@
 namespace cnem {
 
 void MemoryArchive::clear() {
+  if (!quantities_.empty()) spare_ = std::move(quantities_);
   quantities_.clear();
   loading_ = false;
 }
@@ -70,25 +71,34 @@ template<class T> void hand_out(const std::vector<T>& kept, const std::string& n
 
 } // namespace
 
+/// The place of a quantity that is collected.
+template<class Value> Value& MemoryArchive::collected(const std::string& name, const char* unit) {
+  auto spare = spare_.extract(name);
+  Quantity& quantity = spare ? quantities_.insert(std::move(spare)).position->second : quantities_[name];
+  quantity.unit = unit;
+  Value* const value = std::get_if<Value>(&quantity.value);
+  return value ? *value : quantity.value.emplace<Value>();
+}
+
 void MemoryArchive::carry(const std::string& name, const char* unit, std::span<double> values) {
   if (loading_)
     hand_out(known<std::vector<double>>(name), name, values);
   else
-    quantities_.insert_or_assign(name, Quantity{unit, std::vector<double>(values.begin(), values.end())});
+    collected<std::vector<double>>(name, unit).assign(values.begin(), values.end());
 }
 
 void MemoryArchive::carry(const std::string& name, std::span<std::int64_t> values) {
   if (loading_)
     hand_out(known<std::vector<std::int64_t>>(name), name, values);
   else
-    quantities_.insert_or_assign(name, Quantity{"", std::vector<std::int64_t>(values.begin(), values.end())});
+    collected<std::vector<std::int64_t>>(name, "").assign(values.begin(), values.end());
 }
 
 void MemoryArchive::carry(const std::string& name, std::string& value) {
   if (loading_)
     value = known<std::string>(name);
   else
-    quantities_.insert_or_assign(name, Quantity{"", value});
+    collected<std::string>(name, "") = value;
 }
 
 } // namespace cnem

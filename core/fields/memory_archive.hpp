@@ -11,7 +11,7 @@
 namespace cnem {
 
 /// Keeps quantities with their bits. Collects after clear(), hands out after recall(). Loading throws IoError
-/// as any archive does.
+/// as any archive does. Collecting the same again allocates nothing.
 class MemoryArchive final : public Archive {
 public:
   bool loading() const override { return loading_; }
@@ -22,6 +22,7 @@ public:
   void recall() { loading_ = true; }
   void swap(MemoryArchive& other) {
     quantities_.swap(other.quantities_);
+    spare_.swap(other.spare_);
     std::swap(loading_, other.loading_);
   }
 
@@ -34,12 +35,14 @@ private:
     std::variant<std::vector<double>, std::vector<std::int64_t>, std::string> value;
   };
   template<class Value> const Value& known(const std::string& name) const;
+  template<class Value> Value& collected(const std::string& name, const char* unit);
   std::size_t extent(const std::string& name) override;
   void carry(const std::string& name, const char* unit, std::span<double> values) override;
   void carry(const std::string& name, std::span<std::int64_t> values) override;
   void carry(const std::string& name, std::string& value) override;
 
   std::map<std::string, Quantity> quantities_;
+  std::map<std::string, Quantity> spare_; ///< forgotten, for their memory
   bool loading_ = false;
 };
 
