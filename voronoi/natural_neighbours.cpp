@@ -47,32 +47,35 @@ NaturalNeighbours::Outcome NaturalNeighbours::degenerate_edge(const Neighbour& a
   return a.x * b.x + a.y * b.y <= 0.0 ? Outcome::on_wall : Outcome::lost;
 }
 
-void NaturalNeighbours::push(NodeIndex node, const Vec2& x) {
-  if (count_ == ring_.size()) ring_.resize(2 * count_);
-  const Vec2& p = cloud_.position[node];
-  ring_[count_].node = node;
-  ring_[count_].x = p.x() - x.x();
-  ring_[count_].y = p.y() - x.y();
-}
-
 /// Walks once round the cavity, the triangles whose circles contain x, depth first and counter-clockwise. The
 /// path runs through circumcentres only: old ones while it pivots about a neighbour, new ones as it passes an
 /// edge of the cavity. Between two of these it is the inner boundary of what x steals from the neighbour, so
 /// that the shoelace formula can be summed on the way. When the outcome is on_node or on_wall, ring_[0] (and
 /// ring_[1]) are the nodes concerned and frame_[0] a triangle that has them.
 NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, SimplexIndex start, bool located) {
-  count_ = 0;
-  push(mesh_.node[start][1], x);
+  const IndexedSpan<SimplexIndex, const std::array<NodeIndex, 3>> corner = mesh_.node;
+  const IndexedSpan<SimplexIndex, const std::array<SimplexIndex, 3>> neighbour = mesh_.neighbour;
+  const IndexedSpan<SimplexIndex, const Vec2> centre = circles_.centre;
+  const IndexedSpan<NodeIndex, const Vec2> position = cloud_.position;
+  const auto place = [&](std::size_t at, NodeIndex node) {
+    if (at == ring_.size()) ring_.resize(2 * at);
+    const Vec2& p = position[node];
+    ring_[at].node = node;
+    ring_[at].x = p.x() - x.x();
+    ring_[at].y = p.y() - x.y();
+  };
+  std::size_t count = 0;
+  place(0, corner[start][1]);
   std::size_t depth = 0, visited = 1;
   frame_[0] = {start, 0, 3};
-  Vec2 c = circles_.centre[start] - x;
+  Vec2 c = centre[start] - x;
   double path = 0.0;
   while (true) {
     Frame& frame = frame_[depth];
     if (frame.left == 0) {
       if (depth == 0) break;
       --depth;
-      const Vec2 up = circles_.centre[frame_[depth].triangle] - x;
+      const Vec2 up = centre[frame_[depth].triangle] - x;
       path += cross(c, up);
       c = up;
       continue;
@@ -81,35 +84,35 @@ NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, SimplexInde
     const std::int32_t k = frame.edge;
     frame.edge = next_corner(k);
     --frame.left;
-    const SimplexIndex across = mesh_.neighbour[t][index_of(k)];
+    const SimplexIndex across = neighbour[t][index_of(k)];
     const auto descend = [&] {
-      const auto& back = mesh_.neighbour[across];
+      const auto& back = neighbour[across];
       const std::int32_t entry = back[0] == t ? 0 : back[1] == t ? 1 : 2;
       if (++depth == frame_.size()) frame_.resize(2 * depth);
       frame_[depth] = {across, next_corner(entry), 2};
-      const Vec2 down = circles_.centre[across] - x;
+      const Vec2 down = centre[across] - x;
       path += cross(c, down);
       c = down;
       ++visited;
     };
     if (exists(across) && in_circle(across, x)) {
       descend();
-      if (visited > mesh_.node.size()) return Outcome::lost;
+      if (visited > corner.size()) return Outcome::lost;
       continue;
     }
 
-    const std::size_t here = count_++;
-    push(mesh_.node[t][index_of(next_corner(next_corner(k)))], x);
+    const std::size_t here = count++;
+    place(count, corner[t][index_of(next_corner(next_corner(k)))]);
     Neighbour& a = ring_[here];
-    const Neighbour& b = ring_[here + 1];
+    const Neighbour& b = ring_[count];
     const double aa = a.x * a.x + a.y * a.y, bb = b.x * b.x + b.y * b.y, ab = a.x * b.x + a.y * b.y;
     const double area = a.x * b.y - a.y * b.x;
     if (area <= on_edge * (aa + bb)) {
       const Outcome outcome = degenerate_edge(a, b, !exists(across), located);
       if (outcome == Outcome::inside) {
-        --count_;
+        --count;
         descend();
-        if (visited > mesh_.node.size()) return Outcome::lost;
+        if (visited > corner.size()) return Outcome::lost;
         continue;
       }
       ring_[0] = outcome == Outcome::on_node && bb < aa ? b : a;
@@ -128,6 +131,7 @@ NaturalNeighbours::Outcome NaturalNeighbours::collect(const Vec2& x, SimplexInde
     path = -leg;
   }
   ring_[0].stolen -= path;
+  count_ = count;
   return Outcome::inside;
 }
 

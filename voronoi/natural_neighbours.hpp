@@ -62,7 +62,6 @@ private:
 
   Outcome collect(const Vec2& x, SimplexIndex start, bool located);
   Outcome degenerate_edge(const Neighbour& a, const Neighbour& b, bool wall, bool located) const;
-  void push(NodeIndex node, const Vec2& x);
   bool in_circle(SimplexIndex triangle, const Vec2& x) const;
   void weigh(Functions functions);
   void weigh_gradients(Functions functions);
