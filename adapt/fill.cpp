@@ -157,6 +157,7 @@ std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const
 bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, Placement placement,
           PassReport& report) {
   const Filling filling(work, structure, thresholds, placement);
+  if (filling.gaps().empty()) return false;
   Cavity cavity(work, structure);
   IndexedVector<SimplexIndex, char> taken(structure.mesh.node.size(), 0);
   WorkingCloud filled = work;

@@ -239,11 +239,13 @@ std::vector<Parcel> inheritance(const WorkingCloud& work, const Structure& befor
 
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report) {
   Thinning thinning(work, structure, thresholds);
+  const std::vector<Candidate> candidates = thinning.candidates();
+  if (candidates.empty()) return false;
   WorkingCloud changed = work;
   Simplices simplices(structure);
   IndexedVector<NodeIndex, char> gone(work.size(), 0), touched(work.size(), 0);
   PassReport done = report;
-  for (const Candidate& candidate : thinning.candidates()) {
+  for (const Candidate& candidate : candidates) {
     const NodeIndex i = candidate.node;
     const NodeIndex mate = work.mate(i);
     const auto busy = [&](NodeIndex node) {

@@ -77,7 +77,7 @@ double cost_of_steps(const input::Case& input) { return (input.contact.active ? 
 double cost_of_passes(const input::Case& input) {
   if (!input.adapt.resample) return 0.0;
   const double strain = input.method.rereference_strain;
-  return (strain > 0.0 ? 7.5 / strain : 30.0) * 1e-9;
+  return (strain > 0.0 ? 6.7 / strain : 30.0) * 1e-9;
 }
 
 } // namespace

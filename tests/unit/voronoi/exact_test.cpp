@@ -28,9 +28,7 @@ TEST(Exact, WhatRoundingDecidesIsRight) {
       const int turn = orientation_in_doubt(a, b, c);
       in_doubt += turn == 0;
       ASSERT_EQ(orientation(a, b, c), turn);
-      if (turn > 0) {
-        ASSERT_EQ(in_circle(a, b, c, d), in_circle_in_doubt(a, b, c, d));
-      }
+      if (turn > 0) { ASSERT_EQ(in_circle(a, b, c, d), in_circle_in_doubt(a, b, c, d)); }
     }
   EXPECT_GT(in_doubt, 1000);
 }
