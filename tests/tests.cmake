@@ -56,7 +56,7 @@ cnem_tests(unit/cnem cnem_clouds cnem_cnem)
 cnem_tests(unit/fracture cnem_clouds cnem_fracture cnem_mechanics)
 cnem_tests(unit/methods cnem_mechanics cnem_cnem cnem_methods cnem_clouds)
 cnem_tests(unit/mechanics cnem_clouds cnem_mechanics cnem_cnem cnem_methods)
-cnem_tests(unit/evaluate cnem_app)
+cnem_tests(unit/evaluate cnem_report cnem_clouds cnem_cnem cnem_methods)
 cnem_tests(unit/app cnem_app)
 cnem_tests(unit/study cnem_app PNG::PNG)
 target_compile_definitions(test_unit_study PRIVATE CNEM_PROGRAM="$<TARGET_FILE:cnem>") # a sweep runs the program
