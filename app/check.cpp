@@ -1,6 +1,7 @@
 #include "app/divergence.hpp"
 #include "app/forecast.hpp"
 #include "app/places.hpp"
+#include "app/plausibility/plausibility.hpp"
 #include "app/run.hpp"
 #include "app/simulation.hpp"
 #include "app/statics/statics.hpp"
@@ -25,6 +26,7 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
   StepControl control(input.time);
   control.refresh(solver);
   for (std::string& warning : supersonic_tools(input, solver)) warnings.push_back(std::move(warning));
+  for (std::string& doubt : doubts(input, solver)) warnings.push_back(std::move(doubt));
   if (!input.adapt.tool_spacing) check_tool_steps(input, solver, control.limit() / solver.sub_steps());
   const State<dim>& state = solver.state();
   const std::size_t node = node_of(solver, control.point());
@@ -56,6 +58,8 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
                                           solver.conditions().contact.tools()[overlaps[k].tool].name,
                                           overlaps[k].depth, show_place<dim>(overlaps[k].position))));
   }
+  if constexpr (dim == 2)
+    for (const auto& [label, text] : tool_measures(input, solver)) fmt::print("{:<11} {}\n", label, text);
   const std::filesystem::path folder = options.output / "initial";
   results::prepare_output_folder(folder, true);
   results::FileQueue files;

@@ -1,5 +1,6 @@
 #include "app/simulation.hpp"
 
+#include "app/plausibility/plausibility.hpp"
 #include "app/problem/registry.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/process/run_signals.hpp"
@@ -50,6 +51,7 @@ Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options)
       renewal_(input.method, input.adapt.quiet_every), retries_(renewal_.by_strain()),
       features_(input, solver_), checkpoints_(input.output.checkpoint) {
   for (std::string& warning : supersonic_tools(input, solver_)) warn(std::move(warning));
+  for (std::string& doubt : doubts(input, solver_)) warn(std::move(doubt));
 }
 template<int dim> void Simulation<dim>::check_tools() {
   if (input_.adapt.tool_spacing) return; // the step is known once the cloud fits the tools

@@ -160,15 +160,6 @@ Shape shape_of(const std::vector<Sample>& samples, bool arc, std::optional<doubl
   return shape;
 }
 
-std::vector<Vec2> points_of(const Curve& curve, const Vec2& shift) {
-  constexpr int divisions = 32;
-  std::vector<Vec2> points;
-  for (const CurvePiece& piece : curve.pieces)
-    for (int k = 0; k < (piece.is_arc() ? divisions : 1); ++k)
-      points.push_back(piece.point(k / double(divisions)) + shift);
-  return points;
-}
-
 std::vector<Vec2> positions(const Fields<2>& field) {
   std::vector<Vec2> list(field[0].size());
   for (std::size_t i = 0; i < list.size(); ++i) list[i] = {field[0][i], field[1][i]};
@@ -191,6 +182,35 @@ double largest_of(const Fields<2>& displacement, const std::vector<std::int32_t>
 }
 
 } // namespace
+
+std::vector<Vec2> points_of(const Curve& curve, const Vec2& shift) {
+  constexpr int divisions = 32;
+  std::vector<Vec2> points;
+  for (const CurvePiece& piece : curve.pieces)
+    for (int k = 0; k < (piece.is_arc() ? divisions : 1); ++k)
+      points.push_back(piece.point(k / double(divisions)) + shift);
+  return points;
+}
+
+std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<Vec2>& outline) {
+  std::vector<Clearance> list;
+  double low = INFINITY, high = -INFINITY; // of the punch
+  for (const Vec2& x : tools.punch) {
+    low = std::min(low, across(tools, x));
+    high = std::max(high, across(tools, x));
+  }
+  for (const double side : {-1.0, 1.0}) {
+    const double reach = side > 0.0 ? high : -low, middle = side * 0.5 * (low + high);
+    double edge = INFINITY;
+    for (const Vec2& x : tools.die)
+      if (const double t = side * across(tools, x); t > middle) edge = std::min(edge, t);
+    if (!std::isfinite(edge)) continue; // no die on this side
+    const double thickness = thickness_at(tools, outline, side * 0.5 * (reach + edge));
+    if (thickness > 0.0) list.push_back({side < 0.0 ? "left" : "right", edge - reach, thickness});
+  }
+  if (list.size() == 1) list.front().name.clear();
+  return list;
+}
 
 std::vector<Cut> find_cuts(const CutTools& tools, const CutSheet& sheet) {
   std::vector<Cut> cuts;

@@ -40,6 +40,18 @@ struct Cut {
   std::int32_t slug = -1, skeleton = -1; ///< parts on the two sides: equal until they have come apart
 };
 
+/// Points of an outline that has moved by `shift`, m; arcs are divided.
+std::vector<Vec2> points_of(const Curve& curve, const Vec2& shift);
+
+/// The gap that a side of the punch leaves to the edge of the die, before it is known whether it passes.
+struct Clearance {
+  std::string name;       ///< as of a cut
+  double gap = 0.0;       ///< m, negative where they overlap
+  double thickness = 0.0; ///< m, of the sheet there
+};
+/// Of both sides of the punch, where a die stands under sheet. outline: m, of the sheet.
+std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<Vec2>& outline);
+
 /// All cuts where there was sheet.
 std::vector<Cut> find_cuts(const CutTools& tools, const CutSheet& sheet);
 

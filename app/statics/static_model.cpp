@@ -1,5 +1,6 @@
 #include "app/statics/static_model.hpp"
 
+#include "app/plausibility/plausibility.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "mechanics/kinematics.hpp"
@@ -50,6 +51,7 @@ bool plane_stress(const input::Case& input) {
 } // namespace
 
 StaticModel::StaticModel(const input::Case& in) : input(in), setup(build<2>(in)) {
+  for (std::string& doubt : doubts(in)) setup.warnings.push_back(std::move(doubt));
   Problem<2>& model = setup.problem;
   const Cloud<2>& cloud = model.cloud;
   try {

@@ -1,0 +1,126 @@
+// Clearances, and edges of tools beside the cells that are to feel them.
+#include "app/plausibility/list.hpp"
+#include "app/plausibility/tool_gap.hpp"
+#include "core/index.hpp"
+#include "evaluate/blanking.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+namespace cnem::app {
+
+namespace {
+
+/// Where a tool has come to at the end without the workpiece, m.
+Vec2 way_of(const contact::Tool<2>& tool, double end) {
+  return tool.drive ? Vec2(end * (tool.drive->free * tool.drive->initial_velocity))
+                    : Vec2(tool.motion.displacement(end));
+}
+
+/// Clearances of the cut that the case has reported; none without one.
+std::vector<evaluate::Clearance> clearances(const input::Case& input, const ExplicitSolver<2>& solver) {
+  if (!input.report.blanking) return {};
+  const input::BlankingReport& asked = *input.report.blanking;
+  const auto& tools = solver.conditions().contact.tools();
+  evaluate::CutTools cut;
+  cut.punch = evaluate::points_of(input.tools[asked.punch].outline, Vec2::Zero());
+  Vec2 stroke = way_of(tools[as<ToolIndex>(asked.punch)], input.time.end);
+  for (const std::size_t die : asked.dies) {
+    for (const Vec2& x : evaluate::points_of(input.tools[die].outline, Vec2::Zero())) cut.die.push_back(x);
+    stroke -= way_of(tools[as<ToolIndex>(die)], input.time.end) / static_cast<double>(asked.dies.size());
+  }
+  if (!(stroke.norm() > 0.0)) return {};
+  cut.direction = stroke.normalized();
+  return evaluate::find_clearances(cut, evaluate::points_of(input.domain.outer, Vec2::Zero()));
+}
+
+std::string side(const evaluate::Clearance& clearance) {
+  return clearance.name.empty() ? "" : clearance.name + " ";
+}
+
+/// An edge of a tool that stands at the workpiece.
+struct Edge {
+  const input::Tool* tool = nullptr;
+  double radius = 0.0, spacing = 0.0; ///< m
+};
+
+/// The sharpest arc of each tool over the cells there, where it lies no further from the workpiece than that
+/// is wide.
+std::vector<Edge> edges(const input::Case& input, const ExplicitSolver<2>& solver) {
+  const StartingSurface<2> surface(solver);
+  Vec2 low = Vec2::Constant(INFINITY), high = -low;
+  for (const Vec2& x : evaluate::points_of(input.domain.outer, Vec2::Zero())) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double reach = 0.5 * (high - low).minCoeff();
+  std::vector<Edge> list;
+  for (const input::Tool& tool : input.tools) {
+    Edge sharpest{&tool, INFINITY, 0.0};
+    for (const CurvePiece& piece : tool.outline.pieces) {
+      if (!piece.is_arc() || piece.sweep() < 0.0 || piece.radius >= sharpest.radius) continue;
+      const auto near = surface.nearest(piece.point(0.5));
+      if (near.distance > reach) continue;
+      sharpest.radius = piece.radius;
+      sharpest.spacing = near.spacing;
+      if (input.adapt.resample && input.adapt.tool_spacing)
+        sharpest.spacing = std::min(sharpest.spacing, *input.adapt.tool_spacing);
+    }
+    if (sharpest.spacing > 0.0) list.push_back(sharpest);
+  }
+  return list;
+}
+
+} // namespace
+
+void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts) {
+  const double touching = 1e-6; // of the thickness
+  for (const evaluate::Clearance& one : clearances(input, solver)) {
+    if (one.gap > touching * one.thickness) continue;
+    const std::string punch = input.tools[input.report.blanking->punch].name;
+    doubts.push_back(doubt_about(
+        input, "report.blanking",
+        one.gap < -touching * one.thickness
+            ? fmt::format("{}{} and the die overlap by {:.3g} mm across the cut, expected a clearance: 2 to "
+                          "15% of the "
+                          "thickness are usual",
+                          side(one), punch, -1e3 * one.gap)
+            : fmt::format(
+                  "no {}clearance between {} and the die: metal between their edges cannot part; 2 to 15% of "
+                  "the thickness are usual",
+                  side(one), punch)));
+  }
+  if (input.cutting) return; // its cells are made for its edge
+  for (const Edge& edge : edges(input, solver)) {
+    constexpr double felt = 2.0; // spacings
+    if (edge.radius >= felt * edge.spacing) continue;
+    doubts.push_back(doubt_about(
+        input, fmt::format("tools.{}", edge.tool->name),
+        fmt::format(
+            "its arc of {:.3g} mm is {:.2g} spacings of the nodes that meet it, where fewer than {:g} hardly "
+            "feel that it is round: refine there (adapt.tool_spacing, cloud.refine) to {:.2g} mm",
+            1e3 * edge.radius, edge.radius / edge.spacing, felt, 1e3 * edge.radius / 4.0)));
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> tool_measures(const input::Case& input,
+                                                               const ExplicitSolver<2>& solver) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const evaluate::Clearance& one : clearances(input, solver))
+    lines.emplace_back("clearance", fmt::format("{}{:.4g} mm, {:.3g}% of {:.4g} mm", side(one), 1e3 * one.gap,
+                                                100.0 * one.gap / one.thickness, 1e3 * one.thickness));
+  const StartingSurface<2> surface(solver);
+  for (const contact::Tool<2>& tool : solver.conditions().contact.tools()) {
+    constexpr double rounding = 1e-12; // m
+    const double gap = surface.gap(*tool.shape, Vec2::Zero()).distance;
+    lines.emplace_back("gap",
+                       fmt::format("{} {:.4g} mm", tool.name, std::abs(gap) < rounding ? 0.0 : 1e3 * gap));
+  }
+  for (const Edge& edge : edges(input, solver))
+    lines.emplace_back("edge", fmt::format("{} radius {:.4g} mm, {:.2g} spacings", edge.tool->name,
+                                           1e3 * edge.radius, edge.radius / edge.spacing));
+  return lines;
+}
+
+} // namespace cnem::app

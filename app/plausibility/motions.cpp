@@ -1,0 +1,119 @@
+// Whether tools that move meet the workpiece, and when.
+#include "app/plausibility/list.hpp"
+#include "app/plausibility/tool_gap.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+namespace cnem::app {
+
+namespace {
+
+template<int dim> struct Way {
+  const contact::Tool<dim>& tool;
+
+  Vec<dim> moved(double t) const {
+    return tool.drive ? Vec<dim>(t * (tool.drive->free * tool.drive->initial_velocity))
+                      : tool.motion.displacement(t);
+  }
+  /// m/s, at the corners of its time tables up to the end: between them it is no faster.
+  double fastest(double end) const {
+    if (tool.drive) return (tool.drive->free * tool.drive->initial_velocity).norm();
+    double most = std::max(tool.motion.velocity_at(0.0).norm(), tool.motion.velocity_at(end).norm());
+    for (const TimeTable& component : tool.motion.velocity)
+      for (const double t : component.times())
+        if (t < end) most = std::max(most, tool.motion.velocity_at(t).norm());
+    return most;
+  }
+};
+
+/// How far a tool is clear at most, in spacings, that touches: a corner may stand between two nodes.
+constexpr double touching = 1.0;
+
+/// The first time from `start` on at which a tool touches a workpiece that stays as it is; each time it is
+/// moved on by the time in which it could at the soonest.
+template<int dim>
+std::optional<double> meets(const StartingSurface<dim>& surface, const Way<dim>& way, double start,
+                            double end, double& nearest) {
+  const double fastest = way.fastest(end);
+  constexpr double slowest = 1e-4; // share of the run by which it is moved on at least
+  for (double t = start; t <= end;) {
+    const auto gap = surface.gap(*way.tool.shape, way.moved(t));
+    nearest = std::min(nearest, gap.distance);
+    if (gap.distance <= touching * gap.spacing) return t;
+    t += std::max((gap.distance - touching * gap.spacing) / fastest, slowest * end);
+  }
+  return std::nullopt;
+}
+
+/// The time at which a tool has gone `distance` from its start; none: it does not.
+template<int dim> std::optional<double> gone(const Way<dim>& way, double distance, double end) {
+  constexpr int samples = 1000;
+  for (int k = 1; k <= samples; ++k)
+    if (const double t = end * k / samples; way.moved(t).norm() >= distance) return t;
+  return std::nullopt;
+}
+
+template<int dim> std::string along(const Way<dim>& way, double t) {
+  const Vec<dim> u = way.moved(t).normalized();
+  std::string text;
+  for (int k = 0; k < dim; ++k) text += fmt::format("{}{:.3g}", k > 0 ? ", " : "", u[k] + 0.0);
+  return "along (" + text + ")";
+}
+
+} // namespace
+
+template<int dim>
+void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, Doubts& doubts) {
+  for (const Field& component : solver.state().node.velocity)
+    if (std::any_of(component.begin(), component.end(), [](double v) { return v != 0.0; }))
+      return;                     // it flies
+  if (input.adapt.window) return; // the tool of a window stands where it cuts
+  const StartingSurface<dim> surface(solver);
+  const double end = input.time.end;
+  for (const contact::Tool<dim>& tool : solver.conditions().contact.tools()) {
+    const Way<dim> way{tool};
+    if (!(way.fastest(end) > 0.0)) continue;
+    const auto start = surface.gap(*tool.shape, Vec<dim>::Zero());
+    const std::string key = fmt::format("tools.{}.{}", tool.name, tool.drive ? "drive" : "velocity");
+    double nearest = start.distance;
+    constexpr double leaves = 4.0; // spacings by which it has surely gone
+    if (start.distance <= touching * start.spacing) {
+      const auto left = gone(way, leaves * start.spacing, end);
+      if (!left || surface.gap(*tool.shape, way.moved(*left)).distance < 0.75 * leaves * start.spacing)
+        continue;
+      if (!meets(surface, way, *left, end, nearest))
+        doubts.push_back(doubt_about(
+            input, key,
+            fmt::format("{} moves away from the workpiece, {}, and does not come back by time.end", tool.name,
+                        along(way, *left))));
+      continue;
+    }
+    const auto met = meets(surface, way, 0.0, end, nearest);
+    constexpr double late = 0.1; // of the run
+    if (!met && nearest >= start.distance)
+      doubts.push_back(
+          doubt_about(input, key,
+                      fmt::format("{} starts {:.3g} mm clear of the workpiece and moves away from it, {}",
+                                  tool.name, 1e3 * start.distance, along(way, end))));
+    else if (!met)
+      doubts.push_back(doubt_about(
+          input, key,
+          fmt::format(
+              "{} starts {:.3g} mm clear of the workpiece and does not meet it by time.end, {:.3g} s: it "
+              "comes to within {:.3g} mm",
+              tool.name, 1e3 * start.distance, end, 1e3 * nearest)));
+    else if (*met > late * end)
+      doubts.push_back(doubt_about(input, key,
+                                   fmt::format("{} starts {:.3g} mm clear of the workpiece and meets it "
+                                               "after {:.0f}% of the run, at {:.3g} s: "
+                                               "let it begin where they touch",
+                                               tool.name, 1e3 * start.distance, 100.0 * *met / end, *met)));
+  }
+}
+
+template void doubt_motions(const input::Case&, const ExplicitSolver<2>&, Doubts&);
+template void doubt_motions(const input::Case&, const ExplicitSolver<3>&, Doubts&);
+
+} // namespace cnem::app

@@ -1,0 +1,150 @@
+// What a case allows and its writer hardly means: each doubt with its smallest case, and none of a sound one.
+#include "app/plausibility/plausibility.hpp"
+
+#include "input/case_reader.hpp"
+#include "tests/solver_of.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::app {
+namespace {
+
+/// A sheet 2 mm thick between a punch and a die, clearance 0.1 mm.
+const std::string sound_cut = R"toml(
+[time]
+end = "20 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "8 2 mm" }
+[cloud]
+spacing = "0.2 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "207 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "400 MPa" }
+damage = { law = "johnson-cook", D1 = 0.05, D2 = 3.44, D3 = -2.12, fracture_energy = "100 kJ/m2" }
+[tools.punch]
+rectangle = { from = "-2 2 mm", to = "3.9 6 mm" }
+velocity = "0 -10 m/s"
+[tools.die]
+rectangle = { from = "4 -4 mm", to = "10 0 mm" }
+[output]
+pictures = "10 us"
+[report.blanking]
+punch = "punch"
+)toml";
+
+using Texts = std::vector<std::string>;
+
+Texts doubts_with(const Texts& overrides) {
+  const input::Case input = input::read_case_text(sound_cut, "case.toml", overrides);
+  return doubts(input, testing::solver_of(input));
+}
+std::string only_doubt(const Texts& overrides) {
+  const Texts list = doubts_with(overrides);
+  EXPECT_EQ(list.size(), 1U) << (list.empty() ? "none" : list.back());
+  return list.empty() ? "" : list.front();
+}
+void expect_doubt(const Texts& overrides, const std::string& part) {
+  SCOPED_TRACE(overrides.front());
+  EXPECT_NE(only_doubt(overrides).find(part), std::string::npos) << only_doubt(overrides);
+}
+
+TEST(Plausibility, a_sound_case_has_no_doubts) { EXPECT_EQ(doubts_with({}), Texts{}); }
+
+TEST(Plausibility, constants_a_power_of_ten_off) {
+  expect_doubt(
+      {"materials.steel.elastic.young=207 MPa", "materials.steel.plastic.yield=1 MPa",
+       "materials.steel.damage.fracture_energy=1 kJ/m2"},
+      "key 'materials.steel.elastic.young': 2.07e+08 Pa, where solids that flow have 5e+08 to 1.3e+12 Pa: is "
+      "2.07e+11 Pa meant?");
+  expect_doubt({"materials.steel.density=7.85 kg/m3"}, "is 7850 kg/m³ meant?");
+  expect_doubt({"materials.steel.plastic.yield=400 Pa"}, "it begins to flow at 400 Pa");
+  expect_doubt({"materials.steel.plastic.yield=40 GPa", "materials.steel.damage.fracture_energy=10 MJ/m2",
+                "materials.steel.elastic.young=900 GPa"},
+               "is 4e+07 Pa meant?");
+  expect_doubt({"materials.steel.elastic.young=3 GPa"}, "an elastic strain of 13%");
+}
+
+TEST(Plausibility, constants_of_heat) {
+  const Texts heat{"analysis.thermal=true", "materials.steel.heat.specific_heat=460 J/(kg K)",
+                   "materials.steel.heat.conductivity=50 W/(m K)"};
+  const auto with = [&](const std::string& more) {
+    Texts list{more};
+    list.insert(list.end(), heat.begin(), heat.end());
+    return list;
+  };
+  EXPECT_EQ(doubts_with(heat), Texts{});
+  expect_doubt(with("materials.steel.heat.expansion=12 1/K"), "is 1.2e-05 1/K meant?");
+  expect_doubt(with("initial.temperature=20 K"), "20 K are -253.15 °C: are 20 degC meant?");
+  Texts wrong = heat;
+  wrong[1] = "materials.steel.heat.specific_heat=0.46 J/(kg K)";
+  expect_doubt(wrong, "is 460 J/(kg K) meant?");
+}
+
+TEST(Plausibility, damage_that_tension_delays_and_cells_too_wide_for_it) {
+  expect_doubt({"materials.steel.damage.D3=2.12"},
+               "key 'materials.steel.damage.D3': D2 = 3.44 and D3 = 2.12 make");
+  expect_doubt({"materials.steel.damage.fracture_energy=10 kJ/m2"},
+               "opened by 2 G_f/σ_y = 0.05 mm when nothing holds it, which is less than the finest spacing");
+}
+
+TEST(Plausibility, pictures_after_the_end) {
+  expect_doubt({"output.pictures=10 20 us", "time.end=15 us"},
+               "a picture is asked for at 2e-05 s, but the run ends");
+  expect_doubt({"output.pictures=10 20 30 us", "time.end=15 us"},
+               "2 pictures are asked for, the last at 3e-05 s");
+  expect_doubt({"output.fields_every=30 us"}, "key 'output.fields_every'");
+}
+
+TEST(Plausibility, punches_that_move_away_or_come_late) {
+  expect_doubt({"tools.punch.velocity=0 10 m/s", "report.blanking.die=[\"die\"]"},
+               "punch moves away from the workpiece, along (0, 1), and does not come back");
+  const std::string lifted = "tools.punch.rectangle={from=\"-2 2.5 mm\", to=\"3.9 6 mm\"}";
+  expect_doubt({lifted}, "punch starts 0.5 mm clear of the workpiece and does not meet it by time.end");
+  expect_doubt({lifted, "time.end=100 us"}, "punch starts 0.5 mm clear of the workpiece and meets it after");
+  expect_doubt({lifted, "tools.punch.velocity=0 10 m/s"},
+               "clear of the workpiece and moves away from it, along (0, 1)");
+  EXPECT_EQ(doubts_with({lifted, "time.end=1 ms"}), Texts{}) << "early enough";
+  EXPECT_EQ(doubts_with({"tools.punch.velocity={ times = \"0 5 10 us\", values = [\"0 0 m/s\", \"0 -10 "
+                         "m/s\", \"0 20 m/s\"] }"}),
+            Texts{})
+      << "goes back after it has pressed";
+}
+
+TEST(Plausibility, clearance_of_nothing_or_less) {
+  const auto punch_to = [](const std::string& x) {
+    return "tools.punch.rectangle={from=\"-2 2 mm\", to=\"" + x + " 6 mm\"}";
+  };
+  expect_doubt({punch_to("4.1")}, "punch and the die overlap by 0.1 mm across the cut");
+  expect_doubt({punch_to("4")}, "no clearance between punch and the die");
+}
+
+TEST(Plausibility, arcs_that_no_node_feels) {
+  expect_doubt({"tools.die.fillet=0.1 mm"},
+               "key 'tools.die': its arc of 0.1 mm is 0.5 spacings of the nodes");
+  EXPECT_EQ(doubts_with({"tools.die.fillet=0.4 mm"}), Texts{});
+  EXPECT_EQ(doubts_with({"tools.die.fillet=0.1 mm", "adapt.resample=true", "adapt.tool_spacing=0.05 mm"}),
+            Texts{});
+}
+
+TEST(Plausibility, parts_that_pass_through_each_other) {
+  const Texts halves{"domain.cracks.slit.points=[\"6 0 mm\", \"6 2 mm\"]"};
+  expect_doubt(halves, "key 'contact.deformable': the workpiece has 2 parts that pass through each other");
+  Texts kept = halves;
+  kept.emplace_back("contact.deformable=true");
+  EXPECT_EQ(doubts_with(kept), Texts{});
+}
+
+TEST(Plausibility, measures_of_a_cut) {
+  const input::Case input = input::read_case_text(sound_cut, "case.toml", {"tools.die.fillet=0.4 mm"});
+  const auto lines = tool_measures(input, testing::solver_of(input));
+  const std::vector<std::pair<std::string, std::string>> expected{{"clearance", "0.1 mm, 5% of 2 mm"},
+                                                                  {"gap", "punch 0 mm"},
+                                                                  {"gap", "die 0 mm"},
+                                                                  {"edge", "die radius 0.4 mm, 2 spacings"}};
+  EXPECT_EQ(lines, expected);
+}
+
+} // namespace
+} // namespace cnem::app
