@@ -93,8 +93,8 @@ void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doub
   }
   if (input.cutting) return; // its cells are made for its edge
   for (const Edge& edge : edges(input, solver)) {
-    constexpr double felt = 2.0; // spacings
-    if (edge.radius >= felt * edge.spacing) continue;
+    constexpr double felt = 2.0, rounding = 1e-6; // spacings
+    if (edge.radius >= (felt - rounding) * edge.spacing) continue;
     doubts.push_back(doubt_about(
         input, fmt::format("tools.{}", edge.tool->name),
         fmt::format(

@@ -31,27 +31,37 @@ template<int dim> struct Way {
 /// How far a tool is clear at most, in spacings, that touches: a corner may stand between two nodes.
 constexpr double touching = 1.0;
 
-/// The first time from `start` on at which a tool touches a workpiece that stays as it is; each time it is
-/// moved on by the time in which it could at the soonest.
+/// The first time from `start` on at which a tool is within `reach` (m) of a workpiece that stays as it is;
+/// each time it is moved on by the time in which it could be at the soonest.
 template<int dim>
-std::optional<double> meets(const StartingSurface<dim>& surface, const Way<dim>& way, double start,
-                            double end, double& nearest) {
+std::optional<double> meets(const StartingSurface<dim>& surface, const Way<dim>& way, double reach,
+                            double start, double end, double& nearest) {
   const double fastest = way.fastest(end);
   constexpr double slowest = 1e-4; // share of the run by which it is moved on at least
-  for (double t = start; t <= end;) {
-    const auto gap = surface.gap(*way.tool.shape, way.moved(t));
-    nearest = std::min(nearest, gap.distance);
-    if (gap.distance <= touching * gap.spacing) return t;
-    t += std::max((gap.distance - touching * gap.spacing) / fastest, slowest * end);
+  for (double t = start;; t = std::min(t, end)) {
+    const double gap = surface.gap(*way.tool.shape, way.moved(t)).distance;
+    nearest = std::min(nearest, gap);
+    if (gap <= reach) return t;
+    if (t >= end) return std::nullopt;
+    t += std::max((gap - reach) / fastest, slowest * end);
   }
-  return std::nullopt;
 }
 
-/// The time at which a tool has gone `distance` from its start; none: it does not.
-template<int dim> std::optional<double> gone(const Way<dim>& way, double distance, double end) {
-  constexpr int samples = 1000;
-  for (int k = 1; k <= samples; ++k)
-    if (const double t = end * k / samples; way.moved(t).norm() >= distance) return t;
+/// When a tool that touches has surely left: after some spacings, or half of its way where that is shorter.
+/// None: it presses, or slides along.
+template<int dim>
+std::optional<double> leaves(const StartingSurface<dim>& surface, const Way<dim>& way,
+                             const typename StartingSurface<dim>::Gap& start, double end) {
+  constexpr int samples = 200;
+  double longest = 0.0;
+  for (int k = 1; k <= samples; ++k) longest = std::max(longest, way.moved(end * k / samples).norm());
+  const double enough = std::min(4.0 * start.spacing, 0.5 * longest);
+  for (int k = 1; k <= samples; ++k) {
+    const double t = end * k / samples, moved = way.moved(t).norm();
+    const double opened = surface.gap(*way.tool.shape, way.moved(t)).distance - start.distance;
+    if (opened < -1e-3 * start.spacing) return std::nullopt; // it has pressed
+    if (moved >= enough) return opened > 0.25 * moved ? std::optional(t) : std::nullopt;
+  }
   return std::nullopt;
 }
 
@@ -78,19 +88,18 @@ void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, 
     const auto start = surface.gap(*tool.shape, Vec<dim>::Zero());
     const std::string key = fmt::format("tools.{}.{}", tool.name, tool.drive ? "drive" : "velocity");
     double nearest = start.distance;
-    constexpr double leaves = 4.0; // spacings by which it has surely gone
     if (start.distance <= touching * start.spacing) {
-      const auto left = gone(way, leaves * start.spacing, end);
-      if (!left || surface.gap(*tool.shape, way.moved(*left)).distance < 0.75 * leaves * start.spacing)
-        continue;
-      if (!meets(surface, way, *left, end, nearest))
+      const auto left = leaves(surface, way, start, end);
+      if (!left) continue;
+      const double back = start.distance + 0.05 * way.moved(*left).norm();
+      if (!meets(surface, way, back, *left, end, nearest))
         doubts.push_back(doubt_about(
             input, key,
             fmt::format("{} moves away from the workpiece, {}, and does not come back by time.end", tool.name,
                         along(way, *left))));
       continue;
     }
-    const auto met = meets(surface, way, 0.0, end, nearest);
+    const auto met = meets(surface, way, touching * start.spacing, 0.0, end, nearest);
     constexpr double late = 0.1; // of the run
     if (!met && nearest >= start.distance)
       doubts.push_back(

@@ -27,7 +27,8 @@ damage = { law = "johnson-cook", D1 = 0.05, D2 = 3.44, D3 = -2.12, fracture_ener
 rectangle = { from = "-2 2 mm", to = "3.9 6 mm" }
 velocity = "0 -10 m/s"
 [tools.die]
-rectangle = { from = "4 -4 mm", to = "10 0 mm" }
+start = "4 -4 mm"
+path = [{ to = "10 -4 mm" }, { to = "10 0 mm" }, { to = "4 0 mm" }]
 [output]
 pictures = "10 us"
 [report.blanking]
@@ -121,10 +122,10 @@ TEST(Plausibility, clearance_of_nothing_or_less) {
 }
 
 TEST(Plausibility, arcs_that_no_node_feels) {
-  expect_doubt({"tools.die.fillet=0.1 mm"},
+  expect_doubt({"tools.die.path[2].fillet=0.1 mm"},
                "key 'tools.die': its arc of 0.1 mm is 0.5 spacings of the nodes");
-  EXPECT_EQ(doubts_with({"tools.die.fillet=0.4 mm"}), Texts{});
-  EXPECT_EQ(doubts_with({"tools.die.fillet=0.1 mm", "adapt.resample=true", "adapt.tool_spacing=0.05 mm"}),
+  EXPECT_EQ(doubts_with({"tools.die.path[2].fillet=0.4 mm"}), Texts{});
+  EXPECT_EQ(doubts_with({"tools.die.path[2].fillet=0.1 mm", "adapt.resample=true", "adapt.tool_spacing=0.05 mm"}),
             Texts{});
 }
 
@@ -137,7 +138,7 @@ TEST(Plausibility, parts_that_pass_through_each_other) {
 }
 
 TEST(Plausibility, measures_of_a_cut) {
-  const input::Case input = input::read_case_text(sound_cut, "case.toml", {"tools.die.fillet=0.4 mm"});
+  const input::Case input = input::read_case_text(sound_cut, "case.toml", {"tools.die.path[2].fillet=0.4 mm"});
   const auto lines = tool_measures(input, testing::solver_of(input));
   const std::vector<std::pair<std::string, std::string>> expected{{"clearance", "0.1 mm, 5% of 2 mm"},
                                                                   {"gap", "punch 0 mm"},
