@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/machine/isa.hpp"
 #include "input/case_reader.hpp"
+#include "input/schema/nearest.hpp"
 #include "input/schema/schema.hpp"
 #include "report/materials.hpp"
 #include "report/report.hpp"
@@ -15,9 +16,12 @@
 #include "study/sweep.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 #include <new>
 #include <sstream>
@@ -39,6 +43,18 @@ const CLI::Validator at_least_one(
     "POSITIVE");
 
 /// What commands that read a case share.
+/// Throws InputError that names the cases in a folder that is none itself.
+void refuse_folder_of_cases(const std::filesystem::path& folder) {
+  std::vector<std::string> cases;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (std::filesystem::exists(entry.path() / "case.toml"))
+      cases.push_back(entry.path().filename().string());
+  if (cases.empty()) return;
+  std::sort(cases.begin(), cases.end());
+  throw InputError(fmt::format("{} holds no case.toml itself, expected a case, one of its folders {}",
+                               folder.string(), fmt::join(cases, ", ")));
+}
+
 struct CaseOptions {
   std::string path;
   std::vector<std::string> set;
@@ -59,8 +75,10 @@ struct CaseOptions {
     command.add_option("--threads", threads, "number of threads (default: all)")->check(at_least_one);
   }
   std::filesystem::path file() const {
-    std::filesystem::path file = path;
-    return std::filesystem::is_directory(file) ? file / "case.toml" : file;
+    const std::filesystem::path given = path;
+    if (!std::filesystem::is_directory(given)) return given;
+    if (!std::filesystem::exists(given / "case.toml")) refuse_folder_of_cases(given);
+    return given / "case.toml";
   }
   input::Case read() const { return input::read_case(file(), set); }
   RunOptions options(const input::Case& input) const {
@@ -98,6 +116,19 @@ struct MaterialsCommand {
     if (!output.empty()) fmt::print("\npage: {}\n", output);
   }
 };
+
+/// Throws InputError when the first word is no command.
+void check_command_name(const CLI::App& program, int argc, char** argv) {
+  if (argc > 1 && argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  const std::string found = argc > 1 ? argv[1] : "";
+  if (std::find(names.begin(), names.end(), found) != names.end()) return;
+  throw InputError(fmt::format("{}expected a command, one of {}{}; `cnem --help` says what they do",
+                               found.empty() ? "" : fmt::format("found '{}', ", found),
+                               fmt::join(names, ", "), input::did_you_mean(found, names)));
+}
 
 int act(CLI::App& program, int argc, char** argv) {
   program.set_version_flag("--version", version());
@@ -163,6 +194,7 @@ int act(CLI::App& program, int argc, char** argv) {
     command->footer("CNEM_ISA=baseline, avx2 or avx512 in the environment chooses the instruction set of the "
                     "kernels (default: the best one that the machine has).");
 
+  check_command_name(program, argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

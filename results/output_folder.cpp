@@ -2,6 +2,8 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "results/checkpoint_folder.hpp"
+#include "results/status.hpp"
 
 #include <fmt/format.h>
 
@@ -231,6 +233,15 @@ template<class Keep> void remove_files_of_a_run(const fs::path& folder, Keep&& k
   for (const char* sub : run_folders) fs::remove(folder / sub, error); // only when empty
 }
 
+/// Whether a run was stopped or killed before its end, and left something to go on from.
+bool is_unfinished(const fs::path& folder) {
+  if (list_checkpoints(folder).empty()) return false;
+  if (!fs::exists(folder / files::status)) return true;
+  try {
+    return read_status(folder).exit == Exit::interrupted;
+  } catch (const IoError&) { return false; }
+}
+
 } // namespace
 
 void clear_results(const fs::path& folder) {
@@ -253,9 +264,10 @@ void prepare_output_folder(const fs::path& folder, bool force) {
   const fs::path old = any_file_of_a_run(folder);
   if (!old.empty() && !force)
     throw InputError(
-        fmt::format("the output folder {} already holds a run ({}): choose another with --output, "
+        fmt::format("the output folder {} already holds a run ({}): {}choose another with --output, "
                     "or replace it with --force",
-                    folder.string(), fs::relative(old, folder).string()));
+                    folder.string(), fs::relative(old, folder).string(),
+                    is_unfinished(folder) ? "`cnem restart` goes on with it; or " : ""));
   remove_files_of_a_run(folder, [](const std::string&) { return false; });
   const fs::path probe = beside(folder / "probe");
   {

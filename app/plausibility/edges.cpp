@@ -2,7 +2,6 @@
 #include "app/plausibility/list.hpp"
 #include "app/plausibility/tool_gap.hpp"
 #include "core/index.hpp"
-#include "evaluate/blanking.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -16,23 +15,6 @@ namespace {
 Vec2 way_of(const contact::Tool<2>& tool, double end) {
   return tool.drive ? Vec2(end * (tool.drive->free * tool.drive->initial_velocity))
                     : Vec2(tool.motion.displacement(end));
-}
-
-/// Clearances of the cut that the case has reported; none without one.
-std::vector<evaluate::Clearance> clearances(const input::Case& input, const ExplicitSolver<2>& solver) {
-  if (!input.report.blanking) return {};
-  const input::BlankingReport& asked = *input.report.blanking;
-  const auto& tools = solver.conditions().contact.tools();
-  evaluate::CutTools cut;
-  cut.punch = evaluate::points_of(input.tools[asked.punch].outline, Vec2::Zero());
-  Vec2 stroke = way_of(tools[as<ToolIndex>(asked.punch)], input.time.end);
-  for (const std::size_t die : asked.dies) {
-    for (const Vec2& x : evaluate::points_of(input.tools[die].outline, Vec2::Zero())) cut.die.push_back(x);
-    stroke -= way_of(tools[as<ToolIndex>(die)], input.time.end) / static_cast<double>(asked.dies.size());
-  }
-  if (!(stroke.norm() > 0.0)) return {};
-  cut.direction = stroke.normalized();
-  return evaluate::find_clearances(cut, evaluate::points_of(input.domain.outer, Vec2::Zero()));
 }
 
 std::string side(const evaluate::Clearance& clearance) {
@@ -73,6 +55,22 @@ std::vector<Edge> edges(const input::Case& input, const ExplicitSolver<2>& solve
 }
 
 } // namespace
+
+std::vector<evaluate::Clearance> clearances(const input::Case& input, const ExplicitSolver<2>& solver) {
+  if (!input.report.blanking) return {};
+  const input::BlankingReport& asked = *input.report.blanking;
+  const auto& tools = solver.conditions().contact.tools();
+  evaluate::CutTools cut;
+  cut.punch = evaluate::points_of(input.tools[asked.punch].outline, Vec2::Zero());
+  Vec2 stroke = way_of(tools[as<ToolIndex>(asked.punch)], input.time.end);
+  for (const std::size_t die : asked.dies) {
+    for (const Vec2& x : evaluate::points_of(input.tools[die].outline, Vec2::Zero())) cut.die.push_back(x);
+    stroke -= way_of(tools[as<ToolIndex>(die)], input.time.end) / static_cast<double>(asked.dies.size());
+  }
+  if (!(stroke.norm() > 0.0)) return {};
+  cut.direction = stroke.normalized();
+  return evaluate::find_clearances(cut, evaluate::points_of(input.domain.outer, Vec2::Zero()));
+}
 
 void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts) {
   const double touching = 1e-6; // of the thickness

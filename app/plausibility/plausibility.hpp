@@ -1,6 +1,7 @@
 #pragma once
 // What a case allows and its writer hardly means, before anything has moved: units a thousand times off,
 // tools that move away, cells too coarse for what they should show.
+#include "evaluate/blanking.hpp"
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 
@@ -14,6 +15,9 @@ namespace cnem::app {
 std::vector<std::string> doubts(const input::Case& input); ///< of the case alone
 template<int dim>
 std::vector<std::string> doubts(const input::Case& input, const ExplicitSolver<dim>& solver);
+
+/// Of the cut that the case reports ([report.blanking]), at the start; none without one.
+std::vector<evaluate::Clearance> clearances(const input::Case& input, const ExplicitSolver<2>& solver);
 
 /// Lengths that decide about a cut, {label, text}: clearances in mm and in parts of the thickness, gaps
 /// between tools and workpiece, radii of edges over spacings. Of the plane.

@@ -219,6 +219,8 @@ private:
       const BaseUnit& unit = found->second;
       return {prefix.power + unit.power, unit.factor, 0.0, unit.dimension};
     }
+    if (symbol == "C" || symbol == "Celsius")
+      throw UnitError(fmt::format("unknown unit '{}' (did you mean 'degC'?)", symbol));
     static const std::vector<std::string> common{"mm", "m",   "um",  "s",   "ms",  "us",  "ns", "K",  "degC",
                                                  "Pa", "kPa", "MPa", "GPa", "N",   "kN",  "J",  "kJ", "W",
                                                  "kW", "kg",  "g",   "deg", "rad", "rpm", "min"};
@@ -238,6 +240,15 @@ Unit unit_of(std::string_view text, const std::string& expectation) {
   try {
     return parse_unit(text);
   } catch (const UnitError& error) { throw UnitError(fmt::format("{}, {}", error.what(), expectation)); }
+}
+
+/// Throws UnitError where a comma follows a number: there is none in numbers and between them.
+void refuse_comma(std::string_view text, std::string_view rest) {
+  if (!rest.starts_with(',')) return;
+  const bool decimal = rest.size() > 1 && rest[1] >= '0' && rest[1] <= '9';
+  throw UnitError(fmt::format("found '{}' with a comma, expected {}: '{}'", text,
+                              decimal ? "a point in a number" : "spaces between numbers",
+                              replace_all(std::string(text), ",", decimal ? "." : "")));
 }
 
 /// The number that begins the text and how many characters it takes; 0 when there is none.
@@ -294,6 +305,7 @@ std::vector<double> parse_quantities(std::string_view text, const Dimension& exp
   const std::string expectation = fmt::format("expected {} such as \"{}\"", wanted.name, wanted.example);
   for (skip_spaces(); !rest.empty(); skip_spaces()) {
     const auto [value, length] = leading_number(rest);
+    if (length > 0) refuse_comma(text, rest.substr(length));
     const bool whole_word = length == rest.size() || rest[length] == ' ' || rest[length] == '\t';
     // "11m/s" is a number and a unit, but in "1 1/s" the second 1 belongs to the unit.
     if (length == 0 || (!whole_word && !values.empty())) break;

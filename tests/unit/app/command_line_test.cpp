@@ -4,6 +4,7 @@
 #include "input/case.hpp"
 #include "results/fields.hpp"
 #include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
 #include "results/status.hpp"
 #include "tests/shared_cases.hpp"
 #include "tests/temporary_folder.hpp"
@@ -124,7 +125,12 @@ TEST_F(CommandLine, a_folder_that_holds_a_run_is_kept_unless_forced) {
 TEST_F(CommandLine, wrong_input_and_usage_exit_with_2) {
   EXPECT_EQ(call({"run", (folder / "absent.toml").string()}), 2);
   EXPECT_EQ(call({"run"}), 2);
-  EXPECT_EQ(call({"walk", file()}), 2);
+  EXPECT_EQ(call({"chek", file()}), 2);
+  EXPECT_NE(message.find("found 'chek', expected a command, one of run, check, explain"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("(did you mean 'check'?)"), std::string::npos) << message;
+  EXPECT_EQ(call({}), 2);
+  EXPECT_NE(message.find("expected a command, one of run, check"), std::string::npos) << message;
   EXPECT_EQ(call({"run", file(), "--threads", "0"}), 2);
   EXPECT_EQ(call({"check", file(), "--set", "cloud.spacin=0.1 mm"}), 2);
   EXPECT_NE(message.find("cloud.spacing"), std::string::npos) << message;
@@ -132,6 +138,26 @@ TEST_F(CommandLine, wrong_input_and_usage_exit_with_2) {
   EXPECT_EQ(call({"check", file(), "--set", "method.name=fe-triangles", "--set", "adapt.resample=true"}), 2);
   EXPECT_NE(message.find("one stress point per node"), std::string::npos) << message;
   EXPECT_FALSE(std::filesystem::exists("results/block"));
+}
+
+TEST_F(CommandLine, a_folder_of_cases_names_them) {
+  for (const char* name : {"thin", "thick"}) {
+    std::filesystem::create_directories(folder / "cases" / name);
+    std::ofstream(folder / "cases" / name / "case.toml") << block;
+  }
+  EXPECT_EQ(call({"run", (folder / "cases").string()}), 2);
+  EXPECT_NE(message.find("holds no case.toml itself, expected a case, one of its folders thick, thin"),
+            std::string::npos)
+      << message;
+}
+
+TEST_F(CommandLine, a_run_that_was_killed_is_offered_to_go_on) {
+  ASSERT_EQ(call({"run", file(), "--output", results(), "--set", "output.checkpoint.every_time=0.5 us"}), 0);
+  EXPECT_EQ(call({"run", file(), "--output", results()}), 2);
+  EXPECT_EQ(message.find("restart"), std::string::npos) << message;
+  std::filesystem::remove(folder / "results" / results::files::status);
+  EXPECT_EQ(call({"run", file(), "--output", results()}), 2);
+  EXPECT_NE(message.find("`cnem restart` goes on with it"), std::string::npos) << message;
 }
 
 TEST_F(CommandLine, unwritable_output_exits_with_4) {

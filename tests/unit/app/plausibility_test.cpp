@@ -125,8 +125,9 @@ TEST(Plausibility, arcs_that_no_node_feels) {
   expect_doubt({"tools.die.path[2].fillet=0.1 mm"},
                "key 'tools.die': its arc of 0.1 mm is 0.5 spacings of the nodes");
   EXPECT_EQ(doubts_with({"tools.die.path[2].fillet=0.4 mm"}), Texts{});
-  EXPECT_EQ(doubts_with({"tools.die.path[2].fillet=0.1 mm", "adapt.resample=true", "adapt.tool_spacing=0.05 mm"}),
-            Texts{});
+  EXPECT_EQ(
+      doubts_with({"tools.die.path[2].fillet=0.1 mm", "adapt.resample=true", "adapt.tool_spacing=0.05 mm"}),
+      Texts{});
 }
 
 TEST(Plausibility, parts_that_pass_through_each_other) {
@@ -138,7 +139,8 @@ TEST(Plausibility, parts_that_pass_through_each_other) {
 }
 
 TEST(Plausibility, measures_of_a_cut) {
-  const input::Case input = input::read_case_text(sound_cut, "case.toml", {"tools.die.path[2].fillet=0.4 mm"});
+  const input::Case input =
+      input::read_case_text(sound_cut, "case.toml", {"tools.die.path[2].fillet=0.4 mm"});
   const auto lines = tool_measures(input, testing::solver_of(input));
   const std::vector<std::pair<std::string, std::string>> expected{{"clearance", "0.1 mm, 5% of 2 mm"},
                                                                   {"gap", "punch 0 mm"},

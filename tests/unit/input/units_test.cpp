@@ -103,6 +103,14 @@ TEST(Units, MessagesSayWhatWasFoundAndExpected) {
   EXPECT_TRUE(has(message_of("5 kg m", d::velocity), "a quantity in m kg"));
 }
 
+TEST(Units, CommasAndCelsiusAreToldHowTheyAreWritten) {
+  EXPECT_EQ(message_of("0,1 mm", d::length),
+            "found '0,1 mm' with a comma, expected a point in a number: '0.1 mm'");
+  EXPECT_EQ(message_of("1, 2 mm", d::length),
+            "found '1, 2 mm' with a comma, expected spaces between numbers: '1 2 mm'");
+  EXPECT_TRUE(has(message_of("20 C", d::temperature), "unknown unit 'C' (did you mean 'degC'?)"));
+}
+
 TEST(Units, MalformedTextIsRefusedNotCrashedOn) {
   for (const char* text :
        {"1 (m", "1 m)", "1 m/", "1 /", "1 m^", "1 m^x", "1 *m", "1 ()", "1 m2.3", "1 m^99", "nan m", "inf m",
