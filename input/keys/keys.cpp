@@ -13,6 +13,10 @@ using enum Type;
 
 void add_general(Keys& k) {
   k.add("title", text, "One line for the report.").fallback("\"\"");
+  k.add("let", variables,
+        "Variables: quantities, numbers, or expressions of other variables, that any quantity, vector, "
+        "function or whole number of the case may be calculated from ([variables](user_guide.md#variables)). "
+        "Names are letters, digits and `_`, and are not those of units.");
   k.add("analysis", table, "What is computed.").always();
   k.add("analysis.type", choice,
         "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution.")
