@@ -2,6 +2,7 @@
 
 #include "input/case_parts.hpp"
 #include "input/cutting.hpp"
+#include "input/included_files.hpp"
 #include "input/library.hpp"
 #include "input/local_origin.hpp"
 #include "input/variables.hpp"
@@ -170,10 +171,14 @@ void collect_locations(const Setting& setting, std::map<std::string, std::string
 }
 
 Case read(Value document, const std::string& path, const std::vector<Override>& changes) {
+  document = with_included(std::move(document), std::filesystem::path(path).parent_path());
   for (const Override& change : changes) {
     check_variable_of(document, change);
     apply_override(document, change);
   }
+  if (const Member* include = document.find("include"))
+    throw InputError(fmt::format("{}: key 'include': goes into the file of a case, expected none beside it",
+                                 include->where.text()));
   Diagnostics diagnostics;
   Case result;
   result.variables = apply_variables(document, diagnostics, result.warnings);

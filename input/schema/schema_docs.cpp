@@ -199,7 +199,8 @@ std::string case_reference() {
   text += pairs_table();
   std::string top;
   for (const Key* key : members_of(""))
-    if (key->type == Type::text || key->type == Type::variables) top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);
+    if (key->type != Type::table && key->type != Type::named_tables)
+      top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);
   return text.insert(introduction.size(), top);
 }
 
