@@ -199,7 +199,7 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
     ReportTable metrics{"Results", {}};
     for (const auto& [name, value] : status.metrics)
       if (!name.starts_with("cutting.")) // a section of its own has them, with units
-        metrics.rows.emplace_back(words(name), results::number_format(value, 6));
+        metrics.rows.emplace_back(words(name), results::si_format(value, status.unit_of(name), 6));
     report.tables.push_back(std::move(metrics));
   }
   report.tables.push_back(run_table(status));
