@@ -25,7 +25,9 @@ struct StudyChart {
   std::string x; ///< a key of the grid, a variable of the case or a column
   std::vector<std::string> y;
   input::Location where;
-  bool extrapolate = false; ///< curves go on to x = 0
+  bool extrapolate = false;         ///< curves go on to x = 0
+  std::string title{};              ///< of all y; empty: their names
+  std::vector<std::string> names{}; ///< of each y in the legend; empty: those of the columns
 };
 
 /// Columns of history.csv over each other, all runs in one chart.

@@ -104,7 +104,7 @@ report::Chart column_chart(const Study& study, const std::vector<RunRecord>& run
   report::Chart chart;
   chart.x_label = x.label;
   chart.x_unit = x.unit;
-  chart.y_label = wanted.y.size() == 1 ? column_name(wanted.y.front()) : "";
+  chart.y_label = wanted.y.size() == 1 && wanted.title.empty() ? column_name(wanted.y.front()) : wanted.title;
   chart.y_unit = wanted.y.empty() ? "" : shared_unit(runs, wanted.y);
   const bool along_axis = axis || is_variable(wanted.x);
   std::vector<std::string> groups;
@@ -122,10 +122,12 @@ report::Chart column_chart(const Study& study, const std::vector<RunRecord>& run
     std::erase_if(list, [&](std::size_t k) { return !(x.value[k] == x.value[k]); });
     std::stable_sort(list.begin(), list.end(),
                      [&](std::size_t a, std::size_t b) { return x.value[a] < x.value[b]; });
-    for (const std::string& column : wanted.y) {
+    for (std::size_t c = 0; c < wanted.y.size(); ++c) {
+      const std::string& column = wanted.y[c];
       report::ChartSeries line;
       const std::string unit = column_unit(runs, column);
-      const std::string name = column_name(column) + (unit == chart.y_unit ? "" : " [" + unit + "]");
+      const std::string name = (wanted.names.empty() ? column_name(column) : wanted.names[c]) +
+                               (unit == chart.y_unit ? "" : " [" + unit + "]");
       line.label = wanted.y.size() == 1 ? group : name + (group.empty() ? "" : ", " + group);
       line.colour = curve_colour(chart.series.size());
       line.dashed = is_dashed(chart.series.size());
@@ -138,27 +140,38 @@ report::Chart column_chart(const Study& study, const std::vector<RunRecord>& run
       chart.series.push_back(std::move(line));
     }
   }
-  std::string title;
-  for (const std::string& column : wanted.y) title += (title.empty() ? "" : ", ") + column_name(column);
+  std::string title = wanted.title;
+  if (title.empty())
+    for (const std::string& column : wanted.y) title += (title.empty() ? "" : ", ") + column_name(column);
   chart.title =
       title + " against " +
       (axis && axis->keys.front() == wanted.x ? axis->name : wanted.x.substr(wanted.x.rfind('.') + 1));
   return chart;
 }
 
+std::string words_of(std::string name) {
+  for (char& c : name)
+    if (c == '_' || c == '.') c = ' ';
+  return name;
+}
+
 /// A chart of each number of the cut over the first axis, the faces of bodies together.
 std::vector<StudyChart> cut_charts(const Study& study, const std::vector<RunRecord>& runs) {
+  constexpr std::string_view prefix = "blanking.";
   std::vector<StudyChart> charts;
-  std::map<std::string, std::size_t> of_zone;
   for (const std::string& column : cut_columns(runs)) {
-    const std::string zone = column.substr(column.rfind('.') + 1);
-    const bool face = zone == "rollover" || zone == "burnish" || zone == "fracture" || zone == "burr";
-    if (const auto known = of_zone.find(zone); face && known != of_zone.end()) {
-      charts[known->second].y.push_back(column);
-      continue;
-    }
-    if (face) of_zone[zone] = charts.size();
-    charts.push_back({study.axes.front().keys.front(), {column}, {}});
+    const std::string name = column_name(column).substr(prefix.size());
+    const std::size_t dot = name.rfind('.');
+    const bool of_punch = std::any_of(
+        runs.begin(), runs.end(), [&](const RunRecord& run) { return run.punch == name.substr(dot + 1); });
+    const std::string title =
+        words_of(of_punch ? name.substr(0, dot) + " of " + name.substr(dot + 1) : name.substr(dot + 1));
+    auto chart = std::find_if(charts.begin(), charts.end(),
+                              [&](const StudyChart& known) { return known.title == title; });
+    if (chart == charts.end())
+      chart = charts.insert(chart, {study.axes.front().keys.front(), {}, {}, false, title, {}});
+    chart->y.push_back(column);
+    chart->names.push_back(of_punch ? title : words_of(name.substr(0, dot)));
   }
   return charts;
 }
