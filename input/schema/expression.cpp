@@ -152,7 +152,10 @@ private:
     scan_.at = end;
     scan_.skip_blanks();
     const std::size_t begin = scan_.at;
-    const std::size_t unit_end = scan_.next() == '(' ? begin : scan_.unit_end(begin);
+    const bool inverse = scan_.text().substr(begin).starts_with("1/"); // "5 1/s"
+    const std::size_t first = inverse ? begin + 2 : begin;
+    const std::size_t behind = scan_.next() == '(' ? first : scan_.unit_end(first);
+    const std::size_t unit_end = behind == first ? begin : behind;
     scan_.at = unit_end;
     return unit_end == begin ? Quantity{number, {}}
                              : unit(scan_.text().substr(begin, unit_end - begin), begin, number);

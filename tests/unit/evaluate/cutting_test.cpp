@@ -150,8 +150,7 @@ TEST(CuttingFile, status_has_newtons_degrees_null_and_a_boolean) {
   status.flags = {"cutting.steady"};
   const std::string text = results::status_json(status);
   for (const char* part : {"\"Fc\": 560.0", "\"Ft\": -160.0", "\"shear_angle\": 41.0",
-                           "\"tooth_spacing\": null", "\"steady\": true",
-                           "\"cutting.shear_angle\": \"deg\""})
+                           "\"tooth_spacing\": null", "\"steady\": true", "\"cutting.shear_angle\": \"deg\""})
     EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in:\n" << text;
   const testing::TemporaryFolder folder("status");
   results::write_status(folder.path(), status);

@@ -65,6 +65,7 @@ TEST(Expression, a_number_takes_all_of_the_unit_behind_it) {
   expect_value("10 mm-2 mm", 0.008, d::length);
   expect_value("8% * sheet", 0.00016, d::length);
   expect_value("0.2 mm", 0.0002, d::length);
+  expect_value("5 1/s * 2", 10.0, d::rate);
   expect_value("20 degC", 293.15, d::temperature);
   expect_value("2 µm + 1 μm", 3e-6, d::length);
 }
@@ -161,7 +162,8 @@ TEST(Expression, refuses_names_that_mean_something_already) {
 }
 
 TEST(Expression, texts_of_quantities_read_back) {
-  for (const char* text : {"0.0002 m", "1.5 m^0.5", "3", "0.7853981633974483 rad", "7850 kg/m3"})
+  for (const char* text : {"0.0002 m", "1.5 m^0.5", "3", "0.7853981633974483 rad", "7850 kg/m3", "5 1/s",
+                           "1e-05 1/K", "14000 W s^0.5/(m2 K)", "-5 W/(m2 K)"})
     EXPECT_EQ(quantity_text(value_of(text)), text);
 }
 
