@@ -8,13 +8,16 @@
 #include "app/watches/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/machine/threads.hpp"
+#include "input/schema/expression.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
 #include "results/recorder.hpp"
+#include "results/si_format.hpp"
 #include "results/status.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace cnem::app {
 
@@ -68,10 +71,21 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
   fmt::print("fields      {}\n", (folder / results::files::fields).string());
 }
 
+/// With what it was calculated from, where that says more.
+void print_variable(const input::Variable& variable) {
+  const bool angle = variable.unit == "rad";
+  const std::string value = angle ? results::number_format(variable.value * 180.0 / std::numbers::pi) + " deg"
+                                  : results::si_format(variable.value, variable.unit);
+  const bool calculated = !variable.expression.empty() && !input::is_plain(variable.expression);
+  fmt::print("variable    {} = {}{}\n", variable.name, value,
+             calculated ? fmt::format(" ({})", variable.expression) : "");
+}
+
 } // namespace
 
 void check(const input::Case& input, const RunOptions& options) {
   use_threads(options.threads);
+  for (const input::Variable& variable : input.variables) print_variable(variable);
   if (input.analysis.type == input::Analysis::Type::statics) return check_static(input, options);
   input.analysis.dimensions() == 3 ? check_explicit<3>(input, options) : check_explicit<2>(input, options);
 }

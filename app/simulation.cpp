@@ -308,10 +308,10 @@ template<int dim> results::RunStatus Simulation<dim>::status() {
   status.threads = omp_get_max_threads();
   status.peak_rss_bytes = results::peak_rss_bytes();
   status.energy_residual = history_.energy_residual();
-  status.metrics = history_.metrics();
-  status.metrics.emplace_back("references", solver_.references());
-  status.metrics.emplace_back("retries", retries_.count());
-  for (auto& metric : features_.metrics()) status.metrics.push_back(std::move(metric));
+  for (const auto& [name, value] : history_.metrics()) status.add_metric(name, value);
+  status.add_metric("references", solver_.references());
+  status.add_metric("retries", retries_.count());
+  for (const auto& [name, value] : features_.metrics()) status.add_metric(name, value);
   status.flags = features_.flags();
   status.step_limits = control_.shares();
   status.warnings = warnings_;

@@ -77,11 +77,12 @@ const char* zone_name(Zone zone) { return zone_names[static_cast<std::size_t>(zo
 
 std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& result) {
   std::vector<std::pair<std::string, double>> metrics;
-  metrics.emplace_back("blanking.stroke", result.stroke);
+  metrics.emplace_back("blanking.stroke[m]", result.stroke);
   for (const ToolForce& force : result.forces) {
-    metrics.emplace_back(fmt::format("blanking.largest_force.{}", force.tool), force.largest);
-    metrics.emplace_back(fmt::format("blanking.stroke_at_largest_force.{}", force.tool), force.stroke);
-    metrics.emplace_back(fmt::format("blanking.work.{}", force.tool), force.work);
+    metrics.emplace_back(fmt::format("blanking.largest_force.{}[{}]", force.tool, result.force_unit),
+                         force.largest);
+    metrics.emplace_back(fmt::format("blanking.stroke_at_largest_force.{}[m]", force.tool), force.stroke);
+    metrics.emplace_back(fmt::format("blanking.work.{}[{}]", force.tool, result.work_unit), force.work);
   }
   for (const ShearedFace& face : result.faces) {
     const std::string at = face.cut.empty() ? fmt::format("blanking.{}", face.body)
@@ -92,11 +93,12 @@ std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& res
                                        {"fracture", face.fracture},
                                        {"second_burnish", face.second_burnish},
                                        {"burr", face.burr}}) {
-      metrics.emplace_back(fmt::format("{}.{}", at, name), height);
+      metrics.emplace_back(fmt::format("{}.{}[m]", at, name), height);
       metrics.emplace_back(fmt::format("{}.{}_share", at, name), height / face.thickness);
     }
-    metrics.emplace_back(at + ".rollover_width", face.rollover_width);
-    if (std::isfinite(face.fracture_angle)) metrics.emplace_back(at + ".fracture_angle", face.fracture_angle);
+    metrics.emplace_back(at + ".rollover_width[m]", face.rollover_width);
+    if (std::isfinite(face.fracture_angle))
+      metrics.emplace_back(at + ".fracture_angle[rad]", face.fracture_angle);
   }
   return metrics;
 }
@@ -105,12 +107,13 @@ std::vector<std::pair<std::string, double>> metrics_of(const std::vector<BodySpr
   std::vector<std::pair<std::string, double>> metrics;
   double largest = 0.0;
   for (const BodySpringback& body : bodies) largest = std::max(largest, body.largest);
-  metrics.emplace_back("springback.largest", largest);
+  metrics.emplace_back("springback.largest[m]", largest);
   for (const BodySpringback& body : bodies) {
     const std::string at = fmt::format("springback.{}", body.body);
-    metrics.emplace_back(at + ".largest", body.largest);
-    if (std::isfinite(body.angle_change)) metrics.emplace_back(at + ".angle_change", body.angle_change);
-    if (std::isfinite(body.dishing_change)) metrics.emplace_back(at + ".dishing_change", body.dishing_change);
+    metrics.emplace_back(at + ".largest[m]", body.largest);
+    if (std::isfinite(body.angle_change)) metrics.emplace_back(at + ".angle_change[rad]", body.angle_change);
+    if (std::isfinite(body.dishing_change))
+      metrics.emplace_back(at + ".dishing_change[m]", body.dishing_change);
   }
   return metrics;
 }

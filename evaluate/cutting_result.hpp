@@ -69,7 +69,7 @@ struct CuttingResult {
   double in_newton(double per_width) const { return per_width * width; }
 };
 
-/// Named numbers for status.json: "cutting.Fc" (N), … Those that mean nothing are not-a-number.
+/// Named numbers for status.json: "cutting.Fc[N]", … Those that mean nothing are not-a-number.
 std::vector<std::pair<std::string, double>> metrics_of(const CuttingResult& result);
 
 /// Written atomically to `folder`/cutting.json and the tables but `course`. Throws IoError.

@@ -260,6 +260,14 @@ struct Fracture {
 /// and lines know.
 std::vector<std::string> field_names(int dimensions, bool adaptive = true);
 
+/// A variable of [let].
+struct Variable {
+  std::string name;
+  double value = 0.0;     ///< SI
+  std::string unit;       ///< SI; "": a number
+  std::string expression; ///< as it was written; "" for a bare number
+};
+
 struct Case {
   std::string path;  ///< file it was read from
   std::string name;  ///< folder of a case.toml, else the file name without extension
@@ -285,6 +293,7 @@ struct Case {
 
   Vec3 origin{0, 0, 0}; ///< m, from which all places above are counted (input/local_origin.hpp)
 
+  std::vector<Variable> variables;             ///< in the order they were written
   std::string resolved;                        ///< the whole case in SI, defaults included, as TOML
   std::map<std::string, std::string> location; ///< key → "file:line:column", or the --set that gave it
   std::vector<std::string> warnings;           ///< what is allowed and hardly meant, one sentence each

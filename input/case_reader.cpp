@@ -2,8 +2,10 @@
 
 #include "input/case_parts.hpp"
 #include "input/cutting.hpp"
+#include "input/included_files.hpp"
 #include "input/library.hpp"
 #include "input/local_origin.hpp"
+#include "input/variables.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -168,9 +170,18 @@ void collect_locations(const Setting& setting, std::map<std::string, std::string
   for (const Setting& member : setting.members) collect_locations(member, location);
 }
 
-template<class Changes> Case read(Value document, const std::string& path, const Changes& changes) {
-  for (const auto& change : changes) apply_override(document, change);
+Case read(Value document, const std::string& path, const std::vector<Override>& changes) {
+  document = with_included(std::move(document), std::filesystem::path(path).parent_path());
+  for (const Override& change : changes) {
+    check_variable_of(document, change);
+    apply_override(document, change);
+  }
+  if (const Member* include = document.find("include"))
+    throw InputError(fmt::format("{}: key 'include': goes into the file of a case, expected none beside it",
+                                 include->where.text()));
   Diagnostics diagnostics;
+  Case result;
+  result.variables = apply_variables(document, diagnostics, result.warnings);
   take_from_library(document, diagnostics);
   take_from_cutting(document, diagnostics);
   diagnostics.throw_if_any();
@@ -184,7 +195,6 @@ template<class Changes> Case read(Value document, const std::string& path, const
   diagnostics.throw_if_any();
   compute_defaults(root);
 
-  Case result;
   result.path = path;
   result.name = name_after(path, "case");
   result.title = root.get<std::string>("title");
@@ -225,10 +235,16 @@ template<class Changes> Case read(Value document, const std::string& path, const
   return result;
 }
 
+std::vector<Override> parsed(const std::vector<std::string>& overrides) {
+  std::vector<Override> list;
+  for (const std::string& assignment : overrides) list.push_back(parse_override(assignment, "--set"));
+  return list;
+}
+
 } // namespace
 
 Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
-  return read(read_document(path), path, overrides);
+  return read(read_document(path), path, parsed(overrides));
 }
 
 Case read_case_with(const std::string& path, const std::vector<Override>& changes) {
@@ -237,7 +253,7 @@ Case read_case_with(const std::string& path, const std::vector<Override>& change
 
 Case read_case_text(std::string_view text, const std::string& source,
                     const std::vector<std::string>& overrides) {
-  return read(parse_document(text, source), source, overrides);
+  return read(parse_document(text, source), source, parsed(overrides));
 }
 
 } // namespace cnem::input

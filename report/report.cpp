@@ -100,6 +100,19 @@ std::string kinematics_words(const std::string& case_text) {
   return kinematics->value.text == "three-dimensional" ? " · three-dimensional" : "";
 }
 
+/// What [let] names, read from the resolved case.
+std::optional<ReportTable> variable_table(const std::string& case_text) {
+  const input::Value root = input::parse_document(case_text, "case.resolved.toml");
+  const input::Member* let = root.find("let");
+  if (!let || let->value.members.empty()) return {};
+  ReportTable table{"Variables", {}};
+  for (const input::Member& variable : let->value.members) {
+    const bool text = variable.value.kind == input::Value::Kind::text;
+    table.rows.emplace_back(variable.key, text ? variable.value.text : input::toml_text(variable.value));
+  }
+  return table;
+}
+
 /// Which materials come from the library, read from the resolved case.
 std::optional<ReportTable> origin_table(const std::string& case_text) {
   const input::Value root = input::parse_document(case_text, "case.resolved.toml");
@@ -186,7 +199,7 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
     ReportTable metrics{"Results", {}};
     for (const auto& [name, value] : status.metrics)
       if (!name.starts_with("cutting.")) // a section of its own has them, with units
-        metrics.rows.emplace_back(words(name), results::number_format(value, 6));
+        metrics.rows.emplace_back(words(name), results::si_format(value, status.unit_of(name), 6));
     report.tables.push_back(std::move(metrics));
   }
   report.tables.push_back(run_table(status));
@@ -200,7 +213,7 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
   if (fs::exists(folder / results::files::resolved_case)) {
     report.case_text = results::read_file(folder / results::files::resolved_case);
     report.subtitle += kinematics_words(report.case_text);
-    for (const auto& read : {origin_table, damage_table})
+    for (const auto& read : {variable_table, origin_table, damage_table})
       if (auto table = read(report.case_text)) report.tables.push_back(std::move(*table));
   }
   return report;

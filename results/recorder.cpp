@@ -90,7 +90,7 @@ template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSo
     const std::string& name = contact.tools()[t].name;
     const auto& result = contact.results()[t];
     components(name + ".force", result.force, units_.force);
-    row.push_back({"", result.force.norm(), "peak_force." + name, Keep::largest});
+    row.push_back({"", result.force.norm(), "peak_force." + name + units_.force, Keep::largest});
     row.push_back({name + ".stroke[m]", contact.displacement(t, state.time).norm()});
     components(name + ".displacement", contact.displacement(t, state.time), "[m]");
     components(name + ".velocity", contact.velocity(t, state.time), "[m/s]");
@@ -115,12 +115,13 @@ template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSo
   for (Metric& metric : solver.metrics()) row.push_back(std::move(metric));
   for (const std::string name : {"plastic_strain", "temperature"})
     row.push_back({with_unit("max." + name, field_info<dim>(name).unit),
-                   largest_value(snapshot(solver), name), "max_" + name, Keep::largest});
+                   largest_value(snapshot(solver), name),
+                   with_unit("max_" + name, field_info<dim>(name).unit), Keep::largest});
   if (!state.point.damage.empty()) {
     row.push_back({"max.damage", *std::max_element(state.point.damage.begin(), state.point.damage.end()),
                    "max_damage", Keep::largest});
-    row.push_back(
-        {units_.broken + units_.measure, broken_measure(snapshot(solver)), units_.broken, Keep::largest});
+    row.push_back({units_.broken + units_.measure, broken_measure(snapshot(solver)),
+                   units_.broken + units_.measure, Keep::largest});
   }
   for (const ProbeWeights& probe : probes_)
     for (const std::string& name : probe.fields)

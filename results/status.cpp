@@ -1,6 +1,7 @@
 #include "results/status.hpp"
 
 #include "core/error.hpp"
+#include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
 
 #include <fmt/format.h>
@@ -58,6 +59,17 @@ void flatten(const Json& json, const std::string& prefix, Pairs& pairs, std::vec
 
 } // namespace
 
+void RunStatus::add_metric(std::string_view column, double value) {
+  ColumnName name = split_column_name(column);
+  if (!name.unit.empty()) metric_units[name.name] = name.unit;
+  metrics.emplace_back(std::move(name.name), value);
+}
+
+std::string RunStatus::unit_of(const std::string& metric) const {
+  const auto found = metric_units.find(metric);
+  return found == metric_units.end() ? "" : found->second;
+}
+
 std::string status_json(const RunStatus& status) {
   Json json;
   json["exit"] = status.exit;
@@ -75,6 +87,7 @@ std::string status_json(const RunStatus& status) {
   json["peak_rss_bytes"] = status.peak_rss_bytes;
   json["energy_residual"] = number(status.energy_residual);
   json["metrics"] = tree(status.metrics, status.flags);
+  json["metric_units"] = status.metric_units;
   json["step_limits"] = object(status.step_limits);
   json["warnings"] = status.warnings;
   if (status.post_mortem) {
@@ -117,6 +130,7 @@ RunStatus read_status(const std::filesystem::path& folder) {
                                      {"metrics", &status.metrics},
                                      {"step_limits", &status.step_limits}})
       flatten(json.value(name, Json::object()), "", *list, status.flags);
+    status.metric_units = json.value("metric_units", std::map<std::string, std::string>{});
     status.warnings = json.value("warnings", std::vector<std::string>{});
     if (json.contains("post_mortem")) {
       const Json& post = json["post_mortem"];

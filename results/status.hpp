@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,10 +44,16 @@ struct RunStatus {
   std::uint64_t peak_rss_bytes = 0;
   double energy_residual = std::numeric_limits<double>::quiet_NaN(); ///< –
   std::vector<std::pair<std::string, double>> metrics; ///< "K_I.right" becomes {"K_I": {"right": …}}
+  std::map<std::string, std::string> metric_units;     ///< SI, of metrics that have one
   std::vector<std::string> flags;                      ///< names of metrics that are true or false, 1 or 0
   std::vector<std::pair<std::string, double>> step_limits; ///< what limited the step → fraction of the steps
   std::vector<std::string> warnings;
   std::optional<PostMortem> post_mortem;
+
+  /// A metric by its name with its unit, as columns of histories have it: "peak_force.punch[N/m]".
+  void add_metric(std::string_view column, double value);
+  /// The unit of a metric; "" for a number.
+  std::string unit_of(const std::string& metric) const;
 };
 
 /// The JSON text of a status.

@@ -33,6 +33,8 @@ struct RunRecord {
   int exit = 0; ///< exit code of the process; −1 when a signal killed it
   std::string reason;
   std::optional<results::RunStatus> status; ///< of runs that are done
+  std::vector<input::Variable> variables{}; ///< of its case
+  std::string punch{};                      ///< tool whose cut [report.blanking] evaluates, or empty
 };
 const char* state_name(RunRecord::State state);
 

@@ -1,6 +1,7 @@
 // What a comparison says in numbers.
 #include "core/index.hpp"
 #include "report/html.hpp"
+#include "results/fields.hpp"
 #include "study/compare.hpp"
 #include "study/page.hpp"
 #include "study/sweep.hpp"
@@ -123,8 +124,12 @@ std::vector<ComparedNumber> compared_metrics(const Compared& compared) {
   for (const Outcome& outcome : compared.outcome)
     if (outcome.status)
       for (const auto& [name, value] : outcome.status->metrics)
-        if (known.insert(name).second)
-          metrics.push_back(from_status(compared, "metrics." + name, in_words(name), Shown::plain, name));
+        if (known.insert(name).second) {
+          const std::string unit = outcome.status->unit_of(name);
+          metrics.push_back(from_status(compared, "metrics." + name, in_words(name),
+                                        unit.empty() ? Shown::plain : Shown::unit,
+                                        results::with_unit(name, unit)));
+        }
   return metrics;
 }
 

@@ -94,25 +94,28 @@ int curve_colour(std::size_t k) { return static_cast<int>(k % colours); }
 bool is_dashed(std::size_t k) { return k >= colours; }
 
 report::Chart history_chart(std::span<const results::HistoryTable> histories,
-                            std::span<const std::string> labels, const std::string& column) {
+                            std::span<const std::string> labels, const std::string& column,
+                            const std::string& x) {
   report::Chart chart;
-  chart.title = column;
+  chart.title = x == "time" ? column : fmt::format("{} over {}", column, x);
+  chart.x_label = x;
   chart.y_label = column;
   for (std::size_t k = 0; k < histories.size(); ++k) {
     const results::HistoryTable& history = histories[k];
-    const int at = history.find(column);
-    if (at < 0) continue;
+    const int at = history.find(column), along = history.find(x);
+    if (at < 0 || along < 0) continue;
+    chart.x_unit = results::split_column_name(history.names[index_of(along)]).unit;
     const auto index = index_of(at);
     chart.y_unit = results::split_column_name(history.names[index]).unit;
     report::ChartSeries line;
     line.label = labels[k];
-    line.x = history.column.front();
+    line.x = history.column[index_of(along)];
     line.y = history.column[index];
     line.colour = curve_colour(k);
     line.dashed = is_dashed(k);
     chart.series.push_back(std::move(line));
   }
-  if (chart.series.empty()) chart.note = "No run has this column in its history.csv.";
+  if (chart.series.empty()) chart.note = "No run has these columns in its history.csv.";
   return chart;
 }
 

@@ -32,9 +32,10 @@ std::string cell(const std::string& text, const char* tag = "td");
 int curve_colour(std::size_t k);
 bool is_dashed(std::size_t k);
 
-/// One curve for each history that has the column, over time.
+/// One curve for each history that has the column, over time or another column.
 report::Chart history_chart(std::span<const results::HistoryTable> histories,
-                            std::span<const std::string> labels, const std::string& column);
+                            std::span<const std::string> labels, const std::string& column,
+                            const std::string& x = "time");
 
 /// Charts with their titles and notes, beside each other under a heading; nothing for none.
 std::string chart_section(const std::vector<report::Chart>& charts);

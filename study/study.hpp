@@ -22,10 +22,26 @@ struct StudyRun {
 
 /// Results against a parameter or another result.
 struct StudyChart {
-  std::string x; ///< a key of the grid or a column
+  std::string x; ///< a key of the grid, a variable of the case or a column
   std::vector<std::string> y;
   input::Location where;
-  bool extrapolate = false; ///< curves go on to x = 0
+  bool extrapolate = false;         ///< curves go on to x = 0
+  std::string title{};              ///< of all y; empty: their names
+  std::vector<std::string> names{}; ///< of each y in the legend; empty: those of the columns
+};
+
+/// Columns of history.csv over each other, all runs in one chart.
+struct StudyHistory {
+  std::string x, y;
+};
+
+/// Keys whose values change together.
+struct StudyAxis {
+  std::string name;
+  std::vector<std::string> keys; ///< the values of the first one stand for all
+
+  /// The key that is meant by one of them, or by the name of the axis.
+  const std::string& of(const std::string& name_or_key) const;
 };
 
 struct Study {
@@ -34,21 +50,29 @@ struct Study {
   std::string text;                ///< of the file
   std::filesystem::path case_file; ///< TOML
   std::vector<std::string> keys;   ///< case keys in which the runs differ, the slowest first
+  std::vector<StudyAxis> axes;     ///< the same keys: those of a list of runs have one each
   std::vector<StudyRun> runs;
   int processes = 0;                ///< 0: as many as there are cores for
   int threads = 1;                  ///< of each run
   std::vector<std::string> columns; ///< of the table; empty: the default ones
   std::vector<StudyChart> charts;
-  std::vector<std::string> history; ///< columns of history.csv to overlay
+  std::vector<StudyHistory> history;
+
+  /// The axis with this name or key; nullptr when there is none.
+  const StudyAxis* axis_of(const std::string& name_or_key) const;
 };
 
-/// Reads a study and makes its list of runs: the Cartesian product of [grid], whose first key varies slowest,
-/// or the [[run]] entries. Throws InputError "file:line:column: key '…': …" for whatever is wrong in it,
-/// IoError when it cannot be read. The keys and values of the case are not looked at.
+/// Reads a study and makes its list of runs: the Cartesian product of the keys of [grid], of which the first
+/// varies slowest, and of the tables [[axis]], whose keys change together; or the [[run]] entries. Throws
+/// InputError "file:line:column: key '…': …" for whatever is wrong in it, IoError when it cannot be read. The
+/// keys and values of the case are not looked at.
 Study read_study(const std::filesystem::path& path);
 
 /// The same for text; `path` is what messages call it, and its folder is where the case is looked for.
 Study read_study_text(std::string_view text, const std::filesystem::path& path);
+
+/// Whether a key of a case is a variable's: "let.clearance".
+bool is_variable(std::string_view key);
 
 /// The text of a value as people write it: 30 deg, 0.5, [1, 2].
 std::string plain_text(const input::Value& value);

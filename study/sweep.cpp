@@ -17,7 +17,11 @@ std::vector<RunRecord> read_cases(const Study& study) {
   std::vector<RunRecord> runs;
   for (const StudyRun& run : study.runs) {
     try {
-      runs.emplace_back().inputs = inputs_of(input::read_case_with(study.case_file.string(), run.changes()));
+      const input::Case input = input::read_case_with(study.case_file.string(), run.changes());
+      RunRecord& record = runs.emplace_back();
+      record.inputs = inputs_of(input);
+      record.variables = input.variables;
+      if (const auto& blanking = input.report.blanking) record.punch = input.tools[blanking->punch].name;
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}\nin run '{}' of the study", error.what(), run.name));
     }

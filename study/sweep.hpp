@@ -12,12 +12,18 @@ namespace cnem::study {
 /// Runs a study as run_batch() does. All cases are read before any starts.
 Exit sweep(const Study& study, const BatchOptions& options);
 
-/// Names of the numbers that the table shows: those of the study, or nodes, steps, energy_residual and all
-/// metrics.
+/// Names of the numbers that the table shows: those of the study, or nodes, steps, energy_residual and those
+/// of a cut where the cases evaluate one, else all metrics.
 std::vector<std::string> table_columns(const Study& study, const std::vector<RunRecord>& runs);
 
 /// A number of a status by its dotted name: "nodes", "metrics.K_I.right". None when the status lacks it.
 std::optional<double> status_number(const results::RunStatus& status, const std::string& name);
+
+/// The unit of such a number, SI; "" where it has none or no run is done.
+std::string column_unit(const std::vector<RunRecord>& runs, const std::string& name);
+
+/// What users ask of a cut: largest force of the punch, stroke there, work, and the zones of the faces.
+std::vector<std::string> cut_columns(const std::vector<RunRecord>& runs);
 
 /// What the curves of charts that are extrapolated come to at x = 0, a line of text each: the straight line
 /// through the two points nearest to it, for errors in proportion to a spacing. Curves of one point have

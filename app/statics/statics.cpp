@@ -97,6 +97,7 @@ results::RunStatus blank_status(const StaticModel& model, const RunOptions& opti
 results::RunStatus make_status(const StaticModel& model, const StaticSolution& solution,
                                const std::vector<TipResult>& tips, const RunOptions& options) {
   results::RunStatus status = blank_status(model, options);
+  const results::HistoryUnits units = results::history_units(model.input.analysis);
   status.exit = Exit::done;
   status.reason = "solved";
   status.energy_residual = solution.residual;
@@ -105,17 +106,17 @@ results::RunStatus make_status(const StaticModel& model, const StaticSolution& s
   if (std::string text = beyond_yield(model, solution); !text.empty())
     status.warnings.push_back(std::move(text));
   for (const TipResult& tip : tips) {
-    status.metrics.emplace_back("K_I." + tip.name, tip.intensity.K_I);
-    status.metrics.emplace_back("K_II." + tip.name, tip.intensity.K_II);
-    status.metrics.emplace_back("K_spread." + tip.name, tip.spread);
+    status.add_metric("K_I." + tip.name + "[Pa m^0.5]", tip.intensity.K_I);
+    status.add_metric("K_II." + tip.name + "[Pa m^0.5]", tip.intensity.K_II);
+    status.add_metric("K_spread." + tip.name, tip.spread);
     if (std::string text = doubt(tip); !text.empty()) status.warnings.push_back(std::move(text));
   }
-  status.metrics.emplace_back("strain_energy", solution.strain_energy);
-  status.metrics.emplace_back("stabilisation_energy", solution.stabilisation_energy);
-  status.metrics.emplace_back("external_work", solution.external_work);
-  status.metrics.emplace_back("largest_displacement", largest_displacement(model, solution));
-  status.metrics.emplace_back("condition_number", solution.condition);
-  status.metrics.emplace_back("enriched_nodes", model.enriched.enriched_nodes());
+  status.add_metric("strain_energy" + units.energy, solution.strain_energy);
+  status.add_metric("stabilisation_energy" + units.energy, solution.stabilisation_energy);
+  status.add_metric("external_work" + units.energy, solution.external_work);
+  status.add_metric("largest_displacement[m]", largest_displacement(model, solution));
+  status.add_metric("condition_number", solution.condition);
+  status.add_metric("enriched_nodes", model.enriched.enriched_nodes());
   return status;
 }
 

@@ -13,6 +13,11 @@ using enum Type;
 
 void add_general(Keys& k) {
   k.add("title", text, "One line for the report.").fallback("\"\"");
+  k.add("include", texts,
+        "Files whose tables are part of the case ([more](user_guide.md#files-that-cases-share)).")
+      .example("[\"materials.toml\"]");
+  k.add("let", variables,
+        "Names of quantities that others are calculated from ([more](user_guide.md#variables)).");
   k.add("analysis", table, "What is computed.").always();
   k.add("analysis.type", choice,
         "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution.")

@@ -41,7 +41,12 @@ std::vector<double> numbers(const Value& value, const Key& key, const Dimension&
     if (!is_line(value.text)) wrong_type(value, key);
     try {
       result = parse_quantities(value.text, dimension);
-    } catch (const UnitError& error) { throw ConversionError(Mistake::unit, value.where, error.what()); }
+    } catch (const UnitError& error) {
+      throw ConversionError(Mistake::unit, value.where,
+                            value.expression.empty()
+                                ? error.what()
+                                : fmt::format("{} (it comes from \"{}\")", error.what(), value.expression));
+    }
   } else if (value.kind == Kind::integer || value.kind == Kind::real) {
     const DimensionText wanted = describe(dimension);
     if (!dimension.dimensionless())
@@ -283,6 +288,7 @@ SettingValue convert_value(const Value& value, const Key& key) {
   case Type::table:
   case Type::named_tables:
   case Type::table_list:
+  case Type::variables:
     break;
   }
   wrong_type(value, key);

@@ -183,15 +183,17 @@ std::optional<std::int64_t> Value::whole_number() const {
 }
 
 std::string Value::show() const {
+  const std::string from =
+      expression.empty() ? "" : fmt::format(" (from {})", toml_quoted(shortened(expression)));
   switch (kind) {
   case Kind::boolean:
     return boolean ? "true" : "false";
   case Kind::integer:
-    return std::to_string(integer);
+    return std::to_string(integer) + from;
   case Kind::real:
     return fmt::format("{}", real);
   case Kind::text:
-    return toml_quoted(shortened(text));
+    return toml_quoted(shortened(text)) + from;
   case Kind::array:
     return fmt::format("an array of {}", elements.size());
   case Kind::table:

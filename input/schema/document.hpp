@@ -32,13 +32,14 @@ struct Value {
   std::string text;
   std::vector<Value> elements; ///< of an array
   std::vector<Member> members; ///< of a table, in the order they were written
+  std::string expression;      ///< what the value was calculated from, or empty (input/variables.hpp)
   Location where;
 
   const Member* find(std::string_view key) const;
   Member* find(std::string_view key);
   /// Of an integer, and of a float that is one: 1e5.
   std::optional<std::int64_t> whole_number() const;
-  /// The value as a user would recognise it in a message: `"11 mm"`, `12`, `a table`.
+  /// The value as a user would recognise it in a message: `"11 mm"`, `12`, `a table`, with its expression.
   std::string show() const;
 };
 

@@ -68,7 +68,8 @@ private:
 
 bool is_table(const Setting& setting) {
   return setting.key == nullptr || setting.key->type == Type::table ||
-         setting.key->type == Type::named_tables;
+         setting.key->type == Type::named_tables ||
+         (setting.key->type == Type::variables && setting.name == setting.key->name());
 }
 
 std::string assignment(const Setting& setting) {

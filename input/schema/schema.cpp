@@ -51,6 +51,8 @@ std::string Key::expectation() const {
     return fmt::format("tables [{}.NAME]", readable(path));
   case Type::table_list:
     return "an array of tables such as [{ to = \"20 0 mm\" }, { to = \"20 10 mm\" }]";
+  case Type::variables:
+    return fmt::format("a table [{}] of quantities and expressions", path);
   case Type::quantity:
     return unit.name + such_as;
   case Type::integer:

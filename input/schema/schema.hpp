@@ -16,6 +16,7 @@ enum class Type {
   table,           ///< [a]
   named_tables,    ///< [a.NAME], any number of them
   table_list,      ///< a = [{…}, {…}]
+  variables,       ///< [a] with NAME = quantity or expression, of any dimension
   quantity,        ///< "11 m/s"; a plain number when dimensionless
   integer,         ///< 3
   boolean,         ///< true

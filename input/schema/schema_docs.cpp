@@ -11,7 +11,7 @@
 namespace cnem::input {
 namespace {
 
-constexpr std::string_view introduction = R"(# Case reference
+constexpr std::string_view introduction = R"md(# Case reference
 
 <!-- Generated from input/keys/*.cpp by `cnem schema --markdown`. -->
 
@@ -28,6 +28,7 @@ wrong dimension. Anything can be overridden on the command line: `--set time.end
 | values | several numbers and one unit, `"2 4 us"`, or `["2 us", "4 us"]` |
 | function | a quantity (constant in time), `{ value = "11 m/s", ramp = "1 us" }` (linear from 0, or from `from`, then constant; with `smooth = true` without kinks, for loads that must not set the body swinging), or `{ times = "0 1 5 us", values = "0 11 0 m/s" }` (linear between, constant outside) |
 | vector function | a vector, the same tables with vectors, or `{ x = function, y = function }`, of which one may be left out |
+| expression | wherever a quantity, a number or a whole number stands: `"0.08 * sheet"`, `"max(gap, 0.1 mm)"`, of variables of `[let]` and of numbers with units; components of vectors in an array, `["gap", "-1.5 * sheet"]`, or with commas, `"gap, -1.5 * sheet"` ([variables](user_guide.md#variables)) |
 | name | at most 100 letters, digits, `_` and `-` |
 
 Units are products, quotients and powers of m, g, t, s, min, h, K, N, Pa, bar, J, W, Hz, rad, deg, rev, rpm, %
@@ -74,7 +75,7 @@ friction = { law = "coulomb", coefficient = 0.1 }
 ## Keys
 
 Members of an outline (`domain.outer`, `domain.holes.NAME`, `tools.NAME`) are listed once, under `domain.outer`.
-)";
+)md";
 
 bool belongs_to_outline(const Key& key) {
   for (const std::string_view at : {"domain.holes.*.", "tools.*."}) {
@@ -95,6 +96,8 @@ std::string kind(const Key& key) {
     return "tables by name";
   case Type::table_list:
     return "array of tables";
+  case Type::variables:
+    return "quantities and expressions by name";
   case Type::quantity:
     return key.dimension.dimensionless() ? "number" : unit;
   case Type::integer:
@@ -196,7 +199,8 @@ std::string case_reference() {
   text += pairs_table();
   std::string top;
   for (const Key* key : members_of(""))
-    if (key->type == Type::text) top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);
+    if (key->type != Type::table && key->type != Type::named_tables)
+      top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);
   return text.insert(introduction.size(), top);
 }
 

@@ -74,12 +74,17 @@ Json value_schema(const Key& key, Needs needs) {
             {"additionalProperties", entry_schema(key.path + ".*")}};
   case Type::table_list:
     return array_of(object_schema(key.path + "[]", needs));
+  case Type::variables:
+    return {{"type", "object"},
+            {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]{0,99}$"}}},
+            {"additionalProperties", one_of({{{"type", "number"}}, text_type()})}};
   case Type::quantity:
     return scalar;
   case Type::integer:
-    return {{"type", "integer"},
-            {"minimum", static_cast<std::int64_t>(key.range.low)},
-            {"maximum", static_cast<std::int64_t>(key.range.high)}};
+    return one_of({{{"type", "integer"},
+                    {"minimum", static_cast<std::int64_t>(key.range.low)},
+                    {"maximum", static_cast<std::int64_t>(key.range.high)}},
+                   text_type()});
   case Type::boolean:
     return {{"type", "boolean"}};
   case Type::text:

@@ -121,6 +121,15 @@ private:
         if (written->kind != Value::Kind::array) (void)convert_value(*written, key);
         list(setting, *written);
         break;
+      case Type::variables:
+        if (!written) break;
+        for (const Member& member : written->members) {
+          const bool bare = member.value.kind == Value::Kind::real;
+          setting.members.push_back(
+              {&key, member.key, join(setting.path, member.key), member.where, true, {}, {}, {}});
+          setting.members.back().value = bare ? SettingValue(member.value.real) : member.value.text;
+        }
+        break;
       default:
         setting.value = written ? convert_value(*written, key) : fallback(key);
         if (written)

@@ -87,7 +87,7 @@ enum class Keep { last, largest };
 struct Metric {
   std::string name; ///< of the column, with its unit: "area[m^2]"; "": no column
   double value;
-  std::string kept_as = {}; ///< in the status; "": not kept
+  std::string kept_as = {}; ///< in the status, with its unit; "": not kept
   Keep keep = Keep::last;
 };
 

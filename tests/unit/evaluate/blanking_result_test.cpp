@@ -193,10 +193,10 @@ TEST(BlankingPage, metrics_have_heights_and_shares) {
       if (known == name) return number;
     return std::nan("");
   };
-  EXPECT_EQ(value("blanking.slug.burnish"), 0.3e-3);
+  EXPECT_EQ(value("blanking.slug.burnish[m]"), 0.3e-3);
   EXPECT_NEAR(value("blanking.slug.burnish_share"), 0.3, 1e-15);
-  EXPECT_EQ(value("blanking.largest_force.punch"), 1.9e6);
-  EXPECT_EQ(value("blanking.work.punch"), 4e3);
+  EXPECT_EQ(value("blanking.largest_force.punch[N/m]"), 1.9e6);
+  EXPECT_EQ(value("blanking.work.punch[J/m]"), 4e3);
   EXPECT_EQ(metrics_of(example().springback).front().second, 8e-6);
 }
 

@@ -146,11 +146,11 @@ TEST(CuttingFile, comes_back_as_it_was_written) {
 
 TEST(CuttingFile, status_has_newtons_degrees_null_and_a_boolean) {
   results::RunStatus status;
-  status.metrics = metrics_of(example_cut());
+  for (const auto& [name, value] : metrics_of(example_cut())) status.add_metric(name, value);
   status.flags = {"cutting.steady"};
   const std::string text = results::status_json(status);
   for (const char* part : {"\"Fc\": 560.0", "\"Ft\": -160.0", "\"shear_angle\": 41.0",
-                           "\"tooth_spacing\": null", "\"steady\": true"})
+                           "\"tooth_spacing\": null", "\"steady\": true", "\"cutting.shear_angle\": \"deg\""})
     EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in:\n" << text;
   const testing::TemporaryFolder folder("status");
   results::write_status(folder.path(), status);

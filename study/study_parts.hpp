@@ -1,0 +1,37 @@
+#pragma once
+// The steps of reading a study, between its translation units.
+#include "input/schema/diagnostics.hpp"
+#include "study/study.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cnem::study {
+
+/// Reads the members of one table and remembers what was wrong with them.
+class TableReader {
+public:
+  TableReader(const input::Value& table, std::string path, const std::vector<std::string>& known,
+              input::Diagnostics& diagnostics);
+
+  /// The value of a key; nullptr when it is absent or, which is a mistake, of another kind.
+  const input::Value* find(const std::string& key, input::Value::Kind kind, const std::string& expected);
+  /// The same where the key has to be there.
+  const input::Value* require(const std::string& key, input::Value::Kind kind, const std::string& expected);
+  std::string text(const std::string& key);
+  int count(const std::string& key, int fallback);
+  std::vector<std::string> texts(const std::string& key);
+  void wrong(const std::string& key, const input::Value& value, const std::string& expected);
+
+private:
+  const input::Value& table_;
+  std::string path_;
+  input::Diagnostics& diagnostics_;
+};
+
+/// Fills axes, keys and runs of a study from [set], [grid] and [[axis]], or from [[run]]; `table` reads the
+/// document. Throws InputError for all that was wrong up to there.
+void read_runs(const input::Value& document, TableReader& table, Study& study,
+               input::Diagnostics& diagnostics);
+
+} // namespace cnem::study
