@@ -63,7 +63,7 @@ template<int dim> void Simulation<dim>::start() {
   watch_.time("rebuild", [&] {
     features_.start(options_.output, solver_, [&](const Resampling<dim>& change) { follow(change); });
   });
-  fields_.emplace(options_.output, input_.origin);
+  fields_.emplace(options_.output, input_);
 }
 template<int dim> Exit Simulation<dim>::run() {
   for (const std::string& warning : warnings_) progress_.message("warning: " + warning);
@@ -194,7 +194,8 @@ template<int dim> void Simulation<dim>::record(bool history, bool fields, bool p
       history_.record(solver_);
       features_.record(solver_);
     });
-  if (fields) watch_.time("output.fields", [&] { fields_->record(files_, features_.snapshot(solver_)); });
+  if (fields || pictures) // pictures are drawn anew from their frames, where others of the series show more
+    watch_.time("output.fields", [&] { fields_->record(files_, features_.snapshot(solver_)); });
   if (pictures) watch_.time("output.pictures", [&] { features_.draw(files_, features_.snapshot(solver_)); });
 }
 template<int dim> void Simulation<dim>::adapt_and_step() {
