@@ -76,6 +76,8 @@ template<int dim> Exit Simulation<dim>::run() {
     watch_.time("output", [&] {
       if (exit_ != Exit::interrupted) lines_.write(results::snapshot(solver_), options_.output);
       watch_.time("output.disk", [&] { files_.wait(); });
+      watch_.time("output.pictures", [&] { features_.finish_pictures(files_); });
+      watch_.time("output.disk", [&] { files_.wait(); });
       if (exit_ == Exit::done) features_.evaluate(options_.output, solver_);
     });
     progress_.finish();

@@ -35,7 +35,14 @@ std::vector<std::uint32_t> drawing_palette(ColourMap map, double shade);
 /// x]. `palette` has 1 to 256 colours.
 std::vector<std::uint8_t> nearest_colours(const PixelView& pixels, std::span<const std::uint32_t> palette);
 
-/// The picture as a PNG file with the palette's colours, each pixel with the nearest. Throws IoError.
-std::string palette_png(const PixelView& pixels, std::span<const std::uint32_t> palette);
+/// A drawing of at most 256 colours.
+struct PaletteImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> index;    ///< [y · width + x] of the colour in `palette`
+  std::vector<std::uint32_t> palette; ///< 0x00RRGGBB
+};
+
+/// The image as a PNG file. Throws IoError.
+std::string palette_png(const PaletteImage& image);
 
 } // namespace cnem::report

@@ -55,9 +55,9 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
 
 void paint_tools(cairo_t* cr, const PictureLayout& layout, const Picture& picture, const ColourRange& range) {
   if (!picture.warm_tools) return;
-  const CellGeometry<2>& cells = *picture.warm_tools->cells;
-  const std::span<const double> value = picture.warm_tools->cell_scalars.front().values;
-  const std::vector<Vec2> vertices = results::moved_vertices<2>(cells, picture.warm_tools->position);
+  const CellGeometry<2>& cells = picture.warm_tools->cells;
+  const std::span<const double> value = picture.warm_tools->values.front();
+  const std::vector<Vec2>& vertices = cells.vertex;
   cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
   for (std::size_t c = 0; c < value.size(); ++c) {
     for (auto e = index_of(cells.begin[c]); e < index_of(cells.begin[c + 1]); ++e) {
@@ -165,7 +165,7 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
 }
 
 void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, double size) {
-  const double longest = 0.28 * layout.plot_width / layout.scale; // m
+  const double longest = 0.2 * layout.plot_width / layout.scale; // m
   const double power = std::pow(10.0, std::floor(std::log10(longest)));
   const double length = power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
   const double x = layout.plot_left + 2 * unit, y = layout.plot_top + layout.plot_height + 1.15 * size;
@@ -182,7 +182,8 @@ void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, doubl
   draw_text(cr, results::si_format(length, "m", 3), end + 0.5 * size, y + 0.36 * size, size);
 }
 
-void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture, double size) {
+void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                   const std::string& statement, double size) {
   double low = 0.0, high = 0.0;
   bool any = false;
   for (const double v : picture.value) {
@@ -199,8 +200,12 @@ void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& pict
   const std::string text = fmt::format("min {}{}   max {}{}", results::number_format(low / f, 4), suffix,
                                        results::number_format(high / f, 4), suffix);
   cairo_set_source_rgb(cr, 0.42, 0.46, 0.53);
-  draw_text(cr, text, layout.plot_left + layout.plot_width - text_width(cr, text, 0.9 * size),
-            layout.plot_top + layout.plot_height + 1.5 * size, 0.9 * size);
+  double y = layout.plot_top + layout.plot_height + 1.5 * size;
+  for (const std::string& line : {text, statement}) {
+    draw_text(cr, line, layout.plot_left + layout.plot_width - text_width(cr, line, 0.9 * size), y,
+              0.9 * size);
+    y += 1.2 * size;
+  }
 }
 
 } // namespace cnem::report

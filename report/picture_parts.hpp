@@ -39,7 +39,8 @@ void paint_tools(cairo_t* cr, const PictureLayout& layout, const Picture& pictur
 void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
                      const ColourRange& range, double unit, double size);
 void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, double size);
-/// Least and greatest value of the whole field, in the lower right corner.
-void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture, double size);
+/// Least and greatest value of the whole field, in the lower right corner, and below them `statement`.
+void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                   const std::string& statement, double size);
 
 } // namespace cnem::report
