@@ -25,9 +25,9 @@ void convert_to_mp4(const std::filesystem::path& gif, const std::filesystem::pat
   pid_t process = 0;
   const int error = posix_spawnp(&process, "ffmpeg", nullptr, nullptr, arguments.data(), environ);
   if (error == ENOENT)
-    throw InputError(fmt::format("{}: MP4 needs ffmpeg, which is not installed (Debian: apt install ffmpeg); "
-                                 "films ending in .gif and .webp need nothing",
-                                 mp4.string()));
+    throw InputError(
+        "MP4 needs ffmpeg, which is not installed (Debian: apt install ffmpeg); films that end in "
+        ".gif and .webp need nothing");
   if (error != 0) throw IoError(fmt::format("cannot run ffmpeg: {}", std::system_category().message(error)));
   int status = 0;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {}

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "input/case_reader.hpp"
+#include "input/schema/nearest.hpp"
 #include "report/film.hpp"
 #include "report/picture_recorder.hpp"
 #include "results/output_folder.hpp"
@@ -35,8 +36,8 @@ std::string field_of(const MovieOptions& options, const input::Case& input) {
   if (options.field.empty()) return input.output.picture_fields.front();
   const std::vector<std::string> known = input::field_names(2);
   if (std::find(known.begin(), known.end(), options.field) == known.end())
-    throw InputError(
-        fmt::format("--field: found '{}', expected one of {}", options.field, fmt::join(known, ", ")));
+    throw InputError(fmt::format("--field: found '{}', expected one of {}{}", options.field,
+                                 fmt::join(known, ", "), input::did_you_mean(options.field, known)));
   return options.field;
 }
 

@@ -149,7 +149,7 @@ void draw_tool_name(cairo_t* cr, const PictureLayout& layout, const PictureTool&
   const Vec2 room = high - low;
   const double width = text_width(cr, tool.name, size);
   if (room.x() < width + 0.6 * size || room.y() < 1.3 * size) return;
-  cairo_set_source_rgb(cr, 0.20, 0.23, 0.28);
+  cairo_set_source_rgb(cr, 0.23, 0.23, 0.23);
   draw_text(cr, tool.name, 0.5 * (low.x() + high.x()) - 0.5 * width, 0.5 * (low.y() + high.y()) + 0.36 * size,
             size);
 }
@@ -211,13 +211,13 @@ PaletteImage draw(const Picture& picture) {
   cairo_save(cr);
   cairo_rectangle(cr, layout.plot_left, layout.plot_top, layout.plot_width, layout.plot_height);
   cairo_clip(cr);
-  cairo_set_source_rgb(cr, 0.965, 0.970, 0.977);
+  cairo_set_source_rgb(cr, 0.97, 0.97, 0.97);
   cairo_paint(cr);
   for (const PictureTool& tool : picture.tools) {
     cairo_save(cr);
     keep_sides(cr, layout, tool.kept);
     trace(cr, layout, tool);
-    cairo_set_source_rgb(cr, 0.775, 0.798, 0.832);
+    cairo_set_source_rgb(cr, 0.8, 0.8, 0.8);
     cairo_fill(cr);
     cairo_restore(cr);
   }
@@ -231,7 +231,7 @@ PaletteImage draw(const Picture& picture) {
     cairo_save(cr);
     keep_sides(cr, layout, tool.kept);
     trace(cr, layout, tool);
-    cairo_set_source_rgb(cr, 0.30, 0.34, 0.40);
+    cairo_set_source_rgb(cr, 0.34, 0.34, 0.34);
     cairo_set_line_width(cr, 2.0 * unit);
     cairo_stroke(cr);
     draw_tool_name(cr, layout, tool, 0.85 * size);
@@ -241,12 +241,12 @@ PaletteImage draw(const Picture& picture) {
   cairo_restore(cr);
 
   const double title_y = layout.plot_top - 0.85 * size, right = layout.plot_left + layout.plot_width;
-  cairo_set_source_rgb(cr, 0.09, 0.11, 0.15);
+  cairo_set_source_rgb(cr, 0.11, 0.11, 0.11);
   const std::string heading = picture.label;
   draw_text(cr, heading, layout.plot_left, title_y, 1.1 * size, true);
   const std::string time = "t = " + results::si_format(picture.time, "s", 4);
   draw_text(cr, time, right - text_width(cr, time, 1.1 * size), title_y, 1.1 * size);
-  cairo_set_source_rgb(cr, 0.42, 0.46, 0.53);
+  cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
   const double after = layout.plot_left + text_width(cr, heading, 1.1 * size, true) + size;
   if (after + text_width(cr, picture.title, size) + text_width(cr, time, 1.1 * size) + 2 * size < right)
     draw_text(cr, picture.title, after, title_y, size);

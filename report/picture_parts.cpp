@@ -90,7 +90,7 @@ void paint_cells(const Surface& surface, const Picture& picture, const CellRaste
   std::vector<std::uint32_t> colour(picture.value.size());
   for (std::size_t c = 0; c < colour.size(); ++c)
     colour[c] = packed(drawn_colour(picture.map, picture.value[c], range));
-  const std::uint32_t rim = packed({0.12, 0.13, 0.16});
+  const std::uint32_t rim = packed({0.13, 0.13, 0.13});
   cairo_surface_flush(surface.get());
   const int width = cairo_image_surface_get_width(surface.get()),
             height = cairo_image_surface_get_height(surface.get());
@@ -147,8 +147,9 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
   if (below) point(0.0, bottom, bottom + tip);
 
   const double f = picture.unit_factor;
-  const results::Ticks ticks = results::round_ticks(range.low / f, range.high / f, 6);
-  cairo_set_source_rgb(cr, 0.16, 0.18, 0.22);
+  const int most = std::clamp(static_cast<int>((bottom - top) / (3.0 * size)), 2, 6);
+  const results::Ticks ticks = results::round_ticks(range.low / f, range.high / f, most);
+  cairo_set_source_rgb(cr, 0.18, 0.18, 0.18);
   cairo_set_line_width(cr, 1.5 * unit);
   for (std::size_t k = 0; k < ticks.value.size(); ++k) {
     const double y = y_of((ticks.value[k] * f - range.low) / (range.high - range.low));
@@ -170,7 +171,7 @@ void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, doubl
   const double length = power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
   const double x = layout.plot_left + 2 * unit, y = layout.plot_top + layout.plot_height + 1.15 * size;
   const double end = x + length * layout.scale, half = 7.0 * unit;
-  cairo_set_source_rgb(cr, 0.09, 0.11, 0.15);
+  cairo_set_source_rgb(cr, 0.11, 0.11, 0.11);
   cairo_set_line_width(cr, 3.0 * unit);
   cairo_move_to(cr, x, y);
   cairo_line_to(cr, end, y);
@@ -199,7 +200,7 @@ void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& pict
   const std::string suffix = picture.unit.empty() ? "" : " " + picture.unit;
   const std::string text = fmt::format("min {}{}   max {}{}", results::number_format(low / f, 4), suffix,
                                        results::number_format(high / f, 4), suffix);
-  cairo_set_source_rgb(cr, 0.42, 0.46, 0.53);
+  cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
   double y = layout.plot_top + layout.plot_height + 1.5 * size;
   for (const std::string& line : {text, statement}) {
     draw_text(cr, line, layout.plot_left + layout.plot_width - text_width(cr, line, 0.9 * size), y,

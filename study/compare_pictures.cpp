@@ -209,12 +209,12 @@ private:
 
 std::string figure(const Compared& compared, std::size_t k, const std::string& png, const std::string& what,
                    double time) {
-  const std::string name = report::html_escape(compared.study.runs[k].name);
+  const std::string& method = compared.study.runs[k].name;
+  const std::string name = report::html_escape(method);
   if (!png.empty())
-    return fmt::format("<figure><figcaption>{}</figcaption><img alt=\"{} of {} at {}\" "
-                       "src=\"data:image/png;base64,{}\"/></figure>\n",
-                       name, report::html_escape(what), name,
-                       report::html_escape(results::si_format(time, "s")), report::base64(png));
+    return fmt::format("<figure><figcaption>{}</figcaption>{}</figure>\n", name,
+                       report::picture_element(
+                           png, fmt::format("{} of {} at {}", what, method, results::si_format(time, "s"))));
   const Outcome& outcome = compared.outcome[k];
   const std::string why = outcome.status && outcome.status->time < time
                               ? "ended at t = " + results::si_format(outcome.status->time, "s")
