@@ -120,8 +120,8 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
     above = above || v > range.high + slack;
     invalid = invalid || std::isnan(v);
   }
-  const double top = layout.plot_top + (picture.unit.empty() ? 0.0 : 1.2 * size) + tip;
-  const double bottom = layout.plot_top + layout.plot_height - tip;
+  const double top = std::round(layout.plot_top + (picture.unit.empty() ? 0.0 : 1.2 * size) + tip);
+  const double bottom = std::round(layout.plot_top + layout.plot_height - tip);
   const auto y_of = [&](double s) { return bottom + s * (top - bottom); };
 
   cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
@@ -129,8 +129,8 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
   for (int k = 0; k < strips; ++k) {
     const Colour colour = map_colour(picture.map, (k + 0.5) / strips);
     cairo_set_source_rgb(cr, colour.red, colour.green, colour.blue);
-    cairo_rectangle(cr, x, y_of((k + 1.0) / strips), width,
-                    y_of(k / double{strips}) - y_of((k + 1.0) / strips));
+    const double upper = std::floor(y_of((k + 1.0) / strips)); // over a part of the strip below: no seams
+    cairo_rectangle(cr, x, upper, width, std::ceil(y_of(k / double{strips})) - upper);
     cairo_fill(cr);
   }
   cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
@@ -147,8 +147,10 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
   if (below) point(0.0, bottom, bottom + tip);
 
   const double f = picture.unit_factor;
-  const int most = std::clamp(static_cast<int>((bottom - top) / (3.0 * size)), 2, 6);
-  const results::Ticks ticks = results::round_ticks(range.low / f, range.high / f, most);
+  int wanted = std::clamp(static_cast<int>((bottom - top) / (3.0 * size)), 2, 6);
+  results::Ticks ticks = results::round_ticks(range.low / f, range.high / f, wanted);
+  while (ticks.value.size() < 2 && wanted < 12) // fewer than wanted fit about a zero in the middle
+    ticks = results::round_ticks(range.low / f, range.high / f, ++wanted);
   cairo_set_source_rgb(cr, 0.18, 0.18, 0.18);
   cairo_set_line_width(cr, 1.5 * unit);
   for (std::size_t k = 0; k < ticks.value.size(); ++k) {
