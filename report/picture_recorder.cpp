@@ -86,7 +86,8 @@ void PictureRecorder::finish(results::FileQueue& files) {
   const std::vector<PictureScale> wanted = wanted_scales();
   const std::vector<std::string>& names = case_->output.picture_fields;
   for (const results::FieldFiles& frame : results::read_field_series(folder_)) {
-    Source source; // read where it is needed
+    if (!std::filesystem::exists(folder_ / frame.cells)) continue; // taken away: pictures stay as they are
+    Source source;                                                 // read where it is needed
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       const AlbumEntry& entry = album_.entries()[k];
       if (entry.time != frame.time || wanted[k] == entry.drawn) continue;

@@ -224,6 +224,11 @@ template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<cons
     return fmt::format("{}/{}{}_{:05}.vtu", files::fields_folder, series_.prefix, part, entries_.size());
   };
   FieldFiles entry{frame->time, name("cells"), name("nodes"), {}};
+  const std::size_t bytes = bytes_of(*frame) / 2; // kept by both
+  queue.put(
+      folder_ / entry.cells, [frame] { return cells_text(*frame); }, bytes);
+  queue.put(
+      folder_ / entry.nodes, [frame] { return nodes_text(*frame); }, bytes);
   if constexpr (dim == 2)
     for (const ToolOutline& tool : frame->tools) {
       entry.tools.push_back({tool.name, name("outline_" + tool.name)});
@@ -232,11 +237,6 @@ template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<cons
           [tool, origin = frame->origin, time = frame->time] { return outline_text(tool, origin, time); },
           sizeof(Vec2) * tool.corners.size());
     }
-  const std::size_t bytes = bytes_of(*frame) / 2; // kept by both
-  queue.put(
-      folder_ / entry.cells, [frame] { return cells_text(*frame); }, bytes);
-  queue.put(
-      folder_ / entry.nodes, [frame = std::move(frame)] { return nodes_text(*frame); }, bytes);
   entries_.push_back(std::move(entry));
   queue.put(folder_ / series_.list, collection());
 }

@@ -11,7 +11,8 @@ void add_pictures(Keys& k) {
   namespace d = dimension;
   using enum Type;
   k.add("output.pictures", quantities,
-        "Times of the pictures in the report; those beyond `time.end` are skipped.")
+        "Times of the pictures in the report, which `fields.pvd` has too; those beyond `time.end` are "
+        "skipped.")
       .unit(d::time)
       .in({.low = 0.0})
       .example("\"2 4 5 12 us\"")
