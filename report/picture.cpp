@@ -149,9 +149,8 @@ void draw_tool_name(cairo_t* cr, const PictureLayout& layout, const PictureTool&
   const Vec2 room = high - low;
   const double width = text_width(cr, tool.name, size);
   if (room.x() < width + 0.6 * size || room.y() < 1.3 * size) return;
-  cairo_set_source_rgb(cr, 0.23, 0.23, 0.23);
-  draw_text(cr, tool.name, 0.5 * (low.x() + high.x()) - 0.5 * width, 0.5 * (low.y() + high.y()) + 0.36 * size,
-            size);
+  draw_rimmed_text(cr, tool.name, 0.5 * (low.x() + high.x()) - 0.5 * width,
+                   0.5 * (low.y() + high.y()) + 0.36 * size, size);
 }
 
 // Mean distance of neighbouring nodes on the picture, px.

@@ -53,6 +53,18 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   cairo_new_path(cr); // showing text leaves a current point behind
 }
 
+void draw_rimmed_text(cairo_t* cr, const std::string& text, double x, double y, double size) {
+  select_font(cr, size, false);
+  cairo_move_to(cr, x, y);
+  cairo_text_path(cr, text.c_str());
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_source_rgb(cr, 0.8, 0.8, 0.8);
+  cairo_set_line_width(cr, 0.2 * size);
+  cairo_stroke_preserve(cr);
+  cairo_set_source_rgb(cr, 0.23, 0.23, 0.23);
+  cairo_fill(cr);
+}
+
 void paint_tools(cairo_t* cr, const PictureLayout& layout, const Picture& picture, const ColourRange& range) {
   if (!picture.warm_tools) return;
   const CellGeometry<2>& cells = picture.warm_tools->cells;

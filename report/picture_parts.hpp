@@ -23,6 +23,9 @@ Context make_context(const Surface& surface);
 double text_width(cairo_t* cr, const std::string& text, double size, bool bold = false);
 void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, bool bold = false);
 
+/// Dark on a light rim, to be read on any colour.
+void draw_rimmed_text(cairo_t* cr, const std::string& text, double x, double y, double size);
+
 /// How much darker lines between cells are than the cells.
 inline constexpr double cell_line_shade = 0.4;
 
