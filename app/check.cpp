@@ -66,7 +66,7 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
   const std::filesystem::path folder = options.output / "initial";
   results::prepare_output_folder(folder, true);
   results::FileQueue files;
-  results::FieldRecorder(folder, input.origin).record(files, results::snapshot(solver));
+  results::FieldRecorder(folder, input).record(files, results::snapshot(solver));
   files.wait();
   fmt::print("fields      {}\n", (folder / results::files::fields).string());
 }

@@ -10,6 +10,7 @@
 #include "input/schema/nearest.hpp"
 #include "input/schema/schema.hpp"
 #include "report/materials.hpp"
+#include "report/movie.hpp"
 #include "report/report.hpp"
 #include "results/output_folder.hpp"
 #include "study/compare.hpp"
@@ -26,6 +27,7 @@
 #include <new>
 #include <sstream>
 #include <system_error>
+#include <tuple>
 
 namespace cnem::app {
 
@@ -130,6 +132,39 @@ void check_command_name(const CLI::App& program, int argc, char** argv) {
                                fmt::join(names, ", "), input::did_you_mean(found, names)));
 }
 
+/// A film of a run.
+struct MovieCommand {
+  CLI::App* command = nullptr;
+  report::MovieOptions options;
+  std::string from, to;
+
+  void declare(CLI::App& program) {
+    command = program.add_subcommand("movie", "make a film of a run's fields: GIF, WebP or MP4");
+    command->add_option("folder", options.folder, "folder of results")->required();
+    command->add_option("--field", options.field,
+                        "field shown (default: the first of output.picture_fields)");
+    command->add_option("--window", options.window, "one of output.windows (default: the whole)");
+    command->add_option("--output", options.output,
+                        "film, which ends in .gif, .webp or .mp4 (default: FIELD.gif in the folder)");
+    command->add_option("--fps", options.frames_per_second, "frames a second (default: 10)")
+        ->check(CLI::Range(0.1, 50.0));
+    command->add_option("--width", options.width, "pixels (default: 800)")->check(CLI::Range(300, 4000));
+    command->add_option("--from", from, "first time, e.g. \"10 us\"");
+    command->add_option("--to", to, "last time");
+    command->add_flag("--mirror", options.mirror, "draw halves and quarters whole");
+  }
+  void act() {
+    for (const auto& [text, name, time] :
+         {std::tuple(&from, "--from", &options.from), std::tuple(&to, "--to", &options.to)}) {
+      if (text->empty()) continue;
+      try {
+        *time = input::parse_quantity(*text, input::dimension::time);
+      } catch (const input::UnitError& error) { throw InputError(fmt::format("{}: {}", name, error.what())); }
+    }
+    fmt::print("{}\n", report::make_movie(options).string());
+  }
+};
+
 int act(CLI::App& program, int argc, char** argv) {
   program.set_version_flag("--version", version());
   program.require_subcommand(1);
@@ -162,6 +197,9 @@ int act(CLI::App& program, int argc, char** argv) {
       program.add_subcommand("report", "write report.html anew from the files of a run");
   std::string folder;
   report_command->add_option("folder", folder, "folder of results")->required();
+
+  MovieCommand movie;
+  movie.declare(program);
 
   CLI::App* sweep_command = program.add_subcommand("sweep", "run a parameter study: one case, many values");
   std::string study_path, sweep_output;
@@ -204,7 +242,7 @@ int act(CLI::App& program, int argc, char** argv) {
     fmt::print(stderr, "{}", problems.str());
     return code == 0 ? Exit::done : Exit::bad_input;
   }
-  if (!*schema_command && !*report_command && !*materials.all)
+  if (!*schema_command && !*report_command && !*movie.command && !*materials.all)
     wanted_isa(); // a mistake in it shows before anything is made
   if (*run_command) {
     const input::Case input = run_options.read();
@@ -248,6 +286,8 @@ int act(CLI::App& program, int argc, char** argv) {
     materials.act();
   } else if (*report_command) {
     fmt::print("{}\n", report::write_report(folder).string());
+  } else if (*movie.command) {
+    movie.act();
   }
   return Exit::done;
 }

@@ -50,6 +50,8 @@ public:
   /// The state with all that is known of it, good until the next one.
   results::Snapshot<2> snapshot(const ExplicitSolver<2>& solver);
   void draw(results::FileQueue& files, const results::Snapshot<2>& shot) { pictures_->record(files, shot); }
+  /// Gives all pictures of a field one scale, once the fields are on the disk. Throws IoError.
+  void finish_pictures(results::FileQueue& files) { pictures_->finish(files); }
   /// Returns the file's name in the folder of pictures.
   std::string draw_place(results::FileQueue& files, const ExplicitSolver<2>& solver, std::size_t node);
 

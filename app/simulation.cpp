@@ -65,7 +65,7 @@ template<int dim> void Simulation<dim>::start() {
   watch_.time("rebuild", [&] {
     features_.start(options_.output, solver_, [&](const Resampling<dim>& change) { follow(change); });
   });
-  fields_.emplace(options_.output, input_.origin);
+  fields_.emplace(options_.output, input_);
 }
 template<int dim> Exit Simulation<dim>::run() {
   for (const std::string& warning : warnings_) progress_.message("warning: " + warning);
@@ -77,6 +77,8 @@ template<int dim> Exit Simulation<dim>::run() {
       }
     watch_.time("output", [&] {
       if (exit_ != Exit::interrupted) lines_.write(results::snapshot(solver_), options_.output);
+      watch_.time("output.disk", [&] { files_.wait(); });
+      watch_.time("output.pictures", [&] { features_.finish_pictures(files_); });
       watch_.time("output.disk", [&] { files_.wait(); });
       if (exit_ == Exit::done) features_.evaluate(options_.output, solver_);
     });
@@ -196,7 +198,8 @@ template<int dim> void Simulation<dim>::record(bool history, bool fields, bool p
       history_.record(solver_);
       features_.record(solver_);
     });
-  if (fields) watch_.time("output.fields", [&] { fields_->record(files_, features_.snapshot(solver_)); });
+  if (fields || pictures) // pictures are drawn anew from their frames, where others of the series show more
+    watch_.time("output.fields", [&] { fields_->record(files_, features_.snapshot(solver_)); });
   if (pictures) watch_.time("output.pictures", [&] { features_.draw(files_, features_.snapshot(solver_)); });
 }
 template<int dim> void Simulation<dim>::adapt_and_step() {

@@ -23,7 +23,7 @@ template<int dim> void Simulation<dim>::resume(results::CheckpointReader& checkp
 }
 template<int dim> void Simulation<dim>::take_up_files(int frames) {
   const double now = solver_.state().time;
-  fields_.emplace(options_.output, input_.origin, now);
+  fields_.emplace(options_.output, input_, now);
   if (fields_->frames() != frames)
     throw IoError(fmt::format("{} has {} of the {} frames written until then",
                               (options_.output / results::files::fields).string(), fields_->frames(),

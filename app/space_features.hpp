@@ -27,6 +27,7 @@ public:
   void record(const ExplicitSolver<3>&) {}
   results::Snapshot<3> snapshot(const ExplicitSolver<3>& solver) { return results::snapshot(solver); }
   void draw(results::FileQueue&, const results::Snapshot<3>&) {}
+  void finish_pictures(results::FileQueue&) {}
   std::string draw_place(results::FileQueue&, const ExplicitSolver<3>&, std::size_t) { return ""; }
   std::string unload(const ExplicitSolver<3>&) { return ""; }
   void evaluate(const std::filesystem::path&, const ExplicitSolver<3>&) {}

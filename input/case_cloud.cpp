@@ -246,6 +246,8 @@ void read_windows(const Setting& root, Case& result, Diagnostics& diagnostics) {
       check_window(setting, corners, result.domain, diagnostics);
     result.output.windows.push_back(std::move(window));
   }
+  if (const auto& view = result.output.drawing.view; view && view->front() != view->back())
+    check_window(*root.find("output.drawing.view"), *view, result.domain, diagnostics);
 }
 
 } // namespace cnem::input

@@ -3,8 +3,10 @@
 #include "core/parameter.hpp"
 #include "core/vec.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +42,15 @@ struct PictureNote {
   std::string text;
 };
 
+/// How pictures are drawn.
+struct Drawing {
+  bool mirror = false;                     ///< halves and quarters are drawn whole
+  bool common = true;                      ///< one range of colours and one view for all times of a field
+  std::optional<double> percentile;        ///< % of the cells (of magnitudes, of fields with a sign) in it
+  std::optional<std::array<Vec2, 2>> view; ///< m, corners of the part that pictures of the whole show
+  std::map<std::string, std::array<double, 2>> ranges; ///< [field] of its colours, SI
+};
+
 /// When checkpoints are written besides the one at step 0; 0: not by this.
 struct CheckpointControl {
   std::int64_t every_steps = 0;
@@ -53,7 +64,8 @@ struct Output {
   double fields_every = 0.0;               ///< s
   std::vector<double> pictures;            ///< s, increasing; times beyond the end are kept here
   std::vector<std::string> picture_fields; ///< of field_names()
-  std::vector<Window> windows;             ///< parts of the domain drawn enlarged, beside the whole
+  Drawing drawing;
+  std::vector<Window> windows; ///< parts of the domain drawn enlarged, beside the whole
   std::vector<PictureNote> notes;
   std::vector<Probe> probes;
   std::vector<SampleLine> lines;

@@ -55,6 +55,9 @@ std::array<Vec2, 2> read_box(const Setting& setting, Diagnostics& diagnostics);
 /// Coolants of the boundary. Expects the tools.
 void read_coolants(const Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// What pictures show, when, and how they are drawn; not their windows. Expects the time.
+void read_pictures(const Setting& table, Case& result, Diagnostics& diagnostics);
+
 /// Parts of pictures that are drawn enlarged. Expects domain and tools.
 void read_windows(const Setting& root, Case& result, Diagnostics& diagnostics);
 

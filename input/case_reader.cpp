@@ -118,24 +118,6 @@ void read_method(Setting& root, Case& result, Diagnostics& diagnostics) {
   method.energy_tolerance = table.get<double>("energy_tolerance");
 }
 
-void read_pictures(const Setting& table, Output& output, Diagnostics& diagnostics) {
-  output.pictures = table.get<std::vector<double>>("pictures");
-  std::sort(output.pictures.begin(), output.pictures.end());
-  output.pictures.erase(std::unique(output.pictures.begin(), output.pictures.end()), output.pictures.end());
-  output.picture_fields = table.get<std::vector<std::string>>("picture_fields");
-  if (const Setting& drawn = *table.find("picture_fields"); output.picture_fields.empty())
-    diagnostics.add(Mistake::type, drawn.where, drawn.path,
-                    "found an empty array, expected fields such as [\"plastic_strain\"]; for a run without "
-                    "pictures write output.pictures = []");
-}
-
-PictureNote read_note(const Setting& table, const Output& output) {
-  PictureNote note{table.get<double>("at"), table.maybe<std::string>("field").value_or(""),
-                   table.get<std::string>("text")};
-  if (note.field.empty() && !output.picture_fields.empty()) note.field = output.picture_fields.front();
-  return note;
-}
-
 void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("output");
   constexpr double most_rows = 1e7;
@@ -151,12 +133,11 @@ void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   Output& output = result.output;
   output.history_every = table.get<double>("history_every");
   output.fields_every = table.get<double>("fields_every");
-  if (result.analysis.dimensions() == 2) read_pictures(table, output, diagnostics);
+  if (result.analysis.dimensions() == 2) read_pictures(table, result, diagnostics);
   const Setting& checkpoint = *table.find("checkpoint");
   output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
                        checkpoint.get<double>("every_wall"),
                        static_cast<int>(checkpoint.get<std::int64_t>("keep"))};
-  for (const Setting& note : table.entries("notes")) output.notes.push_back(read_note(note, output));
   for (const Setting& probe : table.entries("probes"))
     output.probes.push_back({probe.name, probe.vector("at"), probe.get<std::vector<std::string>>("fields")});
   for (const Setting& line : table.entries("lines"))

@@ -77,6 +77,8 @@ void use_local_origin(Case& input) {
   }
   for (Window& window : input.output.windows)
     for (Vec2* corner : {&window.lower, &window.upper}) shift(*corner);
+  if (input.output.drawing.view)
+    for (Vec2& corner : *input.output.drawing.view) shift(corner);
   for (Probe& probe : input.output.probes) shift(probe.at);
   for (SampleLine& line : input.output.lines)
     for (Vec3* end : {&line.from, &line.to}) shift(*end);

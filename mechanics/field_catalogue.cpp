@@ -4,8 +4,10 @@
 #include "core/index.hpp"
 #include "mechanics/kinematics.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <fmt/format.h>
+#include <limits>
 #include <string_view>
 
 namespace cnem {
@@ -31,6 +33,26 @@ template<int dim> double volume_ratio(const PointState<dim>& point, std::size_t 
   return jacobian<dim>(point.deformation, p) / point.stress_free[p];
 }
 
+constexpr std::array<std::array<std::size_t, 2>, 6> stress_components{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+
+/// Principal values of the Cauchy stress, the largest first, Pa.
+template<int dim> Vec3 principal_stresses(const PointState<dim>& point, std::size_t p) {
+  Mat<3> stress = Mat<3>::Zero();
+  for (std::size_t k = 0; k < index_of(symmetric_size<dim>); ++k) {
+    const auto i = as<int>(stress_components[k][0]), j = as<int>(stress_components[k][1]);
+    stress(i, j) = stress(j, i) = cauchy<dim>(point, stress_components[k][0], stress_components[k][1], p);
+  }
+  if (!stress.allFinite()) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  return Eigen::SelfAdjointEigenSolver<Mat<3>>(stress, Eigen::EigenvaluesOnly).eigenvalues().reverse();
+}
+
+/// Mean over equivalent stress, as damage laws take it; 0 where the stress is no more than rounding.
+template<int dim> double triaxiality(const PointState<dim>& point, std::size_t p) {
+  constexpr double least = 1e3; // Pa
+  return point.equivalent_stress[p] > least ? -point.pressure[p] / point.equivalent_stress[p] : 0.0;
+}
+
 /// Words for users, which have to last as long as the catalogue.
 struct ComponentWords {
   const char *name, *label, *meaning;
@@ -42,8 +64,11 @@ constexpr std::array stress_words{
     ComponentWords{"stress_xy", "stress xy", "Cauchy stress, component xy"},
     ComponentWords{"stress_yz", "stress yz", "Cauchy stress, component yz"},
     ComponentWords{"stress_zx", "stress zx", "Cauchy stress, component zx"}};
-constexpr std::array<std::array<std::size_t, 2>, 6> stress_components{
-    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+constexpr std::array principal_words{
+    ComponentWords{"principal_stress_1", "principal stress 1",
+                   "Largest principal value of the Cauchy stress"},
+    ComponentWords{"principal_stress_2", "principal stress 2", "Middle principal value of the Cauchy stress"},
+    ComponentWords{"principal_stress_3", "principal stress 3", "Least principal value of the Cauchy stress"}};
 constexpr std::array velocity_words{ComponentWords{"velocity_x", "velocity x", "Velocity along x"},
                                     ComponentWords{"velocity_y", "velocity y", "Velocity along y"},
                                     ComponentWords{"velocity_z", "velocity z", "Velocity along z"}};
@@ -51,6 +76,14 @@ constexpr std::array displacement_words{
     ComponentWords{"displacement_x", "displacement x", "Displacement along x"},
     ComponentWords{"displacement_y", "displacement y", "Displacement along y"},
     ComponentWords{"displacement_z", "displacement z", "Displacement along z"}};
+
+ArrayPart vector_part(const char* label, std::size_t component) {
+  return {label, component, {"X", "Y", "Z"}};
+}
+ArrayPart stress_part(std::size_t component) {
+  return {"stress", component, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}}; // as ParaView orders them
+}
+ArrayPart principal_part(std::size_t component) { return {"principal stresses", component, {"1", "2", "3"}}; }
 
 /// Fields that are functions of others.
 template<int dim> std::vector<FieldInfo<dim>> derived_fields() {
@@ -78,8 +111,22 @@ template<int dim> std::vector<FieldInfo<dim>> derived_fields() {
     list.push_back({words.name, "Pa", stress(words.label, words.meaning), !at_nodes, false, false,
                     [ij = stress_components[k]](Source s, Index p) {
                       return cauchy<dim>(s.state.point, ij[0], ij[1], p);
-                    }});
+                    },
+                    stress_part(k)});
   }
+  for (std::size_t k = 0; k < principal_words.size(); ++k) {
+    const auto& words = principal_words[k];
+    list.push_back({words.name, "Pa", stress(words.label, words.meaning), !at_nodes, false, false,
+                    [k](Source s, Index p) { return principal_stresses<dim>(s.state.point, p)[as<int>(k)]; },
+                    principal_part(k)});
+  }
+  list.push_back({"triaxiality",
+                  "",
+                  {"stress triaxiality", "Mean over equivalent stress", "", 1.0, ColourMap::diverging},
+                  !at_nodes,
+                  false,
+                  false,
+                  [](Source s, Index p) { return triaxiality<dim>(s.state.point, p); }});
   list.push_back({"volume_ratio",
                   "",
                   {"volume ratio J", "Present over stress-free volume", "", 1.0, ColourMap::strain},
@@ -95,19 +142,20 @@ template<int dim> std::vector<FieldInfo<dim>> derived_fields() {
                     at_nodes,
                     false,
                     false,
-                    [k](Source s, Index i) { return s.state.node.velocity[k][i]; }});
+                    [k](Source s, Index i) { return s.state.node.velocity[k][i]; },
+                    vector_part("velocity", k)});
   }
   for (std::size_t k = 0; k < dim; ++k) {
     const auto& words = displacement_words[k];
-    list.push_back({words.name,
-                    "m",
-                    {words.label, words.meaning, "mm", 1e-3, ColourMap::diverging},
-                    at_nodes,
-                    false,
-                    false,
-                    [k](Source s, Index i) {
-                      return s.state.node.position[k][i] - s.state.node.initial_position[k][i];
-                    }});
+    list.push_back(
+        {words.name,
+         "m",
+         {words.label, words.meaning, "mm", 1e-3, ColourMap::diverging},
+         at_nodes,
+         false,
+         false,
+         [k](Source s, Index i) { return s.state.node.position[k][i] - s.state.node.initial_position[k][i]; },
+         vector_part("displacement", k)});
   }
   return list;
 }

@@ -15,6 +15,13 @@ template<int dim> struct FieldSource {
   const AdaptationFields* adaptation = nullptr; ///< null: the cloud is not adapted
 };
 
+/// Files give vectors and tensors whole: the array that a field is a component of.
+struct ArrayPart {
+  std::string label;                          ///< "stress"; "": the field is an array of its own
+  std::size_t component = 0;                  ///< its number in `component_names`
+  std::vector<std::string> component_names{}; ///< of all; those that no field is are zero
+};
+
 /// A field by its case-file name.
 template<int dim> struct FieldInfo {
   std::string name; ///< "plastic_strain", as in case files and history columns
@@ -24,6 +31,7 @@ template<int dim> struct FieldInfo {
   bool adaptive = false;  ///< only where the cloud is adapted
   bool of_damage = false; ///< zero unless a material has a damage law: then left out of files
   std::function<double(const FieldSource<dim>&, std::size_t)> at; ///< value at a stress point or node
+  ArrayPart part{};
 };
 
 /// All fields, in the order files list them.

@@ -132,24 +132,26 @@ double colour_distance(const Colour& one, const Colour& other) {
   return distance(to_lab(one), to_lab(other));
 }
 
-ColourRange quantile_range(std::span<const double> values, double low, double high) {
+ColourRange value_span(ColourMap map, std::span<const double> values, double percentile) {
   std::vector<double> finite = finite_values(values);
-  if (finite.empty()) return {0.0, 1.0};
-  ColourRange range{quantile(finite, low), quantile(finite, high)};
-  // A field that is constant to rounding would show nothing but noise.
-  const double least = std::max(1e-9 * std::max(std::abs(range.low), std::abs(range.high)), 1e-300);
-  if (range.high - range.low <= least)
-    range.high = range.low + (range.low == 0.0 ? 1.0 : std::abs(range.low));
-  return range;
+  if (finite.empty()) return {0.0, 0.0};
+  if (map != ColourMap::diverging) return {quantile(finite, 0.0), quantile(finite, 0.01 * percentile)};
+  for (double& value : finite) value = std::abs(value);
+  const double limit = quantile(finite, 0.01 * percentile);
+  return {-limit, limit};
 }
 
-ColourRange symmetric_range(std::span<const double> values, double high) {
-  std::vector<double> size = finite_values(values);
-  if (size.empty()) return {-1.0, 1.0};
-  for (double& value : size) value = std::abs(value);
-  double limit = quantile(size, high);
-  if (!(limit > 0.0)) limit = 1.0;
-  return {-limit, limit};
+double usual_percentile(ColourMap map) { return map == ColourMap::diverging ? 99.9 : 100.0; }
+
+ColourRange joined(const ColourRange& one, const ColourRange& other) {
+  return {std::min(one.low, other.low), std::max(one.high, other.high)};
+}
+
+ColourRange widened(ColourMap map, const ColourRange& span) {
+  const double least = std::max(1e-9 * std::max(std::abs(span.low), std::abs(span.high)), 1e-300);
+  if (span.high - span.low > least) return span;
+  if (map == ColourMap::diverging) return {-1.0, 1.0};
+  return {span.low, span.low + (span.low == 0.0 ? 1.0 : std::abs(span.low))};
 }
 
 } // namespace cnem::report

@@ -24,12 +24,22 @@ double colour_distance(const Colour& one, const Colour& other);
 /// Interval of a field that its colours span.
 struct ColourRange {
   double low = 0, high = 1;
+
+  bool operator==(const ColourRange&) const = default;
 };
 
-/// Range between two quantiles (0 ≤ low < high ≤ 1) of the finite values; of non-zero width always.
-ColourRange quantile_range(std::span<const double> values, double low = 0.0, double high = 1.0);
+/// What a field's values span, which may be a point: from the least to the `percentile` (%) of the finite
+/// ones; where zero is in the middle, that percentile of the magnitudes to both sides. Without finite values
+/// [0, 0].
+ColourRange value_span(ColourMap map, std::span<const double> values, double percentile);
+/// What all of them see of `map` unless a case says otherwise, %.
+double usual_percentile(ColourMap map);
 
-/// Range symmetric about zero that holds the central fraction `high` of the magnitudes.
-ColourRange symmetric_range(std::span<const double> values, double high = 1.0);
+/// The least interval that holds both.
+ColourRange joined(const ColourRange& one, const ColourRange& other);
+
+/// The interval, or one of non-zero width about it: a field that is constant to rounding would show nothing
+/// but noise.
+ColourRange widened(ColourMap map, const ColourRange& span);
 
 } // namespace cnem::report

@@ -1,5 +1,9 @@
 #include "report/html.hpp"
 
+#include "report/palette_png.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 
@@ -44,6 +48,13 @@ std::string base64(std::string_view bytes) {
     for (std::size_t i = 0; i < 4; ++i) text += i <= count ? digits[group >> (18 - 6 * i) & 63u] : '=';
   }
   return text;
+}
+
+std::string picture_element(std::string_view png, std::string_view alt) {
+  const std::optional<PngPatch> dark = dark_patch(png);
+  return fmt::format("<img alt=\"{}\"{} src=\"data:image/png;base64,{}\"/>", html_escape(alt),
+                     dark ? fmt::format(" data-dark=\"{}:{}\"", dark->offset, base64(dark->bytes)) : "",
+                     base64(png));
 }
 
 } // namespace cnem::report

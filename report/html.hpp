@@ -13,4 +13,8 @@ std::string words(std::string name);
 
 std::string base64(std::string_view bytes);
 
+/// A PNG file as a part of the page, with what the script (report/report_style.hpp) needs to show it on a
+/// dark page.
+std::string picture_element(std::string_view png, std::string_view alt);
+
 } // namespace cnem::report

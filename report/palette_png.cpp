@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@ namespace cnem::report {
 namespace {
 
 constexpr std::size_t shaded_colours = 40, greys = 31; // and one for what is invalid
+constexpr std::size_t first_grey = drawing_levels + 2 * shaded_colours;
 
 constexpr int channel(std::uint32_t pixel, int k) { return static_cast<int>(pixel >> (16 - 8 * k) & 0xFFU); }
 
@@ -30,10 +32,12 @@ std::uint32_t darkened(const Colour& colour, double factor) {
 // Looks up colours of a palette, which is searched outwards from the pixel's green.
 class Palette {
 public:
-  explicit Palette(std::span<const std::uint32_t> colours) {
+  /// Those from `begin` to `end`, or with `others` all but those.
+  Palette(std::span<const std::uint32_t> colours, std::size_t begin, std::size_t end, bool others = false) {
     for (std::size_t k = 0; k < colours.size(); ++k)
-      entry_.push_back({channel(colours[k], 0), channel(colours[k], 1), channel(colours[k], 2),
-                        static_cast<std::uint8_t>(k)});
+      if ((k >= begin && k < end) != others)
+        entry_.push_back({channel(colours[k], 0), channel(colours[k], 1), channel(colours[k], 2),
+                          static_cast<std::uint8_t>(k)});
     std::stable_sort(entry_.begin(), entry_.end(),
                      [](const Entry& a, const Entry& b) { return a.green < b.green; });
     for (const Entry& entry : entry_) ++first_[index_of(entry.green) + 1];
@@ -96,38 +100,85 @@ std::vector<std::uint32_t> drawing_palette(ColourMap map, double shade) {
 std::vector<std::uint8_t> nearest_colours(const PixelView& pixels, std::span<const std::uint32_t> palette) {
   std::vector<std::uint8_t> index;
   index.reserve(index_of(pixels.width) * index_of(pixels.height));
-  Palette colours(palette);
+  Palette grey(palette, first_grey, first_grey + greys),
+      coloured(palette, first_grey, first_grey + greys, true);
   for (int y = 0; y < pixels.height; ++y) {
     const auto row = pixels.row(y);
     for (std::size_t x = 0; x < row.size();) {
       std::size_t next = x + 1;
       while (next < row.size() && row[next] == row[x]) ++next;
-      index.insert(index.end(), next - x, colours.nearest(row[x] & 0xFFFFFFU));
+      const std::uint32_t pixel = row[x] & 0xFFFFFFU;
+      const bool neutral = pixel == (pixel & 0xFFU) * 0x10101U;
+      index.insert(index.end(), next - x, (neutral ? grey : coloured).nearest(pixel));
       x = next;
     }
   }
   return index;
 }
 
-std::string palette_png(const PixelView& pixels, std::span<const std::uint32_t> palette) {
-  const std::vector<std::uint8_t> index = nearest_colours(pixels, palette);
+std::string palette_png(const PaletteImage& drawn) {
   std::vector<png_byte> colours;
-  for (const std::uint32_t colour : palette)
+  for (const std::uint32_t colour : drawn.palette)
     for (int k = 0; k < 3; ++k) colours.push_back(static_cast<png_byte>(channel(colour, k)));
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(pixels.width);
-  image.height = static_cast<png_uint_32>(pixels.height);
+  image.width = static_cast<png_uint_32>(drawn.width);
+  image.height = static_cast<png_uint_32>(drawn.height);
   image.format = PNG_FORMAT_RGB_COLORMAP;
   image.flags =
       PNG_IMAGE_FLAG_FAST; // no filters, zlib's level 3: less than half the time, a seventh more bytes
-  image.colormap_entries = static_cast<png_uint_32>(palette.size());
+  image.colormap_entries = static_cast<png_uint_32>(drawn.palette.size());
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
   std::string png(size, '\0');
-  if (!png_image_write_to_memory(&image, png.data(), &size, 0, index.data(), 0, colours.data()))
+  if (!png_image_write_to_memory(&image, png.data(), &size, 0, drawn.index.data(), 0, colours.data()))
     throw IoError(fmt::format("cannot encode a picture: {}", image.message));
   png.resize(size);
   return png;
+}
+
+namespace {
+
+std::uint32_t number_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t number = 0;
+  for (std::size_t k = at; k < at + 4; ++k) number = number << 8 | static_cast<unsigned char>(bytes[k]);
+  return number;
+}
+
+/// Where the data of the chunk of colours begin, if it has 256.
+std::optional<std::size_t> palette_data(std::string_view png) {
+  constexpr std::size_t signature = 8, head = 8, checksum = 4; // of the file, before and after data
+  for (std::size_t at = signature; at + head <= png.size();) {
+    const std::size_t length = number_at(png, at);
+    if (png.substr(at + 4, 4) == "PLTE")
+      return length == 768 && at + head + length + checksum <= png.size() ? std::optional(at + head)
+                                                                          : std::nullopt;
+    at += head + length + checksum;
+  }
+  return {};
+}
+
+} // namespace
+
+std::optional<PngPatch> dark_patch(std::string_view png) {
+  constexpr std::array<double, 3> ink{232, 235, 240}, card{27, 32, 39}; // of the dark page
+  const std::optional<std::size_t> data = palette_data(png);
+  if (!data) return {};
+  PngPatch patch{*data, std::string(png.substr(*data, 768))};
+  for (std::size_t k = 0; k < greys; ++k) {
+    const std::size_t first = 3 * (first_grey + k);
+    const double s = static_cast<double>(k) / static_cast<double>(greys - 1);
+    const auto grey = static_cast<char>(std::lround(255.0 * s));
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (patch.bytes[first + c] != grey) return {};
+      patch.bytes[first + c] = static_cast<char>(std::lround((1.0 - s) * ink[c] + s * card[c]));
+    }
+  }
+  // The checksum covers the name too, which stands before the data.
+  const std::string covered = "PLTE" + patch.bytes;
+  const auto sum =
+      crc32(0, reinterpret_cast<const Bytef*>(covered.data()), static_cast<uInt>(covered.size()));
+  for (const int shift : {24, 16, 8, 0}) patch.bytes += static_cast<char>(sum >> shift & 0xFFU);
+  return patch;
 }
 
 } // namespace cnem::report

@@ -5,8 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cnem::report {
@@ -31,11 +33,28 @@ std::uint32_t packed(const Colour& colour);
 /// colours as 0x00RRGGBB.
 std::vector<std::uint32_t> drawing_palette(ColourMap map, double shade);
 
-/// For each pixel the number of the palette's colour nearest to its own, the first of equals; [y · width +
-/// x]. `palette` has 1 to 256 colours.
+/// For each pixel the number of the drawing palette's colour nearest to its own, the first of equals; [y ·
+/// width + x]. Grey pixels take greys and others do not: a dark page turns greys round, cells stay as they
+/// are.
 std::vector<std::uint8_t> nearest_colours(const PixelView& pixels, std::span<const std::uint32_t> palette);
 
-/// The picture as a PNG file with the palette's colours, each pixel with the nearest. Throws IoError.
-std::string palette_png(const PixelView& pixels, std::span<const std::uint32_t> palette);
+/// A drawing of at most 256 colours.
+struct PaletteImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> index;    ///< [y · width + x] of the colour in `palette`
+  std::vector<std::uint32_t> palette; ///< 0x00RRGGBB
+};
+
+/// The image as a PNG file. Throws IoError.
+std::string palette_png(const PaletteImage& image);
+
+/// Bytes of a PNG file that others may stand in place of.
+struct PngPatch {
+  std::size_t offset = 0;
+  std::string bytes;
+};
+/// What makes a picture of a drawing palette one on a dark page (report/report_style.hpp): its chunk of
+/// colours, in which greys run from light ink to the page's card. None for a file with other colours.
+std::optional<PngPatch> dark_patch(std::string_view png);
 
 } // namespace cnem::report

@@ -2,11 +2,10 @@
 // Raster pictures of a run, drawn in memory: cells coloured by a field, tools, colour bar, scale bar.
 #include "core/geometry/curve.hpp"
 #include "core/operators/discretisation.hpp"
-#include "report/colour_map.hpp"
-#include "results/vtk_writer.hpp"
+#include "report/palette_png.hpp"
+#include "results/vtk_reader.hpp"
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,16 @@ namespace cnem::report {
 
 struct PictureWindow {
   Vec2 low{0, 0}, high{0, 0}; ///< m
+
+  bool operator==(const PictureWindow&) const = default;
+};
+/// The least window that holds both.
+PictureWindow joined(const PictureWindow& one, const PictureWindow& other);
+
+/// Where a body goes on as its image: the line through `at`, along x or y.
+struct SymmetryLine {
+  Vec2 at{0, 0};     ///< m
+  Vec2 normal{1, 0}; ///< of length 1, out of the body
 };
 
 /// A rigid tool: a closed counter-clockwise curve in its initial place, moved by `displacement` (m).
@@ -23,6 +32,7 @@ struct PictureTool {
   const Curve* curve = nullptr;
   Vec2 displacement{0, 0};
   std::string name;
+  std::vector<SymmetryLine> kept{}; ///< drawn on that side of these lines which normals come from
 };
 
 class CellRasters;
@@ -36,11 +46,12 @@ struct Picture {
   double unit_factor = 1.0;                        ///< value in SI = factor × value in `unit` (MPa: 1e6)
   ColourMap map = ColourMap::strain;
   std::optional<ColourRange> range; ///< SI; by default that of the values
+  std::optional<double> percentile; ///< % of the values in the range, to be stated
   CellRasters* rasters = nullptr;   ///< shared by pictures of the same cells and positions; null: by none
   std::vector<PictureTool> tools;
-  std::shared_ptr<const results::FieldFrame<2>>
-      warm_tools;                      ///< drawn with their first scalar of cells; null: none
-  std::optional<PictureWindow> window; ///< part shown; by default the whole body with a margin
+  const results::CellFields* warm_tools = nullptr; ///< drawn with their first values; null: none
+  std::vector<SymmetryLine> symmetry;              ///< drawn dash-dotted
+  std::optional<PictureWindow> window;             ///< part shown; by default the whole body with a margin
   std::optional<bool> edges; ///< outlines of cells; by default where cells are large enough to be seen
   std::string title;         ///< upper left: the case
   double time = 0.0;         ///< s, shown upper right
@@ -49,8 +60,7 @@ struct Picture {
 
 /// Label, unit and colours of the picture of a field.
 void show_field(Picture& picture, const Shown& field);
-/// What its colours span unless a range is given: all values, and where zero is in the middle, the central
-/// 99.9% of the magnitudes.
+/// What its colours span unless a range is given.
 ColourRange usual_range(ColourMap map, std::span<const double> values);
 
 /// Where things are in the finished picture, px from the upper left corner.
@@ -66,8 +76,12 @@ struct PictureLayout {
   }
 };
 PictureLayout layout_picture(const Picture& picture);
+/// What a picture without a window shows: the body with a narrow margin, a wider one where a tool stands.
+PictureWindow whole_window(const Picture& picture);
 
-/// The picture as a PNG file in memory. Throws InputError when arrays do not fit each other.
+/// The picture in the colours of its palette. Throws InputError when arrays do not fit each other.
+PaletteImage draw(const Picture& picture);
+/// The same as a PNG file in memory.
 std::string draw_png(const Picture& picture);
 
 } // namespace cnem::report

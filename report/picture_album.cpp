@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <system_error>
 
 namespace cnem::report {
@@ -14,7 +15,19 @@ namespace {
 
 constexpr const char* index_name = "index.json";
 
+nlohmann::ordered_json as_json(const PictureScale& scale) {
+  const PictureWindow& view = scale.view;
+  return {{"range", {scale.range.low, scale.range.high}},
+          {"view", {view.low.x(), view.low.y(), view.high.x(), view.high.y()}}};
 }
+
+PictureScale scale_of(const nlohmann::json& json) {
+  const auto range = json.at("range").get<std::array<double, 2>>();
+  const auto view = json.at("view").get<std::array<double, 4>>();
+  return {{range[0], range[1]}, {Vec2(view[0], view[1]), Vec2(view[2], view[3])}};
+}
+
+} // namespace
 
 PictureAlbum::PictureAlbum(const fs::path& output_folder)
     : folder_(output_folder / results::files::pictures_folder) {
@@ -23,8 +36,9 @@ PictureAlbum::PictureAlbum(const fs::path& output_folder)
   if (!fs::exists(index, error)) return;
   try {
     for (const nlohmann::json& entry : nlohmann::json::parse(results::read_file(index)))
-      entries_.push_back(
-          {entry.at("file"), entry.at("field"), entry.at("time"), entry.at("caption"), entry.at("note")});
+      entries_.push_back({entry.at("file"), entry.at("field"), entry.at("time"), entry.at("caption"),
+                          entry.at("note"), entry.at("series"), scale_of(entry.at("own")),
+                          scale_of(entry.at("drawn"))});
   } catch (const nlohmann::json::exception& problem) {
     throw IoError(fmt::format("{} is not an index of pictures: {}", index.string(), problem.what()));
   }
@@ -50,6 +64,13 @@ std::string PictureAlbum::add(results::FileQueue& queue, const std::string& key,
   return entries_.back().file;
 }
 
+void PictureAlbum::replace(results::FileQueue& queue, std::size_t entry, const PictureScale& drawn,
+                           results::FileQueue::Maker png, std::size_t bytes) {
+  entries_[entry].drawn = drawn;
+  queue.put(path(entries_[entry]), std::move(png), bytes);
+  queue.put(folder_ / index_name, index());
+}
+
 void PictureAlbum::truncate(double time) {
   std::error_code ignored;
   const auto later = [&](const AlbumEntry& entry) { return entry.time > time; };
@@ -65,7 +86,10 @@ std::string PictureAlbum::index() const {
                     {"field", entry.field},
                     {"time", entry.time},
                     {"caption", entry.caption},
-                    {"note", entry.note}});
+                    {"note", entry.note},
+                    {"series", entry.series},
+                    {"own", as_json(entry.own)},
+                    {"drawn", as_json(entry.drawn)}});
   return json.dump(2) + "\n";
 }
 

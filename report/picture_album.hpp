@@ -1,5 +1,6 @@
 #pragma once
 // Pictures of a run in its folder: PNG files and an index that says what each shows.
+#include "report/picture.hpp"
 #include "results/file_queue.hpp"
 
 #include <filesystem>
@@ -8,12 +9,23 @@
 
 namespace cnem::report {
 
+/// Colours and part of space of a picture.
+struct PictureScale {
+  ColourRange range;  ///< SI
+  PictureWindow view; ///< m
+
+  bool operator==(const PictureScale&) const = default;
+};
+
 struct AlbumEntry {
-  std::string file{};  ///< name in the pictures folder
-  std::string field;   ///< what is coloured, "equivalent plastic strain"
-  double time = 0.0;   ///< s
-  std::string caption; ///< further words, may be empty ("zoom on the band")
-  std::string note{};  ///< what the case says of it, may be empty
+  std::string file{};   ///< name in the pictures folder
+  std::string field;    ///< what is coloured, "equivalent plastic strain"
+  double time = 0.0;    ///< s
+  std::string caption;  ///< further words, may be empty ("zoom on the band")
+  std::string note{};   ///< what the case says of it, may be empty
+  std::string series{}; ///< name of the field where it is one of several times; "" of a picture alone
+  PictureScale own{};   ///< that of its values and its body alone
+  PictureScale drawn{}; ///< as it is on the disk
 };
 
 /// pictures/ of an output folder.
@@ -27,6 +39,10 @@ public:
   /// that name. Throws IoError.
   std::string add(results::FileQueue& queue, const std::string& key, AlbumEntry entry,
                   results::FileQueue::Maker png, std::size_t bytes);
+
+  /// Hands another drawing of an entry to `queue`, then the index. Throws IoError.
+  void replace(results::FileQueue& queue, std::size_t entry, const PictureScale& drawn,
+               results::FileQueue::Maker png, std::size_t bytes);
 
   /// Drops the pictures later than `time` (s), for a restart.
   void truncate(double time);

@@ -53,11 +53,23 @@ void draw_text(cairo_t* cr, const std::string& text, double x, double y, double 
   cairo_new_path(cr); // showing text leaves a current point behind
 }
 
+void draw_rimmed_text(cairo_t* cr, const std::string& text, double x, double y, double size) {
+  select_font(cr, size, false);
+  cairo_move_to(cr, x, y);
+  cairo_text_path(cr, text.c_str());
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_source_rgb(cr, 0.8, 0.8, 0.8);
+  cairo_set_line_width(cr, 0.2 * size);
+  cairo_stroke_preserve(cr);
+  cairo_set_source_rgb(cr, 0.23, 0.23, 0.23);
+  cairo_fill(cr);
+}
+
 void paint_tools(cairo_t* cr, const PictureLayout& layout, const Picture& picture, const ColourRange& range) {
   if (!picture.warm_tools) return;
-  const CellGeometry<2>& cells = *picture.warm_tools->cells;
-  const std::span<const double> value = picture.warm_tools->cell_scalars.front().values;
-  const std::vector<Vec2> vertices = results::moved_vertices<2>(cells, picture.warm_tools->position);
+  const CellGeometry<2>& cells = picture.warm_tools->cells;
+  const std::span<const double> value = picture.warm_tools->values.front();
+  const std::vector<Vec2>& vertices = cells.vertex;
   cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
   for (std::size_t c = 0; c < value.size(); ++c) {
     for (auto e = index_of(cells.begin[c]); e < index_of(cells.begin[c + 1]); ++e) {
@@ -90,7 +102,7 @@ void paint_cells(const Surface& surface, const Picture& picture, const CellRaste
   std::vector<std::uint32_t> colour(picture.value.size());
   for (std::size_t c = 0; c < colour.size(); ++c)
     colour[c] = packed(drawn_colour(picture.map, picture.value[c], range));
-  const std::uint32_t rim = packed({0.12, 0.13, 0.16});
+  const std::uint32_t rim = packed({0.13, 0.13, 0.13});
   cairo_surface_flush(surface.get());
   const int width = cairo_image_surface_get_width(surface.get()),
             height = cairo_image_surface_get_height(surface.get());
@@ -120,8 +132,8 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
     above = above || v > range.high + slack;
     invalid = invalid || std::isnan(v);
   }
-  const double top = layout.plot_top + (picture.unit.empty() ? 0.0 : 1.2 * size) + tip;
-  const double bottom = layout.plot_top + layout.plot_height - tip;
+  const double top = std::round(layout.plot_top + (picture.unit.empty() ? 0.0 : 1.2 * size) + tip);
+  const double bottom = std::round(layout.plot_top + layout.plot_height - tip);
   const auto y_of = [&](double s) { return bottom + s * (top - bottom); };
 
   cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
@@ -129,8 +141,8 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
   for (int k = 0; k < strips; ++k) {
     const Colour colour = map_colour(picture.map, (k + 0.5) / strips);
     cairo_set_source_rgb(cr, colour.red, colour.green, colour.blue);
-    cairo_rectangle(cr, x, y_of((k + 1.0) / strips), width,
-                    y_of(k / double{strips}) - y_of((k + 1.0) / strips));
+    const double upper = std::floor(y_of((k + 1.0) / strips)); // over a part of the strip below: no seams
+    cairo_rectangle(cr, x, upper, width, std::ceil(y_of(k / double{strips})) - upper);
     cairo_fill(cr);
   }
   cairo_set_antialias(cr, CAIRO_ANTIALIAS_DEFAULT);
@@ -147,8 +159,11 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
   if (below) point(0.0, bottom, bottom + tip);
 
   const double f = picture.unit_factor;
-  const results::Ticks ticks = results::round_ticks(range.low / f, range.high / f, 6);
-  cairo_set_source_rgb(cr, 0.16, 0.18, 0.22);
+  int wanted = std::clamp(static_cast<int>((bottom - top) / (3.0 * size)), 2, 6);
+  results::Ticks ticks = results::round_ticks(range.low / f, range.high / f, wanted);
+  while (ticks.value.size() < 2 && wanted < 12) // fewer than wanted fit about a zero in the middle
+    ticks = results::round_ticks(range.low / f, range.high / f, ++wanted);
+  cairo_set_source_rgb(cr, 0.18, 0.18, 0.18);
   cairo_set_line_width(cr, 1.5 * unit);
   for (std::size_t k = 0; k < ticks.value.size(); ++k) {
     const double y = y_of((ticks.value[k] * f - range.low) / (range.high - range.low));
@@ -165,12 +180,12 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
 }
 
 void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, double size) {
-  const double longest = 0.28 * layout.plot_width / layout.scale; // m
+  const double longest = 0.2 * layout.plot_width / layout.scale; // m
   const double power = std::pow(10.0, std::floor(std::log10(longest)));
   const double length = power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
   const double x = layout.plot_left + 2 * unit, y = layout.plot_top + layout.plot_height + 1.15 * size;
   const double end = x + length * layout.scale, half = 7.0 * unit;
-  cairo_set_source_rgb(cr, 0.09, 0.11, 0.15);
+  cairo_set_source_rgb(cr, 0.11, 0.11, 0.11);
   cairo_set_line_width(cr, 3.0 * unit);
   cairo_move_to(cr, x, y);
   cairo_line_to(cr, end, y);
@@ -182,7 +197,8 @@ void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, doubl
   draw_text(cr, results::si_format(length, "m", 3), end + 0.5 * size, y + 0.36 * size, size);
 }
 
-void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture, double size) {
+void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                   const std::string& statement, double size) {
   double low = 0.0, high = 0.0;
   bool any = false;
   for (const double v : picture.value) {
@@ -198,9 +214,13 @@ void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& pict
   const std::string suffix = picture.unit.empty() ? "" : " " + picture.unit;
   const std::string text = fmt::format("min {}{}   max {}{}", results::number_format(low / f, 4), suffix,
                                        results::number_format(high / f, 4), suffix);
-  cairo_set_source_rgb(cr, 0.42, 0.46, 0.53);
-  draw_text(cr, text, layout.plot_left + layout.plot_width - text_width(cr, text, 0.9 * size),
-            layout.plot_top + layout.plot_height + 1.5 * size, 0.9 * size);
+  cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
+  double y = layout.plot_top + layout.plot_height + 1.5 * size;
+  for (const std::string& line : {text, statement}) {
+    draw_text(cr, line, layout.plot_left + layout.plot_width - text_width(cr, line, 0.9 * size), y,
+              0.9 * size);
+    y += 1.2 * size;
+  }
 }
 
 } // namespace cnem::report

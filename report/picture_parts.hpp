@@ -23,6 +23,9 @@ Context make_context(const Surface& surface);
 double text_width(cairo_t* cr, const std::string& text, double size, bool bold = false);
 void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size, bool bold = false);
 
+/// Dark on a light rim, to be read on any colour.
+void draw_rimmed_text(cairo_t* cr, const std::string& text, double x, double y, double size);
+
 /// How much darker lines between cells are than the cells.
 inline constexpr double cell_line_shade = 0.4;
 
@@ -39,7 +42,8 @@ void paint_tools(cairo_t* cr, const PictureLayout& layout, const Picture& pictur
 void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
                      const ColourRange& range, double unit, double size);
 void draw_scale_bar(cairo_t* cr, const PictureLayout& layout, double unit, double size);
-/// Least and greatest value of the whole field, in the lower right corner.
-void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture, double size);
+/// Least and greatest value of the whole field, in the lower right corner, and below them `statement`.
+void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& picture,
+                   const std::string& statement, double size);
 
 } // namespace cnem::report

@@ -1,67 +1,31 @@
 #include "report/picture_recorder.hpp"
 
-#include "report/cell_raster.hpp"
-#include "results/fields.hpp"
-#include "results/tool_fields.hpp"
+#include "core/index.hpp"
+#include "results/output_folder.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <deque>
+#include <map>
+#include <optional>
 #include <utility>
-#include <vector>
 
 namespace cnem::report {
-
-namespace {
-
-std::array<std::span<const double>, 2> spans(const Fields<2>& field) { return {field[0], field[1]}; }
-
-} // namespace
 
 PictureWindow window_at(const input::Window& window, const std::vector<PictureTool>& tools) {
   const Vec2 moved = window.follow ? tools[*window.follow].displacement : Vec2(0, 0);
   return {window.lower + moved, window.upper + moved};
 }
 
-/// What the pictures of one time are drawn from, while the run goes on.
-struct PictureRecorder::Kept {
-  CellGeometry<2> cells;
-  Fields<2> position;
-  std::deque<Field> values;
-  CellRasters rasters;
-
-  Kept(CellGeometry<2> of_cells, Fields<2> at) : cells(std::move(of_cells)), position(std::move(at)) {}
-  std::size_t bytes() const {
-    return sizeof(double) * (4 * cells.vertex.size() + 2 * cells.vertex_weight.size() +
-                             (2 + values.size()) * position[0].size());
-  }
-};
-
-Picture PictureRecorder::picture_of(const results::Snapshot<2>& shot, const std::string& field, Kept& kept,
-                                    Field values) const {
-  const FieldInfo<2>& info = field_info<2>(field);
-  Picture picture;
-  picture.cells = &kept.cells;
-  picture.rasters = &kept.rasters;
-  picture.position = spans(kept.position);
-  picture.value = kept.values.emplace_back(std::move(values));
-  show_field(picture, info.shown);
-  picture.title = case_->title;
-  picture.time = shot.state.time;
-  if (field == "temperature") picture.warm_tools = results::tool_frame(shot, {0, 0, 0});
-  const auto& contact = shot.contact;
-  for (std::size_t t = 0; t < contact.tools().size(); ++t)
-    picture.tools.push_back(
-        {&case_->tools[t].outline, contact.displacement(t, shot.state.time), case_->tools[t].name});
-  return picture;
-}
-
-std::string PictureRecorder::draw(results::FileQueue& files, const std::shared_ptr<const Kept>& kept,
-                                  const Picture& picture, const std::string& key, const std::string& caption,
-                                  const std::string& note) {
+std::string PictureRecorder::draw(results::FileQueue& files, const Source& source, Picture picture,
+                                  const std::string& key, AlbumEntry entry) {
+  entry.field = picture.label;
+  entry.time = picture.time;
+  entry.drawn = {widened(picture.map, entry.own.range), entry.own.view};
+  picture.range = entry.drawn.range;
+  picture.window = entry.drawn.view;
   return album_.add(
-      files, key, {.field = picture.label, .time = picture.time, .caption = caption, .note = note},
-      [kept, picture] { return draw_png(picture); },
-      kept->bytes() / 2); // shared with the others of its time
+      files, key, std::move(entry), [source, picture] { return draw_png(picture); },
+      source->bytes() / 2); // shared with the others of its time
 }
 
 std::string PictureRecorder::note_of(double time, const std::string& field) const {
@@ -71,24 +35,69 @@ std::string PictureRecorder::note_of(double time, const std::string& field) cons
 }
 
 void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<2>& shot) {
-  const auto kept = std::make_shared<Kept>(shot.approximation.cells, shot.state.node.position);
-  Fields<2>& drawn = kept->position;
+  Fields<2> drawn = shot.state.node.position;
   if (shot.displacement_scale != 1.0)
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t i = 0; i < drawn[k].size(); ++i) {
         const double start = shot.state.node.initial_position[k][i];
         drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
       }
-  std::vector<Picture> pictures;
-  for (const std::string& name : case_->output.picture_fields)
-    pictures.push_back(picture_of(shot, name, *kept, results::values_at_points(shot, name)));
-  for (std::size_t k = 0; k < pictures.size(); ++k) {
-    const std::string& name = case_->output.picture_fields[k];
-    const std::string note = note_of(shot.state.time, name);
-    draw(files, kept, pictures[k], name, "", note);
-    for (const input::Window& window : case_->output.windows) {
-      pictures[k].window = window_at(window, pictures[k].tools);
-      draw(files, kept, pictures[k], name + "_" + window.name, window.name, note);
+  const input::Output& output = case_->output;
+  const Source source = picture_source(*case_, shot, drawn, output.picture_fields);
+  for (std::size_t f = 0; f < source->names.size(); ++f) {
+    const std::string& name = source->names[f];
+    const Picture picture = picture_of(*case_, *source, f);
+    AlbumEntry entry{.field = {}, .caption = "", .note = note_of(shot.state.time, name), .series = name};
+    entry.own.range = own_span(*case_, name, picture);
+    entry.own.view = output.drawing.view
+                         ? PictureWindow{output.drawing.view->front(), output.drawing.view->back()}
+                         : whole_window(picture);
+    draw(files, source, picture, name, entry);
+    for (const input::Window& window : output.windows) {
+      entry.caption = window.name;
+      entry.own.view = window_at(window, picture.tools);
+      draw(files, source, picture, name + "_" + window.name, entry);
+    }
+  }
+}
+
+/// Of all entries: the common one, of windows with their own place.
+std::vector<PictureScale> PictureRecorder::wanted_scales() const {
+  std::map<std::string, ColourRange> range;
+  std::optional<PictureWindow> view;
+  for (const AlbumEntry& entry : album_.entries()) {
+    if (entry.series.empty()) continue;
+    const auto [at, fresh] = range.emplace(entry.series, entry.own.range);
+    if (!fresh) at->second = joined(at->second, entry.own.range);
+    if (entry.caption.empty()) view = view ? joined(*view, entry.own.view) : entry.own.view;
+  }
+  std::vector<PictureScale> wanted;
+  for (const AlbumEntry& entry : album_.entries()) {
+    wanted.push_back(entry.drawn);
+    if (entry.series.empty()) continue;
+    wanted.back().range = widened(field_info<2>(entry.series).shown.map, range[entry.series]);
+    if (entry.caption.empty()) wanted.back().view = *view;
+  }
+  return wanted;
+}
+
+void PictureRecorder::finish(results::FileQueue& files) {
+  if (!case_->output.drawing.common || album_.entries().empty()) return;
+  const std::vector<PictureScale> wanted = wanted_scales();
+  const std::vector<std::string>& names = case_->output.picture_fields;
+  for (const results::FieldFiles& frame : results::read_field_series(folder_)) {
+    if (!std::filesystem::exists(folder_ / frame.cells)) continue; // taken away: pictures stay as they are
+    Source source;                                                 // read where it is needed
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      const AlbumEntry& entry = album_.entries()[k];
+      if (entry.time != frame.time || wanted[k] == entry.drawn) continue;
+      if (!source) source = picture_source(*case_, folder_, frame, names);
+      const auto field = std::find(names.begin(), names.end(), entry.series) - names.begin();
+      Picture picture = picture_of(*case_, *source, index_of(field));
+      picture.range = wanted[k].range;
+      picture.window = wanted[k].view;
+      album_.replace(
+          files, k, wanted[k], [source, picture] { return draw_png(picture); }, source->bytes() / 2);
     }
   }
 }
@@ -96,17 +105,19 @@ void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<
 std::string PictureRecorder::record_place(results::FileQueue& files, const results::Snapshot<2>& shot,
                                           const Vec2& centre, double radius) {
   const NodeState<2>& node = shot.state.node;
-  const auto kept = std::make_shared<Kept>(shot.approximation.cells, node.position);
+  Fields<2> position = node.position;
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t i = 0; i < node.size(); ++i)
-      if (!std::isfinite(kept->position[k][i])) kept->position[k][i] = node.reference[k][i];
-  Field values = results::values_at_points(shot, "plastic_strain");
-  for (double& value : values)
+      if (!std::isfinite(position[k][i])) position[k][i] = node.reference[k][i];
+  const Source source = picture_source(*case_, shot, position, {"plastic_strain"});
+  for (double& value : source->fields.values.front())
     if (!std::isfinite(value)) value = 0.0;
-  Picture picture = picture_of(shot, "plastic_strain", *kept, std::move(values));
-  picture.window = PictureWindow{centre.array() - radius, centre.array() + radius};
+  Picture picture = picture_of(*case_, *source, 0);
   picture.edges = true;
-  return draw(files, kept, picture, "post_mortem", "where it went wrong");
+  AlbumEntry entry{.field = {}, .caption = "where it went wrong"};
+  entry.own = {own_span(*case_, "plastic_strain", picture),
+               {centre.array() - radius, centre.array() + radius}};
+  return draw(files, source, std::move(picture), "post_mortem", std::move(entry));
 }
 
 } // namespace cnem::report

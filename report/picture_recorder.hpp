@@ -1,8 +1,8 @@
 #pragma once
 // The pictures of a run.
 #include "input/case.hpp"
-#include "report/picture.hpp"
 #include "report/picture_album.hpp"
+#include "report/picture_source.hpp"
 #include "results/snapshot.hpp"
 
 #include <filesystem>
@@ -19,8 +19,12 @@ PictureWindow window_at(const input::Window& window, const std::vector<PictureTo
 class PictureRecorder {
 public:
   PictureRecorder(const input::Case& input, const std::filesystem::path& folder)
-      : case_(&input), album_(folder) {}
+      : case_(&input), folder_(folder), album_(folder) {}
+  /// Draws the present time, each picture with a scale of its own.
   void record(results::FileQueue& files, const results::Snapshot<2>& shot);
+  /// Draws those anew whose series needs another scale, from fields.pvd, which has to be on the disk. Throws
+  /// IoError.
+  void finish(results::FileQueue& files);
   /// Draws the plastic strain around a place that went wrong, within `radius` (m). Returns the file's name in
   /// the folder of pictures.
   std::string record_place(results::FileQueue& files, const results::Snapshot<2>& shot, const Vec2& centre,
@@ -29,13 +33,13 @@ public:
   void truncate(double time) { album_.truncate(time); }
 
 private:
-  struct Kept;
-  Picture picture_of(const results::Snapshot<2>& shot, const std::string& field, Kept& kept,
-                     Field values) const;
-  std::string draw(results::FileQueue& files, const std::shared_ptr<const Kept>& kept, const Picture& picture,
-                   const std::string& key, const std::string& caption, const std::string& note = "");
+  using Source = std::shared_ptr<PictureSource>;
+  std::string draw(results::FileQueue& files, const Source& source, Picture picture, const std::string& key,
+                   AlbumEntry entry);
+  std::vector<PictureScale> wanted_scales() const;
   std::string note_of(double time, const std::string& field) const;
   const input::Case* case_;
+  std::filesystem::path folder_;
   PictureAlbum album_;
 };
 

@@ -46,9 +46,9 @@ std::string caption_of(const std::string& note) {
 }
 
 std::string figure(const ReportPicture& picture, const std::string& what) {
-  return fmt::format("<figure><img alt=\"{} at {}\" src=\"data:image/png;base64,{}\"/>{}</figure>\n",
-                     html_escape(what), html_escape(results::si_format(picture.time, "s")),
-                     base64(picture.png), caption_of(picture.note));
+  const std::string time = results::si_format(picture.time, "s");
+  return fmt::format("<figure data-time=\"{}\">{}{}</figure>\n", html_escape(time),
+                     picture_element(picture.png, what + " at " + time), caption_of(picture.note));
 }
 
 std::string render_post_mortem(const ReportData& data) {
@@ -76,6 +76,18 @@ std::string kind_of(const ReportPicture& picture) {
   return picture.caption.empty() ? picture.field : picture.field + ", " + picture.caption;
 }
 
+// Several times of one kind: a player, which the script fills, and what it plays.
+std::string render_series(const std::vector<const ReportPicture*>& series, const std::string& kind) {
+  std::string figures;
+  for (const ReportPicture* picture : series) figures += figure(*picture, kind);
+  if (series.size() < 3) return figures;
+  return fmt::format("<figure class=\"player\" hidden><img alt=\"{}\"/><figcaption></figcaption>"
+                     "<div class=\"controls\"><button type=\"button\" aria-label=\"play\">▶</button>"
+                     "<input type=\"range\" min=\"0\" max=\"{}\" aria-label=\"time\"/><output></output></div>"
+                     "</figure>\n<details><summary>All {} pictures</summary>\n{}</details>\n",
+                     html_escape(kind), series.size() - 1, series.size(), figures);
+}
+
 std::string render_pictures(const ReportData& data) {
   std::vector<std::string> kinds;
   for (const ReportPicture& picture : data.pictures)
@@ -88,11 +100,10 @@ std::string render_pictures(const ReportData& data) {
       if (kind_of(picture) == kind) chosen.push_back(&picture);
     std::stable_sort(chosen.begin(), chosen.end(),
                      [](auto* one, auto* other) { return one->time < other->time; });
-    html += fmt::format("<h3>{}</h3>\n<div class=\"pictures\">\n", html_escape(kind));
-    for (const ReportPicture* picture : chosen) html += figure(*picture, kind);
-    html += "</div>\n";
+    html += fmt::format("<div class=\"series\"><h3>{}</h3>\n{}</div>\n", html_escape(kind),
+                        render_series(chosen, kind));
   }
-  return html;
+  return html.empty() ? "" : "<div class=\"pictures\">\n" + html + "</div>\n";
 }
 
 std::string render_charts(const ReportData& data) {

@@ -37,7 +37,18 @@ dt { color: var(--soft); font-size: 12.5px; }
 dd { margin: 1px 0 0; font-size: 21px; font-weight: 620; font-variant-numeric: tabular-nums; letter-spacing: -0.01em; }
 figure { margin: 0; }
 .pictures, .charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(560px, 100%), 1fr)); gap: 16px; }
-.pictures figure { overflow: hidden; align-self: start; background: #ffffff; }
+.pictures figure { overflow: hidden; align-self: start; }
+.pictures { align-items: start; }
+.series > * + * { margin-top: 10px; }
+.series details > figure { margin-top: 10px; }
+.series figcaption { padding: 0 16px 12px; color: var(--soft); font-size: 12.5px; line-height: 1.45; }
+.series figcaption:empty { display: none; }
+.controls { display: flex; align-items: center; gap: 12px; padding: 8px 14px 12px; }
+.controls button { flex: none; width: 40px; height: 34px; padding: 0; border: 1px solid var(--line); border-radius: 8px;
+  background: var(--page); color: var(--ink); font-size: 14px; cursor: pointer; }
+.controls input { flex: 1; min-width: 0; accent-color: var(--c0); }
+.controls output { flex: none; min-width: 76px; text-align: right; font-variant-numeric: tabular-nums; }
+summary { color: var(--soft); font-size: 13px; cursor: pointer; }
 .pictures img { display: block; width: 100%; height: auto; cursor: zoom-in; }
 .charts figure { padding: 16px 18px 12px; }
 .charts figcaption { color: var(--soft); font-size: 12.5px; line-height: 1.45; }
@@ -72,7 +83,7 @@ tr:first-child > * { border-top: 0; }
 .post-mortem img { width: 100%; }
 pre { margin: 0; padding: 18px 20px; max-height: 560px; overflow: auto; font: 12.5px/1.55 ui-monospace, "SF Mono",
   Menlo, Consolas, "DejaVu Sans Mono", monospace; tab-size: 2; }
-dialog { width: 96vw; max-width: 1500px; padding: 0; border: 0; border-radius: 12px; overflow: hidden; background: #ffffff; }
+dialog { width: 96vw; max-width: 1500px; padding: 0; border: 0; border-radius: 12px; overflow: hidden; background: var(--card); }
 dialog::backdrop { background: rgb(10 12 16 / 0.75); }
 dialog img { display: block; width: 100%; max-height: 94vh; object-fit: contain; cursor: zoom-out; }
 @media print {
@@ -83,11 +94,52 @@ dialog img { display: block; width: 100%; max-height: 94vh; object-fit: contain;
 }
 )css";
 
-/// A click on a picture shows it as large as the window.
+/// On a dark page pictures get dark colours (report/palette_png.hpp). Series of pictures are played. A click
+/// on a picture shows it as large as the window.
 inline constexpr const char* report_script = R"js(
+const night = matchMedia("(prefers-color-scheme: dark)");
+const shown = [];
+function paint() {
+  for (const image of document.querySelectorAll("img[data-dark]")) {
+    image.light ??= image.src;
+    if (night.matches && !image.dark) {
+      const [at, chunk] = image.dataset.dark.split(":"), bytes = atob(image.light.split(",")[1]), colours = atob(chunk);
+      image.dark = "data:image/png;base64," + btoa(bytes.slice(0, +at) + colours + bytes.slice(+at + colours.length));
+    }
+    image.src = night.matches ? image.dark : image.light;
+  }
+  for (const show of shown) show();
+}
+for (const player of document.querySelectorAll(".player")) {
+  const figures = [...player.nextElementSibling.querySelectorAll("figure")];
+  const [button, slider, time] = player.querySelectorAll("button, input, output");
+  let timer = 0;
+  const show = () => {
+    const figure = figures[slider.value];
+    player.querySelector("img").src = figure.querySelector("img").src;
+    player.querySelector("figcaption").textContent = figure.querySelector("figcaption")?.textContent ?? "";
+    time.textContent = figure.dataset.time;
+  };
+  const step = () => { slider.value = (+slider.value + 1) % figures.length; show(); };
+  const stop = () => { clearInterval(timer); timer = 0; button.textContent = "\u25b6"; button.ariaLabel = "play"; };
+  button.addEventListener("click", () => {
+    if (timer) return stop();
+    timer = setInterval(step, 400); button.textContent = "\u23f8"; button.ariaLabel = "pause"; step();
+  });
+  slider.addEventListener("input", () => { stop(); show(); });
+  slider.value = figures.length - 1;
+  player.hidden = false;
+  shown.push(show);
+}
+night.addEventListener("change", paint);
+paint();
+addEventListener("beforeprint", () => { for (const all of document.querySelectorAll("details")) all.open = true; });
 const dialog = document.querySelector("dialog");
-for (const image of document.querySelectorAll(".pictures img"))
-  image.addEventListener("click", () => { dialog.firstElementChild.src = image.src; dialog.showModal(); });
+document.addEventListener("click", event => {
+  if (!event.target.matches(".pictures img")) return;
+  dialog.firstElementChild.src = event.target.src;
+  dialog.showModal();
+});
 dialog.addEventListener("click", () => dialog.close());
 )js";
 

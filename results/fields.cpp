@@ -30,8 +30,9 @@ template<int dim> Field own_values(const Snapshot<dim>& shot, const FieldInfo<di
 
 } // namespace
 
-template<int dim> std::string name_in_files(const FieldInfo<dim>& info) {
-  return info.unit.empty() ? info.shown.label : fmt::format("{} [{}]", info.shown.label, info.unit);
+template<int dim> FileArray array_in_files(const FieldInfo<dim>& info) {
+  const std::string label = info.part.label.empty() ? info.shown.label : info.part.label;
+  return {info.unit.empty() ? label : fmt::format("{} [{}]", label, info.unit), info.part.component};
 }
 
 template<int dim> Field values_at_points(const Snapshot<dim>& shot, const std::string& name) {
@@ -95,8 +96,8 @@ template<int dim> double broken_measure(const Snapshot<dim>& shot) {
   return volume;
 }
 
-template std::string name_in_files(const FieldInfo<2>&);
-template std::string name_in_files(const FieldInfo<3>&);
+template FileArray array_in_files(const FieldInfo<2>&);
+template FileArray array_in_files(const FieldInfo<3>&);
 template Field values_at_points(const Snapshot<2>&, const std::string&);
 template Field values_at_points(const Snapshot<3>&, const std::string&);
 template Field values_at_nodes(const Snapshot<2>&, const std::string&);

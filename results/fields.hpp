@@ -2,6 +2,7 @@
 // Values of the fields of the catalogue (mechanics/field_catalogue.hpp), at points and at nodes.
 #include "mechanics/field_catalogue.hpp"
 #include "results/snapshot.hpp"
+#include "results/vtk_reader.hpp"
 
 #include <cstdint>
 #include <span>
@@ -10,8 +11,8 @@
 
 namespace cnem::results {
 
-/// "pressure [Pa]": what files for ParaView call a field.
-template<int dim> std::string name_in_files(const FieldInfo<dim>& info);
+/// Where files for ParaView have a field: "pressure [Pa]", or the array that it is a component of.
+template<int dim> FileArray array_in_files(const FieldInfo<dim>& info);
 
 /// Values at stress points [point]; fields of nodes are interpolated with N.
 template<int dim> Field values_at_points(const Snapshot<dim>& shot, const std::string& name);

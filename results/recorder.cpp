@@ -23,9 +23,35 @@ template<int dim> std::array<std::span<const double>, dim> spans(const Fields<di
 
 /// As VTK knows vectors, whose third component is zero in the plane.
 template<int dim> VectorField vector_field(const char* name, const Fields<dim>& field) {
-  VectorField all{name, {}};
-  std::copy(field.begin(), field.end(), all.component.begin());
+  VectorField all{name, {field.begin(), field.end()}};
+  all.component.resize(3);
   return all;
+}
+
+/// Adds a field to those of cells or nodes: as one of its own, or as a component of an array.
+template<int dim>
+void add_field(const FieldInfo<dim>& info, const Field& values, std::vector<ScalarField>& scalars,
+               std::vector<VectorField>& vectors) {
+  const FileArray array = array_in_files(info);
+  if (info.part.label.empty()) {
+    scalars.push_back({array.name, values});
+    return;
+  }
+  auto known = std::find_if(vectors.begin(), vectors.end(),
+                            [&](const VectorField& vector) { return vector.name == array.name; });
+  if (known == vectors.end())
+    known = vectors.insert(vectors.end(), {array.name, {}, info.part.component_names});
+  known->component.resize(known->component_names.size());
+  known->component[array.component] = values;
+}
+
+std::vector<ToolOutline> tool_outlines(const input::Case& input, const Snapshot<2>& shot) {
+  std::vector<ToolOutline> outlines;
+  for (std::size_t t = 0; t < shot.contact.tools().size(); ++t)
+    outlines.push_back({input.tools[t].name, input.tools[t].outline.polygon(),
+                        shot.contact.displacement(t, shot.state.time),
+                        shot.contact.velocity(t, shot.state.time)});
+  return outlines;
 }
 
 std::vector<std::string> columns_of(const std::vector<Metric>& told) {
@@ -229,16 +255,16 @@ template<int dim> std::string HistoryRecorder<dim>::kinetic_warning(const input:
 }
 
 template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<dim>& shot) {
+  if (writer_.has(shot.state.time)) return;
   struct Kept {
     FieldFrame<dim> frame;
     CellGeometry<dim> cells;
-    Fields<dim> position, initial, velocity, springback;
+    Fields<dim> position, initial, springback;
     std::vector<Field> values;
   };
   const auto kept = std::make_shared<Kept>();
   kept->cells = shot.approximation.cells;
   kept->position = shot.state.node.position;
-  kept->velocity = shot.state.node.velocity;
   kept->values.reserve(2 * field_catalogue<dim>().size());
   FieldFrame<dim>& frame = kept->frame;
   frame.time = shot.state.time;
@@ -248,33 +274,32 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
     kept->initial = shot.state.node.initial_position;
     frame.initial = spans<dim>(kept->initial);
   }
-  frame.origin = origin_;
+  frame.origin = input_->origin;
   for (const FieldInfo<dim>& info : field_catalogue<dim>()) {
     if (info.of_damage && shot.state.point.damage.empty()) continue;
     if (info.adaptive && !shot.adaptation) continue;
-    const std::string name = name_in_files(info);
     const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
-    frame.cell_scalars.push_back({name, at_points});
-    if (shot.approximation.mechanics.nodal)
-      frame.node_scalars.push_back({name, at_points});
-    else
-      frame.node_scalars.push_back({name, kept->values.emplace_back(values_at_nodes(shot, info.name))});
+    add_field(info, at_points, frame.cell_scalars, frame.cell_vectors);
+    const Field& at_nodes = shot.approximation.mechanics.nodal
+                                ? at_points
+                                : kept->values.emplace_back(values_at_nodes(shot, info.name));
+    add_field(info, at_nodes, frame.node_scalars, frame.node_vectors);
   }
-  frame.node_vectors.push_back(vector_field<dim>("velocity [m/s]", kept->velocity));
   if (shot.springback) {
     kept->springback = *shot.springback;
     frame.node_vectors.push_back(vector_field<dim>("springback [m]", kept->springback));
   }
+  if constexpr (dim == 2) frame.tools = tool_outlines(*input_, shot);
   writer_.write(files, std::shared_ptr<const FieldFrame<dim>>(kept, &frame));
   if constexpr (dim == 2)
-    if (const auto tools = tool_frame(shot, origin_)) {
+    if (const auto tools = tool_frame(shot, input_->origin)) {
       if (!tools_) tools_.emplace(folder_, tool_series);
       tools_->write(files, tools);
     }
 }
 
-FieldRecorder::FieldRecorder(const std::filesystem::path& folder, const Vec3& origin, double time)
-    : writer_(FieldWriter::resume(folder, time)), folder_(folder), origin_(origin) {
+FieldRecorder::FieldRecorder(const std::filesystem::path& folder, const input::Case& input, double time)
+    : writer_(FieldWriter::resume(folder, time)), folder_(folder), input_(&input) {
   if (std::filesystem::exists(folder / tool_series.list))
     tools_ = FieldWriter::resume(folder, time, tool_series);
 }

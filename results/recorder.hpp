@@ -71,15 +71,16 @@ private:
   std::vector<std::pair<std::string, double>> metrics_;
 };
 
-/// Writes fields.pvd frames with every field of the catalogue, and tools.pvd with those of tools that
-/// conduct, through a queue that must outlive the frames.
+/// Writes fields.pvd frames with every field of the catalogue and the tools, and tools.pvd with the fields of
+/// tools that conduct, through a queue that must outlive the frames.
 class FieldRecorder {
 public:
-  /// origin: from which positions are counted, m.
-  FieldRecorder(const std::filesystem::path& folder, const Vec3& origin)
-      : writer_(folder), folder_(folder), origin_(origin) {}
+  /// `input` must outlive this object.
+  FieldRecorder(const std::filesystem::path& folder, const input::Case& input)
+      : writer_(folder), folder_(folder), input_(&input) {}
   /// Goes on with the series that is there: frames later than `time` (s) are dropped. Throws IoError.
-  FieldRecorder(const std::filesystem::path& folder, const Vec3& origin, double time);
+  FieldRecorder(const std::filesystem::path& folder, const input::Case& input, double time);
+  /// Does nothing where the last frame is of the same time.
   template<int dim> void record(FileQueue& files, const Snapshot<dim>& shot);
   int frames() const { return writer_.frames(); }
 
@@ -87,7 +88,7 @@ private:
   FieldWriter writer_;
   std::optional<FieldWriter> tools_; ///< begins with the first frame of tools that conduct
   std::filesystem::path folder_;
-  Vec3 origin_;
+  const input::Case* input_;
 };
 
 } // namespace cnem::results

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -34,25 +35,52 @@ std::vector<FieldFiles> read_field_series(const fs::path& folder, const char* li
     return value;
   };
   std::vector<FieldFiles> series;
-  for (int k = 0; k + 1 < collection->GetNumberOfNestedElements(); k += 2) {
-    const std::string time = attribute(k, "timestep");
-    FieldFiles frame{0.0, attribute(k, "file"), attribute(k + 1, "file")};
-    const char* end = time.data() + time.size();
-    if (std::from_chars(time.data(), end, frame.time).ptr != end || time.empty())
-      throw IoError(fmt::format("{}: found the time '{}', expected a number", path.string(), time));
-    series.push_back(std::move(frame));
+  for (int k = 0; k < collection->GetNumberOfNestedElements(); ++k) {
+    const std::string part = attribute(k, "part"), time = attribute(k, "timestep");
+    if (part == "0") { // the cells, with which a time begins
+      const char* end = time.data() + time.size();
+      FieldFiles& frame = series.emplace_back();
+      if (std::from_chars(time.data(), end, frame.time).ptr != end || time.empty())
+        throw IoError(fmt::format("{}: found the time '{}', expected a number", path.string(), time));
+      frame.cells = attribute(k, "file");
+    } else if (series.empty()) {
+      throw IoError(fmt::format("{}: found part {} first, expected the cells", path.string(), part));
+    } else if (part == "1") {
+      series.back().nodes = attribute(k, "file");
+    } else {
+      series.back().tools.push_back({attribute(k, "name"), attribute(k, "file")});
+    }
   }
   return series;
 }
 
-CellFields read_cell_fields(const fs::path& file, const std::vector<std::string>& names, const Vec2& origin) {
+namespace {
+
+/// The grid of a file; of the arrays of cells only `arrays`.
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file, const std::vector<FileArray>& arrays) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   if (!fs::exists(file) || !reader->CanReadFile(file.c_str()))
     throw IoError(fmt::format("cannot read {}: it is no file of fields", file.string()));
   reader->SetFileName(file.c_str());
+  reader->UpdateInformation();
+  vtkDataArraySelection& wanted = *reader->GetCellDataArraySelection();
+  wanted.DisableAllArrays();
+  for (const FileArray& array : arrays) {
+    if (!wanted.ArrayExists(array.name.c_str()))
+      throw IoError(fmt::format("{} has no field '{}'", file.string(), array.name));
+    wanted.EnableArray(array.name.c_str());
+  }
   reader->Update();
-  vtkUnstructuredGrid& grid = *reader->GetOutput();
-  if (grid.GetNumberOfCells() == 0) throw IoError(fmt::format("{} has no cells", file.string()));
+  vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
+  if (grid->GetNumberOfCells() == 0) throw IoError(fmt::format("{} has no cells", file.string()));
+  return grid;
+}
+
+} // namespace
+
+CellFields read_cell_fields(const fs::path& file, const std::vector<FileArray>& arrays, const Vec2& origin) {
+  const auto read = read_grid(file, arrays);
+  vtkUnstructuredGrid& grid = *read;
 
   CellFields frame;
   CellGeometry<2>& cells = frame.cells;
@@ -78,13 +106,24 @@ CellFields read_cell_fields(const fs::path& file, const std::vector<std::string>
       cells.index.push_back(as<std::int32_t>(polygon->GetId(k)));
     cells.begin.push_back(as<std::int32_t>(cells.index.size()));
   }
-  for (const std::string& name : names) {
-    vtkDataArray* array = grid.GetCellData()->GetArray(name.c_str());
-    if (!array) throw IoError(fmt::format("{} has no field '{}'", file.string(), name));
+  for (const FileArray& wanted : arrays) {
+    vtkDataArray* array = grid.GetCellData()->GetArray(wanted.name.c_str());
+    const int component = as<int>(wanted.component);
+    if (!array || component >= array->GetNumberOfComponents())
+      throw IoError(fmt::format("{} has not all of the field '{}'", file.string(), wanted.name));
     Field& values = frame.values.emplace_back();
-    for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) values.push_back(array->GetTuple1(c));
+    for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c)
+      values.push_back(array->GetComponent(c, component));
   }
   return frame;
+}
+
+Vec2 read_tool_displacement(const fs::path& file) {
+  const auto grid = read_grid(file, {});
+  vtkDataArray* array = grid->GetPointData()->GetArray(vertex_displacement);
+  if (!array || array->GetNumberOfTuples() == 0 || array->GetNumberOfComponents() != 3)
+    throw IoError(fmt::format("{} has no field '{}'", file.string(), vertex_displacement));
+  return {array->GetComponent(0, 0), array->GetComponent(0, 1)};
 }
 
 } // namespace cnem::results

@@ -10,10 +10,23 @@
 
 namespace cnem::results {
 
+/// The file of a tool at one time.
+struct ToolFile {
+  std::string tool; ///< its name
+  std::string file; ///< path relative to the folder of results
+};
+
 /// Files of one time in fields.pvd.
 struct FieldFiles {
-  double time = 0.0;        ///< s
-  std::string cells, nodes; ///< paths relative to the folder of results
+  double time = 0.0;           ///< s
+  std::string cells, nodes;    ///< paths relative to the folder of results
+  std::vector<ToolFile> tools; ///< rigid outlines
+};
+
+/// An array of a file, and the component of it that is meant.
+struct FileArray {
+  std::string name; ///< "stress [Pa]"
+  std::size_t component = 0;
 };
 
 /// What fields.pvd, or another list, lists, in its order. Throws IoError when it cannot be read or is not
@@ -21,7 +34,7 @@ struct FieldFiles {
 std::vector<FieldFiles> read_field_series(const std::filesystem::path& folder,
                                           const char* list = files::fields);
 
-/// What vertices of cells have where the frame has initial positions.
+/// What tools have, and vertices of cells where the frame has initial positions.
 inline constexpr const char* vertex_displacement = "displacement [m]";
 
 /// The cells of one time in the plane, with values of scalar fields.
@@ -32,9 +45,12 @@ struct CellFields {
   std::vector<Field> values; ///< [name][cell]
 };
 
-/// names: as in the file, "pressure [Pa]"; places in it are counted from `origin` here. Throws IoError when
-/// the file cannot be read, has no polygons or lacks a field.
-CellFields read_cell_fields(const std::filesystem::path& file, const std::vector<std::string>& names,
+/// Reads these arrays of cells; places in the file are counted from `origin` here. Throws IoError when the
+/// file cannot be read, has no polygons or lacks a field.
+CellFields read_cell_fields(const std::filesystem::path& file, const std::vector<FileArray>& arrays,
                             const Vec2& origin);
+
+/// How far a tool has moved, m, by its file. Throws IoError.
+Vec2 read_tool_displacement(const std::filesystem::path& file);
 
 } // namespace cnem::results

@@ -19,7 +19,6 @@
 #include <mutex>
 #include <string>
 #include <system_error>
-#include <tuple>
 
 namespace cnem::results {
 namespace fs = std::filesystem;
@@ -52,7 +51,7 @@ template<int dim> std::size_t bytes_of(const FieldFrame<dim>& frame) {
   const std::size_t nodes = frame.position[0].size(), cells = cell_count(frame);
   const CellGeometry<dim>& geometry = *frame.cells;
   return sizeof(double) * (nodes * (dim + frame.node_scalars.size() + 3 * frame.node_vectors.size()) +
-                           cells * (frame.cell_scalars.size() + 3 * frame.cell_vectors.size()) +
+                           cells * (frame.cell_scalars.size() + 4 * frame.cell_vectors.size()) +
                            dim * geometry.vertex.size() + 2 * geometry.vertex_weight.size());
 }
 
@@ -68,10 +67,13 @@ void add_fields(vtkFieldData& to, vtkIdType count, const std::vector<ScalarField
   for (const VectorField& field : vectors) {
     vtkNew<vtkDoubleArray> array;
     array->SetName(field.name.c_str());
-    array->SetNumberOfComponents(3);
+    const int components = as<int>(field.component.size());
+    array->SetNumberOfComponents(components);
+    for (int k = 0; k < as<int>(field.component_names.size()); ++k)
+      array->SetComponentName(k, field.component_names[index_of(k)].c_str());
     array->SetNumberOfTuples(count);
     array->Fill(0.0);
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < components; ++k) {
       const std::span<const double> component = field.component[index_of(k)];
       if (component.empty()) continue;
       for (vtkIdType i = 0; i < count; ++i) array->SetTypedComponent(i, k, component[index_of(i)]);
@@ -86,7 +88,8 @@ std::string text_of(vtkUnstructuredGrid& grid) {
   writer->SetInputData(&grid);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToLZ4(); // much faster than zlib, for files a fifth larger
+  writer->SetCompressorTypeToZLib(); // of VTK's the one that others read
+  writer->SetCompressionLevel(1);    // half the time of the usual one, for as large files
   writer->SetHeaderTypeToUInt64();
   writer->WriteToOutputStringOn(); // the file itself is written where a full disk is noticed
   if (writer->Write() == 0) throw IoError("VTK cannot write a grid of fields");
@@ -120,7 +123,7 @@ template<int dim> std::string cells_text(const FieldFrame<dim>& frame) {
   if (!frame.initial[0].empty()) {
     const std::vector<Vec<dim>> before = moved_vertices<dim>(cells, frame.initial);
     std::array<Field, dim> displacement;
-    VectorField field{vertex_displacement, {}};
+    VectorField field{vertex_displacement, {{}, {}, {}}};
     for (std::size_t k = 0; k < dim; ++k) {
       for (std::size_t v = 0; v < before.size(); ++v)
         displacement[k].push_back(vertices[v][as<int>(k)] - before[v][as<int>(k)]);
@@ -152,6 +155,29 @@ template<int dim> std::string nodes_text(const FieldFrame<dim>& frame) {
   return text_of(*grid);
 }
 
+std::string outline_text(const ToolOutline& tool, const Vec3& origin, double time) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  std::vector<vtkIdType> polygon;
+  for (const Vec2& corner : tool.corners) {
+    const Vec2 x = corner + tool.displacement;
+    polygon.push_back(points->InsertNextPoint(origin.x() + x.x(), origin.y() + x.y(), 0.0));
+  }
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  grid->InsertNextCell(VTK_POLYGON, as<vtkIdType>(polygon.size()), polygon.data());
+  std::array<Field, 4> motion;
+  for (std::size_t k = 0; k < 2; ++k) {
+    motion[k].assign(polygon.size(), tool.displacement[as<int>(k)]);
+    motion[2 + k].assign(polygon.size(), tool.velocity[as<int>(k)]);
+  }
+  add_fields(
+      *grid->GetPointData(), as<vtkIdType>(polygon.size()), {},
+      {{vertex_displacement, {motion[0], motion[1], {}}}, {"velocity [m/s]", {motion[2], motion[3], {}}}});
+  add_time(*grid, time);
+  return text_of(*grid);
+}
+
 // Makers run side by side; what VTK sets up once per process does not.
 void set_up_vtk() {
   static std::once_flag once;
@@ -180,8 +206,10 @@ FieldWriter FieldWriter::resume(fs::path folder, double time, Series series) {
   for (FieldFiles& frame : read_field_series(folder, series.list)) {
     if (frame.time <= time)
       writer.entries_.push_back(std::move(frame));
-    else
+    else {
       for (const std::string& file : {frame.cells, frame.nodes}) fs::remove(folder / file);
+      for (const ToolFile& tool : frame.tools) fs::remove(folder / tool.file);
+    }
   }
   writer.folder_ = std::move(folder);
   write_atomically(writer.folder_ / series.list, writer.collection());
@@ -192,15 +220,23 @@ template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<cons
   check_lengths(frame->cell_scalars, frame->cell_vectors, cell_count(*frame));
   check_lengths(frame->node_scalars, frame->node_vectors, frame->position[0].size());
   set_up_vtk();
-  const auto name = [&](const char* part) {
+  const auto name = [&](const std::string& part) {
     return fmt::format("{}/{}{}_{:05}.vtu", files::fields_folder, series_.prefix, part, entries_.size());
   };
-  FieldFiles entry{frame->time, name("cells"), name("nodes")};
+  FieldFiles entry{frame->time, name("cells"), name("nodes"), {}};
   const std::size_t bytes = bytes_of(*frame) / 2; // kept by both
   queue.put(
       folder_ / entry.cells, [frame] { return cells_text(*frame); }, bytes);
   queue.put(
-      folder_ / entry.nodes, [frame = std::move(frame)] { return nodes_text(*frame); }, bytes);
+      folder_ / entry.nodes, [frame] { return nodes_text(*frame); }, bytes);
+  if constexpr (dim == 2)
+    for (const ToolOutline& tool : frame->tools) {
+      entry.tools.push_back({tool.name, name("outline_" + tool.name)});
+      queue.put(
+          folder_ / entry.tools.back().file,
+          [tool, origin = frame->origin, time = frame->time] { return outline_text(tool, origin, time); },
+          sizeof(Vec2) * tool.corners.size());
+    }
   entries_.push_back(std::move(entry));
   queue.put(folder_ / series_.list, collection());
 }
@@ -212,11 +248,13 @@ std::string FieldWriter::collection() const {
   std::string xml = "<?xml version=\"1.0\"?>\n"
                     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
                     "  <Collection>\n";
-  for (const FieldFiles& entry : entries_)
-    for (const auto& [part, name, file] :
-         {std::tuple(0, "cells", &entry.cells), std::tuple(1, "nodes", &entry.nodes)})
+  for (const FieldFiles& entry : entries_) {
+    std::vector<ToolFile> parts{{"cells", entry.cells}, {"nodes", entry.nodes}};
+    parts.insert(parts.end(), entry.tools.begin(), entry.tools.end());
+    for (std::size_t part = 0; part < parts.size(); ++part)
       xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
-                         entry.time, part, name, *file);
+                         entry.time, part, parts[part].tool, parts[part].file);
+  }
   return xml + "  </Collection>\n</VTKFile>\n";
 }
 

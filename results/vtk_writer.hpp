@@ -1,6 +1,7 @@
 #pragma once
 // Fields for ParaView and VTK: fields.pvd, a time series whose every time has two parts: the cells of the
-// stress points, polygons or tetrahedra, with cell data, and the nodes as points with point data.
+// stress points, polygons or tetrahedra, with cell data, and the nodes as points with point data; in the
+// plane the outline of each tool is a further one.
 #include "core/operators/discretisation.hpp"
 #include "results/file_queue.hpp"
 #include "results/output_folder.hpp"
@@ -21,10 +22,18 @@ struct ScalarField {
   std::span<const double> values;
 };
 
-/// Up to three components per cell or node; an empty span is a component that is zero.
+/// A vector or tensor per cell or node; an empty span is a component that is zero.
 struct VectorField {
   std::string name;
-  std::array<std::span<const double>, 3> component;
+  std::vector<std::span<const double>> component;
+  std::vector<std::string> component_names{}; ///< none: VTK's own
+};
+
+/// A tool at one time.
+struct ToolOutline {
+  std::string name;
+  std::vector<Vec2> corners;   ///< m, of a closed polygon in its initial place
+  Vec2 displacement, velocity; ///< m, m/s
 };
 
 /// Everything written for one time. Whoever makes one keeps what its spans and pointers refer to alive and
@@ -39,6 +48,7 @@ template<int dim> struct FieldFrame {
   std::vector<VectorField> cell_vectors;
   std::vector<ScalarField> node_scalars;
   std::vector<VectorField> node_vectors;
+  std::vector<ToolOutline> tools{};
 };
 
 /// Present positions of the vertices of the cells, x_v = Σ weight x_node, m.
@@ -60,8 +70,8 @@ struct Series {
   const char* prefix = "";
 };
 
-/// Writes fields/cells_*.vtu, fields/nodes_*.vtu and, after each frame, fields.pvd (replaced atomically, so
-/// that a killed run leaves a valid series).
+/// Writes fields/cells_*.vtu, fields/nodes_*.vtu, fields/outline_TOOL_*.vtu and, after each frame, fields.pvd
+/// (replaced atomically, so that a killed run leaves a valid series).
 class FieldWriter {
 public:
   /// A new series in `folder`.
@@ -76,6 +86,8 @@ public:
   template<int dim> void write(FileQueue& queue, std::shared_ptr<const FieldFrame<dim>> frame);
 
   int frames() const { return static_cast<int>(entries_.size()); }
+  /// Whether the last frame is of `time` (s).
+  bool has(double time) const { return !entries_.empty() && entries_.back().time == time; }
 
 private:
   FieldWriter() = default;

@@ -51,7 +51,7 @@ public:
 
   /// The frames of all methods at a time, none where a method has none within a thousandth of the run.
   std::vector<std::optional<Frame>> at(double time, double tolerance,
-                                       const std::vector<std::string>& fields) const {
+                                       const std::vector<results::FileArray>& fields) const {
     std::vector<std::optional<Frame>> frames(series_.size());
     for (std::size_t k = 0; k < series_.size(); ++k) {
       if (series_[k].empty()) continue;
@@ -209,12 +209,12 @@ private:
 
 std::string figure(const Compared& compared, std::size_t k, const std::string& png, const std::string& what,
                    double time) {
-  const std::string name = report::html_escape(compared.study.runs[k].name);
+  const std::string& method = compared.study.runs[k].name;
+  const std::string name = report::html_escape(method);
   if (!png.empty())
-    return fmt::format("<figure><figcaption>{}</figcaption><img alt=\"{} of {} at {}\" "
-                       "src=\"data:image/png;base64,{}\"/></figure>\n",
-                       name, report::html_escape(what), name,
-                       report::html_escape(results::si_format(time, "s")), report::base64(png));
+    return fmt::format("<figure><figcaption>{}</figcaption>{}</figure>\n", name,
+                       report::picture_element(
+                           png, fmt::format("{} of {} at {}", what, method, results::si_format(time, "s"))));
   const Outcome& outcome = compared.outcome[k];
   const std::string why = outcome.status && outcome.status->time < time
                               ? "ended at t = " + results::si_format(outcome.status->time, "s")
@@ -247,8 +247,8 @@ std::string compare_pictures(const Compared& compared) {
   const std::vector<double> times = times_of(input, frames, exact);
   if (times.empty()) return "";
   const std::vector<std::string>& fields = input.output.picture_fields;
-  std::vector<std::string> names;
-  for (const std::string& field : fields) names.push_back(results::name_in_files(field_info<2>(field)));
+  std::vector<results::FileArray> names;
+  for (const std::string& field : fields) names.push_back(results::array_in_files(field_info<2>(field)));
 
   // By field and part of the body, as in the report of a run; frames are read once a time.
   std::vector<std::pair<std::string, std::string>> sections;

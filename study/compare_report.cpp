@@ -21,8 +21,8 @@ constexpr const char* style = R"css(
 main { max-width: 2000px; }
 .hint { color: var(--soft); margin: 10px 0 14px; font-size: 13px; }
 .pictures.side { grid-template-columns: repeat(auto-fit, minmax(min(360px, 100%), 1fr)); margin-bottom: 16px; }
-.side figcaption { color: #171b22; font-weight: 600; padding: 8px 14px 0; }
-.side p { color: #5c6675; padding: 0 14px; }
+.side figcaption { color: var(--ink); font-weight: 600; padding: 8px 14px 0; }
+.side p { color: var(--soft); padding: 0 14px; }
 .side + h3 { margin-top: 26px; }
 .runs td:first-child { color: var(--soft); }
 .runs th { color: var(--ink); font-weight: 600; }

@@ -170,8 +170,7 @@ Exit solve(const StaticModel& model, const RunOptions& options, Stopwatch& watch
     results::FileQueue files;
     watch.time("output.history", [&] { write_history(model, solution, shot, options.output); });
     results::SampleLines<2>(input, shot.cloud, model.approximation).write(shot, options.output);
-    watch.time("output.fields",
-               [&] { results::FieldRecorder(options.output, input.origin).record(files, shot); });
+    watch.time("output.fields", [&] { results::FieldRecorder(options.output, input).record(files, shot); });
     watch.time("output.pictures",
                [&] { report::PictureRecorder(input, options.output).record(files, shot); });
     watch.time("output.disk", [&] { files.wait(); });
@@ -235,7 +234,7 @@ void check_static(const input::Case& input, const RunOptions& options) {
   results::FileQueue files;
   const results::Snapshot<2> shot{state, model.approximation, model.setup.problem.cloud,
                                   model.setup.problem.contact};
-  results::FieldRecorder(folder, input.origin).record(files, shot);
+  results::FieldRecorder(folder, input).record(files, shot);
   files.wait();
   fmt::print("fields      {}\n", (folder / results::files::fields).string());
   if (!motion.empty()) throw input.error("boundary", motion);

@@ -61,4 +61,23 @@ Curve Curve::reversed() const {
   return other;
 }
 
+Curve Curve::mirrored(const Vec2& at, const Vec2& normal) const {
+  Curve other = reversed();
+  for (CurvePiece& piece : other.pieces) {
+    for (Vec2* x : {&piece.from, &piece.to, &piece.centre}) *x = cnem::mirrored(*x, at, normal);
+    piece.clockwise = !piece.clockwise;
+  }
+  return other;
+}
+
+std::vector<Vec2> Curve::polygon() const {
+  std::vector<Vec2> corners;
+  for (const CurvePiece& piece : pieces) {
+    const int parts =
+        piece.is_arc() ? std::max(8, static_cast<int>(std::ceil(std::abs(piece.sweep()) * 24))) : 1;
+    for (int k = 0; k < parts; ++k) corners.push_back(piece.point(static_cast<double>(k) / parts));
+  }
+  return corners;
+}
+
 } // namespace cnem

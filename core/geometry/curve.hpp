@@ -37,6 +37,17 @@ struct Curve {
   double area() const;
   /// The same curve travelled the other way.
   Curve reversed() const;
+  /// The image behind the line through `at` with the unit normal `normal`, travelled so that it turns as this
+  /// one.
+  Curve mirrored(const Vec2& at, const Vec2& normal) const;
+  /// Corners of a polygon that leaves it by less than 1/4600 of the radius, without the last, which is the
+  /// first.
+  std::vector<Vec2> polygon() const;
 };
+
+/// The image of a point behind the line through `at` with the unit normal `normal`.
+inline Vec2 mirrored(const Vec2& x, const Vec2& at, const Vec2& normal) {
+  return x - 2.0 * normal.dot(x - at) * normal;
+}
 
 } // namespace cnem

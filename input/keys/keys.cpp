@@ -295,12 +295,6 @@ void add_output(Keys& k) {
       .in(not_negative)
       .example("\"1 us\"")
       .computed("`time.end`/24");
-  k.add("output.pictures", quantities,
-        "Times of the pictures in the report; those beyond `time.end` are skipped.")
-      .unit(d::time)
-      .in(not_negative)
-      .example("\"2 4 5 12 us\"")
-      .computed("`time.end`");
   k.add("output.checkpoint", table,
         "When `checkpoint.h5` is written, from which `cnem restart` goes on: at step 0 and whenever one of "
         "these is "
@@ -321,9 +315,7 @@ void add_output(Keys& k) {
         "Checkpoints kept: `checkpoint.h5`, then `checkpoint.1.h5` and so on.")
       .in({.low = 1, .high = 1000})
       .fallback("2");
-  k.add("output.picture_fields", choices, "Fields drawn.")
-      .one_of(field_names(2))
-      .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");
+  add_pictures(k);
   k.add(
       "output.lines", named_tables,
       "Fields along straight lines at the end of the run, in `lines/NAME.csv`: distance and position first.");

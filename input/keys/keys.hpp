@@ -66,6 +66,7 @@ void add_cloud(Keys& k);
 void add_materials(Keys& k);
 void add_adaptation(Keys& k);
 void add_method(Keys& k);
+void add_pictures(Keys& k);
 void add_report(Keys& k);
 
 /// Members of the table of a tool, "tools.*.", that let it move as a body.

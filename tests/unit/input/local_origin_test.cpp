@@ -215,6 +215,7 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
                               "initial.spin.centre",
                               "initial.velocity_gradient.centre",
                               "initial.imperfections.*.points",
+                              "output.drawing.view",
                               "output.windows.*.box",
                               "output.probes.*.at",
                               "output.lines.*.from",

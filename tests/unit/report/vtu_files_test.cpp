@@ -80,7 +80,7 @@ TEST_F(VtuFiles, what_was_written_is_read_back_to_the_bit) {
   EXPECT_EQ(series[1].time, 1e-6);
   EXPECT_EQ(series[1].nodes, "fields/nodes_00001.vtu");
   const results::CellFields read =
-      results::read_cell_fields(folder / series[1].cells, {"pressure [Pa]"}, Vec2(1.0, 0.0));
+      results::read_cell_fields(folder / series[1].cells, {{"pressure [Pa]"}}, Vec2(1.0, 0.0));
   EXPECT_EQ(read.cells.begin, cells.begin);
   EXPECT_EQ(read.cells.index, cells.index);
   EXPECT_EQ(read.values.front(), Field(pressure.begin(), pressure.end()));
@@ -125,9 +125,10 @@ TEST_F(VtuFiles, a_series_or_a_file_that_is_none_is_refused) {
     return "accepted";
   };
   const fs::path file = folder / "fields/cells_00000.vtu";
-  EXPECT_NE(
-      message([&] { results::read_cell_fields(file, {"pressure"}, Vec2(0, 0)); }).find("no field 'pressure'"),
-      std::string::npos);
+  EXPECT_NE(message([&] {
+              results::read_cell_fields(file, {{"pressure"}}, Vec2(0, 0));
+            }).find("no field 'pressure'"),
+            std::string::npos);
   results::write_atomically(file, "nothing");
   EXPECT_NE(message([&] { results::read_cell_fields(file, {}, Vec2(0, 0)); }).find("cannot read"),
             std::string::npos);
