@@ -8,6 +8,7 @@
 #include "app/watches/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/machine/threads.hpp"
+#include "input/schema/document.hpp"
 #include "input/schema/expression.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
@@ -78,7 +79,7 @@ void print_variable(const input::Variable& variable) {
                                   : results::si_format(variable.value, variable.unit);
   const bool calculated = !variable.expression.empty() && !input::is_plain(variable.expression);
   fmt::print("variable    {} = {}{}\n", variable.name, value,
-             calculated ? fmt::format(" ({})", variable.expression) : "");
+             calculated ? fmt::format(" ({})", input::shortened(variable.expression)) : "");
 }
 
 } // namespace

@@ -44,7 +44,6 @@ const CLI::Validator at_least_one(
     },
     "POSITIVE");
 
-/// What commands that read a case share.
 /// Throws InputError that names the cases in a folder that is none itself.
 void refuse_folder_of_cases(const std::filesystem::path& folder) {
   std::vector<std::string> cases;
@@ -57,6 +56,7 @@ void refuse_folder_of_cases(const std::filesystem::path& folder) {
                                folder.string(), fmt::join(cases, ", ")));
 }
 
+/// What commands that read a case share.
 struct CaseOptions {
   std::string path;
   std::vector<std::string> set;

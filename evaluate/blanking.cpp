@@ -199,11 +199,18 @@ std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<
     low = std::min(low, across(tools, x));
     high = std::max(high, across(tools, x));
   }
+  double top = INFINITY, bottom = -INFINITY; // of the sheet; what lies a sheet further down is no edge
+  for (const Vec2& x : outline) {
+    top = std::min(top, along(tools, x));
+    bottom = std::max(bottom, along(tools, x));
+  }
+  const double deepest = 2.0 * bottom - top;
   for (const double side : {-1.0, 1.0}) {
     const double reach = side > 0.0 ? high : -low, middle = side * 0.5 * (low + high);
     double edge = INFINITY;
     for (const Vec2& x : tools.die)
-      if (const double t = side * across(tools, x); t > middle) edge = std::min(edge, t);
+      if (const double t = side * across(tools, x); t > middle && along(tools, x) < deepest)
+        edge = std::min(edge, t);
     if (!std::isfinite(edge)) continue; // no die on this side
     const double thickness = thickness_at(tools, outline, side * 0.5 * (reach + edge));
     if (thickness > 0.0) list.push_back({side < 0.0 ? "left" : "right", edge - reach, thickness});

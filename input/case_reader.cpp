@@ -162,7 +162,7 @@ Case read(Value document, const std::string& path, const std::vector<Override>& 
                                  include->where.text()));
   Diagnostics diagnostics;
   Case result;
-  result.variables = apply_variables(document, diagnostics, result.warnings);
+  result.variables = apply_variables(document, changes, diagnostics, result.warnings);
   take_from_library(document, diagnostics);
   take_from_cutting(document, diagnostics);
   diagnostics.throw_if_any();

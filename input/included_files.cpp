@@ -55,6 +55,9 @@ private:
       fail(name, "the name of a file such as \"materials.toml\"");
     const fs::path path = (folder / name.text).lexically_normal();
     std::error_code status;
+    constexpr int most_files = 1000; // each as often as it is read
+    if (++read_ > most_files) fail(name, fmt::format("at most {} files in all", most_files));
+    if (fs::is_directory(path, status)) fail(name, fmt::format("a file: {} is a folder", path.string()));
     if (!fs::is_regular_file(path, status))
       fail(name, fmt::format("a file, seen from the folder of the file that includes it: there is no {}",
                              path.string()));
@@ -67,6 +70,7 @@ private:
     return document;
   }
 
+  int read_ = 0;
   std::vector<fs::path> open_; ///< files that are being read, each included by the one before
 };
 

@@ -56,7 +56,9 @@ public:
   }
 
   /// All of them; their texts become values.
-  std::vector<Variable> take(std::vector<std::string>& warnings) {
+  /// `source`: of the file that may include others.
+  std::vector<Variable> take(const std::vector<Override>& changed, const std::string& source,
+                             std::vector<std::string>& warnings) {
     std::vector<Variable> list;
     const bool used =
         std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.used; });
@@ -68,7 +70,14 @@ public:
       const bool bare = quantity.dimension.dimensionless();
       list.push_back({member.key, quantity.value, bare ? "" : describe(quantity.dimension).si_unit,
                       member.value.kind == Kind::text ? member.value.text : ""});
-      if (used && !entries_[k].used)
+      const auto change = std::find_if(changed.begin(), changed.end(),
+                                       [&](const Override& one) { return one.key == "let." + member.key; });
+      if (!entries_[k].used && change != changed.end())
+        diagnostics_.add(
+            Mistake::conflict, change->where, change->key,
+            "found a value for a variable that nothing in the case uses, expected it in an expression; a "
+            "resolved case holds values alone");
+      else if (used && !entries_[k].used && member.where.source == source)
         warnings.push_back(fmt::format("variable '{}' ({}) is defined and nothing uses it", member.key,
                                        member.where.text()));
       member.value.kind = bare ? Kind::real : Kind::text;
@@ -111,6 +120,7 @@ private:
     if (value.kind != Kind::text)
       throw UnitError("which is no quantity, expected one such as \"2 mm\", a number, or an expression such "
                       "as \"0.08 * sheet\"");
+    refuse_decimal_comma(value.text);
     return evaluate(value.text, [this](std::string_view name) { return this->value(name); });
   }
 
@@ -182,16 +192,26 @@ private:
   }
 
   void leaves(Value& written, const Key& key, const std::string& path, bool several) {
-    if (written.kind == Kind::text && several && !is_plain(written.text)) divide(written);
+    if (written.kind == Kind::text && several && !is_plain(written.text))
+      if (const std::vector<std::string> parts = split_at_commas(written.text); parts.size() > 1) {
+        if (!are_values(parts)) return; // a comma among numbers, which the key tells
+        divide(written, parts);
+      }
     if (written.kind == Kind::text) leaf(written, key, path);
     for (Value& element : written.elements) leaves(element, key, path, several);
     for (Member& member : written.members) leaves(member.value, key, path, several);
   }
 
+  bool are_values(const std::vector<std::string>& parts) const {
+    return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return is_expression(part); }) ||
+           std::all_of(parts.begin(), parts.end(), ends_in_unit);
+  }
+  static bool ends_in_unit(const std::string& part) {
+    const std::string_view words = trimmed(part);
+    return !words.empty() && std::string_view("0123456789.").find(words.back()) == std::string_view::npos;
+  }
   /// "a, b" becomes ["a", "b"].
-  static void divide(Value& written) {
-    const std::vector<std::string> parts = split_at_commas(written.text);
-    if (parts.size() == 1) return;
+  static void divide(Value& written, const std::vector<std::string>& parts) {
     for (const std::string& part : parts) {
       Value& element = written.elements.emplace_back();
       element.kind = Kind::text;
@@ -240,8 +260,8 @@ private:
 
 } // namespace
 
-std::vector<Variable> apply_variables(Value& document, Diagnostics& diagnostics,
-                                      std::vector<std::string>& warnings) {
+std::vector<Variable> apply_variables(Value& document, const std::vector<Override>& changed,
+                                      Diagnostics& diagnostics, std::vector<std::string>& warnings) {
   Member* let = document.find("let");
   if (let && let->value.kind != Kind::table) {
     diagnostics.add(Mistake::type, let->value.where, "let",
@@ -250,7 +270,7 @@ std::vector<Variable> apply_variables(Value& document, Diagnostics& diagnostics,
   }
   Variables variables(let ? &let->value : nullptr, diagnostics);
   Substitution(variables, diagnostics).table(document, "", "");
-  return variables.take(warnings);
+  return variables.take(changed, document.where.source, warnings);
 }
 
 void check_variable_of(const Value& document, const Override& change) {

@@ -11,10 +11,11 @@ namespace cnem::input {
 
 /// Puts values in the place of expressions, wherever the schema expects quantities, vectors, functions or
 /// whole numbers, and in the table `let`, whose variables it returns in the order they were written. After
-/// that the document stands without them. Variables that nothing names where others are named go to
-/// `warnings`: where none is, the document is resolved already.
-std::vector<Variable> apply_variables(Value& document, Diagnostics& diagnostics,
-                                      std::vector<std::string>& warnings);
+/// that the document stands without them. Variables of the file itself that nothing names where others are
+/// named go to `warnings`: where none is, the document is resolved already.
+/// `changed`: keys that were set beside the file; a variable among them that nothing names is a mistake.
+std::vector<Variable> apply_variables(Value& document, const std::vector<Override>& changed,
+                                      Diagnostics& diagnostics, std::vector<std::string>& warnings);
 
 /// Throws InputError when the change sets a variable that the document does not define.
 void check_variable_of(const Value& document, const Override& change);

@@ -92,7 +92,10 @@ ListedAxis read_axis(const input::Value& entry, input::Diagnostics& diagnostics)
     return axis;
   }
   TableReader table(entry, "axis.", {"name", "set"}, diagnostics);
-  if (table.require("name", Kind::text, "a name of the axis")) axis.name = table.text("name");
+  if (const input::Value* name = table.require("name", Kind::text, "a name of the axis")) {
+    axis.name = name->text;
+    if (axis.name.empty()) table.wrong("name", *name, "a name of the axis");
+  }
   const input::Value* set = table.require("set", Kind::table, "a table of keys of the case and their values");
   if (!set) return axis;
   if (set->members.empty())
@@ -154,12 +157,18 @@ std::vector<StudyRun> read_product(const input::Value* grid, const input::Value*
                                    input::Diagnostics& diagnostics) {
   std::vector<ListedAxis> axes;
   if (grid) axes = read_grid(*grid, diagnostics);
+  if (linked && linked->elements.empty())
+    diagnostics.add(input::Mistake::missing_key, linked->where, "axis", "empty, expected tables [[axis]]");
   if (linked)
     for (const input::Value& entry : linked->elements) axes.push_back(read_axis(entry, diagnostics));
   diagnostics.throw_if_any();
   std::size_t count = 1;
   for (const ListedAxis& axis : axes) {
     count = std::min(most_runs + 1, count * axis.size());
+    if (std::any_of(study.axes.begin(), study.axes.end(),
+                    [&](const StudyAxis& known) { return known.name == axis.name; }))
+      diagnostics.add(input::Mistake::conflict, axis.leading(0).where, axis.path,
+                      fmt::format("found two axes named '{}', expected a name for each", axis.name));
     study.axes.push_back({axis.name, {}});
     for (const input::Member* list : axis.lists) {
       if (std::find(study.keys.begin(), study.keys.end(), list->key) != study.keys.end())

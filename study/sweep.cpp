@@ -29,6 +29,17 @@ std::vector<RunRecord> read_cases(const Study& study) {
   return runs;
 }
 
+/// Throws InputError for a chart over a variable that no case has.
+void check_variables_of_charts(const Study& study, const std::vector<RunRecord>& runs) {
+  if (runs.empty()) return;
+  std::vector<std::string> names;
+  for (const input::Variable& variable : runs.front().variables) names.push_back("let." + variable.name);
+  for (const StudyChart& chart : study.charts)
+    if (is_variable(chart.x) && std::find(names.begin(), names.end(), chart.x) == names.end())
+      throw InputError(fmt::format("{}: key 'charts.x': found \"{}\", expected a variable of the case{}",
+                                   chart.where.text(), chart.x, input::did_you_mean(chart.x, names)));
+}
+
 /// Columns and charts that name what no run has.
 void warn_of_absent_numbers(const Study& study, const std::vector<RunRecord>& runs) {
   std::vector<std::string> wanted = study.columns, there;
@@ -53,7 +64,9 @@ void warn_of_absent_numbers(const Study& study, const std::vector<RunRecord>& ru
 Exit sweep(const Study& study, const BatchOptions& options) {
   check_threads(study.threads, "threads of the study");
   using Runs = std::vector<RunRecord>;
-  return run_batch(study, read_cases(study), options,
+  Runs cases = read_cases(study);
+  check_variables_of_charts(study, cases);
+  return run_batch(study, std::move(cases), options,
                    {.kind = "sweep",
                     .table = "table.csv",
                     .report = results::files::report,

@@ -157,6 +157,7 @@ std::string words_of(std::string name) {
 
 /// A chart of each number of the cut over the first axis, the faces of bodies together.
 std::vector<StudyChart> cut_charts(const Study& study, const std::vector<RunRecord>& runs) {
+  if (study.axes.empty()) return {};
   constexpr std::string_view prefix = "blanking.";
   std::vector<StudyChart> charts;
   for (const std::string& column : cut_columns(runs)) {

@@ -22,16 +22,13 @@ double finest_spacing(const input::Case& input, const ExplicitSolver<2>& solver)
         input.analysis.space() == Space::revolution ? cloud.position[i].x() * 2.0 * M_PI : 1.0;
     if (around > 0.0) finest = std::min(finest, std::sqrt(volume[i] / around));
   }
-  if (!input.adapt.resample) return finest;
-  if (input.adapt.tool_spacing) finest = std::min(finest, *input.adapt.tool_spacing);
-  if (input.adapt.surface_spacing) finest = std::min(finest, *input.adapt.surface_spacing);
-  if (input.adapt.indicator) finest = std::min(finest, input.adapt.h_min);
-  return finest;
+  return std::min(finest, adapted_spacing(input));
 }
 
 void doubt_fracture(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts) {
   const double spacing = finest_spacing(input, solver);
-  for (const plasticity::Material& material : input.materials) {
+  for (const plasticity::Material* one : materials_in_use(input)) {
+    const plasticity::Material& material = *one;
     if (!material.damage || !material.hardening) continue;
     const double flow = material.hardening->flow_stress(0.0, 1.0, input.initial.temperature);
     const double opening = 2.0 * material.damage->fracture_energy / flow;

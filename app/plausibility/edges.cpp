@@ -3,9 +3,9 @@
 #include "app/plausibility/tool_gap.hpp"
 #include "core/index.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
 
 namespace cnem::app {
 
@@ -45,9 +45,7 @@ std::vector<Edge> edges(const input::Case& input, const ExplicitSolver<2>& solve
       const auto near = surface.nearest(piece.point(0.5));
       if (near.distance > reach) continue;
       sharpest.radius = piece.radius;
-      sharpest.spacing = near.spacing;
-      if (input.adapt.resample && input.adapt.tool_spacing)
-        sharpest.spacing = std::min(sharpest.spacing, *input.adapt.tool_spacing);
+      sharpest.spacing = std::min(near.spacing, adapted_spacing(input));
     }
     if (sharpest.spacing > 0.0) list.push_back(sharpest);
   }

@@ -18,6 +18,12 @@ void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doub
 /// Cells wider than the opening at which metal has broken, and parts that pass through each other.
 void doubt_bodies(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
 
+/// What adaptation refines to at the finest, m; infinite without it.
+double adapted_spacing(const input::Case& input);
+
+/// Materials that the workpiece has somewhere.
+std::vector<const plasticity::Material*> materials_in_use(const input::Case& input);
+
 /// "file:line:column: key 'a.b': text".
 inline std::string doubt_about(const input::Case& input, const std::string& key, const std::string& text) {
   return input.error(key, text).what();

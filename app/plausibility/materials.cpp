@@ -26,7 +26,7 @@ double initial_flow_stress(const Material& material, const input::Case& input) {
 }
 
 constexpr std::array usual_of_mechanics{
-    Usual{"elastic.young", "Pa", 5e8, 1.3e12,
+    Usual{"elastic.young", "Pa", 1e7, 1.3e12,
           [](const Material& m, const input::Case&) { return m.elasticity.young; }},
     Usual{"density", "kg/m³", 500.0, 25e3, [](const Material& m, const input::Case&) { return m.density; }},
     Usual{"plastic", "Pa", 1e5, 1e10, initial_flow_stress},
@@ -59,6 +59,18 @@ void doubt_size(const input::Case& input, const Material& material, const Usual&
                               instead ? fmt::format(": is {:.4g} {} meant?", *instead, usual.unit) : "")));
 }
 
+/// Also of what does not flow: solids as dense as metals are stiff.
+void doubt_stiffness(const input::Case& input, const Material& material, Doubts& doubts) {
+  constexpr double dense = 2000.0, soft = 1e9, nothing = 1e6; // kg/m³, Pa
+  const double young = material.elasticity.young;
+  if (material.density < dense || young >= soft || young < nothing) return;
+  doubts.push_back(
+      doubt_about(input, fmt::format("materials.{}.elastic.young", material.name),
+                  fmt::format("{:.4g} Pa at {:.4g} kg/m³, where metals have 10 to 600 GPa: is {:.4g} Pa "
+                              "meant?",
+                              young, material.density, 1e3 * young)));
+}
+
 void doubt_yield_strain(const input::Case& input, const Material& material, Doubts& doubts) {
   const double strain = initial_flow_stress(material, input) / material.elasticity.young;
   if (strain > 0.1)
@@ -84,7 +96,9 @@ void doubt_damage(const input::Case& input, const Material& material, Doubts& do
 } // namespace
 
 void doubt_materials(const input::Case& input, Doubts& doubts) {
-  for (const Material& material : input.materials) {
+  for (const Material* used : materials_in_use(input)) {
+    const Material& material = *used;
+    doubt_stiffness(input, material, doubts);
     if (!material.hardening) continue;
     for (const Usual& one : usual_of_mechanics) doubt_size(input, material, one, doubts);
     doubt_yield_strain(input, material, doubts);

@@ -78,7 +78,9 @@ template<int dim>
 void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, Doubts& doubts) {
   for (const Field& component : solver.state().node.velocity)
     if (std::any_of(component.begin(), component.end(), [](double v) { return v != 0.0; }))
-      return;                     // it flies
+      return; // it flies
+  for (const input::BoundaryCondition& condition : input.boundary)
+    if (input::moves(condition.velocity) || input::moves(condition.displacement)) return; // it is moved
   if (input.adapt.window) return; // the tool of a window stands where it cuts
   const StartingSurface<dim> surface(solver);
   const double end = input.time.end;
@@ -101,10 +103,11 @@ void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, 
     }
     const auto met = meets(surface, way, touching * start.spacing, 0.0, end, nearest);
     constexpr double late = 0.1; // of the run
-    if (!met && nearest >= start.distance)
+    const bool nearer = nearest < start.distance - 1e-6 * start.spacing;
+    if (!met && !nearer)
       doubts.push_back(
           doubt_about(input, key,
-                      fmt::format("{} starts {:.3g} mm clear of the workpiece and moves away from it, {}",
+                      fmt::format("{} starts {:.3g} mm clear of the workpiece and comes no nearer, {}",
                                   tool.name, 1e3 * start.distance, along(way, end))));
     else if (!met)
       doubts.push_back(doubt_about(

@@ -2,7 +2,30 @@
 
 #include "app/plausibility/list.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace cnem::app {
+
+double adapted_spacing(const input::Case& input) {
+  double finest = std::numeric_limits<double>::infinity();
+  if (!input.adapt.resample) return finest;
+  if (input.adapt.tool_spacing) finest = std::min(finest, *input.adapt.tool_spacing);
+  if (input.adapt.surface_spacing) finest = std::min(finest, *input.adapt.surface_spacing);
+  if (input.adapt.indicator) finest = std::min(finest, input.adapt.h_min);
+  return finest;
+}
+
+std::vector<const plasticity::Material*> materials_in_use(const input::Case& input) {
+  std::vector<const plasticity::Material*> list;
+  for (const plasticity::Material& material : input.materials) {
+    const auto holds = [&](const input::Region& region) { return region.material == material.name; };
+    if (material.name == input.domain.material ||
+        std::any_of(input.domain.regions.begin(), input.domain.regions.end(), holds))
+      list.push_back(&material);
+  }
+  return list;
+}
 
 std::vector<std::string> doubts(const input::Case& input) {
   Doubts list;

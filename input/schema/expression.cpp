@@ -1,5 +1,6 @@
 #include "input/schema/expression.hpp"
 
+#include "input/schema/document.hpp"
 #include "input/schema/expression_scanner.hpp"
 
 #include <algorithm>
@@ -88,7 +89,10 @@ private:
     scan_.skip_blanks();
     const bool minus = scan_.next() == '-';
     Quantity result;
-    if (minus || scan_.next() == '+') {
+    if (double number = 0.0; minus && is_plain(scan_.text())) { // "-20 degC" is a reading, no calculation
+      const std::size_t end = scan_.number_end(scan_.at + 1, number);
+      result = literal(-number, end);
+    } else if (minus || scan_.next() == '+') {
       const std::size_t at = scan_.at++;
       result = sign();
       if (minus && celsius_) fail("takes the negative of degC", at, "K");
@@ -169,13 +173,14 @@ private:
       fail(fmt::format("has a unit ({})", error.what()), at, "another one");
     }
     celsius_ = celsius_ || unit.offset != 0.0;
+    check(unit.dimension, at);
     return {unit.to_si(number), unit.dimension};
   }
 
   Quantity named(std::string_view name, std::size_t at) const {
     try {
       return lookup_(name);
-    } catch (const UnitError& error) { fail(fmt::format("names '{}'", name), at, error.what()); }
+    } catch (const UnitError& error) { fail(fmt::format("names '{}'", shortened(name)), at, error.what()); }
   }
 
   std::vector<Quantity> arguments() {

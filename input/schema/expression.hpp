@@ -27,7 +27,9 @@ using Lookup = std::function<Quantity(std::string_view name)>;
 
 /// sum := product {(+|-) product}, product := sign {(*|/) sign}, sign := [+|-] power, power := value [^ sign]
 /// value := number [unit] | unit | name | pi | (sum) | abs, sqrt, sin, cos, tan of a sum | min, max of
-/// several A number takes all of the unit behind it: "1 / 2 mm/s" divides by a velocity. What was calculated
+/// several
+///
+/// A number takes all of the unit behind it: "1 / 2 mm/s" divides by a velocity. What was calculated
 /// is rounded to 15 digits, so that "0.08 * 2 mm" has the bits of "0.16 mm". Throws UnitError with a clause
 /// that says what is wrong and where, "which adds a length (m) and a time (s) at character 7, expected …".
 Quantity evaluate(std::string_view text, const Lookup& lookup);

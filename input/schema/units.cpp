@@ -242,13 +242,22 @@ Unit unit_of(std::string_view text, const std::string& expectation) {
   } catch (const UnitError& error) { throw UnitError(fmt::format("{}, {}", error.what(), expectation)); }
 }
 
+bool is_digit(std::string_view text, std::size_t at) {
+  return at < text.size() && text[at] >= '0' && text[at] <= '9';
+}
+
 /// Throws UnitError where a comma follows a number: there is none in numbers and between them.
 void refuse_comma(std::string_view text, std::string_view rest) {
   if (!rest.starts_with(',')) return;
-  const bool decimal = rest.size() > 1 && rest[1] >= '0' && rest[1] <= '9';
-  throw UnitError(fmt::format("found '{}' with a comma, expected {}: '{}'", text,
-                              decimal ? "a point in a number" : "spaces between numbers",
-                              replace_all(std::string(text), ",", decimal ? "." : "")));
+  std::string expected = fmt::format("spaces between numbers: '{}'", replace_all(std::string(text), ",", ""));
+  if (is_digit(rest, 1)) {
+    // "7,850" is a thousandth of 7850 to some.
+    const bool thousands = is_digit(rest, 2) && is_digit(rest, 3) && !is_digit(rest, 4);
+    expected = thousands || text.find(',') != text.rfind(',')
+                   ? "a point in a number and nothing between thousands"
+                   : fmt::format("a point in a number: '{}'", replace_all(std::string(text), ",", "."));
+  }
+  throw UnitError(fmt::format("found '{}' with a comma, expected {}", text, expected));
 }
 
 /// The number that begins the text and how many characters it takes; 0 when there is none.
@@ -291,6 +300,13 @@ DimensionText describe(const Dimension& dimension) {
       unit += fmt::format("{}{}{}", unit.empty() ? "" : " ", symbol[k],
                           half == 2 ? "" : fmt::format("^{}", 0.5 * half));
   return {"a quantity in " + unit, unit, "1 " + unit};
+}
+
+void refuse_decimal_comma(std::string_view text) {
+  if (text.find('(') != std::string_view::npos) return; // min(2, 3)
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || comma == 0 || !is_digit(text, comma - 1)) return;
+  if (is_digit(text, comma + 1)) refuse_comma(text, text.substr(comma));
 }
 
 Unit parse_unit(std::string_view text) { return UnitParser(text).parse(); }

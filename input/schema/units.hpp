@@ -77,6 +77,9 @@ struct UnitError : std::runtime_error {
 /// parentheses, which people read both ways.
 Unit parse_unit(std::string_view text);
 
+/// Throws UnitError, which says how it is written, where a comma stands in a number: "0,5 mm".
+void refuse_decimal_comma(std::string_view text);
+
 /// Parses one or more numbers that share one unit ("0 10 mm") and returns them in SI.
 /// Throws UnitError when the unit is missing, unknown or of another dimension, or a number is not finite.
 std::vector<double> parse_quantities(std::string_view text, const Dimension& expected);

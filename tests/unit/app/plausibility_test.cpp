@@ -57,7 +57,7 @@ TEST(Plausibility, constants_a_power_of_ten_off) {
   expect_doubt(
       {"materials.steel.elastic.young=207 MPa", "materials.steel.plastic.yield=1 MPa",
        "materials.steel.damage.fracture_energy=1 kJ/m2"},
-      "key 'materials.steel.elastic.young': 2.07e+08 Pa, where solids that flow have 5e+08 to 1.3e+12 Pa: is "
+      "key 'materials.steel.elastic.young': 2.07e+08 Pa at 7850 kg/m³, where metals have 10 to 600 GPa: is "
       "2.07e+11 Pa meant?");
   expect_doubt({"materials.steel.density=7.85 kg/m3"}, "is 7850 kg/m³ meant?");
   expect_doubt({"materials.steel.plastic.yield=400 Pa"}, "it begins to flow at 400 Pa");
@@ -105,8 +105,13 @@ TEST(Plausibility, punches_that_move_away_or_come_late) {
   expect_doubt({lifted}, "punch starts 0.5 mm clear of the workpiece and does not meet it by time.end");
   expect_doubt({lifted, "time.end=100 us"}, "punch starts 0.5 mm clear of the workpiece and meets it after");
   expect_doubt({lifted, "tools.punch.velocity=0 10 m/s"},
-               "clear of the workpiece and moves away from it, along (0, 1)");
+               "clear of the workpiece and comes no nearer, along (0, 1)");
   EXPECT_EQ(doubts_with({lifted, "time.end=1 ms"}), Texts{}) << "early enough";
+  expect_doubt({lifted, "tools.punch.velocity=10 0 m/s"}, "comes no nearer, along (1, 0)");
+  EXPECT_EQ(doubts_with({"tools.punch.velocity=0 1 m/s", "report.blanking.die=[\"die\"]",
+                         "boundary.push.pieces=bottom", "boundary.push.velocity={ y = \"10 m/s\" }"}),
+            Texts{})
+      << "the workpiece goes after it";
   EXPECT_EQ(doubts_with({"tools.punch.velocity={ times = \"0 5 10 us\", values = [\"0 0 m/s\", \"0 -10 "
                          "m/s\", \"0 20 m/s\"] }"}),
             Texts{})
@@ -127,6 +132,24 @@ TEST(Plausibility, arcs_that_no_node_feels) {
   EXPECT_EQ(doubts_with({"tools.die.path[2].fillet=0.4 mm"}), Texts{});
   EXPECT_EQ(
       doubts_with({"tools.die.path[2].fillet=0.1 mm", "adapt.resample=true", "adapt.tool_spacing=0.05 mm"}),
+      Texts{});
+}
+
+TEST(Plausibility, what_the_case_does_not_use_is_not_doubted) {
+  EXPECT_EQ(doubts_with({"materials.spare.density=7.85 kg/m3", "materials.spare.elastic.young=207 MPa",
+                         "materials.spare.elastic.poisson=0.3"}),
+            Texts{});
+  EXPECT_EQ(doubts_with(
+                {"tools.die.path[2].fillet=0.1 mm", "adapt.resample=true", "adapt.surface_spacing=0.05 mm"}),
+            Texts{})
+      << "finer cells by another key";
+}
+
+TEST(Plausibility, floors_of_dies_are_no_edges) {
+  EXPECT_EQ(
+      doubts_with(
+          {"tools.die.path=[{to=\"-1 -4 mm\"}, {to=\"-1 -4.5 mm\"}, {to=\"10 -4.5 mm\"}, {to=\"10 0 mm\"}, "
+           "{to=\"4 0 mm\"}]"}),
       Texts{});
 }
 

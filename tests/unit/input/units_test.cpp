@@ -108,6 +108,8 @@ TEST(Units, CommasAndCelsiusAreToldHowTheyAreWritten) {
             "found '0,1 mm' with a comma, expected a point in a number: '0.1 mm'");
   EXPECT_EQ(message_of("1, 2 mm", d::length),
             "found '1, 2 mm' with a comma, expected spaces between numbers: '1 2 mm'");
+  EXPECT_EQ(message_of("7,850 kg/m3", d::density),
+            "found '7,850 kg/m3' with a comma, expected a point in a number and nothing between thousands");
   EXPECT_TRUE(has(message_of("20 C", d::temperature), "unknown unit 'C' (did you mean 'degC'?)"));
 }
 

@@ -109,6 +109,31 @@ TEST(Variables, that_nothing_uses_are_warned_of) {
             (std::vector<std::string>{"variable 'stray' (case.toml:8:1) is defined and nothing uses it"}));
 }
 
+TEST(Variables, that_nothing_uses_may_not_be_set) {
+  const std::string expected =
+      "--set let.clearance=0.2 mm: key 'let.clearance': found a value for a variable that "
+      "nothing in the case uses, expected it in an expression; a resolved case holds values "
+      "alone";
+  try {
+    read_case_text(read_cut().resolved, "case.toml", {"let.clearance=0.2 mm"});
+    FAIL();
+  } catch (const InputError& error) { EXPECT_EQ(error.what(), expected); }
+}
+
+TEST(Variables, may_be_read_in_degrees_below_zero) {
+  const Case c = read_case_text(replaced(cut, "rows = 3", "rows = 3\ncold = \"-20 degC\""), "case.toml",
+                                {"time.end=\"20 us\"", "initial.temperature=cold"});
+  EXPECT_DOUBLE_EQ(c.initial.temperature, 253.15);
+}
+
+TEST(Variables, commas_in_numbers_are_told_how_they_are_written) {
+  expect_parts(refusal_of_cut({"let.sheet=0,5 mm"}),
+               {"found '0,5 mm' with a comma, expected a point in a number: '0.5 mm'"});
+  expect_parts(refusal_of_cut({"output.pictures=0,5 1,5 us"}), {"found '0,5 1,5 us' with a comma"});
+  expect_parts(refusal_of_cut({"domain.outer.start=-12, -3 mm"}),
+               {"found '-12, -3 mm' with a comma, expected spaces between numbers: '-12 -3 mm'"});
+}
+
 TEST(Variables, that_are_wrong_are_told_once) {
   EXPECT_EQ(
       refusal_of_cut({"let.sheet=\"2 mm + 3 s\""}),

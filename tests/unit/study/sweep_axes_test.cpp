@@ -139,6 +139,37 @@ TEST_F(SweepAxes, variables_that_the_case_does_not_define_are_refused) {
   }
 }
 
+TEST_F(SweepAxes, charts_over_variables_that_no_case_has_are_refused) {
+  const Study s =
+      study("charts = [{ x = \"let.hight\", y = [\"nodes\"] }]\n[grid]\n\"let.width\" = [\"1 mm\"]\n");
+  try {
+    (void)results_of(s);
+    FAIL();
+  } catch (const InputError& error) {
+    expect_parts(error.what(),
+                 {"found \"let.hight\", expected a variable of the case (did you mean 'let.height'?)"});
+  }
+}
+
+TEST_F(SweepAxes, axes_have_names_and_keys) {
+  EXPECT_EQ(refusal("axis = []\n"), "loads.toml:2:8: key 'axis': empty, expected tables [[axis]]");
+  const std::string width = "[[axis]]\nname = \"a\"\nset = { \"let.width\" = [\"1 mm\"] }\n";
+  const std::string height = "[[axis]]\nname = \"a\"\nset = { \"let.height\" = [\"1 mm\"] }\n";
+  expect_parts(refusal(width + height), {"found two axes named 'a', expected a name for each"});
+  expect_parts(refusal("[[axis]]\nname = \"\"\nset = { \"let.width\" = [\"1 mm\"] }\n"),
+               {"axis.name", "expected a name of the axis"});
+}
+
+TEST_F(SweepAxes, a_run_without_keys_has_no_charts_over_them) {
+  const Study s = study("[[run]]\nname = \"as_it_is\"\n");
+  std::vector<RunRecord> runs(1);
+  runs[0].punch = "punch";
+  fs::create_directories(folder / "as_it_is");
+  std::ofstream(folder / "as_it_is" / "history.csv") << "time[s],step\n0,0\n";
+  runs[0].status.emplace().add_metric("blanking.largest_force.punch[N/m]", 2e6);
+  expect_parts(sweep_report(s, runs, folder, "test"), {"blanking.largest_force.punch"});
+}
+
 TEST_F(SweepAxes, cuts_have_columns_and_charts_of_their_own) {
   const Study s = study("[grid]\n\"let.width\" = [\"1 mm\", \"2 mm\"]\n");
   std::vector<RunRecord> runs(2);
