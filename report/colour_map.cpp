@@ -135,7 +135,10 @@ double colour_distance(const Colour& one, const Colour& other) {
 ColourRange value_span(ColourMap map, std::span<const double> values, double percentile) {
   std::vector<double> finite = finite_values(values);
   if (finite.empty()) return {0.0, 0.0};
-  if (map != ColourMap::diverging) return {quantile(finite, 0.0), quantile(finite, 0.01 * percentile)};
+  if (map != ColourMap::diverging) {
+    const double low = quantile(finite, 0.0), high = quantile(finite, 0.01 * percentile);
+    return {low, high > low ? high : quantile(finite, 1.0)}; // where that share is at rest, all of it
+  }
   for (double& value : finite) value = std::abs(value);
   const double limit = quantile(finite, 0.01 * percentile);
   return {-limit, limit};

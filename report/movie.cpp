@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 namespace cnem::report {
 namespace fs = std::filesystem;
@@ -54,6 +55,8 @@ const input::Window* window_of(const MovieOptions& options, const input::Case& i
 }
 
 std::vector<results::FieldFiles> frames_of(const MovieOptions& options) {
+  if (options.from.value_or(0.0) >= options.to.value_or(INFINITY))
+    throw InputError(fmt::format("--from {:g} s is not before --to {:g} s", *options.from, *options.to));
   std::vector<results::FieldFiles> frames = results::read_field_series(options.folder);
   std::erase_if(frames, [&](const results::FieldFiles& frame) {
     const double slack = 1e-9 * frame.time;
@@ -73,6 +76,12 @@ public:
   explicit Series(const MovieOptions& options)
       : folder_(options.folder), input_(case_of(options)), field_(field_of(options, input_)),
         window_(window_of(options, input_)), frames_(frames_of(options)), width_(options.width) {
+    if (!results::has_cell_field(folder_ / frames_.front().cells,
+                                 results::array_in_files(field_info<2>(field_))))
+      throw InputError(
+          fmt::format("--field: the run has no '{}': no material of it follows such a law, or it does not "
+                      "adapt",
+                      field_));
     std::optional<ColourRange> span;
     for (std::size_t k = 0; k < frames_.size(); ++k) {
       const auto source = read(k);
@@ -127,6 +136,9 @@ fs::path make_movie(const MovieOptions& options) {
   if (ending != ".gif" && ending != ".webp" && ending != ".mp4")
     throw InputError(fmt::format("--output: found '{}', expected a name that ends in .gif, .webp or .mp4",
                                  options.output.string()));
+  if (!(options.frames_per_second > 0.0))
+    throw InputError(
+        fmt::format("--fps: found {}, expected a number from 0.1 to 50", options.frames_per_second));
   const Series series(options);
   const fs::path path =
       options.output.empty()
@@ -138,19 +150,23 @@ fs::path make_movie(const MovieOptions& options) {
     results::write_atomically(path, film);
     return path;
   }
-  fs::path gif = path, made = path;
-  gif += ".gif";
-  made += ".part";
+  // Names that nobody else has, beside the film: it is renamed into place. Whole ones, lest ffmpeg takes
+  // "-x.mp4" for an option or "film:1.mp4" for a protocol.
+  const fs::path beside = fs::absolute(path).parent_path();
+  const fs::path gif = beside / fmt::format(".film.{}.gif", getpid());
+  const fs::path made = beside / fmt::format(".film.{}.mp4", getpid());
   results::write_atomically(gif, film);
+  std::error_code error;
   try {
     convert_to_mp4(gif, made);
+    fs::rename(made, path, error);
+    if (error) throw IoError(fmt::format("cannot write {}: {}", path.string(), error.message()));
   } catch (...) {
-    fs::remove(gif);
-    fs::remove(made);
+    fs::remove(gif, error);
+    fs::remove(made, error);
     throw;
   }
-  fs::remove(gif);
-  fs::rename(made, path);
+  fs::remove(gif, error);
   return path;
 }
 

@@ -62,7 +62,7 @@ PictureWindow body_window(const Picture& picture, const std::vector<Vec2>& verti
 
 // Whatever is stated below the footer's line.
 std::string statement(const Picture& picture) {
-  return picture.percentile ? fmt::format("colours span {:g}% of the {}", *picture.percentile,
+  return picture.percentile ? fmt::format("colours span at least {:g}% of the {}", *picture.percentile,
                                           picture.map == ColourMap::diverging ? "magnitudes" : "cells")
                             : "";
 }

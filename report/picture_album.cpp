@@ -21,7 +21,9 @@ nlohmann::ordered_json as_json(const PictureScale& scale) {
           {"view", {view.low.x(), view.low.y(), view.high.x(), view.high.y()}}};
 }
 
-PictureScale scale_of(const nlohmann::json& json) {
+PictureScale scale_of(const nlohmann::json& entry, const char* name) {
+  if (!entry.contains(name)) return {};
+  const nlohmann::json& json = entry.at(name);
   const auto range = json.at("range").get<std::array<double, 2>>();
   const auto view = json.at("view").get<std::array<double, 4>>();
   return {{range[0], range[1]}, {Vec2(view[0], view[1]), Vec2(view[2], view[3])}};
@@ -37,8 +39,8 @@ PictureAlbum::PictureAlbum(const fs::path& output_folder)
   try {
     for (const nlohmann::json& entry : nlohmann::json::parse(results::read_file(index)))
       entries_.push_back({entry.at("file"), entry.at("field"), entry.at("time"), entry.at("caption"),
-                          entry.at("note"), entry.at("series"), scale_of(entry.at("own")),
-                          scale_of(entry.at("drawn"))});
+                          entry.at("note"), entry.value("series", std::string()), scale_of(entry, "own"),
+                          scale_of(entry, "drawn")}); // without series and scales: of older versions
   } catch (const nlohmann::json::exception& problem) {
     throw IoError(fmt::format("{} is not an index of pictures: {}", index.string(), problem.what()));
   }

@@ -2,6 +2,7 @@
 
 #include "core/index.hpp"
 #include "results/output_folder.hpp"
+#include "results/vtk_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,18 @@ std::vector<PictureScale> PictureRecorder::wanted_scales() const {
   return wanted;
 }
 
+namespace {
+
+/// Those of the fields that a file has: others are of laws that no material of the case follows.
+std::vector<std::string> names_in(const std::filesystem::path& cells, const std::vector<std::string>& names) {
+  std::vector<std::string> list;
+  for (const std::string& name : names)
+    if (results::has_cell_field(cells, results::array_in_files(field_info<2>(name)))) list.push_back(name);
+  return list;
+}
+
+} // namespace
+
 void PictureRecorder::finish(results::FileQueue& files) {
   if (!case_->output.drawing.common || album_.entries().empty()) return;
   const std::vector<PictureScale> wanted = wanted_scales();
@@ -91,8 +104,10 @@ void PictureRecorder::finish(results::FileQueue& files) {
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       const AlbumEntry& entry = album_.entries()[k];
       if (entry.time != frame.time || wanted[k] == entry.drawn) continue;
-      if (!source) source = picture_source(*case_, folder_, frame, names);
-      const auto field = std::find(names.begin(), names.end(), entry.series) - names.begin();
+      if (!source) source = picture_source(*case_, folder_, frame, names_in(folder_ / frame.cells, names));
+      const auto field =
+          std::find(source->names.begin(), source->names.end(), entry.series) - source->names.begin();
+      if (index_of(field) == source->names.size()) continue; // zero everywhere, and in no file
       Picture picture = picture_of(*case_, *source, index_of(field));
       picture.range = wanted[k].range;
       picture.window = wanted[k].view;

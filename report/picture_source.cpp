@@ -1,5 +1,6 @@
 #include "report/picture_source.hpp"
 
+#include "core/error.hpp"
 #include "core/index.hpp"
 #include "report/symmetry.hpp"
 #include "results/fields.hpp"
@@ -7,6 +8,7 @@
 #include "results/tool_fields.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace cnem::report {
 namespace fs = std::filesystem;
@@ -38,7 +40,10 @@ void mirror(PictureSource& source) {
     std::vector<double> sign;
     for (const std::string& name : source.names) sign.push_back(image_sign(field_info<2>(name), line));
     add_image(source.fields, line, sign);
-    if (source.warm_tools) add_image(*source.warm_tools, line, {1.0});
+    if (source.warm_tools) {
+      keep_side(*source.warm_tools, line);
+      add_image(*source.warm_tools, line, {1.0});
+    }
     const SymmetryLine other{line.at, -line.normal};
     for (std::size_t t = 0, count = source.tools.size(); t < count; ++t) {
       PictureTool image = source.tools[t];
@@ -101,7 +106,12 @@ std::shared_ptr<PictureSource> picture_source(const input::Case& input, const fs
     for (const results::FieldFiles& of_time : results::read_field_series(folder, results::files::tool_fields))
       if (of_time.time == files.time)
         source->warm_tools = results::read_cell_fields(folder / of_time.cells, {{of_tools}}, origin);
-  for (std::size_t t = 0; t < files.tools.size() && t < input.tools.size(); ++t)
+  if (files.tools.size() < input.tools.size())
+    throw IoError(fmt::format(
+        "{} has the outlines of {} tools at t = {:g} s, expected {}: it was written by an older "
+        "version, run the case again",
+        (folder / results::files::fields).string(), files.tools.size(), files.time, input.tools.size()));
+  for (std::size_t t = 0; t < input.tools.size(); ++t)
     source->tools.push_back({&input.tools[t].outline,
                              results::read_tool_displacement(folder / files.tools[t].file),
                              files.tools[t].tool});

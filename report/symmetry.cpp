@@ -44,6 +44,12 @@ std::vector<SymmetryLine> symmetry_lines(const input::Case& input) {
   return lines;
 }
 
+void keep_side(results::CellFields& fields, const SymmetryLine& line) {
+  for (Vec2& x : fields.cells.vertex) x -= std::max(0.0, line.normal.dot(x - line.at)) * line.normal;
+  for (std::size_t v = 0; v < fields.cells.vertex.size(); ++v)
+    for (std::size_t k = 0; k < 2; ++k) fields.position[k][v] = fields.cells.vertex[v][as<Eigen::Index>(k)];
+}
+
 void add_image(results::CellFields& fields, const SymmetryLine& line, const std::vector<double>& sign) {
   CellGeometry<2>& cells = fields.cells;
   const std::size_t vertices = cells.vertex.size(), count = cells.begin.size() - 1;

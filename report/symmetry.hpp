@@ -11,6 +11,9 @@ namespace cnem::report {
 /// `symmetry`, all of it on one side, and the axis of a body of revolution. Of parallel lines the first.
 std::vector<SymmetryLine> symmetry_lines(const input::Case& input);
 
+/// What lies behind the line is drawn onto it: cells across it end there, others beyond it are of no size.
+void keep_side(results::CellFields& fields, const SymmetryLine& line);
+
 /// The cells with their image behind the line, joined where they meet it. sign: [value] of the image.
 void add_image(results::CellFields& fields, const SymmetryLine& line, const std::vector<double>& sign);
 

@@ -56,13 +56,19 @@ std::vector<FieldFiles> read_field_series(const fs::path& folder, const char* li
 
 namespace {
 
-/// The grid of a file; of the arrays of cells only `arrays`.
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file, const std::vector<FileArray>& arrays) {
+/// Looks into a file of fields.
+vtkSmartPointer<vtkXMLUnstructuredGridReader> open_grid(const fs::path& file) {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   if (!fs::exists(file) || !reader->CanReadFile(file.c_str()))
     throw IoError(fmt::format("cannot read {}: it is no file of fields", file.string()));
   reader->SetFileName(file.c_str());
   reader->UpdateInformation();
+  return reader;
+}
+
+/// The grid of a file; of the arrays of cells only `arrays`.
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file, const std::vector<FileArray>& arrays) {
+  const auto reader = open_grid(file);
   vtkDataArraySelection& wanted = *reader->GetCellDataArraySelection();
   wanted.DisableAllArrays();
   for (const FileArray& array : arrays) {
@@ -116,6 +122,10 @@ CellFields read_cell_fields(const fs::path& file, const std::vector<FileArray>& 
       values.push_back(array->GetComponent(c, component));
   }
   return frame;
+}
+
+bool has_cell_field(const fs::path& file, const FileArray& array) {
+  return open_grid(file)->GetCellDataArraySelection()->ArrayExists(array.name.c_str()) != 0;
 }
 
 Vec2 read_tool_displacement(const fs::path& file) {

@@ -50,6 +50,9 @@ struct CellFields {
 CellFields read_cell_fields(const std::filesystem::path& file, const std::vector<FileArray>& arrays,
                             const Vec2& origin);
 
+/// Whether a file of fields has an array for cells. Throws IoError where it is none.
+bool has_cell_field(const std::filesystem::path& file, const FileArray& array);
+
 /// How far a tool has moved, m, by its file. Throws IoError.
 Vec2 read_tool_displacement(const std::filesystem::path& file);
 

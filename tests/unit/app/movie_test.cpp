@@ -195,6 +195,9 @@ TEST_F(Movie, what_a_run_has_not_is_told) {
       {{done(), "--from", "3 us"}, "has 0 of the times asked for"},
       {{done(), "--to", "3 mm"}, "--to: found '3 mm', which is a length"},
       {{done(), "--fps", "500"}, "--fps"},
+      {{done(), "--fps", "nan"}, "--fps: found nan"},
+      {{done(), "--from", "2 us", "--to", "1 us"}, "--from 2e-06 s is not before --to 1e-06 s"},
+      {{done(), "--field", "damage"}, "--field: the run has no 'damage'"},
       {{folder.string()}, "holds no run with fields"}};
   for (auto [words, expected] : wrong) {
     words.insert(words.begin(), "movie");

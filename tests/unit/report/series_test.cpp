@@ -41,6 +41,19 @@ TEST(ColourSpan, leaves_out_what_is_beyond_the_percentile) {
   EXPECT_EQ(value_span(ColourMap::diverging, values, 99.0), (ColourRange{-990.0, 990.0}));
 }
 
+TEST(ColourSpan, of_a_share_at_rest_is_that_of_all) {
+  EXPECT_EQ(value_span(ColourMap::strain, std::vector<double>{0, 0, 0, 0.3}, 60.0), (ColourRange{0.0, 0.3}));
+}
+
+TEST(Symmetry, cells_end_at_the_line_where_one_side_is_kept) {
+  results::CellFields fields;
+  fields.cells.vertex = {{-2, 0}, {1, 0}, {1, 1}, {-2, 1}};
+  resize_all(fields.position, 4);
+  keep_side(fields, {Vec2(0, 0), Vec2(-1, 0)});
+  EXPECT_EQ(fields.cells.vertex, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(fields.position[0], (Field{0, 1, 1, 0}));
+}
+
 TEST(ColourSpan, of_a_field_at_rest_does_not_widen_that_of_the_series) {
   const std::vector<double> rest{296.0, 296.0}, warm{296.0, 320.0};
   const ColourRange span =
