@@ -144,26 +144,25 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-/// Where the data of the chunk of colours begin, if it has 256.
-std::optional<std::size_t> palette_data(std::string_view png) {
+/// Where the data of the chunk of colours begin; 0 if it has not 256, or there is none.
+std::size_t palette_data(std::string_view png) {
   constexpr std::size_t signature = 8, head = 8, checksum = 4; // of the file, before and after data
   for (std::size_t at = signature; at + head <= png.size();) {
     const std::size_t length = number_at(png, at);
     if (png.substr(at + 4, 4) == "PLTE")
-      return length == 768 && at + head + length + checksum <= png.size() ? std::optional(at + head)
-                                                                          : std::nullopt;
+      return length == 768 && at + head + length + checksum <= png.size() ? at + head : 0;
     at += head + length + checksum;
   }
-  return {};
+  return 0;
 }
 
 } // namespace
 
 std::optional<PngPatch> dark_patch(std::string_view png) {
   constexpr std::array<double, 3> ink{232, 235, 240}, card{27, 32, 39}; // of the dark page
-  const std::optional<std::size_t> data = palette_data(png);
-  if (!data) return {};
-  PngPatch patch{*data, std::string(png.substr(*data, 768))};
+  const std::size_t data = palette_data(png);
+  if (data == 0) return {};
+  PngPatch patch{data, std::string(png.substr(data, 768))};
   for (std::size_t k = 0; k < greys; ++k) {
     const std::size_t first = 3 * (first_grey + k);
     const double s = static_cast<double>(k) / static_cast<double>(greys - 1);
