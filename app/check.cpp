@@ -24,71 +24,98 @@ namespace cnem::app {
 
 namespace {
 
-template<int dim> void check_explicit(const input::Case& input, const RunOptions& options) {
-  std::vector<std::string> warnings;
-  ExplicitSolver<dim> solver = make_solver<dim>(input, warnings);
+template<int dim> Checked check_explicit(const input::Case& input, const RunOptions& options) {
+  Checked checked;
+  ExplicitSolver<dim> solver = make_solver<dim>(input, checked.warnings);
   StepControl control(input.time);
   control.refresh(solver);
-  for (std::string& warning : supersonic_tools(input, solver)) warnings.push_back(std::move(warning));
-  for (std::string& doubt : doubts(input, solver)) warnings.push_back(std::move(doubt));
+  for (std::string& warning : supersonic_tools(input, solver)) checked.warnings.push_back(std::move(warning));
+  for (std::string& doubt : doubts(input, solver)) checked.warnings.push_back(std::move(doubt));
   if (!input.adapt.tool_spacing) check_tool_steps(input, solver, control.limit() / solver.sub_steps());
   const State<dim>& state = solver.state();
   const std::size_t node = node_of(solver, control.point());
-  for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
-  fmt::print("case        {}\n", input.title.empty() ? input.name : input.title);
-  fmt::print("nodes       {}\n", state.node.size());
-  fmt::print("points      {}\n", state.point.size());
+  const auto add = [&](const char* label, std::string text) {
+    checked.facts.emplace_back(label, std::move(text));
+  };
   const bool whole = dim == 3 || solver.approximation().mechanics.of_revolution();
-  fmt::print("{:<11} {:.9g} {}\n", whole ? "volume" : "area",
-             results::enclosed_measure(results::snapshot(solver)), whole ? "m³" : "m²");
-  fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
-  if (!input.time.fixed) fmt::print("{}", input.placed(" at " + show_place<dim>(state.node.position, node)));
-  if (solver.sub_steps() > 1) fmt::print(", in {} finest steps", solver.sub_steps());
+  const double measure = results::enclosed_measure(results::snapshot(solver));
+  add("case", input.title.empty() ? input.name : input.title);
+  add("nodes", fmt::format("{}", state.node.size()));
+  add("points", fmt::format("{}", state.point.size()));
+  add(whole ? "volume" : "area", fmt::format("{:.9g} {}", measure, whole ? "m³" : "m²"));
+  add("first step",
+      fmt::format("{:.4g} s, limited by {}{}{}", control.limit(), control.limited_by(),
+                  input.time.fixed ? "" : input.placed(" at " + show_place<dim>(state.node.position, node)),
+                  solver.sub_steps() > 1 ? fmt::format(", in {} finest steps", solver.sub_steps()) : ""));
   const Forecast expected = forecast(input, solver, control);
-  fmt::print("\nsteps       about {:.12g} to t = {:.4g} s", expected.steps, input.time.end);
-  if (input.adapt.resample)
-    fmt::print(", with cells of {:.3g} m and {:.0f} to {:.0f} nodes", expected.finest, expected.nodes_first,
-               expected.nodes_last);
-  fmt::print("\n");
-  fmt::print("memory      {:.0f} MB\n", static_cast<double>(results::peak_rss_bytes()) / 1e6);
+  add("steps", fmt::format("about {:.12g} to t = {:.4g} s{}", expected.steps, input.time.end,
+                           input.adapt.resample
+                               ? fmt::format(", with cells of {:.3g} m and {:.0f} to {:.0f} nodes",
+                                             expected.finest, expected.nodes_first, expected.nodes_last)
+                               : ""));
+  checked.numbers = {{"nodes", static_cast<double>(state.node.size())},
+                     {"points", static_cast<double>(state.point.size())},
+                     {whole ? "volume" : "area", measure},
+                     {"first_step", control.limit()},
+                     {"steps", expected.steps},
+                     {"nodes_at_end", expected.nodes_last},
+                     {"seconds", expected.seconds}};
+  add("memory", fmt::format("{:.0f} MB", static_cast<double>(results::peak_rss_bytes()) / 1e6));
   const auto overlaps = solver.conditions().contact.overlaps(state.node.position, 0.0);
-  if (overlaps.empty()) {
-    fmt::print("tools       {} without overlap\n", solver.conditions().contact.tools().size());
-  } else {
-    fmt::print("tools       {} places where a tool overlaps the workpiece, the deepest:\n", overlaps.size());
-    for (std::size_t k = 0; k < std::min<std::size_t>(overlaps.size(), 3); ++k)
-      fmt::print("            {}\n",
-                 input.placed(fmt::format("{} by {:.3g} m at {}",
-                                          solver.conditions().contact.tools()[overlaps[k].tool].name,
-                                          overlaps[k].depth, show_place<dim>(overlaps[k].position))));
-  }
+  checked.numbers.emplace_back("overlaps", static_cast<double>(overlaps.size()));
+  if (overlaps.empty())
+    add("tools", fmt::format("{} without overlap", solver.conditions().contact.tools().size()));
+  else
+    add("tools", fmt::format("{} places where a tool overlaps the workpiece, the deepest:", overlaps.size()));
+  for (std::size_t k = 0; k < std::min<std::size_t>(overlaps.size(), 3); ++k)
+    add("", input.placed(fmt::format("{} by {:.3g} m at {}",
+                                     solver.conditions().contact.tools()[overlaps[k].tool].name,
+                                     overlaps[k].depth, show_place<dim>(overlaps[k].position))));
   if constexpr (dim == 2)
-    for (const auto& [label, text] : tool_measures(input, solver)) fmt::print("{:<11} {}\n", label, text);
-  const std::filesystem::path folder = options.output / "initial";
-  results::prepare_output_folder(folder, true);
-  results::FileQueue files;
-  results::FieldRecorder(folder, input).record(files, results::snapshot(solver));
-  files.wait();
-  fmt::print("fields      {}\n", (folder / results::files::fields).string());
+    for (auto& [label, text] : tool_measures(input, solver))
+      checked.facts.emplace_back(std::move(label), std::move(text));
+  if (!options.output.empty()) add("fields", write_initial_fields(input, options, results::snapshot(solver)));
+  return checked;
 }
 
 /// With what it was calculated from, where that says more.
-void print_variable(const input::Variable& variable) {
+std::string variable_text(const input::Variable& variable) {
   const bool angle = variable.unit == "rad";
   const std::string value = angle ? results::number_format(variable.value * 180.0 / std::numbers::pi) + " deg"
                                   : results::si_format(variable.value, variable.unit);
   const bool calculated = !variable.expression.empty() && !input::is_plain(variable.expression);
-  fmt::print("variable    {} = {}{}\n", variable.name, value,
-             calculated ? fmt::format(" ({})", input::shortened(variable.expression)) : "");
+  return value + (calculated ? fmt::format(" ({})", input::shortened(variable.expression)) : "");
 }
 
 } // namespace
 
-void check(const input::Case& input, const RunOptions& options) {
+template<int dim>
+std::string write_initial_fields(const input::Case& input, const RunOptions& options,
+                                 const results::Snapshot<dim>& shot) {
+  const std::filesystem::path folder = options.output / "initial";
+  results::prepare_output_folder(folder, true);
+  results::FileQueue files;
+  results::FieldRecorder(folder, input).record(files, shot);
+  files.wait();
+  return (folder / results::files::fields).string();
+}
+
+template std::string write_initial_fields(const input::Case&, const RunOptions&, const results::Snapshot<2>&);
+template std::string write_initial_fields(const input::Case&, const RunOptions&, const results::Snapshot<3>&);
+
+std::vector<std::pair<std::string, std::string>> variable_texts(const input::Case& input) {
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const input::Variable& variable : input.variables)
+    list.emplace_back(variable.name, variable_text(variable));
+  return list;
+}
+
+Checked check(const input::Case& input, const RunOptions& options) {
+  const ThreadCount threads(options.threads);
   use_threads(options.threads);
-  for (const input::Variable& variable : input.variables) print_variable(variable);
   if (input.analysis.type == input::Analysis::Type::statics) return check_static(input, options);
-  input.analysis.dimensions() == 3 ? check_explicit<3>(input, options) : check_explicit<2>(input, options);
+  return input.analysis.dimensions() == 3 ? check_explicit<3>(input, options)
+                                          : check_explicit<2>(input, options);
 }
 
 } // namespace cnem::app

@@ -1,6 +1,7 @@
 #include "app/command_line.hpp"
 
 #include "app/explain.hpp"
+#include "app/process/console.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/run.hpp"
 #include "app/version.hpp"
@@ -165,6 +166,14 @@ struct MovieCommand {
   }
 };
 
+void print_check(const input::Case& input, const RunOptions& options) {
+  for (const auto& [name, text] : variable_texts(input)) fmt::print("variable    {} = {}\n", name, text);
+  const Checked checked = check(input, options);
+  for (const std::string& warning : checked.warnings) fmt::print("warning: {}\n", warning);
+  for (const auto& [label, text] : checked.facts) fmt::print("{:<11} {}\n", label, text);
+  if (!checked.fault.empty()) throw InputError(checked.fault);
+}
+
 int act(CLI::App& program, int argc, char** argv) {
   program.set_version_flag("--version", version());
   program.require_subcommand(1);
@@ -248,11 +257,13 @@ int act(CLI::App& program, int argc, char** argv) {
     const input::Case input = run_options.read();
     RunOptions options = run_options.options(input);
     options.profile = profile;
-    return run(input, options);
+    Console console;
+    return run(input, options, console);
   }
   if (*restart_command) {
     restart_options.version = version();
-    return restart(restart_options);
+    Console console;
+    return restart(restart_options, console);
   }
   if (*sweep_command) {
     const study::Study study = study::read_study(study_path);
@@ -277,7 +288,7 @@ int act(CLI::App& program, int argc, char** argv) {
   }
   if (*check_command) {
     const input::Case input = check_options.read();
-    check(input, check_options.options(input));
+    print_check(input, check_options.options(input));
   } else if (*explain_command) {
     fmt::print("{}", explanation(explain_options.read()));
   } else if (*schema_command) {

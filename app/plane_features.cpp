@@ -2,8 +2,6 @@
 
 #include "app/divergence.hpp"
 #include "evaluate/blanking.hpp"
-#include "results/history_writer.hpp"
-#include "results/output_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -25,14 +23,13 @@ void PlaneFeatures::start(const std::filesystem::path& folder, ExplicitSolver<2>
                           const Adaptation::Follow& follow) {
   adaptation_.start_log(folder);
   adaptation_.fit_to_tools(solver, follow);
-  pictures_.emplace(*input_, folder);
+  if (!folder.empty()) pictures_.emplace(*input_, folder);
   if (cutting_) cutting_->start(folder);
 }
 
 void PlaneFeatures::resume(const std::filesystem::path& folder, double time) {
   adaptation_.resume_log(folder);
-  pictures_.emplace(*input_, folder);
-  pictures_->truncate(time);
+  if (!folder.empty()) pictures_.emplace(*input_, folder).truncate(time);
   if (cutting_) cutting_->resume(folder);
 }
 
@@ -67,19 +64,18 @@ std::string PlaneFeatures::unload(const ExplicitSolver<2>& solver) {
   } catch (const InputError& error) { return fmt::format("there is no springback: {}", error.what()); }
 }
 
-void PlaneFeatures::evaluate(const std::filesystem::path& folder, const ExplicitSolver<2>& solver) {
+void PlaneFeatures::evaluate(const std::filesystem::path& folder, const ExplicitSolver<2>& solver,
+                             const results::HistoryLog& history) {
   if (input_->report.blanking || springback_) {
     blanking_ = evaluate::evaluate_blanking(*input_, snapshot(solver), solver.conditions().supports,
-                                            springback_ ? &*springback_ : nullptr,
-                                            results::read_history(folder / results::files::history));
-    evaluate::write_blanking(folder, *blanking_);
+                                            springback_ ? &*springback_ : nullptr, history.table());
+    if (!folder.empty()) evaluate::write_blanking(folder, *blanking_);
   }
   if (!cutting_) return;
   const StressedBody body = body_of(solver, &solver.state().node.initial_temperature);
-  cut_ = evaluate::evaluate_cutting(*input_, snapshot(solver), *cutting_,
-                                    results::read_history(folder / results::files::cutting_course),
+  cut_ = evaluate::evaluate_cutting(*input_, snapshot(solver), *cutting_, cutting_->rows(),
                                     solver.conditions().ties.empty() ? &body : nullptr);
-  evaluate::write_cutting(folder, *cut_);
+  if (!folder.empty()) evaluate::write_cutting(folder, *cut_);
 }
 
 std::vector<std::pair<std::string, double>> PlaneFeatures::metrics() const {

@@ -7,6 +7,7 @@
 #include "evaluate/springback.hpp"
 #include "report/picture_recorder.hpp"
 #include "results/file_queue.hpp"
+#include "results/history_log.hpp"
 #include "results/snapshot.hpp"
 
 #include <filesystem>
@@ -25,7 +26,8 @@ public:
     if (input.report.cutting) cutting_.emplace(input);
   }
 
-  /// Begins the files of a run, and fits the cloud to the tools before the first step. Throws IoError.
+  /// Begins the files of a run, none without a folder, and fits the cloud to the tools before the first step.
+  /// Throws IoError.
   void start(const std::filesystem::path& folder, ExplicitSolver<2>& solver,
              const Adaptation::Follow& follow);
   /// Goes on with the files that are there; what is later than `time` (s) is dropped. Throws IoError.
@@ -49,16 +51,21 @@ public:
 
   /// The state with all that is known of it, good until the next one.
   results::Snapshot<2> snapshot(const ExplicitSolver<2>& solver);
+  /// In runs with a folder.
   void draw(results::FileQueue& files, const results::Snapshot<2>& shot) { pictures_->record(files, shot); }
   /// Gives all pictures of a field one scale, once the fields are on the disk. Throws IoError.
-  void finish_pictures(results::FileQueue& files) { pictures_->finish(files); }
+  void finish_pictures(results::FileQueue& files) {
+    if (pictures_) pictures_->finish(files);
+  }
   /// Returns the file's name in the folder of pictures.
   std::string draw_place(results::FileQueue& files, const ExplicitSolver<2>& solver, std::size_t node);
 
   /// Lets the bodies go, where the case asks for it. Returns why that cannot be done; "" when it can.
   std::string unload(const ExplicitSolver<2>& solver);
-  /// Evaluates the cut of a run that has ended, where the case asks for it, and writes it. Throws IoError.
-  void evaluate(const std::filesystem::path& folder, const ExplicitSolver<2>& solver);
+  /// Evaluates the cut of a run that has ended, where the case asks for it, and writes it into the folder, if
+  /// there is one. Throws IoError.
+  void evaluate(const std::filesystem::path& folder, const ExplicitSolver<2>& solver,
+                const results::HistoryLog& history);
   /// Named results for status.json, and the names of those that are true or false.
   std::vector<std::pair<std::string, double>> metrics() const;
   std::vector<std::string> flags() const;

@@ -1,7 +1,6 @@
 #include "app/run.hpp"
 
 #include "app/process/exhaustion.hpp"
-#include "app/process/run_signals.hpp"
 #include "app/simulation.hpp"
 #include "app/statics/statics.hpp"
 #include "core/machine/isa.hpp"
@@ -24,27 +23,34 @@ namespace {
 constexpr const char* another_run = "run";
 
 void take_folder(const input::Case& input, const RunOptions& options) {
+  if (options.output.empty()) return;
   results::prepare_output_folder(options.output, options.force);
   results::write_atomically(options.output / results::files::resolved_case, input.resolved);
 }
 
-/// Whether a checkpoint is one of this case; takes over its name then, and its instruction set unless
-/// CNEM_ISA asks for another, so that the run goes on with the same bits.
+/// Whether a checkpoint is one of this case; takes over its name then, and its instruction set where that is
+/// the run's to choose and CNEM_ISA does not ask for another, so that the run goes on with the same bits.
 bool adopt(results::CheckpointReader& checkpoint, input::Case& input, const std::string& version,
-           std::vector<std::string>& differences) {
+           bool owns_process, std::vector<std::string>& differences) {
   results::CheckpointInfo info;
   info.archive(checkpoint);
   if (info.inputs != results::hash_of_inputs(input.resolved)) return false;
   input.name = info.name;
   const std::optional<Isa> wanted = wanted_isa();
+  bool there = false;
   for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512})
-    if (info.isa == isa_name(isa) && isa_supported(isa)) set_isa(wanted.value_or(isa));
+    if (info.isa == isa_name(isa) && isa_supported(isa)) {
+      there = true;
+      if (owns_process) set_isa(wanted.value_or(isa));
+    }
   if (info.isa != isa_name(active_isa()))
     differences.push_back(
         fmt::format("the run began with instruction set {} and goes on with {}, {}: it may not end with the "
                     "same bits",
                     info.isa, isa_name(active_isa()),
-                    wanted ? "as CNEM_ISA says" : "because this machine lacks the first"));
+                    wanted  ? "as CNEM_ISA says"
+                    : there ? "which this process runs with"
+                            : "because this machine lacks the first"));
   if (info.version != version)
     differences.push_back(
         fmt::format("the run began with version {}, this is {}: it may not end with the same bits",
@@ -57,6 +63,7 @@ bool adopt(results::CheckpointReader& checkpoint, input::Case& input, const std:
 /// are only those of another case.
 template<int dim>
 std::unique_ptr<Simulation<dim>> at_last_checkpoint(input::Case& input, const RunOptions& options,
+                                                    RunObserver& observer,
                                                     std::vector<std::string>& warnings) {
   std::vector<fs::path> refused;
   bool foreign = false;
@@ -64,15 +71,15 @@ std::unique_ptr<Simulation<dim>> at_last_checkpoint(input::Case& input, const Ru
     try {
       std::vector<std::string> differences;
       results::CheckpointReader checkpoint(results::read_file(path));
-      if (!adopt(checkpoint, input, options.version, differences)) {
+      if (!adopt(checkpoint, input, options.version, observer.owns_process(), differences)) {
         foreign = true;
         throw IoError(fmt::format("it belongs to another case than {}", results::files::resolved_case));
       }
-      auto simulation = std::make_unique<Simulation<dim>>(input, options);
+      auto simulation = std::make_unique<Simulation<dim>>(input, options, observer);
       simulation->resume(checkpoint);
       warnings.insert(warnings.end(), differences.begin(), differences.end());
       for (const fs::path& other : refused) results::set_aside(other);
-      fmt::print("going on from {}\n", path.string());
+      observer.outcome(fmt::format("going on from {}", path.string()));
       return simulation;
     } catch (const IoError& error) {
       warnings.push_back(fmt::format("{} is refused: {}", path.string(), error.what()));
@@ -89,91 +96,134 @@ std::unique_ptr<Simulation<dim>> at_last_checkpoint(input::Case& input, const Ru
   return nullptr;
 }
 
-template<int dim> Exit run_explicit(const input::Case& input, const RunOptions& options) {
-  const RunSignals signals;
-  const bool fresh = !results::holds_run(options.output);
+input::Case resolved_case(const fs::path& folder) {
+  const fs::path resolved = folder / results::files::resolved_case;
+  input::Case input = input::read_case(resolved.string());
+  if (input.analysis.type == input::Analysis::Type::statics) input.resolved = results::read_file(resolved);
+  return input;
+}
+
+} // namespace
+
+template<int dim> void Run::begin(RunObserver& observer) {
+  observer.begins();
+  const bool fresh = options_.output.empty() || !results::holds_run(options_.output);
   // A new folder is taken before the set-up, so that a run killed meanwhile can be restarted; one that holds
   // a run loses it only when the set-up has succeeded.
-  if (fresh || !options.force) take_folder(input, options);
+  if (fresh || !options_.force) take_folder(input_, options_);
   const auto set_up = [&] {
-    auto simulation = std::make_unique<Simulation<dim>>(input, options);
+    auto simulation = std::make_unique<Simulation<dim>>(input_, options_, observer);
     simulation->check_tools();
     return simulation;
   };
   std::unique_ptr<Simulation<dim>> simulation;
   try {
-    simulation = fresh ? before_steps(input, options, set_up) : set_up();
+    simulation = fresh ? before_steps(input_, options_, set_up) : set_up();
   } catch (const InputError&) {
     std::error_code ignored;
-    if (fresh) fs::remove(options.output / results::files::resolved_case, ignored);
+    if (fresh && lock_) fs::remove(options_.output / results::files::resolved_case, ignored);
     throw;
   }
-  if (!fresh) take_folder(input, options);
-  before_steps(input, options, [&] { simulation->start(); });
-  return simulation->run();
+  if (!fresh) take_folder(input_, options_);
+  before_steps(input_, options_, [&] { simulation->start(); });
+  session_ = std::move(simulation);
 }
 
-template<int dim> Exit resume_explicit(input::Case& input, const RunOptions& options) {
-  const RunSignals signals;
+template<int dim> void Run::resume(RunObserver& observer) {
+  observer.begins();
   std::unique_ptr<Simulation<dim>> simulation;
-  before_steps(input, options, [&] {
+  before_steps(input_, options_, [&] {
     std::vector<std::string> warnings;
-    simulation = at_last_checkpoint<dim>(input, options, warnings);
+    simulation = at_last_checkpoint<dim>(input_, options_, observer, warnings);
     if (simulation) {
       for (const char* end : {results::files::blanking, results::files::cutting, results::files::status,
                               results::files::report})
-        fs::remove(options.output / end);
+        fs::remove(options_.output / end);
     } else {
-      fmt::print("there is no checkpoint to go on from: starting at step 0\n");
-      simulation = std::make_unique<Simulation<dim>>(input, options);
-      results::clear_results(options.output);
+      observer.outcome("there is no checkpoint to go on from: starting at step 0");
+      simulation = std::make_unique<Simulation<dim>>(input_, options_, observer);
+      results::clear_results(options_.output);
       simulation->start();
     }
     for (std::string& warning : warnings) simulation->warn(std::move(warning));
   });
-  return simulation->run();
+  session_ = std::move(simulation);
 }
 
-} // namespace
+Run::Run(input::Case input, RunOptions options, RunObserver& observer)
+    : options_(std::move(options)), input_(std::move(input)) {
+  const ThreadCount threads(options_.threads);
+  use_threads(options_.threads);
+  if (!options_.output.empty()) lock_.emplace(options_.output, another_run);
+  if (input_.analysis.type == input::Analysis::Type::statics) {
+    const auto make = [&] { session_ = std::make_unique<StaticRun>(input_, options_, observer); };
+    // The status of a run that is there stays until that run is replaced.
+    const bool there = lock_ && results::holds_run(options_.output);
+    there ? make() : before_steps(input_, options_, make);
+  } else if (input_.analysis.dimensions() == 3)
+    begin<3>(observer);
+  else
+    begin<2>(observer);
+}
+
+Run::Run(RunOptions options, RunObserver& observer) : options_(std::move(options)) {
+  if (has_finished(options_.output))
+    throw InputError(
+        fmt::format("the run in {} has finished: there is nothing to do", options_.output.string()));
+  lock_.emplace(options_.output, another_run);
+  results::clear_leftovers(options_.output);
+  input_ = resolved_case(options_.output);
+  const ThreadCount threads(options_.threads);
+  use_threads(options_.threads);
+  if (input_.analysis.type == input::Analysis::Type::statics) {
+    observer.outcome("a static analysis has no checkpoints: it is solved again");
+    options_.force = true;
+    session_ = std::make_unique<StaticRun>(input_, options_, observer);
+  } else if (input_.analysis.dimensions() == 3)
+    resume<3>(observer);
+  else
+    resume<2>(observer);
+}
+
+Run::~Run() = default;
+
+std::optional<Exit> Run::go_on() {
+  const ThreadCount threads(options_.threads);
+  const std::optional<Exit> exit = session_->go_on();
+  if (exit) lock_.reset();
+  return exit;
+}
+
+Exit run(const input::Case& input, const RunOptions& options, RunObserver& observer) {
+  return Run(input, options, observer).go_on().value();
+}
 
 Exit run(const input::Case& input, const RunOptions& options) {
-  use_threads(options.threads);
-  const results::FolderLock lock(options.output, another_run);
-  if (input.analysis.type != input::Analysis::Type::statics)
-    return input.analysis.dimensions() == 3 ? run_explicit<3>(input, options)
-                                            : run_explicit<2>(input, options);
-  const auto solve = [&] { return run_static(input, options); };
-  // The status of a run that is there stays until that run is replaced.
-  return results::holds_run(options.output) ? solve() : before_steps(input, options, solve);
+  RunObserver silent;
+  return run(input, options, silent);
 }
 
-Exit restart(const RunOptions& options) {
-  const fs::path resolved = options.output / results::files::resolved_case;
-  if (!fs::exists(resolved))
+bool has_finished(const fs::path& folder) {
+  if (!fs::exists(folder / results::files::resolved_case))
     throw InputError(
         fmt::format("{} holds no run to restart: expected the output folder of `cnem run`, with its {}",
-                    options.output.string(), results::files::resolved_case));
-  const results::FolderLock lock(options.output, another_run);
-  results::clear_leftovers(options.output);
-  if (fs::exists(options.output / results::files::status) &&
-      results::read_status(options.output).exit == Exit::done) {
-    const fs::path report = options.output / results::files::report;
-    if (!fs::exists(report)) report::write_report(options.output);
-    fmt::print("the run in {} has finished: there is nothing to do\nreport: {}\n", options.output.string(),
-               report.string());
+                    folder.string(), results::files::resolved_case));
+  const results::FolderLock lock(folder, another_run);
+  results::clear_leftovers(folder);
+  if (!fs::exists(folder / results::files::status) || results::read_status(folder).exit != Exit::done)
+    return false;
+  if (!fs::exists(folder / results::files::report)) report::write_report(folder);
+  return true;
+}
+
+Exit restart(const RunOptions& options, RunObserver& observer) {
+  if (has_finished(options.output)) {
+    observer.outcome(fmt::format("the run in {} has finished: there is nothing to do\nreport: {}",
+                                 options.output.string(),
+                                 (options.output / results::files::report).string()));
     return Exit::done;
   }
-  input::Case input = input::read_case(resolved.string());
-  use_threads(options.threads);
-  if (input.analysis.type == input::Analysis::Type::statics) {
-    fmt::print("a static analysis has no checkpoints: it is solved again\n");
-    input.resolved = results::read_file(resolved);
-    RunOptions again = options;
-    again.force = true;
-    return run_static(input, again);
-  }
-  return input.analysis.dimensions() == 3 ? resume_explicit<3>(input, options)
-                                          : resume_explicit<2>(input, options);
+  return Run(options, observer).go_on().value();
 }
 
 } // namespace cnem::app

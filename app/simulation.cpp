@@ -3,7 +3,6 @@
 #include "app/plausibility/plausibility.hpp"
 #include "app/problem/registry.hpp"
 #include "app/process/exhaustion.hpp"
-#include "app/process/run_signals.hpp"
 #include "app/profile.hpp"
 #include "app/watches/tool_speed.hpp"
 #include "core/index.hpp"
@@ -39,10 +38,10 @@ ExplicitSolver<dim> make_solver(const input::Case& input, std::vector<std::strin
 }
 
 template<int dim>
-Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options)
-    : input_(input), options_(options),
+Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options, RunObserver& observer)
+    : input_(input), options_(options), observer_(observer),
       solver_(watch_.time("setup", [&] { return make_solver<dim>(input, warnings_); })),
-      history_(input, solver_, options.output),
+      history_(input, solver_, options.output, options.keep_history),
       lines_(input, solver_.conditions().cloud, solver_.approximation()),
       history_due_(every(input.output.history_every, input.time.end, Schedule::every_step())),
       fields_due_(every(input.output.fields_every, input.time.end,
@@ -65,43 +64,25 @@ template<int dim> void Simulation<dim>::start() {
   watch_.time("rebuild", [&] {
     features_.start(options_.output, solver_, [&](const Resampling<dim>& change) { follow(change); });
   });
-  fields_.emplace(options_.output, input_);
+  if (!options_.output.empty()) fields_.emplace(options_.output, input_);
 }
-template<int dim> Exit Simulation<dim>::run() {
-  for (const std::string& warning : warnings_) progress_.message("warning: " + warning);
+template<int dim> std::optional<Exit> Simulation<dim>::go_on() {
+  const bool stopped_in_memory = exit_ == Exit::interrupted && options_.output.empty();
+  if (stage_ == Stage::ended && !stopped_in_memory) return exit_;
+  if (stage_ == Stage::begun)
+    for (const std::string& warning : warnings_) observer_.remark("warning: " + warning);
+  stage_ = Stage::under_way;
+  exit_ = Exit::done;
+  watch_.go_on();
   try {
     while (const std::optional<DivergenceError> failure = run_on())
       if (!go_back(*failure)) {
         diverge(*failure);
         break;
       }
-    watch_.time("output", [&] {
-      if (exit_ != Exit::interrupted) lines_.write(results::snapshot(solver_), options_.output);
-      watch_.time("output.disk", [&] { files_.wait(); });
-      watch_.time("output.pictures", [&] { features_.finish_pictures(files_); });
-      watch_.time("output.disk", [&] { files_.wait(); });
-      if (exit_ == Exit::done) features_.evaluate(options_.output, solver_);
-    });
-    progress_.finish();
-    for (const std::string& warning : late_warnings()) progress_.message("warning: " + warning);
-    results::RunStatus end = status();
-    const std::filesystem::path report = watch_.time("output", [&] {
-      return watch_.time("output.report", [&] { return report::write_report(options_.output, end); });
-    });
-    end.wall_s = wall();
-    end.cpu_s = watch_.cpu();
-    forget_last_words();
-    results::write_status(options_.output, end);
-    fmt::print("{}: {}\n",
-               exit_ == Exit::done          ? "done"
-               : exit_ == Exit::interrupted ? "stopped"
-                                            : "diverged",
-               reason_);
-    fmt::print("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; energy residual {:.2g} of the work\n",
-               end.nodes, end.steps, end.time, end.wall_s.front().second, end.energy_residual);
-    if (options_.profile) fmt::print("{}", profile_table(end));
-    fmt::print("report: {}\n", report.string());
-    return exit_;
+    if (stage_ != Stage::paused) end();
+    watch_.pause();
+    return stage_ == Stage::paused ? std::nullopt : std::optional<Exit>(exit_);
   } catch (const IoError& error) {
     return fail(error.what());
   } catch (const std::system_error& error) { // files and threads
@@ -110,6 +91,39 @@ template<int dim> Exit Simulation<dim>::run() {
     files_.give_up();
     return fail(memory_exhausted());
   }
+}
+template<int dim> void Simulation<dim>::end() {
+  const bool in_folder = !options_.output.empty();
+  watch_.time("output", [&] {
+    if (in_folder && exit_ != Exit::interrupted) lines_.write(results::snapshot(solver_), options_.output);
+    watch_.time("output.disk", [&] { files_.wait(); });
+    watch_.time("output.pictures", [&] { features_.finish_pictures(files_); });
+    watch_.time("output.disk", [&] { files_.wait(); });
+    if (exit_ == Exit::done) features_.evaluate(options_.output, solver_, history_.log());
+  });
+  observer_.steps_end();
+  stage_ = Stage::ended;
+  for (const std::string& warning : late_warnings()) observer_.remark("warning: " + warning);
+  results::RunStatus end = status();
+  std::filesystem::path report;
+  if (in_folder)
+    report = watch_.time("output", [&] {
+      return watch_.time("output.report", [&] { return report::write_report(options_.output, end); });
+    });
+  end.wall_s = wall();
+  end.cpu_s = watch_.cpu();
+  forget_last_words();
+  if (in_folder) results::write_status(options_.output, end);
+  observer_.outcome(fmt::format("{}: {}",
+                                exit_ == Exit::done          ? "done"
+                                : exit_ == Exit::interrupted ? "stopped"
+                                                             : "diverged",
+                                reason_));
+  observer_.outcome(
+      fmt::format("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; energy residual {:.2g} of the work",
+                  end.nodes, end.steps, end.time, end.wall_s.front().second, end.energy_residual));
+  if (options_.profile) observer_.outcome(profile_table(end));
+  if (in_folder) observer_.outcome("report: " + report.string());
 }
 template<int dim> std::optional<DivergenceError> Simulation<dim>::run_on() {
   try {
@@ -134,17 +148,25 @@ template<int dim> void Simulation<dim>::loop() {
     }
     check_reserve();
     const State<dim>& state = solver_.state();
-    const char* signal = RunSignals::stop();
-    if (RunSignals::take_checkpoint() || signal || checkpoints_.due(state.step, state.time)) {
+    const Request request = observer_.request();
+    const bool stopped = request.kind == Request::Kind::stop;
+    if (stopped || request.kind == Request::Kind::checkpoint || checkpoints_.due(state.step, state.time)) {
       check_finite(state);
       watch_.time("output", [&] {
         watch_.time("output.disk", [&] { files_.wait(); }); // a checkpoint counts on the frames before it
-        watch_.time("output.checkpoint", [&] { write_checkpoint(fields_->frames()); });
+        watch_.time("output.checkpoint", [&] { write_checkpoint(frames()); });
       });
     }
-    if (signal)
-      return stop(Exit::interrupted, fmt::format("by {} at {}; `cnem restart {}` goes on from there", signal,
-                                                 last_checkpoint_, options_.output.string()));
+    if (stopped)
+      return stop(Exit::interrupted,
+                  fmt::format("by {} at {}{}", request.by, last_checkpoint_,
+                              options_.output.empty() ? ""
+                                                      : fmt::format("; `cnem restart {}` goes on from there",
+                                                                    options_.output.string())));
+    if (request.kind == Request::Kind::pause) {
+      stage_ = Stage::paused;
+      return;
+    }
     adapt_and_step();
     node_steps_ += solver_.updates();
   }
@@ -171,11 +193,11 @@ template<int dim> void Simulation<dim>::record_due() {
   const double tolerance = 1e-9 * input_.time.end;
   record(history_due_.due(state.time, tolerance), fields_due_.due(state.time, tolerance),
          pictures_due_.due(state.time, tolerance));
-  progress_.update({.time = state.time,
-                    .end = input_.time.end,
-                    .step = state.step,
-                    .dt = state.step_before,
-                    .nodes = static_cast<std::int64_t>(state.node.size())});
+  observer_.progress({.time = state.time,
+                      .end = input_.time.end,
+                      .step = state.step,
+                      .dt = state.step_before,
+                      .nodes = static_cast<std::int64_t>(state.node.size())});
 }
 template<int dim> void Simulation<dim>::record_last() {
   const double now = solver_.state().time;
@@ -198,9 +220,13 @@ template<int dim> void Simulation<dim>::record(bool history, bool fields, bool p
       history_.record(solver_);
       features_.record(solver_);
     });
-  if (fields || pictures) // pictures are drawn anew from their frames, where others of the series show more
+  const bool in_folder = !options_.output.empty();
+  if (in_folder &&
+      (fields || pictures)) // pictures are drawn anew from their frames, where others of the series show more
     watch_.time("output.fields", [&] { fields_->record(files_, features_.snapshot(solver_)); });
-  if (pictures) watch_.time("output.pictures", [&] { features_.draw(files_, features_.snapshot(solver_)); });
+  if (in_folder && pictures)
+    watch_.time("output.pictures", [&] { features_.draw(files_, features_.snapshot(solver_)); });
+  if (history || fields || pictures) observer_.recorded(history, fields || pictures);
 }
 template<int dim> void Simulation<dim>::adapt_and_step() {
   const State<dim>& state = solver_.state();
@@ -214,7 +240,7 @@ template<int dim> void Simulation<dim>::adapt_and_step() {
   bool good = retries_.lacks_state();
   if (rereference || good)
     watch_.time("rebuild", [&] {
-      retries_.take(state.time, [&](Archive& archive) { archive_course(archive, fields_->frames()); });
+      retries_.take(state.time, [&](Archive& archive) { archive_course(archive, frames()); });
       if (rereference) good = new_reference();
     });
   watch_.time("step", [&] {
@@ -260,17 +286,21 @@ template<int dim> void Simulation<dim>::diverge(const DivergenceError& error) {
   stop(Exit::diverged, dead_->text);
   if (const std::string warning = renewal_.warning(); !warning.empty())
     dead_->causes.push_back(fmt::format("Nodes have passed each other: {}.", warning));
+  if (options_.output.empty()) return;
   dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", results::files::checkpoint,
                                  last_checkpoint_.empty() ? "no step" : last_checkpoint_, fields_due_.last());
   dead_->picture = features_.draw_place(files_, solver_, index_of(error.node));
 }
 template<int dim> Exit Simulation<dim>::fail(const std::string& message) {
   forget_last_words();
-  progress_.finish();
+  observer_.steps_end();
+  stage_ = Stage::ended;
+  watch_.pause();
   stop(Exit::io_failed, message);
-  fmt::print(stderr, "{}\n{}\n", message, how_to_go_on());
+  const std::string how = how_to_go_on();
+  observer_.failure(how.empty() ? message : fmt::format("{}\n{}", message, how));
   try {
-    results::write_status(options_.output, status());
+    if (!options_.output.empty()) results::write_status(options_.output, status());
   } catch (const std::exception&) {} // there may be no room for this either
   return Exit::io_failed;
 }

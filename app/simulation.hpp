@@ -14,7 +14,6 @@
 #include "app/watches/penetration.hpp"
 #include "results/checkpoint.hpp"
 #include "results/file_queue.hpp"
-#include "results/progress.hpp"
 #include "results/recorder.hpp"
 #include "results/sample_lines.hpp"
 #include "results/status.hpp"
@@ -28,10 +27,10 @@
 namespace cnem::app {
 
 /// In the plane (dim 2) and in space (3).
-template<int dim> class Simulation {
+template<int dim> class Simulation final : public Session {
 public:
-  /// Builds the solver at time 0. `input` must outlive this object. Throws InputError.
-  Simulation(const input::Case& input, const RunOptions& options);
+  /// Builds the solver at time 0. `input` and `observer` must outlive this object. Throws InputError.
+  Simulation(const input::Case& input, const RunOptions& options, RunObserver& observer);
 
   /// Throws InputError when a tool is too fast for the first step: at the start of a new run.
   void check_tools();
@@ -44,9 +43,12 @@ public:
   /// To be told in the status.
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
 
-  /// Runs to the end, or until it diverges, writing fails or a signal (app/process/run_signals.hpp) stops it;
-  /// writes status and report.
-  Exit run();
+  std::optional<Exit> go_on() override;
+  results::RunStatus status() override;
+  std::variant<results::Snapshot<2>, results::Snapshot<3>> snapshot() override {
+    return features_.snapshot(solver_);
+  }
+  const results::HistoryLog& history() const override { return history_.log(); }
 
 private:
   /// What a checkpoint keeps: the course, what is remembered to go back to, and wall times.
@@ -55,9 +57,12 @@ private:
   int archive_course(Archive& archive, int frames);
   /// Goes on with the files behind the present state, of which fields.pvd has `frames` frames.
   void take_up_files(int frames);
-  /// Runs until it ends or fails.
+  /// Runs until it ends, pauses or fails.
   std::optional<DivergenceError> run_on();
   void loop();
+  results::ProgressState progress() const;
+  /// The last output, status and report.
+  void end();
   /// Back to the last pass, to renew the reference sooner from there; false when the failure is final.
   bool go_back(const DivergenceError& error);
   bool finished();
@@ -76,12 +81,13 @@ private:
   /// At what is to be told and leaves the results alone.
   void look_around();
   void refresh_step();
+  /// Of the frames written until now.
+  int frames() const { return fields_ ? fields_->frames() : 0; }
   void write_checkpoint(int frames);
   void stop(Exit exit, std::string reason);
   void diverge(const DivergenceError& error);
   Exit fail(const std::string& message);
   std::string how_to_go_on() const;
-  results::RunStatus status();
   /// Those that come up on the way.
   std::vector<std::string> late_warnings() const;
   void add_step_times(Stopwatch& watch) const;
@@ -89,13 +95,16 @@ private:
 
   const input::Case& input_;
   RunOptions options_;
+  RunObserver& observer_;
+  enum class Stage { begun, under_way, paused, ended };
+  Stage stage_ = Stage::begun;
   Stopwatch watch_;
   std::vector<std::string> warnings_;
   ExplicitSolver<dim> solver_;
   results::HistoryRecorder<dim> history_;
   results::SampleLines<dim> lines_;
-  results::FileQueue files_; ///< frames and pictures on their way to the disk
-  std::optional<results::FieldRecorder> fields_;
+  results::FileQueue files_;                     ///< frames and pictures on their way to the disk
+  std::optional<results::FieldRecorder> fields_; ///< of a run with a folder, once it has begun
   Schedule history_due_, fields_due_, pictures_due_;
   StepControl control_;
   ReferenceRenewal renewal_;
@@ -106,7 +115,6 @@ private:
   MeasuredRangeWatch measured_range_;
   std::conditional_t<dim == 2, PlaneFeatures, SpaceFeatures> features_;
   CheckpointTimer checkpoints_;
-  results::Progress progress_;
   std::int64_t last_check_ = -1; ///< step of the last look at the stable step; −1: none yet
   double node_steps_ = 0.0;
   std::string last_checkpoint_; ///< of which step and time it is, in words

@@ -23,11 +23,13 @@ template<int dim> void Simulation<dim>::resume(results::CheckpointReader& checkp
 }
 template<int dim> void Simulation<dim>::take_up_files(int frames) {
   const double now = solver_.state().time;
-  fields_.emplace(options_.output, input_, now);
-  if (fields_->frames() != frames)
-    throw IoError(fmt::format("{} has {} of the {} frames written until then",
-                              (options_.output / results::files::fields).string(), fields_->frames(),
-                              frames));
+  if (!options_.output.empty()) {
+    fields_.emplace(options_.output, input_, now);
+    if (fields_->frames() != frames)
+      throw IoError(fmt::format("{} has {} of the {} frames written until then",
+                                (options_.output / results::files::fields).string(), fields_->frames(),
+                                frames));
+  }
   history_.resume(solver_);
   features_.resume(options_.output, now);
 }
@@ -64,15 +66,17 @@ template<int dim> int Simulation<dim>::archive(Archive& archive, int frames) {
 }
 template<int dim> void Simulation<dim>::write_checkpoint(int frames) {
   const State<dim>& state = solver_.state();
-  results::flush_file(options_.output /
-                      results::files::history); // what the checkpoint counts on must not be lost before it
-  results::CheckpointWriter writer;
-  results::CheckpointInfo info{options_.version, std::string(isa_name(active_isa())),
-                               input_.name,      results::hash_of_inputs(input_.resolved),
-                               state.step,       state.time};
-  info.archive(writer);
-  archive(writer, frames);
-  results::add_checkpoint(options_.output, writer.content(), input_.output.checkpoint.keep);
+  if (!options_.output.empty()) {
+    results::flush_file(options_.output /
+                        results::files::history); // what the checkpoint counts on must not be lost before it
+    results::CheckpointWriter writer;
+    results::CheckpointInfo info{options_.version, std::string(isa_name(active_isa())),
+                                 input_.name,      results::hash_of_inputs(input_.resolved),
+                                 state.step,       state.time};
+    info.archive(writer);
+    archive(writer, frames);
+    results::add_checkpoint(options_.output, writer.content(), input_.output.checkpoint.keep);
+  }
   checkpoints_.written(state.step, state.time);
   last_checkpoint_ = step_and_time(state);
   set_last_words(options_.output, status(), how_to_go_on());
@@ -86,15 +90,16 @@ template<int dim> bool Simulation<dim>::go_back(const DivergenceError& error) {
   solver_ = make_solver<dim>(input_, told); // a restart begins with the same one
   int frames = 0;
   retries_.go_back(failed, error.what(), [&](Archive& archive) { frames = archive_course(archive, 0); });
-  progress_.message(fmt::format("{}\nback to {}: the reference is renewed at {:g} of the strain from there",
-                                input_.placed(error.what()), step_and_time(solver_.state()),
-                                retries_.strain_share()));
+  observer_.remark(fmt::format("{}\nback to {}: the reference is renewed at {:g} of the strain from there",
+                               input_.placed(error.what()), step_and_time(solver_.state()),
+                               retries_.strain_share()));
   // Before the files are cut short: killed in between, the run goes on from here.
   write_checkpoint(frames);
   take_up_files(frames);
   return true;
 }
 template<int dim> std::string Simulation<dim>::how_to_go_on() const {
+  if (options_.output.empty()) return "";
   const std::string folder = options_.output.string();
   return last_checkpoint_.empty()
              ? fmt::format(

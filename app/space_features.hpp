@@ -4,6 +4,7 @@
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "results/file_queue.hpp"
+#include "results/history_log.hpp"
 #include "results/snapshot.hpp"
 
 #include <filesystem>
@@ -30,7 +31,7 @@ public:
   void finish_pictures(results::FileQueue&) {}
   std::string draw_place(results::FileQueue&, const ExplicitSolver<3>&, std::size_t) { return ""; }
   std::string unload(const ExplicitSolver<3>&) { return ""; }
-  void evaluate(const std::filesystem::path&, const ExplicitSolver<3>&) {}
+  void evaluate(const std::filesystem::path&, const ExplicitSolver<3>&, const results::HistoryLog&) {}
   std::vector<std::pair<std::string, double>> metrics() const { return {}; }
   std::vector<std::string> flags() const { return {}; }
 };

@@ -3,6 +3,7 @@
 #include "core/machine/clock.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,11 +36,20 @@ public:
     else
       spent_[phase] += seconds;
   }
+  /// Time between the two does not count.
+  void pause() { paused_ = {wall_time(), cpu_time()}; }
+  void go_on() {
+    if (!paused_) return;
+    start_ += wall_time() - paused_->first;
+    cpu_start_ += cpu_time() - paused_->second;
+    paused_.reset();
+  }
   void add_cpu(double seconds) { cpu_start_ -= seconds; }
   /// s, of all threads of the process.
-  double cpu() const { return cpu_time() - cpu_start_; }
+  double cpu() const { return (paused_ ? paused_->second : cpu_time()) - cpu_start_; }
   std::vector<std::pair<std::string, double>> spent() const {
-    std::vector<std::pair<std::string, double>> list{{"total", wall_time() - start_}};
+    std::vector<std::pair<std::string, double>> list{
+        {"total", (paused_ ? paused_->first : wall_time()) - start_}};
     for (const char* phase : phases) {
       const auto found = spent_.find(phase);
       list.emplace_back(phase, found == spent_.end() ? 0.0 : found->second);
@@ -50,6 +60,7 @@ public:
 private:
   double start_ = wall_time(), cpu_start_ = cpu_time();
   std::map<std::string, double> spent_;
+  std::optional<std::pair<double, double>> paused_; ///< s, wall and processors, since when
 };
 
 } // namespace cnem::app

@@ -4,7 +4,7 @@
 #include "evaluate/rake_contact.hpp"
 #include "evaluate/springback.hpp"
 #include "input/case.hpp"
-#include "results/history_writer.hpp"
+#include "results/history_log.hpp"
 #include "results/snapshot.hpp"
 
 #include <cstdint>
@@ -21,7 +21,8 @@ public:
   /// Of a case with [report.cutting], which must outlive this object.
   explicit CuttingCourse(const input::Case& input);
 
-  /// Begins cutting.csv; or goes on behind the rows of the checkpoint. Throw IoError.
+  /// Begins cutting.csv; or goes on behind the rows of the checkpoint. Without a folder rows stay in memory.
+  /// Throw IoError.
   void start(const std::filesystem::path& folder);
   void resume(const std::filesystem::path& folder);
   /// After every step.
@@ -29,6 +30,8 @@ public:
   void record(const ExplicitSolver<2>& solver);
   void archive(Archive& archive);
 
+  /// What cutting.csv holds. Throws IoError.
+  results::HistoryTable rows() const { return log_.table(); }
   const input::CuttingTool& tool() const { return cut_; }
   const RakeContact& rake() const { return rake_; }
 
@@ -36,13 +39,13 @@ private:
   const input::Case* input_;
   input::CuttingTool cut_;
   RakeContact rake_;
-  std::vector<results::HistoryWriter> writer_; ///< one, once the run has begun
+  results::HistoryLog log_;
   std::int64_t rows_ = 0;
   double last_time_ = 0.0;  ///< s, of the last row
   Vec2 last_impulse_{0, 0}; ///< N s/m, of the tool until then
 };
 
-/// The state of a run at its end. rows: what cutting.csv holds; body: that state as it is let go, null where
+/// The state of a run at its end. rows: those of the course; body: that state as it is let go, null where
 /// nodes are tied.
 CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot<2>& shot,
                                const CuttingCourse& course, results::HistoryTable rows,

@@ -47,14 +47,11 @@ CuttingCourse::CuttingCourse(const input::Case& input)
       rake_(cut_, as<ToolIndex>(input.report.cutting->tool), input.report.cutting->feed) {}
 
 void CuttingCourse::start(const std::filesystem::path& folder) {
-  writer_.clear();
-  writer_.emplace_back(folder / results::files::cutting_course, columns());
+  log_.start(results::file_in(folder, results::files::cutting_course), columns());
 }
 
 void CuttingCourse::resume(const std::filesystem::path& folder) {
-  writer_.clear();
-  writer_.push_back(
-      results::HistoryWriter::resume(folder / results::files::cutting_course, columns(), rows_));
+  log_.resume(results::file_in(folder, results::files::cutting_course), columns(), rows_);
 }
 
 void CuttingCourse::record(const ExplicitSolver<2>& solver) {
@@ -81,11 +78,11 @@ void CuttingCourse::record(const ExplicitSolver<2>& solver) {
     if (const Field& of_tool = state.tool_temperature[s];
         solver.model().tool_sections[s].tool == as<ToolIndex>(asked.tool))
       hottest_of_tool = *std::max_element(of_tool.begin(), of_tool.end());
-  writer_.front().write(std::vector<double>{
-      state.time, moved.dot(cut_.along), force.x(), 0.0 - force.y(), face.contact_length,
-      thermal ? face.mean_temperature : unknown, thermal ? hottest : unknown, hottest_of_tool, chip.length,
-      fresh_thickness(chip, asked.feed), chip.shear_plane, chip.shear_plane_angle,
-      (speed - own).dot(cut_.face()), std::atan2(speed.y(), speed.x())});
+  log_.write(std::vector<double>{state.time, moved.dot(cut_.along), force.x(), 0.0 - force.y(),
+                                 face.contact_length, thermal ? face.mean_temperature : unknown,
+                                 thermal ? hottest : unknown, hottest_of_tool, chip.length,
+                                 fresh_thickness(chip, asked.feed), chip.shear_plane, chip.shear_plane_angle,
+                                 (speed - own).dot(cut_.face()), std::atan2(speed.y(), speed.x())});
   ++rows_;
 }
 

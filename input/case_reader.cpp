@@ -237,4 +237,8 @@ Case read_case_text(std::string_view text, const std::string& source,
   return read(parse_document(text, source), source, parsed(overrides));
 }
 
+Case read_case_document(Value document, const std::string& path, const std::vector<Override>& changes) {
+  return read(std::move(document), path, changes);
+}
+
 } // namespace cnem::input

@@ -24,6 +24,10 @@ Case read_case_with(const std::string& path, const std::vector<Override>& change
 Case read_case_text(std::string_view text, const std::string& source,
                     const std::vector<std::string>& overrides = {});
 
+/// The same for a document that a program has made. path: of the file that it stands for: results are named
+/// after it, and files it names are found in its folder.
+Case read_case_document(Value document, const std::string& path, const std::vector<Override>& changes);
+
 /// What the results of a file are named after: the file, or where it is called `generic`, as case.toml, the
 /// folder it is in. Throws InputError where that can name no folder, as "...toml".
 std::string name_after(const std::string& path, const std::string& generic);

@@ -143,7 +143,8 @@ template<int dim> std::vector<FieldInfo<dim>> derived_fields() {
                     false,
                     false,
                     [k](Source s, Index i) { return s.state.node.velocity[k][i]; },
-                    vector_part("velocity", k)});
+                    vector_part("velocity", k),
+                    [k](Source s) { return &s.state.node.velocity[k]; }});
   }
   for (std::size_t k = 0; k < dim; ++k) {
     const auto& words = displacement_words[k];
@@ -168,11 +169,21 @@ void add_shown(std::vector<FieldInfo<dim>>& list, const FieldTable& declared, bo
   for (std::size_t k = 0; k < declared.entries().size(); ++k) {
     const FieldLine& line = declared.entries()[k].line;
     if (!line.shown.label) continue;
-    list.push_back({line.name, std::string_view(line.unit) == "1" ? "" : line.unit, line.shown, at_nodes,
-                    adaptive, !declared.on(), [table, k](const FieldSource<dim>& source, std::size_t i) {
-                      const Field& values = *table(source).entries()[k].component;
+    const auto kept = [table, k](const FieldSource<dim>& source) -> const Field* {
+      return table(source).entries()[k].component;
+    };
+    list.push_back({line.name,
+                    std::string_view(line.unit) == "1" ? "" : line.unit,
+                    line.shown,
+                    at_nodes,
+                    adaptive,
+                    !declared.on(),
+                    [kept](const FieldSource<dim>& source, std::size_t i) {
+                      const Field& values = *kept(source);
                       return values.empty() ? 0.0 : values[i];
-                    }});
+                    },
+                    {},
+                    kept});
   }
 }
 

@@ -32,6 +32,8 @@ template<int dim> struct FieldInfo {
   bool of_damage = false; ///< zero unless a material has a damage law: then left out of files
   std::function<double(const FieldSource<dim>&, std::size_t)> at; ///< value at a stress point or node
   ArrayPart part{};
+  /// The values themselves where the state keeps them; empty for a field that is calculated.
+  std::function<const Field*(const FieldSource<dim>&)> kept{};
 };
 
 /// All fields, in the order files list them.

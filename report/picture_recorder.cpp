@@ -36,15 +36,8 @@ std::string PictureRecorder::note_of(double time, const std::string& field) cons
 }
 
 void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<2>& shot) {
-  Fields<2> drawn = shot.state.node.position;
-  if (shot.displacement_scale != 1.0)
-    for (std::size_t k = 0; k < 2; ++k)
-      for (std::size_t i = 0; i < drawn[k].size(); ++i) {
-        const double start = shot.state.node.initial_position[k][i];
-        drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
-      }
   const input::Output& output = case_->output;
-  const Source source = picture_source(*case_, shot, drawn, output.picture_fields);
+  const Source source = picture_source(*case_, shot, drawn_positions(shot), output.picture_fields);
   for (std::size_t f = 0; f < source->names.size(); ++f) {
     const std::string& name = source->names[f];
     const Picture picture = picture_of(*case_, *source, f);

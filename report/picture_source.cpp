@@ -70,6 +70,17 @@ std::size_t PictureSource::bytes() const {
   return sizeof(double) * (6 * fields.cells.vertex.size() + fields.values.size() * fields.cells.begin.size());
 }
 
+Fields<2> drawn_positions(const results::Snapshot<2>& shot) {
+  Fields<2> drawn = shot.state.node.position;
+  if (shot.displacement_scale != 1.0)
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t i = 0; i < drawn[k].size(); ++i) {
+        const double start = shot.state.node.initial_position[k][i];
+        drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
+      }
+  return drawn;
+}
+
 std::shared_ptr<PictureSource> picture_source(const input::Case& input, const results::Snapshot<2>& shot,
                                               const Fields<2>& position,
                                               const std::vector<std::string>& names) {

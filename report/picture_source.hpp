@@ -29,6 +29,9 @@ struct PictureSource {
   std::size_t bytes() const;
 };
 
+/// Where pictures draw the nodes of a state, [component][node] m.
+Fields<2> drawn_positions(const results::Snapshot<2>& shot);
+
 /// `input` must outlive what is returned. position: of nodes, m, as they are to be drawn.
 std::shared_ptr<PictureSource> picture_source(const input::Case& input, const results::Snapshot<2>& shot,
                                               const Fields<2>& position,

@@ -66,11 +66,11 @@ Audit audit(const ExplicitSolver<2>& solver) {
 }
 
 void AdaptationLog::start(const std::filesystem::path& folder, const HistoryUnits& units) {
-  writer_.emplace(folder / files::adaptation, columns(units));
+  log_.start(file_in(folder, files::adaptation), columns(units));
 }
 
 void AdaptationLog::resume(const std::filesystem::path& folder, const HistoryUnits& units) {
-  writer_ = HistoryWriter::resume(folder / files::adaptation, columns(units), rows_);
+  log_.resume(file_in(folder, files::adaptation), columns(units), rows_);
 }
 
 void AdaptationLog::record(const State<2>& state, const adapt::PassReport& report, const Audit& before,
@@ -92,7 +92,7 @@ void AdaptationLog::record(const State<2>& state, const adapt::PassReport& repor
     row.push_back(was);
     row.push_back(is);
   }
-  writer_->write(row);
+  log_.write(row);
   ++rows_;
   mass_ = std::max(mass_, relative(after.mass - before.mass, before.mass));
   momentum_ = std::max(momentum_, relative((after.momentum - before.momentum).norm(), before.momentum_scale));

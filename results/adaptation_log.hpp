@@ -3,11 +3,10 @@
 #include "adapt/resample.hpp"
 #include "core/fields/archive.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "results/history_log.hpp"
 #include "results/history_units.hpp"
-#include "results/history_writer.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +30,7 @@ Audit audit(const ExplicitSolver<2>& solver);
 /// adaptation.csv: a row for each change, and the largest errors for status.json.
 class AdaptationLog {
 public:
-  /// Starts the file of a new run. Throws IoError.
+  /// Starts the file of a new run; without a folder there is none. Throws IoError.
   void start(const std::filesystem::path& folder, const HistoryUnits& units);
   /// Goes on behind the rows that the checkpoint counts. Throws IoError when some are missing.
   void resume(const std::filesystem::path& folder, const HistoryUnits& units);
@@ -43,7 +42,7 @@ public:
   void archive(Archive& archive);
 
 private:
-  std::optional<HistoryWriter> writer_;
+  HistoryLog log_;
   std::int64_t rows_ = 0;
   double mass_ = 0.0, momentum_ = 0.0, heat_ = 0.0, energy_ = 0.0, angular_ = 0.0;
 };

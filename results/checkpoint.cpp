@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <charconv>
+#include <mutex>
 #include <new>
 #include <utility>
 
@@ -96,12 +97,32 @@ void check(herr_t result, const std::string& what) {
   if (result < 0) fail(fmt::format("HDF5 failed at {}", what));
 }
 
-/// Properties of a file that lives in memory alone. HDF5 itself does not outlive a lack of memory for the
-/// caches that it makes with each file.
+/// HDF5 is one for the process: while one lives, no other thread calls it, and it prints nothing. HDF5 itself
+/// does not outlive a lack of memory for the caches that it makes with each file.
+class OneAtATime {
+public:
+  OneAtATime() {
+    constexpr std::size_t caches = std::size_t{6} << 20;
+    try_memory(caches);
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are ours to tell
+  }
+  ~OneAtATime() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  OneAtATime(const OneAtATime&) = delete;
+  OneAtATime& operator=(const OneAtATime&) = delete;
+
+private:
+  static std::recursive_mutex& mutex() {
+    static std::recursive_mutex only;
+    return only;
+  }
+  std::lock_guard<std::recursive_mutex> lock_{mutex()};
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// Properties of a file that lives in memory alone.
 hid_t in_memory() {
-  constexpr std::size_t caches = std::size_t{6} << 20;
-  try_memory(caches);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are ours to tell
   const hid_t properties = H5Pcreate(H5P_FILE_ACCESS);
   check(H5Pset_fapl_core(properties, std::size_t{1} << 20, false), "its memory");
   return properties;
@@ -129,6 +150,7 @@ std::string hash_of_inputs(std::string_view resolved_case) {
 }
 
 struct CheckpointWriter::File {
+  OneAtATime alone;
   Handle access{in_memory(), H5Pclose, "file properties"};
   Handle links{H5Pcreate(H5P_LINK_CREATE), H5Pclose, "link properties"};
   Handle sets{H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "data properties"};
@@ -185,6 +207,7 @@ void CheckpointWriter::carry(const std::string& name, std::string& value) {
 }
 
 struct CheckpointReader::File {
+  OneAtATime alone;
   Handle access{in_memory(), H5Pclose, "file properties"};
   std::unique_ptr<Handle> file;
 

@@ -104,6 +104,10 @@ bool is_temporary(const fs::path& file) {
 
 } // namespace
 
+fs::path file_in(const fs::path& folder, const char* name) {
+  return folder.empty() ? fs::path() : folder / name;
+}
+
 void write_atomically(const fs::path& path, std::string_view content) { AtomicFile(path, content).commit(); }
 
 void write_atomically(std::span<const FileContent> files) {

@@ -26,6 +26,9 @@ inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files
 
+/// The file of that name in `folder`; the empty path, which stands for no file, where `folder` is that.
+std::filesystem::path file_in(const std::filesystem::path& folder, const char* name);
+
 /// Writes `content` beside `path`, flushes it to the disk and renames it over `path`: readers, and whoever
 /// looks after a crash, see the old file or the new one. Throws IoError with the path and the system's
 /// reason.

@@ -92,10 +92,11 @@ template<int dim> double total_mass(const ExplicitSolver<dim>& solver) {
 
 template<int dim>
 HistoryRecorder<dim>::HistoryRecorder(const input::Case& input, const ExplicitSolver<dim>& solver,
-                                      const std::filesystem::path& folder)
+                                      const std::filesystem::path& folder, bool keep)
     : units_(history_units(input.analysis)),
-      probes_(probe_weights<dim>(input, solver.approximation(), solver.conditions().cloud)), folder_(folder),
-      initial_measure_(enclosed_measure(snapshot(solver))), initial_mass_(total_mass(solver)) {}
+      probes_(probe_weights<dim>(input, solver.approximation(), solver.conditions().cloud)), log_(keep),
+      folder_(folder), initial_measure_(enclosed_measure(snapshot(solver))),
+      initial_mass_(total_mass(solver)) {}
 
 template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSolver<dim>& solver) const {
   const State<dim>& state = solver.state();
@@ -186,12 +187,12 @@ template<int dim> void HistoryRecorder<dim>::record(const ExplicitSolver<dim>& s
 
   const std::vector<Metric> told = row(solver);
   for (const Metric& metric : told) keep(metric);
-  if (writer_.empty()) writer_.emplace_back(folder_ / files::history, columns_of(told));
+  if (!log_.begun()) log_.start(file_in(folder_, files::history), columns_of(told));
   std::vector<double> values;
   values.reserve(told.size());
   for (const Metric& metric : told)
     if (!metric.name.empty()) values.push_back(metric.value);
-  writer_.front().write(values);
+  log_.write(values);
   ++rows_;
 }
 
@@ -228,8 +229,7 @@ template<int dim> void HistoryRecorder<dim>::archive(Archive& archive) {
 }
 
 template<int dim> void HistoryRecorder<dim>::resume(const ExplicitSolver<dim>& solver) {
-  writer_.clear();
-  writer_.push_back(HistoryWriter::resume(folder_ / files::history, columns_of(row(solver)), rows_));
+  log_.resume(file_in(folder_, files::history), columns_of(row(solver)), rows_);
 }
 
 template<int dim> EnergyScale HistoryRecorder<dim>::energy_scale() const {

@@ -2,8 +2,8 @@
 // What a run leaves behind: rows of history, fields, pictures.
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "results/history_log.hpp"
 #include "results/history_units.hpp"
-#include "results/history_writer.hpp"
 #include "results/point_weights.hpp"
 #include "results/snapshot.hpp"
 #include "results/vtk_writer.hpp"
@@ -25,9 +25,10 @@ struct ProbeWeights : PointWeights {
 /// Names and values of history.csv.
 template<int dim> class HistoryRecorder {
 public:
-  /// Throws InputError for probes outside the domain.
+  /// folder: of history.csv; empty: rows stay in memory, as they do beside the file with `keep`. Throws
+  /// InputError for probes outside the domain.
   HistoryRecorder(const input::Case& input, const ExplicitSolver<dim>& solver,
-                  const std::filesystem::path& folder);
+                  const std::filesystem::path& folder, bool keep = false);
 
   void record(const ExplicitSolver<dim>& solver);
   /// Probes stay where they are in the matter of a changed cloud.
@@ -35,6 +36,7 @@ public:
 
   /// What a checkpoint keeps of it.
   void archive(Archive& archive);
+  const HistoryLog& log() const { return log_; }
   /// Goes on with the history that is there: rows later than the checkpoint are dropped. Throws IoError when
   /// earlier ones are missing.
   void resume(const ExplicitSolver<dim>& solver);
@@ -60,7 +62,7 @@ private:
 
   HistoryUnits units_;
   std::vector<ProbeWeights> probes_;
-  std::vector<HistoryWriter> writer_; ///< one; made with the first row, when the columns are known
+  HistoryLog log_; ///< begins with the first row, when the columns are known
   std::filesystem::path folder_;
   double initial_measure_ = 0.0, initial_mass_ = 0.0;
   std::int64_t rows_ = 0;

@@ -75,5 +75,16 @@ if(CNEM_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(test_bad_input PRIVATE -Wno-maybe-uninitialized)
 endif()
 
+if(CNEM_PYTHON)
+  foreach(part case run arrays notebook)
+    add_test(NAME python.${part} COMMAND ${Python3_EXECUTABLE} -m unittest test_${part}
+             WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/tests/python)
+    set_tests_properties(python.${part} PROPERTIES TIMEOUT 600 ENVIRONMENT
+      "PYTHONPATH=${PROJECT_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;MPLBACKEND=Agg;CNEM_PROGRAM=$<TARGET_FILE:cnem>")
+  endforeach()
+endif()
+
 add_test(NAME include_rule COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
                                    -P ${PROJECT_SOURCE_DIR}/tests/include_rule.cmake)
+add_test(NAME silence_rule COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
+                                   -P ${PROJECT_SOURCE_DIR}/tests/silence_rule.cmake)

@@ -24,7 +24,7 @@ namespace {
 // Large enough for malloc to give it back to the system at once, and for a picture.
 constexpr std::size_t reserve_size = std::size_t{8} << 20;
 std::atomic<void*> reserve{nullptr};
-std::atomic<bool> reserve_taken{false}, ended_in_order{false};
+std::atomic<bool> prepared{false}, reserve_taken{false}, ended_in_order{false};
 std::terminate_handler terminate_before = nullptr;
 
 struct LastWords {
@@ -100,7 +100,7 @@ void on_exit() {
 }
 
 std::string how_to_go_on(const input::Case& input, const RunOptions& options) {
-  if (input.analysis.type == input::Analysis::Type::statics) return "";
+  if (options.output.empty() || input.analysis.type == input::Analysis::Type::statics) return "";
   const auto checkpoints = results::list_checkpoints(options.output);
   return fmt::format("once this is mended, `cnem restart {}` {}", options.output.string(),
                      checkpoints.empty() ? "begins at step 0"
@@ -119,6 +119,7 @@ results::RunStatus status_before_steps(const input::Case& input, const RunOption
 } // namespace
 
 void prepare_for_exhaustion() {
+  prepared = true;
   reserve = ::operator new(reserve_size, std::nothrow);
   std::set_new_handler(use_reserve);
   terminate_before = std::set_terminate(on_terminate);
@@ -143,6 +144,7 @@ std::string memory_exhausted() {
 
 void set_last_words(const std::filesystem::path& folder, results::RunStatus status,
                     const std::string& how_to_go_on) {
+  if (!prepared) return; // a run within another program, which has its own way to end
   status.exit = Exit::io_failed;
   status.reason = "memory or threads are exhausted";
   LastWords words;
@@ -160,6 +162,7 @@ void forget_last_words() {
 }
 
 void set_last_words_before_steps(const input::Case& input, const RunOptions& options) {
+  if (!prepared) return;
   set_last_words(options.output, status_before_steps(input, options), how_to_go_on(input, options));
 }
 
@@ -169,7 +172,7 @@ void fail_before_steps(const input::Case& input, const RunOptions& options, cons
   status.exit = Exit::io_failed;
   status.reason = reason;
   try {
-    results::write_status(options.output, status);
+    if (!options.output.empty()) results::write_status(options.output, status);
   } catch (const std::exception&) {} // there may be no room for this either
   const std::string how = how_to_go_on(input, options);
   throw ToldIoError(how.empty() ? reason : fmt::format("{}\n{}", reason, how));

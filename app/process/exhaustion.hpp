@@ -27,8 +27,8 @@ void check_reserve();
 /// Frees the memory that was put aside; returns what a message says.
 std::string memory_exhausted();
 
-/// What the process leaves behind when it ends where nothing can be made any more: the reason as its message,
-/// and the status in the folder. They hold until the next ones, or until they are forgotten.
+/// What a prepared process leaves behind when it ends where nothing can be made any more: the reason as its
+/// message, and the status in the folder. They hold until the next ones, or until they are forgotten.
 void set_last_words(const std::filesystem::path& folder, results::RunStatus status,
                     const std::string& how_to_go_on);
 void forget_last_words();
@@ -41,7 +41,8 @@ struct ToldIoError : IoError {
   using IoError::IoError;
 };
 
-/// Writes the status of such a run, as far as that is possible, and throws ToldIoError with the reason.
+/// Writes the status of such a run, where it has a folder and as far as that is possible, and throws
+/// ToldIoError with the reason.
 [[noreturn]] void fail_before_steps(const input::Case& input, const RunOptions& options,
                                     const std::string& reason);
 

@@ -43,6 +43,11 @@ void check_threads(int threads, const char* what) {
         what, threads, most, cores));
 }
 
+ThreadCount::ThreadCount(int threads) : before_(omp_get_max_threads()) {
+  if (threads > 0) omp_set_num_threads(threads);
+}
+ThreadCount::~ThreadCount() { omp_set_num_threads(before_); }
+
 void use_threads(int threads) {
   check_threads(threads, "--threads");
   if (threads > 0) omp_set_num_threads(threads);

@@ -11,4 +11,16 @@ void check_threads(int threads, const char* what);
 /// InputError as check_threads() does, and IoError when the system does not give them.
 void use_threads(int threads);
 
+/// While one lives, parallel loops that this thread starts have so many threads; 0: as many as before.
+class ThreadCount {
+public:
+  explicit ThreadCount(int threads);
+  ~ThreadCount();
+  ThreadCount(const ThreadCount&) = delete;
+  ThreadCount& operator=(const ThreadCount&) = delete;
+
+private:
+  int before_;
+};
+
 } // namespace cnem
