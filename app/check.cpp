@@ -32,6 +32,17 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
   for (std::string& warning : supersonic_tools(input, solver)) warnings.push_back(std::move(warning));
   for (std::string& doubt : doubts(input, solver)) warnings.push_back(std::move(doubt));
   if (!input.adapt.tool_spacing) check_tool_steps(input, solver, control.limit() / solver.sub_steps());
+  const Forecast expected = forecast(input, solver, control);
+  if (constexpr double day = 86400.0; expected.seconds > day)
+    warnings.push_back(
+        input
+            .error(
+                "time.end",
+                fmt::format("about {:.2g} steps, {} of one core: shorten the run, let tools move faster as "
+                            "long as rates and inertia do not matter, or make steps longer "
+                            "(time.mass_scaling)",
+                            expected.steps, results::duration_format(expected.seconds)))
+            .what());
   const State<dim>& state = solver.state();
   const std::size_t node = node_of(solver, control.point());
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
@@ -44,12 +55,13 @@ template<int dim> void check_explicit(const input::Case& input, const RunOptions
   fmt::print("first step  {:.4g} s, limited by {}", control.limit(), control.limited_by());
   if (!input.time.fixed) fmt::print("{}", input.placed(" at " + show_place<dim>(state.node.position, node)));
   if (solver.sub_steps() > 1) fmt::print(", in {} finest steps", solver.sub_steps());
-  const Forecast expected = forecast(input, solver, control);
   fmt::print("\nsteps       about {:.12g} to t = {:.4g} s", expected.steps, input.time.end);
   if (input.adapt.resample)
     fmt::print(", with cells of {:.3g} m and {:.0f} to {:.0f} nodes", expected.finest, expected.nodes_first,
                expected.nodes_last);
   fmt::print("\n");
+  fmt::print("time        about {} of one core, without pictures\n",
+             results::duration_format(expected.seconds));
   fmt::print("memory      {:.0f} MB\n", static_cast<double>(results::peak_rss_bytes()) / 1e6);
   const auto overlaps = solver.conditions().contact.overlaps(state.node.position, 0.0);
   if (overlaps.empty()) {
