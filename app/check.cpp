@@ -32,6 +32,17 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
   for (std::string& warning : supersonic_tools(input, solver)) checked.warnings.push_back(std::move(warning));
   for (std::string& doubt : doubts(input, solver)) checked.warnings.push_back(std::move(doubt));
   if (!input.adapt.tool_spacing) check_tool_steps(input, solver, control.limit() / solver.sub_steps());
+  const Forecast expected = forecast(input, solver, control);
+  if (constexpr double day = 86400.0; expected.seconds > day)
+    checked.warnings.push_back(
+        input
+            .error(
+                "time.end",
+                fmt::format("about {:.2g} steps, {} of one core: shorten the run, let tools move faster as "
+                            "long as rates and inertia do not matter, or make steps longer "
+                            "(time.mass_scaling)",
+                            expected.steps, results::duration_format(expected.seconds)))
+            .what());
   const State<dim>& state = solver.state();
   const std::size_t node = node_of(solver, control.point());
   const auto add = [&](const char* label, std::string text) {
@@ -47,7 +58,6 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
       fmt::format("{:.4g} s, limited by {}{}{}", control.limit(), control.limited_by(),
                   input.time.fixed ? "" : input.placed(" at " + show_place<dim>(state.node.position, node)),
                   solver.sub_steps() > 1 ? fmt::format(", in {} finest steps", solver.sub_steps()) : ""));
-  const Forecast expected = forecast(input, solver, control);
   add("steps", fmt::format("about {:.12g} to t = {:.4g} s{}", expected.steps, input.time.end,
                            input.adapt.resample
                                ? fmt::format(", with cells of {:.3g} m and {:.0f} to {:.0f} nodes",
@@ -60,6 +70,8 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
                      {"steps", expected.steps},
                      {"nodes_at_end", expected.nodes_last},
                      {"seconds", expected.seconds}};
+  add("time",
+      fmt::format("about {} of one core, without pictures", results::duration_format(expected.seconds)));
   add("memory", fmt::format("{:.0f} MB", static_cast<double>(results::peak_rss_bytes()) / 1e6));
   const auto overlaps = solver.conditions().contact.overlaps(state.node.position, 0.0);
   checked.numbers.emplace_back("overlaps", static_cast<double>(overlaps.size()));

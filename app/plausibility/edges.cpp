@@ -70,9 +70,42 @@ std::vector<evaluate::Clearance> clearances(const input::Case& input, const Expl
   return evaluate::find_clearances(cut, evaluate::points_of(input.domain.outer, Vec2::Zero()));
 }
 
+namespace {
+
+/// Of a cut whose clearances are sound: how wide, how far the punch goes, how many cells.
+void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const evaluate::Clearance& one,
+               Doubts& doubts) {
+  constexpr double wide = 0.5, shallow = 0.1, few = 4.0; // of the thickness, cells
+  if (one.gap > wide * one.thickness)
+    doubts.push_back(doubt_about(input, "report.blanking",
+                                 fmt::format("{}clearance of {:.0f}% of the thickness, where 2 to 15% are "
+                                             "usual: the sheet is bent into the gap rather than cut",
+                                             side(one), 100.0 * one.gap / one.thickness)));
+  const contact::Tool<2>& punch =
+      solver.conditions().contact.tools()[as<ToolIndex>(input.report.blanking->punch)];
+  const double stroke = way_of(punch, input.time.end).norm();
+  if (!punch.drive && stroke < shallow * one.thickness)
+    doubts.push_back(
+        doubt_about(input, fmt::format("tools.{}.velocity", punch.name),
+                    fmt::format("{} goes {:.3g} mm by time.end, {:.2g}% of the thickness: nothing is cut",
+                                punch.name, 1e3 * stroke, 100.0 * stroke / one.thickness)));
+  const double spacing = std::min(input.cloud.at({0.0, 0.0}), adapted_spacing(input));
+  if (one.thickness < few * spacing)
+    doubts.push_back(doubt_about(
+        input, "cloud.spacing",
+        fmt::format(
+            "{:.2g} cells over the thickness of {:.3g} mm, expected {:g} at least, better 20 where it "
+            "is cut (cloud.refine, adapt.indicator)",
+            one.thickness / spacing, 1e3 * one.thickness, few)));
+}
+
+} // namespace
+
 void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts) {
   const double touching = 1e-6; // of the thickness
-  for (const evaluate::Clearance& one : clearances(input, solver)) {
+  const std::vector<evaluate::Clearance> all = clearances(input, solver);
+  if (!all.empty()) doubt_cut(input, solver, all.front(), doubts);
+  for (const evaluate::Clearance& one : all) {
     if (one.gap > touching * one.thickness) continue;
     const std::string punch = input.tools[input.report.blanking->punch].name;
     doubts.push_back(doubt_about(

@@ -82,6 +82,36 @@ void doubt_yield_strain(const input::Case& input, const Material& material, Doub
             strain, 100.0 * strain)));
 }
 
+/// How the flow stress answers strain, rate and temperature, whatever the law.
+void doubt_hardening(const input::Case& input, const Material& material, Doubts& doubts) {
+  const plasticity::Hardening& law = *material.hardening;
+  const double warm = input.initial.temperature;
+  const auto doubt = [&](const std::string& text) {
+    doubts.push_back(doubt_about(input, fmt::format("materials.{}.plastic", material.name), text));
+  };
+  const double early = law.hardening_modulus(0.1, 1.0, warm), late = law.hardening_modulus(1.0, 1.0, warm);
+  if (constexpr double concave = 1.2; early > 0.0 && late > concave * early)
+    doubt(fmt::format("it hardens {:.2g} times as fast at a strain of 1 as at 0.1, where metals harden less "
+                      "and less: an exponent above 1?",
+                      late / early));
+  const double slow = law.flow_stress(0.1, 1.0, warm), quick = law.flow_stress(0.1, 1e4, warm);
+  if (constexpr double most = 4.0; slow > 0.0 && quick > most * slow)
+    doubt(fmt::format("a rate of 10⁴ /s makes the flow stress {:.2g} times that at 1 /s, where metals have "
+                      "1.05 to 2.5: a decimal point?",
+                      quick / slow));
+  if (!std::isfinite(law.melting_temperature())) return;
+  constexpr double coldest_melt = 400.0, cold = 100.0; // K: lower than that of tin; than any T0 in use
+  if (law.melting_temperature() < coldest_melt)
+    doubt(fmt::format("it melts at {:g} K, {:g} °C, where metals that are formed melt above 500 K: are {:g} "
+                      "degC meant?",
+                      law.melting_temperature(), law.melting_temperature() - 273.15,
+                      law.melting_temperature()));
+  else if (law.homologous_temperature(warm) >= 1.0)
+    doubt(fmt::format("it begins at {:g} K, melted: nothing is left of its flow stress", warm));
+  if (law.homologous_temperature(cold) > 0.0)
+    doubt(fmt::format("it softens from below {:g} K on: is T0 in degC meant?", cold));
+}
+
 void doubt_damage(const input::Case& input, const Material& material, Doubts& doubts) {
   if (const auto* const law = std::get_if<plasticity::JohnsonCookDamage>(&material.damage->law);
       law && law->D2 * law->D3 > 0.0)
@@ -102,6 +132,7 @@ void doubt_materials(const input::Case& input, Doubts& doubts) {
     if (!material.hardening) continue;
     for (const Usual& one : usual_of_mechanics) doubt_size(input, material, one, doubts);
     doubt_yield_strain(input, material, doubts);
+    doubt_hardening(input, material, doubts);
     if (input.analysis.thermal)
       for (const Usual& one : usual_of_heat) doubt_size(input, material, one, doubts);
     if (material.damage) doubt_damage(input, material, doubts);

@@ -83,12 +83,21 @@ void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, 
     if (input::moves(condition.velocity) || input::moves(condition.displacement)) return; // it is moved
   if (input.adapt.window) return; // the tool of a window stands where it cuts
   const StartingSurface<dim> surface(solver);
-  const double end = input.time.end;
+  const double end = input.time.end, size = surface.size();
+  constexpr double beyond = 10.0; // sizes of the workpiece
   for (const contact::Tool<dim>& tool : solver.conditions().contact.tools()) {
     const Way<dim> way{tool};
     if (!(way.fastest(end) > 0.0)) continue;
     const auto start = surface.gap(*tool.shape, Vec<dim>::Zero());
     const std::string key = fmt::format("tools.{}.{}", tool.name, tool.drive ? "drive" : "velocity");
+    if (const double far = way.moved(end).norm(); !tool.drive && far > beyond * size) {
+      doubts.push_back(doubt_about(
+          input, key,
+          fmt::format("{} goes {:.3g} m by time.end, {:.2g} times the size of the workpiece: are speed and "
+                      "time in the units that are meant?",
+                      tool.name, far, far / size)));
+      continue;
+    }
     double nearest = start.distance;
     if (start.distance <= touching * start.spacing) {
       const auto left = leaves(surface, way, start, end);

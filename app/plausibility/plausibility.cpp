@@ -30,6 +30,8 @@ std::vector<const plasticity::Material*> materials_in_use(const input::Case& inp
 std::vector<std::string> doubts(const input::Case& input) {
   Doubts list;
   doubt_materials(input, list);
+  doubt_friction(input, list);
+  doubt_cutting(input, list);
   doubt_output(input, list);
   return list;
 }

@@ -48,6 +48,16 @@ public:
     return least;
   }
 
+  /// The diagonal of its bounding box, m.
+  double size() const {
+    Vec<dim> low = Vec<dim>::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Vec<dim>& x : place_) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    return (high - low).norm();
+  }
+
 private:
   std::vector<Vec<dim>> place_;
   std::vector<double> spacing_; ///< [·] m, the longer facet beside it

@@ -25,9 +25,10 @@ void add_outline(Keys& k, const std::string& at, const std::string& rectangle_na
       .in(positive);
   k.add(at + ".path[].clockwise", boolean, "Sense of travel of an arc.").fallback("false");
   k.add(at + ".path[].fillet", quantity,
-        "Rounds the corner at `to`, between two straight pieces, by a tangent arc of this radius.")
+        "Rounds the corner at `to`, between two straight pieces, by a tangent arc of this radius; 0 leaves "
+        "it sharp.")
       .unit(d::length)
-      .in(positive)
+      .in(not_negative)
       .example("\"0.5 mm\"");
   k.add(at + ".path[].fillet_name", text, "Name of the arc made by `fillet`.")
       .computed("the name of the piece before it");
@@ -40,7 +41,7 @@ void add_outline(Keys& k, const std::string& at, const std::string& rectangle_na
       .unit(d::length)
       .required()
       .example("\"20 10 mm\"");
-  k.add(at + ".rectangle.fillet", quantity, "Radius of all four corners.").unit(d::length).in(positive);
+  k.add(at + ".rectangle.fillet", quantity, "Radius of all four corners.").unit(d::length).in(not_negative);
   k.add(at + ".rectangle.names", table, "Names of the sides.");
   for (const char* side : {"bottom", "right", "top", "left"})
     k.add(at + ".rectangle.names." + side, text, std::string("Name of the ") + side + " side.")

@@ -90,6 +90,77 @@ TEST(Plausibility, damage_that_tension_delays_and_cells_too_wide_for_it) {
                "opened by 2 G_f/σ_y = 0.05 mm when nothing holds it, which is less than the finest spacing");
 }
 
+TEST(Plausibility, hardening_that_no_metal_has) {
+  const auto johnson_cook = [](const std::string& constants) {
+    return "materials.steel.plastic={ law = \"johnson-cook\", A = \"400 MPa\", B = \"500 MPa\", " +
+           constants + " }";
+  };
+  EXPECT_EQ(doubts_with({johnson_cook("n = 0.3, C = 0.1")}), Texts{});
+  expect_doubt({johnson_cook("n = 3.0")}, "key 'materials.steel.plastic': it hardens 1e+02 times as fast");
+  expect_doubt({johnson_cook("n = 0.3, C = 0.97")}, "makes the flow stress 9.9 times that at 1 /s");
+  const std::string softening = "n = 0.3, m = 1.0, T0 = \"293 K\", Tmelt = ";
+  EXPECT_EQ(doubts_with({johnson_cook(softening + "\"1800 K\"")}), Texts{});
+  expect_doubt({johnson_cook(softening + "\"298 K\"")}, "it melts at 298 K, 24.85 °C");
+  expect_doubt({johnson_cook("n = 0.3, m = 1.0, T0 = \"20 K\", Tmelt = \"1800 K\"")}, "is T0 in degC meant?");
+  expect_doubt({johnson_cook(softening + "\"900 K\""), "initial.temperature=1000 K",
+                "materials.steel.damage.fracture_energy=1 MJ/m2"},
+               "it begins at 1000 K, melted");
+}
+
+TEST(Plausibility, friction_that_no_tool_has) {
+  expect_doubt({"tools.punch.friction={ law = \"coulomb\", coefficient = 10.0 }"},
+               "key 'tools.punch.friction': a coefficient of 10, where metals on tools have 0.02 to 0.8: is "
+               "0.1 meant?");
+  EXPECT_EQ(doubts_with({"tools.punch.friction={ law = \"coulomb\", coefficient = 0.4 }"}), Texts{});
+}
+
+TEST(Plausibility, strokes_of_nothing_and_of_metres) {
+  expect_doubt({"tools.punch.velocity=0 -10 mm/s"},
+               "punch goes 0.0002 mm by time.end, 0.01% of the thickness: nothing is cut");
+  expect_doubt({"time.end=20 ms"}, "punch goes 0.2 m by time.end, 24 times the size of the workpiece");
+}
+
+TEST(Plausibility, sheets_of_two_cells_and_gaps_as_wide_as_they_are) {
+  expect_doubt({"cloud.spacing=1 mm", "materials.steel.damage.fracture_energy=1 MJ/m2"},
+               "key 'cloud.spacing': 2 cells over the thickness of 2 mm");
+  expect_doubt({"tools.punch.rectangle={from=\"-2 2 mm\", to=\"2 6 mm\"}"},
+               "clearance of 100% of the thickness");
+}
+
+TEST(Plausibility, cuts_that_no_lathe_makes) {
+  const auto doubts_of = [](const Texts& overrides) {
+    const input::Case input = input::read_case_text(R"toml(
+[cutting]
+feed = "0.4 mm"
+width = "4 mm"
+rake = "10 deg"
+clearance = "7 deg"
+edge_radius = "40 um"
+speed = "500 m/min"
+length = "2 mm"
+[domain]
+material = "steel"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "207 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "400 MPa" }
+)toml",
+                                                    "case.toml", overrides);
+    return doubts(input);
+  };
+  EXPECT_EQ(doubts_of({}), Texts{});
+  for (const auto& [key, part] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"cutting.speed=800 m/s", "800 m/s are 4.8e+04 m/min"},
+           {"cutting.feed=0.4 m", "400 mm of uncut chip thickness"},
+           {"cutting.clearance=0 deg", "the flank rubs"},
+           {"cutting.edge_radius=1 mm", "2.5 times the feed"},
+           {"cutting.length=0.6 mm", "1.5 feeds of cut"}}) {
+    const Texts list = doubts_of({key});
+    ASSERT_FALSE(list.empty()) << key;
+    EXPECT_NE(list.front().find(part), std::string::npos) << list.front();
+  }
+}
+
 TEST(Plausibility, pictures_after_the_end) {
   expect_doubt({"output.pictures=10 20 us", "time.end=15 us"},
                "a picture is asked for at 2e-05 s, but the run ends");
