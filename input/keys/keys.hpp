@@ -26,6 +26,7 @@ public:
     return key_.elsewhere = "a material of the library such as \"lib:304L\" where one is named", *this;
   }
   KeyDraft& or_from_cutting() { return key_.elsewhere = "[cutting], which makes it", *this; }
+  KeyDraft& or_from_drawing() { return key_.elsewhere = "domain.drawing or [cutting], which make it", *this; }
   /// Of a table: the defaults of its members hold without it.
   KeyDraft& always() { return key_.presence = Presence::fallback, *this; }
   KeyDraft& fallback(std::string toml) { return key_.fallback = std::move(toml), always(); }
