@@ -120,8 +120,8 @@ template<int dim> Exit resume_explicit(input::Case& input, const RunOptions& opt
     std::vector<std::string> warnings;
     simulation = at_last_checkpoint<dim>(input, options, warnings);
     if (simulation) {
-      for (const char* end : {results::files::blanking, results::files::cutting, results::files::status,
-                              results::files::report})
+      for (const char* end : {results::files::blanking, results::files::cutting, results::files::experiment,
+                              results::files::status, results::files::report})
         fs::remove(options.output / end);
     } else {
       fmt::print("there is no checkpoint to go on from: starting at step 0\n");

@@ -161,6 +161,7 @@ Case read(Value document, const std::string& path, const std::vector<Override>& 
   if (const Member* include = document.find("include"))
     throw InputError(fmt::format("{}: key 'include': goes into the file of a case, expected none beside it",
                                  include->where.text()));
+  name_single_experiment(document);
   Diagnostics diagnostics;
   Case result;
   result.variables = apply_variables(document, changes, diagnostics, result.warnings);

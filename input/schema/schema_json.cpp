@@ -77,10 +77,12 @@ Json value_schema(const Key& key, Needs needs) {
   switch (key.type) {
   case Type::table:
     return object_schema(key.path, needs);
-  case Type::named_tables:
-    return {{"type", "object"},
-            {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,100}$"}}},
-            {"additionalProperties", entry_schema(key.path + ".*")}};
+  case Type::named_tables: {
+    Json named{{"type", "object"},
+               {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,100}$"}}},
+               {"additionalProperties", entry_schema(key.path + ".*")}};
+    return key.alone ? one_of({std::move(named), entry_schema(key.path + ".*")}) : named;
+  }
   case Type::table_list:
     return array_of(object_schema(key.path + "[]", needs));
   case Type::variables:
