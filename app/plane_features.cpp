@@ -71,6 +71,11 @@ void PlaneFeatures::evaluate(const std::filesystem::path& folder, const Explicit
                                             springback_ ? &*springback_ : nullptr, history.table());
     if (!folder.empty()) evaluate::write_blanking(folder, *blanking_);
   }
+  if (!input_->report.experiments.empty()) {
+    experiments_ =
+        evaluate::evaluate_experiments(*input_, history.table(), blanking_ ? &*blanking_ : nullptr);
+    if (!folder.empty()) evaluate::write_experiments(folder, experiments_);
+  }
   if (!cutting_) return;
   const StressedBody body = body_of(solver, &solver.state().node.initial_temperature);
   cut_ = evaluate::evaluate_cutting(*input_, snapshot(solver), *cutting_, cutting_->rows(),
@@ -84,6 +89,7 @@ std::vector<std::pair<std::string, double>> PlaneFeatures::metrics() const {
   if (blanking_ && !blanking_->punch.empty()) add(evaluate::metrics_of(*blanking_));
   if (blanking_ && !blanking_->springback.empty()) add(evaluate::metrics_of(blanking_->springback));
   if (cut_) add(evaluate::metrics_of(*cut_));
+  add(evaluate::metrics_of(experiments_));
   return list;
 }
 

@@ -4,6 +4,7 @@
 #include "app/adaptation.hpp"
 #include "evaluate/blanking_result.hpp"
 #include "evaluate/cutting.hpp"
+#include "evaluate/experiment.hpp"
 #include "evaluate/springback.hpp"
 #include "report/picture_recorder.hpp"
 #include "results/file_queue.hpp"
@@ -77,6 +78,7 @@ private:
   std::optional<report::PictureRecorder> pictures_;
   std::optional<Springback> springback_; ///< of the state at the end
   std::optional<evaluate::BlankingResult> blanking_;
+  std::vector<evaluate::ExperimentResult> experiments_;
   std::optional<evaluate::CuttingCourse> cutting_;
   std::optional<evaluate::CuttingResult> cut_; ///< of the state at the end
 };

@@ -136,8 +136,8 @@ template<int dim> void Run::resume(RunObserver& observer) {
     std::vector<std::string> warnings;
     simulation = at_last_checkpoint<dim>(input_, options_, observer, warnings);
     if (simulation) {
-      for (const char* end : {results::files::blanking, results::files::cutting, results::files::status,
-                              results::files::report})
+      for (const char* end : {results::files::blanking, results::files::cutting, results::files::experiment,
+                              results::files::status, results::files::report})
         fs::remove(options_.output / end);
     } else {
       observer.outcome("there is no checkpoint to go on from: starting at step 0");

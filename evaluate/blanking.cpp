@@ -290,6 +290,30 @@ std::vector<BodySpringback> springback_of_bodies(std::span<const Cut> cuts, cons
   return bodies;
 }
 
+namespace {
+
+/// What was measured, beside each face that was computed.
+std::vector<MeasuredHeights> beside(const std::vector<ShearedFace>& faces,
+                                    const std::vector<input::MeasuredFace>& measured) {
+  std::vector<MeasuredHeights> list;
+  for (const ShearedFace& face : faces)
+    for (const input::MeasuredFace& one : measured) {
+      if (one.body != face.body) continue;
+      MeasuredHeights& heights = list.emplace_back(MeasuredHeights{face.cut, face.body});
+      const auto set = [&](double& height, const std::optional<input::MeasuredHeight>& given) {
+        if (given) height = given->share ? given->value * face.thickness : given->value;
+      };
+      set(heights.rollover, one.rollover);
+      set(heights.burnish, one.burnish);
+      set(heights.fracture, one.fracture);
+      set(heights.burr, one.burr);
+      if (one.fracture_angle) heights.fracture_angle = *one.fracture_angle;
+    }
+  return list;
+}
+
+} // namespace
+
 BlankingResult evaluate_blanking(const input::Case& input, const results::Snapshot<2>& shot,
                                  const Supports<2>& supports, const Springback* springback,
                                  const results::HistoryTable& history) {
@@ -360,6 +384,7 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
   for (const Cut& cut : cuts)
     for (ShearedFace& face : measure_cut(cut, tools, sheet, asked.parallel, result.smoothing))
       result.faces.push_back(std::move(face));
+  result.measured = beside(result.faces, asked.measured);
   if (springback)
     result.springback =
         springback_of_bodies(cuts, tools, sheet, springback->displacement, shot.state.node.mass);

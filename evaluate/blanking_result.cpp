@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace cnem::evaluate {
 namespace {
@@ -29,6 +30,16 @@ template<class Face, class Carry> void carry_face(Face& face, Carry& carry) {
   carry("burr[m]", face.burr);
   carry("fracture_angle[rad]", face.fracture_angle);
   carry("tilt[rad]", face.tilt);
+}
+
+template<class Heights, class Carry> void carry_measured(Heights& heights, Carry& carry) {
+  carry("cut", heights.cut);
+  carry("body", heights.body);
+  carry("rollover[m]", heights.rollover);
+  carry("burnish[m]", heights.burnish);
+  carry("fracture[m]", heights.fracture);
+  carry("burr[m]", heights.burr);
+  carry("fracture_angle[rad]", heights.fracture_angle);
 }
 
 template<class Force, class Carry> void carry_force(Force& force, Carry& carry) {
@@ -62,6 +73,7 @@ template<class Result, class Carry> void carry_result(Result& result, Carry& car
 }
 
 constexpr auto face_carrier = [](auto& face, auto& carry) { carry_face(face, carry); };
+constexpr auto measured_carrier = [](auto& heights, auto& carry) { carry_measured(heights, carry); };
 constexpr auto force_carrier = [](auto& force, auto& carry) { carry_force(force, carry); };
 constexpr auto body_carrier = [](auto& body, auto& carry) { carry_body(body, carry); };
 
@@ -99,8 +111,23 @@ std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& res
     metrics.emplace_back(at + ".rollover_width[m]", face.rollover_width);
     if (std::isfinite(face.fracture_angle))
       metrics.emplace_back(at + ".fracture_angle[rad]", face.fracture_angle);
+    if (const MeasuredHeights* measured = measured_of(result, face))
+      for (const auto& [name, there, here] : {std::tuple{"rollover", measured->rollover, face.rollover},
+                                              {"burnish", measured->burnish, face.burnish},
+                                              {"fracture", measured->fracture, face.fracture},
+                                              {"burr", measured->burr, face.burr}})
+        if (std::isfinite(there)) {
+          metrics.emplace_back(fmt::format("{}.{}_measured[m]", at, name), there);
+          metrics.emplace_back(fmt::format("{}.{}_difference[m]", at, name), here - there);
+        }
   }
   return metrics;
+}
+
+const MeasuredHeights* measured_of(const BlankingResult& result, const ShearedFace& face) {
+  for (const MeasuredHeights& heights : result.measured)
+    if (heights.cut == face.cut && heights.body == face.body) return &heights;
+  return nullptr;
 }
 
 std::vector<std::pair<std::string, double>> metrics_of(const std::vector<BodySpringback>& bodies) {
@@ -124,6 +151,7 @@ void write_blanking(const std::filesystem::path& folder, const BlankingResult& r
   Json& json = writer.json;
   json["dies"] = result.dies;
   json["forces"] = list_of(result.forces, force_carrier);
+  json["measured"] = list_of(result.measured, measured_carrier);
   json["springback"] = list_of(result.springback, body_carrier);
   json["faces"] = list_of(result.faces, face_carrier);
   for (std::size_t k = 0; k < result.faces.size(); ++k) {
@@ -142,6 +170,8 @@ std::optional<BlankingResult> read_blanking(const std::filesystem::path& folder)
     carry_result(result, reader);
     result.dies = json.at("dies").get<std::vector<std::string>>();
     result.forces = records_of<ToolForce>(json.at("forces"), force_carrier);
+    if (json.contains("measured")) // folders of earlier versions have none
+      result.measured = records_of<MeasuredHeights>(json.at("measured"), measured_carrier);
     result.springback = records_of<BodySpringback>(json.at("springback"), body_carrier);
     result.faces = records_of<ShearedFace>(json.at("faces"), face_carrier);
     for (std::size_t k = 0; k < result.faces.size(); ++k) {

@@ -37,6 +37,14 @@ struct ShearedFace {
   bool found() const { return rollover + burnish + fracture > 0.0; }
 };
 
+/// Heights of a face in an experiment; not-a-number: not measured.
+struct MeasuredHeights {
+  std::string cut, body; ///< of the computed face that it stands beside
+  double rollover = std::numeric_limits<double>::quiet_NaN(), burnish = rollover, fracture = rollover,
+         burr = rollover;           ///< m
+  double fracture_angle = rollover; ///< rad
+};
+
 /// The force of a tool along the cutting direction.
 struct ToolForce {
   std::string tool;
@@ -68,9 +76,13 @@ struct BlankingResult {
   std::string note;                       ///< why there are no faces; empty otherwise
   std::string force_unit = "N/m", work_unit = "J/m"; ///< of revolution: N, J
   std::vector<ShearedFace> faces;
+  std::vector<MeasuredHeights> measured; ///< of some of the faces
   std::vector<ToolForce> forces;
   std::vector<BodySpringback> springback;
 };
+
+/// What was measured of a face; nullptr where nothing was.
+const MeasuredHeights* measured_of(const BlankingResult& result, const ShearedFace& face);
 
 /// Named numbers for status.json, with units: "blanking.slug.rollover[m]", …
 std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& result);

@@ -72,12 +72,41 @@ struct Output {
   CheckpointControl checkpoint;
 };
 
+/// A length, or a share of the thickness.
+struct MeasuredHeight {
+  double value = 0.0; ///< m, –
+  bool share = false;
+};
+
+/// The face of a body as an experiment has it.
+struct MeasuredFace {
+  std::string body; ///< "slug" or "skeleton"
+  std::optional<MeasuredHeight> rollover, burnish, fracture, burr;
+  std::optional<double> fracture_angle; ///< rad
+};
+
 /// Who cuts, and how sheared faces are measured.
 struct BlankingReport {
   std::size_t punch = 0;           ///< index of the tool
   std::vector<std::size_t> dies;   ///< indices of tools
   double parallel = 0.0;           ///< rad
   std::optional<double> smoothing; ///< m
+  std::vector<MeasuredFace> measured;
+};
+
+/// A measured curve that the force of a tool is compared with: scaled, shifted, and without the compliance of
+/// the machine.
+struct Experiment {
+  enum class Component { along, across, x, y };
+  std::string name;
+  std::vector<double> x;     ///< m of stroke, or s; increases
+  std::vector<double> force; ///< N, or N/m of cut
+  bool over_stroke = true;   ///< else over time
+  bool per_length = false;   ///< N/m
+  std::size_t tool = 0;      ///< index of the tool
+  Component component = Component::along;
+  std::optional<double> cut_length; ///< m, that N stand for where the model has N/m, or the other way round
+  std::optional<double> cuts;       ///< – that the model carries the force of; none: those that are found
 };
 
 /// Depth of wear of a tool per time: dW/dt = a σ_n v exp(−b/T), with the normal stress, the speed of sliding
@@ -119,6 +148,7 @@ struct Report {
   bool springback = false;
   std::optional<BlankingReport> blanking;
   std::optional<CuttingReport> cutting;
+  std::vector<Experiment> experiments;
 };
 
 } // namespace cnem::input

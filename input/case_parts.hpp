@@ -93,6 +93,15 @@ std::optional<std::size_t> read_leading_tool(Setting& root, const Case& input, c
 /// What a cut is evaluated with, where [report.cutting] is there. Expects what read_report() does.
 void read_cutting_report(Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// A single curve that stands in [report.experiment] itself gets a name: the schema sees it as one of
+/// several.
+void name_single_experiment(Value& document);
+/// Measured curves, where [report.experiment] is there; those of files are put into the settings. Expects
+/// what cuts are evaluated with.
+void read_experiments(Setting& root, Case& result, Diagnostics& diagnostics);
+/// Measured heights of faces, where [report.blanking.measured] is there.
+void read_measured_faces(const Setting& root, BlankingReport& report, Diagnostics& diagnostics);
+
 /// What is evaluated at the end, with defaults from the tools. Expects tools, domain and periodic pieces.
 void read_report(Setting& root, Case& result, Diagnostics& diagnostics);
 

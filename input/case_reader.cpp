@@ -2,6 +2,7 @@
 
 #include "input/case_parts.hpp"
 #include "input/cutting.hpp"
+#include "input/drawings/outlines.hpp"
 #include "input/included_files.hpp"
 #include "input/library.hpp"
 #include "input/local_origin.hpp"
@@ -160,10 +161,12 @@ Case read(Value document, const std::string& path, const std::vector<Override>& 
   if (const Member* include = document.find("include"))
     throw InputError(fmt::format("{}: key 'include': goes into the file of a case, expected none beside it",
                                  include->where.text()));
+  name_single_experiment(document);
   Diagnostics diagnostics;
   Case result;
   result.variables = apply_variables(document, changes, diagnostics, result.warnings);
   take_from_library(document, diagnostics);
+  take_from_drawings(document, std::filesystem::path(path).parent_path(), diagnostics);
   take_from_cutting(document, diagnostics);
   diagnostics.throw_if_any();
   Setting root = apply_schema(document, diagnostics);

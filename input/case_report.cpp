@@ -48,6 +48,7 @@ void read_blanking(Setting& root, Case& result, Diagnostics& diagnostics) {
   }
   report.parallel = root.get<double>("report.blanking.parallel");
   report.smoothing = root.find("report.blanking")->maybe<double>("smoothing");
+  read_measured_faces(root, report, diagnostics);
   result.report.blanking = std::move(report);
 }
 
@@ -100,6 +101,7 @@ void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
   result.report.springback = root.get<bool>("report.springback");
   if (root.find("report.blanking")) read_blanking(root, result, diagnostics);
   if (root.find("report.cutting")) read_cutting_report(root, result, diagnostics);
+  read_experiments(root, result, diagnostics);
 }
 
 } // namespace cnem::input

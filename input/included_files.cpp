@@ -26,6 +26,15 @@ void merge(Value& into, Value from) {
   }
 }
 
+/// Drawings that an included file names are seen from its folder.
+void place_drawings(Value& value, const fs::path& folder) {
+  for (Member& member : value.members) {
+    Member* file = member.key == "drawing" ? member.value.find("file") : nullptr;
+    if (file && file->value.kind == Kind::text) file->value.text = (folder / file->value.text).string();
+    place_drawings(member.value, folder);
+  }
+}
+
 [[noreturn]] void fail(const Value& name, const std::string& expected) {
   throw InputError(
       fmt::format("{}: key 'include': found {}, expected {}", name.where.text(), name.show(), expected));
@@ -67,6 +76,7 @@ private:
     open_.push_back(whole);
     Value document = expand(read_document(path.string()), path.parent_path());
     open_.pop_back();
+    place_drawings(document, fs::path(name.text).parent_path());
     return document;
   }
 

@@ -33,14 +33,6 @@ std::string expected_names() {
 
 bool is_text(const Member* member) { return member && member->value.kind == Value::Kind::text; }
 
-Value text_value(std::string text, const Location& where) {
-  Value value;
-  value.kind = Value::Kind::text;
-  value.text = std::move(text);
-  value.where = where;
-  return value;
-}
-
 /// Whose constants a case has changed.
 struct Changes {
   std::vector<std::string> constants; ///< "density", "plastic.A"

@@ -189,22 +189,6 @@ Curve rounded(const Draft& draft) {
   return curve;
 }
 
-/// Arcs longer than half a turn become two.
-Curve split_long_arcs(const Curve& curve) {
-  Curve result;
-  for (const CurvePiece& piece : curve.pieces) {
-    if (std::abs(piece.sweep()) <= std::numbers::pi * (1.0 + 1e-9)) {
-      result.pieces.push_back(piece);
-      continue;
-    }
-    CurvePiece first = piece, second = piece;
-    first.to = second.from = piece.point(0.5);
-    result.pieces.push_back(first);
-    result.pieces.push_back(second);
-  }
-  return result;
-}
-
 void rotate(Curve& curve, double angle, const Vec2& centre) {
   const double c = std::cos(angle), s = std::sin(angle);
   const auto turned = [&](const Vec2& x) -> Vec2 {
@@ -220,11 +204,26 @@ void rotate(Curve& curve, double angle, const Vec2& centre) {
 
 } // namespace
 
+Curve split_long_arcs(const Curve& curve) {
+  Curve result;
+  for (const CurvePiece& piece : curve.pieces) {
+    if (std::abs(piece.sweep()) <= std::numbers::pi * (1.0 + 1e-9)) {
+      result.pieces.push_back(piece);
+      continue;
+    }
+    CurvePiece first = piece, second = piece;
+    first.to = second.from = piece.point(0.5);
+    result.pieces.push_back(first);
+    result.pieces.push_back(second);
+  }
+  return result;
+}
+
 Curve make_outline(const Setting& table, const OutlineNames& names) {
   const bool has_path = table.find("path") || table.find("start");
   const bool has_rectangle = table.find("rectangle"), has_circle = table.find("circle");
   if (int(has_path) + int(has_rectangle) + int(has_circle) != 1)
-    throw OutlineError("", "expected either start and path, or rectangle, or circle");
+    throw OutlineError("", "expected either start and path, or rectangle, or circle, or drawing");
   if (!has_path && table.find("close"))
     throw OutlineError("close", "only a path has a closing piece, expected start and path beside it");
 

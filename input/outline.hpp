@@ -27,4 +27,7 @@ struct OutlineNames {
 /// itself, names that are empty or "all".
 Curve make_outline(const Setting& table, const OutlineNames& names);
 
+/// The same curve with arcs of at most half a turn: longer ones become two of their name.
+Curve split_long_arcs(const Curve& curve);
+
 } // namespace cnem::input

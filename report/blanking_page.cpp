@@ -46,19 +46,28 @@ std::string row(const std::string& name, const std::string& value) {
                      html_escape(value));
 }
 
-std::string table_of(const evaluate::ShearedFace& face) {
+/// measured: of the face, or nullptr.
+std::string table_of(const evaluate::ShearedFace& face, const evaluate::MeasuredHeights* measured) {
   std::string html = "<table>\n";
-  const auto add = [&](const char* name, double size) {
-    html += row(name,
-                fmt::format("{}  ({:.1f} %)", results::si_format(size, "m"), 100.0 * size / face.thickness));
+  const evaluate::MeasuredHeights nothing, &there = measured ? *measured : nothing;
+  const auto with_share = [&](double size) {
+    return fmt::format("{}  ({:.1f} %)", results::si_format(size, "m"), 100.0 * size / face.thickness);
   };
-  add("Rollover height", face.rollover);
-  add("Burnish height", face.burnish);
-  add("Fracture height", face.fracture);
+  const auto beside = [](const std::string& computed, bool known, const std::string& measured_text) {
+    return known ? fmt::format("{}, measured {}", computed, measured_text) : computed;
+  };
+  const auto add = [&](const char* name, double size, double in_experiment = std::nan("")) {
+    html += row(name, beside(with_share(size), std::isfinite(in_experiment), with_share(in_experiment)));
+  };
+  add("Rollover height", face.rollover, there.rollover);
+  add("Burnish height", face.burnish, there.burnish);
+  add("Fracture height", face.fracture, there.fracture);
   if (face.second_burnish > 0.0) add("Second burnish", face.second_burnish);
-  add("Burr height", face.burr);
+  add("Burr height", face.burr, there.burr);
   add("Rollover width", face.rollover_width);
-  if (std::isfinite(face.fracture_angle)) html += row("Fracture angle", degrees(face.fracture_angle));
+  if (std::isfinite(face.fracture_angle))
+    html += row("Fracture angle", beside(degrees(face.fracture_angle), std::isfinite(there.fracture_angle),
+                                         degrees(there.fracture_angle)));
   html += row("Tilt of the body", degrees(face.tilt));
   html += row("Thickness of the sheet before", results::si_format(face.thickness, "m"));
   return html + "</table>\n";
@@ -67,9 +76,9 @@ std::string table_of(const evaluate::ShearedFace& face) {
 std::string faces(const evaluate::BlankingResult& result) {
   std::string html;
   for (const evaluate::ShearedFace& face : result.faces) {
-    html +=
-        fmt::format("<figure class=\"face\"><h3>Face of the {}</h3>\n{}{}", html_escape(title_of(face)),
-                    face.profile.size() > 1 ? face_drawing(face) : "", face.found() ? table_of(face) : "");
+    html += fmt::format("<figure class=\"face\"><h3>Face of the {}</h3>\n{}{}", html_escape(title_of(face)),
+                        face.profile.size() > 1 ? face_drawing(face) : "",
+                        face.found() ? table_of(face, evaluate::measured_of(result, face)) : "");
     if (!face.note.empty()) html += fmt::format("<figcaption>{}</figcaption>", html_escape(face.note));
     html += "</figure>\n";
   }

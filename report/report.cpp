@@ -184,6 +184,7 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
   if (report.blanking && history) report.blanking_forces = force_stroke_chart(*report.blanking, *history);
 
   report.cutting = evaluate::read_cutting(folder);
+  report.experiments = evaluate::read_experiments(folder);
 
   const PictureAlbum album(folder);
   for (const AlbumEntry& entry : album.entries()) {
@@ -198,7 +199,8 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
   if (!status.metrics.empty()) {
     ReportTable metrics{"Results", {}};
     for (const auto& [name, value] : status.metrics)
-      if (!name.starts_with("cutting.")) // a section of its own has them, with units
+      if (!name.starts_with("cutting.") &&
+          !name.starts_with("experiment.")) // sections of their own have them
         metrics.rows.emplace_back(words(name), results::si_format(value, status.unit_of(name), 6));
     report.tables.push_back(std::move(metrics));
   }

@@ -2,6 +2,7 @@
 // report.html: one file that needs nothing else, neither network nor the folder it came from.
 #include "evaluate/blanking_result.hpp"
 #include "evaluate/cutting_result.hpp"
+#include "evaluate/experiment.hpp"
 #include "report/chart.hpp"
 #include "results/status.hpp"
 
@@ -39,6 +40,7 @@ struct ReportData {
   std::optional<evaluate::BlankingResult> blanking;
   std::optional<Chart> blanking_forces;
   std::optional<evaluate::CuttingResult> cutting;
+  std::vector<evaluate::ExperimentResult> experiments;
   std::vector<ReportTable> tables;
   std::string case_text; ///< resolved case, shown verbatim
   std::string warnings_title = "Warnings", charts_title = "Histories",

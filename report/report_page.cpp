@@ -2,6 +2,7 @@
 
 #include "report/blanking_page.hpp"
 #include "report/cutting_page.hpp"
+#include "report/experiment_page.hpp"
 #include "report/html.hpp"
 #include "report/report_style.hpp"
 #include "results/si_format.hpp"
@@ -135,6 +136,7 @@ std::string render_report(const ReportData& data) {
   html += render_figures(data);
   html += section("post-mortem", "Where it went wrong", render_post_mortem(data));
   html += section("warnings", data.warnings_title, render_warnings(data));
+  html += section("experiment", "Experiment", render_experiments(data.experiments));
   if (data.blanking) {
     const bool cut = !data.blanking->punch.empty();
     html += section("blanking", cut ? "Blanking" : "Springback",

@@ -22,6 +22,7 @@ inline constexpr const char* blanking = "blanking.json";
 inline constexpr const char* cutting = "cutting.json";
 inline constexpr const char* cutting_course = "cutting.csv"; ///< chip and contact over the cut
 inline constexpr const char* cutting_folder = "cutting";     ///< tables of a cut, .csv
+inline constexpr const char* experiment = "experiment.json"; ///< computed forces beside measured ones
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files

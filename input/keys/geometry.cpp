@@ -6,6 +6,53 @@ namespace cnem::input {
 namespace d = dimension;
 using enum Type;
 
+namespace {
+
+/// The table that takes an outline from a file, or those of the domain.
+void add_drawing(Keys& k, const std::string& at, const std::string& doc, const std::string& layers) {
+  k.add(at, table, doc);
+  k.add(at + ".file", text,
+        "DXF (in text), gmsh's `.geo` or `.msh`, relative to the file that names it ([what is "
+        "read](drawings.md)).")
+      .required()
+      .example("\"press.dxf\"");
+  k.add(at + ".layers", texts,
+        "Layers, or physical names of gmsh, whose curves make it; pieces are named after them.")
+      .example("[\"punch\"]")
+      .computed(layers);
+  k.add(at + ".unit", text,
+        "Of the drawing's lengths, in place of its own: a unit of length, `in`, `ft` or `mil`.")
+      .example("\"mm\"")
+      .computed("that of the file (`$INSUNITS`); files of gmsh have none");
+  k.add(at + ".scale", quantity, "Factor on all lengths.").in(positive).fallback("1");
+  k.add(at + ".mirror", choice, "Changes the sign of `x` or of `y`, before it is turned.").one_of({"x", "y"});
+  k.add(at + ".rotate", quantity, "Turn about the drawing's (0, 0), counter-clockwise, before it is shifted.")
+      .unit(d::angle)
+      .fallback("\"0 deg\"");
+  k.add(at + ".shift", vector, "Where the drawing's (0, 0) comes to lie.")
+      .unit(d::length)
+      .fallback("\"0 0 m\"")
+      .example("\"clearance, 0 mm\"");
+  k.add(at + ".tolerance", quantity, "Distance at which ends of curves meet.")
+      .unit(d::length)
+      .in(positive)
+      .computed("a hundred-thousandth of the drawing's diagonal");
+  k.add(at + ".names", table_list, "Names of single pieces, where a layer has several.");
+  k.add(at + ".names[].at", vector, "A place near the middle of the piece, as it reads in the drawing.")
+      .unit(d::length)
+      .required()
+      .example("\"0 5 mm\"");
+  k.add(at + ".names[].name", text, "").required().example("\"left\"");
+  k.add(at + ".fillets", table_list, "Corners that are drawn sharp and shall be round.");
+  k.add(at + ".fillets[].at", vector, "The corner, between two straight pieces, as it reads in the drawing.")
+      .unit(d::length)
+      .required()
+      .example("\"10 5 mm\"");
+  k.add(at + ".fillets[].radius", quantity, "").unit(d::length).in(positive).required();
+}
+
+} // namespace
+
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names) {
   k.add(at + ".start", vector, "First corner of a `path`.").unit(d::length).example("\"0 0 mm\"");
   k.add(at + ".path", table_list,
@@ -53,19 +100,27 @@ void add_outline(Keys& k, const std::string& at, const std::string& rectangle_na
   k.add(at + ".rotate", table, "Turns the whole curve.");
   k.add(at + ".rotate.angle", quantity, "Counter-clockwise.").unit(d::angle).required();
   k.add(at + ".rotate.centre", vector, "Centre of the turn.").unit(d::length).fallback("\"0 0 m\"");
+  add_drawing(k, at + ".drawing", "The outline from a file, instead of `start` and `path`.",
+              "the layer that is called as the curve (`outer`, the hole, the tool), else all that are shown");
 }
 
 void add_domain(Keys& k) {
   k.add("domain", table, "The workpiece at the start.").required();
   k.add("domain.material", text, "Name of one of `materials`.").required().example("\"304L\"");
   k.add("domain.outer", table,
-        "Outline: either `start` and `path`, or `rectangle`, or `circle`. Names of its pieces are for "
-        "`boundary`.")
+        "Outline: either `start` and `path`, or `rectangle`, or `circle`, or `drawing`. Names of its pieces "
+        "are for `boundary`.")
       .required()
-      .or_from_cutting();
+      .or_from_drawing();
+  add_drawing(k, "domain.drawing",
+              "Outline and holes from a file, instead of `domain.outer`: the closed curve that holds all "
+              "others is the "
+              "outline, the others are holes, named after their layers.",
+              "all that are shown");
   add_outline(k, "domain.outer", "");
   k.add("domain.holes", named_tables, "Holes.");
-  k.add("domain.holes.*", table, "A hole: either `start` and `path`, or `rectangle`, or `circle`.");
+  k.add("domain.holes.*", table,
+        "A hole: either `start` and `path`, or `rectangle`, or `circle`, or `drawing`.");
   add_outline(k, "domain.holes.*", "the name of the hole");
   k.add("domain.cracks", named_tables, "Cracks.");
   k.add("domain.cracks.*", table,

@@ -26,9 +26,12 @@ public:
     return key_.elsewhere = "a material of the library such as \"lib:304L\" where one is named", *this;
   }
   KeyDraft& or_from_cutting() { return key_.elsewhere = "[cutting], which makes it", *this; }
+  KeyDraft& or_from_drawing() { return key_.elsewhere = "domain.drawing or [cutting], which make it", *this; }
   /// Of a table: the defaults of its members hold without it.
   KeyDraft& always() { return key_.presence = Presence::fallback, *this; }
   KeyDraft& fallback(std::string toml) { return key_.fallback = std::move(toml), always(); }
+  /// Of named tables: a single one may stand in place of all.
+  KeyDraft& or_alone() { return key_.alone = true, *this; }
   KeyDraft& when(std::string sibling, std::vector<std::string> values) {
     return key_.when = {std::move(sibling), std::move(values)}, *this;
   }

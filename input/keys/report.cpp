@@ -36,6 +36,92 @@ void add_blanking(Keys& k) {
       .in(positive)
       .example("\"0.05 mm\"")
       .computed("a fiftieth of the thickness");
+  k.add("report.blanking.measured", named_tables,
+        "Heights of the faces of `slug` and `skeleton` of an experiment, beside which the computed ones "
+        "stand.");
+  k.add("report.blanking.measured.*", table,
+        "What was measured of one body: lengths, or shares of the thickness.");
+  for (const char* zone : {"rollover", "burnish", "fracture", "burr"}) {
+    const std::string at = std::string("report.blanking.measured.*.") + zone;
+    k.add(at, quantity, "Height.").unit(d::length).in(not_negative).example("\"0.3 mm\"");
+    k.add(at + "_share", quantity, "The same as a share of the thickness.")
+        .in({.low = 0.0, .high = 2.0})
+        .example("\"15 %\"");
+  }
+  k.add("report.blanking.measured.*.fracture_angle", quantity,
+        "Angle of the fracture zone to the cutting direction.")
+      .unit(d::angle)
+      .in({.low = -1.5707963267948966, .high = 1.5707963267948966})
+      .example("\"8 deg\"");
+}
+
+void add_experiments(Keys& k) {
+  k.add("report.experiment", named_tables,
+        "Measured curves that the force of a tool is compared with (docs/experiments.md): drawn over the "
+        "computed one, differences of peak, work and root mean square in `status.json`. Keys of a single "
+        "curve may stand in [report.experiment] itself; it is named `measured` then.")
+      .or_alone();
+  const std::string at = "report.experiment.*";
+  k.add(at, table, "A measured curve.");
+  k.add(at + ".file", text,
+        "CSV file with a column for the stroke, or the time, and one for the force, seen from the folder of "
+        "the case. Columns stand between `;`, tabs or commas; lines that begin with # are comments; beside "
+        "`;` and tabs numbers may have decimal commas. Its numbers are put into the resolved case.")
+      .example("\"press.csv\"");
+  k.add(at + ".columns", texts,
+        "Names of the two columns in the header, or their numbers: first that of stroke or time, then that "
+        "of the force.")
+      .example("[\"stroke\", \"force\"]")
+      .computed("the only two");
+  k.add(at + ".units", texts, "Units of the two columns.")
+      .example("[\"mm\", \"kN\"]")
+      .computed("those of the header, `force[kN]` say");
+  k.add(at + ".stroke", quantities, "Instead of a file: strokes, increasing.")
+      .unit(d::length)
+      .example("[\"0 mm\", \"0.5 mm\", \"1 mm\"]");
+  k.add(at + ".time", quantities, "Instead of strokes: times, increasing.")
+      .unit(d::time)
+      .example("[\"0 us\", \"50 us\"]");
+  k.add(at + ".force", quantities, "Instead of a file: forces, one for each stroke or time.")
+      .unit(d::force)
+      .example("[\"0 kN\", \"12 kN\", \"4 kN\"]");
+  k.add(at + ".force_per_length", quantities, "The same per length of the cut.")
+      .unit(d::force_per_length)
+      .example("[\"0 N/mm\", \"700 N/mm\", \"200 N/mm\"]");
+  k.add(at + ".tool", text, "Tool whose force it is.")
+      .example("\"punch\"")
+      .computed("the punch of `report.blanking`, the tool of `report.cutting`, the tool named `punch`, else "
+                "the only one that moves");
+  k.add(at + ".component", choice,
+        "`along`: in the direction of the cut, or of the motion of the tool (F_c of a cut); `across`: at "
+        "right angles to it (F_t); `x`, `y`. Forces count positive in the sense in which they are largest.")
+      .one_of({"along", "across", "x", "y"})
+      .fallback("\"along\"");
+  k.add(at + ".cut_length", quantity,
+        "Length of the cut in the experiment, perimeter of the blank say. In plane strain forces are per "
+        "thickness: those in N are compared with the computed one times this length over `cuts`.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"80 mm\"")
+      .computed("the width of `report.cutting` of a cut");
+  k.add(at + ".cuts", quantity,
+        "Of how many cuts the model carries the force: 1 of a half model, 2 where the punch cuts on both "
+        "sides.")
+      .in(positive)
+      .example("2")
+      .computed("those that `report.blanking` finds, else 1");
+  k.add(at + ".scale", quantity, "Measured forces are multiplied by it; -1 turns a force that pushes.")
+      .fallback("1");
+  k.add(at + ".shift", quantity, "Is added to measured strokes: contact begins at the same stroke then.")
+      .unit(d::length)
+      .fallback("\"0 mm\"");
+  k.add(at + ".delay", quantity, "Is added to measured times.").unit(d::time).fallback("\"0 s\"");
+  k.add(at + ".compliance", quantity,
+        "Of machine and tools that the measured stroke runs through: it times the measured force is taken "
+        "off the stroke.")
+      .unit(d::compliance)
+      .in(not_negative)
+      .fallback("\"0 mm/kN\"");
 }
 
 void add_cutting_report(Keys& k) {
@@ -94,6 +180,7 @@ void add_report(Keys& k) {
       .computed("true where `report.blanking` is given and no nodes are tied");
   add_blanking(k);
   add_cutting_report(k);
+  add_experiments(k);
 }
 
 } // namespace cnem::input

@@ -19,6 +19,7 @@ struct Scoped {
 constexpr std::array scopes{
     Scoped{"cutting", Scope::plane, "what it makes is an outline; a workpiece in space is a domain.block"},
     Scoped{"domain.outer", Scope::plane, "a workpiece in space is a domain.block"},
+    Scoped{"domain.drawing", Scope::plane, "a workpiece in space is a domain.block"},
     Scoped{"domain.holes", Scope::plane, "outlines bound areas; a workpiece in space is a domain.block"},
     Scoped{"domain.cracks", Scope::plane, "a polyline does not cut a body in space"},
     Scoped{"domain.interfaces", Scope::plane, "a polyline does not divide a body in space"},
@@ -39,6 +40,7 @@ constexpr std::array scopes{
     Scoped{"tools.*.path[]", Scope::plane, "an outline bounds no tool in space; give its plane"},
     Scoped{"tools.*.close", Scope::plane, "an outline bounds no tool in space; give its plane"},
     Scoped{"tools.*.rectangle", Scope::plane, "an outline bounds no tool in space; give its plane"},
+    Scoped{"tools.*.drawing", Scope::plane, "an outline bounds no tool in space; give its plane"},
     Scoped{"tools.*.circle", Scope::plane, "an outline bounds no tool in space; give its plane"},
     Scoped{"tools.*.rotate", Scope::plane, "a plane is turned by its normal"},
     Scoped{"tools.*.plane", Scope::space, "a tool in the plane has an outline, such as a rectangle"},

@@ -5,8 +5,12 @@
 #include "mechanics/field_catalogue.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <span>
+#include <stdexcept>
 
 namespace cnem::input {
 namespace {
@@ -77,6 +81,80 @@ friction = { law = "coulomb", coefficient = 0.1 }
 Members of an outline (`domain.outer`, `domain.holes.NAME`, `tools.NAME`) are listed once, under `domain.outer`.
 )md";
 
+/// A key that a kind of case needs, and what for.
+struct Needed {
+  const char *key, *why;
+};
+
+constexpr std::array blanking_needs{
+    Needed{"let", "sheet, clearance, radius of edges: lengths that others follow from"},
+    Needed{"time.end", "stroke over speed, and a little more"},
+    Needed{"domain.material", "a metal of the library, `\"lib:304L\"`, or one of `materials`"},
+    Needed{"domain.outer.rectangle", "the sheet; or `domain.drawing`, its drawing"},
+    Needed{"domain.drawing.file", "a DXF; its layers name the sides"},
+    Needed{"materials.*.damage", "when metal breaks; with `base = \"lib:NAME\"` for the rest"},
+    Needed{"cloud.spacing", "a tenth of the thickness or so: bands are refined"},
+    Needed{"boundary.*.symmetry", "the middle of half a sheet"},
+    Needed{"tools.*.path", "punch, die and holder with `fillet` at their edges; or `tools.NAME.drawing`"},
+    Needed{"tools.*.velocity", "of the punch, with a smooth ramp"},
+    Needed{"tools.*.friction.coefficient", "between tools and sheet"},
+    Needed{"contact.deformable", "faces of a crack meet again"},
+    Needed{"method.rereference.every", "steps between looks at the cloud"},
+    Needed{"adapt.resample", "`true`; and `separate`, `cracks`, that it parts"},
+    Needed{"adapt.tool_spacing", "half the radius of the edges"},
+    Needed{"adapt.indicator.field", "`\"plastic_strain\"`, and `h_min`: the band"},
+    Needed{"report.blanking", "force, work and faces in the report"},
+    Needed{"output.fields_every", "frames of a film"},
+    Needed{"output.pictures", "pictures of the report"},
+    Needed{"output.windows.*.box", "the cut, enlarged"},
+};
+
+constexpr std::array cutting_needs{
+    Needed{"cutting.feed", "uncut chip thickness"},
+    Needed{"cutting.width", "of cut, for forces in N"},
+    Needed{"cutting.rake", "and `clearance`: angles of the tool"},
+    Needed{"cutting.edge_radius", "or a `chamfer`"},
+    Needed{"cutting.speed", "of the tool"},
+    Needed{"cutting.length", "of cut"},
+    Needed{"cutting.friction", "between tool, chip and surface"},
+    Needed{"domain.material", "a metal of the library, `\"lib:AA2024-T351\"`, or one of `materials`"},
+    Needed{"materials.*.damage", "of metals whose chips have teeth"},
+    Needed{"tools.*.heat", "of tools that grow warm"},
+    Needed{"cutting.window", "`true`: the workpiece goes with the tool, for long cuts"},
+    Needed{"report.cutting", "is there by itself"},
+};
+
+/// Where a page has a heading: letters, digits, '_' and '-' of it.
+std::string anchor(const std::string& heading) {
+  std::string text;
+  for (const char c : heading)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-')
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// The heading under which a key stands: its own table, else the one it belongs to.
+std::string section_of(const Key& key) {
+  return key.type == Type::table ? readable(key.path) : readable(key.parent());
+}
+
+std::string link_to(const std::string& heading, const std::string& words) {
+  return fmt::format("[`{}`](#{})", words, anchor(heading));
+}
+
+std::string needs_table(std::span<const Needed> needs) {
+  std::string text = "| key | for |\n| --- | --- |\n";
+  for (const Needed& need : needs) {
+    const Key* key = find_key(need.key);
+    if (!key) throw std::logic_error(fmt::format("the contents name {}, which is no key", need.key));
+    const std::string section = section_of(*key);
+    const std::string words = readable(key->path);
+    text += fmt::format("| {} | {} |\n",
+                        section.empty() ? fmt::format("`{}`", words) : link_to(section, words), need.why);
+  }
+  return text;
+}
+
 bool belongs_to_outline(const Key& key) {
   for (const std::string_view at : {"domain.holes.*.", "tools.*."}) {
     if (!key.path.starts_with(at)) continue;
@@ -84,6 +162,37 @@ bool belongs_to_outline(const Key& key) {
     return find_key(twin) != nullptr;
   }
   return false;
+}
+
+bool has_section(const Key& key) {
+  return (key.type == Type::table || key.type == Type::table_list) && !belongs_to_outline(key);
+}
+
+/// What stands at the head of the reference.
+std::string contents() {
+  std::string text = "## Contents\n\n[Values](#values) · [A small case](#a-small-case) · "
+                     "[Keys a blanking case needs](#keys-a-blanking-case-needs) · "
+                     "[Keys a cut needs](#keys-a-cut-needs) · [Keys](#keys) · [Fields](#fields) · "
+                     "[What cannot be asked for together](#what-cannot-be-asked-for-together)\n";
+  std::string top;
+  for (const Key& key : schema()) {
+    if (!has_section(key)) continue;
+    const std::string heading = readable(key.type == Type::table_list ? key.path + "[]" : key.path);
+    const std::string first = heading.substr(0, heading.find('.'));
+    text += first == top ? " · " : "\n- ";
+    text += link_to(heading, heading);
+    top = first;
+  }
+  return text + "\n";
+}
+
+std::string needs() {
+  return "\n## Keys a blanking case needs\n\nIn the order in which one writes them; "
+         "`cases/blanking/sheet/case.toml` has them all, [blanking](blanking.md) says more.\n\n" +
+         needs_table(blanking_needs) +
+         "\n## Keys a cut needs\n\n`cases/cutting/a2024_800/case.toml` has them, [cutting](cutting.md) says "
+         "more.\n\n" +
+         needs_table(cutting_needs) + "\n";
 }
 
 std::string kind(const Key& key) {
@@ -176,7 +285,7 @@ std::string case_reference() {
   std::string text(introduction);
   for (const Key& table : schema()) {
     const bool is_list = table.type == Type::table_list;
-    if ((table.type != Type::table && !is_list) || belongs_to_outline(table)) continue;
+    if (!has_section(table)) continue;
     const std::string pattern = is_list ? table.path + "[]" : table.path;
     text += fmt::format("\n### `{}`\n\n{}{}{}\n", readable(pattern), is_list ? "A piece." : table.doc,
                         required_text(table), scope_of(table));
@@ -201,7 +310,10 @@ std::string case_reference() {
   for (const Key* key : members_of(""))
     if (key->type != Type::table && key->type != Type::named_tables)
       top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);
-  return text.insert(introduction.size(), top);
+  text.insert(introduction.size(), top);
+  const auto keys = text.find("## Keys\n");
+  text.insert(keys, needs().substr(1));
+  return text.insert(text.find("## Values\n"), contents() + "\n");
 }
 
 } // namespace cnem::input

@@ -1,6 +1,7 @@
 // JSON Schema of a case, for editors that complete and check TOML.
 #include "input/schema/schema.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace cnem::input {
@@ -62,16 +63,26 @@ Json entry_schema(const std::string& pattern) {
   return one_of({std::move(whole), std::move(changed)});
 }
 
+/// In the plane and in space: which of them the file is of, a schema does not know.
+std::vector<std::string> all_choices(const Key& key) {
+  std::vector<std::string> all = key.choices;
+  for (const std::string& choice : key.choices_in_space)
+    if (std::find(all.begin(), all.end(), choice) == all.end()) all.push_back(choice);
+  return all;
+}
+
 Json value_schema(const Key& key, Needs needs) {
   Json scalar = quantity(key);
   Json vector = one_of({text_type(), components_of(scalar, key)});
   switch (key.type) {
   case Type::table:
     return object_schema(key.path, needs);
-  case Type::named_tables:
-    return {{"type", "object"},
-            {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,100}$"}}},
-            {"additionalProperties", entry_schema(key.path + ".*")}};
+  case Type::named_tables: {
+    Json named{{"type", "object"},
+               {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]{1,100}$"}}},
+               {"additionalProperties", entry_schema(key.path + ".*")}};
+    return key.alone ? one_of({std::move(named), entry_schema(key.path + ".*")}) : named;
+  }
   case Type::table_list:
     return array_of(object_schema(key.path + "[]", needs));
   case Type::variables:
@@ -90,11 +101,11 @@ Json value_schema(const Key& key, Needs needs) {
   case Type::text:
     return text_type();
   case Type::choice:
-    return {{"enum", key.choices}};
+    return {{"enum", all_choices(key)}};
   case Type::texts:
     return one_of({text_type(), array_of(text_type())});
   case Type::choices:
-    return one_of({{{"enum", key.choices}}, array_of({{"enum", key.choices}})});
+    return one_of({{{"enum", all_choices(key)}}, array_of({{"enum", all_choices(key)}})});
   case Type::vector:
     return vector;
   case Type::vectors:

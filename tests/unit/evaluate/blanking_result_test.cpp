@@ -156,6 +156,27 @@ TEST_F(BlankingFile, comes_back_as_it_was_written) {
   EXPECT_EQ(back->dies, example().dies);
 }
 
+TEST_F(BlankingFile, measured_heights_stand_beside_the_computed_ones) {
+  BlankingResult result = example();
+  MeasuredHeights measured{result.faces[0].cut, result.faces[0].body};
+  measured.burnish = 0.35e-3;
+  result.measured = {measured};
+  write_blanking(folder, result);
+  const auto back = read_blanking(folder);
+  ASSERT_TRUE(back);
+  ASSERT_NE(measured_of(*back, back->faces[0]), nullptr);
+  double difference = 0.0;
+  for (const auto& [name, value] : metrics_of(*back))
+    if (name.ends_with(".burnish_difference[m]")) difference = value;
+  EXPECT_NEAR(difference, -0.05e-3, 1e-12);
+  input::expect_parts(report::render_blanking(*back, std::nullopt),
+                      {"300 µm  (30.0 %), measured 350 µm  (35.0 %)"});
+  std::string older = results::read_file(folder / results::files::blanking);
+  older.erase(older.find("\"measured\""), older.find("\"springback\"") - older.find("\"measured\""));
+  std::ofstream(folder / results::files::blanking) << older;
+  EXPECT_TRUE(read_blanking(folder)->measured.empty());
+}
+
 TEST_F(BlankingFile, a_foreign_file_is_refused) {
   for (const char* text : {"{}", "no json", R"({"punch": 3})"}) {
     std::ofstream(folder / results::files::blanking) << text;

@@ -224,6 +224,10 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
     for (const char* key : {".start", ".path[].to", ".path[].centre", ".rectangle.from", ".rectangle.to",
                             ".circle.centre", ".rotate.centre"})
       known.insert(outline + key);
+  // What a drawing is placed by is used before the case is read, in paths.
+  std::erase_if(found, [](const std::string& path) {
+    return path.find(".drawing.") != std::string::npos && !path.starts_with("output.");
+  });
   EXPECT_EQ(found, known);
 }
 

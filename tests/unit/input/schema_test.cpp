@@ -64,6 +64,9 @@ TEST(Schema, JsonHoldsEveryKey) {
   EXPECT_EQ(at_key(json, "materials.*.heat.conductivity").at("x-si-unit"), "W/(m K)");
   EXPECT_EQ(at_key(json, "materials.*.elastic.poisson").at("anyOf").at(0).at("exclusiveMaximum"), 0.5);
   EXPECT_EQ(at_key(json, "materials.*.plastic.law").at("enum").at(0), "johnson-cook");
+  const nlohmann::json& methods = at_key(json, "method.name").at("enum");
+  EXPECT_NE(std::find(methods.begin(), methods.end(), "fe-tetrahedra"), methods.end())
+      << "what space alone has";
   EXPECT_EQ(at_key(json, "cloud.pattern").at("default"), "hexagonal");
   EXPECT_EQ(at_key(json, "domain.outer.path[].to").at("x-si-unit"), "m");
   EXPECT_EQ(at_key(json, "method.gauss_points").at("anyOf").at(0).at("maximum"), 3);

@@ -1,0 +1,121 @@
+// Measured curves beside computed ones: differences of curves that are known, factors of parts, file and
+// page.
+#include "evaluate/experiment.hpp"
+
+#include "report/experiment_page.hpp"
+#include "results/output_folder.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/unit/input/case_text.hpp"
+
+#include <cmath>
+
+namespace cnem::evaluate {
+namespace {
+
+TEST(Experiment, differences_of_straight_curves_are_exact) {
+  const ComparedCurve measured{{0.0, 1.0, 2.0}, {0.0, 2.0, 0.0}}, computed{{0.5, 1.5, 3.0}, {1.0, 3.0, 0.0}};
+  const CurveDifference d = compare_curves(measured, computed);
+  EXPECT_EQ(d.from, 0.5);
+  EXPECT_EQ(d.to, 2.0);
+  EXPECT_EQ(d.peak_measured, 2.0);
+  EXPECT_EQ(d.peak_computed, 3.0);
+  EXPECT_EQ(d.at_computed, 1.5);
+  EXPECT_NEAR(d.area_measured, 0.75 + 1.0, 1e-15);
+  EXPECT_NEAR(d.area_computed, 2.0 + 0.25 * (3.0 + 2.0), 1e-15);
+  // 0 until 1, to 2 at 1.5, still 2 at 2: ∫ (4 (x − 1))² + 4 · 0.5.
+  EXPECT_NEAR(d.rms, std::sqrt((16.0 * 0.125 / 3.0 + 2.0) / 1.5), 1e-15);
+  EXPECT_FALSE(compare_curves(measured, {{3.0, 4.0}, {1.0, 1.0}}).common());
+  EXPECT_EQ(compare_curves(measured, measured).rms, 0.0);
+}
+
+/// A punch that goes down at 1 m/s, 1 mm, with a force that grows to 1 MN/m (N).
+results::HistoryTable ramp() {
+  results::HistoryTable table;
+  table.names = {"time[s]",
+                 "punch.force_x[N/m]",
+                 "punch.force_y[N/m]",
+                 "punch.displacement_x[m]",
+                 "punch.displacement_y[m]",
+                 "punch.work[J/m]",
+                 "punch.stroke[m]"};
+  table.column.resize(table.names.size());
+  for (int k = 0; k <= 1000; ++k) {
+    const double s = k / 1000.0;
+    const double row[] = {1e-3 * s, 1e5 * s, -1e6 * s, 0.0, -1e-3 * s, 500.0 * s * s, 1e-3 * s};
+    for (std::size_t c = 0; c < table.column.size(); ++c) table.column[c].push_back(row[c]);
+  }
+  return table;
+}
+
+input::Case pressed(const std::string& more, bool round = false) {
+  return input::read_small((round ? "[analysis]\nkinematics = \"axisymmetric\"\n" : "") +
+                           std::string("[tools.punch]\nrectangle = { from = \"-1 5 mm\", to = \"5 8 mm\" }\n"
+                                       "velocity = \"0 -1 m/s\"\n[report.experiment]\n"
+                                       "stroke = \"0 0.5 1 mm\"\n") +
+                           more);
+}
+
+double computed_at_half(const input::Case& input, const BlankingResult* blanking = nullptr) {
+  const auto results = evaluate_experiments(input, ramp(), blanking);
+  const ComparedCurve& curve = results.at(0).computed;
+  for (std::size_t k = 0; k < curve.x.size(); ++k)
+    if (curve.x[k] >= 0.5e-3) return curve.y[k];
+  return 0.0;
+}
+
+TEST(Experiment, forces_of_the_model_become_those_of_the_part) {
+  const std::string in_newtons = "force = \"0 10 20 kN\"\ncut_length = \"50 mm\"\n";
+  EXPECT_NEAR(computed_at_half(pressed(in_newtons)), 25e3, 100.0) << "half of 1 MN/m, 50 mm, one cut";
+  EXPECT_NEAR(computed_at_half(pressed(in_newtons + "cuts = 2\n")), 12.5e3, 50.0);
+  EXPECT_NEAR(computed_at_half(pressed("force_per_length = \"0 1 2 kN/mm\"\ncuts = 2\n")), 250e3, 1e3);
+  EXPECT_NEAR(computed_at_half(pressed(in_newtons + "component = \"across\"\n")), 2.5e3, 10.0);
+  EXPECT_NEAR(computed_at_half(pressed(in_newtons + "component = \"y\"\n")), 25e3, 100.0);
+  EXPECT_NEAR(computed_at_half(pressed("force = \"0 1 2 MN\"\n", true)), 0.5e6, 2e3) << "of the whole body";
+  BlankingResult whole;
+  whole.punch = "punch";
+  whole.direction_y = -1.0;
+  whole.faces.resize(4);
+  for (std::size_t k = 0; k < 4; ++k) whole.faces[k].cut = k < 2 ? "left" : "right";
+  EXPECT_NEAR(computed_at_half(pressed(in_newtons), &whole), 12.5e3, 50.0) << "two cuts carry the force";
+}
+
+TEST(Experiment, file_metrics_and_page_tell_the_difference) {
+  const testing::TemporaryFolder folder("experiment");
+  EXPECT_TRUE(read_experiments(folder.path()).empty());
+  const auto results =
+      evaluate_experiments(pressed("force = \"0 20 40 kN\"\ncut_length = \"50 mm\"\n"), ramp(), nullptr);
+  write_experiments(folder.path(), results);
+  const auto back = read_experiments(folder.path());
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(metrics_of(back), metrics_of(results));
+  const auto metrics = metrics_of(back);
+  const auto value = [&](const std::string& name) {
+    for (const auto& [metric, number] : metrics)
+      if (metric == "experiment.measured." + name) return number;
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  EXPECT_NEAR(value("peak_difference"), 0.25, 0.01);
+  EXPECT_NEAR(value("work_difference"), 0.25, 0.01);
+  EXPECT_NEAR(value("work_computed[J]"), 25.0, 0.1);
+  EXPECT_NEAR(value("rms[N]"), 10e3 / std::sqrt(3.0), 60.0);
+  EXPECT_NEAR(value("rms_share"), 0.25 / std::sqrt(3.0), 2e-3);
+  input::expect_parts(report::render_experiments(back),
+                      {"force of punch", "stroke (mm)", "force (kN)", ">measured<", ">computed<", "40 kN",
+                       "+2", "% of the peak", "1 mm"});
+  EXPECT_EQ(report::render_experiments({}), "");
+}
+
+TEST(Experiment, notes_say_what_cannot_be_compared) {
+  const auto note = [](const std::string& points) {
+    input::Case input = pressed("force_per_length = \"0 2 1 kN/mm\"\n");
+    input.report.experiments[0].x =
+        points == "late" ? std::vector{2e-3, 3e-3, 4e-3} : std::vector{0.0, 2e-3, 3e-3};
+    return evaluate_experiments(input, ramp(), nullptr).at(0).note;
+  };
+  input::expect_parts(note("late"), {"no stroke in common", "2 mm", "4 mm"});
+  input::expect_parts(note("long"), {"The run ends at", "before the measured peak"});
+}
+
+} // namespace
+} // namespace cnem::evaluate
