@@ -66,7 +66,7 @@ class Cases(InFolder):
         case = cnem.Case(block(domain={"material": "lib:304L", "outer": outer}, boundary={}))
         self.assertAlmostEqual(case.check().numbers["area"], 8e-6, 15)
         nodes = np.stack(np.meshgrid(np.arange(11.0), np.arange(6.0)), axis=-1).reshape(-1, 2) * 0.4e-3
-        listed = cnem.Case(block(cloud={"points": cnem.quantity(nodes, "m")}))
+        listed = cnem.Case(block(cloud={"pattern": "list", "nodes": cnem.quantity(nodes, "m")}))
         self.assertEqual(listed.check().numbers["nodes"], 66)
 
 
