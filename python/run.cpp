@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "input/schema/nearest.hpp"
+#include "report/colour_map.hpp"
 #include "report/picture_source.hpp"
 #include "results/fields.hpp"
 #include "results/vtk_writer.hpp"
@@ -162,7 +163,7 @@ py::bytes PythonRun::picture(const std::string& field, int width) {
   info_of(name, *shot);
   const auto source = report::picture_source(input(), *shot, report::drawn_positions(*shot), {name});
   report::Picture picture = report::picture_of(input(), *source, 0);
-  picture.range = report::own_span(input(), name, picture);
+  picture.range = report::widened(picture.map, report::own_span(input(), name, picture));
   if (const auto& view = input().output.drawing.view)
     picture.window = report::PictureWindow{view->front(), view->back()};
   picture.width = width;

@@ -23,8 +23,8 @@ void Watcher::stop(const std::string& by) {
 }
 
 void Watcher::recorded(bool row, bool frame) {
-  row_ = row_ || row;
-  frame_ = frame_ || frame;
+  row_ = row;
+  frame_ = frame;
   if (!callback_ || thrown_) return;
   const py::gil_scoped_acquire interpreter;
   calling_ = true;

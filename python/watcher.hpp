@@ -34,7 +34,7 @@ public:
   void stop(const std::string& by);
 
   bool calls_back() const { return calling_; }
-  bool row() const { return row_; } ///< what has been made since the call began
+  bool row() const { return row_; } ///< the last output since the call began
   bool frame() const { return frame_; }
   const std::vector<std::string>& messages() const { return messages_; }
   const std::string& failed() const { return failed_; }

@@ -1,5 +1,8 @@
 add_custom_target(unit_tests)
 
+# Tests are programs: compiled as position-independent code or not, they and the headers they share have to be it alike.
+set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
+
 # What is tested is the library: tests themselves are not worth optimising, and compile in a fifth less time.
 set(test_options $<$<AND:$<BOOL:${CNEM_UNITY}>,$<CONFIG:Release>>:-O1>)
 

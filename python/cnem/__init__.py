@@ -23,7 +23,7 @@ finally:
     if _ours:
         del _os.environ[_SPIN]
 
-from .case import Case, Check, load
+from .case import Case, Check, load, quantity
 from .errors import DivergedError, Error, InputError, IoError
 from .run import History, Output, Run, restart
 
@@ -39,6 +39,7 @@ __all__ = [
     "Output",
     "Run",
     "load",
+    "quantity",
     "restart",
     "schema",
 ]

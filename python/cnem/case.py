@@ -131,6 +131,18 @@ class Case:
         return self._page
 
 
+def quantity(values, unit):
+    """Numbers with a unit, as cases have them: quantity(2.5, "mm") is "2.5 mm", a vector "4.0 2.0 mm", and an
+    array [point, component] a list of such texts. Every digit is kept."""
+    if hasattr(values, "tolist"):
+        values = values.tolist()
+    if isinstance(values, (list, tuple)):
+        if values and isinstance(values[0], (list, tuple)):
+            return [quantity(row, unit) for row in values]
+        return " ".join(repr(float(value)) for value in values) + " " + unit
+    return f"{float(values)!r} {unit}"
+
+
 def load(path, overrides=None):
     """Case.load(path, overrides): a case from a file, or from the case.toml of a folder."""
     return Case.load(path, overrides)

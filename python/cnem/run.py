@@ -152,7 +152,7 @@ class Run:
 
     @property
     def output(self):
-        """Output made in the latest call."""
+        """The last output of the latest call."""
         return Output(self.time, self.step, self._core.row, self._core.frame)
 
     @property

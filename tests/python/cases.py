@@ -40,7 +40,7 @@ def pulled():
     """A block in tension, in equilibrium."""
     return {
         "analysis": {"type": "static"},
-        "domain": {"material": "steel", "outer": {"rectangle": {"from": [0, 0], "to": [4e-3, 2e-3]}}},
+        "domain": {"material": "steel", "outer": {"rectangle": {"from": "0 0 mm", "to": cnem.quantity((4.0, 2.0), "mm")}}},
         "cloud": {"spacing": "0.25 mm"},
         "materials": {
             "steel": {
