@@ -137,8 +137,8 @@ TEST_F(Drawings, are_placed_by_the_case) {
   EXPECT_LT((high - Vec2(0.001, 0.002)).norm(), 1e-12) << high.transpose();
   EXPECT_NE(std::find(names.begin(), names.end(), "end"), names.end()) << "was right";
   EXPECT_EQ(std::find(names.begin(), names.end(), "right"), names.end());
-  EXPECT_DOUBLE_EQ(read(dxf(square, "1"), "drawing = { file = \"part.dxf\", unit = \"mm\" }").domain.outer.length(),
-            0.03)
+  EXPECT_DOUBLE_EQ(
+      read(dxf(square, "1"), "drawing = { file = \"part.dxf\", unit = \"mm\" }").domain.outer.length(), 0.03)
       << "the unit of the case goes first";
 }
 
