@@ -46,7 +46,7 @@ public:
   std::size_t size() const { return points_.size(); }
 
 private:
-  long cell(double x) const { return static_cast<long>(std::floor(x / tolerance_)); }
+  long cell(double x) const { return static_cast<long>(std::floor(std::clamp(x / tolerance_, -1e18, 1e18))); }
 
   double tolerance_;
   std::vector<Vec2> points_;
