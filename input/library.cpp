@@ -4,6 +4,7 @@
 #include "input/case_parts.hpp"
 #include "input/schema/conversion.hpp"
 #include "input/schema/nearest.hpp"
+#include "input/schema/written_values.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

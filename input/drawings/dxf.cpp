@@ -104,7 +104,9 @@ private:
       fail(entity.line, fmt::format("the {} has no group {}, expected a number there", entity.type, code));
     return group ? number(*group) : *otherwise;
   }
-  int flags(const Entity& entity) const { return static_cast<int>(number(entity, 70, 0.0)); }
+  int flags(const Entity& entity) const {
+    return static_cast<int>(std::clamp(number(entity, 70, 0.0), 0.0, 1e6));
+  }
   Vec2 point(const Entity& entity, int code) const {
     return {number(entity, code), number(entity, code + 10)};
   }

@@ -26,6 +26,9 @@ struct Token {
 
 using Tag = long;
 
+/// Of a number in a list; no curve has the tag of one that is none.
+Tag tag_of(double number) { return static_cast<Tag>(std::clamp(number, -1e15, 1e15)); }
+
 struct GeoCurve {
   CurvePiece piece;
   std::size_t line = 0;
@@ -154,7 +157,7 @@ private:
     const double value = sum();
     if (value != std::round(value) || std::abs(value) > 1e9)
       fail(line, fmt::format("found {:g}, expected a whole number", value));
-    return static_cast<Tag>(value);
+    return tag_of(value);
   }
 
   Tag head() { // (3) =
@@ -191,7 +194,7 @@ private:
   }
 
   const Vec2& point_of(double number, std::size_t line) const {
-    const auto at = points_.find(static_cast<Tag>(number));
+    const auto at = points_.find(tag_of(number));
     if (at == points_.end())
       fail(line, fmt::format("found no point {:g}, expected one defined before", number));
     return at->second;
@@ -228,14 +231,14 @@ private:
     const std::size_t line = now_.line;
     head();
     for (const double loop : numbers()) {
-      const auto found = loops_.find(static_cast<Tag>(std::abs(loop)));
+      const auto found = loops_.find(tag_of(std::abs(loop)));
       if (found == loops_.end())
         fail(line, fmt::format("found no loop {:g}, expected one defined before", loop));
       for (const double curve : found->second) {
-        if (!curves_.contains(static_cast<Tag>(std::abs(curve))))
+        if (!curves_.contains(tag_of(std::abs(curve))))
           fail(line, fmt::format("found no curve {:g} in loop {:g}, expected one defined before",
                                  std::abs(curve), loop));
-        ++sides_[static_cast<Tag>(std::abs(curve))];
+        ++sides_[tag_of(std::abs(curve))];
       }
     }
   }
@@ -256,7 +259,7 @@ private:
     expect("=");
     drawing_.add_layer(name);
     for (const double curve : numbers()) {
-      const auto found = curves_.find(static_cast<Tag>(std::abs(curve)));
+      const auto found = curves_.find(tag_of(std::abs(curve)));
       if (found == curves_.end())
         fail(line, fmt::format("found no curve {:g}, expected one defined before", std::abs(curve)));
       found->second.piece.name = name;

@@ -46,7 +46,7 @@ public:
   std::size_t size() const { return points_.size(); }
 
 private:
-  long cell(double x) const { return static_cast<long>(std::floor(x / tolerance_)); }
+  long cell(double x) const { return static_cast<long>(std::floor(std::clamp(x / tolerance_, -1e18, 1e18))); }
 
   double tolerance_;
   std::vector<Vec2> points_;
@@ -155,8 +155,7 @@ private:
       if (at_[corner].size() == 1) loose.push_back(corner);
     if (loose.empty()) return;
     std::vector<std::string> gaps;
-    double widest = 0.0;
-    while (loose.size() > 1) { // the closest two belong together
+    while (loose.size() > 1 && gaps.size() < most_told) { // the closest two belong together
       std::size_t a = 0, b = 1;
       double least = std::numeric_limits<double>::max();
       for (std::size_t i = 0; i < std::min<std::size_t>(loose.size(), 1000); ++i)
@@ -166,15 +165,14 @@ private:
       gaps.push_back(fmt::format("between {} ({}) and {} ({}), {:.4g} {} apart", show(corners_[loose[a]]),
                                  named(at_[loose[a]].front()), show(corners_[loose[b]]),
                                  named(at_[loose[b]].front()), least, drawing_.unit->name));
-      widest = std::max(widest, least);
       loose.erase(loose.begin() + long(b));
       loose.erase(loose.begin() + long(a));
-      if (gaps.size() > 1000) break;
     }
     fail(fmt::format(
-        "the outline is open {}, expected ends that meet within {:.3g} {}: close it in the drawing, or by "
+        "the outline is open {}{}, expected ends that meet within {:.3g} {}: close it in the drawing, or by "
         "a wider `tolerance`",
-        told(gaps), tolerance_, drawing_.unit->name));
+        told(gaps), loose.empty() ? "" : fmt::format("; {} more ends are loose", loose.size()), tolerance_,
+        drawing_.unit->name));
   }
 
   Loop follow(std::size_t first, std::vector<bool>& used) const {

@@ -6,6 +6,7 @@
 #include "input/schema/nearest.hpp"
 #include "input/schema/settings.hpp"
 #include "input/schema/units.hpp"
+#include "input/schema/written_values.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -21,17 +22,6 @@ namespace cnem::input {
 namespace {
 
 using Kind = Value::Kind;
-
-Value table_value(const Location& where) {
-  Value value;
-  value.kind = Kind::table;
-  value.where = where;
-  return value;
-}
-
-void put(Value& table, std::string key, Value value) {
-  table.members.push_back({std::move(key), table.where, std::move(value)});
-}
 
 /// The layer as the name of a piece: layers may be called anything.
 std::string piece_name(std::string layer) {
@@ -114,13 +104,13 @@ private:
   /// f(sheet, placement, where) puts outlines in its place.
   template<class F>
   void with_drawing(Value& table, const std::string& pattern, const std::string& path,
-                    const std::string& name, std::initializer_list<const char*> rivals, const F& f) {
+                    const std::string& name, std::initializer_list<const char*> other_forms, const F& f) {
     const Member* found = table.find("drawing");
     if (!found) return;
     const Member drawing = *found;
     std::erase_if(table.members, [](const Member& member) { return member.key == "drawing"; });
     const std::string key = path + ".drawing";
-    for (const char* rival : rivals)
+    for (const char* rival : other_forms)
       if (const Member* other = table.find(rival)) {
         diagnostics_.add(Mistake::conflict, other->where, fmt::format("{}.{}", path, rival),
                          fmt::format("found beside {}, expected one of them", key));

@@ -32,7 +32,7 @@ void add_drawing(Keys& k, const std::string& at, const std::string& doc, const s
   k.add(at + ".shift", vector, "Where the drawing's (0, 0) comes to lie.")
       .unit(d::length)
       .fallback("\"0 0 m\"")
-      .example("\"clearance, 0 mm\"");
+      .example("\"0.1 0 mm\"");
   k.add(at + ".tolerance", quantity, "Distance at which ends of curves meet.")
       .unit(d::length)
       .in(positive)

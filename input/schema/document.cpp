@@ -354,14 +354,6 @@ std::string toml_text(const Value& value) {
   return "";
 }
 
-Value text_value(std::string text, const Location& where) {
-  Value value;
-  value.kind = Value::Kind::text;
-  value.text = std::move(text);
-  value.where = where;
-  return value;
-}
-
 std::string_view trimmed(std::string_view text) {
   constexpr const char* blank = " \t\r";
   const auto first = text.find_first_not_of(blank);

@@ -80,9 +80,6 @@ void apply_override(Value& root, const Override& change);
 /// Says of a value and all in it that it was written at another place.
 void relocate(Value& value, const Location& where);
 
-/// A text that was written there.
-Value text_value(std::string text, const Location& where);
-
 /// The text as a TOML string, in quotes.
 std::string toml_quoted(std::string_view text);
 

@@ -311,9 +311,7 @@ std::string case_reference() {
     if (key->type != Type::table && key->type != Type::named_tables)
       top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);
   text.insert(introduction.size(), top);
-  const auto keys = text.find("## Keys\n");
-  text.insert(keys, needs().substr(1));
-  return text.insert(text.find("## Values\n"), contents() + "\n");
+  return text.insert(text.find("## Values\n"), contents() + needs() + "\n");
 }
 
 } // namespace cnem::input

@@ -1,9 +1,11 @@
 // Outlines from drawings: the same case as the one written by hand, and what is said of wrong drawings.
-#include "tests/temporary_folder.hpp"
 #include "tests/unit/input/case_text.hpp"
 
+#include <array>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <unistd.h>
 
 namespace cnem::input {
 namespace {
@@ -63,14 +65,17 @@ const std::string square = line("low", {0, 0}, {10, 0}) + line("right", {10, 5},
 
 class Drawings : public testing::Test {
 protected:
+  Drawings() { std::filesystem::create_directories(folder_); }
+  ~Drawings() override { std::filesystem::remove_all(folder_); }
+
   /// What the small case says with this in the place of its outline.
   std::string text(const std::string& domain) const {
     return replaced(small_case, "outer.rectangle = { from = \"0 0 mm\", to = \"10 5 mm\" }", domain);
   }
   Case read(const std::string& drawing, const std::string& domain, const std::string& name = "part.dxf",
             const std::string& more = "") {
-    std::ofstream(folder_.path() / name, std::ios::binary) << drawing;
-    return read_case_text(text(domain) + more, (folder_.path() / "case.toml").string());
+    std::ofstream(folder_ / name, std::ios::binary) << drawing;
+    return read_case_text(text(domain) + more, (folder_ / "case.toml").string());
   }
   std::string refused(const std::string& drawing, const std::string& domain = whole,
                       const std::string& name = "part.dxf") {
@@ -83,7 +88,8 @@ protected:
   static std::string body(const Case& input) { return input.resolved.substr(input.resolved.find('\n')); }
 
   static inline const std::string whole = "drawing = { file = \"part.dxf\" }";
-  testing::TemporaryFolder folder_{"drawings"};
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / fmt::format("cnem_drawings_{}", ::getpid());
 };
 
 TEST_F(Drawings, make_the_same_case_as_a_path_by_hand) {
@@ -131,8 +137,8 @@ TEST_F(Drawings, are_placed_by_the_case) {
   EXPECT_LT((high - Vec2(0.001, 0.002)).norm(), 1e-12) << high.transpose();
   EXPECT_NE(std::find(names.begin(), names.end(), "end"), names.end()) << "was right";
   EXPECT_EQ(std::find(names.begin(), names.end(), "right"), names.end());
-  EXPECT_EQ(read(dxf(square, "1"), "drawing = { file = \"part.dxf\", unit = \"mm\" }").domain.outer.length(),
-            0.03)
+  EXPECT_DOUBLE_EQ(
+      read(dxf(square, "1"), "drawing = { file = \"part.dxf\", unit = \"mm\" }").domain.outer.length(), 0.03)
       << "the unit of the case goes first";
 }
 
@@ -362,12 +368,12 @@ $EndElements
 }
 
 TEST_F(Drawings, are_seen_from_the_file_that_names_them) {
-  std::filesystem::create_directories(folder_.path() / "press");
-  std::ofstream(folder_.path() / "press/part.dxf") << dxf(square);
-  std::ofstream(folder_.path() / "press/sheet.toml") << "domain.drawing = { file = \"part.dxf\" }\n";
+  std::filesystem::create_directories(folder_ / "press");
+  std::ofstream(folder_ / "press/part.dxf") << dxf(square);
+  std::ofstream(folder_ / "press/sheet.toml") << "domain.drawing = { file = \"part.dxf\" }\n";
   std::string without = "include = \"press/sheet.toml\"\n" + text("");
-  std::ofstream(folder_.path() / "case.toml") << without;
-  EXPECT_EQ(read_case((folder_.path() / "case.toml").string()).domain.outer.pieces[0].name, "low");
+  std::ofstream(folder_ / "case.toml") << without;
+  EXPECT_EQ(read_case((folder_ / "case.toml").string()).domain.outer.pieces[0].name, "low");
 }
 
 } // namespace
