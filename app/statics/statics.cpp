@@ -65,8 +65,9 @@ void write_history(const StaticModel& model, const StaticSolution& solution, con
   row.emplace_back("energy.elastic" + units.energy, solution.strain_energy);
   row.emplace_back("energy.stabilisation" + units.energy, solution.stabilisation_energy);
   row.emplace_back("energy.external_work" + units.energy, solution.external_work);
-  row.emplace_back("energy.residual" + units.energy,
-                   solution.strain_energy + solution.stabilisation_energy - solution.external_work);
+  row.emplace_back("energy.thermal_expansion" + units.energy, solution.thermal_work);
+  row.emplace_back("energy.residual" + units.energy, solution.strain_energy + solution.stabilisation_energy -
+                                                         solution.external_work - solution.thermal_work);
   double mass = 0.0;
   for (const double m : shot.state.node.mass) mass += m;
   row.emplace_back("mass" + units.mass, mass);
