@@ -34,11 +34,12 @@ std::string size_of(const input::Domain& domain) {
 
 /// How fast it moves at the end of the run, in words.
 std::string motion_of(const input::Tool& tool, double end) {
-  if (tool.drive) return "driven by forces and inertia";
+  if (tool.drive && !tool.drive->spring) return "driven by forces and inertia";
   double speed = 0.0;
   for (const auto& component : tool.velocity)
     if (component) speed = std::hypot(speed, (*component)(end));
-  return speed > 0.0 ? fmt::format("moves at {}", si_format(speed, "m/s")) : "at rest";
+  const std::string moves = speed > 0.0 ? fmt::format("moves at {}", si_format(speed, "m/s")) : "at rest";
+  return tool.drive ? "a body on a spring whose far end " + (speed > 0.0 ? moves : "is " + moves) : moves;
 }
 
 std::string subject(const input::Case& input) {

@@ -30,7 +30,8 @@ void Retries::keep() {
 }
 
 bool Retries::may_go_back(const DivergenceError& error) const {
-  return !last_pass_.empty() && in_a_row_ < most && error.field != "tool velocity";
+  return !last_pass_.empty() && in_a_row_ < most && error.field != "tool velocity" &&
+         error.field != "tool spring";
 }
 
 void Retries::go_back(double time, const std::string& failure, const Course& course) {

@@ -289,7 +289,7 @@ template<int dim> void Simulation<dim>::diverge(const DivergenceError& error) {
   if (options_.output.empty()) return;
   dead_->last_good = fmt::format("{} is of {}; fields.pvd ends at t = {:.6g} s", results::files::checkpoint,
                                  last_checkpoint_.empty() ? "no step" : last_checkpoint_, fields_due_.last());
-  dead_->picture = features_.draw_place(files_, solver_, index_of(error.node));
+  if (error.node >= 0) dead_->picture = features_.draw_place(files_, solver_, index_of(error.node));
 }
 template<int dim> Exit Simulation<dim>::fail(const std::string& message) {
   forget_last_words();

@@ -152,6 +152,12 @@ public:
   }
   /// Of all free tools at t_{n−½}.
   DriveEnergy drive_energy() const { return motions_.energy(tools_); }
+  /// Of the spring of a tool at `time`, which is that of the last step, N/m^(3−dim); 0 without one.
+  double spring_force(std::size_t tool, double time) const {
+    return motions_.spring_force(tools_[tool], tool, time);
+  }
+  /// What the springs of tools bear at `time`, s; infinite without any.
+  double stable_step(double time) const { return motions_.stable_step(tools_, time); }
   bool flow_stress_needed() const;
   bool rubs() const; ///< whether there is any friction
   /// Nodes of the boundary in increasing order.

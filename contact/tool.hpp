@@ -2,6 +2,7 @@
 // Rigid tools: shape, motion or mass, friction and what they do to heat.
 #include "contact/friction.hpp"
 #include "contact/response.hpp"
+#include "contact/springs/list.hpp"
 #include "contact/tool_shape.hpp"
 #include "core/heat_curves.hpp"
 #include "core/indexed.hpp"
@@ -33,12 +34,22 @@ template<int dim> struct ToolMotion {
   }
 };
 
-/// A tool that moves as a rigid body, without rotation, under a force and the reaction of the workpiece.
+/// A spring between a tool and its mount: what holds a blank holder down, or the frame of a press above a
+/// punch. The mount moves as the motion of the tool says.
+template<int dim> struct ToolSpring {
+  Spring spring;
+  Vec<dim> along = Vec<dim>::Zero(); ///< unit vector: it pushes the tool that way, away from the mount
+};
+
+/// A tool that moves as a rigid body, without rotation, under a force, a spring, a damper and the reaction of
+/// the workpiece.
 template<int dim> struct ToolDrive {
   double mass = 0.0;                            ///< kg/m^(3−dim) (kg of revolution), > 0
   std::array<TimeTable, dim> force;             ///< N/m^(3−dim) (N of revolution); an empty table is zero
   Vec<dim> initial_velocity = Vec<dim>::Zero(); ///< m/s
   Mat<dim> free = Mat<dim>::Identity(); ///< projector on the directions it may move in; guides take the rest
+  std::optional<ToolSpring<dim>> spring = {};
+  double damping = 0.0; ///< N s/m^(4−dim) (N s/m of revolution), against motion relative to the mount
 };
 
 /// Thermal side of a tool, which is held at one temperature unless it has a section
@@ -110,8 +121,19 @@ struct ToolSurface {
 
 template<int dim> struct Tool : ToolSurface {
   std::shared_ptr<const ToolShape<dim>> shape;
-  ToolMotion<dim> motion; ///< prescribed, when there is no drive
+  ToolMotion<dim> motion; ///< prescribed; with a drive that of its mount
   std::optional<ToolDrive<dim>> drive;
+
+  /// Where it would be at t (m) if it met nothing and its spring were stiff, and how fast (m/s): for what is
+  /// said before a run.
+  Vec<dim> led_displacement(double t) const {
+    if (!drive) return motion.displacement(t);
+    return drive->free * Vec<dim>(motion.displacement(t) + t * drive->initial_velocity);
+  }
+  Vec<dim> led_velocity(double t) const {
+    if (!drive) return motion.velocity_at(t);
+    return drive->free * Vec<dim>(motion.velocity_at(t) + drive->initial_velocity);
+  }
 };
 
 template<int dim> using Tools = IndexedVector<ToolIndex, Tool<dim>>;

@@ -58,6 +58,7 @@ struct TimeControl {
   std::optional<std::int64_t> max_steps; ///< – the run ends after so many
   LocalStepControl local;                ///< steps differ from node to node
   std::optional<MassScaling> mass_scaling;
+  bool quasi_static = false; ///< inertia is not meant to act
 };
 
 /// An embedded crack, or one open to the boundary where its first or last point lies on it. Its faces are

@@ -1,7 +1,10 @@
 // Tools with a mass of their own, and mass scaling, of the case reader.
 #include "input/case_parts.hpp"
+#include "input/constants.hpp"
+#include "input/schema/conversion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,27 +13,26 @@
 #include <vector>
 
 namespace cnem::input {
-void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics) {
-  const Setting* mass = table.find("mass");
-  if (!mass) {
-    for (const char* key : {"force", "initial_velocity", "direction"})
-      if (const Setting* found = table.find(key))
-        diagnostics.add(
-            Mistake::missing_key, found->where, found->path,
-            fmt::format("found {} of a tool without mass, expected {}.mass = \"50 kg/m\" beside it, or "
-                        "a velocity alone",
-                        key, table.path));
-    return;
+namespace {
+
+/// What stands in a direction that a guide does not let the tool go, and would be taken without a trace.
+void check_across(const Setting* setting, const std::array<TimeTable, 2>& tables, const Vec2& line,
+                  const char* what, Diagnostics& diagnostics) {
+  if (!setting) return;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::vector<double>& values = tables[k].values();
+    if (line.cwiseAbs()[static_cast<int>(k)] < 1e-9 &&
+        std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; }))
+      diagnostics.add(
+          Mistake::conflict, setting->where, setting->path,
+          fmt::format("found a {} along {}, where the direction of the tool does not let it move, "
+                      "expected 0 there",
+                      what, axis_name(k)));
   }
-  if (const Setting* velocity = table.find("velocity"))
-    return diagnostics.add(Mistake::conflict, velocity->where, velocity->path,
-                           "found a prescribed velocity and a mass, expected one of them: a tool with a mass "
-                           "moves by force and initial_velocity");
-  contact::ToolDrive<2>& drive = tool.drive.emplace();
-  drive.mass = std::get<double>(mass->value);
-  if (const auto force = table.maybe<VectorFunction>("force"))
-    for (std::size_t k = 0; k < 2; ++k) drive.force[k] = (*force)[k].value_or(TimeTable());
-  drive.initial_velocity = table.maybe<Vec2>("initial_velocity").value_or(Vec2::Zero());
+}
+
+void read_guide(const Setting& table, const Case& input, const Tool& tool, contact::ToolDrive<2>& drive,
+                Diagnostics& diagnostics) {
   const Setting* direction = table.find("direction");
   if (!direction) return;
   Vec2 line = std::get<Vec2>(direction->value);
@@ -44,23 +46,65 @@ void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics
         "axis alone");
   line.stableNormalize();
   drive.free = line * line.transpose();
+  if (drive.spring) drive.spring->along = line;
   // What a guide would take without a trace was not meant.
   const Vec2 across(-line.y(), line.x());
   if (std::abs(across.dot(drive.initial_velocity)) > 1e-9 * drive.initial_velocity.norm())
     diagnostics.add(Mistake::conflict, table.find("initial_velocity")->where,
                     table.find("initial_velocity")->path,
                     "found a velocity across the direction of the tool, expected one along it");
-  if (const Setting* force = table.find("force"))
-    for (std::size_t k = 0; k < 2; ++k) {
-      const std::vector<double>& values = drive.force[k].values();
-      if (line.cwiseAbs()[static_cast<int>(k)] < 1e-9 &&
-          std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; }))
+  check_across(table.find("force"), drive.force, line, "force", diagnostics);
+  std::array<TimeTable, 2> velocity;
+  for (std::size_t k = 0; k < 2; ++k) velocity[k] = tool.velocity[k].value_or(TimeTable());
+  check_across(table.find("velocity"), velocity, line, "velocity of the mount", diagnostics);
+}
+
+void read_spring(const Setting& table, const Setting& spring, contact::ToolDrive<2>& drive,
+                 Diagnostics& diagnostics) {
+  const Setting* direction = table.find("direction");
+  if (!direction || !direction->given) // which way the default would push is nobody's wish
+    diagnostics.add(
+        Mistake::missing_key, spring.where, spring.path,
+        fmt::format("found a spring of a tool without direction, expected {}.direction = \"0 -1\" "
+                    "beside it, the way it pushes",
+                    table.path));
+  auto law = read_law<contact::Spring>(contact::Springs{}, spring, diagnostics);
+  if (!law) return;
+  drive.spring.emplace().spring = std::move(*law);
+  if (const auto ramp = spring.maybe<double>("ramp"))
+    drive.spring->spring.charge = ramp_table(*ramp, 0.0, 1.0, true);
+}
+
+} // namespace
+
+void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics) {
+  const Setting* mass = table.find("mass");
+  const Setting* spring = table.find("spring");
+  if (!mass) {
+    for (const char* key : {"force", "initial_velocity", "direction", "spring", "damping"})
+      if (const Setting* found = table.find(key))
         diagnostics.add(
-            Mistake::conflict, force->where, force->path,
-            fmt::format("found a force along {}, where the direction of the tool does not let it move, "
-                        "expected 0 there",
-                        axis_name(k)));
-    }
+            Mistake::missing_key, found->where, found->path,
+            fmt::format("found {} of a tool without mass, expected {}.mass = \"50 kg/m\" beside it, or "
+                        "a velocity alone",
+                        key, table.path));
+    return;
+  }
+  if (const Setting* velocity = table.find("velocity"); velocity && !spring)
+    return diagnostics.add(
+        Mistake::conflict, velocity->where, velocity->path,
+        fmt::format("found a prescribed velocity and a mass, expected one of them: a tool "
+                    "with a mass moves by force and initial_velocity, or by {}.spring from "
+                    "a mount that has the velocity",
+                    table.path));
+  contact::ToolDrive<2>& drive = tool.drive.emplace();
+  drive.mass = std::get<double>(mass->value);
+  drive.damping = table.maybe<double>("damping").value_or(0.0);
+  if (const auto force = table.maybe<VectorFunction>("force"))
+    for (std::size_t k = 0; k < 2; ++k) drive.force[k] = (*force)[k].value_or(TimeTable());
+  drive.initial_velocity = table.maybe<Vec2>("initial_velocity").value_or(Vec2::Zero());
+  if (spring) read_spring(table, *spring, drive, diagnostics);
+  read_guide(table, input, tool, drive, diagnostics);
 }
 
 void read_mass_scaling(const Setting& root, Case& result, Diagnostics& diagnostics) {

@@ -40,13 +40,6 @@ Text with_averaged_damage(const Case& c) {
   return "";
 }
 
-/// The first of a case's materials that expands from another temperature than the initial one.
-const plasticity::Material* expanding(const Case& c) {
-  const auto found = std::find_if(c.materials.begin(), c.materials.end(), [&](const plasticity::Material& m) {
-    return m.expansion != 0.0 && m.expansion_reference != c.initial.temperature;
-  });
-  return found == c.materials.end() ? nullptr : &*found;
-}
 /// The first of a case's materials with an equation of state.
 const plasticity::Material* compressible(const Case& c) {
   const auto found = std::find_if(c.materials.begin(), c.materials.end(), [](const plasticity::Material& m) {
@@ -114,6 +107,8 @@ const std::vector<Pair>& pairs() {
       {"contact", "", "`analysis.mechanical = false`", without_motion, motion, "nothing touches"},
       {"time.mass_scaling", "", "`analysis.mechanical = false`", without_motion, motion,
        "inertia does not act"},
+      {"time.quasi_static", "true", "`analysis.mechanical = false`", without_motion, motion,
+       "inertia does not act", [](const Case& c) { return c.time.quasi_static; }},
       {"initial.velocity", "", "`analysis.mechanical = false`", without_motion, motion, "nothing moves"},
       {"initial.spin", "", "`analysis.mechanical = false`", without_motion, motion, "nothing moves"},
       {"initial.velocity_gradient", "", "`analysis.mechanical = false`", without_motion, motion,
@@ -158,10 +153,13 @@ const std::vector<Pair>& pairs() {
       {"analysis.mechanical", "false", "static analyses", in_statics, "true",
        "displacements are what it solves for", [](const Case& c) { return !c.analysis.mechanical; }},
       {"analysis.thermal", "true", "static analyses", in_statics, "false",
-       "it solves for displacements alone", [](const Case& c) { return c.analysis.thermal; }},
+       "it solves for displacements alone, and metal expands from heat.reference_temperature to "
+       "initial.temperature",
+       [](const Case& c) { return c.analysis.thermal; }},
       {"time.step", "", "static analyses", in_statics, dynamics, "there is no step"},
       {"time.max_steps", "", "static analyses", in_statics, dynamics, "there is no step"},
       {"time.mass_scaling", "", "static analyses", in_statics, dynamics, "inertia does not act"},
+      {"time.quasi_static", "", "static analyses", in_statics, dynamics, "inertia does not act"},
       {"tools", "", "static analyses", in_statics, dynamics, "equilibrium is solved for without contact"},
       {"contact", "", "static analyses", in_statics, dynamics, "equilibrium is solved for without contact"},
       {"initial.velocity", "", "static analyses", in_statics, dynamics, "nothing moves"},
@@ -176,10 +174,6 @@ const std::vector<Pair>& pairs() {
       {"output.checkpoint", "", "static analyses", in_statics, dynamics, "equilibrium is found in one go"},
       {"output.probes", "", "static analyses", in_statics, dynamics, "probes record a history"},
       {"report", "", "static analyses", in_statics, dynamics, "what is evaluated is a history of tools"},
-      {"materials.*.heat.expansion", "a thermal strain", "static analyses",
-       [](const Case& c) { return when(is_static(c) && expanding(c), "in a static analysis"); },
-       "heat.reference_temperature = initial.temperature", "temperatures load nothing there", nullptr,
-       [](const Case& c) { return "materials." + expanding(c)->name + ".heat.expansion"; }},
       {"materials.*.equation_of_state", "", "static analyses",
        [](const Case& c) { return when(is_static(c) && compressible(c), "in a static analysis"); }, dynamics,
        "strains are small there, and pressure is proportional to them", nullptr,

@@ -6,6 +6,7 @@
 #include "input/included_files.hpp"
 #include "input/library.hpp"
 #include "input/local_origin.hpp"
+#include "input/temperature_ramps.hpp"
 #include "input/variables.hpp"
 
 #include <algorithm>
@@ -38,6 +39,8 @@ void compute_defaults(Setting& root) {
   const bool round = root.get<std::string>("analysis.kinematics") == "axisymmetric";
   root.set_default("method.stabilisation",
                    round ? 0.2 : 0.05); // the axis has a weak mode of its own: docs/theory.md
+  if (root.get<std::string>("analysis.type") != "static")
+    root.set_default("time.quasi_static", root.find("time.mass_scaling") || root.find("report.blanking"));
   root.set_default("output.history_every", end / 400.0);
   root.set_default("output.fields_every", end / 24.0);
   const bool space = root.get<std::string>("analysis.kinematics") == "three-dimensional";
@@ -77,6 +80,7 @@ void read_time(const Setting& root, Case& result, Diagnostics& diagnostics) {
       {.on = step.get<bool>("local"), .levels = static_cast<int>(step.get<std::int64_t>("levels"))},
       {}};
   read_mass_scaling(root, result, diagnostics);
+  result.time.quasi_static = root.maybe<bool>("time.quasi_static").value_or(false);
   if (const Setting* fixed = step.find("fixed"); fixed && result.time.max_step)
     diagnostics.add(Mistake::conflict, fixed->where, fixed->path,
                     "found a fixed step and a largest step, expected one of them");
@@ -168,6 +172,7 @@ Case read(Value document, const std::string& path, const std::vector<Override>& 
   take_from_library(document, diagnostics);
   take_from_drawings(document, std::filesystem::path(path).parent_path(), diagnostics);
   take_from_cutting(document, diagnostics);
+  start_temperature_ramps(document);
   diagnostics.throw_if_any();
   Setting root = apply_schema(document, diagnostics);
   const Member* time = document.find("time");

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "input/case_parts.hpp"
 #include "input/schema/conversion.hpp"
+#include "input/schema/document_walk.hpp"
 #include "input/schema/nearest.hpp"
 #include "input/schema/written_values.hpp"
 
@@ -181,18 +182,6 @@ private:
   Diagnostics& diagnostics_;
   std::vector<std::string> added_;
 };
-
-/// f(value, path) for each value of the document at a key with this pattern.
-template<class F>
-void for_each_at(Value& value, std::string_view pattern, const std::string& path, const F& f) {
-  if (pattern.empty()) return f(value, path);
-  const auto dot = std::min(pattern.find('.'), pattern.size());
-  const std::string_view step = pattern.substr(0, dot),
-                         rest = pattern.substr(std::min(dot + 1, pattern.size()));
-  for (Member& member : value.members)
-    if (step == "*" || member.key == step)
-      for_each_at(member.value, rest, path.empty() ? member.key : fmt::format("{}.{}", path, member.key), f);
-}
 
 } // namespace
 

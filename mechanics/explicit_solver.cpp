@@ -150,6 +150,10 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
     if (!(step > 0.0)) diverged(bound.point, "stable step");
     return step;
   };
+  const auto within = [&](double finest, int steps, std::size_t where) -> Step {
+    if (limit.tools < finest) return {model_.safety * steps * limit.tools, where, "springs of tools"};
+    return {model_.safety * steps * finest, where, "elastic waves"};
+  };
   next_levels_.clear();
   if (local_.on()) {
     const auto bounds = bound_.of_ranges(op, point.deformation, point.wave_modulus, state_.node.inertia(),
@@ -160,11 +164,10 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
     const auto [finest, limiting] = local_.finest_step(level, stable);
     if (level != local_.level()) next_levels_ = std::move(level);
     // Several levels keep the distance that rows leave: nearer the exact step, borders may resonate.
-    if (sub_steps() > 1)
-      return {model_.safety * sub_steps() * finest, bounds[limiting].point, "elastic waves"};
+    if (sub_steps() > 1) return within(finest, sub_steps(), bounds[limiting].point);
   }
   const auto bound = bound_.of_all(op, point.deformation, point.wave_modulus, state_.node.inertia());
-  return {model_.safety * step_of(bound), bound.point, "elastic waves"};
+  return within(step_of(bound), 1, bound.point);
 }
 
 template<int dim> Body<dim> ExplicitSolver<dim>::body() {

@@ -33,6 +33,7 @@ template<int dim> struct Model {
   LocalStepControl local; ///< local time steps
   MassScaling mass_scaling;
   bool open = false;                           ///< matter comes and goes: a window moves with a tool
+  bool sprung_tools = false;                   ///< there are tools on springs or with dampers
   std::vector<ToolSection<dim>> tool_sections; ///< of tools that conduct
 };
 

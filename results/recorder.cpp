@@ -122,6 +122,10 @@ template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSo
     components(name + ".displacement", contact.displacement(t, state.time), "[m]");
     components(name + ".velocity", contact.velocity(t, state.time), "[m/s]");
     row.push_back({name + ".work" + units_.energy, result.total.tool});
+    const contact::Tool<dim>& tool = contact.tools()[t];
+    if (!tool.drive || !tool.drive->spring) continue;
+    row.push_back({name + ".slide_stroke[m]", tool.motion.displacement(state.time).norm()});
+    row.push_back({name + ".spring_force" + units_.force, contact.spring_force(t, state.time)});
   }
   if (contact.bodies_touch())
     row.push_back({"body_contact.pressing" + units_.force, contact.body_result().pressing});
@@ -247,11 +251,12 @@ template<int dim> double HistoryRecorder<dim>::energy_residual() const {
 
 template<int dim> std::string HistoryRecorder<dim>::kinetic_warning(const input::Case& input) const {
   constexpr double small = 0.05;
-  if (!input.time.mass_scaling || kinetic_share() <= small) return "";
+  if (!input.time.quasi_static || kinetic_share() <= small) return "";
+  const bool scaled = input.time.mass_scaling.has_value();
   return fmt::format(
-      "with time.mass_scaling the kinetic energy is {:.2g} of the deformation energy on average, which "
-      "should be below {:g}: forces hold inertia; scale less, or move more slowly",
-      kinetic_share(), small);
+      "{}the kinetic energy is {:.2g} of the deformation energy on average, which should be below {:g} where "
+      "inertia is not meant to act (time.quasi_static): forces hold inertia; {}move more slowly",
+      scaled ? "with time.mass_scaling " : "", kinetic_share(), small, scaled ? "scale less, or " : "");
 }
 
 template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<dim>& shot) {

@@ -11,12 +11,6 @@ namespace cnem::app {
 
 namespace {
 
-/// Where a tool has come to at the end without the workpiece, m.
-Vec2 way_of(const contact::Tool<2>& tool, double end) {
-  return tool.drive ? Vec2(end * (tool.drive->free * tool.drive->initial_velocity))
-                    : Vec2(tool.motion.displacement(end));
-}
-
 std::string side(const evaluate::Clearance& clearance) {
   return clearance.name.empty() ? "" : clearance.name + " ";
 }
@@ -60,10 +54,11 @@ std::vector<evaluate::Clearance> clearances(const input::Case& input, const Expl
   const auto& tools = solver.conditions().contact.tools();
   evaluate::CutTools cut;
   cut.punch = evaluate::points_of(input.tools[asked.punch].outline, Vec2::Zero());
-  Vec2 stroke = way_of(tools[as<ToolIndex>(asked.punch)], input.time.end);
+  Vec2 stroke = tools[as<ToolIndex>(asked.punch)].led_displacement(input.time.end);
   for (const std::size_t die : asked.dies) {
     for (const Vec2& x : evaluate::points_of(input.tools[die].outline, Vec2::Zero())) cut.die.push_back(x);
-    stroke -= way_of(tools[as<ToolIndex>(die)], input.time.end) / static_cast<double>(asked.dies.size());
+    stroke -=
+        tools[as<ToolIndex>(die)].led_displacement(input.time.end) / static_cast<double>(asked.dies.size());
   }
   if (!(stroke.norm() > 0.0)) return {};
   cut.direction = stroke.normalized();

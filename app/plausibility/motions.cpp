@@ -13,17 +13,13 @@ namespace {
 template<int dim> struct Way {
   const contact::Tool<dim>& tool;
 
-  Vec<dim> moved(double t) const {
-    return tool.drive ? Vec<dim>(t * (tool.drive->free * tool.drive->initial_velocity))
-                      : tool.motion.displacement(t);
-  }
+  Vec<dim> moved(double t) const { return tool.led_displacement(t); }
   /// m/s, at the corners of its time tables up to the end: between them it is no faster.
   double fastest(double end) const {
-    if (tool.drive) return (tool.drive->free * tool.drive->initial_velocity).norm();
-    double most = std::max(tool.motion.velocity_at(0.0).norm(), tool.motion.velocity_at(end).norm());
+    double most = std::max(tool.led_velocity(0.0).norm(), tool.led_velocity(end).norm());
     for (const TimeTable& component : tool.motion.velocity)
       for (const double t : component.times())
-        if (t < end) most = std::max(most, tool.motion.velocity_at(t).norm());
+        if (t < end) most = std::max(most, tool.led_velocity(t).norm());
     return most;
   }
 };

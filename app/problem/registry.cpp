@@ -229,6 +229,8 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   setup.warnings.insert(setup.warnings.end(), workpiece.warnings.begin(), workpiece.warnings.end());
   Problem<dim>& model = setup.problem;
   const Space space = input.analysis.space();
+  for (const contact::Tool<dim>& tool : tools)
+    model.sprung_tools |= tool.drive && (tool.drive->spring || tool.drive->damping > 0.0);
   model.contact = contact::RigidContact<dim>(std::move(tools), space, input.contact);
   model.cloud = std::move(workpiece.cloud);
   model.method = methods::make<dim>(input.method.name, workpiece.options);

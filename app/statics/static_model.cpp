@@ -52,6 +52,12 @@ bool plane_stress(const input::Case& input) {
 
 StaticModel::StaticModel(const input::Case& in) : input(in), setup(build<2>(in)) {
   for (std::string& doubt : doubts(in)) setup.warnings.push_back(std::move(doubt));
+  if (const plasticity::Material& metal = setup.problem.materials.front();
+      metal.expansion != 0.0 && metal.thermal_strain(in.initial.temperature) == 0.0)
+    setup.warnings.push_back(fmt::format(
+        "material '{}' has a heat.expansion and does not expand: initial.temperature is that at which it has "
+        "no thermal strain, {:g} K; say from which it comes with heat.reference_temperature",
+        metal.name, metal.expansion_reference));
   Problem<2>& model = setup.problem;
   const Cloud<2>& cloud = model.cloud;
   try {
@@ -98,6 +104,7 @@ StaticProblem StaticModel::problem() const {
           .out_of_plane = plane_stress(input) ? OutOfPlane::stress_free : OutOfPlane::strain_free,
           .stabilisation = setup.problem.stabilisation,
           .supports = setup.problem.supports,
+          .thermal_strain = setup.problem.materials.front().thermal_strain(input.initial.temperature),
           .time = input.time.end,
           .force = force};
 }
@@ -122,8 +129,14 @@ std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolut
   const fracture::PlaneElasticity plane =
       plane_stress(model.input) ? fracture::PlaneElasticity::plane_stress(elastic.young, elastic.poisson)
                                 : fracture::PlaneElasticity::plane_strain(elastic.young, elastic.poisson);
+  // K is that of the displacements beyond those of free expansion, which are linear in the place.
+  const double free =
+      (plane_stress(model.input) ? 1.0 : 1.0 + elastic.poisson) * model.problem().thermal_strain;
+  Fields<5> gradient = solution.gradient;
+  for (const std::size_t k : {0U, 3U})
+    for (double& g : gradient[k]) g -= free;
   const fracture::ElasticField field{model.enriched.operators, model.setup.problem.cloud.position,
-                                     model.enriched.position, solution.gradient, solution.stress};
+                                     model.enriched.position, gradient, solution.stress};
   std::vector<TipResult> results;
   for (std::size_t t = 0; t < model.tips.size(); ++t) {
     const fracture::CrackTip& tip = model.tips[t];

@@ -14,13 +14,12 @@ namespace {
 /// at the start.
 template<int dim>
 std::vector<Vec<dim>> velocities_of(const input::Case& input, const contact::Tool<dim>& tool) {
-  if (tool.drive) return {tool.drive->free * tool.drive->initial_velocity};
   std::vector<double> times{0.0, input.time.end};
   for (const TimeTable& component : tool.motion.velocity)
     for (const double t : component.times())
       if (t > 0.0 && t < input.time.end) times.push_back(t);
   std::vector<Vec<dim>> list;
-  for (const double t : times) list.push_back(tool.motion.velocity_at(t));
+  for (const double t : times) list.push_back(tool.led_velocity(t));
   return list;
 }
 

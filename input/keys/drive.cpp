@@ -1,5 +1,6 @@
 // Keys of tools with a mass of their own, and of mass scaling.
-#include "input/keys/keys.hpp"
+#include "contact/springs/list.hpp"
+#include "input/constants.hpp"
 
 namespace cnem::input {
 
@@ -7,9 +8,10 @@ namespace d = dimension;
 using enum Type;
 
 void add_drive(Keys& k, const std::string& tool) {
-  k.add(tool + "mass", quantity,
-        "Instead of `velocity`: the tool is a rigid body of this mass that does not turn, moved by `force`, "
-        "`initial_velocity` and the workpiece. Of what is modelled: half of it in a symmetric half.")
+  k.add(
+       tool + "mass", quantity,
+       "Instead of `velocity`: the tool is a rigid body of this mass that does not turn, moved by `force`, "
+       "`spring`, `initial_velocity` and the workpiece. Of what is modelled: half of it in a symmetric half.")
       .unit(d::mass_per_length)
       .of_revolution(d::mass)
       .in(positive)
@@ -28,6 +30,38 @@ void add_drive(Keys& k, const std::string& tool) {
         "it aside. Without, it moves freely; in axisymmetric analyses it can only be \"0 1\".")
       .example("\"0 1\"")
       .computed("none; \"0 1\" in axisymmetric analyses");
+  const std::vector<LawText> springs = law_texts(contact::Springs{});
+  k.add(
+      tool + "spring", table,
+      "Between a tool with a mass and its mount: it pushes the tool along `direction`, in the sense of that. "
+      "The travel s is how far the two have come closer since the start. The mount stands still (the spring "
+      "of a blank holder), or moves with `velocity` (the slide of a press, whose frame is the spring): then "
+      "`slide_stroke` stands in `history.csv` beside the `stroke` of the tool.");
+  add_law_choice(k, tool + "spring", springs).fallback("\"linear\"");
+  const std::size_t first = k.all.size();
+  add_law_constants(k, tool + "spring", springs);
+  for (std::size_t key = first; key < k.all.size(); ++key) // constants are declared per unit thickness
+    if (const Dimension& plane = k.all[key].dimension; plane == d::force_per_length)
+      KeyDraft(k.all[key]).of_revolution(d::force);
+    else if (plane == parse_unit("N/m2").dimension)
+      KeyDraft(k.all[key]).of_revolution(d::force_per_length);
+  k.add(tool + "spring.ramp", quantity,
+        "Time over which the spring is charged, smoothly, to its force: one that is there at once sets what "
+        "it "
+        "presses on swinging.")
+      .unit(d::time)
+      .in(positive)
+      .example("\"20 us\"")
+      .computed("0: it is charged");
+  k.add(tool + "damping", quantity,
+        "Of a tool with a mass: force over its speed relative to the mount, per unit thickness or of the "
+        "whole "
+        "body of revolution.")
+      .unit(parse_unit("N s/m2").dimension)
+      .of_revolution(parse_unit("N s/m").dimension)
+      .in(not_negative)
+      .example("\"100 kN s/m2\"")
+      .computed("0");
 }
 
 void add_mass_scaling(Keys& k) {

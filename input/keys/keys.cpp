@@ -83,6 +83,11 @@ void add_general(Keys& k) {
         "The run ends after this many steps, when it has not reached `time.end` before.")
       .in({.low = 1, .high = 1e15})
       .example("1000");
+  k.add("time.quasi_static", boolean,
+        "Whether inertia is not meant to act: then a run whose kinetic energy is more than 5% of that of the "
+        "deformation on average warns of it.")
+      .example("true")
+      .computed("true with `time.mass_scaling` or `report.blanking`");
   add_mass_scaling(k);
 }
 
@@ -109,20 +114,27 @@ void add_conditions(Keys& k) {
       .example("\"0 10 MPa\"");
   k.add(at + "pressure", function, "Pushes against the body, on the present area and normal.")
       .unit(d::pressure);
-  k.add(at + "temperature", function, "Fixed temperature; a `ramp` starts from `initial.temperature`.")
+  k.add(at + "temperature", function,
+        "Fixed temperature; a `ramp` starts from `initial.temperature`, or from `from`.")
       .unit(d::temperature)
       .in(temperature_range);
   k.add(at + "heat_flux", function, "Heat flux into the body.").unit(d::heat_flux);
   k.add(at + "convection", table, "Heat flux coefficient (ambient − T).");
   k.add(at + "convection.coefficient", quantity, "").unit(d::heat_transfer).in(not_negative).required();
-  k.add(at + "convection.ambient", function, "").unit(d::temperature).in(temperature_range).required();
+  k.add(at + "convection.ambient", function, "A `ramp` starts from `initial.temperature`.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .required();
   k.add("coolants", named_tables,
         "Coolants: heat flux `coefficient` (`temperature` − T) wherever the boundary touches neither a tool "
         "nor "
         "itself, on faces that a cut makes, too.");
   k.add("coolants.*", table, "A coolant.");
   k.add("coolants.*.coefficient", quantity, "").unit(d::heat_transfer).in(not_negative).required();
-  k.add("coolants.*.temperature", function, "").unit(d::temperature).in(temperature_range).required();
+  k.add("coolants.*.temperature", function, "A `ramp` starts from `initial.temperature`.")
+      .unit(d::temperature)
+      .in(temperature_range)
+      .required();
   k.add("coolants.*.box", vectors, "Two opposite corners of what it reaches.")
       .unit(d::length)
       .example("[\"-2 -0.1 mm\", \"0 0.1 mm\"]")
@@ -220,7 +232,8 @@ void add_tools(Keys& k) {
   k.add(at + "plane", table, "A tool bounded by a plane, a wall or an anvil.").required();
   k.add(at + "plane.at", vector, "A point of the plane at time 0.").unit(d::length).required();
   k.add(at + "plane.normal", vector, "Out of the tool, towards the workpiece; of any length.").required();
-  k.add(at + "velocity", vector_function, "Prescribed translation; constant, ramped or over time.")
+  k.add(at + "velocity", vector_function,
+        "Prescribed translation; constant, ramped or over time. With `spring` that of its mount.")
       .unit(d::velocity)
       .example("\"0 -11 m/s\"")
       .computed("0 without `mass`");

@@ -48,6 +48,8 @@ constexpr std::array scopes{
     Scoped{"tools.*.force", Scope::plane, "a half-space has no mass to push"},
     Scoped{"tools.*.initial_velocity", Scope::plane, "it is that of a tool with a mass; give its velocity"},
     Scoped{"tools.*.direction", Scope::plane, "it guides a tool with a mass"},
+    Scoped{"tools.*.spring", Scope::plane, "it pushes a tool with a mass"},
+    Scoped{"tools.*.damping", Scope::plane, "it slows a tool with a mass"},
     Scoped{"tools.*.equal_areas", Scope::plane, "a plane has no arcs"},
     Scoped{"tools.*.heat.section", Scope::plane, "a half-space has no outline to fill with nodes"},
     Scoped{"contact", Scope::plane, "faces that touch each other are found along outlines"},

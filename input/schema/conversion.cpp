@@ -118,20 +118,6 @@ std::vector<std::string> axes(std::size_t n) {
   return names;
 }
 
-/// From `first` to `last`: straight, or along 10 s³ − 15 s⁴ + 6 s⁵, which starts and ends without a kink or a
-/// jump of curvature, in 64 straight pieces.
-TimeTable ramp_table(double duration, double first, double last, bool smooth) {
-  if (!smooth) return TimeTable({0.0, duration}, {first, last});
-  constexpr int pieces = 64;
-  std::vector<double> time, value;
-  for (int k = 0; k <= pieces; ++k) {
-    const double s = static_cast<double>(k) / pieces;
-    time.push_back(s * duration);
-    value.push_back(first + (last - first) * (s * s * s * (10.0 + s * (6.0 * s - 15.0))));
-  }
-  return {std::move(time), std::move(value)};
-}
-
 /// A value over time with n components, one table each.
 std::vector<TimeTable> functions(const Value& value, const Key& key, std::size_t n) {
   std::vector<TimeTable> result;
@@ -165,9 +151,6 @@ std::vector<TimeTable> functions(const Value& value, const Key& key, std::size_t
     if (ramp && !(duration > 0.0))
       throw ConversionError(Mistake::range, ramp->where,
                             fmt::format("found a ramp of {}, expected a time > 0 s", ramp->show()));
-    if (ramp && !from && key.dimension == dimension::temperature)
-      throw ConversionError(Mistake::missing_key, value.where,
-                            "found a ramp of temperature without its start, expected from = \"293.15 K\"");
     const std::vector<double> first = from ? components(*from, key, n) : std::vector<double>(n, 0.0);
     for (std::size_t k = 0; k < n; ++k)
       result.push_back(ramp ? ramp_table(duration, first[k], last[k], smooth && smooth->boolean)
@@ -255,6 +238,18 @@ std::int64_t integer(const Value& value, const Key& key) {
 }
 
 } // namespace
+
+TimeTable ramp_table(double duration, double first, double last, bool smooth) {
+  if (!smooth) return TimeTable({0.0, duration}, {first, last});
+  constexpr int pieces = 64;
+  std::vector<double> time, value;
+  for (int k = 0; k <= pieces; ++k) {
+    const double s = static_cast<double>(k) / pieces;
+    time.push_back(s * duration);
+    value.push_back(first + (last - first) * (s * s * s * (10.0 + s * (6.0 * s - 15.0))));
+  }
+  return {std::move(time), std::move(value)};
+}
 
 SettingValue convert_value(const Value& value, const Key& key) {
   switch (key.type) {

@@ -14,6 +14,10 @@ struct ConversionError : std::runtime_error {
   Location where;
 };
 
+/// From `first` to `last`: straight, or along 10 s³ − 15 s⁴ + 6 s⁵, which starts and ends without a kink or a
+/// jump of curvature, in 64 straight pieces.
+TimeTable ramp_table(double duration, double first, double last, bool smooth);
+
 /// The value of a key that is not a table. Throws ConversionError.
 SettingValue convert_value(const Value& value, const Key& key);
 

@@ -99,7 +99,8 @@ Fields<5> gradients(const StaticProblem& problem, const Fields<2>& u) {
   return g;
 }
 
-/// σ = λ* tr ε 1 + 2μ ε; fills the out-of-plane component of ∇u where no hoop strain is there.
+/// σ = λ* tr ε 1 + 2μ ε − 3κ* θ 1, θ the thermal strain; fills the out-of-plane component of ∇u where no hoop
+/// strain is there. Without stress out of the plane λ* and 3κ* are 2μ/(λ + 2μ) of λ and 3κ.
 Fields<4> stresses(const StaticProblem& problem, Fields<5>& g) {
   Fields<4> s;
   resize_all(s, g[0].size());
@@ -107,13 +108,16 @@ Fields<4> stresses(const StaticProblem& problem, Fields<5>& g) {
     const double lambda = problem.at_point(p).lambda(), mu = problem.at_point(p).mu(),
                  in_plane = lame_lambda(problem, p);
     const double trace = g[0][p] + g[3][p] + g[4][p];
-    s[0][p] = in_plane * trace + 2.0 * mu * g[0][p];
-    s[1][p] = in_plane * trace + 2.0 * mu * g[3][p];
+    const double heat = (3.0 * lambda + 2.0 * mu) * problem.thermal_strain;
+    const bool stress_free = problem.out_of_plane == OutOfPlane::stress_free;
+    const double pressing = stress_free ? 2.0 * mu / (lambda + 2.0 * mu) * heat : heat;
+    s[0][p] = in_plane * trace + 2.0 * mu * g[0][p] - pressing;
+    s[1][p] = in_plane * trace + 2.0 * mu * g[3][p] - pressing;
     s[3][p] = mu * (g[1][p] + g[2][p]);
-    if (problem.out_of_plane == OutOfPlane::stress_free)
-      g[4][p] = -lambda / (lambda + 2.0 * mu) * trace;
+    if (stress_free)
+      g[4][p] = (heat - lambda * trace) / (lambda + 2.0 * mu);
     else
-      s[2][p] = lambda * trace + 2.0 * mu * g[4][p];
+      s[2][p] = lambda * trace + 2.0 * mu * g[4][p] - heat;
   }
   return s;
 }
@@ -255,7 +259,12 @@ Fields<2> internal(const StaticProblem& problem, StaticSolution& solution) {
   solution.gradient = gradients(problem, solution.displacement);
   solution.stress = stresses(problem, solution.gradient);
   Fields<2> f = internal_force(problem, solution.stress);
-  solution.strain_energy = 0.5 * dot(f, solution.displacement);
+  double trace = 0.0; // Σ V tr σ
+  for (std::size_t p = 0; p < solution.stress[0].size(); ++p)
+    trace +=
+        problem.operators.volume[p] * (solution.stress[0][p] + solution.stress[1][p] + solution.stress[2][p]);
+  solution.thermal_work = -0.5 * problem.thermal_strain * trace;
+  solution.strain_energy = 0.5 * dot(f, solution.displacement) + solution.thermal_work;
   solution.stabilisation_energy = add_defect_force(problem, solution.displacement, f);
   return f;
 }
@@ -320,7 +329,8 @@ StaticSolution solve_statics(const StaticProblem& problem) {
   solution.condition = cholesky.condition();
 
   Fields<2> unbalanced = internal(problem, solution);
-  const double scale = std::max(norm(unbalanced), norm(load));
+  double scale = std::max(norm(unbalanced), norm(load));
+  if (problem.thermal_strain != 0.0) scale = std::max(scale, norm(held)); // nothing else where it is free
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t a = 0; a < functions; ++a) unbalanced[k][a] -= load[k][a];
   solution.residual = scale > 0.0 ? unknowns.restrict(unbalanced).norm() / scale : 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-// Linear statics: small-strain isotropic elasticity on the same operators as the explicit solver.
+// Linear statics: small-strain isotropic thermoelasticity on the same operators as the explicit solver.
 #include "core/fields/state.hpp"
 #include "core/geometry/cloud.hpp"
 #include "core/operators/discretisation.hpp"
@@ -32,7 +32,9 @@ struct StaticProblem {
   OutOfPlane out_of_plane = OutOfPlane::strain_free;
   double stabilisation = 0.05; ///< α of the edge defect, on μ (the mean of both ends)
   const Supports<2>& supports;
-  double time = 0.0;      ///< s, at which prescribed displacements are taken
+  double thermal_strain =
+      0.0;           ///< – α ΔT, the strain without stress, the same everywhere and in all directions
+  double time = 0.0; ///< s, at which prescribed displacements are taken
   const Fields<2>& force; ///< [k][function] N/m, external forces; functions beyond its length are not loaded
 
   const plasticity::Elasticity& at_point(std::size_t p) const {
@@ -42,12 +44,14 @@ struct StaticProblem {
 
 struct StaticSolution {
   Fields<2> displacement;     ///< [k][function] m; of nodes first
-  Fields<5> gradient;         ///< [·][point] ∇u, with the strain out of the plane in the place of zz
+  Fields<5> gradient;         ///< [·][point] ∇u, with the strain out of the plane in the place of zz; with
+                              ///< what is thermal
   Fields<4> stress;           ///< [·][point] Pa
   Fields<2> reaction;         ///< [k][node] K u − f at held nodes, N/m; 0 elsewhere
-  double strain_energy = 0.0; ///< J/m ½ Σ V σ:ε
+  double strain_energy = 0.0; ///< J/m ½ Σ V σ:ε, ε the strain less the thermal one
   double stabilisation_energy = 0.0; ///< J/m
   double external_work = 0.0;        ///< J/m ½ f·u + ½ reactions · prescribed displacements
+  double thermal_work = 0.0;         ///< J/m −½ Σ V tr σ α ΔT, of the heat against what holds the body
   double residual = 0.0;  ///< – ‖K u − f‖ of the free unknowns over the largest nodal force norm
   double condition = 0.0; ///< – of the stiffness scaled to a unit diagonal, estimated
 };

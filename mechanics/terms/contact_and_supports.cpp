@@ -3,6 +3,7 @@
 #include "mechanics/kinematics.hpp"
 #include "mechanics/terms/list.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cnem {
@@ -11,12 +12,15 @@ namespace {
 
 template<int dim> class ContactAndSupports : public Term<dim> {
 public:
-  explicit ContactAndSupports(const std::vector<plasticity::Material>& materials) {
-    for (const plasticity::Material& material : materials) melting_.push_back(material.melting_temperature());
+  explicit ContactAndSupports(const Model<dim>& model) : sprung_tools_(model.sprung_tools) {
+    for (const plasticity::Material& material : model.materials)
+      melting_.push_back(material.melting_temperature());
   }
 
   std::vector<Energy*> energies() override {
-    return {&tool_kinetic_, &friction_, &impact_, &tools_, &drives_, &recovery_, &supports_};
+    std::vector<Energy*> all{&tool_kinetic_, &friction_, &impact_, &tools_, &drives_, &recovery_, &supports_};
+    if (sprung_tools_) all.insert(all.begin() + 1, {&springs_, &damping_});
+    return all;
   }
   void archive(Archive& archive) override { archive.number("solver/energy/tie_loss", "J/m", tie_loss_); }
 
@@ -24,6 +28,11 @@ public:
     const contact::DriveEnergy drives = body.conditions.contact.drive_energy();
     tool_kinetic_.value = drives.kinetic;
     drives_.value = drives.work;
+    springs_.value = drives.springs;
+    damping_.value = drives.damping;
+  }
+  void limit(const Body<dim>& body, StepLimit& limit) override {
+    limit.tools = std::min(limit.tools, body.conditions.contact.stable_step(body.state.time));
   }
 
   void renew(const Body<dim>& body) override {
@@ -109,13 +118,16 @@ private:
   }
 
   Energy tool_kinetic_{"tool_kinetic", EnergyKind::held};     ///< of tools with a mass of their own
+  Energy springs_{"tool_springs", EnergyKind::held};          ///< of tools that hang on them
+  Energy damping_{"tool_damping", EnergyKind::dissipated};    ///< in their dampers
   Energy friction_{"friction", EnergyKind::dissipated};       ///< sliding on tools and bodies
   Energy impact_{"contact_impact", EnergyKind::dissipated};   ///< lost where nodes meet tools
   Energy tools_{"tool_work", EnergyKind::received};           ///< along the tools' prescribed motion
   Energy drives_{"drive_work", EnergyKind::received};         ///< on tools with a mass of their own
   Energy recovery_{"contact_recovery", EnergyKind::received}; ///< pushing nodes out of tools
   Energy supports_{"support_work", EnergyKind::received};     ///< of prescribed boundary motion
-  std::vector<double> melting_;                               ///< [material] K
+  bool sprung_tools_;
+  std::vector<double> melting_; ///< [material] K
   double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
   std::vector<IndexedVector<BoundaryNodeIndex, double>> window_; ///< [activity] as contact takes it
 };
@@ -123,7 +135,7 @@ private:
 } // namespace
 
 template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<dim>& model) {
-  return std::make_unique<ContactAndSupports<dim>>(model.materials);
+  return std::make_unique<ContactAndSupports<dim>>(model);
 }
 
 template std::unique_ptr<Term<2>> contact_and_supports(const Model<2>&);

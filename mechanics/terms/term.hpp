@@ -73,6 +73,7 @@ struct StepLimit {
   double stabilisation = 0.0;    ///< α of the penalties: they raise the highest frequency by √(1 + α)
   double critical_damping = 0.0; ///< share ξ of it: the step shortens by √(1 + ξ²) − ξ
   double heat = 0.0;             ///< s, of heat where nothing moves
+  double tools = infinite;       ///< s, of the finest step: of tools on springs
 };
 
 /// What terms have booked of a change of the reference, so that nobody books it again, J/m^(3−dim).

@@ -39,10 +39,13 @@ std::string in_triangles(std::string text, const std::string& lagrangian) {
   return text.replace(begin, text.find(to) - begin, "name = \"fe-triangles\"\n" + lagrangian);
 }
 
-// The slug is knocked off by a punch with a mass, in local time steps of scaled masses.
+// The slug is knocked off by a punch with a mass on a spring, in local time steps of scaled masses.
 std::string in_levels(std::string text) {
-  replace(text, "velocity = \"0 -60 m/s\"\n",
-          "mass = \"1 kg/m\"\ninitial_velocity = \"0 -60 m/s\"\nforce = \"0 -1e5 N/m\"\n");
+  replace(
+      text, "velocity = \"0 -60 m/s\"\n",
+      "velocity = \"0 -60 m/s\"\nmass = \"1 kg/m\"\ndirection = \"0 -1\"\ninitial_velocity = \"0 -60 m/s\"\n"
+      "force = \"0 -1e5 N/m\"\nspring = { stiffness = \"1 GN/m2\", preload = \"20 kN/m\", ramp = \"1 us\" }\n"
+      "damping = \"1 kN s/m2\"\n");
   replace(text, "tool_spacing = \"0.15 mm\"\n", "tool_spacing = \"0.05 mm\"\n");
   return text + "[time.step]\nlocal = true\n[time.mass_scaling]\nfactor = 2\n";
 }

@@ -126,5 +126,55 @@ TEST(ForcePress, comes_to_rest_where_an_elastic_block_carries_its_force) {
   }
 }
 
+/// A punch below a slide, with a frame between them that is as stiff as the block: each takes half of the
+/// way.
+TEST(SprungPress, shares_the_stroke_of_its_slide_with_the_block) {
+  const double width = 2e-3, height = 1e-3, stiffness = 210e9 * width / height, stroke = 2e-6;
+  Problem<2> model = model_of(rectangle(width, height, 2e-4), Method::cnem, rod());
+  model.supports =
+      Supports<2>({{"base", Support<2>::Kind::symmetry, Vec2(0, -1), {}, nodes_on(model.cloud, 0_piece)}},
+                  static_cast<std::size_t>(model.cloud.nodes()));
+  model.viscosity = {1.2, 1.0};
+  model.sprung_tools = true;
+  contact::Tool<2> punch = ram({-1e-3, height}, {3e-3, 2e-3}, 0.1, {0, 0});
+  contact::LinearSpring frame;
+  frame.stiffness = stiffness;
+  punch.drive->free = Vec2(0, 1) * Vec2(0, 1).transpose();
+  punch.drive->spring = contact::ToolSpring<2>{frame, {0, -1}};
+  punch.drive->damping = 0.2 * std::sqrt(stiffness * 0.1);
+  punch.motion.velocity[1] = TimeTable({0.0, 2e-5, 4e-5}, {0.0, -stroke / 2e-5, 0.0});
+  model.contact = contact::RigidContact<2>({punch});
+  ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
+  const double dt = solver.stable_step().dt;
+  double worst = 0.0;
+  while (solver.state().time < 1.2e-4) {
+    solver.advance(dt);
+    worst = std::max(worst, std::abs(solver.ledger().residual()));
+  }
+  const auto& contact = solver.conditions().contact;
+  const double force = 0.5 * stroke * stiffness, stored = 0.25 * force * stroke;
+  EXPECT_NEAR(contact.displacement(0, 0.0).y(), -0.5 * stroke, 2e-3 * stroke);
+  EXPECT_NEAR(contact.results()[0].force.y(), -force, 5e-3 * force);
+  EXPECT_NEAR(contact.spring_force(0, solver.state().time), force, 5e-3 * force);
+  const EnergyLedger ledger = solver.ledger();
+  EXPECT_NEAR(ledger["tool_springs"], stored, 1e-2 * stored);
+  EXPECT_NEAR(ledger["elastic"], stored, 1e-2 * stored);
+  EXPECT_GT(ledger["tool_damping"], 0.0);
+  EXPECT_LT(worst, 2e-3 * ledger["drive_work"]);
+}
+
+TEST(SprungPress, that_is_light_shortens_the_step) {
+  Problem<2> model = model_of(rectangle(2e-3, 1e-3, 2e-4), Method::cnem, rod());
+  contact::Tool<2> punch = ram({-1e-3, 2e-3}, {3e-3, 3e-3}, 1e-6, {0, 0});
+  contact::LinearSpring frame;
+  frame.stiffness = 1e11;
+  punch.drive->spring = contact::ToolSpring<2>{frame, {0, -1}};
+  model.contact = contact::RigidContact<2>({punch});
+  ExplicitSolver<2> solver = start(std::move(model), [](const Vec2&) -> Vec2 { return {0, 0}; });
+  const auto step = solver.stable_step();
+  EXPECT_EQ(step.limit, "springs of tools");
+  EXPECT_NEAR(step.dt, 0.9 * 2.0 * std::sqrt(1e-6 / 1e11), 1e-6 * step.dt);
+}
+
 } // namespace
 } // namespace cnem::testing

@@ -136,9 +136,6 @@ TEST(BadCase, TimeFunctions) {
   expect_parts(with("{ x = { value = \"1 m/s\", from = \"0 m/s\" } }"), {"'from' without 'ramp'"});
   expect_parts(with("{ x = { times = \"0 1 us\", values = \"0 1 2 m/s\" } }"), {"as many times as values"});
   expect_parts(with("{ x = { times = \"0 0 us\", values = \"0 1 m/s\" } }"), {"must increase"});
-  expect_parts(
-      refusal("[boundary.b]\npieces = \"top\"\ntemperature = { value = \"1 K\", ramp = \"1 us\" }\n"),
-      {"expected from = \"293.15 K\""});
 }
 
 TEST(BadCase, Ranges) {

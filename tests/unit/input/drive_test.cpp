@@ -63,6 +63,60 @@ TEST(Tools, MassAndForceArePerThicknessOrOfTheWholeBody) {
   EXPECT_EQ(again.resolved.substr(again.resolved.find('\n')), body.resolved.substr(body.resolved.find('\n')));
 }
 
+TEST(Tools, HangOnSpringsWhoseFarEndMayMove) {
+  const std::string slide = "mass = \"20 kg/m\"\ndirection = \"0 -2\"\nvelocity = \"0 -3 m/s\"\n"
+                            "damping = \"40 kN s/m2\"\n";
+  const Case press = read_case_text(with_press(slide + "spring = { stiffness = \"2 GN/m2\" }"), "x");
+  const contact::ToolDrive<2>& drive = *press.tools.front().drive;
+  EXPECT_EQ(drive.damping, 4e4);
+  ASSERT_TRUE(drive.spring);
+  EXPECT_EQ(drive.spring->along, Vec2(0, -1));
+  EXPECT_EQ(drive.spring->spring.force(1e-4), 2e5);
+  EXPECT_EQ(drive.spring->spring.charge(0.0), 1.0);
+  EXPECT_EQ(press.tools.front().velocity[1].value()(0.0), -3.0) << "of the mount";
+  const Case gas = read_case_text(
+      with_press(slide +
+                 "spring = { law = \"gas\", preload = \"200 kN/m\", length = \"20 mm\", exponent = 1.2, "
+                 "ramp = \"20 us\" }"),
+      "x");
+  const contact::Spring& charged = gas.tools.front().drive->spring->spring;
+  EXPECT_NEAR(charged.force(1e-2), 2e5 * std::pow(2.0, 1.2), 1e-6);
+  EXPECT_EQ(charged.charge(0.0), 0.0);
+  EXPECT_NEAR(charged.charge(1e-5), 0.5, 1e-12);
+  const Case round =
+      read_case_text(with_press("mass = \"2 kg\"\ndirection = \"0 -1\"\ndamping = \"1 N s/m\"\n"
+                                "spring = { law = \"table\", travel = \"0 10 mm\", forces = \"2 4 kN\" }",
+                                "[analysis]\nkinematics = \"axisymmetric\"\n"),
+                     "x");
+  EXPECT_EQ(round.tools.front().drive->spring->spring.force(5e-3), 3e3);
+  const Case again = read_case_text(round.resolved, "x");
+  EXPECT_EQ(again.resolved.substr(again.resolved.find('\n')),
+            round.resolved.substr(round.resolved.find('\n')));
+}
+
+TEST(QuasiStatic, IsMeantWhereMassIsScaledOrACutIsReported) {
+  EXPECT_FALSE(read_case_text(with_press(""), "x").time.quasi_static);
+  EXPECT_TRUE(read_case_text(with_press(""), "x", {"time.mass_scaling.factor=25"}).time.quasi_static);
+  EXPECT_TRUE(read_case_text(with_press(""), "x", {"time.quasi_static=true"}).time.quasi_static);
+  EXPECT_FALSE(read_case_text(with_press(""), "x", {"time.mass_scaling.factor=25", "time.quasi_static=false"})
+                   .time.quasi_static);
+}
+
+TEST(Ramps, OfTemperatureStartFromTheInitialOne) {
+  const std::string bath =
+      "[boundary.bath]\npieces = \"top\"\ntemperature = { value = \"400 K\", ramp = \"2 us\" }\n"
+      "[materials.m.heat]\nspecific_heat = \"500 J/(kg K)\"\nconductivity = \"50 W/(m K)\"\n"
+      "[boundary.air]\npieces = \"left\"\n"
+      "convection = { coefficient = \"10 W/(m2 K)\", ambient = { value = \"500 K\", ramp = \"2 us\" } }\n";
+  EXPECT_EQ(read_case_text(with_press("") + bath, "x").boundary[0].temperature.value()(1e-6),
+            0.5 * (293.15 + 400.0));
+  const Case warm = read_case_text(with_press("") + bath, "x", {"initial.temperature=\"27 degC\""});
+  EXPECT_NEAR(warm.boundary[0].temperature.value()(0.0), 300.15, 1e-12);
+  EXPECT_NEAR(warm.boundary[1].convection.value().ambient(1e-6), 0.5 * (300.15 + 500.0), 1e-12);
+  const Case again = read_case_text(warm.resolved, "x");
+  EXPECT_EQ(again.boundary[0].temperature.value()(0.0), warm.boundary[0].temperature.value()(0.0));
+}
+
 TEST(MassScaling, IsAFactorAStepOrACell) {
   EXPECT_FALSE(read_case_text(with_press(""), "x").time.mass_scaling);
   const Case factor = read_case_text(with_press(""), "x", {"time.mass_scaling.factor=25"});

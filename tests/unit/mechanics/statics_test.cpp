@@ -102,6 +102,57 @@ TEST(Statics, patch_uniaxial_tension_is_exact_in_plane_strain_and_plane_stress) 
   }
 }
 
+/// The unit square at another temperature, its sides held along their normals where it is said.
+Body warm_square(Discretisation<2>& method, bool across, bool along) {
+  const Cloud<2> cloud = jittered_square(0.1, 0.25, 3);
+  const auto side = [&](int k, double at) {
+    return nodes_where(cloud, [&](const Vec2& x) { return x[k] == at; });
+  };
+  std::vector<Support<2>> held{{"left", Kind::symmetry, Vec2(1, 0), {}, side(0, 0.0), {}},
+                               {"bottom", Kind::symmetry, Vec2(0, 1), {}, side(1, 0.0), {}}};
+  if (across) held.push_back({"right", Kind::symmetry, Vec2(1, 0), {}, side(0, 1.0), {}});
+  if (along) held.push_back({"top", Kind::symmetry, Vec2(0, 1), {}, side(1, 1.0), {}});
+  return {cloud, method, held};
+}
+
+TEST(Statics, expands_freely_without_stress_and_presses_on_what_holds_it_as_hooke_says) {
+  const double E = 2.0, nu = 0.3, theta = 1e-3;
+  std::vector<std::unique_ptr<Discretisation<2>>> planar = methods();
+  planar.push_back(std::make_unique<scni::Cnem>(scni::Options{.space = Space::revolution}));
+  for (const auto& method : planar)
+    for (const OutOfPlane kind : {OutOfPlane::strain_free, OutOfPlane::stress_free})
+      for (const int held : {0, 1, 2}) {
+        const Body body = warm_square(*method, held > 0, held > 1);
+        const bool round = body.approximation.mechanics.of_revolution();
+        const bool stress = kind == OutOfPlane::stress_free;
+        if (round && (stress || held == 1)) continue;
+        StaticProblem problem = body.problem(kind);
+        problem.thermal_strain = theta;
+        const StaticSolution s = solve_statics(problem);
+        const double free = stress || round ? theta : (1.0 + nu) * theta;
+        const double moved = held == 2   ? 0.0
+                             : held == 0 ? free
+                             : stress    ? (1.0 + nu) * theta
+                                         : (1.0 + nu) / (1.0 - nu) * theta;
+        const double xx = held == 0   ? 0.0
+                          : held == 1 ? (stress ? -E * theta : -E * theta / (1.0 - nu))
+                          : stress    ? -E * theta / (1.0 - nu)
+                                      : -E * theta / (1.0 - 2.0 * nu);
+        for (std::size_t i = 0; i < body.cloud.position.size(); ++i) {
+          EXPECT_NEAR(s.displacement[0][i], held ? 0.0 : free * body.cloud.position[i].x(), 1e-14);
+          EXPECT_NEAR(s.displacement[1][i], moved * body.cloud.position[i].y(), 1e-14);
+        }
+        for (std::size_t p = 0; p < s.stress[0].size(); ++p) {
+          EXPECT_NEAR(s.stress[0][p], xx, 1e-14) << held;
+          EXPECT_NEAR(s.stress[1][p], held == 2 ? xx : 0.0, 1e-14) << held;
+          if (stress) EXPECT_EQ(s.stress[2][p], 0.0);
+        }
+        EXPECT_NEAR(s.strain_energy + s.stabilisation_energy, s.external_work + s.thermal_work, 1e-16);
+        EXPECT_EQ(s.thermal_work > 1e-9, held > 0 || !(stress || round));
+        EXPECT_LT(s.residual, 1e-12);
+      }
+}
+
 TEST(Statics, oblique_symmetry_plane_gives_the_turned_solution) {
   const double angle = 0.6;
   Mat2 turn;
