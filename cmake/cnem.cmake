@@ -24,6 +24,7 @@ function(cnem_library folder)
     return()
   endif()
   add_library(cnem_${folder} STATIC ${sources})
+  target_compile_features(cnem_${folder} PUBLIC cxx_std_20)
   target_include_directories(cnem_${folder} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:include/cnem>)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")

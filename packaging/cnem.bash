@@ -7,7 +7,7 @@ _cnem() {
     mapfile -t COMPREPLY < <(compgen -W "$("$program" --help 2>/dev/null |
       awk '/^Subcommands:/ { all = 1; next } all && NF { print $1 }') --help --version" -- "$word")
   elif [ "$before" = --set ]; then
-    compopt -o nospace 2>/dev/null
+    compopt -o nospace 2>/dev/null || true # fails outside of a completion
     mapfile -t COMPREPLY < <(compgen -S = -W "$("$program" schema --markdown 2>/dev/null | awk -F'`' '
       /^### / { table = $2; next }
       /^## / { table = "" }
@@ -16,7 +16,7 @@ _cnem() {
     mapfile -t COMPREPLY < <(compgen -W "$("$program" "$command" --help 2>/dev/null | grep -o -- '^ *--[a-z-]*\|-h,--help' |
       sed 's/.*--/--/')" -- "$word")
   else
-    compopt -o filenames 2>/dev/null
+    compopt -o filenames 2>/dev/null || true
     local name ending='\.toml$'
     case $command in restart | report | movie) ending='/$' ;; esac
     while read -r name; do

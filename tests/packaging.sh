@@ -37,7 +37,11 @@ cd "$source/cases/paper/shearing_sharp"
 complete_words "$program" run ca
 [ "${COMPREPLY[*]}" = case.toml ] || fail "cases complete to ${COMPREPLY[*]}"
 
-cmake --install "$build" --prefix "$work/prefix" --component program >/dev/null
+cmake --install "$build" --prefix "$work/prefix" >/dev/null
 cd "$work"
 prefix/bin/cnem run prefix/share/cnem/cases/paper/shearing_sharp --set cloud.spacing="0.5 mm" --set time.end="1 us" >/dev/null
 [ -s results/shearing_sharp/report.html ] || fail "the installed program left no report"
+
+cmake -S "$source/tests/install" -B "$work/user" -DCMAKE_PREFIX_PATH="$work/prefix" >user.log && cmake --build "$work/user" >>user.log 2>&1 ||
+  { cat user.log; fail "a program of somebody else's cannot be built"; }
+"$work/user/user_of_cnem" prefix/share/cnem/cases/paper/shearing_sharp/case.toml
