@@ -175,7 +175,7 @@ void print_check(const input::Case& input, const RunOptions& options) {
 }
 
 int act(CLI::App& program, int argc, char** argv) {
-  program.set_version_flag("--version", version());
+  program.set_version_flag("--version", fmt::format("cnem {}", version()));
   program.require_subcommand(1);
 
   CaseOptions run_options, check_options;
@@ -220,6 +220,14 @@ int act(CLI::App& program, int argc, char** argv) {
   sweep_command
       ->add_option("--processes", sweep_options.processes, "runs at a time (default: as the study says)")
       ->check(at_least_one);
+  std::string only;
+  CLI::Option* only_option = sweep_command->add_option(
+      "--only", only, "K/N: run part K of N, for several machines and one folder (docs/clusters.md)");
+  bool merge = false;
+  sweep_command
+      ->add_flag("--merge", merge, "write the table and the report of the runs that are there, run nothing")
+      ->excludes(only_option)
+      ->excludes("--force");
 
   CLI::App* compare_command =
       program.add_subcommand("compare", "run a case with several methods and lay their results side by side");
@@ -270,7 +278,8 @@ int act(CLI::App& program, int argc, char** argv) {
     sweep_options.output = sweep_output.empty() ? std::filesystem::path("results") / study.name
                                                 : std::filesystem::path(sweep_output);
     sweep_options.version = version();
-    return study::sweep(study, sweep_options);
+    if (!only.empty()) sweep_options.only = study::read_part(only);
+    return study::sweep(study, sweep_options, merge ? study::SweepWork::merge : study::SweepWork::run);
   }
   if (*compare_command) {
     const study::Comparison comparison{.case_file = compare_options.file(),

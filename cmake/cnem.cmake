@@ -11,6 +11,7 @@ endfunction()
 # One static library per folder of the method, with the folders inside it. Files named *_kernel.cpp are compiled once per instruction set
 # (see cnem_kernel); app/main.cpp belongs to the executable.
 function(cnem_library folder)
+  set_property(GLOBAL APPEND PROPERTY CNEM_FOLDERS ${folder})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
   file(GLOB_RECURSE kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*_kernel.cpp)
   list(FILTER sources EXCLUDE REGEX "(_kernel|/app/main)\\.cpp$")
@@ -18,12 +19,17 @@ function(cnem_library folder)
     add_library(cnem_${folder} INTERFACE)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
     target_link_libraries(cnem_${folder} INTERFACE ${arg_PUBLIC})
-    target_include_directories(cnem_${folder} INTERFACE ${PROJECT_SOURCE_DIR})
+    target_include_directories(cnem_${folder} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                               $<INSTALL_INTERFACE:include/cnem>)
     return()
   endif()
   add_library(cnem_${folder} STATIC ${sources})
-  target_include_directories(cnem_${folder} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_features(cnem_${folder} PUBLIC cxx_std_20)
+  target_include_directories(cnem_${folder} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                             $<INSTALL_INTERFACE:include/cnem>)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
+  # Nobody who links an installed library needs the headers that it was compiled with.
+  list(TRANSFORM arg_PRIVATE REPLACE "^(nlohmann_json::.*|CLI11::.*)$" "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(cnem_${folder} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   cnem_warnings(cnem_${folder})
   if(CNEM_UNITY)

@@ -13,13 +13,13 @@
 
 namespace cnem::results {
 
-FolderLock::FolderLock(std::filesystem::path folder, const char* who) : folder_(std::move(folder)) {
+FolderLock::FolderLock(std::filesystem::path folder, const char* who, Use use) : folder_(std::move(folder)) {
   while (true) {
     std::error_code ignored;
     made_ = std::filesystem::create_directories(folder_, ignored);
     fd_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd_ < 0) return;
-    const bool locked = flock(fd_, LOCK_EX | LOCK_NB) == 0;
+    const bool locked = flock(fd_, (use == Use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
     if (!locked && errno == EWOULDBLOCK) {
       close(fd_);
       throw InputError(fmt::format(

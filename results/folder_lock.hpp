@@ -6,9 +6,11 @@ namespace cnem::results {
 
 class FolderLock {
 public:
+  /// shared: with others who say so too.
+  enum class Use { alone, shared };
   /// Makes the folder when it is not there. `who` uses it already if the lock is taken: throws InputError
   /// then. A folder that cannot be made or locked is left to whoever writes there first.
-  FolderLock(std::filesystem::path folder, const char* who);
+  FolderLock(std::filesystem::path folder, const char* who, Use use = Use::alone);
   /// A folder that was made and has stayed empty goes again.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -70,21 +71,31 @@ void prepare_folder(const fs::path& folder) {
                               error ? error.message() : "a file of this name is in the way"));
 }
 
+/// Where a run stands, for later calls.
+Json entry_of(const StudyRun& run, const RunRecord& record) {
+  Json set = Json::object();
+  for (const input::Override& change : run.changes()) set[change.key] = plain_text(change.value);
+  Json entry{{"name", run.name}, {"set", set}, {"inputs", record.inputs}};
+  entry["state"] = state_name(record.state);
+  if (record.state == State::failed) entry["exit"] = record.exit;
+  if (!record.reason.empty()) entry["reason"] = record.reason;
+  return entry;
+}
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string manifest_text(const Study& study, const std::vector<RunRecord>& runs, const std::string& kind,
                           const std::string& version) {
   Json json{{"kind", kind}, {"study", study.name}, {"case", study.case_file.string()}, {"version", version}};
   json["runs"] = Json::array();
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    Json set = Json::object();
-    for (const input::Override& change : study.runs[k].changes()) set[change.key] = plain_text(change.value);
-    Json run{{"name", study.runs[k].name}, {"set", set}, {"inputs", runs[k].inputs}};
-    run["state"] = state_name(runs[k].state);
-    if (runs[k].state == State::failed) run["exit"] = runs[k].exit;
-    if (!runs[k].reason.empty()) run["reason"] = runs[k].reason;
-    json["runs"].push_back(std::move(run));
-  }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (std::size_t k = 0; k < runs.size(); ++k) json["runs"].push_back(entry_of(study.runs[k], runs[k]));
+  return json_text(json);
 }
+
+/// Where a part notes how its run stands; no run has a name that ends in .json.
+fs::path note_of(const fs::path& folder, const StudyRun& run) { return folder / (run.name + ".part.json"); }
 
 /// The status of a run that ended well; none for others.
 std::optional<results::RunStatus> good_status(const fs::path& folder) {
@@ -103,25 +114,43 @@ bool was_interrupted(const Json& old) {
   return exit != Exit::bad_input && exit != Exit::diverged;
 }
 
-/// Marks the runs that an earlier call has done, or begun, with the same inputs.
+/// What earlier calls have left of each run: the note of a part, or else the entry of the manifest.
+std::map<std::string, Json> earlier_entries(const Study& study, const fs::path& folder) {
+  std::map<std::string, Json> entries;
+  const std::optional<Json> manifest = read_manifest(folder);
+  if (!manifest) return entries;
+  for (const Json& entry : manifest->at("runs")) entries[entry.at("name")] = entry;
+  for (const StudyRun& run : study.runs)
+    if (const fs::path note = note_of(folder, run); fs::exists(note))
+      entries[run.name] = Json::parse(results::read_file(note));
+  return entries;
+}
+
+/// Marks the runs that an earlier call has done, or begun, with the same inputs; and, where they shall not be
+/// run again, those that failed.
 void find_earlier(const Study& study, std::vector<RunRecord>& runs, const fs::path& folder,
-                  const std::string& kind) {
+                  const std::string& kind, bool failed_too = false) {
   try {
-    const std::optional<Json> manifest = read_manifest(folder);
-    if (!manifest) return;
-    for (const Json& old : manifest->at("runs"))
-      for (std::size_t k = 0; k < runs.size(); ++k) {
-        if (old.at("name") != study.runs[k].name || old.at("inputs") != runs[k].inputs ||
-            runs[k].state == State::refused)
-          continue;
-        const fs::path own = folder / study.runs[k].name;
-        if (old.at("state") == state_name(State::done)) {
-          if ((runs[k].status = good_status(own))) runs[k].state = State::done;
-        } else {
-          runs[k].interrupted = was_interrupted(old) && fs::exists(own / results::files::resolved_case) &&
-                                !results::list_checkpoints(own).empty();
-        }
+    const std::map<std::string, Json> entries = earlier_entries(study, folder);
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      const auto found = entries.find(study.runs[k].name);
+      if (found == entries.end() || found->second.at("inputs") != runs[k].inputs ||
+          runs[k].state == State::refused)
+        continue;
+      const Json& old = found->second;
+      const fs::path own = folder / study.runs[k].name;
+      if (old.at("state") == state_name(State::done)) {
+        if ((runs[k].status = good_status(own))) runs[k].state = State::done;
+      } else {
+        runs[k].interrupted = was_interrupted(old) && fs::exists(own / results::files::resolved_case) &&
+                              !results::list_checkpoints(own).empty();
       }
+      if (failed_too && old.at("state") == state_name(State::failed)) {
+        runs[k].state = State::failed;
+        runs[k].exit = old.at("exit");
+        runs[k].reason = old.value("reason", "");
+      }
+    }
   } catch (const Json::exception& error) {
     throw IoError(fmt::format("{} is not the manifest of a {} ({}): run all again with --force",
                               (folder / manifest_file).string(), kind, error.what()));
@@ -164,6 +193,23 @@ std::vector<std::string> command(const Study& study, std::size_t k, bool interru
   return words;
 }
 
+/// Writes table and report and tells what `pages` has to tell.
+void write_pages(const std::vector<RunRecord>& runs, const fs::path& folder, const Pages& pages) {
+  const PageTexts texts = pages.write(runs);
+  results::write_atomically(folder / pages.table, texts.table);
+  results::write_atomically(folder / pages.report, texts.report);
+  if (pages.tell) pages.tell(runs);
+}
+
+void tell_pages(const fs::path& folder, const Pages& pages) {
+  fmt::print("table: {}\nreport: {}\n", (folder / pages.table).string(), (folder / pages.report).string());
+}
+
+void tell_failure(const StudyRun& run, const RunRecord& record, const fs::path& folder) {
+  fmt::print(stderr, "failed: {}: {} (exit code {}, log {})\n", run.name, record.reason, record.exit,
+             log_of(folder / run.name).string());
+}
+
 std::size_t processes_for(const Study& study, const BatchOptions& options) {
   const int wanted = options.processes > 0 ? options.processes : study.processes;
   if (wanted > 0) return index_of(wanted);
@@ -197,20 +243,32 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
                const Pages& pages) {
   check_folder(study, options.output, pages.kind, options.force);
   prepare_folder(options.output);
-  const results::FolderLock lock(options.output, pages.kind.c_str());
+  using Use = results::FolderLock::Use;
+  const results::FolderLock lock(options.output, pages.kind.c_str(), options.only ? Use::shared : Use::alone);
   if (!options.force) find_earlier(study, runs, options.output, pages.kind);
-  const auto write_manifest = [&] {
+  const auto write_manifest = [&](const std::vector<RunRecord>& of) {
     results::write_atomically(options.output / manifest_file,
-                              manifest_text(study, runs, pages.kind, options.version));
+                              manifest_text(study, of, pages.kind, options.version));
   };
+  const auto write_note = [&](std::size_t k) {
+    results::write_atomically(note_of(options.output, study.runs[k]),
+                              json_text(entry_of(study.runs[k], runs[k])));
+  };
+  std::vector<std::size_t> own;
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (!options.only || options.only->holds(k)) own.push_back(k);
   const auto count = [&](State state) {
     return index_of(
-        std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) { return run.state == state; }));
+        std::count_if(own.begin(), own.end(), [&](std::size_t k) { return runs[k].state == state; }));
   };
+  for (const std::size_t k : own) // nothing is touched while somebody is at work on one of them
+    if (const fs::path folder = options.output / study.runs[k].name;
+        runs[k].state == State::pending && fs::is_directory(folder))
+      const results::FolderLock free(folder, "run");
   std::vector<Job> jobs;
   std::vector<std::size_t> run_of;
   std::size_t restarts = 0;
-  for (std::size_t k = 0; k < runs.size(); ++k) {
+  for (const std::size_t k : own) {
     if (runs[k].state == State::refused)
       fmt::print(stderr, "refused: {}: {}\n", study.runs[k].name, runs[k].reason);
     if (runs[k].state != State::pending) continue;
@@ -221,12 +279,20 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
     jobs.push_back({command(study, k, runs[k].interrupted, folder, options), log_of(folder)});
     run_of.push_back(k);
   }
-  write_manifest();
+  if (options.only) {
+    // All that a manifest says beside notes is whose folder it is.
+    if (!fs::exists(options.output / manifest_file)) write_manifest({});
+    for (const std::size_t k : run_of) write_note(k);
+  } else {
+    write_manifest(runs);
+    for (const StudyRun& run : study.runs) fs::remove(note_of(options.output, run));
+  }
   const std::size_t processes =
       std::min(processes_for(study, options), std::max<std::size_t>(1, jobs.size()));
-  const std::size_t refused = count(State::refused), total = runs.size() - refused;
-  fmt::print("{} runs: {} done before, {} to do in {} processes{}{}\n", runs.size(), count(State::done),
-             jobs.size(), processes,
+  const std::size_t refused = count(State::refused), total = own.size() - refused;
+  fmt::print("{}{} runs: {} done before, {} to do in {} processes{}{}\n",
+             options.only ? fmt::format("part {} of {}: ", options.only->number, options.only->count) : "",
+             own.size(), count(State::done), jobs.size(), processes,
              restarts > 0 ? fmt::format(", {} from the last checkpoint", restarts) : "",
              refused > 0 ? fmt::format(", {} refused", refused) : "");
   std::fflush(stdout);
@@ -244,7 +310,10 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
       [&](std::size_t job, JobEnd end) {
         const std::size_t k = run_of[job];
         conclude(runs[k], end, options.output / study.runs[k].name, jobs[job].log);
-        write_manifest();
+        if (options.only)
+          write_note(k);
+        else
+          write_manifest(runs);
         const double seconds = std::chrono::duration<double>(Clock::now() - began[k]).count();
         const std::string what = runs[k].status ? fmt::format("done, {} nodes", runs[k].status->nodes)
                                                 : "FAILED: " + runs[k].reason;
@@ -253,16 +322,10 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
         std::fflush(stdout);
       });
 
-  const fs::path table = options.output / pages.table, report = options.output / pages.report;
-  const PageTexts texts = pages.write(runs);
-  results::write_atomically(table, texts.table);
-  results::write_atomically(report, texts.report);
-  if (pages.tell) pages.tell(runs);
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    if (runs[k].state == State::failed)
-      fmt::print(stderr, "failed: {}: {} (exit code {}, log {})\n", study.runs[k].name, runs[k].reason,
-                 runs[k].exit, log_of(options.output / study.runs[k].name).string());
-  fmt::print("table: {}\nreport: {}\n", table.string(), report.string());
+  if (!options.only) write_pages(runs, options.output, pages);
+  for (const std::size_t k : own)
+    if (runs[k].state == State::failed) tell_failure(study.runs[k], runs[k], options.output);
+  if (!options.only) tell_pages(options.output, pages);
   if (!complete) {
     fmt::print(stderr, "interrupted: {} of {} runs ended; the same command goes on from here\n", finished,
                total);
@@ -270,6 +333,29 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
   }
   if (count(State::failed) > 0) return Exit::diverged;
   return refused > 0 ? Exit::bad_input : Exit::done;
+}
+
+Exit merge_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptions& options,
+                 const Pages& pages) {
+  check_folder(study, options.output, pages.kind, false);
+  if (!fs::exists(options.output / manifest_file))
+    throw InputError(
+        fmt::format("the output folder {} holds no runs of a {}", options.output.string(), pages.kind));
+  const results::FolderLock lock(options.output, pages.kind.c_str(), results::FolderLock::Use::shared);
+  find_earlier(study, runs, options.output, pages.kind, true);
+  std::size_t failed = 0, pending = 0;
+  for (const RunRecord& run : runs) {
+    failed += run.state == State::failed;
+    pending += run.state == State::pending;
+  }
+  fmt::print("{} runs: {} done, {} failed, {} not done yet\n", runs.size(), runs.size() - failed - pending,
+             failed, pending);
+  write_pages(runs, options.output, pages);
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (runs[k].state == State::failed) tell_failure(study.runs[k], runs[k], options.output);
+  tell_pages(options.output, pages);
+  if (failed > 0) return Exit::diverged;
+  return pending > 0 ? Exit::interrupted : Exit::done;
 }
 
 } // namespace cnem::study

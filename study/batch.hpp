@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "input/case.hpp"
 #include "results/status.hpp"
+#include "study/part.hpp"
 #include "study/study.hpp"
 
 #include <filesystem>
@@ -20,6 +21,7 @@ struct BatchOptions {
   int processes = 0;                                ///< 0: what the study says
   std::filesystem::path program = "/proc/self/exe"; ///< cnem
   std::string version;
+  std::optional<Part> only{}; ///< of the runs; others work at the rest, perhaps now
 };
 
 /// Where a run of a study stands.
@@ -59,7 +61,17 @@ struct Pages {
 /// others start anew. Returns done; diverged when a run failed, for whatever reason; else bad_input when one
 /// was refused; interrupted after SIGINT, SIGTERM or SIGHUP. Throws InputError, for a folder that holds
 /// something else too, and IoError.
+///
+/// A part (options.only) shares the folder with others at work there: it notes where each of its runs stands
+/// in a file NAME.part.json, which counts for more than the manifest, and writes no table and no report. The
+/// next call for the whole takes these notes into the manifest.
 Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptions& options,
                const Pages& pages);
+
+/// Writes the table and the report of the runs that the folder holds and runs nothing; parts may be at work
+/// there. Returns done when all are done; diverged when one failed; interrupted when some are not done yet.
+/// Throws InputError, also for a folder without runs, and IoError.
+Exit merge_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptions& options,
+                 const Pages& pages);
 
 } // namespace cnem::study

@@ -61,13 +61,12 @@ void warn_of_absent_numbers(const Study& study, const std::vector<RunRecord>& ru
 
 } // namespace
 
-Exit sweep(const Study& study, const BatchOptions& options) {
+Exit sweep(const Study& study, const BatchOptions& options, SweepWork work) {
   check_threads(study.threads, "threads of the study");
   using Runs = std::vector<RunRecord>;
   Runs cases = read_cases(study);
   check_variables_of_charts(study, cases);
-  return run_batch(study, std::move(cases), options,
-                   {.kind = "sweep",
+  const Pages pages{.kind = "sweep",
                     .table = "table.csv",
                     .report = results::files::report,
                     .write =
@@ -79,7 +78,8 @@ Exit sweep(const Study& study, const BatchOptions& options) {
                         [&](const Runs& runs) {
                           warn_of_absent_numbers(study, runs);
                           fmt::print("{}", extrapolations(study, runs));
-                        }});
+                        }};
+  return (work == SweepWork::merge ? merge_batch : run_batch)(study, std::move(cases), options, pages);
 }
 
 } // namespace cnem::study

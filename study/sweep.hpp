@@ -9,8 +9,11 @@
 
 namespace cnem::study {
 
-/// Runs a study as run_batch() does. All cases are read before any starts.
-Exit sweep(const Study& study, const BatchOptions& options);
+enum class SweepWork { run, merge };
+
+/// Runs a study as run_batch() does, or merges what is there, as merge_batch() does. All cases are read
+/// before any starts.
+Exit sweep(const Study& study, const BatchOptions& options, SweepWork work = SweepWork::run);
 
 /// Names of the numbers that the table shows: those of the study, or nodes, steps, energy_residual and those
 /// of a cut where the cases evaluate one, else all metrics.

@@ -91,3 +91,6 @@ add_test(NAME include_rule COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
                                    -P ${PROJECT_SOURCE_DIR}/tests/include_rule.cmake)
 add_test(NAME silence_rule COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR}
                                    -P ${PROJECT_SOURCE_DIR}/tests/silence_rule.cmake)
+add_test(NAME packaging COMMAND bash ${PROJECT_SOURCE_DIR}/tests/packaging.sh $<TARGET_FILE:cnem> ${PROJECT_SOURCE_DIR}
+                                ${PROJECT_BINARY_DIR} ${PROJECT_VERSION})
+add_test(NAME clusters COMMAND ${PROJECT_SOURCE_DIR}/.ci/clusters $<TARGET_FILE:cnem>)
