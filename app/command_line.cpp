@@ -14,6 +14,7 @@
 #include "report/movie.hpp"
 #include "report/report.hpp"
 #include "results/output_folder.hpp"
+#include "study/calibration.hpp"
 #include "study/compare.hpp"
 #include "study/sweep.hpp"
 
@@ -229,6 +230,25 @@ int act(CLI::App& program, int argc, char** argv) {
       ->excludes(only_option)
       ->excludes("--force");
 
+  CLI::App* calibrate_command = program.add_subcommand(
+      "calibrate", "find constants that bring computed curves to measured ones (docs/experiments.md)");
+  std::string calibration_path, calibration_output;
+  study::BatchOptions calibration_options;
+  calibrate_command
+      ->add_option("calibration", calibration_path,
+                   "file of parameters with bounds, and of targets (TOML), or a folder that holds "
+                   "calibration.toml")
+      ->required();
+  calibrate_command->add_option(
+      "--output", calibration_output,
+      "folder of results (default: results/<calibration name>); the same command goes "
+      "on with what it holds");
+  calibrate_command->add_flag("--force", calibration_options.force, "run all again, also what is done");
+  calibrate_command
+      ->add_option("--processes", calibration_options.processes,
+                   "runs at a time (default: as the calibration says, else one for each core)")
+      ->check(at_least_one);
+
   CLI::App* compare_command =
       program.add_subcommand("compare", "run a case with several methods and lay their results side by side");
   CaseOptions compare_options;
@@ -244,8 +264,8 @@ int act(CLI::App& program, int argc, char** argv) {
                    "method.lagrangian=total")
       ->allow_extra_args(false);
 
-  for (CLI::App* command :
-       {run_command, check_command, explain_command, restart_command, sweep_command, compare_command})
+  for (CLI::App* command : {run_command, check_command, explain_command, restart_command, sweep_command,
+                            calibrate_command, compare_command})
     command->footer("CNEM_ISA=baseline, avx2 or avx512 in the environment chooses the instruction set of the "
                     "kernels (default: the best one that the machine has).");
 
@@ -280,6 +300,14 @@ int act(CLI::App& program, int argc, char** argv) {
     sweep_options.version = version();
     if (!only.empty()) sweep_options.only = study::read_part(only);
     return study::sweep(study, sweep_options, merge ? study::SweepWork::merge : study::SweepWork::run);
+  }
+  if (*calibrate_command) {
+    const study::Calibration calibration = study::read_calibration(calibration_path);
+    calibration_options.output = calibration_output.empty()
+                                     ? std::filesystem::path("results") / calibration.name
+                                     : std::filesystem::path(calibration_output);
+    calibration_options.version = version();
+    return study::calibrate(calibration, calibration_options);
   }
   if (*compare_command) {
     const study::Comparison comparison{.case_file = compare_options.file(),

@@ -93,8 +93,9 @@ ComparedCurve computed_curve(const results::HistoryTable& history, const std::st
 
 std::string note_of(const ExperimentResult& result) {
   const CurveDifference& d = result.difference;
-  const char* unit = result.over_stroke ? "m" : "s";
-  const auto text = [&](double x) { return results::si_format(x, unit); };
+  const auto text = [&](double x) {
+    return fmt::format("{} {}", results::number_format(1e3 * x), result.over_stroke ? "mm" : "ms");
+  };
   const ComparedCurve &m = result.measured, &c = result.computed;
   if (!d.common())
     return fmt::format("The curves have no {} in common: the measured one is from {} to {}, the computed one "

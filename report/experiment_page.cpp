@@ -69,7 +69,9 @@ std::string difference_table(const evaluate::ExperimentResult& result) {
 Chart experiment_chart(const evaluate::ExperimentResult& result) {
   const ShownUnit x = abscissa_unit(result), force = force_unit(result);
   Chart chart;
-  chart.title = fmt::format("Experiment {}: force of {}", words(result.name), words(result.tool));
+  const bool named = result.name != "measured"; // as a single one is called
+  chart.title = fmt::format("Force of {}, measured and computed{}", words(result.tool),
+                            named ? ": " + words(result.name) : "");
   chart.x_label = result.over_stroke ? "stroke" : "time";
   chart.x_unit = x.unit;
   chart.y_label = "force";
@@ -85,9 +87,10 @@ Chart experiment_chart(const evaluate::ExperimentResult& result) {
   add("computed", result.computed, 0, false);
   add("measured", result.measured, 1, true);
   if (result.factor != 1.0)
-    chart.note =
-        fmt::format("Computed: the force of the model times {}{}, low-passed as in the other charts.",
-                    results::number_format(result.factor, 4), result.force_unit == "N" ? " m" : "");
+    chart.note = fmt::format("Computed: the force of the model {} {}, low-passed as in the other charts.",
+                             result.force_unit == "N" ? "per thickness times" : "times",
+                             result.force_unit == "N" ? results::number_format(1e3 * result.factor, 4) + " mm"
+                                                      : results::number_format(result.factor, 4));
   return chart;
 }
 

@@ -24,6 +24,7 @@ using Json = nlohmann::ordered_json;
 using State = RunRecord::State;
 
 constexpr const char* manifest_file = "manifest.json";
+constexpr const char* another_folder = "choose another with --output";
 
 /// FNV-1a, 64 bits.
 std::string hash(std::string_view text) {
@@ -41,34 +42,11 @@ std::optional<Json> read_manifest(const fs::path& folder) {
 
 /// Throws InputError when the folder holds what another command, or a user, has made.
 void check_folder(const Study& study, const fs::path& folder, const std::string& kind, bool force) {
-  constexpr const char* another = "choose another with --output";
-  if (fs::exists(folder / results::files::status))
-    throw InputError(fmt::format("the output folder {} holds a single run: {}", folder.string(), another));
-  try {
-    if (const std::optional<Json> manifest = read_manifest(folder)) {
-      if (const std::string made = manifest->value("kind", "sweep"); made != kind)
-        throw InputError(
-            fmt::format("the output folder {} holds the runs of a {}, expected those of a {}: {}",
-                        folder.string(), made, kind, another));
-      return;
-    }
-  } catch (const Json::exception& error) {
-    if (force) return;
-    throw IoError(fmt::format("{} is not the manifest of a {} ({}): run all again with --force",
-                              (folder / manifest_file).string(), kind, error.what()));
-  }
+  if (holds_manifest(folder, kind, force)) return;
   for (const StudyRun& run : study.runs)
     if (!force && results::holds_run(folder / run.name))
       throw InputError(fmt::format("{} holds a run that no {} has made: {}, or replace it with --force",
-                                   (folder / run.name).string(), kind, another));
-}
-
-void prepare_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder))
-    throw IoError(fmt::format("cannot create the output folder {}: {}", folder.string(),
-                              error ? error.message() : "a file of this name is in the way"));
+                                   (folder / run.name).string(), kind, another_folder));
 }
 
 /// Where a run stands, for later calls.
@@ -157,12 +135,6 @@ void find_earlier(const Study& study, std::vector<RunRecord>& runs, const fs::pa
   }
 }
 
-std::string last_line(const fs::path& log) {
-  std::string text = results::read_file(log);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
-
 void conclude(RunRecord& run, const JobEnd& end, const fs::path& folder, const fs::path& log) {
   run.exit = end.code;
   run.status = end.code == Exit::done ? good_status(folder) : std::nullopt;
@@ -177,20 +149,54 @@ void conclude(RunRecord& run, const JobEnd& end, const fs::path& folder, const f
   if (run.reason.empty()) run.reason = fmt::format("ended with code {} and no message", end.code);
 }
 
-fs::path log_of(const fs::path& folder) { return folder.string() + ".log"; }
+} // namespace
 
-std::vector<std::string> command(const Study& study, std::size_t k, bool interrupted, const fs::path& folder,
-                                 const BatchOptions& options) {
-  std::vector<std::string> words{options.program.string()};
-  if (interrupted) {
-    words.insert(words.end(), {"restart", folder.string()});
+bool holds_manifest(const fs::path& folder, const std::string& kind, bool force) {
+  if (fs::exists(folder / results::files::status))
+    throw InputError(
+        fmt::format("the output folder {} holds a single run: {}", folder.string(), another_folder));
+  try {
+    const std::optional<Json> manifest = read_manifest(folder);
+    if (!manifest) return false;
+    if (const std::string made = manifest->value("kind", "sweep"); made != kind)
+      throw InputError(fmt::format("the output folder {} holds the runs of a {}, expected those of a {}: {}",
+                                   folder.string(), made, kind, another_folder));
+    return true;
+  } catch (const Json::exception& error) {
+    if (force) return true;
+    throw IoError(fmt::format("{} is not the manifest of a {} ({}): run all again with --force",
+                              (folder / manifest_file).string(), kind, error.what()));
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw IoError(fmt::format("cannot create the output folder {}: {}", folder.string(),
+                              error ? error.message() : "a file of this name is in the way"));
+}
+
+std::vector<std::string> run_command(const RunOrder& order, const fs::path& program) {
+  std::vector<std::string> words{program.string()};
+  if (order.interrupted) {
+    words.insert(words.end(), {"restart", order.folder.string()});
   } else {
-    words.insert(words.end(), {"run", study.case_file.string(), "--output", folder.string(), "--force"});
-    for (const input::Override& change : study.runs[k].changes())
+    words.insert(words.end(),
+                 {"run", order.case_file.string(), "--output", order.folder.string(), "--force"});
+    for (const input::Override& change : order.changes)
       words.insert(words.end(), {"--set", change.key + "=" + input::toml_text(change.value)});
   }
-  if (study.threads > 0) words.insert(words.end(), {"--threads", std::to_string(study.threads)});
+  if (order.threads > 0) words.insert(words.end(), {"--threads", std::to_string(order.threads)});
   return words;
+}
+
+fs::path log_of(const fs::path& folder) { return folder.string() + ".log"; }
+
+std::string last_line(const fs::path& log) {
+  std::string text = results::read_file(log);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
 }
 
 /// Writes table and report and tells what `pages` has to tell.
@@ -210,13 +216,10 @@ void tell_failure(const StudyRun& run, const RunRecord& record, const fs::path& 
              log_of(folder / run.name).string());
 }
 
-std::size_t processes_for(const Study& study, const BatchOptions& options) {
-  const int wanted = options.processes > 0 ? options.processes : study.processes;
+std::size_t processes_for(int wanted, int threads) {
   if (wanted > 0) return index_of(wanted);
-  return std::max<std::size_t>(1, std::thread::hardware_concurrency() / index_of(std::max(1, study.threads)));
+  return std::max<std::size_t>(1, std::thread::hardware_concurrency() / index_of(std::max(1, threads)));
 }
-
-} // namespace
 
 const char* state_name(State state) {
   switch (state) {
@@ -242,7 +245,7 @@ std::string inputs_of(const input::Case& input) {
 Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptions& options,
                const Pages& pages) {
   check_folder(study, options.output, pages.kind, options.force);
-  prepare_folder(options.output);
+  make_folder(options.output);
   using Use = results::FolderLock::Use;
   const results::FolderLock lock(options.output, pages.kind.c_str(), options.only ? Use::shared : Use::alone);
   if (!options.force) find_earlier(study, runs, options.output, pages.kind);
@@ -276,7 +279,13 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
     restarts += runs[k].interrupted;
     // What the folder holds must not be taken for a run with the inputs that the manifest will name.
     if (!runs[k].interrupted) fs::remove(folder / results::files::resolved_case);
-    jobs.push_back({command(study, k, runs[k].interrupted, folder, options), log_of(folder)});
+    jobs.push_back({run_command({.case_file = study.case_file,
+                                 .changes = study.runs[k].changes(),
+                                 .folder = folder,
+                                 .interrupted = runs[k].interrupted,
+                                 .threads = study.threads},
+                                options.program),
+                    log_of(folder)});
     run_of.push_back(k);
   }
   if (options.only) {
@@ -288,7 +297,7 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
     for (const StudyRun& run : study.runs) fs::remove(note_of(options.output, run));
   }
   const std::size_t processes =
-      std::min(processes_for(study, options), std::max<std::size_t>(1, jobs.size()));
+      std::min(processes_for(options.processes > 0 ? options.processes : study.processes, study.threads), std::max<std::size_t>(1, jobs.size()));
   const std::size_t refused = count(State::refused), total = own.size() - refused;
   fmt::print("{}{} runs: {} done before, {} to do in {} processes{}{}\n",
              options.only ? fmt::format("part {} of {}: ", options.only->number, options.only->count) : "",

@@ -43,6 +43,28 @@ const char* state_name(RunRecord::State state);
 /// What a run depends on, as a hash.
 std::string inputs_of(const input::Case& input);
 
+/// A run as a process.
+struct RunOrder {
+  std::filesystem::path case_file;
+  std::vector<input::Override> changes;
+  std::filesystem::path folder;
+  bool interrupted = false; ///< it goes on from its last checkpoint
+  int threads = 1;          ///< 0: as a run takes by itself
+};
+std::vector<std::string> run_command(const RunOrder& order, const std::filesystem::path& program);
+/// The file beside a folder of results that takes what the run prints, and its last line.
+std::filesystem::path log_of(const std::filesystem::path& folder);
+std::string last_line(const std::filesystem::path& log);
+
+/// How many processes: those that are wanted, or as many as there are cores for runs of so many threads.
+std::size_t processes_for(int wanted, int threads);
+
+/// Whether a folder holds the manifest of an earlier call of this kind. Throws InputError where it holds a
+/// run, or the runs of another kind; IoError, unless `force`, where its manifest is none.
+bool holds_manifest(const std::filesystem::path& folder, const std::string& kind, bool force);
+/// Throws IoError.
+void make_folder(const std::filesystem::path& folder);
+
 struct PageTexts {
   std::string table, report;
 };

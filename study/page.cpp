@@ -119,15 +119,17 @@ report::Chart history_chart(std::span<const results::HistoryTable> histories,
   return chart;
 }
 
-std::string chart_section(const std::vector<report::Chart>& charts) {
+std::string chart_section(const std::vector<report::Chart>& charts, const std::string& id,
+                          const std::string& title) {
   std::string html;
   for (const report::Chart& chart : charts)
     html += fmt::format(
         "<figure><h3>{}</h3>\n{}{}</figure>\n", report::html_escape(chart.title), report::svg_chart(chart),
         chart.note.empty() ? "" : "<figcaption>" + report::html_escape(chart.note) + "</figcaption>");
-  return html.empty() ? ""
-                      : "<section id=\"charts\">\n<h2>The runs together</h2>\n<div class=\"charts\">\n" +
-                            html + "</div>\n</section>\n";
+  return html.empty()
+             ? ""
+             : fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<div class=\"charts\">\n{}</div>\n</section>\n",
+                           id, report::html_escape(title), html);
 }
 
 std::string page(const PageHead& head, const std::string& body) {

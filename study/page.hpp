@@ -38,7 +38,8 @@ report::Chart history_chart(std::span<const results::HistoryTable> histories,
                             const std::string& x = "time");
 
 /// Charts with their titles and notes, beside each other under a heading; nothing for none.
-std::string chart_section(const std::vector<report::Chart>& charts);
+std::string chart_section(const std::vector<report::Chart>& charts, const std::string& id = "charts",
+                          const std::string& title = "The runs together");
 
 /// What a page begins with.
 struct PageHead {

@@ -66,4 +66,17 @@ void TableReader::wrong(const std::string& key, const input::Value& value, const
                    fmt::format("found {}, expected {}", value.show(), expected));
 }
 
+std::vector<input::Override> read_set(const input::Value& table, const std::string& path,
+                                      input::Diagnostics& diagnostics) {
+  std::vector<input::Override> list;
+  for (const input::Member& member : table.members) {
+    if (member.value.kind == Kind::table && member.key.find('.') == std::string::npos)
+      diagnostics.add(
+          input::Mistake::type, member.where, path + member.key,
+          "found a table, expected a key of the case in quotes, such as \"cloud.spacing\" = \"0.1 mm\"");
+    list.push_back({member.key, member.value, member.where});
+  }
+  return list;
+}
+
 } // namespace cnem::study

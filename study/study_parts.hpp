@@ -29,6 +29,10 @@ private:
   input::Diagnostics& diagnostics_;
 };
 
+/// Keys of the case in quotes, with their values.
+std::vector<input::Override> read_set(const input::Value& table, const std::string& path,
+                                      input::Diagnostics& diagnostics);
+
 /// Fills axes, keys and runs of a study from [set], [grid] and [[axis]], or from [[run]]; `table` reads the
 /// document. Throws InputError for all that was wrong up to there.
 void read_runs(const input::Value& document, TableReader& table, Study& study,

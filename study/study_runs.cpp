@@ -33,19 +33,6 @@ std::vector<std::string> short_names(const std::vector<std::string>& keys) {
   return names;
 }
 
-std::vector<input::Override> read_set(const input::Value& table, const std::string& path,
-                                      input::Diagnostics& diagnostics) {
-  std::vector<input::Override> list;
-  for (const input::Member& member : table.members) {
-    if (member.value.kind == Kind::table && member.key.find('.') == std::string::npos)
-      diagnostics.add(
-          input::Mistake::type, member.where, path + member.key,
-          "found a table, expected a key of the case in quotes, such as \"cloud.spacing\" = \"0.1 mm\"");
-    list.push_back({member.key, member.value, member.where});
-  }
-  return list;
-}
-
 /// Keys whose lists of values are gone through together.
 struct ListedAxis {
   std::string path; ///< of the lists, for messages

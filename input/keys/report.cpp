@@ -57,12 +57,13 @@ void add_blanking(Keys& k) {
 
 void add_experiments(Keys& k) {
   k.add("report.experiment", named_tables,
-        "Measured curves that the force of a tool is compared with (docs/experiments.md): drawn over the "
-        "computed one, differences of peak, work and root mean square in `status.json`. Keys of a single "
-        "curve may stand in [report.experiment] itself; it is named `measured` then.")
+        "Measured curves. Keys of a single one may stand in [report.experiment] itself.")
       .or_alone();
   const std::string at = "report.experiment.*";
-  k.add(at, table, "A measured curve.");
+  k.add(at, table,
+        "A measured curve that the force of a tool is compared with (docs/experiments.md): drawn over the "
+        "computed one, differences of peak, work and root mean square in `status.json`. Keys of a single "
+        "curve may stand in [report.experiment] itself; it is named `measured` then.");
   k.add(at + ".file", text,
         "CSV file with a column for the stroke, or the time, and one for the force, seen from the folder of "
         "the case. Columns stand between `;`, tabs or commas; lines that begin with # are comments; beside "

@@ -101,8 +101,8 @@ TEST(Experiment, file_metrics_and_page_tell_the_difference) {
   EXPECT_NEAR(value("rms[N]"), 10e3 / std::sqrt(3.0), 60.0);
   EXPECT_NEAR(value("rms_share"), 0.25 / std::sqrt(3.0), 2e-3);
   input::expect_parts(report::render_experiments(back),
-                      {"force of punch", "stroke (mm)", "force (kN)", ">measured<", ">computed<", "40 kN",
-                       "+2", "% of the peak", "1 mm"});
+                      {"Force of punch, measured and computed", "stroke [mm]", "force [kN]", ">measured<",
+                       ">computed<", "40 kN", "% of the peak", "1 mm"});
   EXPECT_EQ(report::render_experiments({}), "");
 }
 

@@ -1,0 +1,164 @@
+#include "study/calibration.hpp"
+
+#include "core/error.hpp"
+#include "core/index.hpp"
+#include "core/machine/threads.hpp"
+#include "input/case_reader.hpp"
+#include "results/folder_lock.hpp"
+#include "results/output_folder.hpp"
+#include "study/calibration_search.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::study {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kind = "calibration";
+constexpr double difference_step = 0.03; ///< of a place, for sensitivities
+
+/// Constants with their values, in words.
+std::string in_words(const Calibration& calibration, const Eigen::VectorXd& place) {
+  std::string text;
+  for (std::size_t k = 0; k < calibration.constants.size(); ++k) {
+    const SoughtConstant& constant = calibration.constants[k];
+    text += fmt::format("{}{} = {}", k ? ", " : "", constant.name,
+                        constant.text(constant.at(place[static_cast<Eigen::Index>(k)]), 5));
+  }
+  return text;
+}
+
+double misfit_percent(double misfit) { return 100.0 * std::sqrt(misfit); }
+
+/// Ends where all searches have ended; false after a signal.
+bool search_all(const Calibration& calibration, Evaluator& evaluator, std::vector<SearchEnd>& searches) {
+  std::vector<std::size_t> told(index_of(calibration.starts), 0);
+  for (;;) {
+    std::vector<Eigen::VectorXd> wanted;
+    searches.clear();
+    for (int k = 0; k < calibration.starts; ++k) {
+      SearchReplay replay = replay_search(calibration, start_place(calibration, k), evaluator);
+      std::size_t& shown = told[index_of(k)];
+      for (; shown < replay.end.course.size(); ++shown) {
+        const VisitedPlace& visited = replay.end.course[shown];
+        const Evaluation& evaluation = *evaluator.known(visited.place);
+        fmt::print("start {}, evaluation {}: {}: {}\n", k + 1, shown + 1,
+                   in_words(calibration, visited.place),
+                   evaluation.good() ? fmt::format("misfit {:.3g}%", misfit_percent(visited.misfit))
+                                     : "FAILED: " + evaluation.failure);
+      }
+      if (replay.wanted.empty())
+        searches.push_back(std::move(replay.end));
+      else
+        wanted.insert(wanted.end(), replay.wanted.begin(), replay.wanted.end());
+    }
+    std::fflush(stdout);
+    if (wanted.empty()) return true;
+    if (!evaluator.evaluate(wanted)) return false;
+  }
+}
+
+/// Sensitivities of the residuals about a place, by central differences where both sides are within the
+/// bounds and go well. None after a signal.
+std::optional<Eigen::MatrixXd> jacobian_at(const Eigen::VectorXd& place, Evaluator& evaluator) {
+  std::vector<Eigen::VectorXd> sides;
+  for (Eigen::Index k = 0; k < place.size(); ++k)
+    for (const double way : {-1.0, 1.0}) {
+      sides.push_back(place);
+      sides.back()[k] = std::clamp(place[k] + way * difference_step, 0.0, 1.0);
+    }
+  if (!evaluator.evaluate(sides)) return std::nullopt;
+  const Evaluation& middle = *evaluator.known(place);
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(middle.residual.size(), place.size());
+  for (Eigen::Index k = 0; k < place.size(); ++k) {
+    const auto usable = [&](std::size_t side) -> const Evaluation& {
+      const Evaluation& one = *evaluator.known(sides[side]);
+      return one.good() && one.residual.size() == middle.residual.size() ? one : middle;
+    };
+    const Evaluation &low = usable(2 * index_of(k)), &high = usable(2 * index_of(k) + 1);
+    if (high.place[k] > low.place[k])
+      jacobian.col(k) = (high.residual - low.residual) / (high.place[k] - low.place[k]);
+  }
+  return jacobian;
+}
+
+void write(const fs::path& folder, const CalibrationFiles& files) {
+  results::write_atomically(folder / "calibrated.toml", files.constants);
+  results::write_atomically(folder / "calibration.json", files.json);
+  results::write_atomically(folder / "calibration.csv", files.table);
+  results::write_atomically(folder / results::files::report, files.report);
+}
+
+Exit interrupted() {
+  fmt::print(stderr, "interrupted: the same command goes on from here\n");
+  return Exit::interrupted;
+}
+
+void tell(const Calibration& calibration, const CalibrationResult& result, const fs::path& folder) {
+  fmt::print("\nmisfit: {:.3g}% at the start, {:.3g}% now\n",
+             result.start.good() ? misfit_percent(result.start.misfit) : std::nan(""),
+             misfit_percent(result.best.misfit));
+  for (std::size_t k = 0; k < calibration.constants.size(); ++k) {
+    const SoughtConstant& constant = calibration.constants[k];
+    const auto at = static_cast<Eigen::Index>(k);
+    const double place = result.best.place[at], width = result.inference.half_width[at];
+    fmt::print("{} = {}{}\n", constant.key, constant.text(constant.at(place)),
+               result.inference.told[k]
+                   ? fmt::format("  (95%: {} to {})", constant.text(constant.at(place - width), 4),
+                                 constant.text(constant.at(place + width), 4))
+                   : "  (not told by the curves)");
+  }
+  for (const std::string& words : result.inference.words) fmt::print("{}\n", words);
+  if (result.failures > 0)
+    fmt::print(stderr, "warning: {} of {} evaluations failed and counted as a misfit of {:g}%\n",
+               result.failures, result.evaluations, misfit_percent(failed_misfit));
+  fmt::print("constants: {}\nreport: {}\n", (folder / "calibrated.toml").string(),
+             (folder / results::files::report).string());
+}
+
+} // namespace
+
+Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
+  check_threads(calibration.threads, "threads of the calibration");
+  const fs::path& folder = options.output;
+  holds_manifest(folder, kind, options.force);
+  make_folder(folder);
+  const results::FolderLock lock(folder, kind);
+  if (options.force) fs::remove_all(folder / "runs");
+  make_folder(folder / "runs");
+  results::write_atomically(
+      folder / "manifest.json",
+      nlohmann::ordered_json{{"kind", kind}, {"study", calibration.name}, {"version", options.version}}.dump(
+          2) +
+          "\n");
+  Evaluator evaluator(calibration, options);
+  CalibrationResult result;
+  if (!search_all(calibration, evaluator, result.searches)) return interrupted();
+  const auto best = std::min_element(result.searches.begin(), result.searches.end(),
+                                     [](const SearchEnd& a, const SearchEnd& b) {
+                                       return a.course[a.best].misfit < b.course[b.best].misfit;
+                                     });
+  const Evaluation& found = *evaluator.known(best->course[best->best].place);
+  result.start = *evaluator.known(result.searches.front().course.front().place);
+  if (!found.good()) {
+    fmt::print(stderr, "failed: no evaluation went well, the last one: {}\n", found.failure);
+    return Exit::diverged;
+  }
+  result.best = found;
+  const std::optional<Eigen::MatrixXd> jacobian = jacobian_at(found.place, evaluator);
+  if (!jacobian) return interrupted();
+  result.inference = infer(calibration, found.residual, *jacobian,
+                           std::vector<std::size_t>(found.curves.size(), residuals_of_curve));
+  result.evaluations = evaluator.count();
+  result.failures = evaluator.failures();
+  write(folder,
+        calibration_files(calibration, result, flow_bands(calibration, result, folder), options.version));
+  tell(calibration, result, folder);
+  return Exit::done;
+}
+
+} // namespace cnem::study

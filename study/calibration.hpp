@@ -1,0 +1,154 @@
+#pragma once
+// Constants that bring computed curves to measured ones: cnem calibrate. The format of the file is described
+// in docs/experiments.md.
+#include "evaluate/experiment.hpp"
+#include "evaluate/material_point.hpp"
+#include "input/case.hpp"
+#include "input/schema/document.hpp"
+#include "input/schema/units.hpp"
+#include "study/batch.hpp"
+
+#include <Eigen/Dense>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cnem::study {
+
+/// A constant that is looked for: a key of the cases, between bounds.
+struct SoughtConstant {
+  std::string name, key;
+  input::Location where;
+  double low = 0.0, high = 1.0, start = 0.5; ///< SI
+  bool logarithmic = false;
+  input::Unit unit{};             ///< in which it was written
+  std::string unit_text, si_unit; ///< "" for numbers
+
+  /// Its place between the bounds, 0 to 1, and the value (SI) at a place.
+  double place_of(double value) const;
+  double at(double place) const;
+  /// As a user would write it, and in SI for the key of a case.
+  std::string text(double value, int digits = 6) const;
+  input::Override change(double value) const;
+};
+
+/// A measured curve of a test of the material alone.
+struct PointTarget {
+  std::string material; ///< of the case
+  evaluate::PointTest test;
+  evaluate::ComparedCurve measured; ///< strain, Pa
+};
+
+/// What curves are compared with: all of [report.experiment] of a case, or one of a single point.
+struct CalibrationTarget {
+  std::string name;
+  input::Location where;
+  std::filesystem::path case_file;
+  std::vector<input::Override> set;
+  double weight = 1.0;
+  std::optional<PointTarget> point; ///< none: the case is run
+};
+
+struct Calibration {
+  std::string name, title;
+  std::vector<SoughtConstant> constants;
+  std::vector<CalibrationTarget> targets;
+  int evaluations = 60; ///< of the misfit, by all starts together
+  int starts = 1;
+  double tolerance = 1e-4; ///< of the places of constants between their bounds
+  int processes = 0, threads = 1;
+
+  std::vector<input::Override> changes(const CalibrationTarget& target, const Eigen::VectorXd& place) const;
+};
+
+/// Reads the file of a calibration. Throws InputError "file:line:column: key '…': …" for whatever is wrong in
+/// it, with the cases at the start, IoError when it cannot be read.
+Calibration read_calibration(const std::filesystem::path& path);
+
+/// A measured curve and the one that was computed for it.
+struct CalibratedCurve {
+  std::string name;
+  std::size_t target = 0;
+  bool over_stroke = true, of_point = false;
+  std::string x_unit, y_unit; ///< SI
+  evaluate::ComparedCurve measured, computed;
+  double rms_share = 0.0; ///< – root mean square of the difference over the measured peak
+};
+
+/// What constants have come to.
+struct Evaluation {
+  Eigen::VectorXd place;
+  std::string failure; ///< empty: it went well
+  std::vector<CalibratedCurve> curves;
+  Eigen::VectorXd residual; ///< weighted, so that its squares add up to the misfit
+  double misfit = 0.0;      ///< – mean of the squared rms shares of all curves by weight
+
+  bool good() const { return failure.empty(); }
+};
+
+/// The misfit of constants with which a run fails: twice the measured peak everywhere.
+inline constexpr double failed_misfit = 4.0;
+
+struct VisitedPlace {
+  Eigen::VectorXd place;
+  double misfit = 0.0;
+};
+
+/// What a search found.
+struct SearchEnd {
+  std::vector<VisitedPlace> course; ///< in the order of its evaluations
+  std::size_t best = 0;
+  std::string reason; ///< why it stopped
+};
+
+/// What the curves say of the constants (docs/experiments.md).
+struct Inference {
+  Eigen::MatrixXd jacobian;       ///< residual by place
+  Eigen::VectorXd singular;       ///< falling
+  Eigen::MatrixXd directions;     ///< [constant][direction] unit vectors
+  Eigen::MatrixXd covariance;     ///< of places; of the directions that are told
+  std::vector<bool> weak;         ///< [direction] the curves do not tell it
+  std::vector<bool> told;         ///< [constant]
+  Eigen::VectorXd half_width;     ///< of the 95% interval, of places
+  double independent = 0.0;       ///< number of residuals that are
+  double quantile = 0.0;          ///< of 95%, by Student's t
+  std::vector<std::string> words; ///< what the curves do not tell
+};
+
+/// residual at the best place; jacobian by finite differences there. curve_lengths: residuals of each curve.
+Inference infer(const Calibration& calibration, const Eigen::VectorXd& residual, Eigen::MatrixXd jacobian,
+                const std::vector<std::size_t>& curve_lengths);
+
+/// Everything that tables and pages show.
+struct CalibrationResult {
+  Evaluation start, best;
+  std::vector<SearchEnd> searches;
+  Inference inference;
+  std::size_t evaluations = 0, failures = 0; ///< of different constants
+};
+
+/// Flow stress over strain at a rate and a temperature that the targets meet, with the band of the
+/// covariance.
+struct FlowBand {
+  std::string name;
+  double rate = 0.0, temperature = 0.0;           ///< 1/s, K
+  std::vector<double> strain, stress, half_width; ///< –, Pa
+};
+std::vector<FlowBand> flow_bands(const Calibration& calibration, const CalibrationResult& result,
+                                 const std::filesystem::path& folder);
+
+/// calibrated.toml, calibration.json, calibration.csv, report.html.
+struct CalibrationFiles {
+  std::string constants, json, table, report;
+};
+CalibrationFiles calibration_files(const Calibration& calibration, const CalibrationResult& result,
+                                   const std::vector<FlowBand>& bands, const std::string& version);
+
+/// Searches, and writes what was found. Runs that the folder holds already are not run again, so that a
+/// calibration that was killed goes on with the same sequence. Returns done; diverged when no evaluation went
+/// well; interrupted after SIGINT, SIGTERM or SIGHUP. Throws InputError and IoError.
+Exit calibrate(const Calibration& calibration, const BatchOptions& options);
+
+} // namespace cnem::study

@@ -1,0 +1,200 @@
+#include "study/calibration_evaluator.hpp"
+
+#include "core/error.hpp"
+#include "evaluate/force_stroke.hpp"
+#include "input/case_reader.hpp"
+#include "results/checkpoint_folder.hpp"
+#include "results/output_folder.hpp"
+#include "results/si_format.hpp"
+#include "study/process_pool.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace cnem::study {
+namespace fs = std::filesystem;
+namespace {
+
+/// The exit code that a run has left; none while it has not ended, or was stopped.
+std::optional<int> ended_with(const fs::path& folder) {
+  if (!fs::exists(folder / results::files::status)) return std::nullopt;
+  try {
+    const int exit = results::read_status(folder).exit;
+    if (exit == Exit::interrupted || exit == Exit::io_failed) return std::nullopt;
+    return exit;
+  } catch (const IoError&) { return std::nullopt; } // half a status is none: the run is done again
+}
+
+bool can_go_on(const fs::path& folder) {
+  return fs::exists(folder / results::files::resolved_case) && !results::list_checkpoints(folder).empty();
+}
+
+/// Why a run has no result.
+std::string failure_of(const fs::path& folder, const fs::path& log) {
+  std::string reason;
+  if (fs::exists(folder / results::files::status)) reason = results::read_status(folder).reason;
+  if (reason.empty() && fs::exists(log)) reason = last_line(log);
+  return reason.empty() ? "it left no message" : reason;
+}
+
+} // namespace
+
+std::string place_key(const Eigen::VectorXd& place) {
+  std::string key;
+  for (const double value : place) key += fmt::format("{:a} ", value);
+  return key;
+}
+
+void weigh(Evaluation& evaluation, const std::vector<double>& weights) {
+  constexpr std::size_t n = residuals_of_curve;
+  double all = 0.0;
+  for (const double weight : weights) all += weight;
+  evaluation.residual.resize(static_cast<Eigen::Index>(n * evaluation.curves.size()));
+  Eigen::Index row = 0;
+  for (std::size_t c = 0; c < evaluation.curves.size(); ++c) {
+    CalibratedCurve& curve = evaluation.curves[c];
+    const evaluate::ComparedCurve& measured = curve.measured;
+    std::vector<double> at(n);
+    for (std::size_t k = 0; k < n; ++k)
+      at[k] = measured.x.front() +
+              (measured.x.back() - measured.x.front()) * (static_cast<double>(k) + 0.5) / double(n);
+    const std::vector<double> there = evaluate::interpolated(measured.x, measured.y, at),
+                              here = evaluate::interpolated(curve.computed.x, curve.computed.y, at);
+    const double peak = *std::max_element(measured.y.begin(), measured.y.end());
+    const double factor = std::sqrt(weights[c] / (all * double(n))) / peak;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      evaluation.residual[row++] = factor * (here[k] - there[k]);
+      squares += (here[k] - there[k]) * (here[k] - there[k]);
+    }
+    curve.rms_share = std::sqrt(squares / double(n)) / peak;
+  }
+  evaluation.misfit = evaluation.residual.squaredNorm();
+}
+
+const Evaluation* Evaluator::known(const Eigen::VectorXd& place) const {
+  const auto found = evaluations_.find(place_key(place));
+  return found == evaluations_.end() ? nullptr : &found->second;
+}
+
+std::size_t Evaluator::failures() const {
+  return index_of(std::count_if(evaluations_.begin(), evaluations_.end(),
+                                [](const auto& entry) { return !entry.second.good(); }));
+}
+
+fs::path Evaluator::folder_of(const CalibrationTarget& target, const Eigen::VectorXd& place) const {
+  const input::Case input =
+      input::read_case_with(target.case_file.string(), calibration_.changes(target, place));
+  return options_.output / "runs" / fmt::format("{}-{}", target.name, inputs_of(input));
+}
+
+std::string Evaluator::collect_run(const CalibrationTarget& target, std::size_t index,
+                                   const Eigen::VectorXd& place, Evaluation& evaluation) const {
+  const fs::path folder = folder_of(target, place);
+  if (ended_with(folder) != Exit::done)
+    return fmt::format("{}: {}", folder.filename().string(), failure_of(folder, log_of(folder)));
+  for (evaluate::ExperimentResult& experiment : evaluate::read_experiments(folder)) {
+    if (!experiment.difference.common()) return fmt::format("{}: {}", target.name, experiment.note);
+    CalibratedCurve& curve = evaluation.curves.emplace_back();
+    curve.name = fmt::format("{} {}", target.name, experiment.name);
+    curve.target = index;
+    curve.over_stroke = experiment.over_stroke;
+    curve.x_unit = experiment.over_stroke ? "m" : "s";
+    curve.y_unit = experiment.force_unit;
+    curve.measured = std::move(experiment.measured);
+    curve.computed = std::move(experiment.computed);
+  }
+  return "";
+}
+
+std::string Evaluator::collect_point(const CalibrationTarget& target, std::size_t index,
+                                     const Eigen::VectorXd& place, Evaluation& evaluation) const {
+  const input::Case input =
+      input::read_case_with(target.case_file.string(), calibration_.changes(target, place));
+  evaluate::PointTest test = target.point->test;
+  const plasticity::Material& material = input.material(target.point->material);
+  // A plastic strain is reached a little later than the total one.
+  if (test.plastic) test.strain += 2.0 * target.point->measured.y.back() / material.elasticity.young;
+  evaluate::PointCurve point = evaluate::point_curve(material, test);
+  CalibratedCurve& curve = evaluation.curves.emplace_back();
+  curve.name = target.name;
+  curve.target = index;
+  curve.of_point = true;
+  curve.y_unit = "Pa";
+  curve.measured = target.point->measured;
+  curve.computed = {std::move(point.strain), std::move(point.stress)};
+  if (test.plastic) { // the stress at which flow begins stands at no plastic strain
+    const auto& flowing = point.equivalent_strain;
+    const auto first = std::find_if(flowing.begin(), flowing.end(), [](double flow) { return flow > 0.0; });
+    const auto before = std::max<std::ptrdiff_t>(0, first - flowing.begin() - 1);
+    curve.computed.x.erase(curve.computed.x.begin(), curve.computed.x.begin() + before);
+    curve.computed.y.erase(curve.computed.y.begin(), curve.computed.y.begin() + before);
+  }
+  return "";
+}
+
+Evaluation Evaluator::collected(const Eigen::VectorXd& place) const {
+  Evaluation evaluation;
+  evaluation.place = place;
+  try {
+    for (std::size_t t = 0; t < calibration_.targets.size() && evaluation.good(); ++t) {
+      const CalibrationTarget& target = calibration_.targets[t];
+      evaluation.failure = target.point ? collect_point(target, t, place, evaluation)
+                                        : collect_run(target, t, place, evaluation);
+    }
+  } catch (const InputError& error) { evaluation.failure = error.what(); }
+  if (!evaluation.good()) {
+    evaluation.curves.clear();
+    evaluation.misfit = failed_misfit;
+    return evaluation;
+  }
+  std::vector<double> weights;
+  for (const CalibratedCurve& curve : evaluation.curves)
+    weights.push_back(calibration_.targets[curve.target].weight);
+  weigh(evaluation, weights);
+  return evaluation;
+}
+
+bool Evaluator::evaluate(const std::vector<Eigen::VectorXd>& places) {
+  std::vector<Job> jobs;
+  std::vector<fs::path> folders;
+  for (const Eigen::VectorXd& place : places)
+    for (const CalibrationTarget& target : calibration_.targets) {
+      if (target.point) continue;
+      try {
+        const fs::path folder = folder_of(target, place);
+        if (ended_with(folder) || !ended_.insert(folder).second) continue;
+        jobs.push_back({run_command({.case_file = target.case_file,
+                                     .changes = calibration_.changes(target, place),
+                                     .folder = folder,
+                                     .interrupted = can_go_on(folder),
+                                     .threads = calibration_.threads},
+                                    options_.program),
+                        log_of(folder)});
+        folders.push_back(folder);
+      } catch (const InputError&) {} // collected() tells
+    }
+  const std::size_t processes = processes_for(
+      options_.processes > 0 ? options_.processes : calibration_.processes, calibration_.threads);
+  using Clock = std::chrono::steady_clock;
+  std::vector<Clock::time_point> began(jobs.size());
+  const bool complete = run_jobs(
+      jobs, processes, [&](std::size_t job) { began[job] = Clock::now(); },
+      [&](std::size_t job, JobEnd end) {
+        const double seconds = std::chrono::duration<double>(Clock::now() - began[job]).count();
+        fmt::print("  run {}: {}, {}\n", folders[job].filename().string(),
+                   end.code == Exit::done ? std::string("done")
+                   : end.signal != 0      ? fmt::format("FAILED: killed by signal {}", end.signal)
+                                          : "FAILED: " + failure_of(folders[job], jobs[job].log),
+                   results::duration_format(seconds));
+        std::fflush(stdout);
+      });
+  if (!complete) return false;
+  for (const Eigen::VectorXd& place : places)
+    if (!known(place)) evaluations_.emplace(place_key(place), collected(place));
+  return true;
+}
+
+} // namespace cnem::study

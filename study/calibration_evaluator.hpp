@@ -1,0 +1,53 @@
+#pragma once
+// The misfit of constants: runs and single points, each done once.
+#include "study/calibration.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace cnem::study {
+
+/// Evaluates places of constants between their bounds. Runs have folders that are named after their resolved
+/// cases: what an earlier call has done is read, what it has begun goes on.
+class Evaluator {
+public:
+  /// Both must outlive this object.
+  Evaluator(const Calibration& calibration, const BatchOptions& options)
+      : calibration_(calibration), options_(options) {}
+
+  /// What is known of a place; nullptr before it is evaluated.
+  const Evaluation* known(const Eigen::VectorXd& place) const;
+  /// Evaluates all places, their runs in parallel. Returns false after SIGINT, SIGTERM or SIGHUP. Throws
+  /// IoError.
+  bool evaluate(const std::vector<Eigen::VectorXd>& places);
+
+  std::size_t count() const { return evaluations_.size(); }
+  std::size_t failures() const;
+  /// The folder of the run of a target.
+  std::filesystem::path folder_of(const CalibrationTarget& target, const Eigen::VectorXd& place) const;
+
+private:
+  std::string collect_run(const CalibrationTarget& target, std::size_t index, const Eigen::VectorXd& place,
+                          Evaluation& evaluation) const;
+  std::string collect_point(const CalibrationTarget& target, std::size_t index, const Eigen::VectorXd& place,
+                            Evaluation& evaluation) const;
+  Evaluation collected(const Eigen::VectorXd& place) const;
+
+  const Calibration& calibration_;
+  const BatchOptions& options_;
+  std::map<std::string, Evaluation> evaluations_; ///< by place
+  std::set<std::filesystem::path> ended_;         ///< folders of runs of this call that have ended
+};
+
+/// What a place is told apart by.
+std::string place_key(const Eigen::VectorXd& place);
+
+/// Residuals of curves at even places of each measured one, weighted, and the misfit. weights: of each curve.
+void weigh(Evaluation& evaluation, const std::vector<double>& weights);
+
+/// Residuals of each curve.
+inline constexpr std::size_t residuals_of_curve = 100;
+
+} // namespace cnem::study

@@ -1,0 +1,252 @@
+// Constants found again from curves that are known: of single points, of runs on another cloud, after a kill;
+// and what curves do not tell.
+#include "study/calibration.hpp"
+
+#include "core/error.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <functional>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace cnem::study {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* block = R"toml(
+[let]
+spacing = "0.25 mm"
+[time]
+end = "20 us"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "1 1 mm" }
+[cloud]
+spacing = "spacing"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "johnson-cook", A = "250 MPa", B = "500 MPa", n = 0.4, C = 0.01, rate0 = "1 /s", m = 1.0, T0 = "293 K", Tmelt = "1800 K" }
+heat = { specific_heat = "460 J/(kg K)", conductivity = "0 W/(m K)" }
+[boundary]
+left = { pieces = ["left"], symmetry = true }
+bottom = { pieces = ["bottom"], symmetry = true }
+[initial]
+temperature = "293 K"
+[tools.punch]
+rectangle = { from = "-1 1 mm", to = "3 2 mm" }
+velocity = { y = { value = "-12 m/s", ramp = "2 us", smooth = true } }
+[output]
+history_every = "0.1 us"
+fields_every = "0 s"
+pictures = "1 ms"
+)toml";
+
+constexpr const char* experiment = "[report.experiment]\nfile = \"press.csv\"\ncut_length = \"20 mm\"\n";
+
+/// Johnson and Cook's stress, MPa, at 293 K.
+double stress(double strain, double rate, double A, double B, double n, double C) {
+  return (A + B * std::pow(strain, n)) * (1.0 + C * std::log(std::max(1.0, rate)));
+}
+
+std::string constant(const std::string& name, const std::string& start, const std::string& low,
+                     const std::string& high, const std::string& scale = "linear") {
+  return fmt::format("[parameters.{0}]\nkey = \"materials.steel.plastic.{0}\"\nstart = {1}\nlow = {2}\n"
+                     "high = {3}\nscale = \"{4}\"\n",
+                     name, start, low, high, scale);
+}
+
+std::string curve(const std::string& name, double rate) {
+  return fmt::format("[targets.{0}]\nfile = \"{0}.csv\"\nstrain = \"plastic\"\nrate = \"{1} /s\"\n"
+                     "temperature = \"293 K\"\n",
+                     name, rate);
+}
+
+class Calibrate : public ::testing::Test {
+protected:
+  void SetUp() override { write("case.toml", std::string(block) + experiment); }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+  /// A measured curve of a single point by the formula itself.
+  void write_curve(const std::string& name, double rate, double A, double B, double n, double C) const {
+    std::string text = "plastic strain;stress[MPa]\n";
+    for (int k = 0; k <= 40; ++k) {
+      const double strain = 0.002 + 0.4 * k / 40.0;
+      text += fmt::format("{:.5f};{:.4f}\n", strain, stress(strain, rate, A, B, n, C));
+    }
+    write(name + ".csv", text);
+  }
+  int run(const std::string& text, const std::string& output = "results") {
+    write("fit.toml", "case = \"case.toml\"\n" + text);
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    std::exception_ptr problem;
+    int code = -1;
+    try {
+      code = calibrate(read_calibration(folder / "fit.toml"),
+                       {.output = folder / output, .program = CNEM_PROGRAM, .version = "test"});
+    } catch (...) { problem = std::current_exception(); }
+    printed = ::testing::internal::GetCapturedStdout();
+    message = ::testing::internal::GetCapturedStderr();
+    if (problem) std::rethrow_exception(problem);
+    return code;
+  }
+  Json result(const std::string& output = "results") const {
+    return Json::parse(results::read_file(folder / output / "calibration.json"));
+  }
+  /// Runs the program to the end, or until it shall be killed.
+  int program(const std::vector<std::string>& words, const std::function<bool()>& kill_when = {}) const {
+    const pid_t child = fork();
+    if (child == 0) {
+      std::vector<char*> arguments{const_cast<char*>(CNEM_PROGRAM)};
+      for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+      arguments.push_back(nullptr);
+      if (!std::freopen((folder / "log").c_str(), "w", stdout)) _exit(126);
+      execv(CNEM_PROGRAM, arguments.data());
+      _exit(127);
+    }
+    int status = 0;
+    while (kill_when && waitpid(child, &status, WNOHANG) == 0) {
+      if (kill_when()) kill(child, SIGKILL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    if (!kill_when) waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  std::size_t runs(const std::string& output) const {
+    std::size_t count = 0;
+    if (fs::exists(folder / output / "runs"))
+      for (const auto& entry : fs::directory_iterator(folder / output / "runs"))
+        count += fs::exists(entry.path() / results::files::status);
+    return count;
+  }
+
+  const cnem::testing::TemporaryFolder temporary{"calibrate"};
+  const fs::path& folder = temporary.path();
+  std::string printed, message;
+};
+
+TEST_F(Calibrate, finds_johnson_cook_again_from_curves_of_single_points) {
+  write_curve("slow", 1.0, 350, 400, 0.3, 0.02);
+  write_curve("fast", 1000.0, 350, 400, 0.3, 0.02);
+  ASSERT_EQ(run("evaluations = 600\ntolerance = 1e-6\n" +
+                constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"", "log") +
+                constant("B", "\"600 MPa\"", "\"100 MPa\"", "\"1.5 GPa\"", "log") +
+                constant("n", "0.45", "0.1", "0.8") + constant("C", "0.01", "0.002", "0.1", "log") +
+                curve("slow", 1.0) + curve("fast", 1000.0)),
+            0)
+      << message;
+  const Json constants = result().at("constants");
+  for (const auto& [name, truth] : {std::pair{"A", 350e6}, {"B", 400e6}, {"n", 0.3}, {"C", 0.02}}) {
+    EXPECT_NEAR(constants.at(name).at("value").get<double>() / truth, 1.0, 0.01) << name;
+    EXPECT_TRUE(constants.at(name).at("told")) << name;
+  }
+  EXPECT_LT(result().at("misfit").at("best").get<double>(), 1e-3);
+  const std::string snippet = results::read_file(folder / "results/calibrated.toml");
+  EXPECT_NE(snippet.find("materials.steel.plastic.A = \"35"), std::string::npos) << snippet;
+  const std::string page = results::read_file(folder / "results/report.html");
+  for (const char* part : {"the curves tell all constants", "95% band", "Correlations", "Sensitivity"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+TEST_F(Calibrate, says_which_constants_the_curves_do_not_tell) {
+  write_curve("slow", 1.0, 350, 400, 0.3, 0.02);
+  const std::string yield = constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\""),
+                    rate = constant("C", "0.01", "0.002", "0.1", "log");
+  ASSERT_EQ(run("evaluations = 60\n[set]\n\"materials.steel.plastic.B\" = \"400 MPa\"\n"
+                "\"materials.steel.plastic.n\" = 0.3\n" +
+                yield + rate + curve("slow", 1.0)),
+            0)
+      << message;
+  EXPECT_NEAR(result().at("constants").at("A").at("value").get<double>() / 350e6, 1.0, 0.01);
+  EXPECT_TRUE(result().at("constants").at("A").at("told"));
+  EXPECT_FALSE(result().at("constants").at("C").at("told"));
+  EXPECT_NE(printed.find("The curves do not tell C: from 0.002 to 0.1"), std::string::npos) << printed;
+
+  write_curve("fast", 1000.0, 350, 0, 0.3, 0.02);
+  ASSERT_EQ(run("evaluations = 60\n[set]\n\"materials.steel.plastic.B\" = \"0 MPa\"\n" + yield + rate +
+                    curve("fast", 1000.0),
+                "one_rate"),
+            0)
+      << message;
+  const std::string words = result("one_rate").at("not_told").at(0);
+  EXPECT_NE(words.find("The curves do not tell A and C apart"), std::string::npos) << words;
+  EXPECT_FALSE(result("one_rate").at("constants").at("A").at("told"));
+}
+
+TEST_F(Calibrate, a_single_constant_is_found_too) {
+  write_curve("slow", 1.0, 350, 400, 0.3, 0.02);
+  ASSERT_EQ(run("evaluations = 40\n[set]\n\"materials.steel.plastic.B\" = \"400 MPa\"\n"
+                "\"materials.steel.plastic.n\" = 0.3\n" +
+                constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"") + curve("slow", 1.0)),
+            0)
+      << message;
+  EXPECT_NEAR(result().at("constants").at("A").at("value").get<double>() / 350e6, 1.0, 0.01);
+}
+
+TEST_F(Calibrate, finds_the_flow_stress_from_a_run_on_another_cloud_also_after_a_kill) {
+  write("truth.toml", std::string(block));
+  ASSERT_EQ(program({"run", (folder / "truth.toml").string(), "--output", (folder / "truth").string(),
+                     "--set", "let.spacing=0.17 mm", "--set", "materials.steel.plastic.A=350 MPa", "--set",
+                     "materials.steel.plastic.B=400 MPa"}),
+            0);
+  const results::HistoryTable history = results::read_history(folder / "truth/history.csv");
+  std::string press = "stroke[mm],force[kN]\n";
+  for (std::size_t k = 0; k < history.rows(); k += 2) {
+    const auto at = [&](const char* name) { return history.column[std::size_t(history.find(name))][k]; };
+    press += fmt::format("{},{}\n", 1e3 * at("punch.stroke"), -20e-6 * at("punch.force_y"));
+  }
+  write("press.csv", press);
+  const std::string text = "evaluations = 16\nprocesses = 2\n" +
+                           constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"", "log") +
+                           constant("B", "\"700 MPa\"", "\"100 MPa\"", "\"1.5 GPa\"", "log") +
+                           "[targets.press]\n";
+  ASSERT_EQ(run(text), 0) << message;
+  const Json constants = result().at("constants");
+  const double A = constants.at("A").at("value"), B = constants.at("B").at("value");
+  for (const double strain : {0.05, 0.15, 0.25})
+    EXPECT_NEAR(stress(strain, 1.0, A, B, 0.4, 0.01) / stress(strain, 1.0, 350e6, 400e6, 0.4, 0.01), 1.0,
+                0.03)
+        << strain << ", A = " << A << ", B = " << B;
+  EXPECT_LT(result().at("misfit").at("best").get<double>(), 0.03);
+  const std::size_t whole = runs("results");
+
+  const std::vector<std::string> words{"calibrate", (folder / "fit.toml").string(), "--output",
+                                       (folder / "killed").string()};
+  EXPECT_EQ(program(words, [&] { return runs("killed") >= 7; }), -SIGKILL);
+  const std::size_t before = runs("killed");
+  EXPECT_LT(before, whole);
+  ASSERT_EQ(run(text, "killed"), 0) << message;
+  EXPECT_EQ(runs("killed"), whole);
+  std::size_t again = 0;
+  for (std::size_t at = printed.find("  run "); at != std::string::npos; at = printed.find("  run ", at + 1))
+    ++again;
+  EXPECT_LE(again, whole - before) << "what was done is not run again\n" << printed;
+  for (const char* file : {"calibration.csv", "calibration.json", "calibrated.toml"})
+    EXPECT_EQ(results::read_file(folder / "results" / file), results::read_file(folder / "killed" / file))
+        << file;
+}
+
+TEST_F(Calibrate, runs_that_fail_are_bad_misfits_and_told) {
+  write("press.csv", "stroke[mm];force[kN]\n0;0\n0,1;12\n");
+  ASSERT_EQ(run("evaluations = 6\n[set]\n\"time.end\" = \"2 us\"\n\"time.step.fixed\" = \"1 us\"\n" +
+                constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"", "log") + "[targets.press]\n"),
+            3);
+  EXPECT_NE(message.find("no evaluation went well"), std::string::npos) << message;
+}
+
+} // namespace
+} // namespace cnem::study
