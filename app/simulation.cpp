@@ -97,8 +97,10 @@ template<int dim> Exit Simulation<dim>::run() {
                : exit_ == Exit::interrupted ? "stopped"
                                             : "diverged",
                reason_);
-    fmt::print("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; energy residual {:.2g} of the work\n",
-               end.nodes, end.steps, end.time, end.wall_s.front().second, end.energy_residual);
+    const bool moves = input_.analysis.mechanical;
+    fmt::print("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; {} {:.2g} of the {}\n", end.nodes, end.steps,
+               end.time, end.wall_s.front().second, moves ? "energy residual" : "heat residual",
+               end.energy_residual, moves ? "work" : "heat moved");
     if (options_.profile) fmt::print("{}", profile_table(end));
     fmt::print("report: {}\n", report.string());
     return exit_;
@@ -310,7 +312,8 @@ template<int dim> results::RunStatus Simulation<dim>::status() {
   status.node_steps = static_cast<std::int64_t>(node_steps_);
   status.threads = omp_get_max_threads();
   status.peak_rss_bytes = results::peak_rss_bytes();
-  status.energy_residual = history_.energy_residual();
+  status.energy_residual =
+      input_.analysis.mechanical ? history_.energy_residual() : results::heat_residual_share(solver_);
   for (const auto& [name, value] : history_.metrics()) status.add_metric(name, value);
   status.add_metric("references", solver_.references());
   status.add_metric("retries", retries_.count());

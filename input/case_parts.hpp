@@ -93,6 +93,9 @@ std::optional<std::size_t> read_leading_tool(Setting& root, const Case& input, c
 /// What a cut is evaluated with, where [report.cutting] is there. Expects what read_report() does.
 void read_cutting_report(Setting& root, Case& result, Diagnostics& diagnostics);
 
+/// The units that pages show numbers in.
+void read_shown_units(const Setting& root, Case& result, Diagnostics& diagnostics);
+
 /// What is evaluated at the end, with defaults from the tools. Expects tools, domain and periodic pieces.
 void read_report(Setting& root, Case& result, Diagnostics& diagnostics);
 
