@@ -297,7 +297,8 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
     for (const StudyRun& run : study.runs) fs::remove(note_of(options.output, run));
   }
   const std::size_t processes =
-      std::min(processes_for(options.processes > 0 ? options.processes : study.processes, study.threads), std::max<std::size_t>(1, jobs.size()));
+      std::min(processes_for(options.processes > 0 ? options.processes : study.processes, study.threads),
+               std::max<std::size_t>(1, jobs.size()));
   const std::size_t refused = count(State::refused), total = own.size() - refused;
   fmt::print("{}{} runs: {} done before, {} to do in {} processes{}{}\n",
              options.only ? fmt::format("part {} of {}: ", options.only->number, options.only->count) : "",

@@ -17,8 +17,8 @@ void doubt_output(const input::Case& input, Doubts& doubts);
 /// Tools that move away from the workpiece, meet it late or never, or go far beyond it.
 template<int dim>
 void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, Doubts& doubts);
-/// Clearances below zero, of nothing or wide open, strokes that cut nothing, sheets of a few cells, and arcs of
-/// tools that no node feels.
+/// Clearances below zero, of nothing or wide open, strokes that cut nothing, sheets of a few cells, and arcs
+/// of tools that no node feels.
 void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
 /// Cells wider than the opening at which metal has broken, and parts that pass through each other.
 void doubt_bodies(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);

@@ -89,7 +89,8 @@ void StaticRun::write_history() {
   row.emplace_back("energy.stabilisation" + units.energy, solution_.stabilisation_energy);
   row.emplace_back("energy.external_work" + units.energy, solution_.external_work);
   row.emplace_back("energy.thermal_expansion" + units.energy, solution_.thermal_work);
-  row.emplace_back("energy.residual" + units.energy, solution_.strain_energy + solution_.stabilisation_energy -
+  row.emplace_back("energy.residual" + units.energy, solution_.strain_energy +
+                                                         solution_.stabilisation_energy -
                                                          solution_.external_work - solution_.thermal_work);
   double mass = 0.0;
   for (const double m : state_.node.mass) mass += m;
