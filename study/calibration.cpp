@@ -151,8 +151,7 @@ Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
   result.best = found;
   const std::optional<Eigen::MatrixXd> jacobian = jacobian_at(found.place, evaluator);
   if (!jacobian) return interrupted();
-  result.inference = infer(calibration, found.residual, *jacobian,
-                           std::vector<std::size_t>(found.curves.size(), residuals_of_curve));
+  result.inference = infer(calibration, found.residual, *jacobian, found.lengths);
   result.evaluations = evaluator.count();
   result.failures = evaluator.failures();
   write(folder,

@@ -82,8 +82,9 @@ struct Evaluation {
   Eigen::VectorXd place;
   std::string failure; ///< empty: it went well
   std::vector<CalibratedCurve> curves;
-  Eigen::VectorXd residual; ///< weighted, so that its squares add up to the misfit
-  double misfit = 0.0;      ///< – mean of the squared rms shares of all curves by weight
+  std::vector<std::size_t> lengths{}; ///< residuals of each curve
+  Eigen::VectorXd residual;           ///< weighted, so that its squares add up to the misfit
+  double misfit = 0.0;                ///< – mean of the squared rms shares of all curves by weight
 
   bool good() const { return failure.empty(); }
 };

@@ -39,6 +39,16 @@ std::string failure_of(const fs::path& folder, const fs::path& log) {
   return reason.empty() ? "it left no message" : reason;
 }
 
+/// Between measured points nothing is known: few of them are compared themselves.
+std::vector<double> places_of_residuals(const std::vector<double>& measured) {
+  if (measured.size() <= most_residuals) return measured;
+  std::vector<double> places;
+  for (std::size_t k = 0; k < most_residuals; ++k)
+    places.push_back(measured.front() +
+                     (measured.back() - measured.front()) * (double(k) + 0.5) / double(most_residuals));
+  return places;
+}
+
 } // namespace
 
 std::string place_key(const Eigen::VectorXd& place) {
@@ -48,29 +58,27 @@ std::string place_key(const Eigen::VectorXd& place) {
 }
 
 void weigh(Evaluation& evaluation, const std::vector<double>& weights) {
-  constexpr std::size_t n = residuals_of_curve;
   double all = 0.0;
   for (const double weight : weights) all += weight;
-  evaluation.residual.resize(static_cast<Eigen::Index>(n * evaluation.curves.size()));
-  Eigen::Index row = 0;
+  std::vector<double> residual;
   for (std::size_t c = 0; c < evaluation.curves.size(); ++c) {
     CalibratedCurve& curve = evaluation.curves[c];
     const evaluate::ComparedCurve& measured = curve.measured;
-    std::vector<double> at(n);
-    for (std::size_t k = 0; k < n; ++k)
-      at[k] = measured.x.front() +
-              (measured.x.back() - measured.x.front()) * (static_cast<double>(k) + 0.5) / double(n);
+    const std::vector<double> at = places_of_residuals(measured.x);
     const std::vector<double> there = evaluate::interpolated(measured.x, measured.y, at),
                               here = evaluate::interpolated(curve.computed.x, curve.computed.y, at);
-    const double peak = *std::max_element(measured.y.begin(), measured.y.end());
-    const double factor = std::sqrt(weights[c] / (all * double(n))) / peak;
+    const double peak = *std::max_element(measured.y.begin(), measured.y.end()), n = double(at.size());
+    const double factor = std::sqrt(weights[c] / (all * n)) / peak;
     double squares = 0.0;
-    for (std::size_t k = 0; k < n; ++k) {
-      evaluation.residual[row++] = factor * (here[k] - there[k]);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      residual.push_back(factor * (here[k] - there[k]));
       squares += (here[k] - there[k]) * (here[k] - there[k]);
     }
-    curve.rms_share = std::sqrt(squares / double(n)) / peak;
+    curve.rms_share = std::sqrt(squares / n) / peak;
+    evaluation.lengths.push_back(at.size());
   }
+  evaluation.residual =
+      Eigen::Map<const Eigen::VectorXd>(residual.data(), static_cast<Eigen::Index>(residual.size()));
   evaluation.misfit = evaluation.residual.squaredNorm();
 }
 

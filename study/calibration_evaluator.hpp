@@ -44,10 +44,10 @@ private:
 /// What a place is told apart by.
 std::string place_key(const Eigen::VectorXd& place);
 
-/// Residuals of curves at even places of each measured one, weighted, and the misfit. weights: of each curve.
+/// Residuals of curves, weighted, and the misfit: at the points of each measured curve, or at
+/// `most_residuals` even places of one that has more. weights: of each curve.
 void weigh(Evaluation& evaluation, const std::vector<double>& weights);
 
-/// Residuals of each curve.
-inline constexpr std::size_t residuals_of_curve = 100;
+inline constexpr std::size_t most_residuals = 100; ///< of each curve
 
 } // namespace cnem::study

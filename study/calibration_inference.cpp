@@ -17,7 +17,7 @@ constexpr double least_change = 0.005;
 /// Or where the 95% interval is as wide as the bounds.
 constexpr double widest = 0.5;
 /// Of a unit vector, that a constant needs to be named with it.
-constexpr double notable = 0.25;
+constexpr double notable = 0.1;
 
 /// Of how many independent ones so many residuals of curves tell: neighbours on a curve err alike. By the
 /// correlation of neighbours, as for an autoregressive series.

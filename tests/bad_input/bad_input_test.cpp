@@ -94,7 +94,8 @@ TEST_P(BadInput, is_refused_as_promised) {
   // Whatever is wrong: each line says where, and what was expected; at most three of a kind.
   static const std::regex place(
       R"(^(.*\.toml:\d+:\d+(, from \[cutting\])?|--(set|set-for|methods) .*): .*(expected|not TOML).*)");
-  static const std::regex rest(R"(^(and \d+ more .*|in run '.*' of the study|in target '.*' of the calibration|in the run of method '.*')$)");
+  static const std::regex rest(
+      R"(^(and \d+ more .*|in run '.*' of the study|in target '.*' of the calibration|in the run of method '.*')$)");
   std::istringstream lines(refusal.message);
   for (std::string line; std::getline(lines, line);)
     EXPECT_TRUE(std::regex_match(line, place) || std::regex_match(line, rest)) << line;

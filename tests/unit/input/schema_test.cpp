@@ -47,6 +47,7 @@ nlohmann::json at_key(const nlohmann::json& root, const std::string& path) {
   nlohmann::json at = root;
   std::istringstream steps(path);
   for (std::string step; std::getline(steps, step, '.');) {
+    if (step == "*" && at.contains("anyOf")) at = at.at("anyOf").at(0); // several tables, or one alone
     const bool list = step.ends_with("[]");
     if (list) step.resize(step.size() - 2);
     if (at.contains("anyOf")) at = at.at("anyOf").at(0); // tables by name, or one of them without
