@@ -119,9 +119,11 @@ template<int dim> void Simulation<dim>::end() {
                                 : exit_ == Exit::interrupted ? "stopped"
                                                              : "diverged",
                                 reason_));
-  observer_.outcome(
-      fmt::format("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; energy residual {:.2g} of the work",
-                  end.nodes, end.steps, end.time, end.wall_s.front().second, end.energy_residual));
+  const bool moves = input_.analysis.mechanical;
+  observer_.outcome(fmt::format("{} nodes, {} steps to t = {:.4g} s in {:.1f} s; {} {:.2g} of the {}",
+                                end.nodes, end.steps, end.time, end.wall_s.front().second,
+                                moves ? "energy residual" : "heat residual", end.energy_residual,
+                                moves ? "work" : "heat moved"));
   if (options_.profile) observer_.outcome(profile_table(end));
   if (in_folder) observer_.outcome("report: " + report.string());
 }
@@ -340,7 +342,8 @@ template<int dim> results::RunStatus Simulation<dim>::status() {
   status.node_steps = static_cast<std::int64_t>(node_steps_);
   status.threads = omp_get_max_threads();
   status.peak_rss_bytes = results::peak_rss_bytes();
-  status.energy_residual = history_.energy_residual();
+  status.energy_residual =
+      input_.analysis.mechanical ? history_.energy_residual() : results::heat_residual_share(solver_);
   for (const auto& [name, value] : history_.metrics()) status.add_metric(name, value);
   status.add_metric("references", solver_.references());
   status.add_metric("retries", retries_.count());

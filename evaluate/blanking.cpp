@@ -2,8 +2,8 @@
 #include "core/index.hpp"
 
 #include "evaluate/force_stroke.hpp"
-#include "evaluate/sheared_face.hpp"
 #include "mechanics/statics/rigid_motion.hpp"
+#include "results/fields.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -11,25 +11,22 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 
 namespace cnem::evaluate {
 
 namespace {
 
-/// t across the cutting direction, s along it.
-double across(const CutTools& tools, const Vec2& x) { return x.dot(left_normal(tools.direction)); }
-double along(const CutTools& tools, const Vec2& x) { return x.dot(tools.direction); }
-
 /// How much of the line at t lies inside a polygon, m.
 double thickness_at(const CutTools& tools, const std::vector<Vec2>& polygon, double t) {
   std::vector<double> crossing;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    const double ta = across(tools, a) - t, tb = across(tools, b) - t;
+    const double ta = tools.across(a) - t, tb = tools.across(b) - t;
     if ((ta < 0.0) == (tb < 0.0)) continue;
     const double share = ta / (ta - tb);
-    crossing.push_back((1.0 - share) * along(tools, a) + share * along(tools, b));
+    crossing.push_back((1.0 - share) * tools.along(a) + share * tools.along(b));
   }
   if (crossing.empty()) return 0.0;
   const auto [low, high] = std::minmax_element(crossing.begin(), crossing.end());
@@ -40,87 +37,12 @@ double thickness_at(const CutTools& tools, const std::vector<Vec2>& polygon, dou
 std::int32_t part_in(const CutTools& tools, const CutSheet& sheet, double from, double to) {
   std::map<std::int32_t, double> volume;
   for (std::size_t i = 0; i < sheet.position.size(); ++i)
-    if (const double t = across(tools, sheet.position[i]); t >= from && t <= to)
+    if (const double t = tools.across(sheet.position[i]); t >= from && t <= to)
       volume[sheet.part[i]] += sheet.volume[i];
   std::int32_t most = -1;
   for (const auto& [part, v] : volume)
     if (most < 0 || v > volume[most]) most = part;
   return most;
-}
-
-/// Nodes of the longest boundary of a part, in order, and whether the facet that leaves each is new.
-struct Loop {
-  std::vector<NodeIndex> node;
-  std::vector<char> fracture;
-};
-Loop outline_of(const CutSheet& sheet, std::int32_t part) {
-  IndexedVector<NodeIndex, CloudFacetIndex> leaving(sheet.position.size(), CloudFacetIndex::none);
-  for (const CloudFacetIndex f : sheet.facets.indices()) leaving[sheet.facets[f].node[0]] = f;
-  IndexedVector<NodeIndex, char> seen(sheet.position.size(), 0);
-  Loop longest;
-  double most = -1.0;
-  for (const Facet<2>& first : sheet.facets) {
-    if (seen[first.node[0]] || sheet.part[index_of(first.node[0])] != part) continue;
-    Loop loop;
-    double length = 0.0;
-    for (NodeIndex i = first.node[0]; !seen[i];) {
-      const Facet<2>& facet = sheet.facets[leaving[i]];
-      seen[i] = 1;
-      loop.node.push_back(i);
-      loop.fracture.push_back(facet.piece == sheet.fracture_piece);
-      length += (sheet.position[index_of(facet.node[1])] - sheet.position[index_of(i)]).norm();
-      i = facet.node[1];
-    }
-    if (length > most) {
-      most = length;
-      longest = std::move(loop);
-    }
-  }
-  return longest;
-}
-
-/// Whether a plane of symmetry holds the body on its side of the cut.
-bool held_by_plane(const Cut& cut, const CutTools& tools, const CutSheet& sheet, bool slug) {
-  for (std::size_t i = 0; i < sheet.part.size(); ++i) {
-    if (!sheet.on_plane[i] || sheet.part[i] != (slug ? cut.slug : cut.skeleton)) continue;
-    const double t = across(tools, sheet.position[i]);
-    if (slug ? cut.side * (t - cut.punch) <= 0.0 : cut.side * (t - cut.die) >= 0.0) return true;
-  }
-  return false;
-}
-
-/// The body of one side of a cut, seen from its drawn-in surface.
-ShearedFace measure_side(const Cut& cut, const CutTools& tools, const CutSheet& sheet, bool slug,
-                         double parallel, double smoothing) {
-  const std::int32_t part = slug ? cut.slug : cut.skeleton;
-  ShearedFace face;
-  if (part < 0) {
-    face.note = "nothing is left there";
-  } else {
-    // The die draws the slug in, the punch the skeleton.
-    const double outwards = slug ? cut.side : -cut.side, into = slug ? -1.0 : 1.0;
-    const Loop loop = outline_of(sheet, part);
-    FaceOutline outline;
-    outline.fracture = loop.fracture;
-    for (const NodeIndex i : loop.node)
-      outline.point.emplace_back(outwards * across(tools, sheet.position[index_of(i)]),
-                                 into * along(tools, sheet.position[index_of(i)]));
-    FaceRules rules;
-    rules.thickness = cut.thickness;
-    rules.parallel = parallel;
-    rules.smoothing = smoothing > 0.0 ? smoothing : cut.thickness / 50.0;
-    rules.edge = outwards * (slug ? cut.die : cut.punch);
-    rules.limit = cut.slug == cut.skeleton
-                      ? rules.edge + std::max(0.25 * cut.thickness, 2.0 * std::abs(cut.die - cut.punch))
-                      : std::numeric_limits<double>::infinity(); // it may have moved on since
-    rules.fixed = held_by_plane(cut, tools, sheet, slug) || (slug && cut.slug == cut.skeleton);
-    rules.whole_surface = slug;
-    face = measure_face(outline, rules);
-  }
-  face.cut = cut.name;
-  face.body = slug ? "slug" : "skeleton";
-  face.thickness = cut.thickness;
-  return face;
 }
 
 /// A body's shape by least squares of s over t: slope of a line, or height of an arc.
@@ -174,6 +96,29 @@ std::vector<char> nodes_on_planes(const Supports<2>& supports, const Vec2& direc
   return on;
 }
 
+/// Pieces of the boundary that neither the outline of the sheet nor fracture made: holes and cracks.
+std::vector<PieceIndex> other_pieces(const input::Domain& domain,
+                                     const IndexedVector<PieceIndex, std::string>& names) {
+  std::vector<PieceIndex> others;
+  for (const PieceIndex piece : names.indices()) {
+    const auto is_this = [&](const CurvePiece& part) { return part.name == names[piece]; };
+    if (names[piece] != input::Adaptation::fracture_piece &&
+        std::none_of(domain.outer.pieces.begin(), domain.outer.pieces.end(), is_this))
+      others.push_back(piece);
+  }
+  return others;
+}
+
+/// Nodes whose metal has lost all of its strength but what rubble bears.
+std::vector<char> broken_nodes(const results::Snapshot<2>& shot) {
+  if (shot.state.point.softening.empty()) return {};
+  constexpr double all = 0.99; // resampling takes means
+  const Field softening = results::values_at_nodes(shot, "softening");
+  std::vector<char> broken;
+  for (const double lost : softening) broken.push_back(lost >= all);
+  return broken;
+}
+
 double largest_of(const Fields<2>& displacement, const std::vector<std::int32_t>& part, std::int32_t wanted) {
   double most = 0.0;
   for (std::size_t i = 0; i < part.size(); ++i)
@@ -196,20 +141,20 @@ std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<
   std::vector<Clearance> list;
   double low = INFINITY, high = -INFINITY; // of the punch
   for (const Vec2& x : tools.punch) {
-    low = std::min(low, across(tools, x));
-    high = std::max(high, across(tools, x));
+    low = std::min(low, tools.across(x));
+    high = std::max(high, tools.across(x));
   }
   double top = INFINITY, bottom = -INFINITY; // of the sheet; what lies a sheet further down is no edge
   for (const Vec2& x : outline) {
-    top = std::min(top, along(tools, x));
-    bottom = std::max(bottom, along(tools, x));
+    top = std::min(top, tools.along(x));
+    bottom = std::max(bottom, tools.along(x));
   }
   const double deepest = 2.0 * bottom - top;
   for (const double side : {-1.0, 1.0}) {
     const double reach = side > 0.0 ? high : -low, middle = side * 0.5 * (low + high);
     double edge = INFINITY;
     for (const Vec2& x : tools.die)
-      if (const double t = side * across(tools, x); t > middle && along(tools, x) < deepest)
+      if (const double t = side * tools.across(x); t > middle && tools.along(x) < deepest)
         edge = std::min(edge, t);
     if (!std::isfinite(edge)) continue; // no die on this side
     const double thickness = thickness_at(tools, outline, side * 0.5 * (reach + edge));
@@ -225,9 +170,9 @@ std::vector<Cut> find_cuts(const CutTools& tools, const CutSheet& sheet) {
     Cut cut;
     cut.side = side;
     double reach = -INFINITY, edge = INFINITY;
-    for (const Vec2& x : tools.punch) reach = std::max(reach, side * across(tools, x));
+    for (const Vec2& x : tools.punch) reach = std::max(reach, side * tools.across(x));
     for (const Vec2& x : tools.die)
-      if (const double t = side * across(tools, x); t >= reach - 1e-9 * std::abs(reach))
+      if (const double t = side * tools.across(x); t >= reach - 1e-9 * std::abs(reach))
         edge = std::min(edge, t);
     if (!std::isfinite(edge)) continue; // no die on this side
     cut.punch = side * reach;
@@ -246,12 +191,6 @@ std::vector<Cut> find_cuts(const CutTools& tools, const CutSheet& sheet) {
   return cuts;
 }
 
-std::vector<ShearedFace> measure_cut(const Cut& cut, const CutTools& tools, const CutSheet& sheet,
-                                     double parallel, double smoothing) {
-  return {measure_side(cut, tools, sheet, true, parallel, smoothing),
-          measure_side(cut, tools, sheet, false, parallel, smoothing)};
-}
-
 std::vector<BodySpringback> springback_of_bodies(std::span<const Cut> cuts, const CutTools& tools,
                                                  const CutSheet& sheet, const Fields<2>& displacement,
                                                  const Field& mass) {
@@ -262,14 +201,14 @@ std::vector<BodySpringback> springback_of_bodies(std::span<const Cut> cuts, cons
     std::vector<Sample> before, after;
     std::optional<double> plane;
     for (std::size_t i = 0; i < sheet.position.size(); ++i) {
-      const double t = across(tools, sheet.position[i]);
+      const double t = tools.across(sheet.position[i]);
       if (sheet.part[i] != part || !inside(t)) continue;
       if (sheet.on_plane[i]) plane = t;
       const Vec2 move(displacement[0][i], displacement[1][i]);
       body.largest = std::max(body.largest, move.norm());
-      before.push_back({t, along(tools, sheet.position[i]), mass[i]});
+      before.push_back({t, tools.along(sheet.position[i]), mass[i]});
       after.push_back(
-          {across(tools, sheet.position[i] + move), along(tools, sheet.position[i] + move), mass[i]});
+          {tools.across(sheet.position[i] + move), tools.along(sheet.position[i] + move), mass[i]});
     }
     if (before.empty()) return;
     const Shape a = shape_of(before, arc, plane), b = shape_of(after, arc, plane);
@@ -370,7 +309,10 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
                  {},
                  shot.approximation.node_volume,
                  nodes_on_planes(supports, tools.direction, shot.state.node.size()),
-                 points_of(input.domain.outer, Vec2::Zero())};
+                 points_of(input.domain.outer, Vec2::Zero()),
+                 other_pieces(input.domain, pieces),
+                 positions(shot.state.node.initial_position),
+                 broken_nodes(shot)};
   for (const std::size_t root : parts_of(shot.approximation.mechanics, sheet.position.size()))
     sheet.part.push_back(static_cast<std::int32_t>(root));
   const std::vector<Cut> cuts = find_cuts(tools, sheet);
@@ -380,6 +322,8 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
     each_part();
     return result;
   }
+  for (const Cut& cut : cuts)
+    result.cut_length += result.force_unit == "N" ? 2.0 * std::numbers::pi * std::abs(cut.punch) : 1.0;
   result.smoothing = asked.smoothing.value_or(cuts.front().thickness / 50.0);
   for (const Cut& cut : cuts)
     for (ShearedFace& face : measure_cut(cut, tools, sheet, asked.parallel, result.smoothing))

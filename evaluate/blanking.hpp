@@ -21,6 +21,9 @@ struct CutSheet {
   const Field& volume;                          ///< [node] share of the volume
   std::vector<char> on_plane;                   ///< [node] on a plane of symmetry along the cutting direction
   std::vector<Vec2> initial_outline;            ///< m, closed polygon of the sheet before
+  std::vector<PieceIndex> other_pieces{};       ///< of the boundary that are neither new nor of that outline
+  std::vector<Vec2> initial{};                  ///< [node] m, before; empty: bodies have not turned
+  std::vector<char> broken{};                   ///< [node] whether the metal is broken; empty: nowhere
 };
 
 /// Tools as they stand, m.
@@ -28,6 +31,10 @@ struct CutTools {
   Vec2 direction{0, -1};   ///< unit vector of the punch's motion against the die
   std::vector<Vec2> punch; ///< points of its outline
   std::vector<Vec2> die;   ///< points of the outlines of all dies
+
+  /// t across the cutting direction, s along it, m.
+  double across(const Vec2& x) const { return x.dot(left_normal(direction)); }
+  double along(const Vec2& x) const { return x.dot(direction); }
 };
 
 /// One cut: the gap between a side of the punch and the edge of the die that it passes. t counts across the

@@ -13,20 +13,23 @@
 namespace cnem::evaluate {
 namespace {
 
-constexpr std::array<const char*, 7> zone_names{"surface",        "rollover", "burnish",  "fracture",
-                                                "second_burnish", "burr",     "burr_side"};
+constexpr std::array<const char*, 9> zone_names{
+    "surface", "rollover", "burnish", "broken", "fracture", "second_burnish", "hole", "burr", "burr_side"};
 
 template<class Face, class Carry> void carry_face(Face& face, Carry& carry) {
   carry("cut", face.cut);
   carry("body", face.body);
   carry("parted", face.parted);
+  carry.newer("measured", face.measured);
   carry("note", face.note);
   carry("thickness[m]", face.thickness);
   carry("rollover[m]", face.rollover);
   carry("rollover_width[m]", face.rollover_width);
   carry("burnish[m]", face.burnish);
+  carry.newer("broken[m]", face.broken);
   carry("fracture[m]", face.fracture);
   carry("second_burnish[m]", face.second_burnish);
+  carry.newer("hole[m]", face.hole);
   carry("burr[m]", face.burr);
   carry("fracture_angle[rad]", face.fracture_angle);
   carry("tilt[rad]", face.tilt);
@@ -69,6 +72,7 @@ template<class Result, class Carry> void carry_result(Result& result, Carry& car
   carry("parallel[rad]", result.parallel);
   carry("force_unit", result.force_unit);
   carry("work_unit", result.work_unit);
+  carry.newer("cut_length", result.cut_length);
   carry("note", result.note);
 }
 
@@ -100,10 +104,13 @@ std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& res
     const std::string at = face.cut.empty() ? fmt::format("blanking.{}", face.body)
                                             : fmt::format("blanking.{}.{}", face.cut, face.body);
     metrics.emplace_back(at + ".parted", face.parted ? 1.0 : 0.0);
+    if (!face.measured) continue;
     for (const auto& [name, height] : {std::pair{"rollover", face.rollover},
                                        {"burnish", face.burnish},
+                                       {"broken", face.broken},
                                        {"fracture", face.fracture},
                                        {"second_burnish", face.second_burnish},
+                                       {"hole", face.hole},
                                        {"burr", face.burr}}) {
       metrics.emplace_back(fmt::format("{}.{}[m]", at, name), height);
       metrics.emplace_back(fmt::format("{}.{}_share", at, name), height / face.thickness);

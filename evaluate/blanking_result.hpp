@@ -13,20 +13,23 @@
 namespace cnem::evaluate {
 
 /// Zones of a sheared face, from the side that the edge was drawn in to the side of the burr. `surface` and
-/// `burr_side` are the two surfaces of the sheet beside it.
-enum class Zone { surface, rollover, burnish, fracture, second_burnish, burr, burr_side };
+/// `burr_side` are the two surfaces of the sheet beside it, `broken` is metal that is broken but did not
+/// open, `hole` the wall of a hole that the cut goes through.
+enum class Zone { surface, rollover, burnish, broken, fracture, second_burnish, hole, burr, burr_side };
 const char* zone_name(Zone zone);
 
 /// A sheared face as docs/blanking.md defines it. Heights along the cutting direction, m. What was not found
-/// is 0, and `note` says why.
+/// is 0, and `note` says why; a face that is not `measured` has no heights at all.
 struct ShearedFace {
   std::string cut;        ///< "left" or "right" where the punch cuts on both sides, else empty
   std::string body;       ///< "slug" or "skeleton"
   bool parted = false;    ///< the body has come off at this cut
+  bool measured = true;   ///< heights mean something
   std::string note;       ///< empty when there is nothing to say
   double thickness = 0.0; ///< m, of the sheet before, at the cut: shares are of it
   double rollover = 0.0, rollover_width = 0.0;                            ///< m
   double burnish = 0.0, fracture = 0.0, second_burnish = 0.0, burr = 0.0; ///< m
+  double broken = 0.0, hole = 0.0;                                        ///< m
   double fracture_angle = std::numeric_limits<double>::quiet_NaN(); ///< rad, from the cutting direction; > 0:
                                                                     ///< the face recedes towards the burr
   double tilt = 0.0; ///< rad, of the body's surface against the sheet before
@@ -34,7 +37,7 @@ struct ShearedFace {
       profile;            ///< m, u towards the cut from the face, w from the drawn-in surface into the sheet
   std::vector<Zone> zone; ///< [segment of the profile]
 
-  bool found() const { return rollover + burnish + fracture > 0.0; }
+  bool found() const { return rollover + burnish + broken + fracture > 0.0; }
 };
 
 /// Heights of a face in an experiment; not-a-number: not measured.
@@ -75,6 +78,8 @@ struct BlankingResult {
   double smoothing = 0.0, parallel = 0.0; ///< m, rad, with which faces were measured
   std::string note;                       ///< why there are no faces; empty otherwise
   std::string force_unit = "N/m", work_unit = "J/m"; ///< of revolution: N, J
+  double cut_length =
+      0.0; ///< that forces are of: number of cuts, per depth; of revolution m, round the punch
   std::vector<ShearedFace> faces;
   std::vector<MeasuredHeights> measured; ///< of some of the faces
   std::vector<ToolForce> forces;

@@ -25,6 +25,7 @@ public:
     json[name] = std::isfinite(value) ? Json(value) : Json(nullptr);
   }
   void operator()(const char* name, bool value) { json[name] = value; }
+  template<class Value> void newer(const char* name, const Value& value) { (*this)(name, value); }
   Json json = Json::object();
 };
 
@@ -37,6 +38,10 @@ public:
     value = number.is_null() ? std::numeric_limits<double>::quiet_NaN() : number.get<double>();
   }
   void operator()(const char* name, bool& value) { value = json.at(name).get<bool>(); }
+  /// What files of older versions lack.
+  template<class Value> void newer(const char* name, Value& value) {
+    if (json.contains(name)) (*this)(name, value);
+  }
   const Json& json;
 };
 

@@ -1,13 +1,10 @@
 #include "evaluate/sheared_face.hpp"
 
-#include "core/index.hpp"
+#include "evaluate/face_walk.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
-#include <utility>
 
 namespace cnem::evaluate {
 
@@ -20,93 +17,19 @@ constexpr double beside = 0.6; ///< of the width of a body: no further than this
 constexpr double bent =
     0.1; ///< rad within the length that a straight edge is laid on: a twentieth of it in height
 
-/// A polyline by its length.
-class Walk {
-public:
-  std::vector<Vec2> point;
-  std::vector<char> fracture; ///< [segment]
-  std::vector<double> at;     ///< [point] m, length from the start
-
-  void measure() {
-    at.assign(1, 0.0);
-    for (std::size_t k = 1; k < point.size(); ++k) at.push_back(at.back() + (point[k] - point[k - 1]).norm());
-  }
-  std::size_t segments() const { return point.empty() ? 0 : point.size() - 1; }
-  double length() const { return at.back(); }
-  Vec2 operator()(double l) const {
-    const auto upper = std::upper_bound(at.begin(), at.end(), l) - at.begin();
-    const auto k = index_of(std::clamp<std::ptrdiff_t>(upper, 1, std::ssize(at) - 1));
-    const double size = at[k] - at[k - 1];
-    const double s = size > 0.0 ? std::clamp((l - at[k - 1]) / size, 0.0, 1.0) : 0.0;
-    return (1.0 - s) * point[k - 1] + s * point[k];
-  }
-  /// Angle of the chord of this length that begins at l from the cutting direction, > 0 where the face
-  /// recedes.
-  double lean(double l, double chord) const {
-    const Vec2 d = (*this)(std::min(l + chord, length())) - (*this)(l);
-    return std::atan2(-d.x(), d.y());
-  }
-};
-
-/// The outline as a walk along the drawn-in surface, up the face and back on the other side, from its point
-/// furthest from the cut; it ends where it passes the limit.
-Walk walk_of(const FaceOutline& outline, const FaceRules& rules, bool& parted) {
-  std::vector<Vec2> point = outline.point;
-  std::vector<char> fracture = outline.fracture;
-  double twice = 0.0;
-  Vec2 last = point.back();
-  for (const Vec2& x : point) twice += cross(std::exchange(last, x), x);
-  if (twice <= 0.0) {
-    std::reverse(point.begin(), point.end());
-    std::reverse(fracture.begin(), fracture.end());
-    std::rotate(fracture.begin(), fracture.begin() + 1, fracture.end());
-  }
-  const auto furthest = std::min_element(point.begin(), point.end(),
-                                         [](const Vec2& a, const Vec2& b) {
-                                           return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-                                         }) -
-                        point.begin();
-  std::rotate(point.begin(), point.begin() + furthest, point.end());
-  std::rotate(fracture.begin(), fracture.begin() + furthest, fracture.end());
-  point.push_back(point.front());
-  Walk walk;
-  const auto beyond =
-      std::find_if(point.begin(), point.end(), [&](const Vec2& x) { return x.x() > rules.limit; });
-  parted = beyond == point.end();
-  walk.point.assign(point.begin(), parted ? beyond : beyond + 1);
-  fracture.resize(walk.point.size() - 1);
-  walk.fracture = std::move(fracture);
-  walk.measure();
-  return walk;
-}
-
-/// A least-squares line w = a + b u through segments that run towards the cut, by length.
-struct Line {
-  double length = 0.0, slope = 0.0;
-};
-template<class Wanted> Line fitted(const Walk& walk, double from, double to, Wanted&& wanted) {
-  double length = 0.0, u = 0.0, w = 0.0, uu = 0.0, uw = 0.0;
-  for (std::size_t k = 0; k < walk.segments() && walk.at[k + 1] <= to; ++k) {
-    const Vec2 &a = walk.point[k], &b = walk.point[k + 1];
-    const Vec2 middle = 0.5 * (a + b), d = b - a;
-    if (walk.at[k] < from || std::abs(d.y()) > d.x() || !wanted(middle)) continue;
-    const double l = d.norm();
-    length += l;
-    u += l * middle.x();
-    w += l * middle.y();
-    uu += l * (middle.x() * middle.x() + d.x() * d.x() / 12.0);
-    uw += l * (middle.x() * middle.y() + d.x() * d.y() / 12.0);
-  }
-  const double spread = uu * length - u * u;
-  return {length, spread > 0.0 ? (uw * length - u * w) / spread : 0.0};
-}
-
 /// Where the zones of a face lie on its walk.
 class Face {
 public:
   Face(const FaceOutline& outline, const FaceRules& rules) : rules_(rules), step_(rules.smoothing / 8.0) {
     walk_ = walk_of(outline, rules, face_.parted);
     face_.thickness = rules.thickness;
+    if (std::abs(rules.turn) > steep) turn_ = face_.tilt = rules.turn;
+    if (turn_ != 0.0 && std::isfinite(rules.limit)) { // the edge of the tool is nothing to its frame
+      face_.parted = false;
+      fail(fmt::format("the body has turned by {:.0f} degrees and is not cut through",
+                       std::abs(turn_) * 180.0 / std::numbers::pi));
+      return;
+    }
     double low = walk_.point.front().x(), high = low;
     for (const Vec2& x : walk_.point) high = std::max(high, x.x());
     edge_ = face_.parted ? high : rules.edge;
@@ -119,23 +42,31 @@ public:
     find_end();
     divide();
     judge_surface();
+    if (const std::string doubt = judge_heights(); !doubt.empty()) {
+      fail(doubt);
+      return;
+    }
+    place_end();
     crop();
   }
   ShearedFace result() { return std::move(face_); }
 
 private:
   double depth(double l) const { return walk_(l).y(); }
+  bool is(std::size_t segment, FaceSurface surface) const { return walk_.surface[segment] == surface; }
   bool near(double u, double share = 1.0) const { return u >= edge_ - share * reach_; }
 
-  /// The deepest run of fracture facets; runs that chords do not tell apart are one.
+  /// The deepest run of fracture facets; runs that chords do not tell apart, or that the wall of a hole
+  /// divides, are one.
   void find_fracture() {
     double deepest = 0.0;
+    const auto of_metal = [&](std::size_t k) { return walk_.at[k] - walk_.aside[k]; };
     for (std::size_t k = 0; k < walk_.segments(); ++k) {
-      if (!walk_.fracture[k] || !near(walk_.point[k].x())) continue;
+      if (!is(k, FaceSurface::fracture) || !near(walk_.point[k].x())) continue;
       std::size_t last = k;
       for (std::size_t m = k;
-           m < walk_.segments() && walk_.at[m] - walk_.at[last + 1] <= 2.0 * rules_.smoothing; ++m)
-        if (walk_.fracture[m] && near(walk_.point[m].x())) last = m;
+           m < walk_.segments() && of_metal(m) - of_metal(last + 1) <= 2.0 * rules_.smoothing; ++m)
+        if (is(m, FaceSurface::fracture) && near(walk_.point[m].x())) last = m;
       const auto begin = walk_.point.begin();
       const auto [low, high] = std::minmax_element(
           begin + static_cast<std::ptrdiff_t>(k), begin + static_cast<std::ptrdiff_t>(last) + 2,
@@ -151,14 +82,14 @@ private:
   }
 
   /// Parallel to the cutting direction, which leans by −tilt in the frame of the body, to its normal, or
-  /// between.
+  /// between. What has turned further has not been cut in that position: only its normal counts.
   void find_parallel() {
     wall_ = false;
     for (double l = 0.0; l + rules_.smoothing <= walk_.length(); l += step_) {
       if (crack_ && l + rules_.smoothing > crack_begin_) break;
-      const double lean = walk_.lean(l, rules_.smoothing);
-      if (!near(walk_(l).x()) || lean < std::min(0.0, -face_.tilt) - rules_.parallel ||
-          lean > std::max(0.0, -face_.tilt) + rules_.parallel)
+      const double lean = walk_.lean(l, rules_.smoothing), tilt = face_.tilt - turn_;
+      if (!near(walk_(l).x()) || walk_.surface_at(l) == FaceSurface::other ||
+          lean < std::min(0.0, -tilt) - rules_.parallel || lean > std::max(0.0, -tilt) + rules_.parallel)
         continue;
       wall_ = true;
       wall_begin_ = l;
@@ -179,13 +110,10 @@ private:
     const Line line =
         rules_.whole_surface ? surface(0.75 * width_, 0.25 * width_) : surface(1.5 * reach_, 0.5 * reach_);
     if (line.length < 0.25 * reach_) return;
-    face_.tilt = std::atan(line.slope);
-    const double c = std::cos(face_.tilt), s = std::sin(face_.tilt);
+    const double tilt = std::atan(line.slope);
+    face_.tilt = turn_ + tilt;
     const Vec2 pivot = walk_(surface_end_);
-    for (Vec2& x : walk_.point) {
-      const Vec2 d = x - pivot;
-      x = pivot + Vec2(c * d.x() + s * d.y(), -s * d.x() + c * d.y());
-    }
+    for (Vec2& x : walk_.point) x = pivot + turned_back(x - pivot, tilt);
     find_parallel(); // in the frame of the body
   }
 
@@ -197,9 +125,9 @@ private:
     // their middles are half a reach apart
     const double turn = 2.0 * std::abs(std::atan(here.slope) - std::atan(beyond.slope));
     if (turn < bent) return;
-    face_.note += fmt::format("{}the surface beside the face is bent, by {:.0f} degrees within {:.3g} mm: "
-                              "heights and angle depend on where the straight edge is laid",
-                              face_.note.empty() ? "" : "; ", turn * 180.0 / std::numbers::pi, 1e3 * reach_);
+    add_note(fmt::format("the surface beside the face is bent, by {:.0f} degrees within {:.3g} mm: "
+                         "heights and angle depend on where the straight edge is laid",
+                         turn * 180.0 / std::numbers::pi, 1e3 * reach_));
   }
 
   /// A straight edge laid on the drawn-in surface.
@@ -246,6 +174,79 @@ private:
     return most;
   }
 
+  /// How much of the depth between two places, down to a level, is broken metal and other surface.
+  struct Part {
+    double broken = 0.0, other = 0.0;
+  };
+  Part part(double from, double to, double level) const {
+    Part sum;
+    double reached = depth(from);
+    for (std::size_t k = 0; k < walk_.segments(); ++k) {
+      if (walk_.at[k + 1] <= from || walk_.at[k] >= to) continue;
+      const double deeper = std::min(depth(std::min(walk_.at[k + 1], to)), level) - reached;
+      if (!(deeper > 0.0)) continue;
+      reached += deeper;
+      if (is(k, FaceSurface::broken)) sum.broken += deeper;
+      if (is(k, FaceSurface::other)) sum.other += deeper;
+    }
+    return sum;
+  }
+
+  /// Takes what is not sheared metal out of the heights.
+  void tell_apart(double all) {
+    const double smooth_end = crack_ ? crack_begin_ : wall_end_;
+    const auto take = [&](double& height, double from, double to, bool broken) {
+      const Part found = part(from, to, std::min(all, depth(from) + height));
+      height -= found.other + (broken ? found.broken : 0.0);
+      face_.hole += found.other;
+      if (broken) face_.broken += found.broken;
+    };
+    take(face_.burnish, surface_end_, smooth_end, true);
+    if (crack_) take(face_.fracture, crack_begin_, crack_end_, false);
+    if (face_.parted && face_.second_burnish > 0.0)
+      take(face_.second_burnish, crack_ ? crack_end_ : wall_end_, end_, true);
+    if (face_.hole > 0.0)
+      add_note(fmt::format("a hole lies in the face: {:.0f}% of the thickness are its wall",
+                           100.0 * face_.hole / rules_.thickness));
+  }
+
+  void add_note(const std::string& text) { face_.note += (face_.note.empty() ? "" : "; ") + text; }
+
+  /// Leaves no numbers behind.
+  void fail(const std::string& why) {
+    ShearedFace nothing;
+    nothing.parted = face_.parted;
+    nothing.thickness = face_.thickness;
+    nothing.tilt = face_.tilt;
+    nothing.measured = false;
+    nothing.note = "cannot be measured: " + why;
+    face_ = std::move(nothing);
+  }
+
+  /// Why the heights cannot be those of a face; "" when they can.
+  std::string judge_heights() const {
+    constexpr double wrong = 0.4; // of the thickness
+    const double t = rules_.thickness;
+    if (face_.parted && (wall_ || crack_) && std::abs(other_side_ - t) > wrong * t)
+      return fmt::format("its two surfaces are {:.2g} thicknesses of the sheet apart", other_side_ / t);
+    if (face_.rollover > t * (1.0 + wrong))
+      return fmt::format("its edge would be drawn in by {:.2g} thicknesses", face_.rollover / t);
+    if (face_.burr > wrong * t) return fmt::format("its burr would be {:.2g} thicknesses", face_.burr / t);
+    return "";
+  }
+
+  /// A face without a burr ends where it comes down to the other surface, wherever the deepest point of that
+  /// lies.
+  void place_end() {
+    if (!face_.parted || face_.burr > touch * rules_.thickness) return;
+    for (std::size_t k = 0; k < walk_.point.size() && walk_.at[k] < end_; ++k)
+      if (walk_.at[k] >= std::max(surface_end_, crack_ ? crack_end_ : 0.0) &&
+          walk_.point[k].y() >= other_side_ - touch * rules_.thickness) {
+        end_ = walk_.at[k];
+        return;
+      }
+  }
+
   void divide() {
     const double all = face_.parted ? other_side_ : INFINITY;
     if (!wall_ && !crack_) {
@@ -284,6 +285,7 @@ private:
     } else {
       face_.note = "not cut through: heights so far";
     }
+    tell_apart(all);
     double l = surface_end_;
     while (l > 0.0 && depth(l) > touch * rules_.thickness && near(walk_(l).x())) l -= step_;
     rollover_begin_ = std::max(0.0, l);
@@ -324,8 +326,11 @@ private:
       return face_.parted ? (w > all + touch * rules_.thickness ? Zone::burr : Zone::burr_side)
                           : Zone::surface;
     if (w > all) return Zone::burr;
-    if (crack_ && l >= crack_begin_) return l <= crack_end_ ? Zone::fracture : Zone::second_burnish;
-    return crack_ || l <= wall_end_ ? Zone::burnish : Zone::second_burnish;
+    const FaceSurface surface = walk_.surface_at(l);
+    if (surface == FaceSurface::other) return Zone::hole;
+    if (crack_ && l >= crack_begin_ && l <= crack_end_) return Zone::fracture;
+    if (surface == FaceSurface::broken) return Zone::broken;
+    return l < crack_begin_ || (!crack_ && l <= wall_end_) ? Zone::burnish : Zone::second_burnish;
   }
 
   /// Keeps what lies beside the cut, with a point wherever the zone changes.
@@ -357,9 +362,10 @@ private:
 
   const FaceRules& rules_;
   double step_;
-  Walk walk_;
+  FaceWalk walk_;
   ShearedFace face_;
   double edge_ = 0.0, reach_ = 0.0, width_ = 0.0; ///< m
+  double turn_ = 0.0;                             ///< rad, of the frame that a steep body is measured in
   bool crack_ = false, wall_ = false;
   // places on the walk, m
   double crack_begin_ = 0.0, crack_end_ = 0.0, wall_begin_ = 0.0, wall_end_ = 0.0, surface_end_ = 0.0,

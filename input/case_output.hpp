@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cnem::input {
@@ -143,8 +144,12 @@ struct CuttingReport {
   std::vector<double> isotherms; ///< K, of the tool; empty: whole hundreds
 };
 
-/// What is evaluated at the end of an explicit run.
+/// Whether a unit is one of energies, which have the dimension of forces too: J/m and N.
+inline bool is_energy(std::string_view unit) { return unit.find('J') != std::string_view::npos; }
+
+/// What is evaluated at the end of an explicit run, and how pages show numbers.
 struct Report {
+  std::vector<std::string> units; ///< that numbers are shown in, each of another dimension
   bool springback = false;
   std::optional<BlankingReport> blanking;
   std::optional<CuttingReport> cutting;

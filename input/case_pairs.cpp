@@ -29,6 +29,10 @@ Text in_dynamics(const Case& c) { return when(!is_static(c), "in an explicit ana
 Text without_motion(const Case& c) {
   return when(!is_static(c) && c.analysis.thermal && !c.analysis.mechanical, "in an analysis without motion");
 }
+/// More of [report] than its units, or nothing at all.
+bool evaluates(const Case& c) {
+  return c.report.units.empty() || c.report.springback || c.report.blanking || c.report.cutting;
+}
 Text with_ties(const Case& c) {
   return when(!c.domain.interfaces.empty(), "with domain.interfaces") +
          when(c.domain.interfaces.empty() && !c.periodic.empty(), "with periodic");
@@ -113,7 +117,8 @@ const std::vector<Pair>& pairs() {
       {"initial.spin", "", "`analysis.mechanical = false`", without_motion, motion, "nothing moves"},
       {"initial.velocity_gradient", "", "`analysis.mechanical = false`", without_motion, motion,
        "nothing moves"},
-      {"report", "", "`analysis.mechanical = false`", without_motion, motion, "nothing is cut"},
+      {"report", "", "`analysis.mechanical = false`", without_motion, motion,
+       "nothing is cut; its units may stand alone", evaluates},
 
       {"tools.*.friction.law", "friction", "`tools.*.response.law = \"kinematic\"`",
        [](const Case& c) { return when(kinematic(c, rubs), "on a kinematic tool"); }, "\"none\"",
@@ -173,7 +178,8 @@ const std::vector<Pair>& pairs() {
       {"periodic", "", "static analyses", in_statics, dynamics, "periods are ties of the explicit step"},
       {"output.checkpoint", "", "static analyses", in_statics, dynamics, "equilibrium is found in one go"},
       {"output.probes", "", "static analyses", in_statics, dynamics, "probes record a history"},
-      {"report", "", "static analyses", in_statics, dynamics, "what is evaluated is a history of tools"},
+      {"report", "", "static analyses", in_statics, dynamics,
+       "what is evaluated is a history of tools; its units may stand alone", evaluates},
       {"materials.*.equation_of_state", "", "static analyses",
        [](const Case& c) { return when(is_static(c) && compressible(c), "in a static analysis"); }, dynamics,
        "strains are small there, and pressure is proportional to them", nullptr,

@@ -101,6 +101,8 @@ void name_single_experiment(Value& document);
 void read_experiments(Setting& root, Case& result, Diagnostics& diagnostics);
 /// Measured heights of faces, where [report.blanking.measured] is there.
 void read_measured_faces(const Setting& root, BlankingReport& report, Diagnostics& diagnostics);
+/// The units that pages show numbers in.
+void read_shown_units(const Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// What is evaluated at the end, with defaults from the tools. Expects tools, domain and periodic pieces.
 void read_report(Setting& root, Case& result, Diagnostics& diagnostics);

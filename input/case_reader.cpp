@@ -210,6 +210,7 @@ Case read(Value document, const std::string& path, const std::vector<Override>& 
   read_periodic(root, result, diagnostics);
   read_initial_and_loads(root, result, diagnostics);
   read_method(root, result, diagnostics);
+  read_shown_units(root, result, diagnostics);
   if (plane) {
     read_adaptation(root, result, diagnostics);
     read_fracture(root, result, diagnostics);

@@ -2,6 +2,7 @@
 #include "core/index.hpp"
 #include "input/case_parts.hpp"
 #include "input/schema/nearest.hpp"
+#include "input/schema/units.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -94,6 +95,26 @@ std::optional<std::size_t> read_leading_tool(Setting& root, const Case& input, c
     return std::nullopt;
   }
   return index_of_tool(*key, std::get<std::string>(key->value), names, diagnostics);
+}
+
+void read_shown_units(const Setting& root, Case& result, Diagnostics& diagnostics) {
+  const Setting* key = root.find("report.units");
+  if (!key) return;
+  std::vector<Unit> known;
+  for (const std::string& text : std::get<std::vector<std::string>>(key->value)) {
+    const auto wrong = [&](const std::string& words) {
+      diagnostics.add(Mistake::unit, key->where, key->path, words);
+    };
+    try {
+      const Unit unit = parse_unit(text);
+      for (std::size_t k = 0; k < known.size(); ++k)
+        if (const std::string& other = result.report.units[k];
+            known[k].dimension == unit.dimension && is_energy(text) == is_energy(other))
+          wrong(fmt::format("found '{}' and '{}', expected one unit for each dimension", other, text));
+      known.push_back(unit);
+      result.report.units.push_back(text);
+    } catch (const UnitError& error) { wrong(error.what()); }
+  }
 }
 
 void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {

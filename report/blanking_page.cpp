@@ -2,9 +2,9 @@
 
 #include "evaluate/force_stroke.hpp"
 #include "report/html.hpp"
-#include "results/si_format.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -12,28 +12,50 @@
 namespace cnem::report {
 namespace {
 
+using evaluate::ShearedFace;
+using evaluate::Zone;
+using results::ShownUnits;
+
 constexpr double degree = std::numbers::pi / 180.0;
 
 std::string degrees(double angle) { return fmt::format("{:.2f}°", angle / degree + 0.0); }
 
+/// The zones of a face and their heights.
 struct Height {
   evaluate::Zone zone;
-  double size, from, to; ///< m
+  const char* name;
+  double ShearedFace::*size;
+};
+constexpr std::array<Height, 7> heights{
+    {{Zone::rollover, "Rollover", &ShearedFace::rollover},
+     {Zone::burnish, "Burnish", &ShearedFace::burnish},
+     {Zone::broken, "Broken, not open", &ShearedFace::broken},
+     {Zone::fracture, "Fracture", &ShearedFace::fracture},
+     {Zone::second_burnish, "Second burnish", &ShearedFace::second_burnish},
+     {Zone::hole, "Wall of a hole", &ShearedFace::hole},
+     {Zone::burr, "Burr", &ShearedFace::burr}}};
+
+/// A stretch of depth that one zone takes, m.
+struct Stretch {
+  const Height* of;
+  double from, to;
 };
 
-/// Zones with a height, in their order into the sheet.
-std::vector<Height> heights(const evaluate::ShearedFace& face) {
-  std::vector<Height> list;
-  double at = 0.0;
-  const auto add = [&](evaluate::Zone zone, double size) {
-    if (size > 0.0) list.push_back({zone, size, at, at + size});
-    at += size;
-  };
-  add(evaluate::Zone::rollover, face.rollover);
-  add(evaluate::Zone::burnish, face.burnish);
-  add(evaluate::Zone::fracture, face.fracture);
-  add(evaluate::Zone::second_burnish, face.second_burnish);
-  add(evaluate::Zone::burr, face.burr);
+/// The zones as they come along the face, in depth.
+std::vector<Stretch> stretches(const ShearedFace& face) {
+  std::vector<Stretch> list;
+  double reached = 0.0;
+  for (std::size_t k = 0; k < face.zone.size(); ++k) {
+    const auto height = std::find_if(heights.begin(), heights.end(),
+                                     [&](const Height& one) { return one.zone == face.zone[k]; });
+    const double to = face.profile[k + 1].y();
+    if (height == heights.end() || !(to > reached)) continue;
+    if (!list.empty() && list.back().of == &*height)
+      list.back().to = to;
+    else
+      list.push_back({&*height, reached, to});
+    reached = to;
+  }
   return list;
 }
 
@@ -47,72 +69,86 @@ std::string row(const std::string& name, const std::string& value) {
 }
 
 /// measured: of the face, or nullptr.
-std::string table_of(const evaluate::ShearedFace& face, const evaluate::MeasuredHeights* measured) {
+std::string table_of(const ShearedFace& face, const evaluate::MeasuredHeights* measured,
+                     const ShownUnits& units) {
   std::string html = "<table>\n";
   const evaluate::MeasuredHeights nothing, &there = measured ? *measured : nothing;
   const auto with_share = [&](double size) {
-    return fmt::format("{}  ({:.1f} %)", results::si_format(size, "m"), 100.0 * size / face.thickness);
+    return fmt::format("{}  ({:.1f} %)", units.format(size, "m", 3), 100.0 * size / face.thickness);
   };
   const auto beside = [](const std::string& computed, bool known, const std::string& measured_text) {
     return known ? fmt::format("{}, measured {}", computed, measured_text) : computed;
   };
-  const auto add = [&](const char* name, double size, double in_experiment = std::nan("")) {
-    html += row(name, beside(with_share(size), std::isfinite(in_experiment), with_share(in_experiment)));
+  const auto in_experiment = [&](Zone zone) {
+    switch (zone) {
+    case Zone::rollover:
+      return there.rollover;
+    case Zone::burnish:
+      return there.burnish;
+    case Zone::fracture:
+      return there.fracture;
+    case Zone::burr:
+      return there.burr;
+    default:
+      return std::nan("");
+    }
   };
-  add("Rollover height", face.rollover, there.rollover);
-  add("Burnish height", face.burnish, there.burnish);
-  add("Fracture height", face.fracture, there.fracture);
-  if (face.second_burnish > 0.0) add("Second burnish", face.second_burnish);
-  add("Burr height", face.burr, there.burr);
-  add("Rollover width", face.rollover_width);
+  for (const Height& height : heights) {
+    const bool usual = height.zone == Zone::rollover || height.zone == Zone::burnish ||
+                       height.zone == Zone::fracture || height.zone == Zone::burr;
+    if (!usual && !(face.*height.size > 0.0)) continue;
+    const double other = in_experiment(height.zone);
+    html += row(height.name, beside(with_share(face.*height.size), std::isfinite(other), with_share(other)));
+  }
+  html += row("Width of the rollover", with_share(face.rollover_width));
   if (std::isfinite(face.fracture_angle))
     html += row("Fracture angle", beside(degrees(face.fracture_angle), std::isfinite(there.fracture_angle),
                                          degrees(there.fracture_angle)));
   html += row("Tilt of the body", degrees(face.tilt));
-  html += row("Thickness of the sheet before", results::si_format(face.thickness, "m"));
+  html += row("Thickness of the sheet before", units.format(face.thickness, "m"));
   return html + "</table>\n";
 }
 
-std::string faces(const evaluate::BlankingResult& result) {
+std::string faces(const evaluate::BlankingResult& result, const ShownUnits& units) {
   std::string html;
   for (const evaluate::ShearedFace& face : result.faces) {
-    html += fmt::format("<figure class=\"face\"><h3>Face of the {}</h3>\n{}{}", html_escape(title_of(face)),
-                        face.profile.size() > 1 ? face_drawing(face) : "",
-                        face.found() ? table_of(face, evaluate::measured_of(result, face)) : "");
+    html += fmt::format("<figure class=\"face\"><h3>Face of the {}</h3>\n<div>{}{}</div>",
+                        html_escape(title_of(face)), face.profile.size() > 1 ? face_drawing(face) : "",
+                        face.found() ? table_of(face, evaluate::measured_of(result, face), units) : "");
     if (!face.note.empty()) html += fmt::format("<figcaption>{}</figcaption>", html_escape(face.note));
     html += "</figure>\n";
   }
-  return html;
+  return html.empty() ? "" : "<div class=\"charts faces\">\n" + html + "</div>\n";
 }
 
-std::string force_table(const evaluate::BlankingResult& result) {
+std::string force_table(const evaluate::BlankingResult& result, const ShownUnits& units) {
   if (result.forces.empty()) return "";
   std::string html = "<div><h3>Forces along the cut, work</h3>\n<table>\n";
   for (const evaluate::ToolForce& force : result.forces) {
     html += row(fmt::format("Largest force of {}", force.tool),
-                fmt::format("{} at a stroke of {}", results::si_format(force.largest, result.force_unit),
-                            results::si_format(force.stroke, "m")));
+                fmt::format("{} at a stroke of {}", units.format(force.largest, result.force_unit),
+                            units.format(force.stroke, "m")));
     if (force.work != 0.0)
-      html += row(fmt::format("Work of {}", force.tool), results::si_format(force.work, result.work_unit));
+      html += row(fmt::format("Work of {}", force.tool), units.format(force.work, result.work_unit));
   }
-  html += row("Stroke at the end", results::si_format(result.stroke, "m"));
+  html += row("Stroke at the end", units.format(result.stroke, "m"));
   return html + "</table>\n</div>\n";
 }
 
-std::string springback_table(const evaluate::BlankingResult& result) {
+std::string springback_table(const evaluate::BlankingResult& result, const ShownUnits& units) {
   if (result.springback.empty()) return "";
   std::string html = "<div><h3>Springback</h3>\n<table>\n";
   for (const evaluate::BodySpringback& body : result.springback) {
     const std::string name = words(body.body);
-    html += row(fmt::format("Largest displacement of {}", name), results::si_format(body.largest, "m"));
+    html += row(fmt::format("Largest displacement of {}", name), units.format(body.largest, "m"));
     if (std::isfinite(body.angle_change))
       html += row(fmt::format("Angle of {}", name),
                   fmt::format("{} before, {:+.4f}° by letting go", degrees(body.angle_before),
                               body.angle_change / degree));
     if (std::isfinite(body.dishing_change))
       html += row(fmt::format("Dishing of {}", name),
-                  fmt::format("{} before, {} by letting go", results::si_format(body.dishing_before, "m"),
-                              results::si_format(body.dishing_change, "m")));
+                  fmt::format("{} before, {} by letting go", units.format(body.dishing_before, "m"),
+                              units.format(body.dishing_change, "m")));
   }
   return html + "</table>\n</div>\n";
 }
@@ -120,7 +156,7 @@ std::string springback_table(const evaluate::BlankingResult& result) {
 } // namespace
 
 std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
-                                        const results::HistoryTable& history) {
+                                        const results::HistoryTable& history, const ShownUnits& units) {
   if (result.forces.empty() || history.rows() < 2) return std::nullopt;
   Chart chart;
   chart.title = "Force along the cut against stroke";
@@ -151,13 +187,13 @@ std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
   chart.note = fmt::format(
       "Of the tools on the workpiece, positive with the motion of the punch. Pale: every recorded "
       "value; full: Gaussian low-pass in time, σ = {}; dashed: the largest of it.",
-      results::si_format(evaluate::force_filter(history.column.front()), "s", 3));
+      units.format(evaluate::force_filter(history.column.front()), "s", 3));
   return chart;
 }
 
-std::string face_drawing(const evaluate::ShearedFace& face) {
-  constexpr double high = 320.0, wide = 360.0, width = 640.0, top = 40.0, left = 20.0, font = 13.0,
-                   line = 17.0;
+std::string face_drawing(const ShearedFace& face) {
+  constexpr double high = 320.0, wide = 240.0, width = 460.0, top = 40.0, left = 12.0, font = 15.0,
+                   line = 20.0;
   double low_u = 0.0, high_u = 0.0, deep = face.parted ? face.thickness : 0.0;
   for (const Vec2& x : face.profile) {
     low_u = std::min(low_u, x.x());
@@ -168,7 +204,7 @@ std::string face_drawing(const evaluate::ShearedFace& face) {
   const double scale = std::min(high / deep, wide / (high_u - low_u));
   const auto px = [&](double v) { return left + (v - low_u) * scale; };
   const auto py = [&](double w) { return top + w * scale; };
-  const double right = px(high_u) + 30.0;
+  const double right = px(high_u) + 24.0;
 
   std::string svg =
       fmt::format("<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" font-size=\"{:.0f}\">\n"
@@ -183,17 +219,23 @@ std::string face_drawing(const evaluate::ShearedFace& face) {
   svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">surface on the side of the {}</text>\n", px(low_u),
                      top - 12.0, face.body == "slug" ? "die" : "punch");
   const double edge = px(0.0);
+  const std::vector<Stretch> zones = stretches(face);
   double text = top - line;
-  for (const Height& height : heights(face)) {
-    const double from = py(height.from), to = py(height.to);
-    text = std::max(text + line, 0.5 * (from + to) + 4.0);
+  for (const Stretch& stretch : zones) {
+    const double from = py(stretch.from), to = py(stretch.to);
     svg += fmt::format(
         "<path class=\"line {0}\" d=\"M{1:.1f} {2:.1f}V{3:.1f}\"/><path class=\"grid\" d=\"M{4:.1f} "
-        "{2:.1f}H{1:.1f}M{4:.1f} {3:.1f}H{1:.1f}\"/><text class=\"key\" x=\"{5:.1f}\" "
-        "y=\"{6:.1f}\">{7} {8} ({9:.1f} %)</text>\n",
-        evaluate::zone_name(height.zone), right, from, to, edge, right + 10.0, text,
-        html_escape(words(evaluate::zone_name(height.zone))), results::si_format(height.size, "m", 3),
-        100.0 * height.size / face.thickness);
+        "{2:.1f}H{1:.1f}M{4:.1f} {3:.1f}H{1:.1f}\"/>\n",
+        evaluate::zone_name(stretch.of->zone), right, from, to, edge);
+    // Each zone is named once, beside its longest stretch.
+    const bool longest = std::none_of(zones.begin(), zones.end(), [&](const Stretch& other) {
+      const double more = (other.to - other.from) - (stretch.to - stretch.from);
+      return other.of == stretch.of && (more > 0.0 || (more == 0.0 && other.from < stretch.from));
+    });
+    if (!longest) continue;
+    text = std::max(text + line, 0.5 * (from + to) + 5.0);
+    svg += fmt::format("<text class=\"key\" x=\"{:.1f}\" y=\"{:.1f}\">{} {:.1f} %</text>\n", right + 8.0,
+                       text, html_escape(stretch.of->name), 100.0 * face.*stretch.of->size / face.thickness);
   }
   // One path for each stretch of a zone.
   for (std::size_t k = 0; k < face.zone.size();) {
@@ -206,15 +248,16 @@ std::string face_drawing(const evaluate::ShearedFace& face) {
   return svg + "</svg>\n";
 }
 
-std::string render_blanking(const evaluate::BlankingResult& result, const std::optional<Chart>& forces) {
+std::string render_blanking(const evaluate::BlankingResult& result, const std::optional<Chart>& forces,
+                            const ShownUnits& units) {
   std::string html;
   if (!result.note.empty()) html += fmt::format("<p>{}</p>\n", html_escape(result.note));
-  std::string figures = faces(result);
+  html += faces(result, units);
   if (forces)
-    figures += fmt::format("<figure><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
-                           html_escape(forces->title), svg_chart(*forces), html_escape(forces->note));
-  if (!figures.empty()) html += fmt::format("<div class=\"charts\">\n{}</div>\n", figures);
-  const std::string tables = force_table(result) + springback_table(result);
+    html += fmt::format(
+        "<div class=\"charts wide\">\n<figure><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n</div>\n",
+        html_escape(forces->title), svg_chart(*forces, units), html_escape(forces->note));
+  const std::string tables = force_table(result, units) + springback_table(result, units);
   if (!tables.empty()) html += fmt::format("<div class=\"tables\">\n{}</div>\n", tables);
   return html;
 }

@@ -11,12 +11,14 @@ namespace cnem::report {
 /// Force of punch and dies along the cutting direction over the stroke, with the largest force marked; none
 /// when the history lacks them.
 std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
-                                        const results::HistoryTable& history);
+                                        const results::HistoryTable& history,
+                                        const results::ShownUnits& units = {});
 
-/// One face as an <svg> element: the body beside the cut, its zones in colours, heights at the side.
+/// One face as an <svg> element: the body beside the cut, its zones in colours, shares at the side.
 std::string face_drawing(const evaluate::ShearedFace& face);
 
-/// Drawings, chart and tables as HTML; empty when there is nothing to show.
-std::string render_blanking(const evaluate::BlankingResult& result, const std::optional<Chart>& forces);
+/// Drawings with their tables, chart and tables as HTML; empty when there is nothing to show.
+std::string render_blanking(const evaluate::BlankingResult& result, const std::optional<Chart>& forces,
+                            const results::ShownUnits& units = {});
 
 } // namespace cnem::report

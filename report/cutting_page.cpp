@@ -14,20 +14,20 @@ namespace cnem::report {
 namespace {
 
 using results::HistoryTable;
-using results::si_format;
+using results::ShownUnits;
 
 std::string angle_text(double angle) { return fmt::format("{:.1f}°", angle * 180.0 / std::numbers::pi); }
 
 /// Rows of what is known, under a title; "" when nothing is.
 class CutTable {
 public:
-  explicit CutTable(std::string title) : title_(std::move(title)) {}
+  CutTable(std::string title, const ShownUnits& units) : title_(std::move(title)), units_(units) {}
   void add(const std::string& name, const std::string& value) {
     rows_ +=
         fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_escape(name), html_escape(value));
   }
   void add(const std::string& name, double value, const std::string& unit) {
-    if (std::isfinite(value)) add(name, si_format(value, unit));
+    if (std::isfinite(value)) add(name, units_.format(value, unit));
   }
   void angle(const std::string& name, double value) {
     if (std::isfinite(value)) add(name, angle_text(value));
@@ -40,21 +40,24 @@ public:
 
 private:
   std::string title_, rows_;
+  const ShownUnits& units_;
 };
 
-std::string force_text(const evaluate::CuttingResult& result, double mean, double spread) {
-  return fmt::format("{} ± {} ({})", si_format(result.in_newton(mean), "N"),
-                     si_format(result.in_newton(spread), "N", 2), si_format(mean, "N/m"));
+std::string force_text(const evaluate::CuttingResult& result, double mean, double spread,
+                       const ShownUnits& units) {
+  return fmt::format("{} ± {} ({})", units.format(result.in_newton(mean), "N"),
+                     units.format(result.in_newton(spread), "N", 2), units.format(mean, "N/m"));
 }
 
-std::string force_table_html(const evaluate::CuttingResult& result) {
-  CutTable table("Forces");
-  table.add("Steady", result.steady ? fmt::format("from {} to {} of cut", si_format(result.steady_from, "m"),
-                                                  si_format(result.steady_to, "m"))
-                                    : "not steady");
+std::string force_table_html(const evaluate::CuttingResult& result, const ShownUnits& units) {
+  CutTable table("Forces", units);
+  table.add("Steady", result.steady
+                          ? fmt::format("from {} to {} of cut", units.format(result.steady_from, "m"),
+                                        units.format(result.steady_to, "m"))
+                          : "not steady");
   if (std::isfinite(result.Fc)) {
-    table.add("Cutting force Fc", force_text(result, result.Fc, result.Fc_spread));
-    table.add("Thrust force Ft", force_text(result, result.Ft, result.Ft_spread));
+    table.add("Cutting force Fc", force_text(result, result.Fc, result.Fc_spread, units));
+    table.add("Thrust force Ft", force_text(result, result.Ft, result.Ft_spread, units));
     table.add("Fc on edge and flank", result.in_newton(result.edge_Fc), "N");
     table.add("Ft on edge and flank", result.in_newton(result.edge_Ft), "N");
     table.add("Specific cutting energy", result.specific_energy, "J/m^3");
@@ -69,8 +72,8 @@ std::string force_table_html(const evaluate::CuttingResult& result) {
   return table.html();
 }
 
-std::string chip_table_html(const evaluate::CuttingResult& result) {
-  CutTable table("Chip");
+std::string chip_table_html(const evaluate::CuttingResult& result, const ShownUnits& units) {
+  CutTable table("Chip", units);
   table.add("Thickness, mean", result.chip_thickness, "m");
   table.add("Thickness, peak", result.chip_peak, "m");
   table.add("Thickness, valley", result.chip_valley, "m");
@@ -89,8 +92,8 @@ std::string chip_table_html(const evaluate::CuttingResult& result) {
   return table.html();
 }
 
-std::string face_table_html(const evaluate::CuttingResult& result) {
-  CutTable table("Rake face and machined surface");
+std::string face_table_html(const evaluate::CuttingResult& result, const ShownUnits& units) {
+  CutTable table("Rake face and machined surface", units);
   table.add("Contact length", result.contact_length, "m");
   table.add("Interface temperature, mean", result.interface_temperature, "K");
   table.add("Largest temperature", result.temperature_max, "K");
@@ -103,8 +106,8 @@ std::string face_table_html(const evaluate::CuttingResult& result) {
   if (std::isfinite(result.residual_yield))
     table.add("Largest residual stress over flow stress", results::number_format(result.residual_yield));
   if (std::isfinite(result.surface_from))
-    table.add("Measured behind the tool", fmt::format("{} to {}", si_format(result.surface_from, "m"),
-                                                      si_format(result.surface_to, "m")));
+    table.add("Measured behind the tool", fmt::format("{} to {}", units.format(result.surface_from, "m"),
+                                                      units.format(result.surface_to, "m")));
   return table.html();
 }
 
@@ -134,7 +137,7 @@ Chart chart_of(std::string title, std::string x_label, std::string y_label, std:
   return chart;
 }
 
-Chart force_chart(const evaluate::CuttingResult& result) {
+Chart force_chart(const evaluate::CuttingResult& result, const ShownUnits& units) {
   Chart chart = chart_of("Forces over the cut", "length of cut", "force per width", "N/m");
   add_series(chart, result.forces, "Fc", "", 0, true);
   add_series(chart, result.forces, "Ft", "", 1, true);
@@ -152,7 +155,7 @@ Chart force_chart(const evaluate::CuttingResult& result) {
   chart.note =
       fmt::format("Fc along the way of the tool, Ft > 0 into the workpiece. Pale: means between rows; "
                   "full: centred mean over {} of cut; dashed: mean of the steady part.",
-                  si_format(result.filter, "m"));
+                  units.format(result.filter, "m"));
   return chart;
 }
 
@@ -167,9 +170,9 @@ HistoryTable over_cut(HistoryTable course) {
 
 } // namespace
 
-std::vector<Chart> cutting_charts(const evaluate::CuttingResult& result) {
+std::vector<Chart> cutting_charts(const evaluate::CuttingResult& result, const ShownUnits& units) {
   const HistoryTable course = over_cut(result.course);
-  std::vector<Chart> charts{force_chart(result)};
+  std::vector<Chart> charts{force_chart(result, units)};
   Chart sizes = chart_of("Chip over the cut", "length of cut", "length", "m");
   add_series(sizes, course, "chip_thickness", "thickness, fresh", 0);
   add_series(sizes, course, "contact_length", "contact length", 1);
@@ -206,7 +209,7 @@ std::vector<Chart> cutting_charts(const evaluate::CuttingResult& result) {
   residual.note =
       fmt::format("Means over layers of {} and the measured length. Full: unloaded and cooled; pale: at "
                   "the end of the run, tool and supports in place.",
-                  si_format(result.layer, "m", 3));
+                  units.format(result.layer, "m", 3));
   charts.push_back(std::move(residual));
   Chart strain =
       chart_of("Plastic strain below the machined surface", "depth", "equivalent plastic strain", "");
@@ -221,16 +224,16 @@ std::vector<Chart> cutting_charts(const evaluate::CuttingResult& result) {
   return charts;
 }
 
-std::string render_cutting(const evaluate::CuttingResult& result) {
+std::string render_cutting(const evaluate::CuttingResult& result, const ShownUnits& units) {
   std::string html;
   if (!result.steady) html += fmt::format("<p>Not steady: {}.</p>\n", html_escape(result.steady_note));
   for (const std::string* note : {&result.chip_note, &result.surface_note, &result.residual_note})
     if (!note->empty()) html += fmt::format("<p>{}</p>\n", html_escape(*note));
-  html += fmt::format("<div class=\"tables\">\n{}{}{}</div>\n", force_table_html(result),
-                      chip_table_html(result), face_table_html(result));
+  html += fmt::format("<div class=\"tables\">\n{}{}{}</div>\n", force_table_html(result, units),
+                      chip_table_html(result, units), face_table_html(result, units));
   html += "<div class=\"charts\">\n";
-  for (const Chart& chart : cutting_charts(result)) {
-    html += fmt::format("<figure><h3>{}</h3>\n{}", html_escape(chart.title), svg_chart(chart));
+  for (const Chart& chart : cutting_charts(result, units)) {
+    html += fmt::format("<figure><h3>{}</h3>\n{}", html_escape(chart.title), svg_chart(chart, units));
     if (!chart.note.empty()) html += fmt::format("<figcaption>{}</figcaption>", html_escape(chart.note));
     html += "</figure>\n";
   }

@@ -23,10 +23,23 @@ double largest(const std::vector<double>& values) {
   return size;
 }
 
+/// Whether a curve shows anything: some value differs from the first by more than rounding.
+bool moves(const std::vector<double>& values) {
+  const double least = 1e-9 * largest(values);
+  double first = std::nan("");
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    if (std::isnan(first)) first = value;
+    if (std::abs(value - first) > least) return true;
+  }
+  return false;
+}
+
 // Sorts the columns of a history into charts; each column is drawn once.
 class Charts {
 public:
-  explicit Charts(const results::HistoryTable& history) : history_(history), time_(history.column.front()) {
+  Charts(const results::HistoryTable& history, const results::ShownUnits& units)
+      : history_(history), units_(units), time_(history.column.front()) {
     for (const char* name : {"time", "step"}) use(history_.find(name));
   }
 
@@ -120,24 +133,50 @@ private:
         "Force of the tool on the workpiece, {}. "
         "Pale: every recorded value; full: Gaussian low-pass in time, σ = {} (−3 dB at {}).",
         chart.y_unit == "N" ? "of the whole body" : "per unit thickness, of the part that is modelled",
-        results::si_format(sigma, "s", 3), results::si_format(cutoff, "Hz", 3));
+        units_.format(sigma, "s", 3), units_.format(cutoff, "Hz", 3));
     charts_.push_back(std::move(chart));
   }
 
+  /// The large ones each, the small ones together: a curve at the bottom of the chart says nothing.
   void energies() {
     Chart chart = against_time("Energies", "energy", "");
+    double most = 0.0;
+    std::vector<int> terms;
     for (int k = 0; k < columns(); ++k) {
       const results::ColumnName full = name(k);
       if (!full.name.starts_with("energy.") || full.name == "energy.residual") continue;
       use(k);
-      if (!(largest(column(k)) > 0.0)) continue;
       chart.y_unit = full.unit;
-      chart.series.push_back(series(words(full.name.substr(7)), k, chart.series.size()));
+      most = std::max(most, largest(column(k)));
+      if (moves(column(k))) terms.push_back(k);
+    }
+    constexpr double small = 0.01;
+    ChartSeries others;
+    std::string names;
+    for (const int k : terms) {
+      const std::string term = words(name(k).name.substr(7));
+      if (largest(column(k)) >= small * most) {
+        chart.series.push_back(series(term, k, chart.series.size()));
+        continue;
+      }
+      others.y.resize(time_.size(), 0.0);
+      for (std::size_t r = 0; r < others.y.size(); ++r) others.y[r] += std::abs(column(k)[r]);
+      names += (names.empty() ? "" : ", ") + term;
+    }
+    if (!others.y.empty()) {
+      others.label = "others";
+      others.x = time_;
+      others.colour = static_cast<int>(chart.series.size());
+      chart.series.push_back(std::move(others));
+      chart.note = fmt::format("Others: the sizes of what stays below 1% of the largest, together: {}. The "
+                               "table of energies has all.",
+                               names);
     }
     if (!chart.series.empty()) charts_.push_back(chart);
     const int residual = history_.find("energy.residual");
     if (residual < 0) return;
     use(residual);
+    if (!(largest(column(residual)) > 0.0)) return;
     chart = against_time("Residual of the energy balance", "residual", name(residual).unit);
     chart.series.push_back(series("", residual, 0));
     charts_.push_back(std::move(chart));
@@ -156,6 +195,7 @@ private:
       else
         least = least > 0.0 ? std::min(least, value) : value;
     }
+    if (!moves(line.y)) return;
     chart.log_y = least > 0.0 && largest(line.y) > 50.0 * least;
     chart.series.push_back(std::move(line));
     charts_.push_back(std::move(chart));
@@ -171,14 +211,15 @@ private:
       ChartSeries line = series(quantity, k, chart.series.size());
       const double initial = line.y.front();
       for (double& value : line.y) value = 100.0 * (value / initial - 1.0);
+      constexpr double seen = 1e-6; // per cent
+      if (!(largest(line.y) > seen)) continue;
       chart.series.push_back(std::move(line));
     }
     if (!chart.series.empty()) charts_.push_back(std::move(chart));
     const int nodes = history_.find("nodes");
     if (nodes < 0) return;
     use(nodes);
-    const auto [low, high] = std::minmax_element(column(nodes).begin(), column(nodes).end());
-    if (*low == *high) return;
+    if (!moves(column(nodes))) return;
     chart = against_time("Nodes", "number of nodes", "");
     chart.series.push_back(series("", nodes, 0));
     charts_.push_back(std::move(chart));
@@ -199,6 +240,7 @@ private:
       const std::string field = words(key.first);
       Chart chart = against_time(title(field), field, key.second);
       for (const int k : members) {
+        if (!moves(column(k))) continue;
         const std::string full = name(k).name;
         const std::size_t tail = key.first.size() + 1;
         std::string who;
@@ -206,11 +248,12 @@ private:
           who = full.substr(prefix.size(), full.size() - prefix.size() - tail);
         chart.series.push_back(series(words(std::move(who)), k, chart.series.size()));
       }
-      charts_.push_back(std::move(chart));
+      if (!chart.series.empty()) charts_.push_back(std::move(chart));
     }
   }
 
   const results::HistoryTable& history_;
+  const results::ShownUnits& units_;
   const std::vector<double>& time_;
   std::set<int> used_;
   std::vector<Chart> charts_;
@@ -219,9 +262,9 @@ private:
 
 } // namespace
 
-std::vector<Chart> history_charts(const results::HistoryTable& history) {
+std::vector<Chart> history_charts(const results::HistoryTable& history, const results::ShownUnits& units) {
   if (history.rows() < 2) return {};
-  return Charts(history).all();
+  return Charts(history, units).all();
 }
 
 } // namespace cnem::report

@@ -167,10 +167,9 @@ double cell_size(const PictureLayout& layout, const CellGeometry<2>& cells,
 
 } // namespace
 
-void show_field(Picture& picture, const Shown& field) {
+void show_field(Picture& picture, const Shown& field, const results::ShownUnits& units) {
   picture.label = field.label;
-  picture.unit = field.unit;
-  picture.unit_factor = field.factor;
+  picture.unit = units.chosen(field.unit).value_or(results::DisplayUnit{field.factor, field.unit});
   picture.map = field.map;
 }
 

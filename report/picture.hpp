@@ -3,6 +3,7 @@
 #include "core/geometry/curve.hpp"
 #include "core/operators/discretisation.hpp"
 #include "report/palette_png.hpp"
+#include "results/shown_units.hpp"
 #include "results/vtk_reader.hpp"
 
 #include <array>
@@ -42,8 +43,7 @@ struct Picture {
   std::array<std::span<const double>, 2> position; ///< [component][node] m, present positions
   std::span<const double> value;                   ///< [cell], SI
   std::string label;                               ///< "equivalent plastic strain"
-  std::string unit;                                ///< unit shown, "" for none
-  double unit_factor = 1.0;                        ///< value in SI = factor × value in `unit` (MPa: 1e6)
+  results::DisplayUnit unit;                       ///< of the values shown
   ColourMap map = ColourMap::strain;
   std::optional<ColourRange> range; ///< SI; by default that of the values
   std::optional<double> percentile; ///< % of the values in the range, to be stated
@@ -58,8 +58,8 @@ struct Picture {
   int width = 1400;          ///< px; the height follows from the window
 };
 
-/// Label, unit and colours of the picture of a field.
-void show_field(Picture& picture, const Shown& field);
+/// Label, unit and colours of the picture of a field, in the unit chosen for its kind.
+void show_field(Picture& picture, const Shown& field, const results::ShownUnits& units);
 /// What its colours span unless a range is given.
 ColourRange usual_range(ColourMap map, std::span<const double> values);
 

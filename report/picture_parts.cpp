@@ -132,7 +132,7 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
     above = above || v > range.high + slack;
     invalid = invalid || std::isnan(v);
   }
-  const double top = std::round(layout.plot_top + (picture.unit.empty() ? 0.0 : 1.2 * size) + tip);
+  const double top = std::round(layout.plot_top + (picture.unit.unit.empty() ? 0.0 : 1.2 * size) + tip);
   const double bottom = std::round(layout.plot_top + layout.plot_height - tip);
   const auto y_of = [&](double s) { return bottom + s * (top - bottom); };
 
@@ -158,21 +158,22 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
   if (above) point(1.0, top, top - tip);
   if (below) point(0.0, bottom, bottom + tip);
 
-  const double f = picture.unit_factor;
+  const results::DisplayUnit& shown = picture.unit;
   int wanted = std::clamp(static_cast<int>((bottom - top) / (3.0 * size)), 2, 6);
-  results::Ticks ticks = results::round_ticks(range.low / f, range.high / f, wanted);
+  const double low = shown.shown(range.low), high = shown.shown(range.high);
+  results::Ticks ticks = results::round_ticks(low, high, wanted);
   while (ticks.value.size() < 2 && wanted < 12) // fewer than wanted fit about a zero in the middle
-    ticks = results::round_ticks(range.low / f, range.high / f, ++wanted);
+    ticks = results::round_ticks(low, high, ++wanted);
   cairo_set_source_rgb(cr, 0.18, 0.18, 0.18);
   cairo_set_line_width(cr, 1.5 * unit);
   for (std::size_t k = 0; k < ticks.value.size(); ++k) {
-    const double y = y_of((ticks.value[k] * f - range.low) / (range.high - range.low));
+    const double y = y_of((ticks.value[k] - low) / (high - low));
     cairo_move_to(cr, x + width, y);
     cairo_line_to(cr, x + width + 7.0 * unit, y);
     cairo_stroke(cr);
     draw_text(cr, ticks.label[k], x + width + 13.0 * unit, y + 0.36 * size, size);
   }
-  if (!picture.unit.empty()) draw_text(cr, picture.unit, x, layout.plot_top + 0.75 * size, size);
+  if (!shown.unit.empty()) draw_text(cr, shown.unit, x, layout.plot_top + 0.75 * size, size);
   if (invalid) {
     cairo_set_source_rgb(cr, invalid_colour.red, 0.0, invalid_colour.blue);
     draw_text(cr, "not a number", x, layout.plot_top + layout.plot_height + 1.4 * size, 0.75 * size);
@@ -210,10 +211,8 @@ void draw_extremes(cairo_t* cr, const PictureLayout& layout, const Picture& pict
   if (!any) return;
   if (std::abs(low) < 1e-9 * std::abs(high)) low = 0.0;
   if (std::abs(high) < 1e-9 * std::abs(low)) high = 0.0;
-  const double f = picture.unit_factor;
-  const std::string suffix = picture.unit.empty() ? "" : " " + picture.unit;
-  const std::string text = fmt::format("min {}{}   max {}{}", results::number_format(low / f, 4), suffix,
-                                       results::number_format(high / f, 4), suffix);
+  const std::string text = fmt::format("min {}   max {}", results::format_in(picture.unit, low),
+                                       results::format_in(picture.unit, high));
   cairo_set_source_rgb(cr, 0.45, 0.45, 0.45);
   double y = layout.plot_top + layout.plot_height + 1.5 * size;
   for (const std::string& line : {text, statement}) {

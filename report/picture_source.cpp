@@ -136,7 +136,7 @@ Picture picture_of(const input::Case& input, PictureSource& source, std::size_t 
   picture.rasters = &source.rasters;
   picture.position = {source.fields.position[0], source.fields.position[1]};
   picture.value = source.fields.values[field];
-  show_field(picture, field_info<2>(source.names[field]).shown);
+  show_field(picture, field_info<2>(source.names[field]).shown, results::ShownUnits(input.report.units));
   picture.title = input.title;
   picture.time = source.time;
   picture.tools = source.tools;

@@ -4,11 +4,13 @@
 #include "evaluate/cutting_result.hpp"
 #include "evaluate/experiment.hpp"
 #include "report/chart.hpp"
+#include "report/headline.hpp"
+#include "report/report_tables.hpp"
 #include "results/status.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace cnem::report {
@@ -21,17 +23,14 @@ struct ReportPicture {
   std::string note{}; ///< what the case says of it
 };
 
-struct ReportTable {
-  std::string title;
-  std::vector<std::pair<std::string, std::string>> rows; ///< name, value with unit
-};
-
 struct ReportData {
-  std::string title;                                        ///< the case
-  std::string subtitle;                                     ///< code and version
-  bool failed = false;                                      ///< colours the verdict
-  std::string verdict;                                      ///< one line: how the run ended
-  std::vector<std::pair<std::string, std::string>> figures; ///< the few numbers to see first
+  std::string title;           ///< of the case, or its name
+  std::string subtitle;        ///< code, version, name of the case
+  bool failed = false;         ///< colours the verdict
+  std::string verdict;         ///< one line: how the run ended
+  std::string run_line;        ///< one line: time, nodes, steps, residual
+  std::vector<Figure> figures; ///< the few numbers to see first
+  results::ShownUnits units;   ///< of charts and of the sections of cuts
   std::vector<std::string> warnings;
   std::optional<results::PostMortem> post_mortem;
   std::optional<ReportPicture> place;  ///< where it went wrong

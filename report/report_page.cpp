@@ -23,8 +23,10 @@ std::string section(const std::string& id, const std::string& title, const std::
 
 std::string render_figures(const ReportData& data) {
   std::string html;
-  for (const auto& [name, value] : data.figures)
-    html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html_escape(name), html_escape(value));
+  for (const Figure& figure : data.figures)
+    html += fmt::format("<div><dt>{}</dt><dd>{}</dd>{}</div>\n", html_escape(figure.name),
+                        html_escape(figure.value),
+                        figure.note.empty() ? "" : "<dd class=\"of\">" + html_escape(figure.note) + "</dd>");
   return html.empty() ? "" : "<dl class=\"figures\">\n" + html + "</dl>\n";
 }
 
@@ -60,8 +62,8 @@ std::string render_post_mortem(const ReportData& data) {
                                                         {"Time", results::si_format(post.time, "s", 6)}};
   if (post.node >= 0) rows.emplace_back("Node", std::to_string(post.node));
   if (std::isfinite(post.x) && std::isfinite(post.y))
-    rows.emplace_back("Position", fmt::format("x = {}, y = {}", results::si_format(post.x, "m", 6),
-                                              results::si_format(post.y, "m", 6)));
+    rows.emplace_back("Position", fmt::format("x = {}, y = {}", data.units.format(post.x, "m", 6),
+                                              data.units.format(post.y, "m", 6)));
   if (!post.last_good.empty()) rows.emplace_back("Last good state", post.last_good);
   std::string html =
       fmt::format("<div class=\"post-mortem\">\n<p>{}</p>\n{}", html_escape(post.text), table(rows));
@@ -110,8 +112,8 @@ std::string render_pictures(const ReportData& data) {
 std::string render_charts(const ReportData& data) {
   std::string html;
   for (const Chart& chart : data.charts)
-    html += fmt::format("<figure><h3>{}</h3>\n{}{}</figure>\n", html_escape(chart.title), svg_chart(chart),
-                        caption_of(chart.note));
+    html += fmt::format("<figure><h3>{}</h3>\n{}{}</figure>\n", html_escape(chart.title),
+                        svg_chart(chart, data.units), caption_of(chart.note));
   return html.empty() ? "" : "<div class=\"charts\">\n" + html + "</div>\n";
 }
 
@@ -129,10 +131,10 @@ std::string render_report(const ReportData& data) {
                                  "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
                                  "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
                                  html_escape(data.title), report_style);
-  html += fmt::format(
-      "<header>\n<p class=\"code\">{}</p>\n<h1>{}</h1>\n<p class=\"verdict {}\">{}</p>\n</header>\n",
-      html_escape(data.subtitle), html_escape(data.title), data.failed ? "bad" : "good",
-      html_escape(data.verdict));
+  html += fmt::format("<header>\n<p class=\"code\">{}</p>\n<h1>{}</h1>\n<p class=\"verdict {}\">{}</p>\n<p "
+                      "class=\"code\">{}</p>\n</header>\n",
+                      html_escape(data.subtitle), html_escape(data.title), data.failed ? "bad" : "good",
+                      html_escape(data.verdict), html_escape(data.run_line));
   html += render_figures(data);
   html += section("post-mortem", "Where it went wrong", render_post_mortem(data));
   html += section("warnings", data.warnings_title, render_warnings(data));
@@ -140,9 +142,9 @@ std::string render_report(const ReportData& data) {
   if (data.blanking) {
     const bool cut = !data.blanking->punch.empty();
     html += section("blanking", cut ? "Blanking" : "Springback",
-                    render_blanking(*data.blanking, data.blanking_forces));
+                    render_blanking(*data.blanking, data.blanking_forces, data.units));
   }
-  if (data.cutting) html += section("cutting", "Cutting", render_cutting(*data.cutting));
+  if (data.cutting) html += section("cutting", "Cutting", render_cutting(*data.cutting, data.units));
   html += section("pictures", "Pictures", render_pictures(data));
   html += section("histories", data.charts_title, render_charts(data));
   html += section("numbers", "Numbers", render_tables(data));

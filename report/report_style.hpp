@@ -35,8 +35,12 @@ h3 { font-size: 15px; margin: 0 0 10px; font-weight: 600; }
 .figures div { padding: 13px 16px; }
 dt { color: var(--soft); font-size: 12.5px; }
 dd { margin: 1px 0 0; font-size: 21px; font-weight: 620; font-variant-numeric: tabular-nums; letter-spacing: -0.01em; }
+dd.of { font-size: 12.5px; font-weight: 400; letter-spacing: 0; color: var(--soft); line-height: 1.35; }
+.verdict + .code { margin-top: 9px; }
 figure { margin: 0; }
 .pictures, .charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(560px, 100%), 1fr)); gap: 16px; }
+.charts { grid-template-columns: repeat(auto-fill, minmax(min(400px, 100%), 1fr)); }
+.charts + *, .tables + *, .pictures + * { margin-top: 16px; }
 .pictures figure { overflow: hidden; align-self: start; }
 .pictures { align-items: start; }
 .series > * + * { margin-top: 10px; }
@@ -65,10 +69,14 @@ summary { color: var(--soft); font-size: 13px; cursor: pointer; }
 .chart .s0 { stroke: var(--c0); } .chart .s1 { stroke: var(--c1); } .chart .s2 { stroke: var(--c2); }
 .chart .s3 { stroke: var(--c3); } .chart .s4 { stroke: var(--c4); } .chart .s5 { stroke: var(--c5); }
 .chart .s6 { stroke: var(--c6); } .chart .s7 { stroke: var(--c7); }
+.faces { grid-template-columns: repeat(auto-fill, minmax(min(600px, 100%), 1fr)); }
+.face > div { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(270px, 100%), 1fr)); gap: 12px 20px; align-items: center; }
 .face table { max-width: 460px; }
+.wide { grid-template-columns: minmax(0, 720px); }
 .chart path.body { fill: var(--grid); }
 .chart .surface, .chart .burr_side { stroke: var(--c7); } .chart .rollover { stroke: var(--c1); stroke-width: 3; }
 .chart .burnish { stroke: var(--c0); stroke-width: 3; } .chart .second_burnish { stroke: var(--c5); stroke-width: 3; }
+.chart .broken { stroke: var(--c4); stroke-width: 3; } .chart .hole { stroke: var(--c2); stroke-width: 3; }
 .chart .fracture { stroke: var(--c6); stroke-width: 3; } .chart .burr { stroke: var(--c3); stroke-width: 3; }
 .tables { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(400px, 100%), 1fr)); gap: 16px; align-items: start; }
 .tables > div { padding: 16px 18px 10px; }
@@ -86,6 +94,14 @@ pre { margin: 0; padding: 18px 20px; max-height: 560px; overflow: auto; font: 12
 dialog { width: 96vw; max-width: 1500px; padding: 0; border: 0; border-radius: 12px; overflow: hidden; background: var(--card); }
 dialog::backdrop { background: rgb(10 12 16 / 0.75); }
 dialog img { display: block; width: 100%; max-height: 94vh; object-fit: contain; cursor: zoom-out; }
+@media (max-width: 600px) {
+  main { padding: 20px 12px 48px; }
+  h1 { font-size: 25px; }
+  .figures { grid-template-columns: repeat(auto-fit, minmax(135px, 1fr)); gap: 8px; margin-top: 18px; }
+  .figures div { padding: 10px 12px; }
+  .charts figure, .tables > div { padding-left: 12px; padding-right: 12px; }
+  pre { padding: 12px; }
+}
 @media print {
   body { background: #ffffff; }
   main { padding: 0; }

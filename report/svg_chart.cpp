@@ -11,7 +11,10 @@
 namespace cnem::report {
 namespace {
 
-constexpr double width = 720, left = 66, right = 18, plot_height = 290, bottom = 50, row = 20, text_size = 13;
+// Text of this size is read on a phone, where a chart is 340 px wide, and beside two other charts on a desk.
+constexpr double width = 520, left = 64, right = 20, plot_height = 250, bottom = 56, row = 22, text_size = 15;
+
+constexpr int colours = 8; ///< of the palette: further series are dashed
 
 struct Axis {
   double low = 0.0, high = 1.0; ///< in the displayed unit
@@ -47,8 +50,9 @@ results::Ticks decade_ticks(double low, double high) {
 }
 
 // A prefix where the unit takes one, else a power of ten: tick labels must stay short.
-results::DisplayUnit axis_unit(double magnitude, const std::string& unit) {
-  results::DisplayUnit display = results::display_unit(magnitude, unit);
+results::DisplayUnit axis_unit(double magnitude, const std::string& unit, const results::ShownUnits& units) {
+  results::DisplayUnit display = units.of(magnitude, unit);
+  if (display.offset != 0.0) return display;
   const double shown = magnitude / display.factor;
   if (!(shown > 0.0) || (shown >= 1e-2 && shown < 1e5)) return display;
   const double power = std::pow(10.0, 3.0 * std::floor(std::log10(shown) / 3.0));
@@ -58,13 +62,15 @@ results::DisplayUnit axis_unit(double magnitude, const std::string& unit) {
   return display;
 }
 
-Axis make_axis(const Extent& extent, const std::string& unit, bool logarithmic, bool padded) {
+Axis make_axis(const Extent& extent, const std::string& unit, bool logarithmic, bool padded,
+               const results::ShownUnits& units) {
   Axis axis;
   axis.logarithmic = logarithmic;
-  axis.unit = axis_unit(extent.empty() ? 1.0 : std::max(std::abs(extent.low), std::abs(extent.high)), unit);
+  axis.unit =
+      axis_unit(extent.empty() ? 1.0 : std::max(std::abs(extent.low), std::abs(extent.high)), unit, units);
   if (!extent.empty()) {
-    axis.low = extent.low / axis.unit.factor;
-    axis.high = extent.high / axis.unit.factor;
+    axis.low = axis.unit.shown(extent.low);
+    axis.high = axis.unit.shown(extent.high);
   }
   if (logarithmic) {
     if (!(axis.low < axis.high)) axis.low = axis.high / 10.0;
@@ -88,7 +94,7 @@ Axis make_axis(const Extent& extent, const std::string& unit, bool logarithmic, 
     axis.low = middle - half;
     axis.high = middle + half;
   }
-  axis.ticks = results::round_ticks(axis.low, axis.high, padded ? 6 : 8);
+  axis.ticks = results::round_ticks(axis.low, axis.high, 6);
   return axis;
 }
 
@@ -96,8 +102,8 @@ struct Frame {
   Axis x, y;
   double top = 0.0;
 
-  double px(double value) const { return left + x.fraction(value / x.unit.factor) * (width - left - right); }
-  double py(double value) const { return top + plot_height * (1.0 - y.fraction(value / y.unit.factor)); }
+  double px(double value) const { return left + x.fraction(x.unit.shown(value)) * (width - left - right); }
+  double py(double value) const { return top + plot_height * (1.0 - y.fraction(y.unit.shown(value))); }
 };
 
 bool drawable(const Chart& chart, const ChartSeries& series, std::size_t k) {
@@ -145,6 +151,11 @@ struct LegendPlace {
   double x, y;
 };
 
+std::string classes(const ChartSeries& series) {
+  return fmt::format("line s{}{}{}", series.colour % colours, series.faint ? " faint" : "",
+                     series.dashed || series.colour >= colours ? " dashed" : "");
+}
+
 // Left to right, wrapped; returns the place of each listed series and the number of rows.
 std::vector<LegendPlace> place_legend(const Chart& chart, int& rows) {
   std::vector<LegendPlace> places;
@@ -169,7 +180,7 @@ std::vector<LegendPlace> place_legend(const Chart& chart, int& rows) {
 
 } // namespace
 
-std::string svg_chart(const Chart& chart) {
+std::string svg_chart(const Chart& chart, const results::ShownUnits& units) {
   Extent x, y;
   for (const ChartSeries& series : chart.series)
     for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k)
@@ -179,8 +190,8 @@ std::string svg_chart(const Chart& chart) {
       }
   int legend_rows = 0;
   const std::vector<LegendPlace> legend = place_legend(chart, legend_rows);
-  Frame frame{make_axis(x, chart.x_unit, chart.log_x, false), make_axis(y, chart.y_unit, chart.log_y, true),
-              30.0 + (row + 2) * legend_rows};
+  Frame frame{make_axis(x, chart.x_unit, chart.log_x, false, units),
+              make_axis(y, chart.y_unit, chart.log_y, true, units), 30.0 + (row + 2) * legend_rows};
   const double base = frame.top + plot_height, end = width - right;
 
   std::string svg = fmt::format("<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
@@ -190,10 +201,10 @@ std::string svg_chart(const Chart& chart) {
     const ChartSeries& series = chart.series[k];
     if (series.label.empty()) continue;
     const double at = legend[k].y - 4;
-    svg += fmt::format("<path class=\"line s{}{}{}\" d=\"M{:.1f} {:.1f}h22\"/>"
+    svg += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}h22\"/>"
                        "<text class=\"key\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
-                       series.colour % 8, series.faint ? " faint" : "", series.dashed ? " dashed" : "",
-                       legend[k].x, at, legend[k].x + 28, legend[k].y, html_escape(series.label));
+                       classes(series), legend[k].x, at, legend[k].x + 28, legend[k].y,
+                       html_escape(series.label));
   }
   svg += fmt::format("<text class=\"label\" x=\"{:.0f}\" y=\"{:.1f}\">{}</text>\n", left, frame.top - 9,
                      axis_label(chart.y_label, frame.y.unit));
@@ -218,13 +229,11 @@ std::string svg_chart(const Chart& chart) {
   for (const bool faint : {true, false})
     for (const ChartSeries& series : chart.series)
       if (series.faint == faint)
-        svg +=
-            fmt::format("<path class=\"line s{}{}{}\" d=\"{}\"/>\n", series.colour % 8, faint ? " faint" : "",
-                        series.dashed ? " dashed" : "", path_of(chart, series, frame));
+        svg += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", classes(series), path_of(chart, series, frame));
   return svg + "</svg>\n";
 }
 
-std::string svg_file(const Chart& chart) {
+std::string svg_file(const Chart& chart, const results::ShownUnits& units) {
   constexpr const char* head = R"(<svg xmlns="http://www.w3.org/2000/svg" font-family="sans-serif")";
   constexpr const char* style =
       "\n<style>svg { background: #fff; fill: #5c6675 } path { fill: none } .grid { stroke: #e8ebef } .zero, "
@@ -233,7 +242,7 @@ std::string svg_file(const Chart& chart) {
       "#7b4fb5 "
       "} .s5 { stroke: #0f8b8d } .s6 { stroke: #8a5a44 } .s7 { stroke: #5c6675 } .faint { stroke-width: 1; "
       "stroke-opacity: 0.3 } .dashed { stroke-dasharray: 6 4 }</style>";
-  std::string svg = svg_chart(chart);
+  std::string svg = svg_chart(chart, units);
   svg.insert(svg.find('>') + 1, style);
   return head + svg.substr(4); // behind "<svg"
 }

@@ -77,6 +77,11 @@ std::vector<ProbeWeights> probe_weights(const input::Case& input, const Approxim
   return probes;
 }
 
+double extent(const Field& x) {
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  return *high - *low;
+}
+
 bool expands(const std::vector<plasticity::Material>& materials) {
   return std::any_of(materials.begin(), materials.end(),
                      [](const plasticity::Material& material) { return material.expansion != 0.0; });
@@ -89,6 +94,17 @@ template<int dim> double total_mass(const ExplicitSolver<dim>& solver) {
 }
 
 } // namespace
+
+template<int dim> double heat_residual_share(const ExplicitSolver<dim>& solver) {
+  const NodeState<dim>& node = solver.state().node;
+  const EnergyLedger ledger = solver.ledger();
+  double moved = 0.0;
+  for (std::size_t i = 0; i < node.size(); ++i)
+    moved += node.heat_capacity[i] * std::abs(node.temperature[i] - node.initial_temperature[i]);
+  for (const Energy& entry : ledger.entries())
+    if (entry.kind == EnergyKind::heat_received) moved = std::max(moved, std::abs(entry.value));
+  return moved > 0.0 ? std::abs(ledger.heat_residual()) / moved : 0.0;
+}
 
 template<int dim>
 HistoryRecorder<dim>::HistoryRecorder(const input::Case& input, const ExplicitSolver<dim>& solver,
@@ -159,6 +175,12 @@ template<int dim> std::vector<Metric> HistoryRecorder<dim>::row(const ExplicitSo
       row.push_back({with_unit(fmt::format("probe.{}.{}", probe.name, name), field_info<dim>(name).unit),
                      weighted_value(snapshot(solver), name, probe.node, probe.weight)});
   const double mass = total_mass(solver), enclosed = enclosed_measure(snapshot(solver));
+  for (int k = 0; k < dim; ++k) {
+    const auto axis = index_of(k);
+    row.push_back({"", extent(state.node.position[axis]), fmt::format("extent.{}[m]", axis_name(axis))});
+    row.push_back({"", extent(state.node.initial_position[axis]),
+                   fmt::format("initial_extent.{}[m]", axis_name(axis))});
+  }
   row.push_back({"mass" + units_.mass, mass});
   row.push_back({"", (mass + state.departed.mass) / initial_mass_ - 1.0, "mass_drift"});
   row.push_back({units_.enclosed + units_.measure, enclosed});
@@ -309,6 +331,8 @@ FieldRecorder::FieldRecorder(const std::filesystem::path& folder, const input::C
     tools_ = FieldWriter::resume(folder, time, tool_series);
 }
 
+template double heat_residual_share(const ExplicitSolver<2>&);
+template double heat_residual_share(const ExplicitSolver<3>&);
 template class HistoryRecorder<2>;
 template class HistoryRecorder<3>;
 template void FieldRecorder::record(FileQueue&, const Snapshot<2>&);

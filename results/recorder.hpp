@@ -22,6 +22,10 @@ struct ProbeWeights : PointWeights {
   std::vector<std::string> fields;
 };
 
+/// Of a run in which nothing moves: what is missing in the balance of heat over the heat that has moved, the
+/// larger of Σ C |T − T₀| over the nodes and of what went through the boundary; 0 where none has.
+template<int dim> double heat_residual_share(const ExplicitSolver<dim>& solver);
+
 /// Names and values of history.csv.
 template<int dim> class HistoryRecorder {
 public:

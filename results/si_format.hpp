@@ -1,23 +1,32 @@
 #pragma once
-// Numbers as people read them: SI prefixes, round tick marks.
+// Numbers as people read them: units of the trade with their prefixes, round tick marks.
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace cnem::results {
 
-/// A unit with its SI prefix: value in the base unit = factor × value in `unit`.
+/// A unit that numbers are shown in: value in the SI unit = factor × value in `unit` + offset.
 struct DisplayUnit {
   double factor = 1.0;
   std::string unit;
+  double offset = 0.0; ///< only °C has one
+
+  double shown(double value) const { return (value - offset) / factor; }
 };
 
-/// Prefixed unit in which `magnitude` (in `unit`) has one to three digits before the point: (3e-6, "s") gives
-/// µs. Units that take no prefix ("", "K", "m^2", "1/s") come back as they are.
+/// The unit in which people of forming read `magnitude` (in the SI unit `unit`), with a prefix that leaves
+/// few digits: mm, N/mm (kN/mm), J/mm, MPa, mm², J/mm³, MPa √m, °; s, N, J, W and Hz in steps of a thousand:
+/// (3e-6, "s") gives µs. Others ("", "K", "1/s") come back as they are, with raised exponents.
 DisplayUnit display_unit(double magnitude, std::string_view unit);
+
+/// A unit as it is printed: "J/mm³" of "J/mm^3" or "J/mm3", "°C" of "degC", "µm" of "um".
+std::string printed_unit(std::string_view unit);
 
 /// "12.5 µs" from (1.25e-5, "s"): `digits` significant digits, trailing zeros dropped.
 std::string si_format(double value, std::string_view unit, int digits = 4);
+/// The same in a unit that was chosen.
+std::string format_in(const DisplayUnit& unit, double value, int digits = 4);
 
 /// `value` with `digits` significant digits, trailing zeros dropped; "not a number" and "∞" for such values.
 std::string number_format(double value, int digits = 4);

@@ -190,8 +190,8 @@ std::string calibration_report(const Calibration& calibration, const Calibration
                .good = told},
               constants_section(calibration, result) + words_section(result.inference) +
                   curves_section(result) +
-                  chart_section(curve_charts(result), "curves", "Measured and computed") +
-                  chart_section(band_charts(bands), "flow", "Flow stress over what the targets meet") +
+                  chart_section(curve_charts(result), {}, "curves", "Measured and computed") +
+                  chart_section(band_charts(bands), {}, "flow", "Flow stress over what the targets meet") +
                   sensitivity_section(calibration, result.inference) +
                   correlation_section(calibration, result.inference) + searches_section(result));
 }

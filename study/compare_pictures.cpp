@@ -159,7 +159,8 @@ public:
       picture.cells = &fields.cells;
       picture.position = {fields.position[0], fields.position[1]};
       picture.value = fields.values[index];
-      report::show_field(picture, field_info<2>(field).shown);
+      report::show_field(picture, field_info<2>(field).shown,
+                         results::ShownUnits(compared.outcome[k].input->report.units));
       picture.title = compared.study.runs[k].name;
       picture.time = frames[k]->time;
       const std::vector<input::Tool>& tools = compared.outcome[k].input->tools;

@@ -29,12 +29,12 @@ main { max-width: 2000px; }
 .warnings li { white-space: pre-line; }
 )css";
 
-std::string show(const ComparedNumber& number, double value) {
+std::string show(const ComparedNumber& number, double value, const results::ShownUnits& units) {
   switch (number.shown) {
   case Shown::count:
     return fmt::format("{:.0f}", value);
   case Shown::unit:
-    return results::si_format(value, number.unit);
+    return units.format(value, number.unit);
   case Shown::duration:
     return results::duration_format(value);
   case Shown::percent:
@@ -45,14 +45,14 @@ std::string show(const ComparedNumber& number, double value) {
   return results::number_format(value, 6);
 }
 
-std::string number_rows(const std::vector<ComparedNumber>& numbers) {
+std::string number_rows(const std::vector<ComparedNumber>& numbers, const results::ShownUnits& units) {
   std::string html;
   for (const ComparedNumber& number : numbers) {
     if (std::none_of(number.value.begin(), number.value.end(), [](const auto& v) { return v.has_value(); }))
       continue;
     html += "<tr>" + cell(number.label);
     for (const std::optional<double>& value : number.value)
-      html += cell(value && std::isfinite(*value) ? show(number, *value) : "");
+      html += cell(value && std::isfinite(*value) ? show(number, *value, units) : "");
     html += "</tr>\n";
   }
   return html;
@@ -91,14 +91,15 @@ std::string table(const Compared& compared) {
     }
     html += "</tr>\n";
   }
-  return html + number_rows(compared_numbers(compared)) +
+  return html + number_rows(compared_numbers(compared), shown_units(compared.study, compared.folder)) +
          "</table></div>\n<p class=\"hint\">Cost of a node-step: wall time of steps and new references. "
          "Largest force: of "
          "the low-passed curve below.</p>\n</section>\n";
 }
 
 std::string metrics(const Compared& compared) {
-  const std::string rows = number_rows(compared_metrics(compared));
+  const std::string rows =
+      number_rows(compared_metrics(compared), shown_units(compared.study, compared.folder));
   return rows.empty() ? ""
                       : "<section id=\"metrics\">\n<h2>Results</h2>\n<div class=\"runs\"><table>\n" +
                             head_row(compared) + rows + "</table></div>\n</section>\n";
@@ -145,7 +146,7 @@ report::Chart force_chart(const Compared& compared) {
     smooth.x = force.over_stroke ? curve.even_stroke : curve.even_time;
     smooth.y = curve.smooth;
     smooth.label = compared.study.runs[k].name;
-    raw.colour = smooth.colour = curve_colour(k);
+    raw.colour = smooth.colour = static_cast<int>(k);
     chart.series.push_back(std::move(raw));
     chart.series.push_back(std::move(smooth));
   }
@@ -220,7 +221,8 @@ std::string compare_report(const Compared& compared) {
                .verdict = verdict,
                .good = count(State::done) == all,
                .style = style},
-              warnings(compared) + table(compared) + chart_section(charts(compared)) +
+              warnings(compared) + table(compared) +
+                  chart_section(charts(compared), shown_units(compared.study, compared.folder)) +
                   compare_pictures(compared) + metrics(compared) +
                   fmt::format("<dialog><img alt=\"enlarged picture\"/></dialog>\n<script>{}</script>\n",
                               report::report_script));

@@ -4,6 +4,7 @@
 #include "input/schema/units.hpp"
 #include "report/html.hpp"
 #include "report/report_style.hpp"
+#include "results/output_folder.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -39,8 +40,6 @@ constexpr const char* table_style = R"css(
 .runs a { color: var(--c0); }
 .runs .bad { color: var(--bad); }
 )css";
-
-constexpr std::size_t colours = 8; ///< of the palette of charts
 
 /// A spreadsheet takes a text that begins like a formula for one, and may act on it: an apostrophe keeps it a
 /// text.
@@ -90,9 +89,6 @@ std::string cell(const std::string& text, const char* tag) {
   return fmt::format("<{0}>{1}</{0}>", tag, report::html_escape(text));
 }
 
-int curve_colour(std::size_t k) { return static_cast<int>(k % colours); }
-bool is_dashed(std::size_t k) { return k >= colours; }
-
 report::Chart history_chart(std::span<const results::HistoryTable> histories,
                             std::span<const std::string> labels, const std::string& column,
                             const std::string& x) {
@@ -111,25 +107,33 @@ report::Chart history_chart(std::span<const results::HistoryTable> histories,
     line.label = labels[k];
     line.x = history.column[index_of(along)];
     line.y = history.column[index];
-    line.colour = curve_colour(k);
-    line.dashed = is_dashed(k);
+    line.colour = static_cast<int>(k);
     chart.series.push_back(std::move(line));
   }
   if (chart.series.empty()) chart.note = "No run has these columns in its history.csv.";
   return chart;
 }
 
-std::string chart_section(const std::vector<report::Chart>& charts, const std::string& id,
-                          const std::string& title) {
+std::string chart_section(const std::vector<report::Chart>& charts, const results::ShownUnits& units,
+                          const std::string& id, const std::string& title) {
   std::string html;
   for (const report::Chart& chart : charts)
     html += fmt::format(
-        "<figure><h3>{}</h3>\n{}{}</figure>\n", report::html_escape(chart.title), report::svg_chart(chart),
+        "<figure><h3>{}</h3>\n{}{}</figure>\n", report::html_escape(chart.title),
+        report::svg_chart(chart, units),
         chart.note.empty() ? "" : "<figcaption>" + report::html_escape(chart.note) + "</figcaption>");
   return html.empty()
              ? ""
              : fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<div class=\"charts\">\n{}</div>\n</section>\n",
                            id, report::html_escape(title), html);
+}
+
+results::ShownUnits shown_units(const Study& study, const std::filesystem::path& folder) {
+  for (const StudyRun& run : study.runs)
+    if (const auto resolved = folder / run.name / results::files::resolved_case;
+        std::filesystem::exists(resolved))
+      return results::ShownUnits::of_case(results::read_file(resolved));
+  return {};
 }
 
 std::string page(const PageHead& head, const std::string& body) {

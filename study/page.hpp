@@ -28,18 +28,17 @@ std::string column_name(const std::string& path);
 /// The text as a cell of a table.
 std::string cell(const std::string& text, const char* tag = "td");
 
-/// The number of the colour of curve k, and whether it is dashed to tell it from the one of the same colour.
-int curve_colour(std::size_t k);
-bool is_dashed(std::size_t k);
-
 /// One curve for each history that has the column, over time or another column.
 report::Chart history_chart(std::span<const results::HistoryTable> histories,
                             std::span<const std::string> labels, const std::string& column,
                             const std::string& x = "time");
 
 /// Charts with their titles and notes, beside each other under a heading; nothing for none.
-std::string chart_section(const std::vector<report::Chart>& charts, const std::string& id = "charts",
-                          const std::string& title = "The runs together");
+std::string chart_section(const std::vector<report::Chart>& charts, const results::ShownUnits& units,
+                          const std::string& id = "charts", const std::string& title = "The runs together");
+
+/// The units that the runs want their numbers shown in: of the first that has a resolved case in `folder`.
+results::ShownUnits shown_units(const Study& study, const std::filesystem::path& folder);
 
 /// What a page begins with.
 struct PageHead {

@@ -129,8 +129,7 @@ report::Chart column_chart(const Study& study, const std::vector<RunRecord>& run
       const std::string name = (wanted.names.empty() ? column_name(column) : wanted.names[c]) +
                                (unit == chart.y_unit ? "" : " [" + unit + "]");
       line.label = wanted.y.size() == 1 ? group : name + (group.empty() ? "" : ", " + group);
-      line.colour = curve_colour(chart.series.size());
-      line.dashed = is_dashed(chart.series.size());
+      line.colour = static_cast<int>(chart.series.size());
       for (const std::size_t k : list) {
         line.x.push_back(x.value[k]);
         line.y.push_back(status_number(*runs[k].status, column).value_or(unknown));
@@ -177,9 +176,11 @@ std::vector<StudyChart> cut_charts(const Study& study, const std::vector<RunReco
   return charts;
 }
 
+/// Zeros alone are none.
 bool has_a_curve(const report::Chart& chart) {
-  return std::any_of(chart.series.begin(), chart.series.end(),
-                     [](const report::ChartSeries& line) { return line.x.size() > 1; });
+  return std::any_of(chart.series.begin(), chart.series.end(), [](const report::ChartSeries& line) {
+    return line.x.size() > 1 && std::any_of(line.y.begin(), line.y.end(), [](double y) { return y != 0.0; });
+  });
 }
 
 /// The low-passed force of the punch over its stroke.
@@ -200,8 +201,7 @@ report::Chart force_chart(std::span<const results::HistoryTable> histories,
     chart.series.push_back({.label = labels[k],
                             .x = curve.even_stroke,
                             .y = curve.smooth,
-                            .colour = curve_colour(chart.series.size()),
-                            .dashed = is_dashed(chart.series.size())});
+                            .colour = static_cast<int>(chart.series.size())});
   }
   chart.note = "Low-passed, as in the report of each run.";
   return chart;

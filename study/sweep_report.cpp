@@ -26,14 +26,15 @@ double largest(const std::vector<RunRecord>& runs, const std::string& column) {
   return size;
 }
 
-std::string run_table(const Study& study, const std::vector<RunRecord>& runs) {
+std::string run_table(const Study& study, const std::vector<RunRecord>& runs,
+                      const results::ShownUnits& shown) {
   const std::vector<std::string> columns = table_columns(study, runs);
   std::vector<results::DisplayUnit> units;
   std::string html =
       "<section id=\"runs\">\n<h2>Runs</h2>\n<div class=\"runs\"><table>\n<tr>" + cell("run", "th");
   for (const std::string& key : study.keys) html += cell(key.substr(key.rfind('.') + 1), "th");
   for (const std::string& column : columns) {
-    units.push_back(results::display_unit(largest(runs, column), column_unit(runs, column)));
+    units.push_back(shown.of(largest(runs, column), column_unit(runs, column)));
     const std::string& unit = units.back().unit;
     html += cell(column_name(column) + (unit.empty() ? "" : " [" + unit + "]"), "th");
   }
@@ -50,7 +51,7 @@ std::string run_table(const Study& study, const std::vector<RunRecord>& runs) {
     if (runs[k].status)
       for (std::size_t c = 0; c < columns.size(); ++c) {
         const std::optional<double> value = status_number(*runs[k].status, columns[c]);
-        html += cell(value ? results::number_format(*value / units[c].factor, 6) : "");
+        html += cell(value ? results::number_format(units[c].shown(*value), 6) : "");
       }
     else
       html +=
@@ -85,6 +86,7 @@ std::string sweep_report(const Study& study, const std::vector<RunRecord>& runs,
   };
   std::vector<report::Chart> charts = column_charts(study, runs);
   for (report::Chart& chart : history_charts(study, runs, folder)) charts.push_back(std::move(chart));
+  const results::ShownUnits units = shown_units(study, folder);
   const std::string title = study.title.empty() ? study.name : study.title;
   std::string verdict = fmt::format("{} of {} runs done", count(State::done), runs.size());
   if (count(State::failed) > 0) verdict += fmt::format(", {} failed", count(State::failed));
@@ -93,7 +95,7 @@ std::string sweep_report(const Study& study, const std::vector<RunRecord>& runs,
                .version = version,
                .verdict = verdict,
                .good = count(State::done) == static_cast<std::ptrdiff_t>(runs.size())},
-              warnings(study, runs) + chart_section(charts) + run_table(study, runs) +
+              warnings(study, runs) + chart_section(charts, units) + run_table(study, runs, units) +
                   fmt::format("<section id=\"study\">\n<h2>The study</h2>\n<pre "
                               "tabindex=\"0\">{}</pre>\n</section>\n",
                               report::html_escape(study.text)));

@@ -10,7 +10,7 @@ namespace cnem::study {
 
 namespace {
 
-constexpr std::array<const char*, 4> zones{"rollover", "burnish", "fracture", "burr"};
+constexpr std::array<const char*, 5> zones{"rollover", "burnish", "broken", "fracture", "burr"};
 
 std::optional<double> named(const std::vector<std::pair<std::string, double>>& list, std::string_view name) {
   const auto found = std::find_if(list.begin(), list.end(), [&](const auto& p) { return p.first == name; });
@@ -61,6 +61,11 @@ std::vector<std::string> cut_columns(const std::vector<RunRecord>& runs) {
     if (run.status && !run.punch.empty())
       for (const auto& [name, value] : run.status->metrics)
         if (asked_for(run, name)) add(name);
+  std::erase_if(columns, [&](const std::string& column) { // metal that is broken is closed in few cuts
+    return column.ends_with(".broken") && std::none_of(runs.begin(), runs.end(), [&](const RunRecord& run) {
+             return run.status && status_number(*run.status, column).value_or(0.0) > 0.0;
+           });
+  });
   return columns;
 }
 

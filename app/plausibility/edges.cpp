@@ -78,7 +78,7 @@ void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const 
                                              side(one), 100.0 * one.gap / one.thickness)));
   const contact::Tool<2>& punch =
       solver.conditions().contact.tools()[as<ToolIndex>(input.report.blanking->punch)];
-  const double stroke = way_of(punch, input.time.end).norm();
+  const double stroke = punch.led_displacement(input.time.end).norm();
   if (!punch.drive && stroke < shallow * one.thickness)
     doubts.push_back(
         doubt_about(input, fmt::format("tools.{}.velocity", punch.name),

@@ -172,8 +172,15 @@ void add_cutting_report(Keys& k) {
 
 void add_report(Keys& k) {
   k.add("report", table,
-        "What is evaluated at the end of an explicit run (docs/blanking.md, docs/cutting.md).")
+        "What is evaluated at the end of an explicit run (docs/blanking.md, docs/cutting.md), and the units "
+        "of pages.")
       .always();
+  k.add("report.units", texts,
+        "Units that pages and pictures show numbers in, one for each dimension: `degC`, `kN`, `N/mm`, `um`, "
+        "`GPa`, `J/mm` (those of energies contain J). Others follow the size of the number: mm, N/mm, MPa, "
+        "J/mm, "
+        "K. Files stay in SI.")
+      .example("[\"degC\", \"kN/mm\"]");
   k.add("report.springback", boolean,
         "The bodies are let go: field `springback` in the last frame of `fields.pvd`, largest displacement "
         "and change of shape of each body in `status.json`. Planes of symmetry stay, tools, loads and other "

@@ -63,7 +63,9 @@ constexpr std::array scopes{
     Scoped{"output.picture_fields", Scope::plane, "pictures show the plane; fields.pvd shows space"},
     Scoped{"output.notes", Scope::plane, "there are no pictures of space to stand beside"},
     Scoped{"output.windows", Scope::plane, "there are no pictures of space to enlarge"},
-    Scoped{"report", Scope::plane, "cuts are followed along the outline of the workpiece"},
+    Scoped{"report.blanking", Scope::plane, "cuts are followed along the outline of the workpiece"},
+    Scoped{"report.cutting", Scope::plane, "cuts are followed along the outline of the workpiece"},
+    Scoped{"report.springback", Scope::plane, "bodies are let go in the plane only"},
 };
 
 } // namespace

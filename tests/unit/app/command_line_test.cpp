@@ -64,6 +64,36 @@ protected:
   std::string message, printed;
 };
 
+TEST_F(CommandLine, a_run_of_heat_alone_closes_the_balance_of_heat) {
+  const std::filesystem::path path = folder / "warm.toml";
+  std::ofstream(path) << testing::steel_304l << R"toml(
+[analysis]
+mechanical = false
+[time]
+end = "1 ms"
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "2 1 mm" }
+[cloud]
+spacing = "0.2 mm"
+[initial]
+temperature = "300 K"
+[boundary.hot]
+pieces = ["left"]
+temperature = "400 K"
+)toml";
+  ASSERT_EQ(call({"run", path.string(), "--output", results(), "--threads", "1"}), 0) << message;
+  EXPECT_NE(printed.find("; heat residual "), std::string::npos) << printed;
+  EXPECT_NE(printed.find(" of the heat moved"), std::string::npos) << printed;
+  const double share = results::read_status(results()).energy_residual;
+  EXPECT_LT(share, 1e-10);
+  const std::string page = results::read_file(folder / "results" / "report.html");
+  EXPECT_NE(page.find("heat residual "), std::string::npos);
+  EXPECT_EQ(page.find("energy residual"), std::string::npos);
+  EXPECT_EQ(page.find("Residual of the energy balance"), std::string::npos) << "it is zero";
+  EXPECT_NE(page.find("<dt>Largest temperature</dt><dd>400 K</dd>"), std::string::npos);
+}
+
 TEST_F(CommandLine, run_leaves_every_promised_file_and_closes_its_books) {
   ASSERT_EQ(call({"run", file(), "--output", results(), "--threads", "1"}), 0) << message;
   for (const char* name : {"case.resolved.toml", "history.csv", "fields.pvd", "status.json", "report.html"})

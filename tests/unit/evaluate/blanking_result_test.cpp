@@ -123,10 +123,15 @@ BlankingResult example() {
   face.burnish = 0.3e-3;
   face.fracture = 0.6e-3;
   face.burr = 0.05e-3;
+  face.broken = 0.02e-3;
+  face.burnish -= face.broken;
   face.fracture_angle = 0.1;
-  face.profile = {{-1e-3, 0}, {-0.2e-3, 0}, {0, 0.1e-3}, {0, 0.4e-3}, {-0.05e-3, 1.05e-3}, {-1e-3, 1e-3}};
-  face.zone = {Zone::surface, Zone::rollover, Zone::burnish, Zone::fracture, Zone::burr_side};
+  face.profile = {{-1e-3, 0},  {-0.2e-3, 0},     {0, 0.1e-3},         {0, 0.38e-3},
+                  {0, 0.4e-3}, {-0.05e-3, 1e-3}, {-0.05e-3, 1.05e-3}, {-1e-3, 1e-3}};
+  face.zone = {Zone::surface,  Zone::rollover, Zone::burnish,  Zone::broken,
+               Zone::fracture, Zone::burr,     Zone::burr_side};
   result.faces = {face};
+  result.cut_length = 2.0;
   return result;
 }
 
@@ -153,6 +158,9 @@ TEST_F(BlankingFile, comes_back_as_it_was_written) {
   EXPECT_EQ(back->faces[0].zone, example().faces[0].zone);
   EXPECT_TRUE(std::isnan(back->springback[0].angle_change));
   EXPECT_EQ(back->forces[0].stroke, 1e-3);
+  EXPECT_EQ(back->faces[0].broken, 0.02e-3);
+  EXPECT_TRUE(back->faces[0].measured);
+  EXPECT_EQ(back->cut_length, 2.0);
   EXPECT_EQ(back->dies, example().dies);
 }
 
@@ -184,10 +192,10 @@ TEST_F(BlankingFile, a_foreign_file_is_refused) {
   }
 }
 
-TEST(BlankingPage, drawing_names_zones_with_their_heights) {
+TEST(BlankingPage, drawing_names_zones_with_their_shares) {
   const std::string svg = report::face_drawing(example().faces[0]);
-  for (const char* part : {"rollover 100 µm (10.0 %)", "burnish 300 µm (30.0 %)", "fracture 600 µm (60.0 %)",
-                           "burr 50 µm (5.0 %)", "class=\"line fracture\"", "surface on the side of the die"})
+  for (const char* part : {"Rollover 10.0 %", "Burnish 28.0 %", "Broken, not open 2.0 %", "Fracture 60.0 %",
+                           "Burr 5.0 %", "class=\"line fracture\"", "surface on the side of the die"})
     EXPECT_NE(svg.find(part), std::string::npos) << "no '" << part << "' in:\n" << svg;
 }
 
@@ -201,8 +209,9 @@ TEST(BlankingPage, marks_the_largest_force_and_shows_tables) {
   EXPECT_EQ(chart->series[2].x[1], 1e-3);
   EXPECT_NEAR(chart->series[2].y[1], 2e6, 2e3);
   const std::string html = report::render_blanking(result, chart);
-  for (const char* part : {"Face of the slug", "Fracture angle", "5.73°", "Largest force of punch",
-                           "at a stroke of 1 mm", "Work of punch", "Dishing of slug", "Angle of skeleton"})
+  for (const char* part :
+       {"Face of the slug", "0.1 mm  (10.0 %)", "Fracture angle", "5.73°", "Largest force of punch",
+        "at a stroke of 1 mm", "Work of punch", "Dishing of slug", "Angle of skeleton"})
     EXPECT_NE(html.find(part), std::string::npos) << "no '" << part << "' in:\n" << html;
   EXPECT_EQ(report::render_blanking({}, {}), "");
 }
@@ -214,11 +223,26 @@ TEST(BlankingPage, metrics_have_heights_and_shares) {
       if (known == name) return number;
     return std::nan("");
   };
-  EXPECT_EQ(value("blanking.slug.burnish[m]"), 0.3e-3);
-  EXPECT_NEAR(value("blanking.slug.burnish_share"), 0.3, 1e-15);
+  EXPECT_EQ(value("blanking.slug.burnish[m]"), 0.28e-3);
+  EXPECT_NEAR(value("blanking.slug.burnish_share"), 0.28, 1e-15);
+  EXPECT_EQ(value("blanking.slug.broken[m]"), 0.02e-3);
   EXPECT_EQ(value("blanking.largest_force.punch[N/m]"), 1.9e6);
   EXPECT_EQ(value("blanking.work.punch[J/m]"), 4e3);
   EXPECT_EQ(metrics_of(example().springback).front().second, 8e-6);
+}
+
+TEST(BlankingPage, a_face_that_cannot_be_measured_has_words_and_no_numbers) {
+  BlankingResult result = example();
+  ShearedFace& face = result.faces[0];
+  face = {};
+  face.body = "slug";
+  face.measured = false;
+  face.note = "cannot be measured: its burr would be 1.2 thicknesses";
+  for (const auto& [name, value] : metrics_of(result))
+    EXPECT_TRUE(!name.starts_with("blanking.slug") || name == "blanking.slug.parted") << name;
+  const std::string html = report::render_blanking(result, {});
+  EXPECT_NE(html.find(face.note), std::string::npos);
+  EXPECT_EQ(html.find("Fracture"), std::string::npos);
 }
 
 const std::string tools =

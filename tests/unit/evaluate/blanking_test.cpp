@@ -135,6 +135,64 @@ TEST(Blanking, faces_of_a_separated_blank_in_any_position) {
     }
 }
 
+TEST(Blanking, a_skeleton_that_has_turned_by_60_degrees_is_measured_as_before) {
+  for (const double angle : {60.0, -60.0}) {
+    SCOPED_TRACE(angle);
+    Blank blank;
+    CutSheet sheet = blank.sheet();
+    sheet.initial = sheet.position;
+    const Vec2 pivot(2.0, 0.5);
+    for (std::size_t i = 0; i < sheet.part.size(); ++i) {
+      if (sheet.part[i] != 1) continue;
+      const Vec2 d = sheet.position[i] - pivot;
+      sheet.position[i] = pivot + Vec2(std::cos(angle * degree) * d.x() - std::sin(angle * degree) * d.y(),
+                                       std::sin(angle * degree) * d.x() + std::cos(angle * degree) * d.y());
+    }
+    Cut cut = find_cuts(blank.tools, sheet).back();
+    cut.slug = 0;
+    cut.skeleton = 1;
+    const std::vector<ShearedFace> faces = measure_cut(cut, blank.tools, sheet, 10.0 * degree, 0.0);
+    EXPECT_TRUE(faces[1].measured);
+    expect_face(faces[1], 0.2, 0.3, 0.03, std::atan(0.08 / 0.53));
+    EXPECT_NEAR(std::abs(faces[1].tilt), 60.0 * degree, 1e-6);
+    expect_face(faces[0], 0.12, 0.28, 0.05, std::atan(0.05 / 0.65));
+  }
+}
+
+TEST(Blanking, walls_of_holes_and_broken_metal_are_told_from_burnish) {
+  Blank blank;
+  CutSheet sheet = blank.sheet();
+  sheet.broken.assign(sheet.part.size(), 0);
+  const IndexedVector<CloudFacetIndex, Facet<2>>& facets = blank.cloud.facets;
+  for (std::size_t i = 0; i < sheet.part.size(); ++i) // of the right face of the slug, below its fracture
+    sheet.broken[i] =
+        std::abs(sheet.position[i].x() - 2.1) < 1e-9 && sheet.position[i].y() > -1.3 + 0.3 - 1e-9;
+  auto with_hole = facets;
+  for (Facet<2>& facet : with_hole) { // on the smooth part of the right skeleton
+    const Vec2 middle = 0.5 * (blank.cloud.position[facet.node[0]] + blank.cloud.position[facet.node[1]]);
+    if (std::abs(middle.x() - 2.0) < 1e-9 && middle.y() > 0.6 && middle.y() < 0.7) facet.piece = 2_piece;
+  }
+  const CutSheet marked{sheet.position,
+                        with_hole,
+                        sheet.fracture_piece,
+                        sheet.part,
+                        sheet.volume,
+                        sheet.on_plane,
+                        sheet.initial_outline,
+                        {2_piece},
+                        {},
+                        sheet.broken};
+  const std::vector<ShearedFace> faces =
+      measure_cut(find_cuts(blank.tools, marked).back(), blank.tools, marked, 10.0 * degree, 0.0);
+  EXPECT_NEAR(faces[0].broken, 0.1, 0.021);
+  EXPECT_NEAR(faces[0].broken + faces[0].burnish, 0.28, 0.006);
+  EXPECT_EQ(faces[0].hole, 0.0);
+  EXPECT_NEAR(faces[1].hole, 0.1, 0.021);
+  EXPECT_NEAR(faces[1].hole + faces[1].burnish, 0.3, 0.006);
+  EXPECT_EQ(faces[1].broken, 0.0);
+  EXPECT_NE(faces[1].note.find("a hole lies in the face"), std::string::npos) << faces[1].note;
+}
+
 TEST(Blanking, clearance_thickness_and_parts_of_a_cut) {
   const Blank blank;
   const CutSheet sheet = blank.sheet();

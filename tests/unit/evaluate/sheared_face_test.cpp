@@ -8,10 +8,14 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 
 namespace cnem::evaluate {
 namespace {
+
+constexpr FaceSurface M = FaceSurface::metal, B = FaceSurface::broken, F = FaceSurface::fracture,
+                      O = FaceSurface::other;
 
 /// A body of unit thickness, 3 wide, whose face is at u = 0. Corners of its outline, counter-clockwise in u,
 /// w.
@@ -22,28 +26,28 @@ struct Profile {
 
   FaceOutline outline(double spacing = 0.01, double noise = 0.0) const {
     std::vector<Vec2> corner{{-3.0, 0.0}};
-    std::vector<char> fracture{0};
-    const auto add = [&](const Vec2& x, char broken) {
+    std::vector<FaceSurface> surface{M};
+    const auto add = [&](const Vec2& x, FaceSurface after) {
       corner.push_back(x);
-      fracture.push_back(broken);
+      surface.push_back(after);
     };
     if (round)
       for (int k = 0; k <= 90; ++k)
-        add({-rollover + rollover * std::sin(k * degree), rollover - rollover * std::cos(k * degree)}, 0);
+        add({-rollover + rollover * std::sin(k * degree), rollover - rollover * std::cos(k * degree)}, M);
     else {
-      add({-width, 0.0}, 0);
-      add({0.0, rollover}, 0);
+      add({-width, 0.0}, M);
+      add({0.0, rollover}, M);
     }
     const double begin = rollover + burnish, end = thickness + burr;
-    if (begin < thickness) add({0.0, begin}, 1);
+    if (begin < thickness) add({0.0, begin}, F);
     const double foot = -std::tan(angle) * (end - begin);
-    add({foot, end}, 0);
-    if (burr > 0.0) add({foot - 1.5 * burr, thickness}, 0);
-    add({-3.0, thickness}, 0);
-    return divided(corner, fracture, spacing, noise);
+    add({foot, end}, M);
+    if (burr > 0.0) add({foot - 1.5 * burr, thickness}, M);
+    add({-3.0, thickness}, M);
+    return divided(corner, surface, spacing, noise);
   }
 
-  static FaceOutline divided(const std::vector<Vec2>& corner, const std::vector<char>& fracture,
+  static FaceOutline divided(const std::vector<Vec2>& corner, const std::vector<FaceSurface>& surface,
                              double spacing, double noise) {
     testing::Random random(3);
     FaceOutline outline;
@@ -53,7 +57,7 @@ struct Profile {
       for (int i = 0; i < pieces; ++i) {
         outline.point.push_back(a + (b - a) * (i / double(pieces)) +
                                 noise * Vec2(random.uniform(-1, 1), random.uniform(-1, 1)));
-        outline.fracture.push_back(fracture[k]);
+        outline.surface.push_back(surface[k]);
       }
     }
     return outline;
@@ -75,8 +79,8 @@ void expect_heights(const ShearedFace& face, const Profile& p, double tolerance)
 
 FaceOutline reversed(FaceOutline outline) {
   std::reverse(outline.point.begin(), outline.point.end());
-  std::reverse(outline.fracture.begin(), outline.fracture.end());
-  std::rotate(outline.fracture.begin(), outline.fracture.begin() + 1, outline.fracture.end());
+  std::reverse(outline.surface.begin(), outline.surface.end());
+  std::rotate(outline.surface.begin(), outline.surface.begin() + 1, outline.surface.end());
   return outline;
 }
 
@@ -117,8 +121,8 @@ TEST(ShearedFace, sense_of_travel_and_first_point_do_not_matter) {
     FaceOutline turned = outline;
     std::rotate(turned.point.begin(), turned.point.begin() + static_cast<std::ptrdiff_t>(shift),
                 turned.point.end());
-    std::rotate(turned.fracture.begin(), turned.fracture.begin() + static_cast<std::ptrdiff_t>(shift),
-                turned.fracture.end());
+    std::rotate(turned.surface.begin(), turned.surface.begin() + static_cast<std::ptrdiff_t>(shift),
+                turned.surface.end());
     for (const FaceOutline& other : {turned, reversed(turned)}) {
       const ShearedFace again = measure_face(other, rules());
       EXPECT_EQ(again.rollover, face.rollover);
@@ -208,7 +212,7 @@ TEST(ShearedFace, wall_along_the_punch_of_a_tilted_sheet_is_burnish) {
   const std::vector<Vec2> corner{{-3, 3 * -slope - 1.0}, {0, -1.0}, {0, -1.0 + height},
                                  {3, -1.0 + height},     {3, 1.0},  {0, 0.1},
                                  {-3, 3 * -slope + 0.1}};
-  const ShearedFace face = measure_face(Profile::divided(corner, {0, 0, 0, 0, 0, 0, 0}, 0.01, 0.0), rules());
+  const ShearedFace face = measure_face(Profile::divided(corner, {M, M, M, M, M, M, M}, 0.01, 0.0), rules());
   EXPECT_NEAR(face.tilt, -15.0 * degree, 1e-6);
   EXPECT_NEAR(face.rollover, 0.0, 0.006);
   EXPECT_NEAR(face.burnish, height * std::cos(15.0 * degree), 0.01); // along the normal of the sheet
@@ -249,11 +253,108 @@ TEST(ShearedFace, burnish_alone_and_fracture_alone) {
 TEST(ShearedFace, second_burnish_follows_a_fracture_that_ends_early) {
   // rollover 0.1, burnish 0.3, fracture to 0.8, smooth again to 1
   const std::vector<Vec2> corner{{-3, 0}, {-0.1, 0}, {0, 0.1}, {0, 0.4}, {-0.05, 0.8}, {-0.05, 1.0}, {-3, 1}};
-  const FaceOutline outline = Profile::divided(corner, {0, 0, 0, 1, 0, 0, 0}, 0.01, 0.0);
+  const FaceOutline outline = Profile::divided(corner, {M, M, M, F, M, M, M}, 0.01, 0.0);
   const ShearedFace face = measure_face(outline, rules());
   EXPECT_NEAR(face.fracture, 0.4, 1e-9);
   EXPECT_NEAR(face.second_burnish, 0.2, 1e-9);
   EXPECT_NEAR(length_of(face, Zone::second_burnish), 0.2, 0.01);
+}
+
+TEST(ShearedFace, metal_that_is_broken_but_not_open_is_no_burnish) {
+  // rollover 0.1, smooth to 0.3, broken to 0.45, smooth to 0.5, fracture to 0.8, then broken to 0.9
+  const std::vector<Vec2> corner{{-3, 0},  {-0.1, 0},    {0, 0.1},     {0, 0.3},     {0, 0.45},
+                                 {0, 0.5}, {-0.05, 0.8}, {-0.05, 0.9}, {-0.05, 1.0}, {-3, 1}};
+  const ShearedFace face =
+      measure_face(Profile::divided(corner, {M, M, M, B, M, F, B, M, M, M}, 0.01, 0.0), rules());
+  EXPECT_NEAR(face.broken, 0.15 + 0.1, 1e-6);
+  EXPECT_NEAR(face.burnish, 0.2 + 0.05, 0.005);
+  EXPECT_NEAR(face.fracture, 0.3, 1e-9);
+  EXPECT_NEAR(face.second_burnish, 0.1, 1e-9);
+  EXPECT_NEAR(face.rollover + face.burnish + face.broken + face.fracture + face.second_burnish, 1.0, 1e-9);
+  EXPECT_NEAR(length_of(face, Zone::broken), 0.25, 1e-9);
+  EXPECT_TRUE(face.found());
+}
+
+// A hole of 0.3 on the line of the cut: above it smooth and fractured metal, below it fracture and a burr.
+TEST(ShearedFace, the_wall_of_a_hole_in_the_cut_is_neither_burnish_nor_fracture) {
+  std::vector<Vec2> corner{{-3, 0}, {-0.1, 0}, {0, 0.1}, {0, 0.3}};
+  std::vector<FaceSurface> surface{M, M, M, F};
+  for (int k = 0; k <= 18; ++k) {
+    corner.emplace_back(-0.15 * std::sin(10.0 * k * degree), 0.5 - 0.15 * std::cos(10.0 * k * degree));
+    surface.push_back(k < 18 ? O : F);
+  }
+  for (const Vec2& x : {Vec2(0, 1.04), Vec2(-0.06, 1.0), Vec2(-3, 1)}) {
+    corner.push_back(x);
+    surface.push_back(M);
+  }
+  const ShearedFace face = measure_face(Profile::divided(corner, surface, 0.01, 0.0), rules());
+  EXPECT_NEAR(face.hole, 0.3, 1e-9);
+  EXPECT_NEAR(face.rollover, 0.1, 0.005);
+  EXPECT_NEAR(face.burnish, 0.2, 0.005);
+  EXPECT_NEAR(face.fracture, 0.4, 1e-9);
+  EXPECT_NEAR(face.burr, 0.04, 1e-9);
+  EXPECT_EQ(face.second_burnish, 0.0);
+  EXPECT_EQ(face.note, "a hole lies in the face: 30% of the thickness are its wall");
+  EXPECT_NEAR(length_of(face, Zone::hole), 0.15 * 180.0 * degree, 0.01);
+  // Where nothing is fractured its wall is not the burnish either.
+  for (FaceSurface& one : surface)
+    if (one == F) one = M;
+  const ShearedFace smooth = measure_face(Profile::divided(corner, surface, 0.01, 0.0), rules());
+  EXPECT_NEAR(smooth.hole, 0.3, 1e-9);
+  EXPECT_NEAR(smooth.burnish + smooth.second_burnish, 0.6, 0.005);
+}
+
+TEST(ShearedFace, a_body_that_has_turned_is_measured_in_its_own_frame) {
+  const Profile p;
+  for (const double turn : {60.0, -60.0, 40.0, 135.0, 180.0}) {
+    SCOPED_TRACE(turn);
+    FaceOutline outline = p.outline();
+    for (Vec2& x : outline.point)
+      x = Vec2(std::cos(turn * degree) * x.x() - std::sin(turn * degree) * x.y(),
+               std::sin(turn * degree) * x.x() + std::cos(turn * degree) * x.y());
+    FaceRules known = rules();
+    known.turn = (turn + 3.0) * degree; // the surface says the rest
+    known.limit = std::numeric_limits<double>::infinity();
+    const ShearedFace face = measure_face(outline, known);
+    EXPECT_TRUE(face.measured);
+    expect_heights(face, p, 0.005);
+    EXPECT_NEAR(face.tilt, turn * degree, 1e-6);
+    EXPECT_NEAR(face.fracture_angle, p.angle, 1e-6);
+    EXPECT_EQ(face.note, "");
+  }
+}
+
+TEST(ShearedFace, what_cannot_be_measured_has_a_note_and_no_numbers) {
+  const Profile p;
+  FaceOutline turned = p.outline();
+  for (Vec2& x : turned.point)
+    x = Vec2(0.5 * x.x() - std::sqrt(0.75) * x.y(), std::sqrt(0.75) * x.x() + 0.5 * x.y());
+  FaceRules unknown = rules(); // nobody says that it has turned
+  unknown.limit = std::numeric_limits<double>::infinity();
+  FaceRules whole = rules();
+  whole.turn = 60.0 * degree;
+  whole.limit = -2.0; // the outline goes on
+  for (const FaceRules& r : {unknown, whole}) {
+    const ShearedFace face = measure_face(turned, r);
+    EXPECT_FALSE(face.measured);
+    EXPECT_FALSE(face.found());
+    EXPECT_TRUE(face.note.starts_with("cannot be measured: ")) << face.note;
+    EXPECT_TRUE(face.profile.empty());
+    EXPECT_EQ(face.rollover + face.burnish + face.fracture + face.burr, 0.0);
+  }
+}
+
+// Its deepest point may be anywhere along the other surface, which is level but for rounding.
+TEST(ShearedFace, the_other_surface_is_no_second_burnish) {
+  Profile p;
+  p.burr = 0.0;
+  FaceOutline outline = p.outline();
+  for (Vec2& x : outline.point)
+    if (x.y() == 1.0) x.y() += 1e-4 * std::exp(-10.0 * (x.x() + 0.4) * (x.x() + 0.4));
+  const ShearedFace face = measure_face(outline, rules());
+  EXPECT_LT(length_of(face, Zone::second_burnish), 0.02);
+  EXPECT_GT(length_of(face, Zone::burr_side), 0.8);
+  expect_heights(face, p, 0.005);
 }
 
 TEST(ShearedFace, flakes_beside_the_fracture_are_not_it) {
@@ -262,7 +363,7 @@ TEST(ShearedFace, flakes_beside_the_fracture_are_not_it) {
   for (std::size_t k = 0; k < outline.point.size(); ++k) {
     const Vec2& x = outline.point[k];
     if (std::abs(x.x() + 0.5) < 0.02 || (x.x() == 0.0 && std::abs(x.y() - 0.3) < 0.006))
-      outline.fracture[k] = 1;
+      outline.surface[k] = F;
   }
   expect_heights(measure_face(outline, rules()), p, 0.005);
 }
@@ -270,21 +371,21 @@ TEST(ShearedFace, flakes_beside_the_fracture_are_not_it) {
 /// A whole body with the notch of a punch in it, as deep as `depth`.
 FaceOutline notched(double depth, double rollover, const std::vector<Vec2>& crack = {}) {
   std::vector<Vec2> corner{{-3, 0}, {-0.3, 0}, {0, rollover}};
-  std::vector<char> fracture{0, 0, 0};
+  std::vector<FaceSurface> surface{M, M, M};
   if (!crack.empty()) {
     corner.push_back({0, depth - 0.05});
-    fracture.push_back(1);
+    surface.push_back(F);
     for (const Vec2& x : crack) {
       corner.push_back(x);
-      fracture.push_back(1);
+      surface.push_back(F);
     }
     corner.push_back({1e-4, depth - 0.049}); // the other face of the crack
-    fracture.push_back(0);
+    surface.push_back(M);
   }
   corner.insert(corner.end(),
                 {{0, depth}, {3, depth}, {3, 1 + depth}, {0.1, 1 + depth}, {-0.02, 1}, {-3, 1}});
-  fracture.resize(corner.size(), 0);
-  return Profile::divided(corner, fracture, 0.01, 0.0);
+  surface.resize(corner.size(), M);
+  return Profile::divided(corner, surface, 0.01, 0.0);
 }
 
 TEST(ShearedFace, whole_body_shows_what_the_punch_has_made_so_far) {
@@ -307,12 +408,12 @@ TEST(ShearedFace, crack_counts_down_to_its_tip) {
 
 TEST(ShearedFace, no_cut_says_so) {
   const std::vector<Vec2> sheet{{-3, 0}, {3, 0}, {3, 1}, {-3, 1}};
-  ShearedFace face = measure_face(Profile::divided(sheet, {0, 0, 0, 0}, 0.05, 0.0), rules());
+  ShearedFace face = measure_face(Profile::divided(sheet, {M, M, M, M}, 0.05, 0.0), rules());
   EXPECT_FALSE(face.found());
   EXPECT_FALSE(face.parted);
   EXPECT_EQ(face.note, "no cut yet: the surface is drawn in by 0% of the thickness");
   const std::vector<Vec2> dent{{-3, 0}, {-0.4, 0}, {0, 0.06}, {3, 0.06}, {3, 1}, {-3, 1}};
-  face = measure_face(Profile::divided(dent, {0, 0, 0, 0, 0, 0}, 0.05, 0.0), rules());
+  face = measure_face(Profile::divided(dent, {M, M, M, M, M, M}, 0.05, 0.0), rules());
   EXPECT_NEAR(face.rollover, 0.06, 1e-12);
   EXPECT_EQ(face.burnish, 0.0);
   EXPECT_EQ(face.note, "drawn in only: no part of the face is parallel to the cutting direction yet");
@@ -322,7 +423,7 @@ TEST(ShearedFace, both_faces_of_a_narrow_slug_are_their_own) {
   // faces at u = 0 and u = −1.2: what is measured is the one at 0
   const std::vector<Vec2> corner{{-1.2, 0.3}, {-0.9, 0},    {-0.1, 0},   {0, 0.1},
                                  {0, 0.6},    {-0.04, 1.0}, {-1.1, 1.0}, {-1.2, 0.5}};
-  const FaceOutline outline = Profile::divided(corner, {0, 0, 0, 0, 1, 0, 1, 0}, 0.01, 0.0);
+  const FaceOutline outline = Profile::divided(corner, {M, M, M, M, F, M, F, M}, 0.01, 0.0);
   FaceRules r = rules();
   r.whole_surface = true;
   const ShearedFace face = measure_face(outline, r);

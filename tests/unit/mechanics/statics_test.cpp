@@ -145,9 +145,7 @@ TEST(Statics, expands_freely_without_stress_and_presses_on_what_holds_it_as_hook
         for (std::size_t p = 0; p < s.stress[0].size(); ++p) {
           EXPECT_NEAR(s.stress[0][p], xx, 1e-14) << held;
           EXPECT_NEAR(s.stress[1][p], held == 2 ? xx : 0.0, 1e-14) << held;
-          if (stress) {
-            EXPECT_EQ(s.stress[2][p], 0.0);
-          }
+          if (stress) { EXPECT_EQ(s.stress[2][p], 0.0); }
         }
         EXPECT_NEAR(s.strain_energy + s.stabilisation_energy, s.external_work + s.thermal_work, 1e-16);
         EXPECT_EQ(s.thermal_work > 1e-9, held > 0 || !(stress || round));

@@ -185,21 +185,23 @@ TEST_F(SweepAxes, cuts_have_columns_and_charts_of_their_own) {
     status.add_metric("blanking.stroke_at_largest_force.punch[m]", 5e-4 * more);
     status.add_metric("blanking.work.punch[J/m]", 2e3 * more);
     status.add_metric("blanking.slug.rollover[m]", 2e-4 * more);
+    status.add_metric("blanking.slug.broken[m]", 1e-4 * static_cast<double>(k));
+    status.add_metric("blanking.skeleton.broken[m]", 0.0);
     status.add_metric("blanking.slug.second_burnish[m]", 1e-4);
     status.add_metric("blanking.slug.burr[m]", 1e-5 * more);
     status.add_metric("blanking.skeleton.burr[m]", 2e-5 * more);
   }
-  EXPECT_EQ(
-      table_columns(s, runs),
-      (std::vector<std::string>{"nodes", "steps", "energy_residual", "metrics.blanking.largest_force.punch",
-                                "metrics.blanking.stroke_at_largest_force.punch",
-                                "metrics.blanking.work.punch", "metrics.blanking.slug.rollover",
-                                "metrics.blanking.slug.burr", "metrics.blanking.skeleton.burr"}));
+  EXPECT_EQ(table_columns(s, runs),
+            (std::vector<std::string>{
+                "nodes", "steps", "energy_residual", "metrics.blanking.largest_force.punch",
+                "metrics.blanking.stroke_at_largest_force.punch", "metrics.blanking.work.punch",
+                "metrics.blanking.slug.rollover", "metrics.blanking.slug.broken",
+                "metrics.blanking.slug.burr", "metrics.blanking.skeleton.burr"}));
   const std::string page = sweep_report(s, runs, folder, "test");
   expect_parts(page,
                {"largest force of punch against width", "work of punch against width", "burr against width",
-                ">skeleton<", "width [mm]", "<th>blanking.largest_force.punch [MN/m]</th>",
-                "<th>blanking.slug.burr [µm]</th>", "<td>4</td>"});
+                ">skeleton<", "width [mm]", "<th>blanking.largest_force.punch [N/mm]</th>",
+                "<th>blanking.slug.burr [mm]</th>", "<td>4000</td>"});
   EXPECT_EQ(page.find("peak_force"), std::string::npos);
 }
 
