@@ -242,7 +242,11 @@ private:
     for (std::size_t k = 0; k < walk_.point.size() && walk_.at[k] < end_; ++k)
       if (walk_.at[k] >= std::max(surface_end_, crack_ ? crack_end_ : 0.0) &&
           walk_.point[k].y() >= other_side_ - touch * rules_.thickness) {
-        end_ = walk_.at[k];
+        const auto goes_on = [&](const Vec2& a, const Vec2& b) {
+          return b.y() - a.y() > std::abs(b.x() - a.x());
+        };
+        while (k + 1 < walk_.point.size() && goes_on(walk_.point[k], walk_.point[k + 1])) ++k;
+        end_ = std::min(end_, walk_.at[k]);
         return;
       }
   }

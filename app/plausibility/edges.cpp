@@ -70,7 +70,7 @@ namespace {
 /// Of a cut whose clearances are sound: how wide, how far the punch goes, how many cells.
 void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const evaluate::Clearance& one,
                Doubts& doubts) {
-  constexpr double wide = 0.5, shallow = 0.1, few = 4.0; // of the thickness, cells
+  constexpr double wide = 0.5, shallow = 0.005, few = 4.0; // of the thickness, cells
   if (one.gap > wide * one.thickness)
     doubts.push_back(doubt_about(input, "report.blanking",
                                  fmt::format("{}clearance of {:.0f}% of the thickness, where 2 to 15% are "
@@ -78,7 +78,10 @@ void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const 
                                              side(one), 100.0 * one.gap / one.thickness)));
   const contact::Tool<2>& punch =
       solver.conditions().contact.tools()[as<ToolIndex>(input.report.blanking->punch)];
-  const double stroke = punch.led_displacement(input.time.end).norm();
+  double stroke = 0.0; // the farthest: a punch may come back
+  constexpr int samples = 64;
+  for (int k = 1; k <= samples; ++k)
+    stroke = std::max(stroke, punch.led_displacement(k * input.time.end / samples).norm());
   if (!punch.drive && stroke < shallow * one.thickness)
     doubts.push_back(
         doubt_about(input, fmt::format("tools.{}.velocity", punch.name),

@@ -110,7 +110,8 @@ inline std::vector<Node> last_nodes(const std::filesystem::path& folder) {
   return nodes;
 }
 
-inline Adapted run(const std::string& text, Texts overrides = {}, double residual = 5e-4) {
+/// outside: how many inner nodes may slip through the boundary, between two passes of a whole run.
+inline Adapted run(const std::string& text, Texts overrides = {}, double residual = 5e-4, int outside = 0) {
   overrides.emplace_back("output.pictures=[]");
   const input::Case input = input::read_case_text(text, "case.toml", overrides);
   const TemporaryFolder folder("adaptation");
@@ -122,7 +123,7 @@ inline Adapted run(const std::string& text, Texts overrides = {}, double residua
   EXPECT_LT(result.status.energy_residual, residual);
   EXPECT_GT(result.metric("mass_balance.low"), 0.75);
   EXPECT_LT(result.metric("mass_balance.high"), 1.3);
-  EXPECT_EQ(result.counted("outside"), 0.0);
+  EXPECT_LE(result.counted("outside"), outside);
   EXPECT_EQ(static_cast<double>(result.nodes.size()), result.column("nodes").back());
   const int start = app::build<2>(input).problem.cloud.nodes();
   for (const char* what : {"mass_error", "momentum_error", "heat_error"})
@@ -131,7 +132,7 @@ inline Adapted run(const std::string& text, Texts overrides = {}, double residua
   if (result.counted("folded") + result.counted("cuts") == 0.0) {
     EXPECT_EQ(result.column("nodes").back() - start,
               result.counted("inserted") + result.counted("inserted_boundary") - result.counted("removed") -
-                  result.counted("removed_boundary") + result.through_window());
+                  result.counted("removed_boundary") - result.counted("outside") + result.through_window());
   }
   return result;
 }

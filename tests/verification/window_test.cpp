@@ -21,11 +21,16 @@ const Texts faster{"cutting.rake=17.5 deg", "cutting.edge_radius=40 um", "cuttin
                    "cutting.length=1.8 mm"};
 
 TEST(MovingWindow, changes_nothing_near_the_tool) {
-  const Adapted whole = testing::run(cut, faster),
-                window =
-                    testing::run(cut, with(faster, {"cutting.window=true", "adapt.window.ahead=1.8 mm",
+  // Whether a node slips through at the edge, in 20,000 steps, is up to rounding: none with AVX-512, one
+  // without.
+  constexpr double residual = 5e-4;
+  constexpr int outside = 3;
+  const Adapted whole = testing::run(cut, faster, residual, outside),
+                window = testing::run(cut,
+                                      with(faster, {"cutting.window=true", "adapt.window.ahead=1.8 mm",
                                                     "adapt.window.behind=0.9 mm", "adapt.window.chip=0.9 mm",
-                                                    "domain.outer.rectangle.to=1.9 0.3 mm"}));
+                                                    "domain.outer.rectangle.to=1.9 0.3 mm"}),
+                                      residual, outside);
   const auto metric = [&](const Adapted& of, const char* name) {
     return of.metric(std::string("cutting.") + name);
   };

@@ -150,7 +150,7 @@ plastic = { law = "perfect", yield = "400 MPa" }
   };
   EXPECT_EQ(doubts_of({}), Texts{});
   for (const auto& [key, part] : std::initializer_list<std::pair<std::string, std::string>>{
-           {"cutting.speed=800 m/s", "800 m/s are 4.8e+04 m/min"},
+           {"cutting.speed=800 m/s", "800 m/s are 48000 m/min"},
            {"cutting.feed=0.4 m", "400 mm of uncut chip thickness"},
            {"cutting.clearance=0 deg", "the flank rubs"},
            {"cutting.edge_radius=1 mm", "2.5 times the feed"},

@@ -117,7 +117,7 @@ TEST_F(SweepAxes, heads_and_axes_carry_names_and_units) {
                                    "history = [{ x = \"energy.external\", y = \"energy.elastic\" }]\n") +
                        linked));
   expect_parts(text, {"run,let.width,let.pull,state,exit,metrics.strain_energy[J/m],nodes,cpu_s[s]",
-                      "\nsize_1_mm,1 mm,2 kPa,done,0,", "<th>strain_energy [µJ/m]</th>", "size [mm]",
+                      "\nsize_1_mm,1 mm,2 kPa,done,0,", "<th>strain_energy [mJ/mm]</th>", "size [mm]",
                       "strain_energy against size", "height [mm]", "external_work against height",
                       "energy.elastic over energy.external"});
 }
