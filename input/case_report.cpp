@@ -113,7 +113,9 @@ void read_shown_units(const Setting& root, Case& result, Diagnostics& diagnostic
           wrong(fmt::format("found '{}' and '{}', expected one unit for each dimension", other, text));
       known.push_back(unit);
       result.report.units.push_back(text);
-    } catch (const UnitError& error) { wrong(error.what()); }
+    } catch (const UnitError& error) {
+      wrong(fmt::format("{}, expected units such as \"kN/mm\", \"J\", \"MPa\", \"degC\"", error.what()));
+    }
   }
 }
 

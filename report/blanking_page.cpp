@@ -18,7 +18,9 @@ using results::ShownUnits;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-std::string degrees(double angle) { return fmt::format("{:.2f}°", angle / degree + 0.0); }
+std::string degrees(double angle) {
+  return fmt::format("{}{:.2f}°", angle < 0.0 ? "−" : "", std::abs(angle) / degree);
+}
 
 /// The zones of a face and their heights.
 struct Height {
@@ -143,8 +145,8 @@ std::string springback_table(const evaluate::BlankingResult& result, const Shown
     html += row(fmt::format("Largest displacement of {}", name), units.format(body.largest, "m"));
     if (std::isfinite(body.angle_change))
       html += row(fmt::format("Angle of {}", name),
-                  fmt::format("{} before, {:+.4f}° by letting go", degrees(body.angle_before),
-                              body.angle_change / degree));
+                  fmt::format("{} before, {}° by letting go", degrees(body.angle_before),
+                              results::number_format(body.angle_change / degree, 3)));
     if (std::isfinite(body.dishing_change))
       html += row(fmt::format("Dishing of {}", name),
                   fmt::format("{} before, {} by letting go", units.format(body.dishing_before, "m"),

@@ -98,13 +98,13 @@ std::string render_experiments(const std::vector<evaluate::ExperimentResult>& ex
   std::string figures;
   for (const evaluate::ExperimentResult& result : experiments) {
     const Chart chart = experiment_chart(result);
-    figures += fmt::format("<figure><h3>{}</h3>\n{}{}", html_escape(chart.title), svg_chart(chart),
-                           difference_table(result));
+    figures += fmt::format("<figure><h3>{}</h3>\n<div>{}{}</div>\n", html_escape(chart.title),
+                           svg_chart(chart), difference_table(result));
     for (const std::string& note : {result.note, chart.note})
       if (!note.empty()) figures += fmt::format("<figcaption>{}</figcaption>", html_escape(note));
     figures += "</figure>\n";
   }
-  return figures.empty() ? "" : fmt::format("<div class=\"charts\">\n{}</div>\n", figures);
+  return figures.empty() ? "" : fmt::format("<div class=\"charts experiments\">\n{}</div>\n", figures);
 }
 
 } // namespace cnem::report

@@ -36,6 +36,25 @@ std::string words(std::string name) {
   return name;
 }
 
+std::string keep_units(std::string html) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string kept;
+  kept.reserve(html.size());
+  bool inside = false;
+  for (std::size_t k = 0; k < html.size(); ++k) {
+    const std::string_view rest = std::string_view(html).substr(k);
+    if (rest.starts_with("<td") || rest.starts_with("<dd")) inside = true;
+    if (rest.starts_with("</td") || rest.starts_with("</dd")) inside = false;
+    const bool unit = k > 0 && k + 1 < html.size() && digit(html[k - 1]) && html[k + 1] != '(' &&
+                      html[k + 1] != ' ' && !digit(html[k + 1]);
+    if (inside && html[k] == ' ' && unit)
+      kept += "\u00a0";
+    else
+      kept += html[k];
+  }
+  return kept;
+}
+
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cnem::report {
 namespace {
@@ -151,9 +152,10 @@ std::string render_report(const ReportData& data) {
   if (!data.case_text.empty())
     html += section("case", data.case_title,
                     fmt::format("<pre tabindex=\"0\">{}</pre>\n", html_escape(data.case_text)));
-  return html + fmt::format("</main>\n<dialog><img alt=\"enlarged picture\"/></dialog>\n<script>{}</script>\n"
-                            "</body>\n</html>\n",
-                            report_script);
+  return keep_units(std::move(html)) +
+         fmt::format("</main>\n<dialog><img alt=\"enlarged picture\"/></dialog>\n<script>{}</script>\n"
+                     "</body>\n</html>\n",
+                     report_script);
 }
 
 } // namespace cnem::report

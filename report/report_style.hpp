@@ -29,12 +29,12 @@ h3 { font-size: 15px; margin: 0 0 10px; font-weight: 600; }
 .verdict { display: inline-block; margin: 0; padding: 5px 13px; border-radius: 8px; font-weight: 600; font-size: 14px; }
 .verdict.good { color: var(--good); background: var(--good-tint); }
 .verdict.bad { color: var(--bad); background: var(--bad-tint); }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 12px; margin: 26px 0 0; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(156px, 1fr)); gap: 12px; margin: 26px 0 0; }
 .figures div, .charts figure, .pictures figure, .tables > div, pre, .post-mortem {
   background: var(--card); border: 1px solid var(--line); border-radius: 12px; }
-.figures div { padding: 13px 16px; }
+.figures div { padding: 13px 14px; }
 dt { color: var(--soft); font-size: 12.5px; }
-dd { margin: 1px 0 0; font-size: 21px; font-weight: 620; font-variant-numeric: tabular-nums; letter-spacing: -0.01em; }
+dd { margin: 1px 0 0; font-size: 19px; font-weight: 620; font-variant-numeric: tabular-nums; letter-spacing: -0.01em; }
 dd.of { font-size: 12.5px; font-weight: 400; letter-spacing: 0; color: var(--soft); line-height: 1.35; }
 .verdict + .code { margin-top: 9px; }
 figure { margin: 0; }
@@ -72,7 +72,9 @@ summary { color: var(--soft); font-size: 13px; cursor: pointer; }
 .faces { grid-template-columns: repeat(auto-fill, minmax(min(600px, 100%), 1fr)); }
 .face > div { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(270px, 100%), 1fr)); gap: 12px 20px; align-items: center; }
 .face table { max-width: 460px; }
-.wide { grid-template-columns: minmax(0, 720px); }
+.wide { grid-template-columns: minmax(0, 600px); }
+.experiments { grid-template-columns: minmax(0, 1100px); }
+.experiments figure > div { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(400px, 100%), 1fr)); gap: 12px 28px; align-items: center; }
 .chart path.body { fill: var(--grid); }
 .chart .surface, .chart .burr_side { stroke: var(--c7); } .chart .rollover { stroke: var(--c1); stroke-width: 3; }
 .chart .burnish { stroke: var(--c0); stroke-width: 3; } .chart .second_burnish { stroke: var(--c5); stroke-width: 3; }
@@ -83,7 +85,8 @@ summary { color: var(--soft); font-size: 13px; cursor: pointer; }
 table { width: 100%; border-collapse: collapse; font-size: 14px; }
 th, td { padding: 5px 0; border-top: 1px solid var(--grid); text-align: left; font-weight: 400; vertical-align: top; }
 th { color: var(--soft); padding-right: 16px; }
-td { text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
+td { text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: break-word; }
+.measured td { padding-left: 12px; }
 tr:first-child > * { border-top: 0; }
 .warnings { margin: 0; padding: 12px 16px 12px 34px; border-radius: 12px; background: var(--warn-tint); color: var(--warn); }
 .post-mortem { padding: 16px 20px; border-color: var(--bad); max-width: 860px; }

@@ -146,7 +146,7 @@ std::string page(const PageHead& head, const std::string& body) {
       "<header>\n<p class=\"code\">cnem {}</p>\n<h1>{}</h1>\n<p class=\"verdict {}\">{}</p>\n</header>\n",
       report::html_escape(head.version), report::html_escape(head.title), head.good ? "good" : "bad",
       report::html_escape(head.verdict));
-  return html + body + "</main>\n</body>\n</html>\n";
+  return html + report::keep_units(body) + "</main>\n</body>\n</html>\n";
 }
 
 } // namespace cnem::study

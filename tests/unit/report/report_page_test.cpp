@@ -1,6 +1,7 @@
 // What a page says: the first numbers of each kind of run, its heading, curves worth a look, units.
 #include "core/error.hpp"
 #include "input/case_reader.hpp"
+#include "report/html.hpp"
 #include "report/report.hpp"
 #include "results/output_folder.hpp"
 #include "tests/shared_cases.hpp"
@@ -16,6 +17,12 @@ namespace {
 using evaluate::BlankingResult;
 using evaluate::ShearedFace;
 using results::ShownUnits;
+
+TEST(Html, numbers_stay_with_their_units) {
+  EXPECT_EQ(keep_units("<p>1 mm</p><td>0.1 mm  (10.0 %), at 2 µs, 16 023</td><dd class=\"of\">3 N</dd> 4 m"),
+            "<p>1 mm</p><td>0.1\u00a0mm  (10.0\u00a0%), at 2\u00a0µs, 16 023</td><dd "
+            "class=\"of\">3\u00a0N</dd> 4 m");
+}
 
 const Figure& figure(const std::vector<Figure>& figures, const std::string& name) {
   for (const Figure& one : figures)
@@ -229,8 +236,8 @@ TEST(ReportPage, heading_is_the_title_and_everything_has_the_units_of_the_case) 
   const std::string html = render_report(collect_report(folder.path(), status));
   for (const char* part :
        {"<title>A block &amp; its base</title>", "<h1>A block &amp; its base</h1>", " · block</p>",
-        "energy residual 0.002 %", "<dt>Largest temperature</dt><dd>120 °C</dd>", "temperature [°C]",
-        "<td>120 °C</td>"})
+        "energy residual 0.002 %", "<dt>Largest temperature</dt><dd>120\u00a0°C</dd>", "temperature [°C]",
+        "<td>120\u00a0°C</td>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
