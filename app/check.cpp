@@ -58,10 +58,12 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
       fmt::format("{:.4g} s, limited by {}{}{}", control.limit(), control.limited_by(),
                   input.time.fixed ? "" : input.placed(" at " + show_place<dim>(state.node.position, node)),
                   solver.sub_steps() > 1 ? fmt::format(", in {} finest steps", solver.sub_steps()) : ""));
+  const std::string most = fmt::format("{:.0f}", expected.nodes_last),
+                    first = fmt::format("{:.0f}", expected.nodes_first);
   add("steps", fmt::format("about {:.12g} to t = {:.4g} s{}", expected.steps, input.time.end,
                            input.adapt.resample
-                               ? fmt::format(", with cells of {:.3g} m and {:.0f} to {:.0f} nodes",
-                                             expected.finest, expected.nodes_first, expected.nodes_last)
+                               ? fmt::format(", with cells of {:.3g} m and {} nodes", expected.finest,
+                                             first == most ? most : first + " to " + most)
                                : ""));
   checked.numbers = {{"nodes", static_cast<double>(state.node.size())},
                      {"points", static_cast<double>(state.point.size())},

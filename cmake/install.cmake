@@ -47,5 +47,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core) # the letters of pictures
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS ffmpeg)           # films as MP4
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/prerm)
 set(CPACK_DEBIAN_DESCRIPTION "Simulates blanking, shearing and orthogonal cutting of metal in large strains,\nwith heat, damage and contact, from one case file to a report.")
 include(CPack)

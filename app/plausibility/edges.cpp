@@ -125,7 +125,7 @@ void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doub
     doubts.push_back(doubt_about(
         input, fmt::format("tools.{}", edge.tool->name),
         fmt::format(
-            "its arc of {:.3g} mm is {:.2g} spacings of the nodes that meet it, where fewer than {:g} hardly "
+            "its arc of {:.3g} mm is {:.1f} spacings of the nodes that meet it, where fewer than {:g} hardly "
             "feel that it is round: refine there (adapt.tool_spacing, cloud.refine) to {:.2g} mm",
             1e3 * edge.radius, edge.radius / edge.spacing, felt, 1e3 * edge.radius / 4.0)));
   }
@@ -145,7 +145,7 @@ std::vector<std::pair<std::string, std::string>> tool_measures(const input::Case
                        fmt::format("{} {:.4g} mm", tool.name, std::abs(gap) < rounding ? 0.0 : 1e3 * gap));
   }
   for (const Edge& edge : edges(input, solver))
-    lines.emplace_back("edge", fmt::format("{} radius {:.4g} mm, {:.2g} spacings", edge.tool->name,
+    lines.emplace_back("edge", fmt::format("{} radius {:.4g} mm, {:.1f} spacings", edge.tool->name,
                                            1e3 * edge.radius, edge.radius / edge.spacing));
   return lines;
 }

@@ -239,7 +239,7 @@ TEST(Plausibility, measures_of_a_cut) {
   const std::vector<std::pair<std::string, std::string>> expected{{"clearance", "0.1 mm, 5% of 2 mm"},
                                                                   {"gap", "punch 0 mm"},
                                                                   {"gap", "die 0 mm"},
-                                                                  {"edge", "die radius 0.4 mm, 2 spacings"}};
+                                                                  {"edge", "die radius 0.4 mm, 2.0 spacings"}};
   EXPECT_EQ(lines, expected);
 }
 
