@@ -195,7 +195,7 @@ Chip measure_chip(const CutOutline& outline, double feed, double rake) {
   const std::vector<Vec2>& point = outline.point;
   const std::size_t foot = foot_of_chip(point, feed);
   if (foot == point.size()) {
-    chip.note = "there is no chip yet";
+    chip.note = "no chip is found: there is none yet, or none any more";
     return chip;
   }
   chip.shear_plane = point[foot].norm();

@@ -1,6 +1,7 @@
 #include "evaluate/cutting.hpp"
 
 #include "core/index.hpp"
+#include "evaluate/blanking.hpp"
 #include "evaluate/cut_flow.hpp"
 #include "evaluate/cutting_forces.hpp"
 #include "evaluate/machined_surface.hpp"
@@ -76,14 +77,24 @@ results::HistoryTable force_table(const CutImpulse& impulse, const results::Hist
   return table;
 }
 
+/// m of cut at which the tool leaves the workpiece; infinite where it does not.
+double end_of_workpiece(const input::Case& input, const input::CuttingTool& cut, double way) {
+  if (input.adapt.window) return INFINITY; // more is fed in
+  double end = -INFINITY;
+  for (const Vec2& x : points_of(input.domain.outer, Vec2::Zero()))
+    end = std::max(end, cut.place(x, Vec2::Zero()).x());
+  return way > end ? end : INFINITY;
+}
+
 void take_forces(CuttingResult& result, const input::CuttingReport& asked, const results::HistoryTable& rows,
-                 double tooth) {
+                 double tooth, double end) {
   const CutImpulse impulse = impulse_of(rows);
   const SteadyPart part = steady_part(impulse, {.feed = asked.feed,
                                                 .feeds = asked.steady_feeds,
                                                 .tolerance = asked.steady_tolerance,
                                                 .window = asked.filter,
-                                                .tooth = tooth});
+                                                .tooth = tooth,
+                                                .end = end});
   result.forces = force_table(impulse, rows, asked.filter);
   if (impulse.rows() > 1)
     result.speed = (impulse.cut.back() - impulse.cut.front()) / (impulse.time.back() - impulse.time.front());
@@ -252,7 +263,7 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
   // A tooth of the chip is made over as much cut as there was metal in it.
   const double tooth =
       std::isfinite(chip.tooth_spacing) ? chip.tooth_spacing * chip.thickness / asked.feed : 0.0;
-  take_forces(result, asked, rows, tooth);
+  take_forces(result, asked, rows, tooth, end_of_workpiece(input, cut, result.cut));
   const double from = result.steady_from, to = result.steady_to;
   const RakeFace face = course.rake().mean(from, to);
   take_rake_face(result, input, face);

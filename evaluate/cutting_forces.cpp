@@ -10,6 +10,7 @@
 namespace cnem::evaluate {
 namespace {
 
+constexpr double breaks_out = 2.5; ///< feeds before the end of a workpiece: docs/cutting.md
 constexpr double grid = 0.125;     ///< of the feed: parts begin and end on such places
 constexpr double of_whole = 0.005; ///< or of the cut, where that is more
 
@@ -88,11 +89,11 @@ public:
       const double ends = std::max(off(from, from + end), off(to - end, to));
       const double whole = std::abs(part.mean.Fc);
       if (thirds > allowed)
-        part.fault = fmt::format("a third of it has a mean {} that is off by {:.2g}% of Fc", name[c],
+        part.fault = fmt::format("a third of it has a mean {} that is off by {:.0f}% of Fc", name[c],
                                  100.0 * thirds / whole);
       else if (ends > 2.0 * allowed)
         part.fault =
-            fmt::format("{} at one of its ends is off by {:.2g}% of Fc", name[c], 100.0 * ends / whole);
+            fmt::format("{} at one of its ends is off by {:.0f}% of Fc", name[c], 100.0 * ends / whole);
       else if (std::abs(trend.rise) > std::max(allowed, trend.scatter))
         part.fault = fmt::format("{} {} by {:.2g}% of Fc over it, more than its scatter of {:.2g}%", name[c],
                                  trend.rise > 0.0 ? "rises" : "falls", 100.0 * std::abs(trend.rise) / whole,
@@ -148,7 +149,9 @@ SteadyPart steady_part(const CutImpulse& impulse, const SteadyRule& rule) {
     none.note = "the tool has not moved";
     return none;
   }
-  const double begin = met(impulse), last = impulse.cut.back();
+  const double begin = met(impulse);
+  const double last = std::max(std::min(impulse.cut.back(), rule.end - breaks_out * rule.feed),
+                               begin + 0.5 * (impulse.cut.back() - begin));
   const double first = begin + rule.feed; // before that there is no chip
   // Each third is of whole teeth.
   const double fine = std::max(grid * rule.feed, of_whole * (last - begin));

@@ -1,5 +1,6 @@
 #pragma once
 // Forces of a tool over the length of its cut, and the part of it that is steady.
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,9 @@ struct SteadyRule {
   double feed = 0.0;  ///< m
   double feeds = 3.0; ///< it is at least so many of them long
   double tolerance = 0.05;
-  double window = 0.0; ///< m of cut that filtered forces are the mean over
-  double tooth = 0.0;  ///< m of cut in which a tooth is made; 0: no teeth
+  double window = 0.0;   ///< m of cut that filtered forces are the mean over
+  double tooth = 0.0;    ///< m of cut in which a tooth is made; 0: no teeth
+  double end = INFINITY; ///< m of cut at which the workpiece ends
 };
 
 /// Where forces are taken from.
@@ -43,7 +45,8 @@ struct SteadyPart {
 
 /// The longest part of the cut beyond its first feed over which forces are steady (docs/cutting.md); where
 /// there is none, the last part as long as a steady one would have to be, or the last half of a shorter cut,
-/// and why.
+/// and why. The last two and a half feeds before the end of a workpiece, which breaks out, and what comes
+/// after are no part of it.
 SteadyPart steady_part(const CutImpulse& impulse, const SteadyRule& rule);
 
 } // namespace cnem::evaluate

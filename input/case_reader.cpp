@@ -49,7 +49,15 @@ void compute_defaults(Setting& root) {
   else
     root.set_default("initial.velocity", Vec2(0, 0));
   if (space && root.find("domain.block.radius")) root.set_default("domain.block.centre", Vec3(0, 0, 0));
-  if (!space) root.set_default("output.pictures", std::vector<double>{end});
+  if (!space) {
+    using Names = std::vector<std::string>;
+    root.set_default("output.pictures", std::vector<double>{end});
+    root.set_default("output.picture_fields",
+                     statics ? Names{"equivalent_stress", "displacement_x", "displacement_y"}
+                     : root.get<bool>("analysis.mechanical")
+                         ? Names{"plastic_strain", "temperature", "pressure"}
+                         : Names{"temperature"});
+  }
   set_material_defaults(root, temperature);
   for (const Setting& entry : root.entries("domain.regions")) {
     root.set_default(entry.path + ".material", root.get<std::string>("domain.material"));

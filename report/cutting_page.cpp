@@ -16,7 +16,10 @@ namespace {
 using results::HistoryTable;
 using results::ShownUnits;
 
-std::string angle_text(double angle) { return fmt::format("{:.1f}°", angle * 180.0 / std::numbers::pi); }
+std::string angle_text(double angle) {
+  const double tenths = std::round(1800.0 * angle / std::numbers::pi);
+  return fmt::format("{}{:.1f}°", tenths < 0.0 ? "−" : "", std::abs(tenths) / 10.0);
+}
 
 /// Rows of what is known, under a title; "" when nothing is.
 class CutTable {
@@ -45,8 +48,11 @@ private:
 
 std::string force_text(const evaluate::CuttingResult& result, double mean, double spread,
                        const ShownUnits& units) {
-  return fmt::format("{} ± {} ({})", units.format(result.in_newton(mean), "N"),
-                     units.format(result.in_newton(spread), "N", 2), units.format(mean, "N/m"));
+  const double force = result.in_newton(mean);
+  const results::DisplayUnit unit = units.of(std::abs(force), "N");
+  return fmt::format("{} ± {} {} ({})", results::number_format(unit.shown(force)),
+                     results::number_format(unit.shown(result.in_newton(spread)), 2), unit.unit,
+                     units.format(mean, "N/m"));
 }
 
 std::string force_table_html(const evaluate::CuttingResult& result, const ShownUnits& units) {

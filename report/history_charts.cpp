@@ -23,9 +23,9 @@ double largest(const std::vector<double>& values) {
   return size;
 }
 
-/// Whether a curve shows anything: some value differs from the first by more than rounding.
+/// Whether a curve shows anything: some value differs from the first by more than can be seen.
 bool moves(const std::vector<double>& values) {
-  const double least = 1e-9 * largest(values);
+  const double least = 1e-6 * largest(values);
   double first = std::nan("");
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
@@ -150,6 +150,7 @@ private:
       most = std::max(most, largest(column(k)));
       if (moves(column(k))) terms.push_back(k);
     }
+    if (terms.size() == 1) terms.clear(); // what nothing else pays for is rounding
     constexpr double small = 0.01;
     ChartSeries others;
     std::string names;

@@ -51,7 +51,7 @@ std::string run_table(const Study& study, const std::vector<RunRecord>& runs,
     if (runs[k].status)
       for (std::size_t c = 0; c < columns.size(); ++c) {
         const std::optional<double> value = status_number(*runs[k].status, columns[c]);
-        html += cell(value ? results::number_format(units[c].shown(*value), 5) : "");
+        html += cell(value && !std::isnan(*value) ? results::number_format(units[c].shown(*value), 5) : "");
       }
     else
       html +=

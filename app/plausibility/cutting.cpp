@@ -28,7 +28,7 @@ void doubt_cutting(const input::Case& input, Doubts& doubts) {
           fmt::format("{:.3g} mm is {:.2g} times the feed: such an edge ploughs, a chip may never form",
                       1e3 * cut.edge_radius, cut.edge_radius / cut.feed));
   if (cut.length < steady * cut.feed)
-    doubt("length", fmt::format("{:.2g} feeds of cut, where forces are steady from one or two on: expected "
+    doubt("length", fmt::format("{:.1f} feeds of cut, where forces are steady from one or two on: expected "
                                 "{:g} at least",
                                 cut.length / cut.feed, steady));
 }

@@ -23,7 +23,9 @@ void add_pictures(Keys& k) {
       .example("\"10 us\"");
   k.add("output.picture_fields", choices, "Fields drawn.")
       .one_of(field_names(2))
-      .fallback("[\"plastic_strain\", \"temperature\", \"pressure\"]");
+      .computed(
+          "`[\"plastic_strain\", \"temperature\", \"pressure\"]`; `[\"temperature\"]` where heat is "
+          "alone; `[\"equivalent_stress\", \"displacement_x\", \"displacement_y\"]` in static analyses");
   k.add("output.drawing", table, "How pictures are drawn.").always();
   k.add("output.drawing.mirror", boolean,
         "Draw halves and quarters whole: mirrored behind straight pieces with `symmetry` and the axis of a "

@@ -132,7 +132,7 @@ TEST_F(BlankingRun, whole_sheet_is_reported_as_such_and_lets_go) {
   for (const char* part :
        {"id=\"blanking\"", "Face of the slug", "Face of the skeleton", "Force along the cut against stroke",
         "drawn in only", "Dishing of slug", "<title>small cut</title>", "<dt>Largest force of punch</dt>",
-        " N/mm of depth, one cut</dd>", "<dt>Work of punch</dt>", "<dt>Cut through</dt>"})
+        "\u00a0N/mm of depth, one cut</dd>", "<dt>Work of punch</dt>", "<dt>Cut through</dt>"})
     EXPECT_NE(report.find(part), std::string::npos) << part;
 }
 

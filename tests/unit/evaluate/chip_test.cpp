@@ -138,7 +138,8 @@ TEST(Chip, is_not_there_before_the_cut_and_too_short_soon_after) {
   Cloud<2> cloud;
   testing::add_loop(cloud, {{0, -2}, {6, -2}, {6, feed}, {0, feed}}, 0.02);
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
-  EXPECT_EQ(measure_chip(cut_outline(cloud.facets, position), feed, rake).note, "there is no chip yet");
+  EXPECT_EQ(measure_chip(cut_outline(cloud.facets, position), feed, rake).note,
+            "no chip is found: there is none yet, or none any more");
   EXPECT_NE(measure_chip(Cut{.length = 0.55}.loop(), feed, rake).note.find("too short"), std::string::npos);
 }
 
