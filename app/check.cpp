@@ -60,11 +60,11 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
                   solver.sub_steps() > 1 ? fmt::format(", in {} finest steps", solver.sub_steps()) : ""));
   const std::string most = fmt::format("{:.0f}", expected.nodes_last),
                     first = fmt::format("{:.0f}", expected.nodes_first);
-  add("steps", fmt::format("about {:.12g} to t = {:.4g} s{}", expected.steps, input.time.end,
-                           input.adapt.resample
-                               ? fmt::format(", with cells of {:.3g} m and {} nodes", expected.finest,
-                                             first == most ? most : first + " to " + most)
-                               : ""));
+  add("steps",
+      fmt::format("about {:.12g} to t = {:.4g} s{}", expected.steps, input.time.end,
+                  input.adapt.resample ? fmt::format(", with cells of {:.3g} m and {} nodes", expected.finest,
+                                                     first == most ? most : first + " to " + most)
+                                       : ""));
   checked.numbers = {{"nodes", static_cast<double>(state.node.size())},
                      {"points", static_cast<double>(state.point.size())},
                      {whole ? "volume" : "area", measure},

@@ -236,10 +236,11 @@ TEST(Plausibility, measures_of_a_cut) {
   const input::Case input =
       input::read_case_text(sound_cut, "case.toml", {"tools.die.path[2].fillet=0.4 mm"});
   const auto lines = tool_measures(input, testing::solver_of(input));
-  const std::vector<std::pair<std::string, std::string>> expected{{"clearance", "0.1 mm, 5% of 2 mm"},
-                                                                  {"gap", "punch 0 mm"},
-                                                                  {"gap", "die 0 mm"},
-                                                                  {"edge", "die radius 0.4 mm, 2.0 spacings"}};
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {"clearance", "0.1 mm, 5% of 2 mm"},
+      {"gap", "punch 0 mm"},
+      {"gap", "die 0 mm"},
+      {"edge", "die radius 0.4 mm, 2.0 spacings"}};
   EXPECT_EQ(lines, expected);
 }
 
