@@ -31,7 +31,8 @@ Text without_motion(const Case& c) {
 }
 /// More of [report] than its units, or nothing at all.
 bool evaluates(const Case& c) {
-  return c.report.units.empty() || c.report.springback || c.report.blanking || c.report.cutting;
+  return c.report.units.empty() || c.report.springback || c.report.blanking || c.report.cutting ||
+         !c.report.experiments.empty();
 }
 Text with_ties(const Case& c) {
   return when(!c.domain.interfaces.empty(), "with domain.interfaces") +

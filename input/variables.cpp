@@ -251,7 +251,7 @@ private:
     } catch (const UnitError& error) {
       diagnostics_.add(Mistake::unit, written.where, path,
                        fmt::format("found {}, {}", written.show(), error.what()));
-    } catch (const ToldBefore&) {} // it is enough to hear of the variable
+    } catch (const ToldBefore&) { diagnostics_.follows(written.where); }
   }
 
   Variables& variables_;

@@ -40,6 +40,7 @@ bool Diagnostics::tells(Mistake kind) const {
 
 void Diagnostics::add(Mistake kind, const Location& where, const std::string& key,
                       const std::string& message) {
+  if (following_.contains(where.text())) return;
   if (tells(kind)) told_.push_back(fmt::format("{}: key '{}': {}", where.text(), key, message));
   count(kind);
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ public:
   void add(Mistake kind, const Location& where, const std::string& key, const std::string& message);
   /// Whether another mistake of this kind is told in words; else `count` does for it.
   bool tells(Mistake kind) const;
+  /// What is wrong at a place follows from what has been told elsewhere: it is not recorded.
+  void follows(const Location& where) { following_.insert(where.text()); }
   /// Records a mistake without words.
   void count(Mistake kind) { ++counts_[kind]; }
   bool empty() const { return counts_.empty(); }
@@ -34,6 +37,7 @@ public:
 
 private:
   std::vector<std::string> told_;
+  std::set<std::string> following_; ///< places
   std::map<Mistake, std::size_t> counts_;
 };
 

@@ -134,6 +134,19 @@ TEST(Variables, commas_in_numbers_are_told_how_they_are_written) {
                {"found '-12, -3 mm' with a comma, expected spaces between numbers: '-12 -3 mm'"});
 }
 
+TEST(Variables, that_are_wrong_are_told_once_in_drawings_too) {
+  const std::string drawing = std::string(CNEM_SOURCE_DIR) + "/cases/blanking/drawing/case.toml";
+  try {
+    read_case(drawing, {"let.sheet=0,1 mm"});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "--set let.sheet=0,1 mm: key 'let.sheet': found \"0,1 mm\", found '0,1 mm' with a comma, expected "
+        "a point in a number: '0.1 mm'");
+  }
+}
+
 TEST(Variables, that_are_wrong_are_told_once) {
   EXPECT_EQ(
       refusal_of_cut({"let.sheet=\"2 mm + 3 s\""}),
