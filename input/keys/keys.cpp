@@ -1,4 +1,5 @@
-// Every key of a case file, in the order of the case reference; those of larger tables are in keys_*.cpp.
+// Every key of a case file, in the order of the case reference; those of larger tables are in files of their
+// own.
 #include "input/keys/keys.hpp"
 #include "input/case.hpp"
 #include "input/constants.hpp"
@@ -182,96 +183,6 @@ void add_conditions(Keys& k) {
   k.add("loads.body_force", vector_function, "Force per unit mass.")
       .unit(d::acceleration)
       .example("\"0 -9.81 m/s2\"");
-}
-
-} // namespace
-
-void add_friction(Keys& k, const std::string& at, const std::string& doc) {
-  const std::vector<LawText> laws = law_texts(contact::FrictionLaws{});
-  k.add(at, table, doc).always();
-  add_law_choice(k, at, laws).fallback("\"none\"");
-  add_law_constants(k, at, laws);
-  add_constants(k, at, constant_texts<contact::FrictionMelting>(contact::FrictionMelting::parameters));
-}
-
-void add_tool_section(Keys& k, const std::string& at) {
-  k.add(at, table,
-        "Nodes that let the tool conduct: it starts at `heat.temperature`, takes its share of the friction "
-        "heat "
-        "where it arises, and what passes through `heat.conductance`. Without it the tool stays at "
-        "`heat.temperature`.");
-  k.add(at + ".spacing", quantity, "Distance of neighbouring nodes away from refinements.")
-      .unit(d::length)
-      .in(positive)
-      .required()
-      .example("\"0.1 mm\"");
-  add_refinements(k, at, " of the nodes of the tool, as it stands at time 0", false);
-  k.add(at + ".held", texts,
-        "Names of pieces of the outline that keep `heat.temperature`, as the far end of a tool in its holder "
-        "does; the others are adiabatic but where they touch.")
-      .example("[\"shank\"]");
-  k.add(at + ".heat_capacity_factor", quantity,
-        "On the heat capacity of the tool and its coating: less than 1 brings a steady temperature, which "
-        "does "
-        "not depend on it, about within a shorter cut.")
-      .in({.low = 0.0, .high = 1.0, .low_open = true})
-      .fallback("1.0");
-  k.add(at + ".coating", table, "A layer on all faces, across which heat flows.");
-  add_constants(k, at + ".coating", constant_texts<ToolCoating>(ToolCoating::parameters));
-}
-
-namespace {
-
-void add_tools(Keys& k) {
-  const std::string at = "tools.*.";
-  k.add("tools", named_tables, "Rigid tools.");
-  k.add("tools.*", table,
-        "A rigid tool, solid inside its outline: either `start` and `path`, or `rectangle`, or `circle`; in "
-        "three-dimensional analyses solid behind a `plane`.");
-  add_outline(k, "tools.*", "the name of the tool");
-  k.add(at + "plane", table, "A tool bounded by a plane, a wall or an anvil.").required();
-  k.add(at + "plane.at", vector, "A point of the plane at time 0.").unit(d::length).required();
-  k.add(at + "plane.normal", vector, "Out of the tool, towards the workpiece; of any length.").required();
-  k.add(at + "velocity", vector_function,
-        "Prescribed translation; constant, ramped or over time. With `spring` that of its mount.")
-      .unit(d::velocity)
-      .example("\"0 -11 m/s\"")
-      .computed("0 without `mass`");
-  add_drive(k, at);
-  k.add(at + "equal_areas", boolean,
-        "Edges of the workpiece lie as much inside the tool as outside: nodes stay off its arcs, else "
-        "they lie on them and chords inside; and where a corner falls between two nodes the face beside "
-        "it presses on what it covers of the edge, else it bears as if it reached to the next node.")
-      .fallback("false");
-  add_friction(k, at + "friction", "Friction on the workpiece.");
-  const std::vector<LawText> responses = law_texts(contact::Responses{});
-  k.add(at + "response", table,
-        "What keeps the workpiece out of the tool. All but `\"exact\"` let nodes in first, and corners "
-        "between "
-        "nodes: they are there to compare with what others compute.")
-      .always();
-  add_law_choice(k, at + "response", responses).fallback("\"exact\"");
-  add_law_constants(k, at + "response", responses);
-  k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
-  add_constants(k, at + "heat", constant_texts<contact::ToolThermal>(contact::ToolThermal::parameters));
-  add_constants(k, at + "heat", constant_texts<contact::ToolMetal>(contact::ToolMetal::parameters));
-  add_constants(k, at + "heat", list_texts<HeatCurves>());
-  add_tool_section(k, at + "heat.section");
-}
-
-void add_contact(Keys& k) {
-  k.add("contact", table, "Contact of parts of the workpiece with each other.").always();
-  k.add("contact.deformable", boolean,
-        "Faces of the workpiece do not pass through each other: parts that cracks divide, and one part with "
-        "itself. Bonded interfaces and periodic sides are no such faces.")
-      .fallback("false");
-  k.add("contact.conductance", quantity,
-        "Of faces of the workpiece while they are pressed on each other: heat that passes, per area and "
-        "difference of temperature.")
-      .unit(d::heat_transfer)
-      .in(not_negative)
-      .fallback("\"0 W/(m2 K)\"");
-  add_friction(k, "contact.friction", "Friction between parts; its heat is shared by their effusivities.");
 }
 
 void add_fracture(Keys& k) {

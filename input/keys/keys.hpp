@@ -67,6 +67,8 @@ void add_block(Keys& k);
 void add_parts(Keys& k);
 void add_cloud(Keys& k);
 void add_materials(Keys& k);
+void add_tools(Keys& k);
+void add_contact(Keys& k);
 void add_adaptation(Keys& k);
 void add_method(Keys& k);
 void add_pictures(Keys& k);
