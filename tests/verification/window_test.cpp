@@ -24,7 +24,7 @@ TEST(MovingWindow, changes_nothing_near_the_tool) {
   // Whether a node slips through at the edge, in 20,000 steps, is up to rounding: none with AVX-512, one
   // without.
   constexpr double residual = 5e-4;
-  constexpr int outside = 3;
+  constexpr int outside = 1;
   const Adapted whole = testing::run(cut, faster, residual, outside),
                 window = testing::run(cut,
                                       with(faster, {"cutting.window=true", "adapt.window.ahead=1.8 mm",

@@ -177,6 +177,10 @@ TEST(CuttingPage, shows_forces_chip_and_why_a_cut_is_not_steady) {
        {"560 ± 4 N", "41.0°", "Compression ratio", "Forces over the cut", "Thickness along the chip"})
     EXPECT_NE(html.find(part), std::string::npos) << "no '" << part << "' in:\n" << html;
   EXPECT_EQ(html.find("Tooth"), std::string::npos);
+  result.rake = -1e-17;
+  EXPECT_NE(report::render_cutting(result).find("<td>0.0°</td>"), std::string::npos);
+  result.rake = -0.1;
+  EXPECT_NE(report::render_cutting(result).find("<td>−5.7°</td>"), std::string::npos);
   result.steady = false;
   result.steady_note = "Fc rises";
   result.residual_note = "tied nodes";

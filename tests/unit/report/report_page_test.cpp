@@ -166,6 +166,16 @@ TEST(HistoryCharts, what_never_changes_is_not_drawn_and_small_energies_are_one_c
   EXPECT_NE(charts[0].note.find("hourglass, viscous"), std::string::npos) << charts[0].note;
 }
 
+TEST(HistoryCharts, curves_of_rounding_are_not_drawn) {
+  results::HistoryTable history;
+  history.names = {"time[s]", "energy.heat_content[J/m]", "energy.plastic[J/m]", "max.temperature[K]"};
+  history.column = {{0, 1, 2}, {0, 2e-14, -4e-14}, {0, 0, 0}, {1000, 1000, 999.9999}};
+  EXPECT_TRUE(history_charts(history).empty()) << "heat that nothing pays for, a step of 1e-7";
+  history.column[2] = {0, 1, 2};
+  history.column[3] = {1000, 1000, 999};
+  EXPECT_EQ(history_charts(history).size(), 2U);
+}
+
 TEST(EnergyTable, has_every_term) {
   const ReportTable table = energy_table(energies(), ShownUnits());
   ASSERT_EQ(table.rows.size(), 6U);

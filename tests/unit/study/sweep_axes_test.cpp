@@ -5,6 +5,7 @@
 #include "study/sweep.hpp"
 #include "tests/temporary_folder.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -168,6 +169,16 @@ TEST_F(SweepAxes, a_run_without_keys_has_no_charts_over_them) {
   std::ofstream(folder / "as_it_is" / "history.csv") << "time[s],step\n0,0\n";
   runs[0].status.emplace().add_metric("blanking.largest_force.punch[N/m]", 2e6);
   expect_parts(sweep_report(s, runs, folder, "test"), {"blanking.largest_force.punch"});
+}
+
+TEST_F(SweepAxes, what_was_not_measured_leaves_its_cell_empty) {
+  const Study s = study("columns = [\"metrics.chip_ratio\", \"metrics.Fc\"]\n[[run]]\nname = \"short\"\n");
+  std::vector<RunRecord> runs(1);
+  runs[0].status.emplace().add_metric("chip_ratio", std::nan(""));
+  runs[0].status->add_metric("Fc[N]", 800.0);
+  const std::string page = sweep_report(s, runs, folder, "test");
+  EXPECT_EQ(page.find("not a number"), std::string::npos);
+  expect_parts(page, {"<td></td>", "<td>800</td>"});
 }
 
 TEST_F(SweepAxes, cuts_have_columns_and_charts_of_their_own) {
