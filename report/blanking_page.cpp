@@ -194,7 +194,7 @@ std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
 }
 
 std::string face_drawing(const ShearedFace& face) {
-  constexpr double high = 320.0, wide = 240.0, width = 460.0, top = 40.0, left = 12.0, font = 15.0,
+  constexpr double high = 320.0, wide = 240.0, width = 490.0, top = 40.0, left = 12.0, font = 15.0,
                    line = 20.0;
   double low_u = 0.0, high_u = 0.0, deep = face.parted ? face.thickness : 0.0;
   for (const Vec2& x : face.profile) {

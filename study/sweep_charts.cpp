@@ -154,7 +154,7 @@ std::string words_of(std::string name) {
   return name;
 }
 
-/// A chart of each number of the cut over the first axis, the faces of bodies together.
+/// A chart of each number of the cut over the first axis, for faces one of each body: its sides together.
 std::vector<StudyChart> cut_charts(const Study& study, const std::vector<RunRecord>& runs) {
   if (study.axes.empty()) return {};
   constexpr std::string_view prefix = "blanking.";
@@ -164,14 +164,16 @@ std::vector<StudyChart> cut_charts(const Study& study, const std::vector<RunReco
     const std::size_t dot = name.rfind('.');
     const bool of_punch = std::any_of(
         runs.begin(), runs.end(), [&](const RunRecord& run) { return run.punch == name.substr(dot + 1); });
-    const std::string title =
-        words_of(of_punch ? name.substr(0, dot) + " of " + name.substr(dot + 1) : name.substr(dot + 1));
+    const std::string face = name.substr(0, dot); // "slug", "left.slug"
+    const std::size_t side = face.find('.');
+    const std::string title = words_of(of_punch ? face + " of " + name.substr(dot + 1)
+                                                : name.substr(dot + 1) + " of the " + face.substr(side + 1));
     auto chart = std::find_if(charts.begin(), charts.end(),
                               [&](const StudyChart& known) { return known.title == title; });
     if (chart == charts.end())
       chart = charts.insert(chart, {study.axes.front().keys.front(), {}, {}, false, title, {}});
     chart->y.push_back(column);
-    chart->names.push_back(of_punch ? title : words_of(name.substr(0, dot)));
+    chart->names.push_back(of_punch ? title : words_of(face.substr(0, side)));
   }
   return charts;
 }
