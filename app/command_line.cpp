@@ -228,7 +228,8 @@ int act(CLI::App& program, int argc, char** argv) {
   sweep_command
       ->add_flag("--merge", merge, "write the table and the report of the runs that are there, run nothing")
       ->excludes(only_option)
-      ->excludes("--force");
+      ->excludes("--force")
+      ->excludes("--processes");
 
   CLI::App* calibrate_command = program.add_subcommand(
       "calibrate", "find constants that bring computed curves to measured ones (docs/experiments.md)");

@@ -73,6 +73,7 @@ template<int dim> std::optional<Exit> Simulation<dim>::go_on() {
     for (const std::string& warning : warnings_) observer_.remark("warning: " + warning);
   stage_ = Stage::under_way;
   exit_ = Exit::done;
+  reason_.clear();
   watch_.go_on();
   try {
     while (const std::optional<DivergenceError> failure = run_on())

@@ -83,10 +83,14 @@ ComparedCurve computed_curve(const results::HistoryTable& history, const std::st
     return force_curve(history, tool, motion.of, motion.against, way);
   };
   const ForceCurve force = along(direction(experiment.component, motion.along));
-  ComparedCurve curve{experiment.over_stroke ? along(motion.along).even_stroke : force.even_time,
-                      force.smooth};
-  if (curve.y[force.largest] < 0.0)
-    for (double& value : curve.y) value = -value;
+  const std::vector<double> x = experiment.over_stroke ? along(motion.along).even_stroke : force.even_time;
+  const double sign = force.smooth[force.largest] < 0.0 ? -1.0 : 1.0;
+  ComparedCurve curve;
+  for (std::size_t k = 0; k < x.size(); ++k) { // of few rows the low-pass may find none near enough
+    if (!std::isfinite(x[k]) || !std::isfinite(force.smooth[k])) continue;
+    curve.x.push_back(x[k]);
+    curve.y.push_back(sign * force.smooth[k]);
+  }
   input::keep_growing(curve.x, curve.y);
   return curve;
 }
@@ -97,6 +101,7 @@ std::string note_of(const ExperimentResult& result) {
     return fmt::format("{} {}", results::number_format(1e3 * x), result.over_stroke ? "mm" : "ms");
   };
   const ComparedCurve &m = result.measured, &c = result.computed;
+  if (c.x.empty()) return fmt::format("The run has no force of {}.", result.tool);
   if (!d.common())
     return fmt::format("The curves have no {} in common: the measured one is from {} to {}, the computed one "
                        "from {} to {}.",
@@ -120,6 +125,7 @@ CurveDifference compare_curves(const ComparedCurve& measured, const ComparedCurv
   const std::size_t m = peak_of(measured), c = peak_of(computed);
   d.peak_measured = measured.y[m];
   d.at_measured = measured.x[m];
+  if (computed.x.empty()) return d;
   d.peak_computed = computed.y[c];
   d.at_computed = computed.x[c];
   d.from = std::max(measured.x.front(), computed.x.front());

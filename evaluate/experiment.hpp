@@ -30,7 +30,7 @@ struct CurveDifference {
   bool common() const { return to > from; }
 };
 
-/// Exact for curves that are linear between points.
+/// Exact for curves that are linear between points. measured has points; computed may have none.
 CurveDifference compare_curves(const ComparedCurve& measured, const ComparedCurve& computed);
 
 /// One measured curve and the computed one as the experiment would have measured it.

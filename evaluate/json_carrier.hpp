@@ -74,7 +74,8 @@ auto read_evaluation(const std::filesystem::path& path, const Read& read)
   try {
     return read(Json::parse(text));
   } catch (const Json::exception& error) {
-    throw IoError(fmt::format("{} is not the evaluation of a cut: {}", path.string(), error.what()));
+    throw IoError(
+        fmt::format("{} is not what an evaluation of a run leaves: {}", path.string(), error.what()));
   }
 }
 

@@ -19,7 +19,7 @@ void raise(const char* name, const char* message) {
 } // namespace
 
 void bind_errors() {
-  py::register_exception_translator([](std::exception_ptr thrown) {
+  py::register_local_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const InputError& error) {

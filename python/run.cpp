@@ -72,8 +72,12 @@ void PythonRun::go_on(const Until& until, py::object callback) {
   } const guard{going_};
   watcher_.expect(until, std::move(callback));
   try {
-    const py::gil_scoped_release others;
-    exit_ = run_->go_on();
+    std::optional<int> exit;
+    {
+      const py::gil_scoped_release others;
+      exit = run_->go_on();
+    }
+    exit_ = exit; // others look at it with the lock of the interpreter
   } catch (...) {
     watcher_.expect({}, {});
     throw;

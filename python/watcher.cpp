@@ -22,6 +22,27 @@ void Watcher::stop(const std::string& by) {
   stopped_by_ = by;
 }
 
+std::vector<std::string> Watcher::messages() const {
+  const std::lock_guard lock(mutex_);
+  return messages_;
+}
+
+std::string Watcher::failed() const {
+  const std::lock_guard lock(mutex_);
+  return failed_;
+}
+
+void Watcher::remark(const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  messages_.push_back(text);
+}
+
+void Watcher::failure(const std::string& text) {
+  remark(text);
+  const std::lock_guard lock(mutex_);
+  failed_ = text;
+}
+
 void Watcher::recorded(bool row, bool frame) {
   row_ = row;
   frame_ = frame;
@@ -29,7 +50,10 @@ void Watcher::recorded(bool row, bool frame) {
   const py::gil_scoped_acquire interpreter;
   calling_ = true;
   try {
-    if (callback_(row, frame).is(py::bool_(false))) stop("the callback");
+    const py::object answer = callback_(row, frame);
+    py::detail::make_caster<bool> truth;
+    // Without conversion: bool, and numpy.bool_ as comparisons of fields give it; None is no answer.
+    if (truth.load(answer, false) && !py::detail::cast_op<bool>(truth)) stop("the callback");
   } catch (py::error_already_set& error) {
     stop(std::string(py::str(error.type().attr("__name__"))) + " in the callback");
     thrown_ = std::current_exception();

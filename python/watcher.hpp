@@ -26,7 +26,7 @@ struct Until {
 class Watcher final : public app::RunObserver {
 public:
   /// For the next call. callback(row, frame) is called after each output, with the lock of the interpreter;
-  /// False asks to stop, as an exception does.
+  /// False (of bool or NumPy) asks to stop, as an exception does.
   void expect(const Until& until, py::object callback);
   /// After it: forgets the callback, and throws what stopped the run: py::error_already_set.
   void settle();
@@ -34,17 +34,15 @@ public:
   void stop(const std::string& by);
 
   bool calls_back() const { return calling_; }
-  bool row() const { return row_; } ///< the last output since the call began
+  bool row() const { return row_; } ///< from any thread: the last output since the call began
   bool frame() const { return frame_; }
-  const std::vector<std::string>& messages() const { return messages_; }
-  const std::string& failed() const { return failed_; }
+  /// From any thread.
+  std::vector<std::string> messages() const;
+  std::string failed() const;
 
-  void remark(const std::string& text) override { messages_.push_back(text); }
-  void outcome(const std::string& text) override { messages_.push_back(text); }
-  void failure(const std::string& text) override {
-    messages_.push_back(text);
-    failed_ = text;
-  }
+  void remark(const std::string& text) override;
+  void outcome(const std::string& text) override { remark(text); }
+  void failure(const std::string& text) override;
   void progress(const results::ProgressState& state) override { now_ = state.time; }
   void recorded(bool row, bool frame) override;
   app::Request request() override;
@@ -54,13 +52,13 @@ private:
 
   Until until_;
   py::object callback_;
-  bool row_ = false, frame_ = false;
+  std::atomic<bool> row_{false}, frame_{false};
   std::atomic<bool> calling_{false};
   std::exception_ptr thrown_;
-  double now_ = 0.0;       ///< s
-  double looked_at_ = 0.0; ///< s, wall time of the last look for interrupts
-  std::mutex mutex_;
-  std::optional<std::string> stopped_by_; ///< asked for, under the mutex
+  double now_ = 0.0;                      ///< s
+  double looked_at_ = 0.0;                ///< s, wall time of the last look for interrupts
+  mutable std::mutex mutex_;              ///< of what follows
+  std::optional<std::string> stopped_by_; ///< asked for
   std::vector<std::string> messages_;
   std::string failed_;
 };

@@ -139,7 +139,7 @@ std::string render_report(const ReportData& data) {
   html += render_figures(data);
   html += section("post-mortem", "Where it went wrong", render_post_mortem(data));
   html += section("warnings", data.warnings_title, render_warnings(data));
-  html += section("experiment", "Experiment", render_experiments(data.experiments));
+  html += section("experiment", "Experiment", render_experiments(data.experiments, data.units));
   if (data.blanking) {
     const bool cut = !data.blanking->punch.empty();
     html += section("blanking", cut ? "Blanking" : "Springback",

@@ -111,8 +111,8 @@ std::string grouped(std::int64_t count) {
 ReportTable result_table(const results::RunStatus& status, const results::ShownUnits& units) {
   ReportTable table{"Results", {}};
   for (const auto& [name, value] : status.metrics) {
-    const bool elsewhere =
-        name.starts_with("cutting.") || name.starts_with("blanking.") || name.starts_with("springback.");
+    const bool elsewhere = name.starts_with("cutting.") || name.starts_with("blanking.") ||
+                           name.starts_with("springback.") || name.starts_with("experiment.");
     if (!elsewhere) table.rows.emplace_back(words(name), units.format(value, status.unit_of(name), 6));
   }
   return table;

@@ -18,7 +18,7 @@ struct ReportTable {
 /// "2 653": groups of three digits, a narrow space between them.
 std::string grouped(std::int64_t count);
 
-/// Named results; those of sections of their own (cutting, blanking, springback) are left out.
+/// Named results; those of sections of their own (cutting, blanking, springback, experiment) are left out.
 ReportTable result_table(const results::RunStatus& status, const results::ShownUnits& units);
 /// Every term of the energy balance at the end, with its largest size where that is larger. No rows without
 /// energies.

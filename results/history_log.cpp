@@ -19,7 +19,10 @@ void HistoryLog::resume(std::filesystem::path path, std::vector<std::string> nam
   names_ = std::move(names);
   if (path_.empty()) {
     column_.resize(names_.size());
-    for (Field& column : column_) column.resize(index_of(rows));
+    for (Field& column : column_) {
+      column.resize(index_of(rows));
+      column = Field(column); // a new block: whoever looks at the old one keeps the rows that were there
+    }
     return;
   }
   writer_.reset();

@@ -29,7 +29,8 @@ public:
   void write(std::span<const double> row);
 
   const std::vector<std::string>& names() const { return names_; } ///< with units; none before it has begun
-  /// [column][row] of those that stay in memory. Rows that are added leave earlier ones in their place.
+  /// [column][row] of those that stay in memory. Rows that are added leave earlier ones in their place; those
+  /// that are dropped stay with whoever keeps them.
   const std::vector<Field>& columns() const { return column_; }
   /// All rows until now. Throws IoError.
   HistoryTable table() const;

@@ -18,6 +18,13 @@ ShownUnits::ShownUnits(const std::vector<std::string>& units) {
   }
 }
 
+ShownUnits ShownUnits::otherwise(const std::vector<std::string>& units) const {
+  ShownUnits all = *this;
+  const ShownUnits others(units);
+  all.choices_.insert(all.choices_.end(), others.choices_.begin(), others.choices_.end());
+  return all;
+}
+
 ShownUnits ShownUnits::of_case(const std::string& resolved) {
   const input::Value root = input::parse_document(resolved, "case.resolved.toml");
   const input::Member* report = root.find("report");

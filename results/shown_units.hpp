@@ -17,6 +17,8 @@ public:
   /// Units as a case writes them: "degC", "kN/mm". Those of energies contain J, and are not those of forces
   /// of the same dimension. Throws InputError for what is no unit.
   explicit ShownUnits(const std::vector<std::string>& units);
+  /// These, and others for what none of them is for. Throws InputError for what is no unit.
+  ShownUnits otherwise(const std::vector<std::string>& units) const;
   /// Of the text of a resolved case; of another text none.
   static ShownUnits of_case(const std::string& resolved);
 

@@ -34,6 +34,10 @@ std::string in_words(const Calibration& calibration, const Eigen::VectorXd& plac
 
 double misfit_percent(double misfit) { return 100.0 * std::sqrt(misfit); }
 
+std::string misfit_text(const Evaluation& evaluation) {
+  return evaluation.good() ? fmt::format("{:.3g}%", misfit_percent(evaluation.misfit)) : "failed";
+}
+
 /// Ends where all searches have ended; false after a signal.
 bool search_all(const Calibration& calibration, Evaluator& evaluator, std::vector<SearchEnd>& searches) {
   std::vector<std::size_t> told(index_of(calibration.starts), 0);
@@ -48,8 +52,7 @@ bool search_all(const Calibration& calibration, Evaluator& evaluator, std::vecto
         const Evaluation& evaluation = *evaluator.known(visited.place);
         fmt::print("start {}, evaluation {}: {}: {}\n", k + 1, shown + 1,
                    in_words(calibration, visited.place),
-                   evaluation.good() ? fmt::format("misfit {:.3g}%", misfit_percent(visited.misfit))
-                                     : "FAILED: " + evaluation.failure);
+                   evaluation.good() ? "misfit " + misfit_text(evaluation) : "FAILED: " + evaluation.failure);
       }
       if (replay.wanted.empty())
         searches.push_back(std::move(replay.end));
@@ -63,7 +66,7 @@ bool search_all(const Calibration& calibration, Evaluator& evaluator, std::vecto
 }
 
 /// Sensitivities of the residuals about a place, by central differences where both sides are within the
-/// bounds and go well. None after a signal.
+/// bounds and go well; not-a-number where neither side goes well. None after a signal.
 std::optional<Eigen::MatrixXd> jacobian_at(const Eigen::VectorXd& place, Evaluator& evaluator) {
   std::vector<Eigen::VectorXd> sides;
   for (Eigen::Index k = 0; k < place.size(); ++k)
@@ -73,7 +76,7 @@ std::optional<Eigen::MatrixXd> jacobian_at(const Eigen::VectorXd& place, Evaluat
     }
   if (!evaluator.evaluate(sides)) return std::nullopt;
   const Evaluation& middle = *evaluator.known(place);
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(middle.residual.size(), place.size());
+  Eigen::MatrixXd jacobian(middle.residual.size(), place.size());
   for (Eigen::Index k = 0; k < place.size(); ++k) {
     const auto usable = [&](std::size_t side) -> const Evaluation& {
       const Evaluation& one = *evaluator.known(sides[side]);
@@ -82,8 +85,29 @@ std::optional<Eigen::MatrixXd> jacobian_at(const Eigen::VectorXd& place, Evaluat
     const Evaluation &low = usable(2 * index_of(k)), &high = usable(2 * index_of(k) + 1);
     if (high.place[k] > low.place[k])
       jacobian.col(k) = (high.residual - low.residual) / (high.place[k] - low.place[k]);
+    else
+      jacobian.col(k).setConstant(std::nan(""));
   }
   return jacobian;
+}
+
+/// What cnem calibrate names so: run folders of a target, and what they print beside them.
+bool is_of_run(const std::string& name, const Calibration& calibration) {
+  constexpr std::size_t hash_digits = 16;
+  return std::any_of(calibration.targets.begin(), calibration.targets.end(), [&](const auto& target) {
+    if (!name.starts_with(target.name + "-")) return false;
+    const std::string rest = name.substr(target.name.size() + 1);
+    const std::size_t digits = std::min(rest.find_first_not_of("0123456789abcdef"), rest.size());
+    return digits == hash_digits && (rest.size() == digits || rest.substr(digits) == ".log");
+  });
+}
+
+/// A folder may hold `runs` of somebody else: what else is in it stays.
+void remove_runs(const fs::path& runs, const Calibration& calibration) {
+  std::vector<fs::path> own;
+  for (const auto& entry : fs::directory_iterator(runs))
+    if (is_of_run(entry.path().filename().string(), calibration)) own.push_back(entry.path());
+  for (const fs::path& path : own) fs::remove_all(path);
 }
 
 void write(const fs::path& folder, const CalibrationFiles& files) {
@@ -99,20 +123,22 @@ Exit interrupted() {
 }
 
 void tell(const Calibration& calibration, const CalibrationResult& result, const fs::path& folder) {
-  fmt::print("\nmisfit: {:.3g}% at the start, {:.3g}% now\n",
-             result.start.good() ? misfit_percent(result.start.misfit) : std::nan(""),
-             misfit_percent(result.best.misfit));
+  fmt::print("\nmisfit: {} at the start, {} now\n", misfit_text(result.start), misfit_text(result.best));
   for (std::size_t k = 0; k < calibration.constants.size(); ++k) {
     const SoughtConstant& constant = calibration.constants[k];
     const auto at = static_cast<Eigen::Index>(k);
     const double place = result.best.place[at], width = result.inference.half_width[at];
-    fmt::print("{} = {}{}\n", constant.key, constant.text(constant.at(place)),
-               result.inference.told[k]
-                   ? fmt::format("  (95%: {} to {})", constant.text(constant.at(place - width), 4),
-                                 constant.text(constant.at(place + width), 4))
-                   : "  (not told by the curves)");
+    std::string how;
+    if (!result.inference.told[k])
+      how = "  (not told by the curves)";
+    else if (result.inference.intervals())
+      how = fmt::format("  (95%: {} to {})", constant.text(constant.at(place - width), 4),
+                        constant.text(constant.at(place + width), 4));
+    fmt::print("{} = {}{}\n", constant.key, constant.text(constant.at(place)), how);
   }
   for (const std::string& words : result.inference.words) fmt::print("{}\n", words);
+  for (const CalibratedCurve& curve : result.best.curves)
+    if (!curve.note.empty()) fmt::print(stderr, "warning: {}: {}\n", curve.name, curve.note);
   if (result.failures > 0)
     fmt::print(stderr, "warning: {} of {} evaluations failed and counted as a misfit of {:g}%\n",
                result.failures, result.evaluations, misfit_percent(failed_misfit));
@@ -128,8 +154,8 @@ Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
   holds_manifest(folder, kind, options.force);
   make_folder(folder);
   const results::FolderLock lock(folder, kind);
-  if (options.force) fs::remove_all(folder / "runs");
   make_folder(folder / "runs");
+  if (options.force) remove_runs(folder / "runs", calibration);
   results::write_atomically(
       folder / "manifest.json",
       nlohmann::ordered_json{{"kind", kind}, {"study", calibration.name}, {"version", options.version}}.dump(
@@ -138,10 +164,9 @@ Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
   Evaluator evaluator(calibration, options);
   CalibrationResult result;
   if (!search_all(calibration, evaluator, result.searches)) return interrupted();
-  const auto best = std::min_element(result.searches.begin(), result.searches.end(),
-                                     [](const SearchEnd& a, const SearchEnd& b) {
-                                       return a.course[a.best].misfit < b.course[b.best].misfit;
-                                     });
+  const auto best = std::min_element(
+      result.searches.begin(), result.searches.end(),
+      [](const SearchEnd& a, const SearchEnd& b) { return a.course[a.best].better_than(b.course[b.best]); });
   const Evaluation& found = *evaluator.known(best->course[best->best].place);
   result.start = *evaluator.known(result.searches.front().course.front().place);
   if (!found.good()) {

@@ -72,8 +72,10 @@ struct CalibratedCurve {
   std::string name;
   std::size_t target = 0;
   bool over_stroke = true, of_point = false;
-  std::string x_unit, y_unit; ///< SI
-  evaluate::ComparedCurve measured, computed;
+  std::string x_unit, y_unit;                 ///< SI
+  evaluate::ComparedCurve measured, computed; ///< measured: as far as the computed one goes
+  double peak = 0.0;                          ///< of the whole measured curve
+  std::string note;                           ///< what makes the comparison doubtful; empty otherwise
   double rms_share = 0.0; ///< – root mean square of the difference over the measured peak
 };
 
@@ -95,6 +97,12 @@ inline constexpr double failed_misfit = 4.0;
 struct VisitedPlace {
   Eigen::VectorXd place;
   double misfit = 0.0;
+  bool good = true; ///< false: its evaluation failed
+
+  /// The lesser misfit; whatever went well before what failed.
+  bool better_than(const VisitedPlace& other) const {
+    return good != other.good ? good : misfit < other.misfit;
+  }
 };
 
 /// What a search found.
@@ -114,11 +122,18 @@ struct Inference {
   std::vector<bool> told;         ///< [constant]
   Eigen::VectorXd half_width;     ///< of the 95% interval, of places
   double independent = 0.0;       ///< number of residuals that are
+  double degrees = 0.0;           ///< of freedom; none: there are no intervals
   double quantile = 0.0;          ///< of 95%, by Student's t
   std::vector<std::string> words; ///< what the curves do not tell
+
+  bool intervals() const { return degrees > 0.0; }
 };
 
-/// residual at the best place; jacobian by finite differences there. curve_lengths: residuals of each curve.
+/// 97.5% quantile of Student's t: half the width of a 95% interval. degrees: of freedom, above 0.
+double student_quantile(double degrees);
+
+/// residual at the best place; jacobian by finite differences there, with columns that are not finite for
+/// constants whose sensitivity is not known. curve_lengths: residuals of each curve.
 Inference infer(const Calibration& calibration, const Eigen::VectorXd& residual, Eigen::MatrixXd jacobian,
                 const std::vector<std::size_t>& curve_lengths);
 
@@ -135,7 +150,7 @@ struct CalibrationResult {
 struct FlowBand {
   std::string name;
   double rate = 0.0, temperature = 0.0;           ///< 1/s, K
-  std::vector<double> strain, stress, half_width; ///< –, Pa
+  std::vector<double> strain, stress, half_width; ///< –, Pa; no widths without intervals
 };
 std::vector<FlowBand> flow_bands(const Calibration& calibration, const CalibrationResult& result,
                                  const std::filesystem::path& folder);
@@ -149,7 +164,8 @@ CalibrationFiles calibration_files(const Calibration& calibration, const Calibra
 
 /// Searches, and writes what was found. Runs that the folder holds already are not run again, so that a
 /// calibration that was killed goes on with the same sequence. Returns done; diverged when no evaluation went
-/// well; interrupted after SIGINT, SIGTERM or SIGHUP. Throws InputError and IoError.
+/// well; interrupted after SIGINT, SIGTERM or SIGHUP. Throws InputError; IoError also when a run ends for
+/// reasons that are none of its constants (a full disk, a signal).
 Exit calibrate(const Calibration& calibration, const BatchOptions& options);
 
 } // namespace cnem::study

@@ -97,8 +97,9 @@ std::vector<FlowBand> flow_bands(const Calibration& calibration, const Calibrati
         }
         band.strain.push_back(strain);
         band.stress.push_back(flow(input));
-        band.half_width.push_back(result.inference.quantile *
-                                  std::sqrt(std::max(0.0, slope.dot(result.inference.covariance * slope))));
+        if (result.inference.intervals())
+          band.half_width.push_back(result.inference.quantile *
+                                    std::sqrt(std::max(0.0, slope.dot(result.inference.covariance * slope))));
       }
     }
   }

@@ -39,6 +39,41 @@ std::string failure_of(const fs::path& folder, const fs::path& log) {
   return reason.empty() ? "it left no message" : reason;
 }
 
+/// Throws IoError for a run that has ended for reasons that are none of its constants.
+void check_end(const fs::path& folder, const fs::path& log, const JobEnd& end) {
+  if (end.code == Exit::done || end.code == Exit::bad_input || end.code == Exit::diverged) return;
+  const std::string how = end.signal != 0
+                              ? fmt::format("was killed by signal {}", end.signal)
+                              : fmt::format("ended with exit code {}: {}", end.code, failure_of(folder, log));
+  throw IoError(
+      fmt::format("the run {} {} (log {}): that says nothing of its constants; the same command goes "
+                  "on from here",
+                  folder.string(), how, log.string()));
+}
+
+/// The part of a curve from x to x, with interpolated ends.
+evaluate::ComparedCurve cropped(const evaluate::ComparedCurve& curve, double from, double to) {
+  const double rounding = 1e-9 * (to - from);
+  evaluate::ComparedCurve part{{from}, {}};
+  for (const double x : curve.x)
+    if (x > from + rounding && x < to - rounding) part.x.push_back(x);
+  part.x.push_back(to);
+  part.y = evaluate::interpolated(curve.x, curve.y, part.x);
+  return part;
+}
+
+/// What is said of a measured curve that the run does not go along with.
+std::string note_of(const evaluate::ExperimentResult& experiment) {
+  constexpr double notable = 0.01; // of the measured range
+  const evaluate::CurveDifference& difference = experiment.difference;
+  const double first = experiment.measured.x.front(), last = experiment.measured.x.back();
+  if (difference.to - difference.from > (1.0 - notable) * (last - first)) return "";
+  const char* unit = experiment.over_stroke ? "m" : "s";
+  return fmt::format("measured from {} to {}, compared from {} to {}: the run goes no farther.",
+                     results::si_format(first, unit), results::si_format(last, unit),
+                     results::si_format(difference.from, unit), results::si_format(difference.to, unit));
+}
+
 /// Between measured points nothing is known: few of them are compared themselves.
 std::vector<double> places_of_residuals(const std::vector<double>& measured) {
   if (measured.size() <= most_residuals) return measured;
@@ -67,14 +102,13 @@ void weigh(Evaluation& evaluation, const std::vector<double>& weights) {
     const std::vector<double> at = places_of_residuals(measured.x);
     const std::vector<double> there = evaluate::interpolated(measured.x, measured.y, at),
                               here = evaluate::interpolated(curve.computed.x, curve.computed.y, at);
-    const double peak = *std::max_element(measured.y.begin(), measured.y.end()), n = double(at.size());
-    const double factor = std::sqrt(weights[c] / (all * n)) / peak;
+    const double n = double(at.size()), factor = std::sqrt(weights[c] / (all * n)) / curve.peak;
     double squares = 0.0;
     for (std::size_t k = 0; k < at.size(); ++k) {
       residual.push_back(factor * (here[k] - there[k]));
       squares += (here[k] - there[k]) * (here[k] - there[k]);
     }
-    curve.rms_share = std::sqrt(squares / n) / peak;
+    curve.rms_share = std::sqrt(squares / n) / curve.peak;
     evaluation.lengths.push_back(at.size());
   }
   evaluation.residual =
@@ -104,15 +138,18 @@ std::string Evaluator::collect_run(const CalibrationTarget& target, std::size_t 
   if (ended_with(folder) != Exit::done)
     return fmt::format("{}: {}", folder.filename().string(), failure_of(folder, log_of(folder)));
   for (evaluate::ExperimentResult& experiment : evaluate::read_experiments(folder)) {
-    if (!experiment.difference.common()) return fmt::format("{}: {}", target.name, experiment.note);
+    const evaluate::CurveDifference& difference = experiment.difference;
+    if (!difference.common()) return fmt::format("{}: {}", target.name, experiment.note);
     CalibratedCurve& curve = evaluation.curves.emplace_back();
     curve.name = fmt::format("{} {}", target.name, experiment.name);
     curve.target = index;
     curve.over_stroke = experiment.over_stroke;
     curve.x_unit = experiment.over_stroke ? "m" : "s";
     curve.y_unit = experiment.force_unit;
-    curve.measured = std::move(experiment.measured);
+    curve.note = note_of(experiment);
+    curve.measured = cropped(experiment.measured, difference.from, difference.to);
     curve.computed = std::move(experiment.computed);
+    curve.peak = difference.peak_measured;
   }
   return "";
 }
@@ -132,6 +169,7 @@ std::string Evaluator::collect_point(const CalibrationTarget& target, std::size_
   curve.of_point = true;
   curve.y_unit = "Pa";
   curve.measured = target.point->measured;
+  curve.peak = *std::max_element(curve.measured.y.begin(), curve.measured.y.end());
   curve.computed = {std::move(point.strain), std::move(point.stress)};
   if (test.plastic) { // the stress at which flow begins stands at no plastic strain
     const auto& flowing = point.equivalent_strain;
@@ -191,11 +229,10 @@ bool Evaluator::evaluate(const std::vector<Eigen::VectorXd>& places) {
   const bool complete = run_jobs(
       jobs, processes, [&](std::size_t job) { began[job] = Clock::now(); },
       [&](std::size_t job, JobEnd end) {
+        check_end(folders[job], jobs[job].log, end);
         const double seconds = std::chrono::duration<double>(Clock::now() - began[job]).count();
         fmt::print("  run {}: {}, {}\n", folders[job].filename().string(),
-                   end.code == Exit::done ? std::string("done")
-                   : end.signal != 0      ? fmt::format("FAILED: killed by signal {}", end.signal)
-                                          : "FAILED: " + failure_of(folders[job], jobs[job].log),
+                   end.code == Exit::done ? "done" : "FAILED: " + failure_of(folders[job], jobs[job].log),
                    results::duration_format(seconds));
         std::fflush(stdout);
       });

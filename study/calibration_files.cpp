@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -44,14 +45,22 @@ std::string dotted(const std::string& key) {
   return text;
 }
 
+/// A title as a comment of TOML can have it: in one line.
+std::string in_a_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
 std::string constants_text(const Calibration& calibration, const CalibrationResult& result) {
   std::string text = fmt::format(
-      "# Constants found by `cnem calibrate`, {}: misfit {:.3g}% of the measured peaks, {:.3g}% at the "
+      "# Constants found by `cnem calibrate`, {}: misfit {:.3g}% of the measured peaks, {} at the "
       "start.\n"
       "# Values of a case stand before those of what it includes. To use these, a case of two lines:\n"
       "#   include = [\"case.toml\", \"calibrated.toml\"]\n",
-      calibration.title.empty() ? calibration.name : calibration.title, 100.0 * std::sqrt(result.best.misfit),
-      100.0 * std::sqrt(result.start.misfit));
+      in_a_line(calibration.title.empty() ? calibration.name : calibration.title),
+      100.0 * std::sqrt(result.best.misfit),
+      result.start.good() ? fmt::format("{:.3g}%", 100.0 * std::sqrt(result.start.misfit)) : "failed");
   for (std::size_t k = 0; k < calibration.constants.size(); ++k) {
     const SoughtConstant& constant = calibration.constants[k];
     const std::string value =
@@ -84,9 +93,10 @@ Json json_of(const Calibration& calibration, const CalibrationResult& result,
                                                 {"low", constant.low},
                                                 {"high", constant.high},
                                                 {"told", static_cast<bool>(inference.told[k])}};
-    one["interval"] = inference.told[k] ? Json{value_of(calibration, k, place - width),
-                                               value_of(calibration, k, place + width)}
-                                        : Json(nullptr);
+    one["interval"] =
+        inference.told[k] && inference.intervals()
+            ? Json{value_of(calibration, k, place - width), value_of(calibration, k, place + width)}
+            : Json(nullptr);
   }
   Json& curves = json["curves"] = Json::array();
   for (std::size_t k = 0; k < result.best.curves.size(); ++k)
@@ -98,6 +108,7 @@ Json json_of(const Calibration& calibration, const CalibrationResult& result,
   json["directions"] = rows_of(inference.directions.transpose());
   json["covariance_of_places"] = rows_of(inference.covariance);
   json["independent_residuals"] = inference.independent;
+  json["degrees_of_freedom"] = inference.degrees;
   json["not_told"] = inference.words;
   Json& flow = json["flow_stress"] = Json::array();
   for (const FlowBand& band : bands)

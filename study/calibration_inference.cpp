@@ -2,6 +2,7 @@
 #include "study/calibration.hpp"
 
 #include <Eigen/SVD>
+#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ constexpr double widest = 0.5;
 constexpr double notable = 0.1;
 
 /// Of how many independent ones so many residuals of curves tell: neighbours on a curve err alike. By the
-/// correlation of neighbours, as for an autoregressive series.
+/// correlation of neighbours, as for an autoregressive series; two at least of each curve.
 double independent_residuals(const Eigen::VectorXd& residual, const std::vector<std::size_t>& lengths) {
   double independent = 0.0;
   Eigen::Index from = 0;
@@ -30,17 +31,11 @@ double independent_residuals(const Eigen::VectorXd& residual, const std::vector<
     const double all = part.squaredNorm();
     const double neighbours = part.head(n - 1).dot(part.tail(n - 1));
     const double correlation = all > 0.0 ? std::clamp(neighbours / all, 0.0, 0.999) : 0.0;
-    independent += std::max(2.0, double(length) * (1.0 - correlation) / (1.0 + correlation));
+    independent +=
+        std::max(std::min(2.0, double(length)), double(length) * (1.0 - correlation) / (1.0 + correlation));
     from += n;
   }
   return independent;
-}
-
-/// 97.5% quantile of Student's t, by its expansion about the normal one (Abramowitz and Stegun 26.7.5).
-double student(double degrees) {
-  constexpr double z = 1.959964;
-  const double z3 = z * z * z, z5 = z3 * z * z;
-  return z + (z3 + z) / (4.0 * degrees) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * degrees * degrees);
 }
 
 /// "0.71 A − 0.70 ln n", of constants that are notable in a direction.
@@ -77,30 +72,70 @@ std::string weak_words(const Calibration& calibration, const Eigen::VectorXd& di
       fmt::join(names, " and "), combination(calibration, direction), little);
 }
 
+/// Columns whose sensitivity is known.
+std::vector<Eigen::Index> known_columns(const Eigen::MatrixXd& jacobian) {
+  std::vector<Eigen::Index> known;
+  for (Eigen::Index k = 0; k < jacobian.cols(); ++k)
+    if (jacobian.col(k).allFinite()) known.push_back(k);
+  return known;
+}
+
+/// Fills singular values, falling, and directions [constant][direction], as many as there are known columns.
+void decompose(Inference& result, const std::vector<Eigen::Index>& known) {
+  const auto n = static_cast<Eigen::Index>(known.size());
+  result.singular = Eigen::VectorXd::Zero(n); // fewer residuals than constants leave some at 0
+  result.directions = Eigen::MatrixXd::Zero(result.jacobian.cols(), n);
+  if (n == 0) return;
+  const Eigen::MatrixXd part = result.jacobian(Eigen::all, known);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(part, Eigen::ComputeFullV);
+  result.singular.head(svd.singularValues().size()) = svd.singularValues();
+  result.directions(known, Eigen::all) = svd.matrixV();
+}
+
+std::string unknown_words(const SoughtConstant& constant) {
+  return fmt::format(
+      "How the curves depend on {} is not known, because the evaluations beside what was found "
+      "failed: it has no interval, and those of other constants take it as given.",
+      constant.name);
+}
+
 } // namespace
+
+double student_quantile(double degrees) {
+  constexpr double largest = 1e9; // far beyond any use, and finite
+  using Policy = boost::math::policies::policy<
+      boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
+  return std::min(
+      largest, boost::math::quantile(boost::math::students_t_distribution<double, Policy>(degrees), 0.975));
+}
 
 Inference infer(const Calibration& calibration, const Eigen::VectorXd& residual, Eigen::MatrixXd jacobian,
                 const std::vector<std::size_t>& curve_lengths) {
   const Eigen::Index n = jacobian.cols();
   Inference result;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinU | Eigen::ComputeFullV);
   result.jacobian = std::move(jacobian);
-  result.singular = svd.singularValues();
-  result.directions = svd.matrixV();
+  const std::vector<Eigen::Index> known = known_columns(result.jacobian);
+  decompose(result, known);
   result.independent = independent_residuals(residual, curve_lengths);
-  const double degrees = std::max(1.0, result.independent - double(n));
+  result.degrees = std::max(0.0, result.independent - double(n));
   // Residuals are weighted by 1/√N: their squared sum is the variance of one of N; as many as are independent
   // stand in the sum of squares of the sensitivities.
-  const double variance = residual.squaredNorm() / degrees;
-  const double quantile = result.quantile = student(degrees);
-  result.weak.resize(static_cast<std::size_t>(n));
-  result.told.assign(static_cast<std::size_t>(n), true);
+  const double variance = result.intervals() ? residual.squaredNorm() / result.degrees : 0.0;
+  const double quantile = result.quantile = result.intervals() ? student_quantile(result.degrees) : 0.0;
+  if (!result.intervals())
+    result.words.push_back(fmt::format(
+        "There are no intervals: the curves come to {:.1f} independent residuals for {} constants.",
+        result.independent, n));
+  result.told.assign(static_cast<std::size_t>(n), false);
+  for (const Eigen::Index k : known) result.told[static_cast<std::size_t>(k)] = true;
+  for (std::size_t k = 0; k < result.told.size(); ++k)
+    if (!result.told[k]) result.words.push_back(unknown_words(calibration.constants[k]));
   result.covariance = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
+  for (Eigen::Index k = 0; k < result.singular.size(); ++k) {
     const double change = result.singular[k];
     const Eigen::VectorXd direction = result.directions.col(k);
     const bool weak = !(change > least_change) || quantile * std::sqrt(variance) / change > widest;
-    result.weak[static_cast<std::size_t>(k)] = weak;
+    result.weak.push_back(weak);
     if (!weak) {
       result.covariance += variance / (change * change) * direction * direction.transpose();
       continue;

@@ -33,15 +33,17 @@ std::string constants_section(const Calibration& calibration, const CalibrationR
     const auto at = static_cast<Eigen::Index>(k);
     const double place = result.best.place[at], width = result.inference.half_width[at];
     const bool told = result.inference.told[k], bound = place < 1e-3 || place > 1.0 - 1e-3;
-    rows +=
-        row({constant.name, constant.key, constant.text(constant.start, 5),
-             constant.text(constant.at(place), 5) + (bound ? " (at a bound)" : ""),
-             !told ? "not told by the curves"
-                   : fmt::format("{} to {}{}", constant.text(constant.at(place - width), 4),
-                                 constant.text(constant.at(place + width), 4),
-                                 place - width < 0.0 || place + width > 1.0 ? " (cut at the bounds)" : ""),
-             fmt::format("{} to {}{}", constant.text(constant.low, 4), constant.text(constant.high, 4),
-                         constant.logarithmic ? ", logarithmic" : "")});
+    std::string interval = "not told by the curves";
+    if (told && !result.inference.intervals())
+      interval = "none";
+    else if (told)
+      interval = fmt::format("{} to {}{}", constant.text(constant.at(place - width), 4),
+                             constant.text(constant.at(place + width), 4),
+                             place - width < 0.0 || place + width > 1.0 ? " (cut at the bounds)" : "");
+    rows += row({constant.name, constant.key, constant.text(constant.start, 5),
+                 constant.text(constant.at(place), 5) + (bound ? " (at a bound)" : ""), interval,
+                 fmt::format("{} to {}{}", constant.text(constant.low, 4), constant.text(constant.high, 4),
+                             constant.logarithmic ? ", logarithmic" : "")});
   }
   return table_section("constants", "Constants", rows);
 }
@@ -63,19 +65,23 @@ std::string curves_section(const CalibrationResult& result) {
                  percent(result.best.curves[k].rms_share)});
   rows += row({"all, by weight", begun ? percent(std::sqrt(result.start.misfit)) : "failed",
                percent(std::sqrt(result.best.misfit))});
-  return table_section(
-      "misfit", "Misfit", rows,
-      "Root mean square of computed − measured over the measured curve, as a share of its peak.");
+  std::string note =
+      "Root mean square of computed − measured over the measured curve, as a share of its peak.";
+  for (const CalibratedCurve& curve : result.best.curves)
+    if (!curve.note.empty()) note += fmt::format(" {}: {}", curve.name, curve.note);
+  return table_section("misfit", "Misfit", rows, note);
 }
 
 std::string searches_section(const CalibrationResult& result) {
   std::string rows =
       row({"start", "evaluations", "misfit at its start", "least misfit", "ended because"}, "th");
+  const auto shown = [](const VisitedPlace& place) {
+    return place.good ? percent(std::sqrt(place.misfit)) : std::string("failed");
+  };
   for (std::size_t k = 0; k < result.searches.size(); ++k) {
     const SearchEnd& search = result.searches[k];
-    rows += row({std::to_string(k + 1), std::to_string(search.course.size()),
-                 percent(std::sqrt(search.course.front().misfit)),
-                 percent(std::sqrt(search.course[search.best].misfit)), search.reason});
+    rows += row({std::to_string(k + 1), std::to_string(search.course.size()), shown(search.course.front()),
+                 shown(search.course[search.best]), search.reason});
   }
   return table_section("searches", "Searches", rows,
                        result.failures > 0 ? fmt::format("{} of {} evaluations failed and counted as {:g} %.",
@@ -166,6 +172,7 @@ std::vector<report::Chart> band_charts(const std::vector<FlowBand>& bands) {
     chart.y_unit = "Pa";
     chart.series.push_back(series("flow stress", {band.strain, band.stress}, 0));
     for (const double way : {-1.0, 1.0}) {
+      if (band.half_width.empty()) break;
       evaluate::ComparedCurve edge{band.strain, band.stress};
       for (std::size_t k = 0; k < edge.y.size(); ++k) edge.y[k] += way * band.half_width[k];
       chart.series.push_back(series(way < 0.0 ? "95% band" : "", edge, 0, true));

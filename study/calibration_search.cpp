@@ -40,10 +40,10 @@ public:
     if (const Evaluation* evaluation = evaluator_.known(place)) {
       SearchEnd& end = replay.end;
       if (replay.wanted.empty()) {
-        end.course.push_back({place, evaluation->misfit});
-        if (evaluation->misfit < end.course[end.best].misfit) end.best = end.course.size() - 1;
+        end.course.push_back({place, evaluation->misfit, evaluation->good()});
+        if (end.course.back().better_than(end.course[end.best])) end.best = end.course.size() - 1;
       }
-      return evaluation->misfit;
+      return std::min(evaluation->misfit, failed_misfit); // nothing is worse than a failure
     }
     if (std::find(replay.wanted.begin(), replay.wanted.end(), place) == replay.wanted.end())
       replay.wanted.push_back(place);

@@ -1,5 +1,6 @@
 """Cases: read from files or built from dicts, and checked."""
 
+import copy
 import html
 import os
 
@@ -61,7 +62,8 @@ class Case:
         if not isinstance(tables, dict):
             raise TypeError("tables: expected a dict; cnem.load(path) reads a file")
         path = os.path.join(folder, name + ".toml")
-        self._remake = lambda changes: _cnem.Case.build(tables, path, changes)
+        kept = copy.deepcopy(tables)
+        self._remake = lambda changes: _cnem.Case.build(kept, path, changes)
         self._set_up(overrides)
 
     @classmethod
@@ -76,8 +78,8 @@ class Case:
         return case
 
     def _set_up(self, overrides):
-        self._overrides = overrides
-        self._core = self._remake(overrides)
+        self._overrides = copy.deepcopy(overrides)
+        self._core = self._remake(self._overrides)
         self._page = None
 
     def with_(self, overrides):

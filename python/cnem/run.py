@@ -30,11 +30,14 @@ class History(Mapping):
         bare = [column.split("[")[0] for column in columns]
         return bare.index(name) if name in bare else -1
 
-    def __getitem__(self, name):
+    def _index(self, name):
         k = self._find(name)
         if k < 0:
             raise KeyError(f"{name}: expected one of {', '.join(self)}")
-        return self._core.column(k)
+        return k
+
+    def __getitem__(self, name):
+        return self._core.column(self._index(name))
 
     def __contains__(self, name):
         return self._find(name) >= 0
@@ -46,8 +49,8 @@ class History(Mapping):
         return len(self._core.columns())
 
     def unit(self, name):
-        """SI unit of a column; "" for a number."""
-        column = self._core.columns()[self._find(name)]
+        """SI unit of a column; "" for a number. Raises KeyError."""
+        column = self._core.columns()[self._index(name)]
         return column[len(column.split("[")[0]) + 1 : -1]
 
     def __repr__(self):
@@ -87,7 +90,7 @@ class Run:
         """Goes on to the end.
 
         on_output(run) is called after each row of the history or frame of the fields, in between of which the
-        run can be looked at; False, or run.stop(), stops it, and so does an exception, which is raised here then.
+        run can be looked at; False (also NumPy's), or run.stop(), stops it, and so does an exception, which is raised here then.
         Returns self. Raises DivergedError, IoError, InputError, and KeyboardInterrupt after it has stopped in order.
         """
         return self.advance(on_output=on_output)

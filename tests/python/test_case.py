@@ -43,6 +43,14 @@ class Cases(InFolder):
         shorter = case.with_({"time.end": "0.5 us"})
         self.assertEqual((shorter.end, shorter.variables["half"][0], case.end), (5e-7, 0.004, 3e-6))
 
+    def test_a_case_stays_what_it_was(self):
+        tables, overrides = block(), {"time.end": "1 us"}
+        case = cnem.Case(tables, overrides=overrides)
+        tables["cloud"]["spacing"] = "0.2 mm"
+        overrides["time.end"] = "2 us"
+        self.assertEqual(case.with_({"title": "again"}).resolved.count("spacing = \"0.0004 m\""), 1)
+        self.assertEqual(case.with_({"title": "again"}).end, 1e-6)
+
     def test_a_dict_says_the_same_as_a_file(self):
         pathlib.Path("block.toml").write_text(TOML)
         tables = {

@@ -29,6 +29,8 @@ class Runs(InFolder):
         self.assertAlmostEqual(run.time, 2e-6, 15)
         self.assertEqual(len(run.history["time"]), 21)
         self.assertEqual(run.history.unit("punch.force_y"), "N/m")
+        with self.assertRaisesRegex(KeyError, "punch.froce: expected one of time"):
+            run.history.unit("punch.froce")
         self.assertTrue(any("reached the end" in text for text in run.messages), run.messages)
         self.assertGreater(run.metrics["peak_force.punch"], 0.0)
         self.assertEqual(run.metric_units["peak_force.punch"], "N/m")
@@ -99,11 +101,16 @@ class Callbacks(InFolder):
     def test_stop_and_go_on_in_memory(self):
         case = cnem.Case(block())
         whole = bits(case.run())
-        for stop in (lambda run: run.time < 1e-6, lambda run: run.stop() if run.time >= 1e-6 else None):
+        for stop in (
+            lambda run: run.time < 1e-6,
+            lambda run: np.float64(run.time) < 1e-6,  # of type numpy.bool_
+            lambda run: run.stop() if run.time >= 1e-6 else None,
+        ):
             run = case.run(stop)
             self.assertEqual((run.exit_code, run.finished), (5, False))
             self.assertLess(run.time, 1.2e-6)
             self.assertIn("by", run.reason)
+            self.assertEqual(run.advance(steps=1).reason, "")
             self.assertEqual(bits(run.run()), whole)
             self.assertEqual(run.exit_code, 0)
 
@@ -164,6 +171,9 @@ class Callbacks(InFolder):
                 with self.assertRaisesRegex(RuntimeError, "another thread"):
                     look()
                 refused += 1
+            while not run._core.row:
+                pass
+            self.assertEqual((run.messages, run.exit_code), ([], None))
         finally:
             run.stop()
             worker.join()

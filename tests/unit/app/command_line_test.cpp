@@ -111,6 +111,8 @@ TEST_F(CommandLine, wrong_input_and_usage_exit_with_2) {
   EXPECT_EQ(call({}), 2);
   EXPECT_NE(message.find("expected a command, one of run, check"), std::string::npos) << message;
   EXPECT_EQ(call({"run", file(), "--threads", "0"}), 2);
+  EXPECT_EQ(call({"sweep", "study.toml", "--merge", "--processes", "4"}), 2); // a merge runs nothing
+  EXPECT_NE(message.find("--processes excludes --merge"), std::string::npos) << message;
   EXPECT_EQ(call({"check", file(), "--set", "cloud.spacin=0.1 mm"}), 2);
   EXPECT_NE(message.find("cloud.spacing"), std::string::npos) << message;
   EXPECT_EQ(call({"check", file(), "--set", "cloud.spacing=1e-8 m"}), 2);

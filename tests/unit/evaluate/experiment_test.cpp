@@ -2,12 +2,15 @@
 // page.
 #include "evaluate/experiment.hpp"
 
+#include "core/error.hpp"
 #include "report/experiment_page.hpp"
+#include "report/report_tables.hpp"
 #include "results/output_folder.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/unit/input/case_text.hpp"
 
 #include <cmath>
+#include <fstream>
 
 namespace cnem::evaluate {
 namespace {
@@ -104,6 +107,49 @@ TEST(Experiment, file_metrics_and_page_tell_the_difference) {
                       {"Force of punch, measured and computed", "stroke [mm]", "force [kN]", ">measured<",
                        ">computed<", "40 kN", "% of the peak", "1 mm"});
   EXPECT_EQ(report::render_experiments({}), "");
+  input::expect_parts(report::render_experiments(back, results::ShownUnits({"um", "N", "mJ"})),
+                      {"stroke [µm]", "force [N]", "5768 N", "2.5·10⁴ mJ", "1000 µm"});
+  results::RunStatus status;
+  for (const auto& [metric, number] : metrics) status.add_metric(metric, number);
+  EXPECT_TRUE(report::result_table(status, {}).rows.empty()) << "they have a section of their own";
+  std::ofstream(folder.path() / results::files::experiment) << "{}";
+  try {
+    read_experiments(folder.path());
+    ADD_FAILURE() << "read";
+  } catch (const IoError& error) {
+    input::expect_parts(error.what(), {"experiment.json is not what an evaluation of a run leaves"});
+  }
+}
+
+/// Every so many rows of the ramp, and its last one.
+results::HistoryTable few_rows(std::size_t every) {
+  const results::HistoryTable all = ramp();
+  results::HistoryTable few;
+  few.names = all.names;
+  few.column.resize(all.column.size());
+  for (std::size_t c = 0; c < all.column.size(); ++c) {
+    for (std::size_t k = 0; k < 1000; k += every) few.column[c].push_back(all.column[c][k]);
+    few.column[c].push_back(all.column[c].back());
+  }
+  return few;
+}
+
+TEST(Experiment, few_rows_leave_finite_curves) {
+  const testing::TemporaryFolder folder("experiment");
+  const input::Case input = pressed("force = \"0 20 40 kN\"\ncut_length = \"50 mm\"\n");
+  const auto results = evaluate_experiments(input, few_rows(150), nullptr);
+  ASSERT_GE(results.at(0).computed.x.size(), 2U);
+  EXPECT_TRUE(std::isfinite(results[0].difference.rms));
+  write_experiments(folder.path(), results);
+  EXPECT_EQ(metrics_of(read_experiments(folder.path())), metrics_of(results));
+
+  results::HistoryTable nothing = few_rows(150);
+  for (double& force : nothing.column[2]) force = std::nan("");
+  const auto none = evaluate_experiments(input, nothing, nullptr);
+  EXPECT_EQ(none.at(0).note, "The run has no force of punch.");
+  write_experiments(folder.path(), none);
+  EXPECT_EQ(report::render_experiments(read_experiments(folder.path())).find("not a number"),
+            std::string::npos);
 }
 
 TEST(Experiment, notes_say_what_cannot_be_compared) {

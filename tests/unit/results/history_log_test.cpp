@@ -23,8 +23,12 @@ TEST(HistoryLog, without_a_file_rows_are_in_memory_and_can_be_dropped) {
   fill(log, 5);
   EXPECT_EQ(log.table().rows(), 5U);
   EXPECT_EQ(log.columns()[1][4], 0.2);
+  const KeptField kept(log.columns()[1]);
   log.resume({}, names, 3);
-  fill(log, 4, 3);
+  log.write(std::vector<double>{0.3, 7.0});
+  EXPECT_EQ(log.columns()[1][3], 7.0);
+  EXPECT_EQ(kept.data()[3], 0.25) << "whoever looks at them keeps them";
+  EXPECT_FALSE(kept.is_of(log.columns()[1]));
   EXPECT_EQ(log.table().rows(), 4U);
   EXPECT_EQ(log.table().names, names);
 }

@@ -3,6 +3,7 @@
 #include "study/calibration.hpp"
 
 #include "core/error.hpp"
+#include "input/schema/document.hpp"
 #include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
 #include "tests/temporary_folder.hpp"
@@ -99,8 +100,9 @@ protected:
     std::exception_ptr problem;
     int code = -1;
     try {
-      code = calibrate(read_calibration(folder / "fit.toml"),
-                       {.output = folder / output, .program = CNEM_PROGRAM, .version = "test"});
+      code =
+          calibrate(read_calibration(folder / "fit.toml"),
+                    {.output = folder / output, .force = force, .program = program_file, .version = "test"});
     } catch (...) { problem = std::current_exception(); }
     printed = ::testing::internal::GetCapturedStdout();
     message = ::testing::internal::GetCapturedStderr();
@@ -140,6 +142,8 @@ protected:
   const cnem::testing::TemporaryFolder temporary{"calibrate"};
   const fs::path& folder = temporary.path();
   std::string printed, message;
+  bool force = false;
+  fs::path program_file = CNEM_PROGRAM;
 };
 
 TEST_F(Calibrate, finds_johnson_cook_again_from_curves_of_single_points) {
@@ -248,6 +252,128 @@ TEST_F(Calibrate, runs_that_fail_are_bad_misfits_and_told) {
                 constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"", "log") + "[targets.press]\n"),
             3);
   EXPECT_NE(message.find("no evaluation went well"), std::string::npos) << message;
+}
+
+TEST_F(Calibrate, runs_that_the_machine_ended_say_nothing_of_constants) {
+  const std::string text = "evaluations = 6\n" +
+                           constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"", "log") +
+                           "[targets.press]\n";
+  program_file = folder / "machine.sh";
+  for (const auto& [end, words] : {std::pair{"kill -9 $$", "was killed by signal 9"},
+                                   {"echo no space left; exit 4", "ended with exit code 4: no space left"}}) {
+    write("machine.sh", fmt::format("#!/bin/sh\n{}\n", end));
+    fs::permissions(program_file, fs::perms::owner_all);
+    try {
+      run(text, "ended");
+      ADD_FAILURE() << end;
+    } catch (const IoError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("ended/runs/press-"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(Calibrate, force_removes_nothing_but_its_own_runs) {
+  write_curve("slow", 1.0, 350, 400, 0.3, 0.02);
+  const fs::path runs = folder / "results/runs";
+  const std::string hash = "-0123456789abcdef";
+  fs::create_directories(runs / ("slow" + hash));
+  for (const char* other : {"slow", "slow-0123", "fast-0123456789abcdef"})
+    fs::create_directories(runs / other);
+  write("results/runs/notes.txt", "mine");
+  write("results/runs/slow" + hash + ".log", "");
+  force = true;
+  ASSERT_EQ(run("evaluations = 6\n" + constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"") +
+                curve("slow", 1.0)),
+            0)
+      << message;
+  for (const char* other : {"slow", "slow-0123", "fast-0123456789abcdef", "notes.txt"})
+    EXPECT_TRUE(fs::exists(runs / other)) << other;
+  EXPECT_FALSE(fs::exists(runs / ("slow" + hash)));
+  EXPECT_FALSE(fs::exists(runs / ("slow" + hash + ".log")));
+}
+
+TEST_F(Calibrate, measured_points_beyond_the_run_are_left_out_and_told) {
+  write("press.csv", "stroke[mm];force[kN]\n0;0\n0,1;12\n0,3;20\n1;500\n");
+  ASSERT_EQ(run("evaluations = 6\n" + constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"", "log") +
+                "[targets.press]\n"),
+            0)
+      << message;
+  EXPECT_LT(result().at("curves").at(0).at("rms_share").get<double>(), 0.02) << "of the peak of 500 kN";
+  EXPECT_NE(message.find("measured from 0 mm to 1 mm, compared from 0 mm to 0.2"), std::string::npos)
+      << message;
+  EXPECT_NE(results::read_file(folder / "results/report.html").find("the run goes no farther"),
+            std::string::npos);
+}
+
+TEST_F(Calibrate, what_went_well_is_better_than_what_failed) {
+  write("weak.csv", "plastic strain;stress[MPa]\n0,002;10\n0,4;10\n");
+  // The second start, between the bounds, melts below its T0; all others are far worse than a failure counts.
+  ASSERT_EQ(run("evaluations = 12\nstarts = 2\n" + constant("T0", "\"293 K\"", "\"200 K\"", "\"890 K\"") +
+                constant("Tmelt", "\"895 K\"", "\"300 K\"", "\"900 K\"") + curve("weak", 1.0)),
+            0)
+      << message;
+  EXPECT_GT(result().at("failures").get<int>(), 0);
+  EXPECT_GT(result().at("misfit").at("best").get<double>(), 2.0);
+}
+
+Calibration two_lines() {
+  Calibration calibration;
+  calibration.title = "two\nlines";
+  for (const char* name : {"A", "B", "C"}) {
+    SoughtConstant& constant = calibration.constants.emplace_back();
+    constant.name = constant.key = name;
+  }
+  return calibration;
+}
+
+TEST(CalibrationInference, quantiles_are_those_of_tables) {
+  for (const auto& [degrees, quantile] :
+       {std::pair{1.0, 12.7062}, {2.0, 4.3027}, {3.0, 3.1824}, {10.0, 2.2281}, {120.0, 1.9799}})
+    EXPECT_NEAR(student_quantile(degrees), quantile, 1e-4) << degrees;
+  EXPECT_NEAR(student_quantile(1.5), 6.02, 0.01);
+  EXPECT_TRUE(std::isfinite(student_quantile(1e-3)));
+}
+
+TEST(CalibrationInference, without_residuals_to_spare_there_are_no_intervals) {
+  const Eigen::MatrixXd jacobian{{1.0, 0.0, 1.0}, {0.0, 1.0, 0.0}};
+  const Inference few = infer(two_lines(), Eigen::Vector2d(0.01, -0.01), jacobian, {2});
+  EXPECT_EQ(few.singular.size(), 3);
+  EXPECT_EQ(few.singular[2], 0.0);
+  EXPECT_FALSE(few.intervals());
+  EXPECT_EQ(few.told, (std::vector{false, true, false}));
+  EXPECT_NE(
+      few.words.front().find("no intervals: the curves come to 2.0 independent residuals for 3 constants"),
+      std::string::npos)
+      << few.words.front();
+}
+
+TEST(CalibrationInference, a_sensitivity_that_is_not_known_is_not_a_sensitivity_of_nothing) {
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Random(20, 3);
+  jacobian.col(1).setConstant(std::nan(""));
+  Eigen::VectorXd residual(20);
+  for (Eigen::Index k = 0; k < 20; ++k) residual[k] = k % 2 ? 1e-3 : -1e-3;
+  const Inference inference = infer(two_lines(), residual, jacobian, {20});
+  EXPECT_EQ(inference.told, (std::vector{true, false, true}));
+  ASSERT_EQ(inference.words.size(), 1U);
+  EXPECT_NE(inference.words[0].find("depend on B is not known, because the evaluations beside"),
+            std::string::npos)
+      << inference.words[0];
+  EXPECT_GT(inference.half_width[0], 0.0);
+  EXPECT_TRUE(inference.covariance.allFinite());
+}
+
+TEST(CalibrationFiles, titles_stay_comments_and_a_failed_start_has_no_misfit) {
+  CalibrationResult result;
+  result.start.failure = "as asked";
+  result.start.misfit = failed_misfit;
+  result.best.place = Eigen::Vector3d(0.5, 0.5, 0.5);
+  result.inference = infer(two_lines(), Eigen::VectorXd::Zero(20), Eigen::MatrixXd::Random(20, 3), {20});
+  const CalibrationFiles files = calibration_files(two_lines(), result, {}, "test");
+  EXPECT_NE(files.constants.find("two lines: misfit 0% of the measured peaks, failed at the start"),
+            std::string::npos)
+      << files.constants;
+  EXPECT_EQ(input::parse_document(files.constants, "calibrated.toml").members.size(), 3U);
 }
 
 } // namespace
