@@ -2,6 +2,7 @@
 #include "contact/springs/preload.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace cnem::contact {
 
@@ -28,14 +29,18 @@ struct GasSpring {
 
   static constexpr const char* strength[] = {"preload"};
 
-  /// NaN where the piston has reached the bottom, s ≥ length.
-  double force(double s) const { return preload * std::pow(1.0 - s / length, -exponent); }
+  /// All are NaN where the piston has reached the bottom, s ≥ length.
+  double force(double s) const { return preload * std::pow(rest(s), -exponent); }
   double energy(double s) const {
-    const double rest = 1.0 - s / length;
     return preload * length *
-           (exponent == 1.0 ? -std::log(rest) : (std::pow(rest, 1.0 - exponent) - 1.0) / (exponent - 1.0));
+           (exponent == 1.0 ? -std::log(rest(s)) : (std::pow(rest(s), 1.0 - exponent) - 1.0) / (exponent - 1.0));
   }
   double slope(double s) const { return exponent * force(s) / (length - s); }
+
+private:
+  double rest(double s) const {
+    return s < length ? 1.0 - s / length : std::numeric_limits<double>::quiet_NaN();
+  }
 };
 
 } // namespace cnem::contact

@@ -66,6 +66,7 @@ constexpr std::array scopes{
     Scoped{"report.blanking", Scope::plane, "cuts are followed along the outline of the workpiece"},
     Scoped{"report.cutting", Scope::plane, "cuts are followed along the outline of the workpiece"},
     Scoped{"report.springback", Scope::plane, "bodies are let go in the plane only"},
+    Scoped{"report.experiment", Scope::plane, "measured curves are laid over those of the plane alone"},
 };
 
 } // namespace

@@ -176,17 +176,20 @@ TEST(SprungTool, AGasSpringThatIsChargedSlowlyHoldsAndFollowsItsLaw) {
 }
 
 TEST(SprungTool, SaysWhenAGasSpringIsAtItsEnd) {
-  Masses scene = block(3, 3, 0.1, {0.0, 0.0}, 0.0);
-  GasSpring gas;
-  gas.preload = 1.0;
-  gas.length = 0.05;
-  Tool<2> made = hung(1e6, Spring(gas));
-  made.motion.velocity = {TimeTable(0.0), TimeTable(-1.0)};
-  scene.start({made});
-  try {
-    for (int i = 0; i < 200; ++i) scene.step(7e-4);
-    FAIL() << "it went on";
-  } catch (const DivergenceError& error) {
-    EXPECT_NE(std::string(error.what()).find("spring.length"), std::string::npos) << error.what();
+  for (const double exponent : {1.0, 1.4, 2.0}) {
+    Masses scene = block(3, 3, 0.1, {0.0, 0.0}, 0.0);
+    GasSpring gas;
+    gas.preload = 1.0;
+    gas.length = 0.05;
+    gas.exponent = exponent;
+    Tool<2> made = hung(1e6, Spring(gas));
+    made.motion.velocity = {TimeTable(0.0), TimeTable(-1.0)};
+    scene.start({made});
+    try {
+      for (int i = 0; i < 200; ++i) scene.step(7e-4);
+      FAIL() << "it went on, exponent " << exponent;
+    } catch (const DivergenceError& error) {
+      EXPECT_NE(std::string(error.what()).find("spring.length"), std::string::npos) << error.what();
+    }
   }
 }
