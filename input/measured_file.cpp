@@ -3,11 +3,10 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "input/csv_lines.hpp"
+#include "input/schema/finite_number.hpp"
 #include "input/schema/nearest.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -20,17 +19,15 @@ std::string_view without_quotes(std::string_view text) {
   return text;
 }
 
-/// A number, where `comma` stands for a decimal point too; none for other texts.
-std::optional<double> read_number(std::string_view text, bool comma) {
+/// A number as others write it: without quotes and, where `comma` stands for a decimal point too, with one.
+std::string with_point(std::string_view text, bool comma) {
   std::string digits(without_quotes(text));
   if (comma && digits.find('.') == std::string::npos)
     if (const auto at = digits.find(','); at != std::string::npos) digits[at] = '.';
-  if (digits.starts_with('+')) digits.erase(0, 1);
-  double value = 0.0;
-  const char* end = digits.data() + digits.size();
-  const auto [rest, error] = std::from_chars(digits.data(), end, value);
-  if (error != std::errc{} || rest != end || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return digits;
+}
+std::optional<double> read_number(std::string_view text, bool comma) {
+  return finite_number(with_point(text, comma));
 }
 
 std::optional<Unit> read_unit(std::string_view text) {
@@ -197,12 +194,13 @@ private:
       throw InputError(found_in_file(
           whole, fmt::format("at least {} fields between '{}'", std::max(column_[0], column_[1]) + 1,
                              separator_ == '\t' ? "tabs" : std::string(1, separator_))));
-    const std::optional<double> value = read_number(field[column_[c]].text, decimal_commas());
+    const std::optional<double> value =
+        finite_number(with_point(field[column_[c]].text, decimal_commas()), unit_[c]);
     if (!value)
       throw InputError(found_in_file(field[column_[c]],
                                      "a finite number without signs between thousands; lines that are no "
                                      "data begin with #"));
-    return unit_[c].to_si(*value);
+    return *value;
   }
 
   const std::string& path_;

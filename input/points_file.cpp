@@ -1,10 +1,8 @@
 // Node lists in CSV files.
 #include "input/case_parts.hpp"
 #include "input/csv_lines.hpp"
-#include "input/schema/units.hpp"
+#include "input/schema/finite_number.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace cnem::input {
@@ -29,13 +27,9 @@ Unit unit_of(const FileField& field, char name) {
 }
 
 double number(const FileField& field, const Unit& unit) {
-  const char *begin = field.text.data(), *end = begin + field.text.size();
-  double value = 0.0;
-  const auto [rest, error] = std::from_chars(begin, end, value);
-  value = unit.to_si(value);
-  if (error != std::errc{} || rest != end || !std::isfinite(value))
-    throw InputError(found_in_file(field, "a finite number"));
-  return value;
+  const std::optional<double> value = finite_number(field.text, unit);
+  if (!value) throw InputError(found_in_file(field, "a finite number"));
+  return *value;
 }
 
 } // namespace

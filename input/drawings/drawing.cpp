@@ -49,6 +49,18 @@ void DrawnFile::add_layer(const std::string& name) {
   if (std::find(layers.begin(), layers.end(), name) == layers.end()) layers.push_back(name);
 }
 
+void DrawnFile::add(DrawnCurve curve) {
+  constexpr double largest = 1e15; // far from where squares and quotients are no numbers
+  const CurvePiece& piece = curve.piece;
+  for (const Vec2& x : {piece.from, piece.to, piece.centre, Vec2(piece.radius, 0.0)})
+    if (!((x.array().abs() <= largest).all()))
+      throw DrawingError(file, curve.line,
+                         fmt::format("found a curve from ({:g}, {:g}) to ({:g}, {:g}), expected coordinates "
+                                     "and radii of at most {:g}",
+                                     piece.from.x(), piece.from.y(), piece.to.x(), piece.to.y(), largest));
+  curves.push_back(std::move(curve));
+}
+
 DrawingUnit drawing_unit(const std::string& name) {
   static const std::map<std::string, double> in_millimetres{
       {"in", 25.4}, {"ft", 304.8}, {"mi", 1609344.0}, {"mil", 0.0254}, {"uin", 25.4e-6}};

@@ -52,6 +52,8 @@ struct DrawnFile {
   bool of_a_mesh = false;          ///< straight sides are made of many curves
 
   void add_layer(const std::string& name);
+  /// Throws DrawingError where coordinates are no numbers to calculate with.
+  void add(DrawnCurve curve);
 };
 
 /// Drawings by what their names end in: .dxf, .geo, .msh. All throw DrawingError. `file` is for messages.

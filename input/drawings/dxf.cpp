@@ -1,7 +1,7 @@
 // Drawings in DXF, as Autodesk's reference of the format describes it: pairs of lines, a group code and a
 // value.
 #include "input/drawings/drawing.hpp"
-#include "input/drawings/numbers.hpp"
+#include "input/schema/finite_number.hpp"
 
 #include <algorithm>
 #include <array>
@@ -86,7 +86,7 @@ private:
 
   Group next() {
     const std::string_view code = next_line();
-    const std::optional<double> number = number_in(code);
+    const std::optional<double> number = finite_number(code);
     if (!number || *number != std::floor(*number) || std::abs(*number) > 2000.0)
       fail(line_, fmt::format("found '{}', expected a group code of DXF, a whole number", shortened(code)));
     const std::string_view value = next_line();
@@ -94,7 +94,7 @@ private:
   }
 
   double number(const Group& group) const {
-    const std::optional<double> value = number_in(group.value);
+    const std::optional<double> value = finite_number(group.value);
     if (!value) fail(group.line, fmt::format("found '{}', expected a finite number", shortened(group.value)));
     return *value;
   }
@@ -123,8 +123,9 @@ private:
       } else if (section == "TABLES" && entity.type == "LAYER") {
         const std::string layer = entity.text(2, "");
         drawing_.add_layer(layer);
-        if (number(entity, 62, 7.0) < 0.0 || (flags(entity) & 1) || layer == "Defpoints")
-          drawing_.hidden.push_back(layer);
+        const bool off = number(entity, 62, 7.0) < 0.0, frozen = flags(entity) & 1,
+                   plotted = number(entity, 290, 1.0) != 0.0 && layer != "Defpoints";
+        if (off || frozen || !plotted) drawing_.hidden.push_back(layer);
       } else if (section == "ENTITIES" && number(entity, 67, 0.0) == 0.0) { // not on the sheet of paper
         if (entity.type == "POLYLINE")
           polyline(entity, vertices_after(entities, k));
@@ -226,7 +227,13 @@ private:
       const Vec2 from = corners_[k].at, to = corners_[(k + 1) % n].at, chord = to - from;
       if (closed && k + 1 == n && chord.norm() == 0.0) break; // the first corner is written again at the end
       CurvePiece piece{from, to, {0, 0}, 0.0, false, {}};
-      if (const double bulge = corners_[k].bulge; bulge != 0.0) { // the tangent of a quarter of the angle
+      constexpr double straight = 1e-9;       // rounding of the program that wrote it
+      const double bulge = corners_[k].bulge; // the tangent of a quarter of the angle
+      if (std::abs(bulge) > 1.0 / straight)
+        fail(corners_[k].line, fmt::format("found a bulge of {:g} at a corner, expected that of an arc, "
+                                           "such as 1 of half a turn",
+                                           bulge));
+      if (std::abs(bulge) >= straight) {
         piece.centre = 0.5 * (from + to) + (1.0 - bulge * bulge) / (4.0 * bulge) * left_normal(chord);
         piece.radius = 0.25 * chord.norm() * (1.0 + bulge * bulge) / std::abs(bulge);
         piece.clockwise = bulge < 0.0;
@@ -241,7 +248,7 @@ private:
       for (Vec2* x : {&piece.from, &piece.to, &piece.centre}) x->x() = -x->x();
       piece.clockwise = piece.is_arc() && !piece.clockwise;
     }
-    drawing_.curves.push_back({std::move(piece), line, ends_calculated});
+    drawing_.add({std::move(piece), line, ends_calculated});
   }
 
   struct Corner {

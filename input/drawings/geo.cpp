@@ -1,12 +1,12 @@
 // Drawings in the language of gmsh's .geo files, as far as outlines need it.
 #include "input/drawings/drawing.hpp"
-#include "input/drawings/numbers.hpp"
+#include "input/drawings/geo_scanner.hpp"
 #include "input/schema/nearest.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -14,20 +14,15 @@
 namespace cnem::input {
 namespace {
 
-/// Words, numbers, texts in quotes and single signs, with the line each stands in.
-struct Token {
-  enum class Kind { word, number, text, sign, end } kind = Kind::end;
-  std::string text;
-  double number = 0.0;
-  std::size_t line = 1;
-
-  bool is(std::string_view what) const { return (kind == Kind::word || kind == Kind::sign) && text == what; }
-};
-
 using Tag = long;
 
-/// Of a number in a list; no curve has the tag of one that is none.
-Tag tag_of(double number) { return static_cast<Tag>(std::clamp(number, -1e15, 1e15)); }
+constexpr double largest_tag = 1e9;
+
+bool is_tag(double number) { return number == std::round(number) && std::abs(number) <= largest_tag; }
+/// Of a number in a list; nothing has the tag of one that is none.
+Tag tag_of(double number) {
+  return is_tag(number) ? static_cast<Tag>(number) : std::numeric_limits<Tag>::min();
+}
 
 struct GeoCurve {
   CurvePiece piece;
@@ -41,96 +36,29 @@ bool is_of_the_mesh(const std::string& word) {
          word.starts_with("General.") || word.starts_with("Geometry.");
 }
 
-class GeoReader {
+class GeoReader : GeoScanner {
 public:
-  GeoReader(std::string_view text, const std::string& file) : rest_(text) {
+  GeoReader(std::string_view text, const std::string& file) : GeoScanner(text, file) {
     drawing_.file = file;
     variables_["Pi"] = std::numbers::pi;
-    advance();
   }
 
   DrawnFile read() {
-    while (now_.kind != Token::Kind::end) statement();
+    while (now_.kind != GeoToken::Kind::end) statement();
     hand_over();
     return std::move(drawing_);
   }
 
 private:
-  [[noreturn]] void fail(std::size_t line, const std::string& message) const {
-    throw DrawingError(drawing_.file, line, message);
-  }
-  std::string shown() const {
-    return now_.kind == Token::Kind::end ? "the end of the file" : fmt::format("'{}'", shortened(now_.text));
-  }
-
-  void advance() {
-    skip_blanks();
-    now_ = {Token::Kind::end, "", 0.0, line_};
-    if (rest_.empty()) return;
-    const auto is_word = [](char c) {
-      return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
-    };
-    std::size_t length = 1;
-    const char first = rest_.front();
-    if (first == '"') {
-      const auto close = rest_.find('"', 1);
-      if (close == std::string_view::npos)
-        fail(line_, "found a text that does not end, expected \" after it");
-      now_.kind = Token::Kind::text;
-      now_.text = rest_.substr(1, close - 1);
-      length = close + 1;
-    } else if (std::isdigit(static_cast<unsigned char>(first)) || first == '.') {
-      while (length < rest_.size() &&
-             (is_word(rest_[length]) ||
-              ((rest_[length] == '-' || rest_[length] == '+') && std::tolower(rest_[length - 1]) == 'e')))
-        ++length;
-      now_.kind = Token::Kind::number;
-      now_.text = rest_.substr(0, length);
-      const auto number = number_in(now_.text);
-      if (!number) fail(line_, fmt::format("found {}, expected a finite number", shown()));
-      now_.number = *number;
-    } else {
-      now_.kind = is_word(first) ? Token::Kind::word : Token::Kind::sign;
-      while (now_.kind == Token::Kind::word && length < rest_.size() && is_word(rest_[length])) ++length;
-      now_.text = rest_.substr(0, length);
-    }
-    rest_.remove_prefix(length);
-  }
-
-  void skip_blanks() {
-    while (!rest_.empty()) {
-      const std::string_view end = rest_.starts_with("//") ? "\n" : rest_.starts_with("/*") ? "*/" : "";
-      std::size_t length = 1;
-      if (!end.empty()) {
-        const auto close = rest_.find(end, 2);
-        if (close == std::string_view::npos && end == "*/")
-          fail(line_, "found a comment that does not end, expected */ after it");
-        length = close == std::string_view::npos ? rest_.size() : close + end.size();
-      } else if (!std::isspace(static_cast<unsigned char>(rest_.front())))
-        return;
-      line_ += static_cast<std::size_t>(std::count(rest_.begin(), rest_.begin() + long(length), '\n'));
-      rest_.remove_prefix(length);
-    }
-  }
-
-  bool take(std::string_view what) {
-    if (!now_.is(what)) return false;
-    advance();
-    return true;
-  }
-  void expect(std::string_view what) {
-    if (!take(what)) fail(now_.line, fmt::format("found {}, expected '{}'", shown(), what));
-  }
-
   void statement() {
-    const Token first = now_;
-    if (first.kind != Token::Kind::word)
+    const GeoToken first = now_;
+    if (first.kind != GeoToken::Kind::word)
       fail(now_.line, fmt::format("found {}, expected a command of gmsh", shown()));
     advance();
     if (is_of_the_mesh(first.text)) return skip();
     if (now_.is("=")) {
       advance();
-      variables_[first.text] = sum();
+      variables_[first.text] = finite();
       return expect(";");
     }
     if (first.text == "Point" && now_.is("(")) return point(first.line);
@@ -148,15 +76,14 @@ private:
   }
 
   void skip() { // to the end of the command, whatever is in it
-    while (now_.kind != Token::Kind::end && !now_.is(";")) advance();
+    while (now_.kind != GeoToken::Kind::end && !now_.is(";")) advance();
     expect(";");
   }
 
   Tag tag() {
     const std::size_t line = now_.line;
-    const double value = sum();
-    if (value != std::round(value) || std::abs(value) > 1e9)
-      fail(line, fmt::format("found {:g}, expected a whole number", value));
+    const double value = finite();
+    if (!is_tag(value)) fail(line, fmt::format("found {:g}, expected a whole number", value));
     return tag_of(value);
   }
 
@@ -172,17 +99,25 @@ private:
     std::vector<double> list;
     expect("{");
     if (!now_.is("}")) do {
-        const double from = sum();
-        list.push_back(from);
-        if (!take(":")) continue;
-        const double to = sum();
-        if (std::abs(to - from) > 1e6)
-          fail(now_.line, "found a range of more than a million numbers, expected less");
-        while (std::abs(to - list.back()) >= 1.0) list.push_back(list.back() + (to > from ? 1.0 : -1.0));
+        const std::size_t line = now_.line;
+        list.push_back(finite());
+        if (take(":")) add_range(list, finite(), line);
       } while (take(","));
     expect("}");
     expect(";");
     return list;
+  }
+
+  /// Goes on in whole steps from the end of a list.
+  void add_range(std::vector<double>& list, double to, std::size_t line) {
+    constexpr double most = 1e6; // of all ranges of a file
+    const double from = list.back(), length = std::abs(to - from);
+    if (!(std::max(std::abs(from), std::abs(to)) <= largest_tag))
+      fail(line, fmt::format("found a range from {:g} to {:g}, expected numbers of at most {:g}", from, to,
+                             largest_tag));
+    if ((in_ranges_ += length) > most)
+      fail(line, "found more than a million numbers in ranges, expected less");
+    for (double n = 1.0; n <= length; ++n) list.push_back(to > from ? from + n : from - n);
   }
 
   void point(std::size_t line) {
@@ -200,7 +135,7 @@ private:
     return at->second;
   }
 
-  void curve(const Token& kind) {
+  void curve(const GeoToken& kind) {
     const Tag number = head();
     const std::vector<double> ends = numbers();
     CurvePiece piece;
@@ -216,10 +151,20 @@ private:
       piece.from = point_of(ends[0], kind.line);
       piece.centre = point_of(ends[1], kind.line);
       piece.to = point_of(ends[2], kind.line);
-      piece.radius = 0.5 * ((piece.from - piece.centre).norm() + (piece.to - piece.centre).norm());
+      piece.radius = radius_of(piece, kind.line);
       piece.clockwise = cross(piece.from - piece.centre, piece.to - piece.centre) < 0.0; // the shorter arc
     }
     curves_[number] = {piece, kind.line};
+  }
+
+  double radius_of(const CurvePiece& arc, std::size_t line) const {
+    constexpr double as_written = 1e-3; // coordinates have a few digits
+    const double first = (arc.from - arc.centre).norm(), last = (arc.to - arc.centre).norm();
+    if (!(std::abs(first - last) <= as_written * std::max(first, last)))
+      fail(line, fmt::format("found a circle whose start is {:.6g} from its centre and whose end {:.6g}, "
+                             "expected the same distance",
+                             first, last));
+    return 0.5 * (first + last);
   }
 
   void loop() {
@@ -248,7 +193,7 @@ private:
     if (!of_curves) return skip();
     advance();
     expect("(");
-    std::string name = now_.kind == Token::Kind::text ? now_.text : "";
+    std::string name = now_.kind == GeoToken::Kind::text ? now_.text : "";
     if (name.empty())
       name = fmt::format("{}", tag());
     else {
@@ -271,8 +216,16 @@ private:
     for (auto& [number, curve] : curves_) {
       if (!sides_.empty() && (!sides_.contains(number) || sides_.at(number) != 1)) continue;
       if (curve.piece.name.empty()) drawing_.add_layer(curve.piece.name = fmt::format("curve_{}", number));
-      drawing_.curves.push_back({curve.piece, curve.line, false});
+      drawing_.add({curve.piece, curve.line, false});
     }
+  }
+
+  double finite() {
+    const std::size_t line = now_.line;
+    const double value = sum();
+    if (!std::isfinite(value))
+      fail(line, fmt::format("found a number that comes to {}, expected a finite one", value));
+    return value;
   }
 
   double sum() {
@@ -307,14 +260,14 @@ private:
   }
 
   double atom() {
-    const Token token = now_;
-    if (token.kind == Token::Kind::number) return advance(), token.number;
+    const GeoToken token = now_;
+    if (token.kind == GeoToken::Kind::number) return advance(), token.number;
     if (take("(")) {
       const double value = sum();
       expect(")");
       return value;
     }
-    if (token.kind != Token::Kind::word)
+    if (token.kind != GeoToken::Kind::word)
       fail(token.line, fmt::format("found {}, expected a number", shown()));
     advance();
     if (now_.is("(")) return function(token);
@@ -326,7 +279,7 @@ private:
                                  shortened(token.text), did_you_mean(token.text, names)));
   }
 
-  double function(const Token& name) {
+  double function(const GeoToken& name) {
     static const std::map<std::string, double (*)(double), std::less<>> functions{
         {"Sin", std::sin},   {"Cos", std::cos},   {"Tan", std::tan},   {"Asin", std::asin},
         {"Acos", std::acos}, {"Atan", std::atan}, {"Sqrt", std::sqrt}, {"Fabs", std::fabs},
@@ -346,16 +299,15 @@ private:
   struct Depth {
     explicit Depth(GeoReader& reader_) : reader(reader_) {
       if (++reader.depth_ > 200)
-        reader.fail(reader.line_, "found more than 100 parentheses or signs in each other, expected less");
+        reader.fail(reader.now_.line,
+                    "found more than 100 parentheses or signs in each other, expected less");
     }
     ~Depth() { --reader.depth_; }
     GeoReader& reader;
   };
 
-  std::string_view rest_;
-  std::size_t line_ = 1;
   int depth_ = 0;
-  Token now_;
+  double in_ranges_ = 0.0; ///< numbers that ranges have made
   std::map<std::string, double> variables_;
   std::map<Tag, Vec2> points_;
   std::map<Tag, GeoCurve> curves_;

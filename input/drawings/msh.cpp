@@ -1,6 +1,6 @@
 // Boundaries of meshes in gmsh's MSH files, versions 2.2 and 4.1 in text.
 #include "input/drawings/drawing.hpp"
-#include "input/drawings/numbers.hpp"
+#include "input/schema/finite_number.hpp"
 
 #include <algorithm>
 #include <array>
@@ -81,7 +81,7 @@ private:
   }
   double number() {
     const std::string_view found = needed();
-    const auto value = number_in(found);
+    const auto value = finite_number(found);
     if (!value)
       fail(fmt::format("found '{}' in the section {}, expected a finite number", shortened(found), section_));
     return *value;
@@ -98,9 +98,10 @@ private:
 
   void skip() {
     const std::string end = "$End" + std::string(section_.substr(1));
-    std::size_t before = at_;
-    while (needed() != end) before = at_;
+    std::size_t before = at_, line = line_;
+    while (needed() != end) before = at_, line = line_;
     at_ = before;
+    line_ = line;
   }
 
   void format() {
@@ -217,7 +218,7 @@ private:
     CurvePiece piece{nodes_[from], nodes_[to], {0, 0}, 0.0, false, {}};
     piece.name = name != names_.end() ? name->second : group > 0 ? fmt::format("{}", group) : "boundary";
     drawing_.add_layer(piece.name);
-    drawing_.curves.push_back({std::move(piece), line, false});
+    drawing_.add({std::move(piece), line, false});
   }
 
   struct Line {

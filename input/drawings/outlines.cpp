@@ -198,7 +198,11 @@ private:
     for (std::size_t k = 0; k < sheet.loops.size(); ++k) {
       if (k == outer) continue;
       std::string name = hole_name(sheet.loops[k]);
-      if (count[name] > 1) name += fmt::format("_{}", ++next[name]);
+      if (count[name] > 1) {
+        const std::string number = fmt::format("_{}", ++next[name]);
+        name.resize(std::min(name.size(), longest_name - number.size()));
+        name += number;
+      }
       if (const Member* other = holes.find(name)) {
         diagnostics_.add(Mistake::conflict, other->where, "domain.holes." + name,
                          "found beside a hole of that name in domain.drawing, expected another name");
@@ -210,13 +214,17 @@ private:
     }
   }
 
+  static bool is_circle(const Loop& loop) {
+    const CurvePiece& first = loop.curve.pieces.front();
+    return first.is_arc() && first.from == first.to;
+  }
   static std::string hole_name(const Loop& loop) { return piece_name(loop.curve.pieces.front().name); }
 
   static void put_outline(Value& table, const Sheet& sheet, const Loop& loop, const Placement& placement,
                           const Location& key) {
     const Location where{fmt::format("{}, from {}:{}", key.text(), sheet.drawing.file, loop.line), 0, 0};
     const CurvePiece& first = loop.curve.pieces.front();
-    if (first.is_arc() && first.from == first.to) {
+    if (is_circle(loop)) {
       Value circle = table_value(where);
       put(circle, "centre", text_value(placement.point(first.centre), where));
       put(circle, "radius", text_value(placement.length(first.radius), where));
@@ -272,14 +280,17 @@ private:
     Curve all;
     for (const DrawnCurve& curve : curves) all.pieces.push_back(curve.piece);
     const double size = extent(all), metres = drawing.unit->metres;
+    if (!(size > 0.0))
+      throw DrawingError(path, curves.front().line,
+                         fmt::format("found curves without length, all at {}, expected an outline",
+                                     place_in(drawing, curves.front().piece.from)));
     const auto tolerance = table.maybe<double>("tolerance");
     sheet.loops =
         closed_loops(drawing, curves, tolerance ? std::max(*tolerance / metres, 1e-9 * size) : 1e-5 * size);
     for (const Setting& item : table.entries("names"))
       rename(sheet, item.get<Vec2>("at") / metres, item.get<std::string>("name"), size);
     for (const Setting& item : table.entries("fillets"))
-      sheet.fillets.push_back(
-          {corner_near(sheet, item.get<Vec2>("at") / metres, size), item.get<double>("radius")});
+      add_fillet(sheet, item.get<Vec2>("at") / metres, item.get<double>("radius"), size);
     return sheet;
   }
 
@@ -332,17 +343,29 @@ private:
     nearest->name = name;
   }
 
-  static Vec2 corner_near(const Sheet& sheet, const Vec2& at, double size) {
+  static void add_fillet(Sheet& sheet, const Vec2& at, double radius, double size) {
     Vec2 nearest = Vec2::Constant(std::numeric_limits<double>::max());
+    bool circle = false;
     for (const Loop& loop : sheet.loops)
       for (const CurvePiece& piece : loop.curve.pieces)
-        if ((piece.to - at).norm() < (nearest - at).norm()) nearest = piece.to;
+        if ((piece.to - at).norm() < (nearest - at).norm()) {
+          nearest = piece.to;
+          circle = is_circle(loop);
+        }
     if ((nearest - at).norm() > near_enough * size)
       throw DrawingError(
           fmt::format("{}: found no corner near {}, where a fillet is asked for: the nearest is at {}; "
                       "expected a place as it reads in the drawing",
                       sheet.drawing.file, place_in(sheet.drawing, at), place_in(sheet.drawing, nearest)));
-    return nearest;
+    if (circle)
+      throw DrawingError(fmt::format("{}: found a whole circle at {}, where a fillet is asked for, expected "
+                                     "a corner between two curves",
+                                     sheet.drawing.file, place_in(sheet.drawing, nearest)));
+    for (const Fillet& other : sheet.fillets)
+      if (other.at == nearest)
+        throw DrawingError(fmt::format("{}: found two fillets of the corner at {}, expected one",
+                                       sheet.drawing.file, place_in(sheet.drawing, nearest)));
+    sheet.fillets.push_back({nearest, radius});
   }
 
   Value& document_;

@@ -60,6 +60,8 @@ TEST_F(MeasuredFile, of_each_kind_that_machines_write_is_the_same_curve) {
 TEST_F(MeasuredFile, mistakes_name_line_and_column) {
   expect_parts(refused("s[mm],F[kN]\n0,1,2,3\n"), {"m.csv:2:1", "'0,1,2,3'", "decimal commas need ';'"});
   expect_parts(refused("s[mm];F[kN]\n0;1\n1;1.234,5\n"), {"m.csv:3:3", "'1.234,5'", "thousands"});
+  expect_parts(refused("s[mm];F[kN]\n0;1\n1;1e307\n"), {"m.csv:3:3", "'1e307'", "a finite number"});
+  expect_parts(refused("s[mm];F[kN]\n0;1\n1;+-5\n"), {"m.csv:3:3", "'+-5'", "a finite number"});
   expect_parts(refused("s[mm];F[kN]\n0;1\n1\n"), {"m.csv:3:1", "at least 2 fields"});
   expect_parts(refused("s[mm];F[kN]\n0;1\nend;1\n"), {"m.csv:3:1", "'end'", "begin with #"});
   expect_parts(refused("s;F[kN]\n0;1\n"), {"m.csv:1:1", "'s' without a unit", "a stroke or a time"});
