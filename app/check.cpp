@@ -44,7 +44,10 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
                             expected.steps, results::duration_format(expected.seconds)))
             .what());
   const State<dim>& state = solver.state();
-  const std::size_t node = node_of(solver, control.point());
+  const std::string place =
+      control.point()
+          ? input.placed(" at " + show_place<dim>(state.node.position, node_of(solver, *control.point())))
+          : "";
   const auto add = [&](const char* label, std::string text) {
     checked.facts.emplace_back(label, std::move(text));
   };
@@ -55,8 +58,7 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
   add("points", fmt::format("{}", state.point.size()));
   add(whole ? "volume" : "area", fmt::format("{:.9g} {}", measure, whole ? "m³" : "m²"));
   add("first step",
-      fmt::format("{:.4g} s, limited by {}{}{}", control.limit(), control.limited_by(),
-                  input.time.fixed ? "" : input.placed(" at " + show_place<dim>(state.node.position, node)),
+      fmt::format("{:.4g} s, limited by {}{}{}", control.limit(), control.limited_by(), place,
                   solver.sub_steps() > 1 ? fmt::format(", in {} finest steps", solver.sub_steps()) : ""));
   const std::string most = fmt::format("{:.0f}", expected.nodes_last),
                     first = fmt::format("{:.0f}", expected.nodes_first);

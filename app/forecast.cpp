@@ -102,7 +102,8 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
   if constexpr (dim == 2) {
     const Cloud<2>& cloud = solver.conditions().cloud;
     const Field spacing = adapt::spacing_of(cloud, adapt::build_structure(cloud, input.analysis.space()));
-    expected.finest = spacing[node_of(solver, control.point())];
+    expected.finest = control.point() ? spacing[node_of(solver, *control.point())]
+                                      : *std::min_element(spacing.begin(), spacing.end());
     if (input.adapt.resample) {
       add_nodes(input, expected.finest, clearances(input, solver).size(), expected);
       expected.nodes_last += gained_by_window(input) * count;

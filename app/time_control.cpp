@@ -64,11 +64,16 @@ template<int dim> void StepControl::refresh(ExplicitSolver<dim>& solver) {
   const double finest = stable.dt / solver.sub_steps();
   if (first_ == 0.0) first_ = finest;
   constexpr double collapsed = 1e-3;
-  if (const double least = time_->min_step.value_or(collapsed * first_); finest < least)
-    throw step_collapse(solver, stable.point, finest,
-                        fmt::format("{} = {:.3g} s",
-                                    time_->min_step ? "time.step.min" : "a thousandth of the first one",
-                                    least));
+  if (const double least = time_->min_step.value_or(collapsed * first_); finest < least) {
+    const std::string below = fmt::format(
+        "{} = {:.3g} s", time_->min_step ? "time.step.min" : "a thousandth of the first one", least);
+    if (point()) throw step_collapse(solver, stable.point, finest, below);
+    throw DivergenceError(
+        fmt::format("the stable step has fallen to {:.3g} s, below {}, at step {}, t = {:.6g} s, "
+                    "because of {}",
+                    finest, below, solver.state().step, solver.state().time, limited_by_),
+        -1, "stable step");
+  }
   if (time_->max_step && *time_->max_step < limit_) {
     limit_ = *time_->max_step;
     limited_by_ = "time.step.max";

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,7 +50,11 @@ public:
 
   double limit() const { return limit_; }
   const std::string& limited_by() const { return limited_by_; }
-  std::size_t point() const { return point_; } ///< stress point that limits the step
+  /// Stress point that limits the step; none where a key, heat or the spring of a tool does.
+  std::optional<std::size_t> point() const {
+    if (limited_by_ != ExplicitSolver<2>::elastic_waves) return std::nullopt;
+    return point_;
+  }
   /// What limited the step, as fractions of all steps.
   std::vector<std::pair<std::string, double>> shares() const;
   void archive(Archive& archive);

@@ -157,8 +157,10 @@ std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<
       if (const double t = side * tools.across(x); t > middle && tools.along(x) < deepest)
         edge = std::min(edge, t);
     if (!std::isfinite(edge)) continue; // no die on this side
-    const double thickness = thickness_at(tools, outline, side * 0.5 * (reach + edge));
-    if (thickness > 0.0) list.push_back({side < 0.0 ? "left" : "right", edge - reach, thickness});
+    const double gap = side * 0.5 * (reach + edge), thickness = thickness_at(tools, outline, gap);
+    if (thickness > 0.0)
+      list.push_back(
+          {side < 0.0 ? "left" : "right", edge - reach, thickness, tools.place(gap, 0.5 * (top + bottom))});
   }
   if (list.size() == 1) list.front().name.clear();
   return list;

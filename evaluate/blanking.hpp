@@ -35,6 +35,9 @@ struct CutTools {
   /// t across the cutting direction, s along it, m.
   double across(const Vec2& x) const { return x.dot(left_normal(direction)); }
   double along(const Vec2& x) const { return x.dot(direction); }
+  Vec2 place(double across_it, double along_it) const {
+    return across_it * left_normal(direction) + along_it * direction;
+  }
 };
 
 /// One cut: the gap between a side of the punch and the edge of the die that it passes. t counts across the
@@ -55,6 +58,7 @@ struct Clearance {
   std::string name;       ///< as of a cut
   double gap = 0.0;       ///< m, negative where they overlap
   double thickness = 0.0; ///< m, of the sheet there
+  Vec2 at{0, 0};          ///< m, half-way between the edges and in the sheet
 };
 /// Of both sides of the punch, where a die stands under sheet. outline: m, of the sheet.
 std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<Vec2>& outline);

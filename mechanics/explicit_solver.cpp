@@ -152,7 +152,7 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   };
   const auto within = [&](double finest, int steps, std::size_t where) -> Step {
     if (limit.tools < finest) return {model_.safety * steps * limit.tools, where, "springs of tools"};
-    return {model_.safety * steps * finest, where, "elastic waves"};
+    return {model_.safety * steps * finest, where, elastic_waves};
   };
   next_levels_.clear();
   if (local_.on()) {

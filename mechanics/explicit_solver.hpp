@@ -54,9 +54,10 @@ public:
   /// steps it chooses the levels of the next macro steps, and this is the stable macro step.
   struct Step {
     double dt;         ///< s
-    std::size_t point; ///< where
+    std::size_t point; ///< where, of elastic waves
     std::string limit; ///< by what
   };
+  static constexpr const char* elastic_waves = "elastic waves"; ///< what limits at a point
   Step stable_step();
   /// Step that mass scaling asks for, s; 0: none. That of cells of width h is one of ω = c/h, the largest
   /// frequency of natural elements on a square lattice, c the speed of waves in the fastest material.

@@ -82,12 +82,12 @@ void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const 
   constexpr int samples = 64;
   for (int k = 1; k <= samples; ++k)
     stroke = std::max(stroke, punch.led_displacement(k * input.time.end / samples).norm());
-  if (!punch.drive && stroke < shallow * one.thickness)
+  if ((!punch.drive || punch.drive->spring) && stroke < shallow * one.thickness)
     doubts.push_back(
         doubt_about(input, fmt::format("tools.{}.velocity", punch.name),
                     fmt::format("{} goes {:.3g} mm by time.end, {:.2g}% of the thickness: nothing is cut",
                                 punch.name, 1e3 * stroke, 100.0 * stroke / one.thickness)));
-  const double spacing = std::min(input.cloud.at({0.0, 0.0}), adapted_spacing(input));
+  const double spacing = std::min(input.cloud.at(one.at), adapted_spacing(input));
   if (one.thickness < few * spacing)
     doubts.push_back(doubt_about(
         input, "cloud.spacing",

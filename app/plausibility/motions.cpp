@@ -85,8 +85,10 @@ void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, 
     const Way<dim> way{tool};
     if (!(way.fastest(end) > 0.0)) continue;
     const auto start = surface.gap(*tool.shape, Vec<dim>::Zero());
-    const std::string key = fmt::format("tools.{}.{}", tool.name, tool.drive ? "drive" : "velocity");
-    if (const double far = way.moved(end).norm(); !tool.drive && far > beyond * size) {
+    const bool led = !tool.drive || tool.drive->spring; // else it goes as forces on it say
+    const bool flung = tool.drive && !(tool.motion.displacement(end).norm() > 0.0);
+    const std::string key = fmt::format("tools.{}.{}", tool.name, flung ? "initial_velocity" : "velocity");
+    if (const double far = way.moved(end).norm(); led && far > beyond * size) {
       doubts.push_back(doubt_about(
           input, key,
           fmt::format("{} goes {:.3g} m by time.end, {:.2g} times the size of the workpiece: are speed and "

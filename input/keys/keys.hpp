@@ -36,6 +36,7 @@ public:
     return key_.when = {std::move(sibling), std::move(values)}, *this;
   }
   KeyDraft& example(std::string toml) { return key_.example = std::move(toml), *this; }
+  KeyDraft& or_empty() { return key_.may_be_empty = true, *this; }
   KeyDraft& computed(std::string words) { return key_.computed = std::move(words), *this; }
 
 private:

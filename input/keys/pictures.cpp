@@ -23,6 +23,7 @@ void add_pictures(Keys& k) {
       .example("\"10 us\"");
   k.add("output.picture_fields", choices, "Fields drawn.")
       .one_of(field_names(2))
+      .or_empty()
       .computed(
           "`[\"plastic_strain\", \"temperature\", \"pressure\"]`; `[\"temperature\"]` where heat is "
           "alone; `[\"equivalent_stress\", \"displacement_x\", \"displacement_y\"]` in static analyses");

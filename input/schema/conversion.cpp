@@ -216,7 +216,7 @@ std::vector<std::string> words(const Value& value, const Key& key,
                             fmt::format("found {} twice, expected each once", element.show()));
   }
   // A default stands for a list that is left out, so an empty one is a wish there: no pictures, say.
-  if (list.empty() && key.presence != Presence::fallback && key.computed.empty())
+  if (list.empty() && key.presence != Presence::fallback && !key.may_be_empty)
     throw ConversionError(Mistake::type, value.where,
                           fmt::format("found an empty array, expected {}", key.expectation()));
   return list;

@@ -64,6 +64,7 @@ struct Key {
   Condition when = {};
   std::string example = {};   ///< TOML text
   std::string computed = {};  ///< words for a default that depends on other keys
+  bool may_be_empty = false;  ///< an empty list is judged by who reads it
   bool alone = false;         ///< of named tables: a single one may stand in place of all
   std::string elsewhere = {}; ///< of a required key: what may bring it instead of the file, in words
 

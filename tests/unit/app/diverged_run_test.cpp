@@ -45,6 +45,21 @@ TEST_F(DivergedRun, a_step_that_collapses_is_a_divergence_with_a_place) {
   EXPECT_GE(post.node, 0);
 }
 
+TEST_F(DivergedRun, a_spring_that_limits_the_step_is_blamed_and_no_node) {
+  std::vector<std::string> words{"check", file(), "--output", results()};
+  for (const char* change : {"tools.punch.mass=1e-6 kg/m", "tools.punch.direction=0 -1",
+                             "tools.punch.spring={law=\"linear\", stiffness=\"100 GN/m2\"}"})
+    words.insert(words.end(), {"--set", change});
+  ASSERT_EQ(call(words), 0) << message;
+  EXPECT_NE(printed.find("limited by springs of tools\n"), std::string::npos) << printed;
+  words.front() = "run";
+  words.insert(words.end(), {"--set", "time.step.min=1 us", "--force"});
+  ASSERT_EQ(call(words), 3) << message;
+  const results::PostMortem post = results::read_status(results()).post_mortem.value();
+  EXPECT_EQ(post.node, -1);
+  EXPECT_NE(post.text.find("because of springs of tools"), std::string::npos) << post.text;
+}
+
 TEST_F(DivergedRun, an_energy_residual_beyond_the_key_is_a_divergence) {
   EXPECT_EQ(call({"run", file(), "--output", results(), "--set", "method.energy_tolerance=1e-12"}), 3);
   const results::PostMortem post = results::read_status(results()).post_mortem.value();

@@ -118,6 +118,20 @@ TEST(Plausibility, strokes_of_nothing_and_of_metres) {
   expect_doubt({"tools.punch.velocity=0 -10 mm/s"},
                "punch goes 0.0002 mm by time.end, 0.01% of the thickness: nothing is cut");
   expect_doubt({"time.end=20 ms"}, "punch goes 0.2 m by time.end, 24 times the size of the workpiece");
+  const Texts below_a_press{"tools.punch.mass=1 kg/m", "tools.punch.direction=0 -1",
+                            "tools.punch.spring={law=\"linear\", stiffness=\"1 GN/m2\"}"};
+  expect_doubt(
+      {"tools.punch={rectangle={from=\"-2 2 mm\", to=\"3.9 6 mm\"}, mass=\"1 kg/m\", direction=\"0 1\", "
+       "initial_velocity=\"0 10 m/s\"}",
+       "report.blanking.die=[\"die\"]"},
+      "key 'tools.punch.initial_velocity': punch moves away");
+  for (const auto& [change, part] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"time.end=20 ms", "key 'tools.punch.velocity': punch goes 0.2 m by time.end"},
+           {"tools.punch.velocity=0 -10 mm/s", "key 'tools.punch.velocity': punch goes 0.0002 mm"}}) {
+    Texts all = below_a_press;
+    all.push_back(change);
+    expect_doubt(all, part);
+  }
 }
 
 TEST(Plausibility, sheets_of_two_cells_and_gaps_as_wide_as_they_are) {
@@ -125,6 +139,11 @@ TEST(Plausibility, sheets_of_two_cells_and_gaps_as_wide_as_they_are) {
                "key 'cloud.spacing': 2 cells over the thickness of 2 mm");
   expect_doubt({"tools.punch.rectangle={from=\"-2 2 mm\", to=\"2 6 mm\"}"},
                "clearance of 100% of the thickness");
+  const std::string fine_at = "cloud={spacing=\"1 mm\", refine.cut={box=[\"";
+  const std::string tough = "materials.steel.damage.fracture_energy=1 MJ/m2";
+  EXPECT_EQ(doubts_with({fine_at + "3.4 0 mm\", \"4.6 2 mm\"], spacing=\"0.1 mm\"}}", tough}), Texts{});
+  expect_doubt({fine_at + "0 0 mm\", \"1 2 mm\"], spacing=\"0.1 mm\"}}", tough},
+               "cells over the thickness of 2 mm");
 }
 
 TEST(Plausibility, cuts_that_no_lathe_makes) {
