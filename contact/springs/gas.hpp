@@ -33,7 +33,8 @@ struct GasSpring {
   double force(double s) const { return preload * std::pow(rest(s), -exponent); }
   double energy(double s) const {
     return preload * length *
-           (exponent == 1.0 ? -std::log(rest(s)) : (std::pow(rest(s), 1.0 - exponent) - 1.0) / (exponent - 1.0));
+           (exponent == 1.0 ? -std::log(rest(s))
+                            : (std::pow(rest(s), 1.0 - exponent) - 1.0) / (exponent - 1.0));
   }
   double slope(double s) const { return exponent * force(s) / (length - s); }
 
