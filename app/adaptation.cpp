@@ -1,5 +1,6 @@
 #include "app/adaptation.hpp"
 
+#include "app/tool_tips.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "mechanics/kinematics.hpp"
@@ -62,20 +63,6 @@ void part_faces(Cloud<2>& cloud, const Ties<2>& ties, const Field& broken) {
   }
 }
 
-/// Corners of a tool, and points along its arcs no further apart than `spacing`.
-std::vector<Vec2> features(const Curve& outline, double spacing) {
-  std::vector<Vec2> points;
-  for (std::size_t k = 0; k < outline.pieces.size(); ++k) {
-    const CurvePiece &piece = outline.pieces[k], &next = outline.pieces[(k + 1) % outline.pieces.size()];
-    constexpr double smooth = 0.999;
-    if (piece.tangent(1.0).dot(next.tangent(0.0)) < smooth) points.push_back(piece.to);
-    if (!piece.is_arc()) continue;
-    const int count = std::max(1, static_cast<int>(std::ceil(piece.length() / spacing)));
-    for (int c = 0; c <= count; ++c) points.push_back(piece.point(static_cast<double>(c) / count));
-  }
-  return points;
-}
-
 /// Of nodes that share the points around them.
 adapt::NodeProperties shares_of(const ExplicitSolver<2>& solver) {
   const NodeState<2>& node = solver.state().node;
@@ -94,7 +81,7 @@ Adaptation::Adaptation(const input::Case& input, const ExplicitSolver<2>& solver
   if (!active()) return;
   if (input.adapt.tool_spacing)
     for (const input::Tool& tool : input.tools)
-      tips_.push_back(features(tool.outline, *input.adapt.tool_spacing));
+      tips_.push_back(tool_tips(tool.outline, *input.adapt.tool_spacing));
   const Cloud<2>& cloud = solver.conditions().cloud;
   wanted_ = size_ = adapt::spacing_of(cloud, adapt::build_structure(cloud, input.analysis.space()));
   birth_.assign(size_.size(), 0.0);

@@ -1,5 +1,6 @@
+#include "adapt/indicated_fields.hpp"
 #include "app/divergence.hpp"
-#include "app/forecast.hpp"
+#include "app/forecast/forecast.hpp"
 #include "app/places.hpp"
 #include "app/plausibility/plausibility.hpp"
 #include "app/run.hpp"
@@ -24,6 +25,23 @@ namespace cnem::app {
 
 namespace {
 
+/// Of an indicator that comes to cells of `finest`, m.
+void doubt_indicator(const input::Case& input, double finest, std::vector<std::string>& warnings) {
+  constexpr double much = 1.5;
+  if (finest < much * input.adapt.h_min) return;
+  const bool absolute = input.adapt.indicator == adapt::indicated_field("temperature");
+  warnings.push_back(
+      input
+          .error("adapt.indicator.tolerance",
+                 fmt::format("{:.3g} of the norm of {} makes cells of {:.3g} mm where metal is cut, not of "
+                             "h_min = {:.3g} mm: {}",
+                             input.adapt.tolerance, input.adapt.indicator->name, 1e3 * finest,
+                             1e3 * input.adapt.h_min,
+                             absolute ? "it counts from 0 K, of which a cut adds little: take plastic_strain"
+                                      : "lower it, or raise h_min"))
+          .what());
+}
+
 template<int dim> Checked check_explicit(const input::Case& input, const RunOptions& options) {
   Checked checked;
   ExplicitSolver<dim> solver = make_solver<dim>(input, checked.warnings);
@@ -33,6 +51,7 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
   for (std::string& doubt : doubts(input, solver)) checked.warnings.push_back(std::move(doubt));
   if (!input.adapt.tool_spacing) check_tool_steps(input, solver, control.limit() / solver.sub_steps());
   const Forecast expected = forecast(input, solver, control);
+  if (expected.indicated) doubt_indicator(input, *expected.indicated, checked.warnings);
   if (constexpr double day = 86400.0; expected.seconds > day)
     checked.warnings.push_back(
         input

@@ -1,6 +1,6 @@
 #include "app/explain.hpp"
 
-#include "app/forecast.hpp"
+#include "app/forecast/forecast.hpp"
 #include "app/simulation.hpp"
 #include "clouds/generate.hpp"
 #include "input/curve_checks.hpp"

@@ -53,12 +53,12 @@ void Schedule::archive(Archive& archive, const std::string& name) {
 
 template<int dim> void StepControl::refresh(ExplicitSolver<dim>& solver) {
   if (time_->fixed) {
-    limit_ = *time_->fixed;
+    limit_ = stable_ = *time_->fixed;
     limited_by_ = "fixed step";
     return;
   }
   const auto stable = solver.stable_step();
-  limit_ = stable.dt;
+  limit_ = stable_ = stable.dt;
   point_ = stable.point;
   limited_by_ = stable.limit;
   const double finest = stable.dt / solver.sub_steps();

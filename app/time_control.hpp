@@ -49,6 +49,8 @@ public:
   double choose(double now, double event);
 
   double limit() const { return limit_; }
+  /// The limit before `time.step.max` shortened it, s.
+  double stable() const { return stable_; }
   const std::string& limited_by() const { return limited_by_; }
   /// Stress point that limits the step; none where a key, heat or the spring of a tool does.
   std::optional<std::size_t> point() const {
@@ -61,8 +63,8 @@ public:
 
 private:
   const input::TimeControl* time_;
-  double limit_ = 0.0; ///< s
-  double first_ = 0.0; ///< s, the stable step at the start
+  double limit_ = 0.0, stable_ = 0.0; ///< s
+  double first_ = 0.0;                ///< s, the stable step at the start
   std::string limited_by_;
   std::size_t point_ = 0;
   std::map<std::string, std::int64_t> count_;

@@ -159,8 +159,8 @@ std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<
     if (!std::isfinite(edge)) continue; // no die on this side
     const double gap = side * 0.5 * (reach + edge), thickness = thickness_at(tools, outline, gap);
     if (thickness > 0.0)
-      list.push_back(
-          {side < 0.0 ? "left" : "right", edge - reach, thickness, tools.place(gap, 0.5 * (top + bottom))});
+      list.push_back({side < 0.0 ? "left" : "right", edge - reach, thickness,
+                      tools.place(gap, 0.5 * (top + bottom)), tools.place(side, 0.0)});
   }
   if (list.size() == 1) list.front().name.clear();
   return list;

@@ -59,6 +59,7 @@ struct Clearance {
   double gap = 0.0;       ///< m, negative where they overlap
   double thickness = 0.0; ///< m, of the sheet there
   Vec2 at{0, 0};          ///< m, half-way between the edges and in the sheet
+  Vec2 across{1, 0};      ///< unit vector, from the punch to the die
 };
 /// Of both sides of the punch, where a die stands under sheet. outline: m, of the sheet.
 std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<Vec2>& outline);

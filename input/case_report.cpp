@@ -3,6 +3,7 @@
 #include "input/case_parts.hpp"
 #include "input/schema/nearest.hpp"
 #include "input/schema/units.hpp"
+#include "input/usual_tools.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,18 +11,6 @@
 
 namespace cnem::input {
 namespace {
-
-bool moves(const Tool& tool) { return tool.drive || input::moves(tool.velocity); }
-
-std::vector<std::string> usual_dies(const std::vector<Tool>& tools, const std::string& punch) {
-  std::vector<std::string> named, resting;
-  for (const Tool& tool : tools) {
-    if (tool.name == punch) continue;
-    if (tool.name.starts_with("die")) named.push_back(tool.name);
-    if (!moves(tool)) resting.push_back(tool.name);
-  }
-  return named.empty() ? resting : named;
-}
 
 bool tied(const Case& input) { return !input.domain.interfaces.empty() || !input.periodic.empty(); }
 
@@ -80,13 +69,7 @@ std::optional<std::size_t> read_leading_tool(Setting& root, const Case& input, c
     return std::nullopt;
   }
   const std::string path = fmt::format("{}.{}", table, tool.key);
-  std::vector<std::string> moving;
-  for (const Tool& one : input.tools)
-    if (moves(one)) moving.push_back(one.name);
-  if (std::find(names.begin(), names.end(), tool.usual) != names.end())
-    root.set_default(path, std::string(tool.usual));
-  else if (moving.size() == 1)
-    root.set_default(path, moving.front());
+  if (const auto usual = usual_leader(input.tools, tool.usual)) root.set_default(path, *usual);
   const Setting* key = root.find(path);
   if (!key) {
     diagnostics.add(Mistake::missing_key, where, path,

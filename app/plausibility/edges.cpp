@@ -48,24 +48,32 @@ std::vector<Edge> edges(const input::Case& input, const ExplicitSolver<2>& solve
 
 } // namespace
 
-std::vector<evaluate::Clearance> clearances(const input::Case& input, const ExplicitSolver<2>& solver) {
-  if (!input.report.blanking) return {};
-  const input::BlankingReport& asked = *input.report.blanking;
+Vec2 led_stroke(const ExplicitSolver<2>& solver, const input::BlankingReport& asked, double t) {
   const auto& tools = solver.conditions().contact.tools();
+  Vec2 stroke = tools[as<ToolIndex>(asked.punch)].led_displacement(t);
+  for (const std::size_t die : asked.dies)
+    stroke -= tools[as<ToolIndex>(die)].led_displacement(t) / static_cast<double>(asked.dies.size());
+  return stroke;
+}
+
+std::vector<evaluate::Clearance> clearances(const input::Case& input, const ExplicitSolver<2>& solver,
+                                            const input::BlankingReport& asked) {
   evaluate::CutTools cut;
   cut.punch = evaluate::points_of(input.tools[asked.punch].outline, Vec2::Zero());
-  Vec2 stroke = tools[as<ToolIndex>(asked.punch)].led_displacement(input.time.end);
-  for (const std::size_t die : asked.dies) {
+  for (const std::size_t die : asked.dies)
     for (const Vec2& x : evaluate::points_of(input.tools[die].outline, Vec2::Zero())) cut.die.push_back(x);
-    stroke -=
-        tools[as<ToolIndex>(die)].led_displacement(input.time.end) / static_cast<double>(asked.dies.size());
-  }
+  const Vec2 stroke = led_stroke(solver, asked, input.time.end);
   if (!(stroke.norm() > 0.0)) return {};
   cut.direction = stroke.normalized();
   return evaluate::find_clearances(cut, evaluate::points_of(input.domain.outer, Vec2::Zero()));
 }
 
 namespace {
+
+std::vector<evaluate::Clearance> reported(const input::Case& input, const ExplicitSolver<2>& solver) {
+  if (!input.report.blanking) return {};
+  return clearances(input, solver, *input.report.blanking);
+}
 
 /// Of a cut whose clearances are sound: how wide, how far the punch goes, how many cells.
 void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const evaluate::Clearance& one,
@@ -101,7 +109,7 @@ void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const 
 
 void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts) {
   const double touching = 1e-6; // of the thickness
-  const std::vector<evaluate::Clearance> all = clearances(input, solver);
+  const std::vector<evaluate::Clearance> all = reported(input, solver);
   if (!all.empty()) doubt_cut(input, solver, all.front(), doubts);
   for (const evaluate::Clearance& one : all) {
     if (one.gap > touching * one.thickness) continue;
@@ -134,7 +142,7 @@ void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doub
 std::vector<std::pair<std::string, std::string>> tool_measures(const input::Case& input,
                                                                const ExplicitSolver<2>& solver) {
   std::vector<std::pair<std::string, std::string>> lines;
-  for (const evaluate::Clearance& one : clearances(input, solver))
+  for (const evaluate::Clearance& one : reported(input, solver))
     lines.emplace_back("clearance", fmt::format("{}{:.4g} mm, {:.3g}% of {:.4g} mm", side(one), 1e3 * one.gap,
                                                 100.0 * one.gap / one.thickness, 1e3 * one.thickness));
   const StartingSurface<2> surface(solver);

@@ -16,8 +16,12 @@ std::vector<std::string> doubts(const input::Case& input); ///< of the case alon
 template<int dim>
 std::vector<std::string> doubts(const input::Case& input, const ExplicitSolver<dim>& solver);
 
-/// Of the cut that the case reports ([report.blanking]), at the start; none without one.
-std::vector<evaluate::Clearance> clearances(const input::Case& input, const ExplicitSolver<2>& solver);
+/// How far the punch is led against the mean of the dies by the time t, m.
+Vec2 led_stroke(const ExplicitSolver<2>& solver, const input::BlankingReport& asked, double t);
+
+/// Of a cut between the tools that `asked` names, at the start; none where nothing moves or lies between.
+std::vector<evaluate::Clearance> clearances(const input::Case& input, const ExplicitSolver<2>& solver,
+                                            const input::BlankingReport& asked);
 
 /// Lengths that decide about a cut, {label, text}: clearances in mm and in parts of the thickness, gaps
 /// between tools and workpiece, radii of edges over spacings. Of the plane.

@@ -1,5 +1,5 @@
 // What a run will take, and a case in plain words.
-#include "app/forecast.hpp"
+#include "app/forecast/forecast.hpp"
 
 #include "app/command_line.hpp"
 #include "app/explain.hpp"
@@ -55,7 +55,7 @@ TEST(Forecast, FitsTheRunOfACut) {
   for (const auto& [foretold, taken] :
        {std::pair{expected.steps, steps},
         {expected.nodes_last, static_cast<double>(status.nodes)},
-        {expected.nodes_mean(), static_cast<double>(status.node_steps) / steps}}) {
+        {expected.nodes_mean, static_cast<double>(status.node_steps) / steps}}) {
     EXPECT_LT(foretold, 1.5 * taken);
     EXPECT_GT(foretold, taken / 1.5);
   }
