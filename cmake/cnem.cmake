@@ -2,6 +2,9 @@
 
 function(cnem_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-restrict) # takes the assignment of a literal to a std::string for an overlap (GCC 105651)
+  endif()
   if(CNEM_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${CNEM_SANITIZE} -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${CNEM_SANITIZE})

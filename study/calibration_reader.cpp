@@ -3,6 +3,7 @@
 #include "input/case_reader.hpp"
 #include "input/measured_file.hpp"
 #include "input/schema/nearest.hpp"
+#include "input/schema/settings.hpp"
 #include "results/output_folder.hpp"
 #include "study/calibration.hpp"
 #include "study/study_parts.hpp"

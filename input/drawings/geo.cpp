@@ -1,6 +1,7 @@
 // Drawings in the language of gmsh's .geo files, as far as outlines need it.
 #include "input/drawings/drawing.hpp"
 #include "input/drawings/geo_scanner.hpp"
+#include "input/schema/document.hpp"
 #include "input/schema/nearest.hpp"
 
 #include <algorithm>
