@@ -208,10 +208,16 @@ bool has_finished(const fs::path& folder) {
     throw InputError(
         fmt::format("{} holds no run to restart: expected the output folder of `cnem run`, with its {}",
                     folder.string(), results::files::resolved_case));
+  results::check_writable(folder);
   const results::FolderLock lock(folder, another_run);
   results::clear_leftovers(folder);
-  if (!fs::exists(folder / results::files::status) || results::read_status(folder).exit != Exit::done)
+  if (!fs::exists(folder / results::files::status)) return false;
+  try {
+    if (results::read_status(folder).exit != Exit::done) return false;
+  } catch (const IoError&) { // cut short by a full disk, say: checkpoints have all that a run goes on with
+    if (results::list_checkpoints(folder).empty()) throw;
     return false;
+  }
   if (!fs::exists(folder / results::files::report)) report::write_report(folder);
   return true;
 }

@@ -62,13 +62,12 @@ void take_file(Setting& root, const std::string& path, Case& result, Diagnostics
   MeasuredCurve curve;
   try {
     curve = read_measured(name, columns);
+    const std::string gone =
+        keep_growing(curve.x, curve.y, name, curve.dimension[0] == dimension::length ? "stroke" : "time");
+    if (!gone.empty()) result.warnings.push_back(path + ": " + gone);
   } catch (const InputError& error) {
     return diagnostics.add(Mistake::reference, file.where, file.path, error.what());
   }
-  if (const std::size_t gone = keep_growing(curve.x, curve.y); gone > 0)
-    result.warnings.push_back(fmt::format(
-        "{}: {} of {} points of {} are left out: there the {} does not grow", path, gone,
-        gone + curve.x.size(), name, curve.dimension[0] == dimension::length ? "stroke" : "time"));
   average_over_parts(curve.x, curve.y, most_points);
   for (const char* gone : {".file", ".columns", ".units"}) root.erase(path + gone);
   const bool over_stroke = curve.dimension[0] == dimension::length;
@@ -78,7 +77,8 @@ void take_file(Setting& root, const std::string& path, Case& result, Diagnostics
 }
 
 /// Points, corrected. False where they make no curve, which is told.
-bool take_points(const Setting& table, Experiment& experiment, Diagnostics& diagnostics) {
+bool take_points(const Setting& table, Experiment& experiment, std::vector<std::string>& warnings,
+                 Diagnostics& diagnostics) {
   const Setting *stroke = table.find("stroke"), *time = table.find("time"), *force = table.find("force"),
                 *line = table.find("force_per_length");
   if (!stroke == !time) return want_one(table, "stroke", "time", diagnostics), false;
@@ -94,6 +94,13 @@ bool take_points(const Setting& table, Experiment& experiment, Diagnostics& diag
                                 experiment.force.size(), experiment.x.size(), x.path));
     return false;
   }
+  for (std::size_t k = 1; k < experiment.x.size(); ++k)
+    if (!(experiment.x[k] > experiment.x[k - 1])) {
+      diagnostics.add(Mistake::range, x.where_of(k), x.path,
+                      fmt::format("found {:.6g} after {:.6g} (SI), expected values that increase",
+                                  experiment.x[k], experiment.x[k - 1]));
+      return false;
+    }
   const double compliance = table.get<double>("compliance");
   if (compliance > 0.0 && (experiment.per_length || !experiment.over_stroke)) {
     const Setting& key = *table.find("compliance");
@@ -109,15 +116,18 @@ bool take_points(const Setting& table, Experiment& experiment, Diagnostics& diag
     experiment.x[k] += shift - compliance * experiment.force[k] * scale;
     experiment.force[k] *= scale;
   }
-  keep_growing(experiment.x, experiment.force);
-  if (experiment.x.size() < 2 ||
-      !(*std::max_element(experiment.force.begin(), experiment.force.end()) > 0.0)) {
-    const Setting& wrong = experiment.x.size() < 2 ? x : y;
-    diagnostics.add(Mistake::range, wrong.where, wrong.path,
-                    experiment.x.size() < 2
-                        ? "found values that do not grow, expected a curve that goes on"
-                        : "found no force above 0, expected the force of the tool as positive: "
-                          "scale = -1 turns it");
+  try {
+    const std::string gone = keep_growing(experiment.x, experiment.force, "the curve",
+                                          "stroke less what the machine gives (compliance)");
+    if (!gone.empty()) warnings.push_back(table.path + ".compliance: " + gone);
+  } catch (const InputError& error) {
+    diagnostics.add(Mistake::range, table.where, table.path + ".compliance", error.what());
+    return false;
+  }
+  if (!(*std::max_element(experiment.force.begin(), experiment.force.end()) > 0.0)) {
+    diagnostics.add(
+        Mistake::range, y.where, y.path,
+        "found no force above 0, expected the force of the tool as positive: scale = -1 turns it");
     return false;
   }
   return true;
@@ -159,7 +169,8 @@ void read_experiment(Setting& root, const std::string& path, Case& result, Diagn
   experiment.name = table.name;
   experiment.tool = *tool;
   experiment.component = table.choice<Experiment::Component>("component");
-  if (take_points(table, experiment, diagnostics) && take_length(table, result, experiment, diagnostics))
+  if (take_points(table, experiment, result.warnings, diagnostics) &&
+      take_length(table, result, experiment, diagnostics))
     result.report.experiments.push_back(std::move(experiment));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace cnem::input {
 namespace {
@@ -45,8 +46,8 @@ Drawing read_drawing(const Setting& table, Diagnostics& diagnostics) {
       drawing.ranges[range.name] = {ends[0], ends[1]};
     else
       diagnostics.add(Mistake::range, range.where, range.path,
-                      fmt::format("found {} {}, expected two that rise, the ends of the colours", ends.size(),
-                                  ends.size() == 1 ? "number" : "numbers"));
+                      fmt::format("found {:g}, expected two numbers that rise, the ends of the colours",
+                                  fmt::join(ends, " ")));
   }
   return drawing;
 }

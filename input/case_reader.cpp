@@ -164,12 +164,26 @@ void collect_locations(const Setting& setting, std::map<std::string, std::string
   for (const Setting& member : setting.members) collect_locations(member, location);
 }
 
-Case read(Value document, const std::string& path, const std::vector<Override>& changes) {
-  document = with_included(std::move(document), std::filesystem::path(path).parent_path());
-  for (const Override& change : changes) {
-    check_variable_of(document, change);
-    apply_override(document, change);
+/// What to say of a change that makes a tool, a material, … beside one of nearly its name: a slip, which
+/// shows in keys that the new one lacks. Empty otherwise.
+std::string made_beside(const Value& document, const Override& change) {
+  const std::size_t first = change.key.find('.');
+  if (first == std::string::npos) return "";
+  const Member* table = document.find(change.key.substr(0, first));
+  const std::string name = change.key.substr(first + 1, change.key.find('.', first + 1) - first - 1);
+  if (!table || table->value.kind != Value::Kind::table || table->value.find(name)) return "";
+  std::vector<std::string> there;
+  for (const Member& member : table->value.members) {
+    if (member.value.kind != Value::Kind::table) return "";
+    there.push_back(member.key);
   }
+  const std::string meant = did_you_mean(name, there);
+  return meant.empty()
+             ? ""
+             : fmt::format("\n{}: the case has no {}.{}{}", change.where.text(), table->key, name, meant);
+}
+
+Case read_changed(Value document, const std::string& path, const std::vector<Override>& changes) {
   if (const Member* include = document.find("include"))
     throw InputError(fmt::format("{}: key 'include': goes into the file of a case, expected none beside it",
                                  include->where.text()));
@@ -231,6 +245,22 @@ Case read(Value document, const std::string& path, const std::vector<Override>& 
   result.resolved = write_resolved(root, fmt::format("Resolved from {}: SI units, defaults included.", path));
   use_local_origin(result);
   return result;
+}
+
+Case read(Value document, const std::string& path, const std::vector<Override>& changes) {
+  document = with_included(std::move(document), std::filesystem::path(path).parent_path());
+  std::string slips;
+  for (const Override& change : changes) {
+    check_variable_of(document, change);
+    slips += made_beside(document, change);
+    apply_override(document, change);
+  }
+  try {
+    return read_changed(std::move(document), path, changes);
+  } catch (const InputError& error) {
+    if (slips.empty()) throw;
+    throw InputError(error.what() + slips);
+  }
 }
 
 std::vector<Override> parsed(const std::vector<std::string>& overrides) {

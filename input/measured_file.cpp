@@ -233,6 +233,22 @@ std::size_t keep_growing(std::vector<double>& x, std::vector<double>& y) {
   return gone;
 }
 
+std::string keep_growing(std::vector<double>& x, std::vector<double>& y, const std::string& of,
+                         const std::string& what) {
+  const std::size_t all = x.size();
+  const double first = x.front(), last = x.back();
+  const std::size_t gone = keep_growing(x, y);
+  if (x.size() < 2)
+    throw InputError(
+        fmt::format("{}: found a {} that goes from {:.4g} to {:.4g} (SI) and does not grow, expected one "
+                    "that grows from row to row: of a machine that counts downwards write it "
+                    "positive, of a file that ends with the start turn the rows round",
+                    of, what, first, last));
+  return gone == 0 ? ""
+                   : fmt::format("{} of {} points of {} are left out: there the {} does not grow", gone, all,
+                                 of, what);
+}
+
 void average_over_parts(std::vector<double>& x, std::vector<double>& y, std::size_t parts) {
   if (x.size() <= parts) return;
   const double from = x.front(), length = x.back() - x.front();

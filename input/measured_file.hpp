@@ -34,6 +34,11 @@ MeasuredCurve read_measured(const std::string& path, const MeasuredColumns& colu
 /// Leaves the points of a curve whose x is beyond that of all before. Returns how many went.
 std::size_t keep_growing(std::vector<double>& x, std::vector<double>& y);
 
+/// The same, with what to tell of points that went; empty where none did. of: the file, say; what: x in a
+/// word. Throws InputError where no two points are left.
+std::string keep_growing(std::vector<double>& x, std::vector<double>& y, const std::string& of,
+                         const std::string& what);
+
 /// Means of a curve of increasing x over `parts` equal parts of it, where it has more points than that. Parts
 /// without points have none.
 void average_over_parts(std::vector<double>& x, std::vector<double>& y, std::size_t parts);

@@ -77,7 +77,7 @@ public:
             Mistake::conflict, change->where, change->key,
             "found a value for a variable that nothing in the case uses, expected it in an expression; a "
             "resolved case holds values alone");
-      else if (used && !entries_[k].used && member.where.source == source)
+      else if (used && changed.empty() && !entries_[k].used && member.where.source == source)
         warnings.push_back(fmt::format("variable '{}' ({}) is defined and nothing uses it", member.key,
                                        member.where.text()));
       member.value.kind = bare ? Kind::real : Kind::text;

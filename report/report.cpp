@@ -54,6 +54,23 @@ void collect_pictures(ReportData& report, const fs::path& folder, const results:
   }
 }
 
+/// Throws IoError where the page would have less than the run has written.
+void check_history(const fs::path& folder, const results::RunStatus& status) {
+  if (status.steps == 0) return;
+  const fs::path path = folder / results::files::history;
+  const std::string stays = "the report that may be there stays";
+  if (!fs::exists(path)) throw IoError(fmt::format("{} is missing: {}", path.string(), stays));
+  const results::HistoryTable history = results::read_history(path);
+  constexpr double rows = 2.0; // between the last row and the end
+  const int at = history.find("time");
+  const std::vector<double> time = at < 0 ? std::vector<double>() : history.column[index_of(at)];
+  const double last = time.empty() ? 0.0 : time.back();
+  const double apart = time.size() > 1 ? time[1] - time[0] : status.time;
+  if (status.time - last > rows * apart)
+    throw IoError(fmt::format("{} is cut short: it ends at t = {:.4g} s, the run at {:.4g} s: {}",
+                              path.string(), last, status.time, stays));
+}
+
 } // namespace
 
 ReportData collect_report(const fs::path& folder) {
@@ -107,7 +124,15 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
   return report;
 }
 
-fs::path write_report(const fs::path& folder) { return write_report(folder, results::read_status(folder)); }
+fs::path write_report(const fs::path& folder) {
+  if (!fs::exists(folder / results::files::status))
+    throw InputError(
+        fmt::format("{} holds no run to report of: expected the output folder of `cnem run`, with its {}",
+                    folder.string(), results::files::status));
+  const results::RunStatus status = results::read_status(folder);
+  check_history(folder, status);
+  return write_report(folder, status);
+}
 
 fs::path write_report(const fs::path& folder, const results::RunStatus& status) {
   fs::path path = folder / results::files::report;

@@ -55,7 +55,8 @@ ReportData collect_report(const std::filesystem::path& folder);
 /// The same with a status that is not in the folder yet.
 ReportData collect_report(const std::filesystem::path& folder, const results::RunStatus& status);
 
-/// Writes `folder`/report.html from the other files of the folder. Returns its path. Throws IoError.
+/// Writes `folder`/report.html from the other files of the folder. Returns its path. Throws IoError, also
+/// where history.csv is missing or ends before the run did.
 std::filesystem::path write_report(const std::filesystem::path& folder);
 /// The same with a status that is not in the folder yet.
 std::filesystem::path write_report(const std::filesystem::path& folder, const results::RunStatus& status);

@@ -266,6 +266,11 @@ void prepare_output_folder(const fs::path& folder, bool force) {
   if (!fs::is_directory(folder))
     fail("create the output folder", folder, error ? error.message() : "a file of this name is in the way");
   const fs::path old = any_file_of_a_run(folder);
+  if (!old.empty() && old.parent_path() != folder) // pictures and fields of somebody else
+    throw InputError(
+        fmt::format("the output folder {} holds {}, which a run would replace, and no run: choose "
+                    "another with --output",
+                    folder.string(), fs::relative(old, folder).string()));
   if (!old.empty() && !force)
     throw InputError(
         fmt::format("the output folder {} already holds a run ({}): {}choose another with --output, "
@@ -273,11 +278,16 @@ void prepare_output_folder(const fs::path& folder, bool force) {
                     folder.string(), fs::relative(old, folder).string(),
                     is_unfinished(folder) ? "`cnem restart` goes on with it; or " : ""));
   remove_files_of_a_run(folder, [](const std::string&) { return false; });
+  check_writable(folder);
+}
+
+void check_writable(const fs::path& folder) {
   const fs::path probe = beside(folder / "probe");
   {
     const Descriptor fd(::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644));
     if (fd < 0) fail("write in the output folder", folder, errno);
   }
+  std::error_code error;
   fs::remove(probe, error);
 }
 

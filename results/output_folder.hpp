@@ -79,7 +79,11 @@ void clear_leftovers(const std::filesystem::path& folder);
 
 /// Makes `folder` ready for a new run: creates it with its parents and checks that files can be written.
 /// Throws InputError when it holds a run and `force` is false; with `force` the files that a run makes are
-/// removed, and no others. Throws IoError when it cannot be created or written.
+/// removed, and no others; not where there are only such as may be somebody else's pictures. Throws IoError
+/// when it cannot be created or written.
 void prepare_output_folder(const std::filesystem::path& folder, bool force);
+
+/// Throws IoError when no file can be written in the folder.
+void check_writable(const std::filesystem::path& folder);
 
 } // namespace cnem::results

@@ -6,9 +6,11 @@
 
 #include <charconv>
 #include <fmt/format.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
+#include <vtkExecutive.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -56,19 +58,44 @@ std::vector<FieldFiles> read_field_series(const fs::path& folder, const char* li
 
 namespace {
 
-/// Looks into a file of fields.
-vtkSmartPointer<vtkXMLUnstructuredGridReader> open_grid(const fs::path& file) {
+/// A file of fields that is looked into. What VTK finds wrong is not printed, but makes an IoError.
+class GridFile {
+public:
+  explicit GridFile(const fs::path& file) : file_(file) {
+    if (!fs::exists(file) || !reader->CanReadFile(file.c_str()))
+      throw IoError(fmt::format("cannot read {}: it is no file of fields", file.string()));
+    vtkNew<vtkCallbackCommand> note;
+    note->SetClientData(&failed_);
+    note->SetCallback(
+        [](vtkObject*, unsigned long, void* failed, void*) { *static_cast<bool*>(failed) = true; });
+    reader->SetReaderErrorObserver(note);
+    reader->SetParserErrorObserver(note);
+    reader->AddObserver(vtkCommand::ErrorEvent, note);
+    reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, note);
+    reader->SetFileName(file.c_str());
+    reader->UpdateInformation();
+    check();
+  }
+  GridFile(const GridFile&) = delete;
+  GridFile& operator=(const GridFile&) = delete;
+
+  void check() const {
+    if (failed_ || reader->GetErrorCode() != 0)
+      throw IoError(fmt::format("cannot read {}: it is damaged or cut short", file_.string()));
+  }
+
+private:
+  bool failed_ = false; // before the reader, which tells it
+  fs::path file_;
+
+public:
   vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!fs::exists(file) || !reader->CanReadFile(file.c_str()))
-    throw IoError(fmt::format("cannot read {}: it is no file of fields", file.string()));
-  reader->SetFileName(file.c_str());
-  reader->UpdateInformation();
-  return reader;
-}
+};
 
 /// The grid of a file; of the arrays of cells only `arrays`.
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file, const std::vector<FileArray>& arrays) {
-  const auto reader = open_grid(file);
+  const GridFile grid_file(file);
+  vtkXMLUnstructuredGridReader* const reader = grid_file.reader;
   vtkDataArraySelection& wanted = *reader->GetCellDataArraySelection();
   wanted.DisableAllArrays();
   for (const FileArray& array : arrays) {
@@ -77,6 +104,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const fs::path& file, const std::
     wanted.EnableArray(array.name.c_str());
   }
   reader->Update();
+  grid_file.check();
   vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
   if (grid->GetNumberOfCells() == 0) throw IoError(fmt::format("{} has no cells", file.string()));
   return grid;
@@ -125,7 +153,7 @@ CellFields read_cell_fields(const fs::path& file, const std::vector<FileArray>& 
 }
 
 bool has_cell_field(const fs::path& file, const FileArray& array) {
-  return open_grid(file)->GetCellDataArraySelection()->ArrayExists(array.name.c_str()) != 0;
+  return GridFile(file).reader->GetCellDataArraySelection()->ArrayExists(array.name.c_str()) != 0;
 }
 
 Vec2 read_tool_displacement(const fs::path& file) {

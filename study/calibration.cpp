@@ -137,16 +137,30 @@ void tell(const Calibration& calibration, const CalibrationResult& result, const
     fmt::print("{} = {}{}\n", constant.key, constant.text(constant.at(place)), how);
   }
   for (const std::string& words : result.inference.words) fmt::print("{}\n", words);
-  for (const CalibratedCurve& curve : result.best.curves)
-    if (!curve.note.empty()) fmt::print(stderr, "warning: {}: {}\n", curve.name, curve.note);
-  if (result.failures > 0)
-    fmt::print(stderr, "warning: {} of {} evaluations failed and counted as a misfit of {:g}%\n",
-               result.failures, result.evaluations, misfit_percent(failed_misfit));
+  for (const std::string& warning : warnings_of(calibration, result))
+    fmt::print(stderr, "warning: {}\n", warning);
   fmt::print("constants: {}\nreport: {}\n", (folder / "calibrated.toml").string(),
              (folder / results::files::report).string());
 }
 
 } // namespace
+
+std::vector<std::string> warnings_of(const Calibration& calibration, const CalibrationResult& result) {
+  std::vector<std::string> list = calibration.warnings;
+  constexpr double apart = 1.0; // of the peak
+  for (const CalibratedCurve& curve : result.best.curves) {
+    if (!curve.note.empty()) list.push_back(fmt::format("{}: {}", curve.name, curve.note));
+    if (curve.rms_share > apart)
+      list.push_back(
+          fmt::format("{}: computed and measured values differ by {:.3g} times the measured peak: are "
+                      "the columns in the units that are meant?",
+                      curve.name, curve.rms_share));
+  }
+  if (result.failures > 0)
+    list.push_back(fmt::format("{} of {} evaluations failed and counted as a misfit of {:g}%",
+                               result.failures, result.evaluations, misfit_percent(failed_misfit)));
+  return list;
+}
 
 Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
   check_threads(calibration.threads, "threads of the calibration");

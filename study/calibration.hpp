@@ -59,6 +59,7 @@ struct Calibration {
   int starts = 1;
   double tolerance = 1e-4; ///< of the places of constants between their bounds
   int processes = 0, threads = 1;
+  std::vector<std::string> warnings; ///< of its curves and cases
 
   std::vector<input::Override> changes(const CalibrationTarget& target, const Eigen::VectorXd& place) const;
 };
@@ -144,6 +145,9 @@ struct CalibrationResult {
   Inference inference;
   std::size_t evaluations = 0, failures = 0; ///< of different constants
 };
+
+/// What is to be told of its curves and cases, and of what was found.
+std::vector<std::string> warnings_of(const Calibration& calibration, const CalibrationResult& result);
 
 /// Flow stress over strain at a rate and a temperature that the targets meet, with the band of the
 /// covariance.

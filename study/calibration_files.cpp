@@ -110,6 +110,7 @@ Json json_of(const Calibration& calibration, const CalibrationResult& result,
   json["independent_residuals"] = inference.independent;
   json["degrees_of_freedom"] = inference.degrees;
   json["not_told"] = inference.words;
+  json["warnings"] = warnings_of(calibration, result);
   Json& flow = json["flow_stress"] = Json::array();
   for (const FlowBand& band : bands)
     flow.push_back({{"name", band.name},

@@ -1,5 +1,6 @@
 // The file of a calibration.
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "input/case_reader.hpp"
 #include "input/measured_file.hpp"
 #include "input/schema/nearest.hpp"
@@ -54,6 +55,7 @@ public:
     for_each_table("parameters", "[parameters.NAME]",
                    [&](const input::Member& member) { read_constant(member); });
     for_each_table("targets", "[targets.NAME]", [&](const input::Member& member) { read_target(member); });
+    check_keys();
     diagnostics_.throw_if_any();
     check_budget();
     read_cases();
@@ -139,6 +141,7 @@ private:
                        "\"let.NAME\""))
       constant.key = reader.text("key");
     std::optional<input::Dimension> dimension;
+    int known = 0;
     for (const auto& [key, value] :
          {std::pair{"start", &constant.start}, {"low", &constant.low}, {"high", &constant.high}}) {
       if (!table.find(key)) {
@@ -149,6 +152,7 @@ private:
       const auto written = number(reader, table, path, key, dimension);
       if (!written) continue;
       *value = written->si;
+      ++known;
       if (dimension) continue;
       dimension = written->unit.dimension;
       constant.unit = written->unit;
@@ -158,12 +162,12 @@ private:
     constant.logarithmic = choice(reader, table, "scale", {"linear", "log"}) == "log";
     const bool ordered =
         constant.low < constant.high && constant.start >= constant.low && constant.start <= constant.high;
-    if (dimension && !ordered)
+    if (known == 3 && !ordered)
       diagnostics_.add(Mistake::range, member.where, path + "start",
                        fmt::format("found {} between {} and {}, expected low < high and a start between them",
                                    constant.text(constant.start), constant.text(constant.low),
                                    constant.text(constant.high)));
-    if (constant.logarithmic && !(constant.low > 0.0))
+    if (known == 3 && constant.logarithmic && !(constant.low > 0.0))
       diagnostics_.add(
           Mistake::range, member.where, path + "low",
           fmt::format("found {}, expected more than 0 with scale = \"log\"", constant.text(constant.low)));
@@ -239,8 +243,10 @@ private:
     const input::Value* file = reader.find("file", Kind::text, "a CSV file");
     if (!file || !diagnostics_.empty()) return point;
     try {
-      input::MeasuredCurve curve = input::read_measured((folder_ / file->text).string(), columns);
-      input::keep_growing(curve.x, curve.y);
+      const std::string name = (folder_ / file->text).string();
+      input::MeasuredCurve curve = input::read_measured(name, columns);
+      if (const std::string gone = input::keep_growing(curve.x, curve.y, name, "strain"); !gone.empty())
+        result_.warnings.push_back(path + "file: " + gone);
       point.measured = {std::move(curve.x), std::move(curve.y)};
       point.test.strain = point.measured.x.back();
       const double most = *std::max_element(point.measured.y.begin(), point.measured.y.end());
@@ -252,6 +258,33 @@ private:
       diagnostics_.add(Mistake::reference, file->where, path + "file", error.what());
     }
     return point;
+  }
+
+  /// Each key has one value: looked for, or set.
+  void check_keys() {
+    const auto look_at = [&](const std::vector<input::Override>& set, const std::string& path) {
+      for (const input::Override& change : set)
+        for (const SoughtConstant& constant : result_.constants)
+          if (change.key == constant.key)
+            diagnostics_.add(
+                Mistake::conflict, change.where, path + change.key,
+                fmt::format("found set where parameters.{} ({}) looks for it, expected one of them",
+                            constant.name, constant.where.text()));
+    };
+    look_at(set_, "set.");
+    for (const CalibrationTarget& target : result_.targets) {
+      const std::vector<input::Override> own(target.set.begin() + as<std::ptrdiff_t>(set_.size()),
+                                             target.set.end());
+      look_at(own, fmt::format("targets.{}.set.", target.name));
+    }
+    for (std::size_t k = 0; k < result_.constants.size(); ++k)
+      for (std::size_t other = 0; other < k; ++other) {
+        const SoughtConstant &constant = result_.constants[k], &first = result_.constants[other];
+        if (!constant.key.empty() && constant.key == first.key)
+          diagnostics_.add(Mistake::conflict, constant.where, fmt::format("parameters.{}.key", constant.name),
+                           fmt::format("found '{}', which parameters.{} ({}) looks for, expected another key",
+                                       constant.key, first.name, first.where.text()));
+      }
   }
 
   void check_budget() {
@@ -275,6 +308,9 @@ private:
         }
         const input::Case input =
             input::read_case_with(target.case_file.string(), result_.changes(target, start));
+        if (!target.point)
+          for (const std::string& warning : input.warnings)
+            result_.warnings.push_back(fmt::format("target '{}': {}", target.name, warning));
         for (Eigen::Index k = 0; k < n; ++k)
           for (const double bound : {0.0, 1.0}) {
             Eigen::VectorXd place = start;

@@ -48,12 +48,10 @@ std::string constants_section(const Calibration& calibration, const CalibrationR
   return table_section("constants", "Constants", rows);
 }
 
-std::string words_section(const Inference& inference) {
-  if (inference.words.empty()) return "";
-  std::string html =
-      "<section id=\"warnings\">\n<h2>What the curves do not tell</h2>\n<ul class=\"warnings\">\n";
-  for (const std::string& words : inference.words)
-    html += fmt::format("<li>{}</li>\n", report::html_escape(words));
+std::string words_section(const char* id, const char* heading, const std::vector<std::string>& list) {
+  if (list.empty()) return "";
+  std::string html = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<ul class=\"warnings\">\n", id, heading);
+  for (const std::string& words : list) html += fmt::format("<li>{}</li>\n", report::html_escape(words));
   return html + "</ul>\n</section>\n";
 }
 
@@ -195,7 +193,9 @@ std::string calibration_report(const Calibration& calibration, const Calibration
                .version = version,
                .verdict = verdict,
                .good = told},
-              constants_section(calibration, result) + words_section(result.inference) +
+              constants_section(calibration, result) +
+                  words_section("untold", "What the curves do not tell", result.inference.words) +
+                  words_section("warnings", "Warnings", warnings_of(calibration, result)) +
                   curves_section(result) +
                   chart_section(curve_charts(result), {}, "curves", "Measured and computed") +
                   chart_section(band_charts(bands), {}, "flow", "Flow stress over what the targets meet") +

@@ -1,8 +1,10 @@
 #include "study/sweep.hpp"
 
+#include "core/index.hpp"
 #include "core/machine/threads.hpp"
 #include "input/case_reader.hpp"
 #include "input/schema/nearest.hpp"
+#include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
 
 #include <algorithm>
@@ -59,6 +61,22 @@ void warn_of_absent_numbers(const Study& study, const std::vector<RunRecord>& ru
       fmt::print(stderr, "warning: no run has '{}'{}\n", name, input::did_you_mean(name, there));
 }
 
+/// Curves of columns that no history has.
+void warn_of_absent_columns(const Study& study, const std::vector<RunRecord>& runs,
+                            const std::filesystem::path& folder) {
+  const auto done = std::find_if(runs.begin(), runs.end(), [](const RunRecord& run) { return run.status; });
+  if (done == runs.end() || study.history.empty()) return;
+  const StudyRun& run = study.runs[index_of(done - runs.begin())];
+  const results::HistoryTable table = results::read_history(folder / run.name / results::files::history);
+  std::vector<std::string> there;
+  for (const std::string& name : table.names) there.push_back(results::split_column_name(name).name);
+  for (const StudyHistory& wanted : study.history)
+    for (const std::string& name : {wanted.y, wanted.x})
+      if (!name.empty() && table.find(name) < 0)
+        fmt::print(stderr, "warning: history.csv of {} has no column '{}'{}\n", run.name, name,
+                   input::did_you_mean(name, there));
+}
+
 } // namespace
 
 Exit sweep(const Study& study, const BatchOptions& options, SweepWork work) {
@@ -76,7 +94,10 @@ Exit sweep(const Study& study, const BatchOptions& options, SweepWork work) {
                         },
                     .tell =
                         [&](const Runs& runs) {
+                          for (const std::string& warning : warnings_of_runs(study, runs))
+                            fmt::print(stderr, "warning: {}\n", warning);
                           warn_of_absent_numbers(study, runs);
+                          warn_of_absent_columns(study, runs, options.output);
                           fmt::print("{}", extrapolations(study, runs));
                         }};
   return (work == SweepWork::merge ? merge_batch : run_batch)(study, std::move(cases), options, pages);

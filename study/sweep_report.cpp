@@ -73,11 +73,31 @@ std::string warnings(const Study& study, const std::vector<RunRecord>& runs) {
     mixed = mixed || (!version.empty() && version != runs[k].status->version);
     version = runs[k].status->version;
   }
+  for (const std::string& warning : warnings_of_runs(study, runs))
+    html += fmt::format("<li>{}</li>\n", report::html_escape(warning));
   if (mixed) html += "<li>The runs come from several versions of the program.</li>\n";
   return html.empty() ? "" : "<ul class=\"warnings\">\n" + html + "</ul>\n";
 }
 
 } // namespace
+
+std::vector<std::string> warnings_of_runs(const Study& study, const std::vector<RunRecord>& runs) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> told; // text, names of runs
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (!runs[k].status) continue;
+    for (const std::string& text : runs[k].status->warnings) {
+      auto known = std::find_if(told.begin(), told.end(), [&](const auto& one) { return one.first == text; });
+      if (known == told.end()) known = told.insert(told.end(), {text, {}});
+      known->second.push_back(study.runs[k].name);
+    }
+  }
+  std::vector<std::string> list;
+  for (const auto& [text, names] : told)
+    list.push_back(fmt::format(
+        "{}{}: {}", names.front(),
+        names.size() > 1 ? fmt::format(" and {} more of {} runs", names.size() - 1, runs.size()) : "", text));
+  return list;
+}
 
 std::string sweep_report(const Study& study, const std::vector<RunRecord>& runs,
                          const std::filesystem::path& folder, const std::string& version) {

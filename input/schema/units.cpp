@@ -250,7 +250,8 @@ bool is_digit(std::string_view text, std::size_t at) {
 /// Throws UnitError where a comma follows a number: there is none in numbers and between them.
 void refuse_comma(std::string_view text, std::string_view rest) {
   if (!rest.starts_with(',')) return;
-  std::string expected = fmt::format("spaces between numbers: '{}'", replace_all(std::string(text), ",", ""));
+  std::string expected = fmt::format("spaces between numbers: '{}'",
+                                     replace_all(replace_all(std::string(text), ",", " "), "  ", " "));
   if (is_digit(rest, 1)) {
     // "7,850" is a thousandth of 7850 to some.
     const bool thousands = is_digit(rest, 2) && is_digit(rest, 3) && !is_digit(rest, 4);
