@@ -79,7 +79,7 @@ if(CNEM_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 if(CNEM_PYTHON)
-  foreach(part case run arrays notebook)
+  foreach(part case run arrays notebook documents)
     add_test(NAME python.${part} COMMAND ${Python3_EXECUTABLE} -m unittest test_${part}
              WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/tests/python)
     set_tests_properties(python.${part} PROPERTIES TIMEOUT 600 ENVIRONMENT

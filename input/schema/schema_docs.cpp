@@ -98,6 +98,7 @@ constexpr std::array blanking_needs{
     Needed{"tools.*.path", "punch, die and holder with `fillet` at their edges; or `tools.NAME.drawing`"},
     Needed{"tools.*.velocity", "of the punch, with a smooth ramp"},
     Needed{"tools.*.friction.coefficient", "between tools and sheet"},
+    Needed{"tools.*.heat", "without it tools take no friction heat: edges are as hot as they can be"},
     Needed{"contact.deformable", "faces of a crack meet again"},
     Needed{"method.rereference.every", "steps between looks at the cloud"},
     Needed{"adapt.resample", "`true`; and `separate`, `cracks`, that it parts"},
@@ -188,7 +189,7 @@ std::string contents() {
 
 std::string needs() {
   return "\n## Keys a blanking case needs\n\nIn the order in which one writes them; "
-         "`cases/blanking/sheet/case.toml` has them all, [blanking](blanking.md) says more.\n\n" +
+         "`cases/blanking/sheet/case.toml` has most of them, [blanking](blanking.md) says more.\n\n" +
          needs_table(blanking_needs) +
          "\n## Keys a cut needs\n\n`cases/cutting/a2024_800/case.toml` has them, [cutting](cutting.md) says "
          "more.\n\n" +

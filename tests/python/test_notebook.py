@@ -6,6 +6,7 @@ import io
 import json
 import os
 import pathlib
+import re
 import unittest
 
 EXAMPLES = pathlib.Path(__file__).parents[2] / "python" / "examples"
@@ -35,6 +36,18 @@ class Notebooks(unittest.TestCase):
                 with self.subTest(place), contextlib.redirect_stdout(io.StringIO()):
                     exec(compile("".join(cell["source"]), place, "exec"), names)
             self.assertLess(names["misfit"], 0.01, "the fit of the last cells")
+            self.force_is_shown(names)
+
+    def force_is_shown(self, names):
+        """The largest force of the first curve, as `show` prints it without matplotlib: above zero, that of the metrics."""
+        names["plt"] = None
+        with contextlib.redirect_stdout(io.StringIO()) as text:
+            names["show"]({"10 %": names["curve"](names["run"])})
+        shown = re.search(r"(-?[0-9.]+) kN/mm at most", text.getvalue())
+        self.assertIsNotNone(shown, text.getvalue())
+        peak = names["run"].metrics["peak_force.punch"] * 1e-6
+        self.assertGreater(peak, 0.5)
+        self.assertLess(abs(float(shown[1]) / peak - 1.0), 0.01, f"{text.getvalue()}, metrics: {peak}")
 
     @unittest.skipUnless(installed("nbclient", "ipykernel"), "needs nbclient and ipykernel")
     def test_as_jupyter_runs_them(self):
