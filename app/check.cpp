@@ -6,6 +6,7 @@
 #include "app/run.hpp"
 #include "app/simulation.hpp"
 #include "app/statics/statics.hpp"
+#include "app/watches/fixed_step.hpp"
 #include "app/watches/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/machine/threads.hpp"
@@ -48,6 +49,8 @@ template<int dim> Checked check_explicit(const input::Case& input, const RunOpti
   StepControl control(input.time);
   control.refresh(solver);
   for (std::string& warning : supersonic_tools(input, solver)) checked.warnings.push_back(std::move(warning));
+  for (std::string& warning : unstable_fixed_step(input, solver))
+    checked.warnings.push_back(std::move(warning));
   for (std::string& doubt : doubts(input, solver)) checked.warnings.push_back(std::move(doubt));
   if (!input.adapt.tool_spacing) check_tool_steps(input, solver, control.limit() / solver.sub_steps());
   const Forecast expected = forecast(input, solver, control);

@@ -4,6 +4,7 @@
 #include "app/problem/registry.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/profile.hpp"
+#include "app/watches/fixed_step.hpp"
 #include "app/watches/tool_speed.hpp"
 #include "core/index.hpp"
 #include "core/machine/isa.hpp"
@@ -50,6 +51,7 @@ Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options,
       renewal_(input.method, input.adapt.quiet_every), retries_(renewal_.by_strain()),
       features_(input, solver_), checkpoints_(input.output.checkpoint) {
   for (std::string& warning : supersonic_tools(input, solver_)) warn(std::move(warning));
+  for (std::string& warning : unstable_fixed_step(input, solver_)) warn(std::move(warning));
   for (std::string& doubt : doubts(input, solver_)) warn(std::move(doubt));
 }
 template<int dim> void Simulation<dim>::check_tools() {

@@ -280,7 +280,8 @@ private:
       face_.fracture_angle = angle_of_fracture(all);
     }
     if (face_.parted) {
-      face_.second_burnish = std::max(0.0, all - reached);
+      constexpr double rounding = 1e-9; // of the thickness
+      face_.second_burnish = all - reached > rounding * rules_.thickness ? all - reached : 0.0;
       if (!crack_ && face_.second_burnish < rules_.smoothing) {
         face_.burnish += face_.second_burnish;
         face_.second_burnish = 0.0;
@@ -350,6 +351,11 @@ private:
     std::vector<double> places = walk_.at;
     for (const double l : {rollover_begin_, surface_end_, wall_end_, crack_begin_, crack_end_, end_})
       if (l > 0.0 && l < walk_.length()) places.push_back(l);
+    if (face_.parted)
+      for (std::size_t k = 0; k < walk_.segments(); ++k) { // where a burr begins
+        const double a = depth(walk_.at[k]) - other_side_, b = depth(walk_.at[k + 1]) - other_side_;
+        if (a < 0.0 && b > 0.0) places.push_back(walk_.at[k] + a / (a - b) * (walk_.at[k + 1] - walk_.at[k]));
+      }
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
     for (std::size_t k = 0; k + 1 < places.size(); ++k) {

@@ -54,9 +54,9 @@ void compute_defaults(Setting& root) {
     root.set_default("output.pictures", std::vector<double>{end});
     root.set_default("output.picture_fields",
                      statics ? Names{"equivalent_stress", "displacement_x", "displacement_y"}
-                     : root.get<bool>("analysis.mechanical")
-                         ? Names{"plastic_strain", "temperature", "pressure"}
-                         : Names{"temperature"});
+                     : !root.get<bool>("analysis.mechanical") ? Names{"temperature"}
+                     : root.get<bool>("analysis.thermal") ? Names{"plastic_strain", "temperature", "pressure"}
+                                                          : Names{"plastic_strain", "pressure"});
   }
   set_material_defaults(root, temperature);
   for (const Setting& entry : root.entries("domain.regions")) {

@@ -35,23 +35,24 @@ std::string difference_table(const evaluate::ExperimentResult& result, const res
   const auto force = [&](double value) { return units.format(value, result.force_unit); };
   const auto work = [&](double value) { return units.format(value, result.work_unit); };
   const char* stroke = result.over_stroke ? "Stroke" : "Time";
-  std::string html = "<table class=\"measured\">\n<tr><th></th><td>measured</td><td>computed</td>"
-                     "<td>difference</td></tr>\n";
+  std::string html =
+      "<div class=\"scroll\"><table class=\"measured\">\n<tr><th></th><td>measured</td><td>computed</td>"
+      "<td>difference</td></tr>\n";
   html += cells("Largest force", force(d.peak_measured), force(d.peak_computed),
                 signed_percent(d.peak_computed / d.peak_measured - 1.0));
   html += cells(fmt::format("{} there", stroke), x(d.at_measured), x(d.at_computed),
-                x(d.at_computed - d.at_measured));
+                (d.at_computed > d.at_measured ? "+" : "") + x(d.at_computed - d.at_measured));
   if (d.common()) {
     if (result.over_stroke)
       html += cells("Work", work(d.area_measured), work(d.area_computed),
                     signed_percent(d.area_computed / d.area_measured - 1.0));
-    html +=
-        cells("Root mean square of the difference", "", force(d.rms),
-              fmt::format("{} % of the peak", results::number_format(100.0 * d.rms / d.peak_measured, 3)));
+    html += cells("Root mean square of the difference", "", "",
+                  fmt::format("{}, {} % of the peak", force(d.rms),
+                              results::number_format(100.0 * d.rms / d.peak_measured, 3)));
     html += fmt::format("<tr><th scope=\"row\">Compared from</th><td colspan=\"3\">{} to {}</td></tr>\n",
                         x(d.from), x(d.to));
   }
-  return html + "</table>\n";
+  return html + "</table></div>\n";
 }
 
 } // namespace

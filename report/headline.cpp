@@ -161,11 +161,13 @@ std::vector<Figure> of_extremes(const HeadlineSource& source) {
   for (std::size_t k = 0; source.history && k < source.history->names.size(); ++k) {
     const results::ColumnName column = results::split_column_name(source.history->names[k]);
     if (!column.name.starts_with("max.")) continue;
-    double most = -INFINITY;
+    double most = -INFINITY, least = INFINITY;
     for (const double value : source.history->column[k])
-      if (std::isfinite(value)) most = std::max(most, value);
-    const bool nothing = most == 0.0 && column.name != "max.temperature";
-    if (std::isfinite(most) && !nothing)
+      if (std::isfinite(value)) {
+        most = std::max(most, value);
+        least = std::min(least, value);
+      }
+    if (std::isfinite(most) && most > least) // else nothing has happened to it
       figures.push_back(
           {"Largest " + words(column.name.substr(4)), source.units.format(most, column.unit), ""});
   }

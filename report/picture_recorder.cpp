@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <optional>
 #include <utility>
@@ -42,6 +43,9 @@ void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<
     const std::string& name = source->names[f];
     const Picture picture = picture_of(*case_, *source, f);
     AlbumEntry entry{.field = {}, .caption = "", .note = note_of(shot.state.time, name), .series = name};
+    if (shot.displacement_scale != 1.0)
+      entry.note += fmt::format("{}Displacements are drawn {:.3g} times as large as they are.",
+                                entry.note.empty() ? "" : " ", shot.displacement_scale);
     entry.own.range = own_span(*case_, name, picture);
     entry.own.view = output.drawing.view
                          ? PictureWindow{output.drawing.view->front(), output.drawing.view->back()}

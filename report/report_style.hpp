@@ -29,12 +29,13 @@ h3 { font-size: 15px; margin: 0 0 10px; font-weight: 600; }
 .verdict { display: inline-block; margin: 0; padding: 5px 13px; border-radius: 8px; font-weight: 600; font-size: 14px; }
 .verdict.good { color: var(--good); background: var(--good-tint); }
 .verdict.bad { color: var(--bad); background: var(--bad-tint); }
-.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(156px, 1fr)); gap: 12px; margin: 26px 0 0; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(168px, 1fr)); gap: 12px; margin: 26px 0 0; }
 .figures div, .charts figure, .pictures figure, .tables > div, pre, .post-mortem {
   background: var(--card); border: 1px solid var(--line); border-radius: 12px; }
 .figures div { padding: 13px 14px; }
 dt { color: var(--soft); font-size: 12.5px; }
-dd { margin: 1px 0 0; font-size: 19px; font-weight: 620; font-variant-numeric: tabular-nums; letter-spacing: -0.01em; }
+dd { margin: 1px 0 0; font-size: 19px; font-weight: 620; font-variant-numeric: tabular-nums; letter-spacing: -0.01em;
+  overflow-wrap: anywhere; }
 dd.of { font-size: 12.5px; font-weight: 400; letter-spacing: 0; color: var(--soft); line-height: 1.35; }
 .verdict + .code { margin-top: 9px; }
 figure { margin: 0; }
@@ -87,6 +88,7 @@ th, td { padding: 5px 0; border-top: 1px solid var(--grid); text-align: left; fo
 th { color: var(--soft); padding-right: 16px; }
 td { text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: break-word; }
 .measured td { padding-left: 12px; }
+.scroll { overflow-x: auto; min-width: 0; }
 tr:first-child > * { border-top: 0; }
 .warnings { margin: 0; padding: 12px 16px 12px 34px; border-radius: 12px; background: var(--warn-tint); color: var(--warn); }
 .post-mortem { padding: 16px 20px; border-color: var(--bad); max-width: 860px; }
@@ -103,6 +105,11 @@ dialog img { display: block; width: 100%; max-height: 94vh; object-fit: contain;
   .figures { grid-template-columns: repeat(auto-fit, minmax(135px, 1fr)); gap: 8px; margin-top: 18px; }
   .figures div { padding: 10px 12px; }
   .charts figure, .tables > div { padding-left: 12px; padding-right: 12px; }
+  .figures dd { font-size: 17px; }
+  .figures dd.of { font-size: 12.5px; }
+  .measured { font-size: 13px; }
+  .measured th { padding-right: 0; }
+  .measured td { padding-left: 8px; }
   pre { padding: 12px; }
 }
 @media print {

@@ -25,8 +25,9 @@ void add_pictures(Keys& k) {
       .one_of(field_names(2))
       .or_empty()
       .computed(
-          "`[\"plastic_strain\", \"temperature\", \"pressure\"]`; `[\"temperature\"]` where heat is "
-          "alone; `[\"equivalent_stress\", \"displacement_x\", \"displacement_y\"]` in static analyses");
+          "`[\"plastic_strain\", \"temperature\", \"pressure\"]`, without temperature where no heat is "
+          "solved for; `[\"temperature\"]` where heat is alone; `[\"equivalent_stress\", \"displacement_x\", "
+          "\"displacement_y\"]` in static analyses");
   k.add("output.drawing", table, "How pictures are drawn.").always();
   k.add("output.drawing.mirror", boolean,
         "Draw halves and quarters whole: mirrored behind straight pieces with `symmetry` and the axis of a "

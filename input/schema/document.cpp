@@ -253,8 +253,13 @@ Value parse_document(std::string_view text, const std::string& source) {
 
 Value read_document(const std::string& path) {
   std::error_code status;
-  if (!std::filesystem::exists(path, status))
-    throw InputError(fmt::format("{}: no such file, expected a case such as case.toml", path));
+  if (!std::filesystem::exists(path, status)) {
+    std::string there; // in its folder, of another command
+    for (const auto& [name, command] : {std::pair{"study.toml", "sweep"}, {"calibration.toml", "calibrate"}})
+      if (std::filesystem::exists(std::filesystem::path(path).parent_path() / name, status))
+        there += fmt::format(": beside it is {}, for `cnem {}`", name, command);
+    throw InputError(fmt::format("{}: no such file, expected a case such as case.toml{}", path, there));
+  }
   if (std::filesystem::is_directory(path, status))
     throw InputError(fmt::format("{}: is a folder, expected a case file such as {}", path,
                                  (std::filesystem::path(path) / "case.toml").string()));
