@@ -1,6 +1,7 @@
 #include "app/plausibility/plausibility.hpp"
 
 #include "app/plausibility/list.hpp"
+#include "input/curve_checks.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -27,9 +28,16 @@ std::vector<const plasticity::Material*> materials_in_use(const input::Case& inp
   return list;
 }
 
+double smaller_side(const input::Case& input) {
+  const auto [low, high] = input::bounds(input.domain.outer);
+  return (high - low).minCoeff();
+}
+
 std::vector<std::string> doubts(const input::Case& input) {
   Doubts list;
   doubt_materials(input, list);
+  doubt_heat(input, list);
+  doubt_damage(input, list);
   doubt_friction(input, list);
   doubt_cutting(input, list);
   doubt_output(input, list);
@@ -42,7 +50,8 @@ std::vector<std::string> doubts(const input::Case& input, const ExplicitSolver<d
   doubt_motions(input, solver, list);
   if constexpr (dim == 2) {
     doubt_edges(input, solver, list);
-    doubt_bodies(input, solver, list);
+    doubt_fracture(input, solver, list);
+    doubt_parts(input, solver, list);
   }
   return list;
 }
