@@ -21,6 +21,8 @@ void doubt_output(const input::Case& input, Doubts& doubts);
 /// Tools that move away from the workpiece, meet it late or never, or go far beyond it.
 template<int dim>
 void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, Doubts& doubts);
+/// Tools with a mass that forces push away, hardly push by the end, or push with a force of nothing on earth.
+void doubt_pushes(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
 /// Clearances below zero, of nothing or wide open, strokes that cut nothing, sheets of a few cells, and arcs
 /// of tools that no node feels.
 void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
@@ -41,6 +43,9 @@ double starting_flow_stress(const input::Case& input, const plasticity::Material
 
 /// The lesser side of the box round the workpiece, m. Of the plane.
 double smaller_side(const input::Case& input);
+
+/// Whether the workpiece stands until a tool comes: it neither flies nor is moved by its boundary.
+template<int dim> bool waits_for_tools(const input::Case& input, const ExplicitSolver<dim>& solver);
 
 /// "file:line:column: key 'a.b': text".
 inline std::string doubt_about(const input::Case& input, const std::string& key, const std::string& text) {

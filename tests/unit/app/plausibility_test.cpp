@@ -264,6 +264,38 @@ TEST(Plausibility, punches_that_move_away_or_come_late) {
       << "goes back after it has pressed";
 }
 
+TEST(Plausibility, punches_that_stand_or_slide) {
+  expect_doubt({"tools.punch.velocity=-10 0 m/s"}, "punch slides along the sheet, along (-1, 0)");
+  expect_doubt({"tools.punch.velocity=0 0 m/s"}, "punch stands still, and so does the die: nothing is cut");
+  EXPECT_EQ(doubts_with({"tools.punch.velocity=0 0 m/s", "tools.die.velocity=0 10 m/s"}), Texts{});
+}
+
+TEST(Plausibility, holders_that_are_pushed_away_late_or_not_at_all) {
+  const auto holder = [](const std::string& push) {
+    return "tools.holder={rectangle={from=\"5 2 mm\", to=\"9 4 mm\"}, mass=\"1 kg/m\"" + push + "}";
+  };
+  const auto sprung = [&](const std::string& direction, const std::string& preload,
+                          const std::string& ramp = "2 us") {
+    return holder(", direction=\"" + direction + "\", spring={law=\"gas\", length=\"20 mm\", preload=\"" +
+                  preload + "\", ramp=\"" + ramp + "\"}");
+  };
+  EXPECT_EQ(doubts_with({sprung("0 -1", "300 kN/m")}), Texts{});
+  EXPECT_EQ(doubts_with({holder(", force=\"0 -300 kN/m\"")}), Texts{});
+  expect_doubt(
+      {sprung("0 1", "300 kN/m")},
+      "key 'tools.holder.direction': holder is pushed along (0, 1), away from the workpiece or past it: "
+      "is (0, -1) meant?");
+  expect_doubt({sprung("1 0", "300 kN/m")},
+               "along (1, 0), away from the workpiece or past it, expected the side");
+  expect_doubt({holder(", force=\"0 300 kN/m\"")}, "key 'tools.holder.force': holder is pushed along (0, 1)");
+  expect_doubt({holder("")}, "key 'tools.holder.mass': holder has a mass and nothing that moves it");
+  expect_doubt({sprung("0 -1", "300 MN/m")}, "key 'tools.holder.spring': 3e+08 N/m are 3.64e+10 Pa");
+  expect_doubt({sprung("0 -1", "300 kN/m", "2 ms")},
+               "key 'tools.holder.spring.ramp': it takes 0.002 s to come to its full force");
+  expect_doubt({holder(", force={y={value=\"-300 kN/m\", ramp=\"2 ms\"}}")},
+               "key 'tools.holder.force': it takes 0.002 s");
+}
+
 TEST(Plausibility, clearance_of_nothing_or_less) {
   const auto punch_to = [](const std::string& x) {
     return "tools.punch.rectangle={from=\"-2 2 mm\", to=\"" + x + " 6 mm\"}";
