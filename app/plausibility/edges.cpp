@@ -138,10 +138,12 @@ void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doub
                   "the thickness are usual",
                   side(one), punch)));
   }
-  if (input.cutting) return; // its cells are made for its edge
   for (const Edge& edge : edges(input, solver)) {
     constexpr double felt = 2.0, rounding = 1e-6; // spacings
     if (edge.radius >= (felt - rounding) * edge.spacing) continue;
+    // A cut whose cells are as wide everywhere is asked for: its table alone makes those at the edge fine.
+    constexpr double uniform = 0.75; // share of the widest cells
+    if (input.cutting && edge.spacing > uniform * input.cloud.spacing) continue;
     doubts.push_back(doubt_about(
         input, fmt::format("tools.{}", edge.tool->name),
         fmt::format(

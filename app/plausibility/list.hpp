@@ -16,7 +16,7 @@ void doubt_damage(const input::Case& input, Doubts& doubts);
 void doubt_friction(const input::Case& input, Doubts& doubts);
 /// What [cutting] says that no lathe does.
 void doubt_cutting(const input::Case& input, Doubts& doubts);
-/// Output asked for when the run is over.
+/// Output asked for when the run is over, or far too often.
 void doubt_output(const input::Case& input, Doubts& doubts);
 /// Tools that move away from the workpiece, meet it late or never, or go far beyond it.
 template<int dim>

@@ -242,6 +242,8 @@ TEST(Plausibility, pictures_after_the_end) {
   expect_doubt({"output.pictures=10 20 30 us", "time.end=15 us"},
                "2 pictures are asked for, the last at 3e-05 s");
   expect_doubt({"output.fields_every=30 us"}, "key 'output.fields_every'");
+  expect_doubt({"output.fields_every=1 ns"}, "20000 files of fields by time.end");
+  EXPECT_EQ(doubts_with({"output.fields_every=20 ns"}), Texts{});
 }
 
 TEST(Plausibility, punches_that_move_away_or_come_late) {
@@ -311,6 +313,22 @@ TEST(Plausibility, arcs_that_no_node_feels) {
   EXPECT_EQ(
       doubts_with({"tools.die.path[2].fillet=0.1 mm", "adapt.resample=true", "adapt.tool_spacing=0.05 mm"}),
       Texts{});
+}
+
+TEST(Plausibility, arcs_of_cutters_are_felt_unless_cells_there_are_made_wider) {
+  const auto doubts_of = [](const Texts& overrides) {
+    const input::Case input = input::read_case_text(sound_chip, "case.toml", overrides);
+    return doubts(input, testing::solver_of(input));
+  };
+  EXPECT_EQ(doubts_of({"cutting.edge_radius=10 um"}), Texts{});
+  EXPECT_EQ(
+      doubts_of({"cloud.spacing=0.1 mm", "cloud.refine.layer.spacing=0.1 mm", "adapt.tool_spacing=0.1 mm",
+                 "adapt.surface_spacing=0.1 mm", "adapt.rest_factor=0", "adapt.indicator.field=none"}),
+      Texts{})
+      << "uniform";
+  const Texts list = doubts_of({"cutting.edge_radius=10 um", "adapt.tool_spacing=0.1 mm"});
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_NE(list.front().find("its arc of 0.01 mm is 0.5 spacings"), std::string::npos) << list.front();
 }
 
 TEST(Plausibility, what_the_case_does_not_use_is_not_doubted) {
