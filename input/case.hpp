@@ -188,8 +188,7 @@ struct Plane {
 /// The nodes that a tool conducts with.
 struct ToolNodes {
   clouds::SpacingField spacing;
-  std::vector<std::string> held; ///< pieces of the outline that keep the temperature of the start
-  contact::ToolMetal metal;
+  std::vector<std::string> held;     ///< pieces of the outline that keep the temperature of the start
   double heat_capacity_factor = 1.0; ///< – of tool and coating
   std::optional<ToolCoating> coating;
 };
@@ -200,7 +199,8 @@ struct Tool : contact::ToolSurface {
   std::optional<Plane> plane;                 ///< in space
   VectorFunction velocity;                    ///< m/s, without a drive; absent components are zero
   std::optional<contact::ToolDrive<2>> drive; ///< of the plane
-  std::optional<ToolNodes> section;           ///< none: at one temperature
+  std::optional<contact::ToolMetal> metal;    ///< what its effusivity is made of, where it was not given
+  std::optional<ToolNodes> section;           ///< of that metal; none: at one temperature
 };
 
 struct Method {

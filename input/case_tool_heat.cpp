@@ -25,10 +25,9 @@ void check_held(const Setting& held, const Curve& outline, Diagnostics& diagnost
                                   did_you_mean(wanted[i], names)));
 }
 
-ToolNodes read_section(const Setting& table, const Setting& root, const contact::ToolMetal& metal,
-                       const Curve& outline, Diagnostics& diagnostics) {
+ToolNodes read_section(const Setting& table, const Setting& root, const Curve& outline,
+                       Diagnostics& diagnostics) {
   ToolNodes section;
-  section.metal = metal;
   section.spacing.spacing = table.get<double>("spacing");
   for (const Setting& refinement : table.entries("refine"))
     for (clouds::Refinement& region : read_refinement(root, refinement, section.spacing.spacing, diagnostics))
@@ -67,8 +66,10 @@ void read_tool_heat(const Setting& table, const Setting& root, const Case& input
   if (parts > 0 && (parts < 3 || heat->maybe<double>("effusivity")))
     diagnostics.add(Mistake::conflict, heat->where, heat->path,
                     "expected either effusivity, or conductivity, density and specific_heat together");
-  else if (parts == 3)
+  else if (parts == 3) {
     tool.thermal.effusivity = metal.effusivity();
+    tool.metal = metal;
+  }
   const Setting* section = heat->find("section");
   if (const Setting* factors = heat->find("factors_at"); factors && !section)
     diagnostics.add(Mistake::missing_key, factors->where, factors->path,
@@ -80,7 +81,7 @@ void read_tool_heat(const Setting& table, const Setting& root, const Case& input
                     fmt::format("found nodes of a tool that has no metal, expected conductivity, density and "
                                 "specific_heat in {} beside them",
                                 heat->path));
-  tool.section = read_section(*section, root, metal, tool.outline, diagnostics);
+  tool.section = read_section(*section, root, tool.outline, diagnostics);
 }
 
 } // namespace cnem::input

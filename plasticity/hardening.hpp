@@ -44,6 +44,8 @@ public:
 
   /// The constants; throws std::bad_variant_access where it is another law.
   template<class Law> const Law& as() const;
+  /// The constants; none where it is another law.
+  template<class Law> const Law* maybe() const;
 
 private:
   std::shared_ptr<const AnyHardening> law_;

@@ -21,5 +21,6 @@ Hardening::Hardening(const Law& law)
     : law_(std::make_shared<const AnyHardening>(AnyHardening{completed(law)})) {}
 
 template<class Law> const Law& Hardening::as() const { return std::get<Law>(law_->law); }
+template<class Law> const Law* Hardening::maybe() const { return std::get_if<Law>(&law_->law); }
 
 } // namespace cnem::plasticity

@@ -25,12 +25,7 @@ struct Edge {
 /// is wide.
 std::vector<Edge> edges(const input::Case& input, const ExplicitSolver<2>& solver) {
   const StartingSurface<2> surface(solver);
-  Vec2 low = Vec2::Constant(INFINITY), high = -low;
-  for (const Vec2& x : evaluate::points_of(input.domain.outer, Vec2::Zero())) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  const double reach = 0.5 * (high - low).minCoeff();
+  const double reach = 0.5 * smaller_side(input);
   std::vector<Edge> list;
   for (const input::Tool& tool : input.tools) {
     Edge sharpest{&tool, INFINITY, 0.0};
@@ -84,12 +79,12 @@ void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const 
                                  fmt::format("{}clearance of {:.0f}% of the thickness, where 2 to 15% are "
                                              "usual: the sheet is bent into the gap rather than cut",
                                              side(one), 100.0 * one.gap / one.thickness)));
-  const contact::Tool<2>& punch =
-      solver.conditions().contact.tools()[as<ToolIndex>(input.report.blanking->punch)];
+  const input::BlankingReport& asked = *input.report.blanking;
+  const contact::Tool<2>& punch = solver.conditions().contact.tools()[as<ToolIndex>(asked.punch)];
   double stroke = 0.0; // the farthest: a punch may come back
   constexpr int samples = 64;
   for (int k = 1; k <= samples; ++k)
-    stroke = std::max(stroke, punch.led_displacement(k * input.time.end / samples).norm());
+    stroke = std::max(stroke, led_stroke(solver, asked, k * input.time.end / samples).norm());
   if ((!punch.drive || punch.drive->spring) && stroke < shallow * one.thickness)
     doubts.push_back(
         doubt_about(input, fmt::format("tools.{}.velocity", punch.name),
@@ -105,10 +100,27 @@ void doubt_cut(const input::Case& input, const ExplicitSolver<2>& solver, const 
             one.thickness / spacing, 1e3 * one.thickness, few)));
 }
 
+/// Of tools of a cut none of which is led or has a mass.
+void doubt_rest(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts) {
+  if (!input.report.blanking || !waits_for_tools(input, solver)) return;
+  const auto stands = [&](std::size_t index) {
+    const input::Tool& tool = input.tools[index];
+    return !tool.drive && !input::moves(tool.velocity);
+  };
+  const input::BlankingReport& asked = *input.report.blanking;
+  if (!stands(asked.punch) || !std::all_of(asked.dies.begin(), asked.dies.end(), stands)) return;
+  const std::string& punch = input.tools[asked.punch].name;
+  doubts.push_back(doubt_about(
+      input, "tools." + punch,
+      fmt::format("{} stands still, and so does the die: nothing is cut, expected tools.{}.velocity", punch,
+                  punch)));
+}
+
 } // namespace
 
 void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts) {
   const double touching = 1e-6; // of the thickness
+  doubt_rest(input, solver, doubts);
   const std::vector<evaluate::Clearance> all = reported(input, solver);
   if (!all.empty()) doubt_cut(input, solver, all.front(), doubts);
   for (const evaluate::Clearance& one : all) {
@@ -126,10 +138,12 @@ void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doub
                   "the thickness are usual",
                   side(one), punch)));
   }
-  if (input.cutting) return; // its cells are made for its edge
   for (const Edge& edge : edges(input, solver)) {
     constexpr double felt = 2.0, rounding = 1e-6; // spacings
     if (edge.radius >= (felt - rounding) * edge.spacing) continue;
+    // A cut whose cells are as wide everywhere is asked for: its table alone makes those at the edge fine.
+    constexpr double uniform = 0.75; // share of the widest cells
+    if (input.cutting && edge.spacing > uniform * input.cloud.spacing) continue;
     doubts.push_back(doubt_about(
         input, fmt::format("tools.{}", edge.tool->name),
         fmt::format(

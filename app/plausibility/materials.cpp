@@ -1,62 +1,38 @@
 // Constants of materials that no metal has.
-#include "app/plausibility/list.hpp"
+#include "app/plausibility/usual_size.hpp"
+#include "plasticity/hardening_laws.hpp"
 
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
 
 namespace cnem::app {
+
+double starting_flow_stress(const input::Case& input, const plasticity::Material& material, double strain) {
+  return material.hardening->flow_stress(strain, 1.0, input.initial.temperature);
+}
 
 namespace {
 
 using plasticity::Material;
 
-/// What solids that flow have, with room on both sides: polymers to tungsten. Not said of elastic materials,
-/// of which exact solutions are often written with E = 1.
-struct Usual {
-  const char* key;
-  const char* unit;
-  double low, high;
-  double (*value)(const Material&, const input::Case&);
-};
+// Polymers to tungsten. Not said of elastic materials, of which exact solutions are often written with E = 1.
+constexpr const char* flowing_solids = "solids that flow";
+constexpr Usual usual_young{"elastic.young", "Pa", 1e7, 1.3e12, flowing_solids};
+constexpr Usual usual_density{"density", "kg/m³", 500.0, 25e3, flowing_solids};
+constexpr Usual usual_flow_stress{"plastic", "Pa", 1e5, 1e10, flowing_solids, "it begins to flow at "};
+constexpr Usual usual_specific_heat{"heat.specific_heat", "J/(kg K)", 80.0, 5e3, flowing_solids};
+constexpr Usual usual_conductivity{"heat.conductivity", "W/(m K)", 0.05, 2500.0, flowing_solids};
+constexpr Usual usual_expansion{"heat.expansion", "1/K", 1e-7, 3e-4, flowing_solids};
 
-double initial_flow_stress(const Material& material, const input::Case& input) {
-  return material.hardening->flow_stress(0.0, 1.0, input.initial.temperature);
-}
-
-constexpr std::array usual_of_mechanics{
-    Usual{"elastic.young", "Pa", 1e7, 1.3e12,
-          [](const Material& m, const input::Case&) { return m.elasticity.young; }},
-    Usual{"density", "kg/m³", 500.0, 25e3, [](const Material& m, const input::Case&) { return m.density; }},
-    Usual{"plastic", "Pa", 1e5, 1e10, initial_flow_stress},
-};
-constexpr std::array usual_of_heat{
-    Usual{"heat.specific_heat", "J/(kg K)", 80.0, 5e3,
-          [](const Material& m, const input::Case&) { return m.specific_heat; }},
-    Usual{"heat.conductivity", "W/(m K)", 0.05, 2500.0,
-          [](const Material& m, const input::Case&) { return m.conductivity; }},
-    Usual{"heat.expansion", "1/K", 1e-7, 3e-4,
-          [](const Material& m, const input::Case&) { return std::abs(m.expansion); }},
-};
-
-/// The power of a thousand that brings a value between the bounds, if one does.
-std::optional<double> meant(const Usual& usual, double value) {
-  for (const double factor : {1e3, 1e-3, 1e6, 1e-6, 1e9, 1e-9, 1e12, 1e-12})
-    if (value * factor >= usual.low && value * factor <= usual.high) return value * factor;
-  return std::nullopt;
-}
-
-void doubt_size(const input::Case& input, const Material& material, const Usual& usual, Doubts& doubts) {
-  const double value = usual.value(material, input);
-  if (value == 0.0 || (value >= usual.low && value <= usual.high)) return; // zero: without it
-  const auto instead = meant(usual, value);
-  doubts.push_back(
-      doubt_about(input, fmt::format("materials.{}.{}", material.name, usual.key),
-                  fmt::format("{}{:.4g} {}, where solids that flow have {:.3g} to {:.3g} {}{}",
-                              usual.value == initial_flow_stress ? "it begins to flow at " : "", value,
-                              usual.unit, usual.low, usual.high, usual.unit,
-                              instead ? fmt::format(": is {:.4g} {} meant?", *instead, usual.unit) : "")));
+void doubt_sizes(const input::Case& input, const Material& material, Doubts& doubts) {
+  const std::string table = "materials." + material.name;
+  doubt_size(input, table, usual_young, material.elasticity.young, doubts);
+  doubt_size(input, table, usual_density, material.density, doubts);
+  doubt_size(input, table, usual_flow_stress, starting_flow_stress(input, material, 0.0), doubts);
+  if (!input.analysis.thermal) return;
+  doubt_size(input, table, usual_specific_heat, material.specific_heat, doubts);
+  doubt_size(input, table, usual_conductivity, material.conductivity, doubts);
+  doubt_size(input, table, usual_expansion, std::abs(material.expansion), doubts);
 }
 
 /// Also of what does not flow: solids as dense as metals are stiff.
@@ -71,15 +47,30 @@ void doubt_stiffness(const input::Case& input, const Material& material, Doubts&
                               young, material.density, 1e3 * young)));
 }
 
-void doubt_yield_strain(const input::Case& input, const Material& material, Doubts& doubts) {
-  const double strain = initial_flow_stress(material, input) / material.elasticity.young;
-  if (strain > 0.1)
-    doubts.push_back(doubt_about(
-        input, fmt::format("materials.{}.plastic", material.name),
-        fmt::format(
-            "it begins to flow at {:.3g} of Young's modulus, an elastic strain of {:.0f}%, where metals "
-            "flow below 2%: are both in the units that are meant?",
-            strain, 100.0 * strain)));
+void doubt_flow_over_young(const input::Case& input, const Material& material, Doubts& doubts) {
+  const double young = material.elasticity.young;
+  const double first = starting_flow_stress(input, material, 0.0);
+  // Laws of powers of the strain that begin near zero are strong soon after.
+  const double soon = starting_flow_stress(input, material, 1e-4);
+  const double late = starting_flow_stress(input, material, 1.0);
+  constexpr double stiff = 1e-5, soft = 0.1, hardened = 0.2; // of Young's modulus
+  const auto doubt = [&](const std::string& text) {
+    doubts.push_back(doubt_about(input, fmt::format("materials.{}.plastic", material.name), text));
+  };
+  if (first > soft * young)
+    doubt(fmt::format(
+        "it begins to flow at {:.3g} of Young's modulus, an elastic strain of {:.0f}%, where metals "
+        "flow below 2%: are both in the units that are meant?",
+        first / young, 100.0 * first / young));
+  else if (late > hardened * young)
+    doubt(fmt::format("at a strain of 1 it flows at {:.3g} Pa, {:.2g} of Young's modulus, where metals "
+                      "harden to 0.02 at most: is the hardening in the unit that is meant?",
+                      late, late / young));
+  else if (first >= usual_flow_stress.low && soon < stiff * young)
+    doubt(
+        fmt::format("it begins to flow at {:.4g} Pa, {:.2g} of Young's modulus, where metals have 0.0001 to "
+                    "0.02: is {:.4g} Pa meant?",
+                    first, first / young, 1e3 * first));
 }
 
 /// How the flow stress answers strain, rate and temperature, whatever the law.
@@ -99,6 +90,14 @@ void doubt_hardening(const input::Case& input, const Material& material, Doubts&
     doubt(fmt::format("a rate of 10⁴ /s makes the flow stress {:.2g} times that at 1 /s, where metals have "
                       "1.05 to 2.5: a decimal point?",
                       quick / slow));
+  constexpr double longest = 10.0; // strain
+  if (const auto* const curve = law.maybe<plasticity::Tabulated>())
+    if (const double last = curve->strain.value[curve->strain.size - 1]; last > longest)
+      doubts.push_back(doubt_about(
+          input, fmt::format("materials.{}.plastic.strain", material.name),
+          fmt::format("strains of up to {:g}, where curves are measured up to 5 at most: are {:g}%, "
+                      "{:g}, meant?",
+                      last, last, last / 100.0)));
   if (!std::isfinite(law.melting_temperature())) return;
   constexpr double coldest_melt = 400.0, cold = 100.0; // K: lower than that of tin; than any T0 in use
   if (law.melting_temperature() < coldest_melt)
@@ -112,17 +111,6 @@ void doubt_hardening(const input::Case& input, const Material& material, Doubts&
     doubt(fmt::format("it softens from below {:g} K on: is T0 in degC meant?", cold));
 }
 
-void doubt_damage(const input::Case& input, const Material& material, Doubts& doubts) {
-  if (const auto* const law = std::get_if<plasticity::JohnsonCookDamage>(&material.damage->law);
-      law && law->D2 * law->D3 > 0.0)
-    doubts.push_back(doubt_about(
-        input, fmt::format("materials.{}.damage.D3", material.name),
-        fmt::format(
-            "D2 = {:g} and D3 = {:g} make the metal tougher the more it is pulled: ε_f holds exp(D3 σ*), "
-            "σ* positive in tension; tables that print exp(−D3 σ*) have the other sign",
-            law->D2, law->D3)));
-}
-
 } // namespace
 
 void doubt_materials(const input::Case& input, Doubts& doubts) {
@@ -130,18 +118,10 @@ void doubt_materials(const input::Case& input, Doubts& doubts) {
     const Material& material = *used;
     doubt_stiffness(input, material, doubts);
     if (!material.hardening) continue;
-    for (const Usual& one : usual_of_mechanics) doubt_size(input, material, one, doubts);
-    doubt_yield_strain(input, material, doubts);
+    doubt_sizes(input, material, doubts);
+    doubt_flow_over_young(input, material, doubts);
     doubt_hardening(input, material, doubts);
-    if (input.analysis.thermal)
-      for (const Usual& one : usual_of_heat) doubt_size(input, material, one, doubts);
-    if (material.damage) doubt_damage(input, material, doubts);
   }
-  if (constexpr double coldest = 100.0; input.analysis.thermal && input.initial.temperature < coldest)
-    doubts.push_back(
-        doubt_about(input, "initial.temperature",
-                    fmt::format("{:g} K are {:g} °C: are {:g} degC meant?", input.initial.temperature,
-                                input.initial.temperature - 273.15, input.initial.temperature)));
 }
 
 } // namespace cnem::app

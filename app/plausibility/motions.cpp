@@ -61,22 +61,31 @@ std::optional<double> leaves(const StartingSurface<dim>& surface, const Way<dim>
   return std::nullopt;
 }
 
+/// Whether a tool that touches is anywhere deeper than at the start.
+template<int dim>
+bool presses(const StartingSurface<dim>& surface, const Way<dim>& way,
+             const typename StartingSurface<dim>::Gap& start, double end) {
+  constexpr int samples = 200;
+  for (int k = 1; k <= samples; ++k)
+    if (surface.gap(*way.tool.shape, way.moved(end * k / samples)).distance <
+        start.distance - 1e-3 * start.spacing)
+      return true;
+  return false;
+}
+
 template<int dim> std::string along(const Way<dim>& way, double t) {
-  const Vec<dim> u = way.moved(t).normalized();
-  std::string text;
-  for (int k = 0; k < dim; ++k) text += fmt::format("{}{:.3g}", k > 0 ? ", " : "", u[k] + 0.0);
-  return "along (" + text + ")";
+  return "along " + show_direction<dim>(way.moved(t).normalized());
+}
+
+bool is_punch(const input::Case& input, const std::string& tool) {
+  return input.report.blanking && input.tools[input.report.blanking->punch].name == tool;
 }
 
 } // namespace
 
 template<int dim>
 void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, Doubts& doubts) {
-  for (const Field& component : solver.state().node.velocity)
-    if (std::any_of(component.begin(), component.end(), [](double v) { return v != 0.0; }))
-      return; // it flies
-  for (const input::BoundaryCondition& condition : input.boundary)
-    if (input::moves(condition.velocity) || input::moves(condition.displacement)) return; // it is moved
+  if (!waits_for_tools(input, solver)) return;
   if (input.adapt.window) return; // the tool of a window stands where it cuts
   const StartingSurface<dim> surface(solver);
   const double end = input.time.end, size = surface.size();
@@ -99,6 +108,11 @@ void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, 
     double nearest = start.distance;
     if (start.distance <= touching * start.spacing) {
       const auto left = leaves(surface, way, start, end);
+      if (!left && is_punch(input, tool.name) && !presses(surface, way, start, end))
+        doubts.push_back(doubt_about(input, key,
+                                     fmt::format("{} slides along the sheet, {}, and never goes into it: "
+                                                 "expected a motion through its thickness",
+                                                 tool.name, along(way, end))));
       if (!left) continue;
       const double back = start.distance + 0.05 * way.moved(*left).norm();
       if (!meets(surface, way, back, *left, end, nearest))

@@ -1,4 +1,4 @@
-// Output that will never be written.
+// Output that will never be written, or fills disks.
 #include "app/plausibility/list.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +23,12 @@ void doubt_output(const input::Case& input, Doubts& doubts) {
     never("output.fields_every", "the first fields after the start are asked for", input.output.fields_every);
   if (input.output.history_every > end * (1.0 + near))
     never("output.history_every", "the first row after the start is asked for", input.output.history_every);
+  constexpr double most = 1000.0, enough = 100.0; // frames
+  if (const double every = input.output.fields_every; every > 0.0 && end > most * every * (1.0 + near))
+    doubts.push_back(doubt_about(input, "output.fields_every",
+                                 fmt::format("{:.0f} files of fields by time.end, where films have 24 to 200 "
+                                             "frames: expected about {:.2g} s",
+                                             end / every, end / enough)));
 }
 
 } // namespace cnem::app

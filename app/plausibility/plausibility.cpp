@@ -1,6 +1,7 @@
 #include "app/plausibility/plausibility.hpp"
 
 #include "app/plausibility/list.hpp"
+#include "input/curve_checks.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -27,9 +28,27 @@ std::vector<const plasticity::Material*> materials_in_use(const input::Case& inp
   return list;
 }
 
+double smaller_side(const input::Case& input) {
+  const auto [low, high] = input::bounds(input.domain.outer);
+  return (high - low).minCoeff();
+}
+
+template<int dim> bool waits_for_tools(const input::Case& input, const ExplicitSolver<dim>& solver) {
+  for (const Field& component : solver.state().node.velocity)
+    if (std::any_of(component.begin(), component.end(), [](double v) { return v != 0.0; })) return false;
+  return std::none_of(input.boundary.begin(), input.boundary.end(), [](const auto& condition) {
+    return input::moves(condition.velocity) || input::moves(condition.displacement);
+  });
+}
+
+template bool waits_for_tools(const input::Case&, const ExplicitSolver<2>&);
+template bool waits_for_tools(const input::Case&, const ExplicitSolver<3>&);
+
 std::vector<std::string> doubts(const input::Case& input) {
   Doubts list;
   doubt_materials(input, list);
+  doubt_heat(input, list);
+  doubt_damage(input, list);
   doubt_friction(input, list);
   doubt_cutting(input, list);
   doubt_output(input, list);
@@ -41,8 +60,10 @@ std::vector<std::string> doubts(const input::Case& input, const ExplicitSolver<d
   Doubts list = doubts(input);
   doubt_motions(input, solver, list);
   if constexpr (dim == 2) {
+    doubt_pushes(input, solver, list);
     doubt_edges(input, solver, list);
-    doubt_bodies(input, solver, list);
+    doubt_fracture(input, solver, list);
+    doubt_parts(input, solver, list);
   }
   return list;
 }

@@ -4,10 +4,19 @@
 #include "mechanics/explicit_solver.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace cnem::app {
+
+/// A unit vector: (0, -1).
+template<int dim> std::string show_direction(const Vec<dim>& u) {
+  std::string text;
+  for (int k = 0; k < dim; ++k) text += fmt::format("{}{:.3g}", k > 0 ? ", " : "", u[k] + 0.0);
+  return "(" + text + ")";
+}
 
 /// The boundary at the start.
 template<int dim> class StartingSurface {

@@ -15,6 +15,7 @@ namespace {
 ToolSection<2> make_section(const input::Case& input, const input::Tool& tool, ToolIndex index,
                             std::vector<std::string>& warnings) {
   const input::ToolNodes& nodes = *tool.section;
+  const contact::ToolMetal& metal = *tool.metal;
   const Space space = input.analysis.space();
   clouds::GeneratedCloud generated =
       clouds::generate_cloud({.outer = tool.outline, .holes = {}, .cracks = {}}, nodes.spacing, {});
@@ -27,11 +28,11 @@ ToolSection<2> make_section(const input::Case& input, const input::Tool& tool, T
   section.temperature = tool.thermal.temperature;
   section.cloud = std::move(generated.cloud);
   section.approximation = methods::make<2>("fe-triangles", {.space = space})->rebuild(section.cloud);
-  section.conductivity = nodes.metal.conductivity;
-  section.heat_curves = nodes.metal.heat_curves;
+  section.conductivity = metal.conductivity;
+  section.heat_curves = metal.heat_curves;
   section.coating = nodes.coating;
   section.held = nodes_of(facets_of(section.cloud, nodes.held));
-  section.complete(nodes.metal.density * nodes.metal.specific_heat, nodes.heat_capacity_factor, space);
+  section.complete(metal.density * metal.specific_heat, nodes.heat_capacity_factor, space);
   return section;
 }
 
