@@ -46,7 +46,7 @@ Drawing read_drawing(const Setting& table, Diagnostics& diagnostics) {
       drawing.ranges[range.name] = {ends[0], ends[1]};
     else
       diagnostics.add(Mistake::range, range.where, range.path,
-                      fmt::format("found {:g}, expected two numbers that rise, the ends of the colours",
+                      fmt::format("found {:g}, expected two numbers that rise, the ends of the colours (SI)",
                                   fmt::join(ends, " ")));
   }
   return drawing;

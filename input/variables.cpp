@@ -62,6 +62,9 @@ public:
     std::vector<Variable> list;
     const bool used =
         std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.used; });
+    // A variable that is given a value may have been the only one that used another.
+    const bool replaced = std::any_of(changed.begin(), changed.end(),
+                                      [](const Override& one) { return one.key.starts_with("let."); });
     for (std::size_t k = 0; k < names_.size(); ++k) {
       if (entries_[k].state == State::untouched) calculate(k);
       if (entries_[k].state == State::failed) continue;
@@ -77,7 +80,7 @@ public:
             Mistake::conflict, change->where, change->key,
             "found a value for a variable that nothing in the case uses, expected it in an expression; a "
             "resolved case holds values alone");
-      else if (used && changed.empty() && !entries_[k].used && member.where.source == source)
+      else if (used && !replaced && !entries_[k].used && member.where.source == source)
         warnings.push_back(fmt::format("variable '{}' ({}) is defined and nothing uses it", member.key,
                                        member.where.text()));
       member.value.kind = bare ? Kind::real : Kind::text;

@@ -235,6 +235,14 @@ TEST_F(Restart, an_edited_case_is_not_gone_on_with) {
   EXPECT_TRUE(fs::exists(folder / "stopped" / "checkpoint.h5"));
 }
 
+TEST_F(Restart, a_damaged_status_does_not_keep_it_from_good_checkpoints) {
+  stopped_run("stopped");
+  std::ofstream(folder / "stopped" / "status.json") << "{ \"exit\": 5, ";
+  const Ending ending = restart("stopped");
+  EXPECT_EQ(ending.code, 0) << ending.printed;
+  EXPECT_NE(ending.printed.find("going on from"), std::string::npos) << ending.printed;
+}
+
 TEST_F(Restart, says_so_where_there_is_nothing_to_go_on_with) {
   reference("triangles");
   const Ending finished = restart("reference");

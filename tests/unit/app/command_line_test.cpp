@@ -101,6 +101,55 @@ TEST_F(CommandLine, a_folder_that_holds_a_run_is_kept_unless_forced) {
   EXPECT_EQ(call({"report", results()}), 0);
 }
 
+TEST_F(CommandLine, a_report_is_not_made_of_less_than_the_run_has_written) {
+  ASSERT_EQ(call({"run", file(), "--output", results()}), 0);
+  const std::filesystem::path history = folder / "results" / results::files::history;
+  const std::string rows = results::read_file(history),
+                    page = results::read_file(folder / "results" / results::files::report);
+  std::ofstream(history) << rows.substr(0, rows.find('\n', rows.size() / 2) + 1);
+  EXPECT_EQ(call({"report", results()}), 4);
+  EXPECT_NE(message.find("is cut short: it ends at"), std::string::npos) << message;
+  std::filesystem::remove(history);
+  EXPECT_EQ(call({"report", results()}), 4);
+  EXPECT_NE(message.find("is missing"), std::string::npos) << message;
+  EXPECT_EQ(results::read_file(folder / "results" / results::files::report), page);
+  EXPECT_EQ(call({"report", (folder / "absent").string()}), 2);
+  EXPECT_NE(message.find("holds no run"), std::string::npos) << message;
+}
+
+TEST_F(CommandLine, pictures_of_somebody_else_are_not_replaced) {
+  std::filesystem::create_directories(folder / "results" / "pictures");
+  const std::filesystem::path mine = folder / "results" / "pictures" / "pressure_000.png";
+  std::ofstream(mine) << "mine";
+  for (const std::vector<std::string>& force : {std::vector<std::string>{}, {"--force"}}) {
+    std::vector<std::string> words{"run", file(), "--output", results()};
+    words.insert(words.end(), force.begin(), force.end());
+    EXPECT_EQ(call(words), 2);
+    EXPECT_NE(message.find("which a run would replace, and no run"), std::string::npos) << message;
+  }
+  EXPECT_TRUE(std::filesystem::exists(mine));
+}
+
+TEST_F(CommandLine, slips_in_names_of_tools_are_named) {
+  EXPECT_EQ(call({"check", file(), "--set", "tools.punsh.velocity=0 -5 m/s"}), 2);
+  EXPECT_NE(message.find("the case has no tools.punsh (did you mean 'punch'?)"), std::string::npos)
+      << message;
+}
+
+TEST_F(CommandLine, a_fixed_step_beyond_the_stable_one_is_doubted) {
+  ASSERT_EQ(call({"check", file(), "--set", "time.step.fixed=1 us"}), 0);
+  EXPECT_NE(printed.find("times the longest step with which waves do not grow"), std::string::npos)
+      << printed;
+  ASSERT_EQ(call({"check", file(), "--set", "time.step.fixed=10 ns"}), 0);
+  EXPECT_EQ(printed.find("time.step.fixed"), std::string::npos) << printed;
+}
+
+TEST_F(CommandLine, the_folder_of_a_study_says_its_command) {
+  std::ofstream(folder / "study.toml") << "case = \"block.toml\"\n";
+  EXPECT_EQ(call({"check", folder.string()}), 2);
+  EXPECT_NE(message.find("study.toml, for `cnem sweep`"), std::string::npos) << message;
+}
+
 TEST_F(CommandLine, wrong_input_and_usage_exit_with_2) {
   EXPECT_EQ(call({"run", (folder / "absent.toml").string()}), 2);
   EXPECT_EQ(call({"run"}), 2);

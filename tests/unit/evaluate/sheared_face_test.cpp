@@ -24,6 +24,18 @@ TEST(ShearedFace, heights_and_angle_of_a_drawn_profile) {
   EXPECT_GT(length_of(face, Zone::burr), 0.05);
 }
 
+TEST(ShearedFace, a_burr_begins_at_the_other_surface) {
+  const Profile p;
+  const ShearedFace face = measure_face(p.outline(0.2), rules());
+  double first = 0.0, deepest = 0.0;
+  for (std::size_t k = 0; k < face.zone.size(); ++k) {
+    if (face.zone[k] != Zone::burr) continue;
+    if (first == 0.0) first = face.profile[k].y();
+    deepest = std::max(deepest, face.profile[k + 1].y());
+  }
+  EXPECT_NEAR(deepest - first, face.burr, 1e-9) << "however long the chords";
+}
+
 TEST(ShearedFace, heights_are_exact_in_the_limit_of_short_chords) {
   const Profile p;
   const ShearedFace face = measure_face(p.outline(0.001), rules(1e-4));

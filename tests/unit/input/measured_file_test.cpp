@@ -86,6 +86,15 @@ TEST(MeasuredCurves, grow_and_are_thinned_by_means) {
   EXPECT_EQ(x, (std::vector<double>{0.5, 2.5}));
 }
 
+TEST(MeasuredCurves, say_what_is_left_out) {
+  std::vector<double> x{0, 2, 1}, y{0, 1, 2};
+  EXPECT_EQ(keep_growing(x, y, "a.csv", "stroke"),
+            "1 of 3 points of a.csv are left out: there the stroke does not grow");
+  EXPECT_EQ(keep_growing(x, y, "a.csv", "stroke"), "");
+  std::vector<double> down{0, -1, -2}, force{0, 1, 2};
+  EXPECT_THROW(keep_growing(down, force, "a.csv", "stroke"), InputError);
+}
+
 constexpr const char* press = R"([tools.punch]
 rectangle = { from = "-1 5 mm", to = "5 8 mm" }
 velocity = "0 -10 m/s"
@@ -154,6 +163,12 @@ TEST_F(MeasuredCase, what_makes_no_comparison_is_refused) {
                {"compliance", "the whole force"});
   expect_parts(refused_case("[report.experiment]\nstroke = \"0 1 2 mm\"\nforce = \"0 2 kN\"\n"),
                {"2 values for the 3"});
+  expect_parts(refused_case("[report.experiment]\nstroke = \"0 2 1 mm\"\nforce = \"0 2 3 kN\"\n"),
+               {"measured.stroke", "found 0.001 after 0.002"});
+  file("s[mm];F[kN]\n0;0\n-0,5;10\n-1;4\n");
+  expect_parts(refused_case(fmt::format("[report.experiment]\nfile = \"{}\"\ncut_length = \"1 mm\"\n",
+                                        (temporary.path() / "m.csv").string())),
+               {"measured.file", "m.csv", "from 0 to -0.001 (SI) and does not grow", "write it positive"});
   expect_parts(refused_case("[report.blanking.measured.slugg]\nburr = \"1 um\"\n"), {"did you mean 'slug'?"});
   expect_parts(refused_case("[report.blanking.measured.slug]\nburr = \"1 um\"\nburr_share = 0.1\n"),
                {"burr_share", "beside burr"});

@@ -107,6 +107,9 @@ TEST(Variables, that_nothing_uses_are_warned_of) {
   const Case c = read_case_text(text, "case.toml", {"time.end=\"20 us\""});
   EXPECT_EQ(c.warnings,
             (std::vector<std::string>{"variable 'stray' (case.toml:8:1) is defined and nothing uses it"}));
+  // "stray" was a part of what is replaced, perhaps
+  EXPECT_EQ(read_case_text(text, "case.toml", {"time.end=\"20 us\"", "let.rows=4"}).warnings,
+            std::vector<std::string>{});
 }
 
 TEST(Variables, that_nothing_uses_may_not_be_set) {

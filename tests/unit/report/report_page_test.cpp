@@ -135,6 +135,9 @@ TEST(Headline, of_others_is_what_became_of_them) {
   EXPECT_EQ(figure(figures, "Largest plastic strain").value, "3");
   EXPECT_EQ(figure(figures, "Largest temperature").value, "500 K");
   for (const Figure& one : figures) EXPECT_NE(one.name, "Largest damage") << "nothing is damaged";
+  history.column[3] = {293.15, 293.15, 293.15};
+  for (const Figure& one : of(status, &history))
+    EXPECT_NE(one.name, "Largest temperature") << "nothing is heated";
 }
 
 results::HistoryTable energies() {

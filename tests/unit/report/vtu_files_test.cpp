@@ -129,6 +129,12 @@ TEST_F(VtuFiles, a_series_or_a_file_that_is_none_is_refused) {
               results::read_cell_fields(file, {{"pressure"}}, Vec2(0, 0));
             }).find("no field 'pressure'"),
             std::string::npos);
+  const std::string whole = results::read_file(file);
+  results::write_atomically(file, whole.substr(0, whole.size() / 3));
+  EXPECT_NE(message([&] { results::read_cell_fields(file, {}, Vec2(0, 0)); }).find("damaged or cut short"),
+            std::string::npos);
+  EXPECT_NE(message([&] { results::has_cell_field(file, {"pressure [Pa]"}); }).find("damaged or cut short"),
+            std::string::npos);
   results::write_atomically(file, "nothing");
   EXPECT_NE(message([&] { results::read_cell_fields(file, {}, Vec2(0, 0)); }).find("cannot read"),
             std::string::npos);

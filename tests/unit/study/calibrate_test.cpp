@@ -306,6 +306,46 @@ TEST_F(Calibrate, measured_points_beyond_the_run_are_left_out_and_told) {
             std::string::npos);
 }
 
+TEST_F(Calibrate, a_key_has_one_value) {
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      run("evaluations = 12\n" + text + "[targets.press]\n");
+    } catch (const InputError& error) { return error.what(); }
+    return "accepted";
+  };
+  const std::string A = constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"");
+  std::string again = constant("B", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"");
+  again.replace(again.find("plastic.B"), 9, "plastic.A");
+  const std::string twice = refusal(A + again);
+  EXPECT_NE(twice.find("'parameters.B.key': found 'materials.steel.plastic.A', which parameters.A"),
+            std::string::npos)
+      << twice;
+  const std::string set = refusal("set = { \"materials.steel.plastic.A\" = \"300 MPa\" }\n" + A);
+  EXPECT_NE(set.find("found set where parameters.A"), std::string::npos) << set;
+  const std::string bound = refusal(constant("A", "\"250 MPa\"", "100", "\"800 MPa\"", "log"));
+  EXPECT_NE(bound.find("'parameters.A.low': found 100, expected a stress"), std::string::npos) << bound;
+  EXPECT_EQ(bound.find("more than 0"), std::string::npos) << "what was not read is not judged\n" << bound;
+}
+
+TEST_F(Calibrate, points_left_out_and_units_that_cannot_be_are_told) {
+  write("press.csv", "stroke[mm];force[kN]\n0;0\n0,1;12\n0,05;8\n");
+  write("pull.csv", "plastic strain;stress[MPa]\n0,002;300\n0,2;500\n0,1;400\n");
+  ASSERT_EQ(run("evaluations = 6\n" + constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"") +
+                curve("pull", 1.0) + "[targets.press]\n"),
+            0)
+      << message;
+  for (const char* part :
+       {"targets.pull.file: 1 of 3 points", "target 'press': report.experiment.measured: 1 of 3 points"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << message;
+  write("press.csv", "stroke[mm];force[N]\n0;0\n0,1;12\n");
+  force = true;
+  ASSERT_EQ(run("evaluations = 6\n" + constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"") +
+                "[targets.press]\n"),
+            0);
+  EXPECT_NE(message.find("are the columns in the units that are meant?"), std::string::npos) << message;
+  EXPECT_EQ(result().at("warnings").size(), 1U);
+}
+
 TEST_F(Calibrate, what_went_well_is_better_than_what_failed) {
   write("weak.csv", "plastic strain;stress[MPa]\n0,002;10\n0,4;10\n");
   // The second start, between the bounds, melts below its T0; all others are far worse than a failure counts.

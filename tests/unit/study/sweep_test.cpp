@@ -151,6 +151,26 @@ TEST_F(Sweep, leaves_manifest_table_report_and_a_folder_per_run) {
   EXPECT_EQ(report.find("http"), std::string::npos) << "it needs nothing from elsewhere";
 }
 
+TEST_F(Sweep, tells_what_its_runs_were_warned_of) {
+  const Study input = study(two_spacings);
+  std::vector<RunRecord> runs(2);
+  for (RunRecord& run : runs) run.status.emplace();
+  for (RunRecord& run : runs) run.status->warnings = {"tools overlap"};
+  runs[1].status->warnings.emplace_back("metal melts");
+  EXPECT_EQ(warnings_of_runs(input, runs),
+            (std::vector<std::string>{"spacing_0.5_mm and 1 more of 2 runs: tools overlap",
+                                      "spacing_0.25_mm: metal melts"}));
+}
+
+TEST_F(Sweep, a_column_that_no_history_has_is_told) {
+  std::string text = two_spacings;
+  text.replace(text.find("elastic"), 7, "elastik");
+  ASSERT_EQ(run(study(text)), 0) << message;
+  EXPECT_NE(message.find("has no column 'energy.elastik' (did you mean 'energy.elastic'?)"),
+            std::string::npos)
+      << message;
+}
+
 TEST_F(Sweep, goes_on_where_it_stopped) {
   const auto written = [&](const char* name) { return fs::last_write_time(out() / name / "status.json"); };
   ASSERT_EQ(run(study(two_spacings)), 0) << message;
