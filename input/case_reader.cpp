@@ -6,6 +6,7 @@
 #include "input/included_files.hpp"
 #include "input/library.hpp"
 #include "input/local_origin.hpp"
+#include "input/schema/nearest.hpp"
 #include "input/temperature_ramps.hpp"
 #include "input/variables.hpp"
 

@@ -1,7 +1,9 @@
 // Runs: on their way, and what can be seen of them.
+#include "core/error.hpp"
 #include "python/bind.hpp"
 #include "python/run.hpp"
 
+#include <cmath>
 #include <limits>
 #include <pybind11/stl.h>
 
@@ -16,6 +18,7 @@ template<class... Arguments> std::shared_ptr<PythonRun> begin(const Arguments&..
 
 void go_on(PythonRun& run, std::optional<double> until, std::optional<std::int64_t> steps, bool output,
            py::object callback) {
+  if (until && std::isnan(*until)) throw InputError("until: found nan, expected a time in s");
   Until limits;
   limits.output = output;
   if (until) limits.time = *until - 1e-9 * run.input().time.end; // as outputs are due

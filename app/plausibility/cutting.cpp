@@ -12,7 +12,7 @@ void doubt_cutting(const input::Case& input, Doubts& doubts) {
   const auto doubt = [&](const char* key, const std::string& text) {
     doubts.push_back(doubt_about(input, fmt::format("cutting.{}", key), text));
   };
-  constexpr double thick = 5e-3, fast = 150.0, rubbing = 0.5 * std::numbers::pi / 180.0, steady = 3.0;
+  constexpr double thick = 5e-3, fast = 150.0, rubbing = 0.5 * std::numbers::pi / 180.0;
   if (cut.feed > thick)
     doubt("feed", fmt::format("{:g} mm of uncut chip thickness, where turning takes 0.05 to 1 mm: is it in "
                               "the unit that is meant?",
@@ -27,10 +27,12 @@ void doubt_cutting(const input::Case& input, Doubts& doubts) {
     doubt("edge_radius",
           fmt::format("{:.3g} mm is {:.2g} times the feed: such an edge ploughs, a chip may never form",
                       1e3 * cut.edge_radius, cut.edge_radius / cut.feed));
-  if (cut.length < steady * cut.feed)
-    doubt("length", fmt::format("{:.1f} feeds of cut, where forces are steady from one or two on: expected "
-                                "{:g} at least",
-                                cut.length / cut.feed, steady));
+  const double steady = input.report.cutting ? input.report.cutting->steady_feeds + 1.0 : 4.0;
+  if (constexpr double short_of = 3.0 - 1e-9; cut.length < short_of * cut.feed)
+    doubt("length",
+          fmt::format("{:.3g} feeds of cut, where the first is entry and forces count as steady over {:g} "
+                      "more: expected {:g} at least",
+                      cut.length / cut.feed, steady - 1.0, steady));
 }
 
 } // namespace cnem::app

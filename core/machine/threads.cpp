@@ -35,6 +35,8 @@ void try_threads(int threads) {
 } // namespace
 
 void check_threads(int threads, const char* what) {
+  if (threads < 0)
+    throw InputError(fmt::format("{}: found {}, expected 1 or more, or 0 for all there are", what, threads));
   const int cores = omp_get_num_procs(), most = std::max(64, 4 * cores);
   if (threads > most)
     throw InputError(fmt::format(

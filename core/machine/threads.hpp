@@ -3,8 +3,8 @@
 
 namespace cnem {
 
-/// Throws InputError, which says what the machine has, for more threads than are of any use; `what` names who
-/// asked for them ("--threads").
+/// Throws InputError, which says what the machine has, for less than none and for more than are of any use;
+/// `what` names who asked for them ("--threads").
 void check_threads(int threads, const char* what);
 
 /// Starts the threads of parallel loops: so many, or as many as OpenMP takes by itself when 0. Throws

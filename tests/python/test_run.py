@@ -90,6 +90,13 @@ class Runs(InFolder):
 
 
 class Callbacks(InFolder):
+    def test_numbers_that_mean_nothing(self):
+        case = cnem.Case(block())
+        with self.assertRaisesRegex(cnem.InputError, "found -1, expected 1 or more"):
+            case.run(threads=-1)
+        with self.assertRaisesRegex(cnem.InputError, "until: found nan"):
+            case.start(threads=1).advance(until=float("nan"))
+
     def test_after_every_output(self):
         seen = []
         run = cnem.Case(block()).run(lambda run: seen.append((run.output, len(run.history["time"]), run.nodes)))

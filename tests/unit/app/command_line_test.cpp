@@ -137,10 +137,10 @@ TEST_F(CommandLine, slips_in_names_of_tools_are_named) {
 }
 
 TEST_F(CommandLine, a_fixed_step_beyond_the_stable_one_is_doubted) {
-  ASSERT_EQ(call({"check", file(), "--set", "time.step.fixed=1 us"}), 0);
+  ASSERT_EQ(call({"check", file(), "--output", results(), "--set", "time.step.fixed=1 us"}), 0);
   EXPECT_NE(printed.find("times the longest step with which waves do not grow"), std::string::npos)
       << printed;
-  ASSERT_EQ(call({"check", file(), "--set", "time.step.fixed=10 ns"}), 0);
+  ASSERT_EQ(call({"check", file(), "--output", results(), "--set", "time.step.fixed=10 ns"}), 0);
   EXPECT_EQ(printed.find("time.step.fixed"), std::string::npos) << printed;
 }
 

@@ -130,8 +130,8 @@ TEST(Expression, says_what_is_wrong_and_where) {
       "W/m/K instead of W/m K) at character 3, expected another one");
   EXPECT_EQ(clause_of("sheet^9 * sheet"),
             "which has a dimension of a power beyond 9 at character 9, expected a smaller one");
-  EXPECT_EQ(clause_of(std::string(60, '(') + "1"),
-            "which nests too deeply at character 51, expected fewer parentheses");
+  std::string deep(60, '(');
+  EXPECT_EQ(clause_of(deep += '1'), "which nests too deeply at character 51, expected fewer parentheses");
 }
 
 TEST(Expression, tells_values_from_what_is_calculated) {
