@@ -34,7 +34,7 @@ h3 { font-size: 15px; margin: 0 0 10px; font-weight: 600; }
   background: var(--card); border: 1px solid var(--line); border-radius: 12px; }
 .figures div { padding: 13px 14px; }
 dt { color: var(--soft); font-size: 12.5px; }
-dd { margin: 1px 0 0; font-size: 19px; font-weight: 620; font-variant-numeric: tabular-nums; letter-spacing: -0.01em;
+dd { margin: 1px 0 0; font-size: 17px; font-weight: 620; font-variant-numeric: tabular-nums; letter-spacing: -0.01em;
   overflow-wrap: anywhere; }
 dd.of { font-size: 12.5px; font-weight: 400; letter-spacing: 0; color: var(--soft); line-height: 1.35; }
 .verdict + .code { margin-top: 9px; }
@@ -105,8 +105,6 @@ dialog img { display: block; width: 100%; max-height: 94vh; object-fit: contain;
   .figures { grid-template-columns: repeat(auto-fit, minmax(135px, 1fr)); gap: 8px; margin-top: 18px; }
   .figures div { padding: 10px 12px; }
   .charts figure, .tables > div { padding-left: 12px; padding-right: 12px; }
-  .figures dd { font-size: 17px; }
-  .figures dd.of { font-size: 12.5px; }
   .measured { font-size: 13px; }
   .measured th { padding-right: 0; }
   .measured td { padding-left: 8px; }

@@ -117,7 +117,7 @@ struct Masses {
       const double angle = i * spacing / radius;
       nodes.push_back(add({-radius * std::sin(angle), -radius * std::cos(angle)}, 1.0, velocity));
     }
-    for (const double x : {-0.5, 0.5}) nodes.push_back(add({x, -0.8}, 1.0, velocity));
+    for (const double side : {-0.5, 0.5}) nodes.push_back(add({side, -0.8}, 1.0, velocity));
     loop(nodes);
   }
   void start(std::vector<Tool<2>> tools) {
