@@ -29,12 +29,6 @@ double around_a_corner(double fine, double coarse, double growth) {
          (std::log(coarse / fine) - 1.0 + fine / coarse);
 }
 
-/// The smaller side of the workpiece, m.
-double least_side(const Curve& outline) {
-  const auto [low, high] = input::bounds(outline);
-  return (high - low).minCoeff();
-}
-
 /// What refinement adds along a line of length `band` (m) that flows, or of its surface; `spacing`: of the
 /// nodes there are, m.
 double along_a_band(const input::Adaptation& rules, double band, double spacing) {
@@ -154,7 +148,7 @@ std::vector<Stretch> course_of_blanking(const input::Case& input, const Explicit
   if (begins >= input.time.end) return {{input.time.end, spacing, expected.nodes_first}};
   double fine = spacing; // where it flows
   if (cuts.empty()) {
-    expected.nodes_last += along_a_band(rules, least_side(input.domain.outer), start);
+    expected.nodes_last += along_a_band(rules, smaller_side(input), start);
     if (rules.indicator) fine = std::min(fine, rules.h_min);
   } else {
     if (rules.indicator) {
@@ -163,7 +157,7 @@ std::vector<Stretch> course_of_blanking(const input::Case& input, const Explicit
       expected.indicated = bands.finest;
       expected.finest = std::min(expected.finest, bands.finest);
     } else {
-      expected.nodes_last += along_a_band(rules, least_side(input.domain.outer), start);
+      expected.nodes_last += along_a_band(rules, smaller_side(input), start);
     }
     constexpr double squeezed = 0.87; // the step of what flows over that of cells at rest
     if (expected.finest < fine) fine = squeezed * expected.finest;
