@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -65,7 +66,8 @@ void check_history(const fs::path& folder, const results::RunStatus& status) {
   const int at = history.find("time");
   const std::vector<double> time = at < 0 ? std::vector<double>() : history.column[index_of(at)];
   const double last = time.empty() ? 0.0 : time.back();
-  const double apart = time.size() > 1 ? time[1] - time[0] : status.time;
+  double apart = time.size() > 1 ? 0.0 : status.time;
+  for (std::size_t k = 1; k < time.size(); ++k) apart = std::max(apart, time[k] - time[k - 1]);
   if (status.time - last > rows * apart)
     throw IoError(fmt::format("{} is cut short: it ends at t = {:.4g} s, the run at {:.4g} s: {}",
                               path.string(), last, status.time, stays));

@@ -266,7 +266,8 @@ void prepare_output_folder(const fs::path& folder, bool force) {
   if (!fs::is_directory(folder))
     fail("create the output folder", folder, error ? error.message() : "a file of this name is in the way");
   const fs::path old = any_file_of_a_run(folder);
-  if (!old.empty() && old.parent_path() != folder) // pictures and fields of somebody else
+  if (!old.empty() &&
+      old.lexically_relative(folder).has_parent_path()) // pictures and fields of somebody else
     throw InputError(
         fmt::format("the output folder {} holds {}, which a run would replace, and no run: choose "
                     "another with --output",

@@ -96,7 +96,7 @@ TEST_F(CommandLine, a_folder_that_holds_a_run_is_kept_unless_forced) {
   ASSERT_EQ(call({"run", file(), "--output", results()}), 0);
   EXPECT_EQ(call({"run", file(), "--output", results()}), 2);
   EXPECT_NE(message.find("--force"), std::string::npos);
-  EXPECT_EQ(call({"run", file(), "--output", results(), "--force", "--set", "time.end=1 us"}), 0);
+  EXPECT_EQ(call({"run", file(), "--output", results() + "/", "--force", "--set", "time.end=1 us"}), 0);
   EXPECT_NEAR(results::read_status(results()).time, 1e-6, 1e-15);
   EXPECT_EQ(call({"report", results()}), 0);
 }
