@@ -88,4 +88,24 @@ inline double length_of(const ShearedFace& face, Zone zone) {
   return length;
 }
 
+/// A whole body with the notch of a punch in it, as deep as `depth`.
+inline FaceOutline notched(double depth, double rollover, const std::vector<Vec2>& crack = {}) {
+  std::vector<Vec2> corner{{-3, 0}, {-0.3, 0}, {0, rollover}};
+  std::vector<FaceSurface> surface{M, M, M};
+  if (!crack.empty()) {
+    corner.push_back({0, depth - 0.05});
+    surface.push_back(F);
+    for (const Vec2& x : crack) {
+      corner.push_back(x);
+      surface.push_back(F);
+    }
+    corner.push_back({1e-4, depth - 0.049}); // the other face of the crack
+    surface.push_back(M);
+  }
+  corner.insert(corner.end(),
+                {{0, depth}, {3, depth}, {3, 1 + depth}, {0.1, 1 + depth}, {-0.02, 1}, {-3, 1}});
+  surface.resize(corner.size(), M);
+  return Profile::divided(corner, surface, 0.01, 0.0);
+}
+
 } // namespace cnem::evaluate
