@@ -12,8 +12,6 @@ namespace cnem::adapt {
 
 namespace {
 
-const double hexagon = 0.5 * std::sqrt(3.0); ///< area of a cell over the square of the spacing
-
 /// The marks at one tolerance.
 Field marked(const Field& spacing, const Indicator& indicator, const MarkingRules& rules, double tolerance,
              const Field& size, Marking& count) {

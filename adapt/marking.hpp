@@ -3,8 +3,12 @@
 #include "adapt/indicator.hpp"
 
 #include <cstdint>
+#include <numbers>
 
 namespace cnem::adapt {
+
+/// Area of a hexagonal cell over the square of the spacing.
+inline constexpr double hexagon = 0.5 * std::numbers::sqrt3;
 
 struct MarkingRules {
   double tolerance = 0.1; ///< – cells with |e|_i > tolerance ‖f‖/√N are refined

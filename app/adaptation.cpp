@@ -125,10 +125,9 @@ adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Fi
 
 double Adaptation::tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) const {
   double nearest = std::numeric_limits<double>::infinity(); // squared
-  for (std::size_t t = 0; t < tips_.size(); ++t) {
-    const Vec2& shift = solver.conditions().contact.results()[t].displacement;
-    for (const Vec2& tip : tips_[t]) nearest = std::min(nearest, (tip + shift - x).squaredNorm());
-  }
+  for (std::size_t t = 0; t < tips_.size(); ++t)
+    nearest = std::min(nearest,
+                       squared_distance(tips_[t], solver.conditions().contact.results()[t].displacement, x));
   return *input_->adapt.tool_spacing + input_->adapt.growth * std::sqrt(nearest);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cnem::app {
 
@@ -16,6 +17,12 @@ std::vector<Vec2> tool_tips(const Curve& outline, double spacing) {
     for (int c = 0; c <= count; ++c) points.push_back(piece.point(static_cast<double>(c) / count));
   }
   return points;
+}
+
+double squared_distance(const std::vector<Vec2>& tips, const Vec2& shift, const Vec2& x) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Vec2& tip : tips) nearest = std::min(nearest, (tip + shift - x).squaredNorm());
+  return nearest;
 }
 
 } // namespace cnem::app

@@ -9,4 +9,7 @@ namespace cnem::app {
 /// Corners of a tool, and points along its arcs no further apart than `spacing`, m.
 std::vector<Vec2> tool_tips(const Curve& outline, double spacing);
 
+/// From x to the nearest of the points after they have moved by `shift`, m²; infinite where there is none.
+double squared_distance(const std::vector<Vec2>& tips, const Vec2& shift, const Vec2& x);
+
 } // namespace cnem::app

@@ -45,7 +45,8 @@ std::vector<Band> blanking_bands(const input::Case& input, const std::vector<eva
   std::vector<Band> bands;
   constexpr double decay = 0.1;      // of the thickness, over which the field falls by e
   constexpr double constant = 0.245; // of a hexagonal cell: its share of ∫|f − f_h|² is (0.245 h² |∇f|)²
-  constexpr double followed = 1.5, kept = 1.05; // of the finest spacing, as in marking; as clouds keep it
+  constexpr double within = 1.5,
+                   kept = 1.05; // of the finest spacing: one more mark makes it; as clouds keep it
   for (const evaluate::Clearance& cut : cuts) {
     const double w = decay * cut.thickness;
     const double flowing = w * cut.thickness * static_cast<double>(cuts.size());
@@ -62,7 +63,7 @@ std::vector<Band> blanking_bands(const input::Case& input, const std::vector<eva
     const double at_edges = of_temperature(input) ? finest : rung(std::max(1.0, w / half_gap));
     if (at_edges >= coarse) continue;
     double before = coarse; // the rung that is refined to the finest
-    while (0.5 * before > followed * finest) before *= 0.5;
+    while (0.5 * before > within * finest) before *= 0.5;
     const double far = w * std::max(0.0, std::log(error(before) / limit));
     bands.push_back({.at = cut.at,
                      .across = cut.across,

@@ -19,13 +19,13 @@ namespace {
 
 /// Nodes that a spacing growing from `fine` to `coarse` takes per distance along a line, both of its sides.
 double beside_a_line(double fine, double coarse, double growth) {
-  return std::max(0.0, 2.0 / (hexagon * growth) * (1.0 / fine - 1.0 / coarse));
+  return std::max(0.0, 2.0 / (adapt::hexagon * growth) * (1.0 / fine - 1.0 / coarse));
 }
 
 /// The same around the corner of a tool, with matter on three sides of four.
 double around_a_corner(double fine, double coarse, double growth) {
   if (fine >= coarse) return 0.0;
-  return 1.5 * std::numbers::pi / (hexagon * growth * growth) *
+  return 1.5 * std::numbers::pi / (adapt::hexagon * growth * growth) *
          (std::log(coarse / fine) - 1.0 + fine / coarse);
 }
 
@@ -63,7 +63,7 @@ void add_nodes_of_a_cut(const input::Case& input, double spacing, Forecast& expe
   // the chip, which a quarter more than the finest spacing was measured in.
   expected.nodes_last += 0.5 * way * beside_a_line(0.4 * spacing, spacing, rules.growth);
   if (rules.indicator)
-    expected.nodes_last += way * cutting.feed / (hexagon * std::pow(1.25 * rules.h_min, 2));
+    expected.nodes_last += way * cutting.feed / (adapt::hexagon * std::pow(1.25 * rules.h_min, 2));
 }
 
 /// Share of the matter there is at the start that a window which moves has gained when it is full: what the
@@ -137,7 +137,7 @@ std::vector<Stretch> course_of_blanking(const input::Case& input, const Explicit
   const input::Adaptation& rules = input.adapt;
   const WantedNodes wanted(input, solver.conditions().cloud, structure);
   const double start = expected.finest, count = expected.nodes_first;
-  const double kept_at_tools = 1.6; // cells there are so much wider than wanted
+  constexpr double kept_at_tools = 1.6; // cells at rest there are so much wider than wanted
   double spacing = start;
   if (rules.tool_spacing) spacing = std::min(spacing, kept_at_tools * *rules.tool_spacing);
   expected.finest = spacing;
@@ -150,17 +150,15 @@ std::vector<Stretch> course_of_blanking(const input::Case& input, const Explicit
   if (cuts.empty()) {
     expected.nodes_last += along_a_band(rules, smaller_side(input), start);
     if (rules.indicator) fine = std::min(fine, rules.h_min);
-  } else {
-    if (rules.indicator) {
-      const RefinedBands bands = refined_bands(input, cuts, wanted, structure, expected.nodes_first, count);
-      expected.nodes_last = bands.nodes;
-      expected.indicated = bands.finest;
-      expected.finest = std::min(expected.finest, bands.finest);
-    } else {
-      expected.nodes_last += along_a_band(rules, smaller_side(input), start);
-    }
+  } else if (rules.indicator) {
+    const RefinedBands bands = refined_bands(input, cuts, wanted, structure, expected.nodes_first, count);
+    expected.nodes_last = bands.nodes;
+    expected.indicated = bands.finest;
+    expected.finest = std::min(expected.finest, bands.finest);
     constexpr double squeezed = 0.87; // the step of what flows over that of cells at rest
     if (expected.finest < fine) fine = squeezed * expected.finest;
+  } else {
+    expected.nodes_last += along_a_band(rules, smaller_side(input), start);
   }
   if (rules.surface_spacing) fine = std::min(fine, *rules.surface_spacing);
   if (cuts.empty()) expected.finest = fine;

@@ -29,9 +29,8 @@ double WantedNodes::spacing_at(const Vec2& x) const {
 }
 
 double WantedNodes::tool_limit(const Vec2& x) const {
-  double nearest = std::numeric_limits<double>::infinity(); // squared
-  for (const Vec2& tip : tips_) nearest = std::min(nearest, (tip - x).squaredNorm());
-  return rules_->tool_spacing.value_or(0.0) + rules_->growth * std::sqrt(nearest);
+  return rules_->tool_spacing.value_or(0.0) +
+         rules_->growth * std::sqrt(squared_distance(tips_, Vec2::Zero(), x));
 }
 
 double WantedNodes::added(const std::vector<Band>& bands) const {
@@ -60,7 +59,7 @@ double WantedNodes::added(const std::vector<Band>& bands) const {
       const Vec2 x = at(0) + u * a + v * b;
       double wanted = std::min(own, band_limit(x));
       if (by_tool) wanted = std::min(wanted, tool_limit(x));
-      nodes += area / hexagon * (1.0 / (wanted * wanted) - 1.0 / (own * own));
+      nodes += area / adapt::hexagon * (1.0 / (wanted * wanted) - 1.0 / (own * own));
     };
     for (int i = 0; i < parts; ++i)
       for (int k = 0; i + k < parts; ++k) {

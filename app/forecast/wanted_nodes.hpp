@@ -1,6 +1,6 @@
 #pragma once
 // How many nodes a cloud has once it is as fine as adaptation wants it: beside tools, and in bands that flow.
-#include "adapt/structure.hpp"
+#include "adapt/marking.hpp"
 #include "input/case.hpp"
 
 #include <optional>
@@ -38,8 +38,5 @@ private:
   Field spacing_;          ///< [node] m
   std::vector<Vec2> tips_; ///< m, of all tools
 };
-
-/// Area of a hexagonal cell over the square of the spacing.
-inline constexpr double hexagon = 0.86602540378443864676;
 
 } // namespace cnem::app

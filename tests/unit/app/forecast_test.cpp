@@ -1,16 +1,10 @@
 // What a run will take, and a case in plain words.
-#include "app/forecast/forecast.hpp"
+#include "tests/unit/app/forecast_fixture.hpp"
 
 #include "app/command_line.hpp"
 #include "app/explain.hpp"
-#include "app/run.hpp"
-#include "app/simulation.hpp"
 #include "input/case_reader.hpp"
-#include "results/output_folder.hpp"
-#include "results/status.hpp"
 #include "tests/shared_cases.hpp"
-#include "tests/solver_of.hpp"
-#include "tests/temporary_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,13 +20,6 @@ input::Case read(const std::string& text, const std::vector<std::string>& overri
   return input::read_case_text(text, "case.toml", overrides);
 }
 
-Forecast expected_of(const input::Case& input) {
-  ExplicitSolver<2> solver = testing::solver_of(input);
-  StepControl control(input.time);
-  control.refresh(solver);
-  return forecast(input, solver, control);
-}
-
 TEST(Forecast, OfAWindowIsOfAsManyNodesForAnyLength) {
   const auto in_window = [](const std::string& length) {
     return read(cut, {"cutting.window=true", "cutting.length=" + length});
@@ -46,19 +33,7 @@ TEST(Forecast, OfAWindowIsOfAsManyNodesForAnyLength) {
 }
 
 TEST(Forecast, FitsTheRunOfACut) {
-  const input::Case input = read(cut, {"output.pictures=[]", "cutting.length=0.2 mm"});
-  const Forecast expected = expected_of(input);
-  const testing::TemporaryFolder folder("forecast");
-  ASSERT_EQ(run(input, {.output = folder.path() / "results", .threads = 1, .version = "test"}), Exit::done);
-  const results::RunStatus status = results::read_status(folder.path() / "results");
-  const auto steps = static_cast<double>(status.steps);
-  for (const auto& [foretold, taken] :
-       {std::pair{expected.steps, steps},
-        {expected.nodes_last, static_cast<double>(status.nodes)},
-        {expected.nodes_mean, static_cast<double>(status.node_steps) / steps}}) {
-    EXPECT_LT(foretold, 1.5 * taken);
-    EXPECT_GT(foretold, taken / 1.5);
-  }
+  expect_that_it_fits_its_run(read(cut, {"output.pictures=[]", "cutting.length=0.2 mm"}));
 }
 
 TEST(Forecast, CountsWithWhatRefines) {
