@@ -7,30 +7,10 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <numeric>
 #include <span>
 
 namespace cnem::methods {
 namespace {
-
-template<int dim>
-CellGeometry<dim> simplex_cells(const Cloud<dim>& cloud, std::span<const voronoi::Simplex<dim>> simplices) {
-  CellGeometry<dim> cells;
-  cells.vertex = cloud.position;
-  cells.begin.reserve(simplices.size() + 1);
-  cells.index.reserve((dim + 1) * simplices.size());
-  cells.begin.push_back(0);
-  for (const auto& corner : simplices) {
-    for (const NodeIndex i : corner) cells.index.push_back(as<std::int32_t>(i));
-    cells.begin.push_back(static_cast<std::int32_t>(cells.index.size()));
-  }
-  cells.vertex_begin.resize(cloud.position.size() + 1);
-  std::iota(cells.vertex_begin.begin(), cells.vertex_begin.end(), 0);
-  cells.vertex_node.reserve(cloud.position.size());
-  for (const NodeIndex i : cloud.position.indices()) cells.vertex_node.push_back(i);
-  cells.vertex_weight.assign(cloud.position.size(), 1.0);
-  return cells;
-}
 
 /// The triangles whose rows these are.
 std::vector<voronoi::Simplex<2>> triangles_of(const DiscreteOperators<2>& op) {
@@ -62,7 +42,7 @@ template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>&
                                       fmt::join(cloud.position[i].begin(), cloud.position[i].end(), ", "),
                                       dim == 2 ? "triangle" : "tetrahedron"));
   result.links.begin.assign(cloud.position.size() + 1, 0);
-  result.cells = simplex_cells<dim>(cloud, simplices);
+  result.cells = voronoi::simplex_geometry<dim>(cloud, simplices);
   return result;
 }
 

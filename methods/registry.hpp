@@ -1,6 +1,7 @@
 #pragma once
 // Every discretisation a case can name, with what it promises and the dimensions it exists in: the one place
 // a new one is entered.
+#include "cnem/median.hpp"
 #include "cnem/scni.hpp"
 #include "core/geometry/revolution.hpp"
 #include "methods/sph.hpp"

@@ -306,7 +306,7 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
     if (info.of_damage && shot.state.point.damage.empty()) continue;
     if (info.adaptive && !shot.adaptation) continue;
     const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
-    add_field(info, at_points, frame.cell_scalars, frame.cell_vectors);
+    if (!kept->cells.between_points) add_field(info, at_points, frame.cell_scalars, frame.cell_vectors);
     const Field& at_nodes = shot.approximation.mechanics.nodal
                                 ? at_points
                                 : kept->values.emplace_back(values_at_nodes(shot, info.name));

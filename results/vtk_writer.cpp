@@ -16,6 +16,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <cassert>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -120,6 +121,9 @@ template<int dim> std::string cells_text(const FieldFrame<dim>& frame) {
                          polygon.data());
   }
   add_fields(*grid->GetCellData(), count, frame.cell_scalars, frame.cell_vectors);
+  if (cells.between_points)
+    add_fields(*grid->GetPointData(), static_cast<vtkIdType>(vertices.size()), frame.node_scalars,
+               frame.node_vectors);
   if (!frame.initial[0].empty()) {
     const std::vector<Vec<dim>> before = moved_vertices<dim>(cells, frame.initial);
     std::array<Field, dim> displacement;
@@ -217,6 +221,7 @@ FieldWriter FieldWriter::resume(fs::path folder, double time, Series series) {
 }
 
 template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<const FieldFrame<dim>> frame) {
+  assert(!frame->cells->between_points || frame->cell_scalars.empty());
   check_lengths(frame->cell_scalars, frame->cell_vectors, cell_count(*frame));
   check_lengths(frame->node_scalars, frame->node_vectors, frame->position[0].size());
   set_up_vtk();

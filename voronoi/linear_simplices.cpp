@@ -112,6 +112,27 @@ DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const
   return op;
 }
 
+template<int dim>
+CellGeometry<dim> simplex_geometry(const Cloud<dim>& cloud, std::span<const Simplex<dim>> simplices) {
+  CellGeometry<dim> cells;
+  cells.vertex = cloud.position;
+  cells.begin.reserve(simplices.size() + 1);
+  cells.index.reserve((dim + 1) * simplices.size());
+  cells.begin.push_back(0);
+  for (const auto& corner : simplices) {
+    for (const NodeIndex i : corner) cells.index.push_back(as<std::int32_t>(i));
+    cells.begin.push_back(static_cast<std::int32_t>(cells.index.size()));
+  }
+  cells.vertex_begin.resize(cloud.position.size() + 1);
+  std::iota(cells.vertex_begin.begin(), cells.vertex_begin.end(), 0);
+  cells.vertex_node.reserve(cloud.position.size());
+  for (const NodeIndex i : cloud.position.indices()) cells.vertex_node.push_back(i);
+  cells.vertex_weight.assign(cloud.position.size(), 1.0);
+  return cells;
+}
+
+template CellGeometry<2> simplex_geometry(const Cloud<2>&, std::span<const Simplex<2>>);
+template CellGeometry<3> simplex_geometry(const Cloud<3>&, std::span<const Simplex<3>>);
 template DiscreteOperators<2> linear_simplices(const Cloud<2>&, std::span<const Simplex<2>>, Space);
 template DiscreteOperators<3> linear_simplices(const Cloud<3>&, std::span<const Simplex<3>>, Space);
 

@@ -5,7 +5,7 @@
 // triangles do not.
 #include "core/geometry/cloud.hpp"
 #include "core/geometry/revolution.hpp"
-#include "core/operators/operators.hpp"
+#include "core/operators/discretisation.hpp"
 
 #include <array>
 #include <span>
@@ -23,5 +23,9 @@ template<int dim> using Simplex = std::array<NodeIndex, dim + 1>;
 template<int dim>
 DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const Simplex<dim>> simplices,
                                         Space space = Space::plane);
+
+/// Simplices as they are drawn, whose vertices are the nodes.
+template<int dim>
+CellGeometry<dim> simplex_geometry(const Cloud<dim>& cloud, std::span<const Simplex<dim>> simplices);
 
 } // namespace cnem::voronoi

@@ -25,6 +25,8 @@ template<int dim> struct StabilisationLinks {
 
 /// Cells of the stress points, for output and pictures: polygons in the plane, tetrahedra in space.
 template<int dim> struct CellGeometry {
+  /// The cells are not those of the stress points but simplices between them: vertex v is node and point v.
+  bool between_points = false;
   std::vector<Vec<dim>> vertex;    ///< m, in the reference
   std::vector<std::int32_t> begin; ///< [point + 1]
   std::vector<std::int32_t> index; ///< vertices of each cell, counter-clockwise in the plane

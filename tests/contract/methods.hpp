@@ -42,6 +42,7 @@ inline std::vector<Method> methods(Space space = Space::plane) {
           const std::string name = functions == scni::Functions::sibson ? "sibson_" : "laplace_";
           list.push_back({name + std::to_string(points), &entry, options});
         }
+      if (space == Space::plane) list.push_back({"median", &entry, {}, 3});
     } else if (entry.name.starts_with("sph")) {
       for (const auto kernel : {methods::Kernel::cubic_spline, methods::Kernel::wendland_c2}) {
         options.kernel = kernel;

@@ -4,7 +4,7 @@
 #include "cnem/smoothing.hpp"
 #include "tests/contract/domains.hpp"
 #include "tests/index_literals.hpp"
-#include "tests/median_dual.hpp"
+#include "tests/linear_functions.hpp"
 #include "voronoi/linear_simplices.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ voronoi::Cells voronoi_cells(const Cloud<2>& cloud) {
 /// The cells of a domain, and the operators and links made of them.
 struct Smoothed {
   explicit Smoothed(const Domain<3>& domain, int points = 1)
-      : cells(median_dual(domain.cloud, domain.mesh)), faces(faces_of_cells(cells)),
+      : cells(voronoi::median_cells(domain.cloud, domain.mesh)), faces(faces_of_cells(cells)),
         op(scni::smoothed_gradients(
             domain.cloud, cells, faces,
             scni::face_means(domain.cloud, cells, points, Space::plane,
@@ -58,7 +58,7 @@ TEST(CellComplex, is_closed_on_all_domains) {
   for (const auto& domain : all_domains<2>())
     EXPECT_TRUE(is_closed<2>(domain.cloud, voronoi_cells(domain.cloud))) << domain.name;
   for (const auto& domain : all_domains<3>())
-    EXPECT_TRUE(is_closed(domain.cloud, median_dual(domain.cloud, domain.mesh))) << domain.name;
+    EXPECT_TRUE(is_closed(domain.cloud, voronoi::median_cells(domain.cloud, domain.mesh))) << domain.name;
 }
 
 template<int dim> void expect_open_once_damaged(const Cloud<dim>& cloud, const CellComplex<dim>& whole) {
@@ -80,7 +80,7 @@ TEST(CellComplex, is_seen_to_be_open) {
   const Cloud<2> square = jittered_square(0.2, 0.3, 4);
   expect_open_once_damaged<2>(square, voronoi_cells(square));
   const Domain<3> block = all_domains<3>()[2];
-  expect_open_once_damaged<3>(block.cloud, median_dual(block.cloud, block.mesh));
+  expect_open_once_damaged<3>(block.cloud, voronoi::median_cells(block.cloud, block.mesh));
 }
 
 TEST(CellComplex, shares_of_a_facet_sum_to_one_over_its_corners) {
@@ -95,12 +95,12 @@ TEST(CellComplex, shares_of_a_facet_sum_to_one_over_its_corners) {
   }
   const Domain<3> box = all_domains<3>()[0];
   std::vector<std::array<double, 3>> own(box.cloud.facets.size(), {0.0, 0.0, 0.0});
-  for (const BoundaryPart<3>& part : median_dual(box.cloud, box.mesh).boundary)
+  for (const BoundaryPart<3>& part : voronoi::median_cells(box.cloud, box.mesh).boundary)
     for (std::size_t a = 0; a < 3; ++a) own[index_of(part.facet)][a] += part.shares()[a];
   for (const auto& share : own)
     for (const double s : share) EXPECT_NEAR(s, 1.0 / 3.0, 1e-14);
   // the third of a corner: 22/108 of its own function, 7/108 of each other
-  const auto parts = median_dual(box.cloud, box.mesh).boundary;
+  const auto parts = voronoi::median_cells(box.cloud, box.mesh).boundary;
   const auto one = parts[0].shares(), two = parts[1].shares();
   EXPECT_NEAR(one[0] + two[0], 22.0 / 108.0, 1e-15);
   EXPECT_NEAR(one[1] + two[1], 7.0 / 108.0, 1e-15);

@@ -1,0 +1,16 @@
+#pragma once
+// Cells of the median dual of a mesh of tetrahedra.
+#include "core/geometry/cell_complex.hpp"
+#include "voronoi/linear_simplices.hpp"
+
+#include <span>
+
+namespace cnem::voronoi {
+
+/// In each tetrahedron the cell of a corner is where its barycentric coordinate is the largest: a quarter of
+/// the volume, bounded by quadrilaterals from the middle of each edge over the centroids of its two faces to
+/// that of the tetrahedron. Cells close whatever the shape of the tetrahedra, which are right-handed and tile
+/// the domain. O(N).
+CellComplex<3> median_cells(const Cloud<3>& cloud, std::span<const Simplex<3>> tetrahedra);
+
+} // namespace cnem::voronoi
