@@ -171,7 +171,7 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
 template<int dim>
 StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
                                             const CellLists<FaceIndex>& faces) {
-  constexpr double least = 0.1, most = 2.0;
+  constexpr double least = dim == 2 ? 0.1 : 0.05, most = 2.0;
   StabilisationLinks<dim> links;
   links.begin = cells.neighbours.begin;
   links.neighbour = cells.neighbours.item;

@@ -18,8 +18,8 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellCom
                                           const CentroidValues* revolution = nullptr);
 
 /// The neighbours of each cell; their weight is the area of the faces between two cells over the distance d
-/// of their nodes, clamped to [0.1, 2] d^(dim−2), of neighbours without a face 0.1 d^(dim−2): – in the plane,
-/// m in space.
+/// of their nodes, clamped to [0.1, 2] in the plane, –, and to [0.05, 2] d in space, m; of neighbours without
+/// a face the least.
 template<int dim>
 StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
                                             const CellLists<FaceIndex>& faces);

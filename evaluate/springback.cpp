@@ -213,15 +213,15 @@ Springback springback(const StressedBody& body) {
   std::vector<plasticity::Elasticity> elasticity;
   for (const std::int32_t material : body.point.material)
     elasticity.push_back(body.materials[index_of(material)].elasticity);
-  StaticSolution solution = solve_statics({.operators = op,
-                                           .position = position,
-                                           .links = body.approximation.links,
-                                           .link_points = op,
-                                           .elasticity = {},
-                                           .elasticity_of_point = elasticity,
-                                           .stabilisation = body.stabilisation,
-                                           .supports = supports,
-                                           .force = force});
+  StaticSolution<2> solution = solve_statics<2>({.operators = op,
+                                                 .position = position,
+                                                 .links = body.approximation.links,
+                                                 .link_points = op,
+                                                 .elasticity = {},
+                                                 .elasticity_of_point = elasticity,
+                                                 .stabilisation = body.stabilisation,
+                                                 .supports = supports,
+                                                 .force = force});
   Springback result;
   result.displacement = solution.displacement;
   result.body = parts.of_node();

@@ -95,7 +95,7 @@ StaticModel::StaticModel(const input::Case& in) : input(in), setup(build<2>(in))
   force = fracture::forces_on_functions(enriched, tips, model.loads.force(), loads, body_force);
 }
 
-StaticProblem StaticModel::problem() const {
+StaticProblem<2> StaticModel::problem() const {
   return {.operators = enriched.operators,
           .position = setup.problem.cloud.position,
           .links = enriched.links,
@@ -124,7 +124,7 @@ std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::C
   return list;
 }
 
-std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolution& solution) {
+std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolution<2>& solution) {
   const auto& elastic = model.setup.problem.materials.front().elasticity;
   const fracture::PlaneElasticity plane =
       plane_stress(model.input) ? fracture::PlaneElasticity::plane_stress(elastic.young, elastic.poisson)
@@ -182,7 +182,7 @@ std::string doubt(const TipResult& tip) {
   return {};
 }
 
-std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution& solution) {
+std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution<2>& solution) {
   const Cloud<2>& cloud = model.setup.problem.cloud;
   std::vector<std::string> warnings;
   for (const input::Crack& crack : model.input.domain.cracks) {
@@ -225,7 +225,7 @@ std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSol
   return warnings;
 }
 
-std::string beyond_yield(const StaticModel& model, const StaticSolution& solution) {
+std::string beyond_yield(const StaticModel& model, const StaticSolution<2>& solution) {
   const plasticity::Material& material = model.setup.problem.materials.front();
   if (!material.hardening) return "";
   const double yield = material.hardening->flow_stress(0.0, 0.0, model.input.initial.temperature);
@@ -246,7 +246,7 @@ std::string beyond_yield(const StaticModel& model, const StaticSolution& solutio
                      material.name, yield, 100.0 * beyond / all);
 }
 
-State<2> as_state(const StaticModel& model, const StaticSolution& solution) {
+State<2> as_state(const StaticModel& model, const StaticSolution<2>& solution) {
   const DiscreteOperators<2>& op = model.approximation.mechanics;
   State<2> state;
   state.time = model.input.time.end;

@@ -16,7 +16,7 @@ namespace cnem::app {
 struct StaticModel {
   explicit StaticModel(const input::Case& input);
 
-  StaticProblem problem() const;
+  StaticProblem<2> problem() const;
 
   const input::Case& input;
   Setup<2> setup;
@@ -41,7 +41,7 @@ struct TipResult {
   double spacing_over_half_length = 0.0; ///< – at the tip: the order of the error of K without enrichment
 };
 /// Throws DivergenceError when one is not a number.
-std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolution& solution);
+std::vector<TipResult> evaluate_tips(const StaticModel& model, const StaticSolution<2>& solution);
 
 /// What there is to doubt in K: a spread beyond 1% of |K| and of the load, or a tip without enrichment whose
 /// spacing is beyond 1% of the crack. Empty when there is nothing.
@@ -52,13 +52,13 @@ std::string doubt(const TipResult& tip);
 std::vector<fracture::Ring> rings(const input::Fracture& spec, const fracture::CrackTip& tip);
 
 /// Says how much of the body would flow; empty while nothing does.
-std::string beyond_yield(const StaticModel& model, const StaticSolution& solution);
+std::string beyond_yield(const StaticModel& model, const StaticSolution<2>& solution);
 
 /// One sentence for each crack whose faces overlap: linear statics lets them.
-std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution& solution);
+std::vector<std::string> closed_cracks(const StaticModel& model, const StaticSolution<2>& solution);
 
 /// The solution as a state: positions X + u, and stresses averaged over each cell, kept so that their Cauchy
 /// stress is the linear one.
-State<2> as_state(const StaticModel& model, const StaticSolution& solution);
+State<2> as_state(const StaticModel& model, const StaticSolution<2>& solution);
 
 } // namespace cnem::app

@@ -22,7 +22,7 @@ namespace cnem::app {
 
 namespace {
 
-double largest_displacement(const StaticModel& model, const StaticSolution& solution) {
+double largest_displacement(const StaticModel& model, const StaticSolution<2>& solution) {
   double most = 0.0;
   for (std::size_t i = 0; i < model.position[0].size(); ++i)
     most = std::max(most, std::hypot(solution.displacement[0][i], solution.displacement[1][i]));
@@ -30,7 +30,7 @@ double largest_displacement(const StaticModel& model, const StaticSolution& solu
 }
 
 /// Largest displacements are drawn as at most 5% of the size of the body, and never enlarged less than true.
-double drawing_scale(const StaticModel& model, const StaticSolution& solution) {
+double drawing_scale(const StaticModel& model, const StaticSolution<2>& solution) {
   double size = 0.0;
   for (const Field& x : model.position) {
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
@@ -40,8 +40,8 @@ double drawing_scale(const StaticModel& model, const StaticSolution& solution) {
   return most > 0.0 ? 0.05 * size / most : 1.0;
 }
 
-StaticSolution at_rest(const StaticModel& model) {
-  StaticSolution nothing;
+StaticSolution<2> at_rest(const StaticModel& model) {
+  StaticSolution<2> nothing;
   resize_all(nothing.displacement, index_of(model.enriched.operators.nodes));
   resize_all(nothing.gradient, index_of(model.enriched.operators.points));
   resize_all(nothing.stress, index_of(model.enriched.operators.points));

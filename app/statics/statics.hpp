@@ -40,7 +40,7 @@ private:
   RunObserver& observer_;
   Stopwatch watch_;
   StaticModel model_;
-  StaticSolution solution_;
+  StaticSolution<2> solution_;
   State<2> state_;
   double displacement_scale_ = 1.0; ///< of pictures
   results::HistoryLog history_;

@@ -19,7 +19,7 @@ template<int dim> struct StabilisationLinks {
   std::vector<std::int32_t> begin;  ///< [node + 1]
   std::vector<NodeIndex> neighbour; ///< [link]
   /// [link] area of the face between two cells over their distance: in the plane L_ij/d_ij, clamped to
-  /// [0.1, 2], –, of revolution times 2π r, m; in space A_ij/d_ij, clamped to [0.1, 2] d_ij, m.
+  /// [0.1, 2], –, of revolution times 2π r, m; in space A_ij/d_ij, clamped to [0.05, 2] d_ij, m.
   Field weight;
 };
 

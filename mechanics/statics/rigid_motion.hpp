@@ -11,11 +11,13 @@ namespace cnem {
 
 /// Parts of the body as the smallest node of each, [node]: sets of nodes joined by stress points. `nodes`:
 /// how many of the functions are those of nodes.
-std::vector<std::size_t> parts_of(const DiscreteOperators<2>& operators, std::size_t nodes);
+template<int dim>
+std::vector<std::size_t> parts_of(const DiscreteOperators<dim>& operators, std::size_t nodes);
 
 /// First rigid motion of a part of the body that nothing holds, in words with what to hold; empty when all
 /// are held. A crack may cut a body in two. `position`: [node] m.
-std::string missing_support(const DiscreteOperators<2>& operators, const std::vector<Vec2>& position,
-                            const Supports<2>& supports);
+template<int dim>
+std::string missing_support(const DiscreteOperators<dim>& operators, const std::vector<Vec<dim>>& position,
+                            const Supports<dim>& supports);
 
 } // namespace cnem

@@ -71,7 +71,7 @@ struct Solid {
             [](const Vec<3>& x) -> Vec<3> {
               return {x.x() + 0.2 * x.y() * x.z(), x.y(), x.z() * (1.0 + 0.3 * x.x())};
             })),
-        cells(testing::voronoi::median_cells(block.cloud, block.tetrahedra)) {}
+        cells(voronoi::median_cells(block.cloud, block.tetrahedra)) {}
 
   template<class Function> Indicator of(Function&& function) const {
     Field value;

@@ -128,8 +128,9 @@ TEST_P(Contract, links_are_symmetric_and_their_weights_bounded) {
         const auto j = index(links.neighbour[e]);
         EXPECT_NE(i, j);
         EXPECT_TRUE(weight.emplace(std::pair(i, j), links.weight[e]).second) << "link listed twice";
-        EXPECT_GE(links.weight[e], 0.1);
-        EXPECT_LE(links.weight[e], 2.0);
+        const double length = dim == 2 ? 1.0 : (domain.cloud.position[j] - domain.cloud.position[i]).norm();
+        EXPECT_GE(links.weight[e], (dim == 2 ? 0.1 : 0.05) * length);
+        EXPECT_LE(links.weight[e], 2.0 * length);
       }
     for (const auto& [pair, w] : weight) {
       const auto other = weight.find({pair.second, pair.first});

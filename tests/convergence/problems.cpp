@@ -225,15 +225,15 @@ Errors solve(const Problem& problem, const Method& method, double spacing) {
   const Approximation<2> approximation = method.method->rebuild(cloud);
   const Supports<2> held = supports(problem, cloud);
   const Fields<2> force = forces(problem, cloud);
-  const StaticSolution solution = solve_statics({.operators = approximation.mechanics,
-                                                 .position = cloud.position,
-                                                 .links = approximation.links,
-                                                 .link_points = approximation.mechanics,
-                                                 .elasticity = problem.elasticity,
-                                                 .out_of_plane = problem.out_of_plane,
-                                                 .stabilisation = method.stabilisation,
-                                                 .supports = held,
-                                                 .force = force});
+  const StaticSolution<2> solution = solve_statics<2>({.operators = approximation.mechanics,
+                                                       .position = cloud.position,
+                                                       .links = approximation.links,
+                                                       .link_points = approximation.mechanics,
+                                                       .elasticity = problem.elasticity,
+                                                       .out_of_plane = problem.out_of_plane,
+                                                       .stabilisation = method.stabilisation,
+                                                       .supports = held,
+                                                       .force = force});
   Errors errors;
   errors.nodes = cloud.nodes();
   double error = 0.0, size = 0.0;
@@ -289,14 +289,14 @@ double cook_tip(const Method& method, const plasticity::Elasticity& elasticity, 
   const Supports<2> held({{"left", Support<2>::Kind::displacement, Vec2(1, 0), TimeTable(0.0), left},
                           {"left", Support<2>::Kind::displacement, Vec2(0, 1), TimeTable(0.0), left}},
                          index_of(cloud.nodes()));
-  return solve_statics({.operators = approximation.mechanics,
-                        .position = cloud.position,
-                        .links = approximation.links,
-                        .link_points = approximation.mechanics,
-                        .elasticity = elasticity,
-                        .stabilisation = method.stabilisation,
-                        .supports = held,
-                        .force = force})
+  return solve_statics<2>({.operators = approximation.mechanics,
+                           .position = cloud.position,
+                           .links = approximation.links,
+                           .link_points = approximation.mechanics,
+                           .elasticity = elasticity,
+                           .stabilisation = method.stabilisation,
+                           .supports = held,
+                           .force = force})
       .displacement[1][index_of(tip)];
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Corners = std::array<NodeIndex, 3>;
 
 /// A face of a tetrahedron, or a facet of the boundary, under its nodes in increasing order.
-struct Side {
+struct FaceOrFacet {
   Corners key;
   SimplexIndex tetrahedron; ///< none: a facet
   std::int32_t place;       ///< corner it is opposite to, or number of the facet
@@ -35,8 +35,9 @@ Corners in_order(Corners corner) {
 }
 
 /// All faces of tetrahedra, and after those of the same nodes the facet there.
-std::vector<Side> sides_of(const Cloud<3>& cloud, std::span<const std::array<NodeIndex, 4>> tetrahedra) {
-  std::vector<Side> sides;
+std::vector<FaceOrFacet> sides_of(const Cloud<3>& cloud,
+                                  std::span<const std::array<NodeIndex, 4>> tetrahedra) {
+  std::vector<FaceOrFacet> sides;
   sides.reserve(4 * tetrahedra.size() + cloud.facets.size());
   for (std::size_t t = 0; t < tetrahedra.size(); ++t)
     for (std::size_t k = 0; k < 4; ++k) {
@@ -46,7 +47,7 @@ std::vector<Side> sides_of(const Cloud<3>& cloud, std::span<const std::array<Nod
     }
   for (const CloudFacetIndex f : cloud.facets.indices())
     sides.push_back({in_order(cloud.facets[f].node), SimplexIndex::none, static_cast<std::int32_t>(f)});
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const FaceOrFacet& a, const FaceOrFacet& b) {
     const bool facet_a = !exists(a.tetrahedron), facet_b = !exists(b.tetrahedron);
     return std::tie(a.key, facet_a, a.tetrahedron, a.place) <
            std::tie(b.key, facet_b, b.tetrahedron, b.place);
@@ -72,16 +73,16 @@ Tetrahedra connected(const Cloud<3>& cloud, std::span<const std::array<NodeIndex
       throw GeometryError(fmt::format("node {} at {} m belongs to no tetrahedron", index_of(i),
                                       place_text(cloud.position[i])));
 
-  const std::vector<Side> sides = sides_of(cloud, tetrahedra);
+  const std::vector<FaceOrFacet> sides = sides_of(cloud, tetrahedra);
   for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
     while (last < sides.size() && sides[last].key == sides[first].key) ++last;
-    const Side& a = sides[first];
+    const FaceOrFacet& a = sides[first];
     const std::size_t count = last - first;
     if (count > 2) refuse(cloud, a.key, "belongs to more than two tetrahedra or facets");
     if (!exists(a.tetrahedron))
       refuse(cloud, a.key, "is a facet of the boundary and belongs to no tetrahedron");
     if (count == 1) refuse(cloud, a.key, "belongs to one tetrahedron alone and is no facet of the boundary");
-    const Side& b = sides[first + 1];
+    const FaceOrFacet& b = sides[first + 1];
     if (exists(b.tetrahedron)) {
       mesh.neighbour[a.tetrahedron][index_of(a.place)] = b.tetrahedron;
       mesh.neighbour[b.tetrahedron][index_of(b.place)] = a.tetrahedron;

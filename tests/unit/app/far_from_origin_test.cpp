@@ -76,7 +76,7 @@ boundary.right = { pieces = ["right"], displacement = { x = "7.8125 um" } }
 )"),
                                                     "case.toml");
     const StaticModel model(input);
-    const StaticSolution solution = solve_statics(model.problem());
+    const StaticSolution<2> solution = solve_statics(model.problem());
     double worst = 0.0;
     for (const double stress : solution.stress[0]) worst = std::max(worst, std::abs(stress / exact - 1.0));
     for (const std::size_t k : {1U, 3U})

@@ -189,7 +189,7 @@ TEST(CellComplex, links_in_space_are_symmetric_and_see_linear_fields_as_exact) {
         const Vec<3> x = domain.cloud.position[j] - domain.cloud.position[i];
         const Vec<3> g = 0.5 * (gradient_of(smoothed.op, i, u) + gradient_of(smoothed.op, j, u));
         EXPECT_LT(std::abs(u[j] - u[i] - g.dot(x)), tolerance);
-        EXPECT_GE(links.weight[l], 0.1 * x.norm());
+        EXPECT_GE(links.weight[l], 0.05 * x.norm());
         EXPECT_LE(links.weight[l], 2.0 * x.norm());
       }
     for (const auto& [pair, w] : weight) EXPECT_NEAR(weight.at({pair.second, pair.first}), w, tolerance * w);
@@ -215,7 +215,7 @@ TEST(CellComplex, links_in_space_weigh_area_over_distance) {
   EXPECT_EQ(links.neighbour, (std::vector{1_node, 0_node, 2_node, 1_node}));
   EXPECT_NEAR(links.weight[0], h, 1e-15); // h²/h
   EXPECT_NEAR(links.weight[1], h, 1e-15);
-  EXPECT_NEAR(links.weight[2], 0.1 * 2 * h, 1e-15);
+  EXPECT_NEAR(links.weight[2], 0.05 * 2 * h, 1e-15);
 }
 
 TEST(CellComplex, quadrature_points_are_exact_to_their_degree) {

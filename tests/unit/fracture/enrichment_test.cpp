@@ -143,14 +143,14 @@ TEST_P(Enriched, patch_linear_displacement_is_solved_exactly) {
   const Supports<2> all(supports, nodes);
   Fields<2> force;
   resize_all(force, nodes);
-  const StaticSolution solution = solve_statics({.operators = enriched.operators,
-                                                 .position = model.cloud.position,
-                                                 .links = enriched.links,
-                                                 .link_points = model.approximation.mechanics,
-                                                 .elasticity = {1.0, nu},
-                                                 .out_of_plane = OutOfPlane::stress_free,
-                                                 .supports = all,
-                                                 .force = force});
+  const StaticSolution<2> solution = solve_statics<2>({.operators = enriched.operators,
+                                                       .position = model.cloud.position,
+                                                       .links = enriched.links,
+                                                       .link_points = model.approximation.mechanics,
+                                                       .elasticity = {1.0, nu},
+                                                       .out_of_plane = OutOfPlane::stress_free,
+                                                       .supports = all,
+                                                       .force = force});
   for (std::size_t i = 0; i < nodes; ++i) {
     const Vec2 exact = strain * model.cloud.position[i];
     EXPECT_NEAR(solution.displacement[0][i], exact.x(), 1e-9);

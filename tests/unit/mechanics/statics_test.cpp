@@ -30,7 +30,7 @@ struct Body {
         supports(std::move(list), static_cast<std::size_t>(cloud.nodes())) {
     resize_all(force, static_cast<std::size_t>(cloud.nodes()));
   }
-  StaticProblem problem(OutOfPlane kind) const {
+  StaticProblem<2> problem(OutOfPlane kind) const {
     return {.operators = approximation.mechanics,
             .position = cloud.position,
             .links = approximation.links,
@@ -78,7 +78,7 @@ TEST(Statics, patch_uniaxial_tension_is_exact_in_plane_strain_and_plane_stress) 
     SCOPED_TRACE(method->name());
     const Body body = pulled_square(*method);
     for (const OutOfPlane kind : {OutOfPlane::strain_free, OutOfPlane::stress_free}) {
-      const StaticSolution s = solve_statics(body.problem(kind));
+      const StaticSolution<2> s = solve_statics(body.problem(kind));
       const bool stress = kind == OutOfPlane::stress_free;
       const double E = stress ? 2.0 : 2.0 / (1.0 - 0.09), nu = stress ? 0.3 : 0.3 / 0.7;
       for (std::size_t i = 0; i < body.cloud.position.size(); ++i) {
@@ -126,9 +126,9 @@ TEST(Statics, expands_freely_without_stress_and_presses_on_what_holds_it_as_hook
         const bool round = body.approximation.mechanics.of_revolution();
         const bool stress = kind == OutOfPlane::stress_free;
         if (round && (stress || held == 1)) continue;
-        StaticProblem problem = body.problem(kind);
+        StaticProblem<2> problem = body.problem(kind);
         problem.thermal_strain = theta;
-        const StaticSolution s = solve_statics(problem);
+        const StaticSolution<2> s = solve_statics(problem);
         const double free = stress || round ? theta : (1.0 + nu) * theta;
         const double moved = held == 2   ? 0.0
                              : held == 0 ? free
@@ -171,8 +171,8 @@ TEST(Statics, oblique_symmetry_plane_gives_the_turned_solution) {
     turned.force[0][i] = turn(0, 0) * straight.force[0][i];
     turned.force[1][i] = turn(1, 0) * straight.force[0][i];
   }
-  const StaticSolution a = solve_statics(straight.problem(OutOfPlane::strain_free)),
-                       b = solve_statics(turned.problem(OutOfPlane::strain_free));
+  const StaticSolution<2> a = solve_statics(straight.problem(OutOfPlane::strain_free)),
+                          b = solve_statics(turned.problem(OutOfPlane::strain_free));
   for (std::size_t i = 0; i < straight.force[0].size(); ++i) {
     const Vec2 expected = turn * Vec2(a.displacement[0][i], a.displacement[1][i]);
     EXPECT_NEAR(b.displacement[0][i], expected.x(), 1e-11);
@@ -206,7 +206,7 @@ TEST(Statics, patch_body_of_revolution_under_constant_stress_is_exact) {
           body.force[1][static_cast<std::size_t>(facet.node[end])] += area[end] * axial * normal.y();
         }
       }
-      const StaticSolution s = solve_statics(body.problem(OutOfPlane::strain_free));
+      const StaticSolution<2> s = solve_statics(body.problem(OutOfPlane::strain_free));
       const double E = 2.0, nu = 0.3, e_r = (radial - nu * (radial + axial)) / E,
                    e_z = (axial - 2.0 * nu * radial) / E;
       for (std::size_t i = 0; i < body.cloud.position.size(); ++i) {
