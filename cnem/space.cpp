@@ -3,6 +3,7 @@
 #include "cnem/median.hpp"
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
+#include "voronoi/space/triangulate.hpp"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,9 @@ std::string CnemInSpace::name() const {
 }
 
 Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
-  const voronoi::Tetrahedra mesh = voronoi::connected(cloud, options_.tetrahedra);
+  const voronoi::Tetrahedra mesh = options_.tetrahedra.empty()
+                                       ? voronoi::triangulate(cloud)
+                                       : voronoi::connected(cloud, options_.tetrahedra);
   Approximation<3> result;
   fallbacks_ = {};
   if (options_.cells == CellKind::median) {

@@ -155,7 +155,7 @@ NaturalNeighbours3::Outcome NaturalNeighbours3::collect(const Vec3& x, SimplexIn
     value_.assign(1, 1.0);
     return Outcome::found;
   }
-  bool joined = false;
+  bool joined = false, hidden = false;
   for (std::size_t f = 0; f < face_.size(); ++f) {
     const Neighbour &a = neighbour_[index_of(face_[f].corner[0])],
                     &b = neighbour_[index_of(face_[f].corner[1])],
@@ -166,14 +166,19 @@ NaturalNeighbours3::Outcome NaturalNeighbours3::collect(const Vec3& x, SimplexIn
     if (volume > bound) continue;
     if (exists(face_[f].beyond)) {
       if (in_cavity_.at(face_[f].beyond, 0) == 1) continue; // taken for another face
-      if (volume < -bound) return Outcome::lost;
+      if (volume < -bound) {
+        hidden = true;
+        continue;
+      }
       take(face_[f].beyond); // x is on the circle of the face: what is beyond it is as good as in the cavity
       grow(x);
       joined = true;
     } else {
-      return volume >= -bound && on_wall(face_[f]) ? Outcome::found : Outcome::lost;
+      if (volume >= -bound && on_wall(face_[f])) return Outcome::found;
+      hidden = true; // another wall in the same plane may be the one that x is on
     }
   }
+  if (hidden) return Outcome::lost;
   if (joined)
     std::erase_if(face_, [&](const Face& face) {
       return exists(face.beyond) && in_cavity_.at(face.beyond, 0) == 1;
@@ -267,33 +272,44 @@ bool NaturalNeighbours3::finish() {
   return true;
 }
 
-/// Linear functions of the tetrahedron with x, or of a neighbour where it is flat.
-void NaturalNeighbours3::linear(const Vec3& x, SimplexIndex hint) {
-  const SimplexIndex at = walk(cloud_, mesh_, hint, x).tetrahedron;
-  const auto quality = [&](SimplexIndex t) {
+/// Linear functions of the tetrahedron with x: of those that the ways from some lead to, and the neighbours of
+/// flat ones, the one that x is the deepest in.
+void NaturalNeighbours3::linear(const Vec3& x, std::span<const SimplexIndex> near) {
+  constexpr double well_shaped = 1e-6;
+  double deepest = -std::numeric_limits<double>::infinity(), best_quality = 0.0;
+  const auto try_in = [&](SimplexIndex t) {
     const auto p = corners_of(cloud_, mesh_, t);
-    const Vec3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
-    const double longest = std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
-    return a.cross(b).dot(c) / std::pow(longest, 1.5);
+    Mat<3> edges;
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.col(static_cast<Eigen::Index>(k)) = p[k + 1] - p[0];
+      longest = std::max(longest, (p[k + 1] - p[0]).squaredNorm());
+    }
+    const Eigen::PartialPivLU<Mat<3>> solver(edges);
+    const double quality = solver.determinant() / std::pow(longest, 1.5);
+    Vec3 weight = solver.solve(x - p[0]);
+    weight += solver.solve(x - p[0] - edges * weight); // what rounding left in flat ones
+    const std::array<double, 4> value{1.0 - weight.sum(), weight[0], weight[1], weight[2]};
+    const double depth = *std::min_element(value.begin(), value.end());
+    if (best_quality >= well_shaped ? quality >= well_shaped && depth > deepest : quality > best_quality) {
+      deepest = depth;
+      best_quality = quality;
+      node_.assign(mesh_.node[t].begin(), mesh_.node[t].end());
+      value_.assign(value.begin(), value.end());
+    }
+    return quality;
   };
-  SimplexIndex best = at;
-  if (double most = quality(at); most < 1e-6)
-    for (const SimplexIndex other : mesh_.neighbour[at])
-      if (exists(other) && quality(other) > most) {
-        most = quality(other);
-        best = other;
-      }
-  const auto p = corners_of(cloud_, mesh_, best);
-  Mat<3> edges;
-  for (std::size_t k = 0; k < 3; ++k) edges.col(static_cast<Eigen::Index>(k)) = p[k + 1] - p[0];
-  const Eigen::PartialPivLU<Mat<3>> solver(edges);
-  Vec3 weight = solver.solve(x - p[0]);
-  weight += solver.solve(x - p[0] - edges * weight); // what rounding left in flat ones
-  node_.assign(mesh_.node[best].begin(), mesh_.node[best].end());
-  value_ = {1.0 - weight.sum(), weight[0], weight[1], weight[2]};
+  for (const SimplexIndex from : near) {
+    const SpaceWalkEnd at = walk(cloud_, mesh_, from, x);
+    if (try_in(at.tetrahedron) < well_shaped)
+      for (const SimplexIndex other : mesh_.neighbour[at.tetrahedron])
+        if (exists(other)) try_in(other);
+    if (!exists(at.facet)) return;
+  }
 }
 
-void NaturalNeighbours3::evaluate_from(Functions functions, const Vec3& x, SimplexIndex start) {
+void NaturalNeighbours3::evaluate_from(Functions functions, const Vec3& x, SimplexIndex start,
+                                       std::span<const SimplexIndex> near) {
   const Outcome outcome = collect(x, start);
   if (outcome == Outcome::found) return;
   if (outcome == Outcome::surrounded) {
@@ -306,21 +322,27 @@ void NaturalNeighbours3::evaluate_from(Functions functions, const Vec3& x, Simpl
     if (finish()) return;
   }
   ++fallbacks_.to_linear;
-  linear(x, start);
-}
-
-void NaturalNeighbours3::evaluate(Functions functions, const Vec3& x, SimplexIndex hint) {
-  if (functions == Functions::linear) return linear(x, hint);
-  const SpaceWalkEnd at = walk(cloud_, mesh_, hint, x);
-  evaluate_from(functions, x, at.tetrahedron);
+  linear(x, near);
 }
 
 void NaturalNeighbours3::evaluate(Functions functions, const Vec3& x, std::span<const SimplexIndex> near) {
   assert(!near.empty());
-  if (functions != Functions::linear)
-    for (const SimplexIndex t : near)
-      if (in_sphere(t, x)) return evaluate_from(functions, x, t);
-  evaluate(functions, x, near.front());
+  if (functions == Functions::linear) return linear(x, near);
+  for (const SimplexIndex t : near)
+    if (in_sphere(t, x)) return evaluate_from(functions, x, t, near);
+  for (const SimplexIndex from : near) {
+    const SpaceWalkEnd at = walk(cloud_, mesh_, from, x);
+    if (!exists(at.facet)) return evaluate_from(functions, x, at.tetrahedron, near);
+  }
+  ++fallbacks_.to_linear;
+  linear(x, near);
+}
+
+void NaturalNeighbours3::evaluate(Functions functions, const Vec3& x, SimplexIndex hint) {
+  const SpaceWalkEnd at = walk(cloud_, mesh_, hint, x);
+  const std::array near{at.tetrahedron};
+  if (functions == Functions::linear || exists(at.facet)) return linear(x, near);
+  evaluate_from(functions, x, at.tetrahedron, near);
 }
 
 } // namespace cnem::voronoi

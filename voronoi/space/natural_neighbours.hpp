@@ -77,7 +77,8 @@ private:
   };
 
   bool in_sphere(SimplexIndex tetrahedron, const Vec3& x) const;
-  void evaluate_from(Functions functions, const Vec3& x, SimplexIndex start);
+  void evaluate_from(Functions functions, const Vec3& x, SimplexIndex start,
+                     std::span<const SimplexIndex> near);
   Outcome collect(const Vec3& x, SimplexIndex start);
   void grow(const Vec3& x);
   void take(SimplexIndex tetrahedron);
@@ -86,7 +87,7 @@ private:
   void weigh_laplace();
   void weigh_sibson();
   bool finish();
-  void linear(const Vec3& x, SimplexIndex hint);
+  void linear(const Vec3& x, std::span<const SimplexIndex> near);
 
   const Cloud<3>& cloud_;
   const Tetrahedra& mesh_;
