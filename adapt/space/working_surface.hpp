@@ -61,7 +61,7 @@ public:
   Edge edges() const {
     return static_cast<Edge>(3 * facet_.size());
   } ///< numbers below, of which some are gone
-  bool alive(Edge e) const { return exists(facet_[index_of(e / 3)].node[0]); }
+  bool alive(Edge e) const { return e != no_edge && exists(facet_[index_of(e / 3)].node[0]); }
   NodeIndex start(Edge e) const { return facet_[index_of(e / 3)].node[index_of(e % 3)]; }
   NodeIndex end(Edge e) const { return start(voronoi::next_edge(e)); }
   NodeIndex apex(Edge e) const { return start(last_edge(e)); }
