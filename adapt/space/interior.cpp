@@ -178,7 +178,8 @@ std::vector<Gap> gaps(const WorkingBody& body, const SpaceStructure& structure, 
 
 } // namespace
 
-bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceThresholds& limits, PassReport& report) {
+bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report) {
+  const SpaceThresholds& limits = rules.thresholds;
   const std::vector<Gap> list = gaps(body, structure, limits.long_edge);
   if (list.empty()) return false;
   // where new nodes might come, by which facets are asked who is in their way
@@ -208,7 +209,7 @@ bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceThresholds& l
   }
   if (body.size() == before) return false;
   report.inserted += static_cast<int>(body.size() - before);
-  remove(body, structure, {}, report);
+  remove(body, structure, {}, rules, report);
   return true;
 }
 

@@ -9,9 +9,9 @@
 
 namespace cnem::adapt {
 
-namespace {
-
 using Edge = WorkingSurface::Edge;
+
+namespace {
 
 class Refinement {
 public:
@@ -31,7 +31,7 @@ public:
       flip_all();
       if (changes_ == before) break;
     }
-    give_back();
+    give_back(surface_, std::move(debt_), size_, limit_.give_back);
     return std::move(result_);
   }
 
@@ -162,25 +162,6 @@ private:
     return true;
   }
 
-  /// Who cannot give back leaves it to who is beside.
-  void give_back() {
-    constexpr int times = 3;
-    for (int n = 0; n < times; ++n) {
-      Field left(debt_.size(), 0.0);
-      for (const NodeIndex i : IndexRange<NodeIndex>(debt_.size())) {
-        const double debt = debt_[index_of(i)], h = spacing(i);
-        if (std::abs(debt) < 1e-12 * h * h * h) continue;
-        if (surface_.swell(i, debt, limit_.give_back * h)) continue;
-        std::vector<NodeIndex> beside;
-        surface_.around(i, [&](Edge e) {
-          if (surface_.way_of_volume(surface_.end(e)) != Vec3::Zero()) beside.push_back(surface_.end(e));
-        });
-        for (const NodeIndex k : beside) left[index_of(k)] += debt / static_cast<double>(beside.size());
-      }
-      debt_ = std::move(left);
-    }
-  }
-
   WorkingSurface& surface_;
   Field& size_;
   const SurfaceThresholds& limit_;
@@ -192,6 +173,24 @@ private:
 };
 
 } // namespace
+
+void give_back(WorkingSurface& surface, Field debt, const Field& size, double most) {
+  constexpr int times = 3;
+  for (int n = 0; n < times; ++n) {
+    Field left(debt.size(), 0.0);
+    for (const NodeIndex i : IndexRange<NodeIndex>(debt.size())) {
+      const double owed = debt[index_of(i)], h = size[index_of(i)];
+      if (std::abs(owed) < 1e-12 * h * h * h) continue;
+      if (surface.swell(i, owed, most * h)) continue;
+      std::vector<NodeIndex> beside;
+      surface.around(i, [&](Edge e) {
+        if (surface.way_of_volume(surface.end(e)) != Vec3::Zero()) beside.push_back(surface.end(e));
+      });
+      for (const NodeIndex k : beside) left[index_of(k)] += owed / static_cast<double>(beside.size());
+    }
+    debt = std::move(left);
+  }
+}
 
 RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits,
                               PassReport& report) {

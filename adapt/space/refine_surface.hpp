@@ -31,4 +31,8 @@ struct RefinedSurface {
 RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits,
                               PassReport& report);
 
+/// Moves nodes along the gradient of the volume by `most` h at most, so that each wins the volume that it
+/// owes, debt[node] in m³; who cannot leaves it to nodes beside.
+void give_back(WorkingSurface& surface, Field debt, const Field& size, double most);
+
 } // namespace cnem::adapt

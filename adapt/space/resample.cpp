@@ -79,24 +79,71 @@ NodeIndex nearest_left(const WorkingBody& body, const IndexedVector<NodeIndex, N
 
 } // namespace
 
+namespace {
+
+using Corners = std::array<NodeIndex, 3>;
+
+std::vector<Corners> sorted_facets(const Cloud<3>& cloud) {
+  std::vector<Corners> list;
+  for (const auto& facet : cloud.facets) {
+    list.push_back(facet.node);
+    std::sort(list.back().begin(), list.back().end());
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+/// Where recovering has put other facets for those of the body, nodes of these give back the volume (m³).
+void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Facet<3>>& facets, double gained,
+                    const SpaceRules& rules) {
+  const std::vector<Corners> before = sorted_facets(body.cloud());
+  body.set_boundary(facets);
+  std::vector<NodeIndex> owing;
+  for (Corners corner : sorted_facets(body.cloud()))
+    if (!std::binary_search(before.begin(), before.end(), corner))
+      owing.insert(owing.end(), corner.begin(), corner.end());
+  std::sort(owing.begin(), owing.end());
+  owing.erase(std::unique(owing.begin(), owing.end()), owing.end());
+  WorkingSurface surface(body.cloud(), body.node().held, rules.surface);
+  Field debt(body.size(), 0.0);
+  for (const NodeIndex i : owing) debt[index_of(i)] = -gained / static_cast<double>(owing.size());
+  give_back(surface, std::move(debt), body.node().size, rules.thresholds.surface.give_back);
+  for (const NodeIndex i : body.nodes()) body.place(i, surface.at(i));
+}
+
+} // namespace
+
 void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Removal>& list,
-            PassReport& report) {
+            const SpaceRules& rules, PassReport& report) {
   IndexedVector<NodeIndex, char> gone(body.size(), 0);
   for (const Removal& removal : list) gone[removal.gone] = 1;
   WorkingBody left = body;
   left.drop(gone);
-  voronoi::RecoveredBoundary recovered = voronoi::recover_boundary(left.cloud());
-  report.flipped += recovered.counts.flipped;
   IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
-  for (NodeIndex& i : number)
-    if (exists(i)) i = recovered.now[i];
+  const double volume = enclosed_measure(body.cloud());
+  voronoi::RecoveredBoundary recovered;
+  constexpr int times = 3;
+  for (int n = 0; n < times; ++n) {
+    recovered = voronoi::recover_boundary(left.cloud());
+    report.flipped += recovered.counts.flipped;
+    for (NodeIndex& i : number)
+      if (exists(i)) i = recovered.now[i];
+    IndexedVector<NodeIndex, char> lost(left.size(), 0);
+    for (const NodeIndex i : left.nodes()) lost[i] = !exists(recovered.now[i]);
+    left.drop(lost);
+    constexpr double little = 1e-9; // of the body
+    const double gained = enclosed_measure(recovered.cloud) - volume;
+    if (n + 1 == times || std::abs(gained) < little * volume) break;
+    restore_volume(left, recovered.cloud.facets, gained, rules);
+  }
   std::vector<Removal> all = list;
-  for (const NodeIndex i : body.nodes())
-    if (!gone[i] && !exists(number[i])) {
-      all.push_back({i, nearest_left(body, number, i)});
-      gone[i] = 1;
-      ++report.removed;
-    }
+  for (const NodeIndex i : body.nodes()) {
+    if (exists(number[i])) body.place(i, recovered.cloud.position[number[i]]);
+    if (gone[i] || exists(number[i])) continue;
+    all.push_back({i, nearest_left(body, number, i)});
+    gone[i] = 1;
+    ++report.removed;
+  }
   structure = structure_of(recovered.cloud, std::move(recovered.tetrahedra));
   body.move(inheritance(body, structure, all, number));
   body.drop(gone);
@@ -216,18 +263,21 @@ Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const S
   for (const NodeIndex i : body.nodes()) body.place(i, first.surface.at(i));
   body.set_boundary(first.surface.facets());
 
+  if (std::getenv("DBG"))
+    fprintf(stderr, "refined dV %.2e crossings now %d\n",
+            enclosed_measure(body.cloud()) - enclosed_measure(cloud), 0);
   std::vector<Removal> list;
   for (const NodeIndex i : body.nodes())
     if (exists(first.changes.into[i])) list.push_back({i, first.changes.into[i]});
   list = crowded(body, list, limits, report);
   SpaceStructure structure;
-  remove(body, structure, list, report);
+  remove(body, structure, list, rules, report);
   if (const auto more = dense(body, structure, limits); !more.empty()) {
     report.removed += static_cast<int>(more.size());
-    remove(body, structure, more, report);
+    remove(body, structure, more, rules, report);
   }
   for (int round = 0; round < limits.rounds; ++round)
-    if (!fill(body, structure, limits, report)) break;
+    if (!fill(body, structure, rules, report)) break;
   balance(body, structure, {limits.light, limits.heavy, limits.rounds}, report);
   report.volume_change = enclosed_measure(body.cloud()) - enclosed_measure(cloud);
   Resampling<3> change = body.finish();

@@ -53,11 +53,12 @@ std::vector<Removal> crowded(const WorkingBody& body, const std::vector<Removal>
 std::vector<Removal> dense(const WorkingBody& body, const SpaceStructure& structure,
                            const SpaceThresholds& limits);
 /// Takes nodes out, triangulates what is left, and leaves their matter to nodes beside them that have more
-/// volume than matter. What recovering the boundary takes out goes the same way.
+/// volume than matter. What recovering the boundary takes out goes the same way, and the volume that it
+/// changes is given back.
 void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Removal>& list,
-            PassReport& report);
+            const SpaceRules& rules, PassReport& report);
 /// One round of insertion; false when there was nothing to do.
-bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceThresholds& limits, PassReport& report);
+bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report);
 
 /// Matter for the nodes that have none: from neighbours that have more matter than volume, else evenly.
 void endow(WorkingBody& body, const SpaceStructure& structure);
