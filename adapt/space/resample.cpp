@@ -263,9 +263,8 @@ Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const S
   for (const NodeIndex i : body.nodes()) body.place(i, first.surface.at(i));
   body.set_boundary(first.surface.facets());
 
-  if (std::getenv("DBG"))
-    fprintf(stderr, "refined dV %.2e crossings now %d\n",
-            enclosed_measure(body.cloud()) - enclosed_measure(cloud), 0);
+  fprintf(stderr, "refined dV %.2e crossings now %d\n",
+          enclosed_measure(body.cloud()) - enclosed_measure(cloud), 0);
   std::vector<Removal> list;
   for (const NodeIndex i : body.nodes())
     if (exists(first.changes.into[i])) list.push_back({i, first.changes.into[i]});
