@@ -1,6 +1,8 @@
 #pragma once
 // The resampling pass: nodes that crowd go, gaps are filled, the boundary keeps its resolution, and mass and
 // volume are brought together again (docs/theory.md, "Resampling").
+#include "adapt/balance.hpp"
+#include "adapt/pass_report.hpp"
 #include "adapt/working_cloud.hpp"
 
 #include <cstdint>
@@ -30,6 +32,8 @@ struct Thresholds {
   double light = 0.8;       ///< ρ₀V/(mJ) below which a node gives mass away
   double heavy = 1.25;      ///< and above which it takes some
   int rounds = 4;           ///< of removal, and of insertion
+
+  BalanceLimits balance() const { return {light, heavy, rounds}; }
 };
 
 /// Where new nodes are put (paper 004, Figure 18).
@@ -57,29 +61,6 @@ struct ResampleRules {
   Thresholds thresholds{};
   Placement placement = Placement::between_nodes;
   SplitRules split{}; ///< where NodeProperties::broken is given
-};
-
-/// What a pass did, for the audit and the output.
-struct PassReport {
-  int cracks = 0;   ///< opened from the boundary to a tip inside
-  int advances = 0; ///< times that a tip went on
-  int cuts = 0;     ///< paths through broken matter that were opened
-  int opened = 0;   ///< edges of these
-  int films = 0;    ///< cuts among them at the waists of films
-  int folded = 0;   ///< boundary nodes at which the boundary turned back on itself or crossed
-  int outside = 0;  ///< interior nodes found outside the boundary, or in another part
-  int removed = 0, removed_boundary = 0;
-  int promoted = 0; ///< interior nodes that became part of the boundary
-  int inserted = 0, inserted_boundary = 0;
-  int balanced = 0;         ///< exchanges of mass between neighbours
-  int undone = 0;           ///< rounds given up because the cloud had no valid structure after them
-  double volume_change = 0; ///< of the domain: m³ per metre of thickness, or of the body of revolution
-  bool changed() const {
-    return opened + folded + outside + removed + removed_boundary + promoted + inserted + inserted_boundary +
-               balanced >
-           0;
-  }
-  PassReport& operator+=(const PassReport& other);
 };
 
 /// Resamples a cloud. structure: that of the cloud; empty when it has none (structure_if_valid): the boundary
@@ -120,15 +101,10 @@ void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report);
 bool fill(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, Placement placement,
           PassReport& report);
-void balance(WorkingCloud& work, const Structure& structure, const Thresholds& thresholds,
-             PassReport& report);
 
 /// Parcels for nodes that were `made` without matter: what the cells beside them lost in volume since
 /// `before` goes to the new cells at them.
 std::vector<Parcel> stolen(const Cloud<2>& cloud, const Structure& before, const Structure& after,
                            const IndexedVector<NodeIndex, char>& made);
-
-/// r_i = ρ₀ V_i/(m_i J_i) of one node, or the matter in its share over m_i, –.
-double volume_ratio(const WorkingCloud& work, const Structure& structure, NodeIndex node);
 
 } // namespace cnem::adapt

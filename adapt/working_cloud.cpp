@@ -12,46 +12,21 @@
 
 namespace cnem::adapt {
 
-namespace {
-
-/// a += factor · b.
-void add(Row& a, const Row& b, double factor) {
-  Row sum;
-  sum.reserve(a.size() + b.size());
-  auto i = a.begin();
-  auto j = b.begin();
-  while (i != a.end() || j != b.end()) {
-    if (j == b.end() || (i != a.end() && i->first < j->first))
-      sum.push_back(*i++);
-    else if (i == a.end() || j->first < i->first) {
-      sum.emplace_back(j->first, factor * j->second);
-      ++j;
-    } else {
-      sum.emplace_back(i->first, i->second + factor * j->second);
-      ++i;
-      ++j;
-    }
-  }
-  a = std::move(sum);
-}
-
-} // namespace
-
 WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, PieceIndex free_piece)
-    : cloud_(cloud), node_(std::move(properties)), old_nodes_(cloud.position.size()),
-      free_piece_(free_piece) {
+    : Matter(std::move(properties)), cloud_(cloud), free_piece_(free_piece) {
   voronoi::outgoing_facets(cloud); // throws for open loops
-  next_.assign(old_nodes_, NodeIndex::none);
-  previous_.assign(old_nodes_, NodeIndex::none);
-  piece_.assign(old_nodes_, PieceIndex::none);
-  IndexedVector<NodeIndex, char> seen(old_nodes_, 0);
+  const std::size_t nodes = cloud.position.size();
+  next_.assign(nodes, NodeIndex::none);
+  previous_.assign(nodes, NodeIndex::none);
+  piece_.assign(nodes, PieceIndex::none);
+  IndexedVector<NodeIndex, char> seen(nodes, 0);
   for (const Facet<2>& facet : cloud.facets) {
     const auto [a, b] = facet.node;
     next_[a] = b;
     previous_[b] = a;
     piece_[a] = facet.piece;
   }
-  facing_.assign(old_nodes_, NodeIndex::none);
+  facing_.assign(nodes, NodeIndex::none);
   for (const CloudFacetIndex f : cloud.mates.indices())
     if (exists(cloud.mates[f])) facing_[cloud.facets[f].node[0]] = cloud.facets[cloud.mates[f]].node[0];
   for (const Facet<2>& facet : cloud.facets) {
@@ -59,46 +34,17 @@ WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, Pie
     loop_.push_back(facet.node[0]);
     for (NodeIndex i = facet.node[0]; !seen[i]; i = next_[i]) seen[i] = 1;
   }
-  old_of_.resize(old_nodes_);
-  for (const NodeIndex i : old_of_.indices()) old_of_[i] = i;
-  parcels_.resize(old_nodes_);
-  labels_.resize(old_nodes_);
-}
-
-Row& WorkingCloud::row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i) {
-  Row& mine = rows[i];
-  if (mine.empty() && exists(old_of_[i])) mine = {{old_of_[i], 1.0}};
-  return mine;
 }
 
 NodeIndex WorkingCloud::append(const Vec2& x, const std::vector<std::pair<NodeIndex, double>>& parents) {
   const NodeIndex made = cloud_.position.next();
   cloud_.position.push_back(x);
   begin_with({}, {});
-  Row label;
-  double size = 0.0;
-  for (const auto& [parent, weight] : parents) {
-    add(label, row(labels_, parent), weight);
-    size += weight * node_.size[index_of(parent)];
-  }
-  labels_.push_back(std::move(label));
-  parcels_.emplace_back();
-  node_.mass.push_back(0.0);
-  node_.jacobian.push_back(1.0);
-  node_.density.push_back(node_.density[index_of(parents.front().first)]);
-  node_.size.push_back(size);
-  node_.held.push_back(0);
-  if (!node_.part.empty()) node_.part.push_back(node_.part[parents.front().first]);
-  if (!node_.broken.empty()) {
-    double broken = 0.0;
-    for (const auto& [parent, weight] : parents) broken += weight * node_.broken[index_of(parent)];
-    node_.broken.push_back(broken);
-  }
+  Matter::append(parents);
   next_.push_back(NodeIndex::none);
   previous_.push_back(NodeIndex::none);
   piece_.push_back(PieceIndex::none);
   facing_.push_back(NodeIndex::none);
-  old_of_.push_back(NodeIndex::none);
   return made;
 }
 
@@ -233,7 +179,7 @@ std::vector<std::array<NodeIndex, 2>> WorkingCloud::open(std::span<const NodeInd
   for (std::size_t k = 0; k < path.size() - (through ? 0 : 1); ++k) {
     const NodeIndex made = append(at(path[k]) + right[k], {{path[k], 1.0}});
     at(path[k]) += left[k];
-    node_.held[made] = node_.held[path[k]];
+    hold(made, node().held[path[k]]);
     doubled.push_back({path[k], made});
     if (left[k] == right[k]) cloud_.twins.push_back({path[k], made});
   }
@@ -273,61 +219,19 @@ void WorkingCloud::renew_loops() {
   }
 }
 
-void WorkingCloud::move(const std::vector<Parcel>& parcels) {
-  std::vector<std::pair<NodeIndex, double>> left; // donor and what has left it
-  for (const Parcel& parcel : parcels) {
-    const std::size_t from = index_of(parcel.from), to = index_of(parcel.to);
-    const double mass = parcel.fraction * node_.mass[from];
-    const double total = node_.mass[to] + mass;
-    node_.jacobian[to] = (node_.jacobian[to] * node_.mass[to] + node_.jacobian[from] * mass) / total;
-    node_.mass[to] = total;
-    add(row(parcels_, parcel.to), row(parcels_, parcel.from), parcel.fraction);
-    left.emplace_back(parcel.from, parcel.fraction);
-  }
-  std::stable_sort(left.begin(), left.end(), [](auto& a, auto& b) { return a.first < b.first; });
-  for (std::size_t k = 0; k < left.size();) {
-    const std::size_t from = index_of(left[k].first);
-    double gone = 0.0;
-    for (; k < left.size() && index_of(left[k].first) == from; ++k) gone += left[k].second;
-    node_.mass[from] *= 1.0 - gone;
-    for (auto& entry : row(parcels_, as<NodeIndex>(from))) entry.second *= 1.0 - gone;
-  }
-}
-
-void WorkingCloud::move_now(NodeIndex from, NodeIndex to, double fraction) { move({{from, to, fraction}}); }
-
 IndexedVector<NodeIndex, NodeIndex> WorkingCloud::drop(const IndexedVector<NodeIndex, char>& gone) {
-  IndexedVector<NodeIndex, NodeIndex> number(size(), NodeIndex::none);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < gone.size(); ++i)
-    if (!gone[i]) number[i] = as<NodeIndex>(kept++);
-  const auto compact = [&](auto& list) {
-    for (std::size_t i = 0; i < gone.size(); ++i)
-      if (!gone[i] && index_of(number[i]) != i) list[index_of(number[i])] = std::move(list[i]);
-    list.resize(kept);
-  };
+  const IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
   const auto rename = [&](NodeIndex& i) {
     if (exists(i)) i = number[i];
   };
   begin_with({}, {});
-  compact(cloud_.position);
-  compact(node_.mass);
-  compact(node_.jacobian);
-  compact(node_.density);
-  compact(node_.size);
-  compact(node_.held);
-  if (!node_.broken.empty()) compact(node_.broken);
-  if (!node_.part.empty()) compact(node_.part);
-  compact(next_);
-  compact(previous_);
-  compact(piece_);
-  compact(facing_);
-  compact(old_of_);
-  compact(parcels_);
-  compact(labels_);
-  for (NodeIndex& i : next_) rename(i);
-  for (NodeIndex& i : previous_) rename(i);
-  for (NodeIndex& i : facing_) rename(i);
+  Matter::drop(gone);
+  compact(number, cloud_.position);
+  for (auto* list : {&next_, &previous_, &facing_}) {
+    compact(number, *list);
+    for (NodeIndex& i : *list) rename(i);
+  }
+  compact(number, piece_);
   for (NodeIndex& i : loop_) rename(i);
   std::erase_if(cloud_.twins, [&](const auto& pair) { return gone[pair[0]] || gone[pair[1]]; });
   for (auto& pair : cloud_.twins)
@@ -354,42 +258,13 @@ void WorkingCloud::refresh_facets() {
   }
 }
 
-NodeRows WorkingCloud::in_order(const IndexedVector<NodeIndex, Row>& rows,
-                                const std::vector<std::int32_t>& order) const {
-  NodeRows result;
-  result.begin.reserve(order.size() + 1);
-  result.begin.push_back(0);
-  for (const std::int32_t k : order) {
-    const auto i = as<NodeIndex>(k);
-    if (rows[i].empty() && exists(old_of_[i])) { // as most are
-      result.from.push_back(old_of_[i]);
-      result.weight.push_back(1.0);
-    }
-    for (const auto& [node, weight] : rows[i]) {
-      result.from.push_back(node);
-      result.weight.push_back(weight);
-    }
-    result.begin.push_back(as<std::int32_t>(result.from.size()));
-  }
-  return result;
-}
-
 Resampling<2> WorkingCloud::finish() {
   Resampling<2> result;
-  const bool same_nodes =
-      size() == old_nodes_ && std::find(old_of_.begin(), old_of_.end(), NodeIndex::none) == old_of_.end();
   std::vector<std::int32_t> order(size());
   std::iota(order.begin(), order.end(), 0);
-  if (!same_nodes) order = voronoi::hilbert_order(cloud_.position);
+  if (!same_nodes()) order = voronoi::hilbert_order(cloud_.position);
   result.cloud = voronoi::renumber(cloud_, order);
-  result.parcels = in_order(parcels_, order);
-  result.labels = in_order(labels_, order);
-  result.new_of.assign(old_nodes_, NodeIndex::none);
-  result.old_of.resize(size());
-  for (std::size_t p = 0; p < order.size(); ++p) {
-    result.old_of[p] = old_of_[as<NodeIndex>(order[p])];
-    if (exists(result.old_of[p])) result.new_of[result.old_of[p]] = as<NodeIndex>(p);
-  }
+  Matter::finish(order, result);
   return result;
 }
 

@@ -1,59 +1,27 @@
 #pragma once
 // A cloud while it is being resampled: nodes come and go, and mass goes with them in parcels.
+#include "adapt/matter.hpp"
 #include "adapt/structure.hpp"
-#include "core/index.hpp"
-#include "core/operators/resampling.hpp"
 
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace cnem::adapt {
 
-/// What resampling has to know of a node. Each list is [node]; held nodes that are doubled stay both.
-struct NodeProperties {
-  Field mass;     ///< kg/m (kg of revolution), carried
-  Field jacobian; ///< J, volume over the stress-free one, –; mixes with mass, as volumes add
-  Field density;  ///< kg/m³ at J = 1; a label
-  Field size;     ///< m, wanted spacing; a label
-  IndexedVector<NodeIndex, char> held; ///< corners and nodes that conditions name: they stay
-  Field broken; ///< – from 1 on it carries nothing, larger ones part first; a label; empty: nothing breaks
-  /// What may not mix, the material for example: a label, one in each part that the boundary divides the
-  /// domain into. Empty: all may.
-  IndexedVector<NodeIndex, std::int32_t> part{};
-  /// kg/m (kg of revolution), what a node's share of the body holds now, where that is not its cell: of a
-  /// cloud whose nodes stay. Empty: ρ₀ V/J of its cell.
-  Field matter{};
-};
-
-/// Part of a node's matter on its way to another.
-struct Parcel {
-  NodeIndex from, to;
-  double fraction; ///< of what `from` had at the start of the round
-};
-
-/// Sorted sparse row over the nodes the resampling began with.
-using Row = std::vector<std::pair<NodeIndex, double>>;
-
-class WorkingCloud {
+class WorkingCloud : public Matter {
 public:
   /// free_piece: the boundary piece whose ends may go, because nothing refers to it (faces that separation
   /// made). Throws GeometryError when the facets of the cloud do not form loops.
   WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, PieceIndex free_piece = PieceIndex::none);
 
   const Cloud<2>& cloud() const { return cloud_; }
-  const NodeProperties& node() const { return node_; }
   std::size_t size() const { return cloud_.position.size(); }
   IndexRange<NodeIndex> nodes() const { return cloud_.position.indices(); }
   bool on_boundary(NodeIndex i) const { return exists(next_[i]); }
   NodeIndex next(NodeIndex i) const { return next_[i]; } ///< along the boundary; none inside
   NodeIndex previous(NodeIndex i) const { return previous_[i]; }
   PieceIndex piece(NodeIndex i) const { return piece_[i]; } ///< of the facet that leaves it
-  bool may_mix(NodeIndex i, NodeIndex k) const {
-    return node_.part.empty() || node_.part[i] == node_.part[k];
-  }
-  bool held(NodeIndex i) const { return node_.held[i] != 0; }
   /// The start of the mate of the facet that leaves a boundary node; none where it has none.
   NodeIndex facing(NodeIndex i) const { return facing_[i]; }
   /// Whether a facet at a boundary node has a mate.
@@ -68,9 +36,6 @@ public:
   bool ends_piece(NodeIndex i) const;
   /// A boundary node that may not go: it is held, ends a piece or mates, or its mate may not.
   bool stays(NodeIndex i) const;
-  double size_between(NodeIndex a, NodeIndex b) const {
-    return 0.5 * (node_.size[index_of(a)] + node_.size[index_of(b)]);
-  }
 
   /// Adds a node without matter between two others, or on the facet a → b of the boundary: half-way, or at
   /// `place`, 0 at a and 1 at b. Returns its number. Where the facet has a mate the next number is that of
@@ -91,10 +56,6 @@ public:
   /// stand `gap` (m) apart, but for ends on mates, whose doubles stay where they are, as twins. Returns the
   /// pairs {old node, its double without matter}.
   std::vector<std::array<NodeIndex, 2>> open(std::span<const NodeIndex> path, PieceIndex piece, double gap);
-  /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
-  void move(const std::vector<Parcel>& parcels);
-  /// Moves at once; `fraction` of what `from` has now.
-  void move_now(NodeIndex from, NodeIndex to, double fraction);
   /// Drops nodes that have no matter left; renumbers. Returns the new number of each, none for the dropped.
   IndexedVector<NodeIndex, NodeIndex> drop(const IndexedVector<NodeIndex, char>& gone);
   /// Writes the facets of the loops into cloud().
@@ -115,20 +76,14 @@ private:
   void pass_by(NodeIndex node);
   void be_mates(NodeIndex a, NodeIndex b);
   void renew_loops();
-  Row& row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i);
-  NodeRows in_order(const IndexedVector<NodeIndex, Row>& rows, const std::vector<std::int32_t>& order) const;
   NodeIndex append(const Vec2& x, const std::vector<std::pair<NodeIndex, double>>& parents);
 
   Cloud<2> cloud_;
-  NodeProperties node_;
-  std::size_t old_nodes_;
   PieceIndex free_piece_;
   IndexedVector<NodeIndex, NodeIndex> next_, previous_; ///< along the boundary
   IndexedVector<NodeIndex, PieceIndex> piece_;          ///< of the facet that leaves it
   IndexedVector<NodeIndex, NodeIndex> facing_;          ///< start of the mate of the facet that leaves it
   std::vector<NodeIndex> loop_;                         ///< a node of each loop, in order
-  IndexedVector<NodeIndex, NodeIndex> old_of_;          ///< number at the start; none: inserted
-  IndexedVector<NodeIndex, Row> parcels_, labels_;      ///< empty: the old node itself, if there was one
 };
 
 } // namespace cnem::adapt

@@ -1,0 +1,94 @@
+#pragma once
+// The matter at the nodes of a cloud while it is being resampled, in the plane and in space.
+#include "core/fields/aligned.hpp"
+#include "core/index.hpp"
+#include "core/indexed.hpp"
+#include "core/operators/resampling.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace cnem::adapt {
+
+/// What resampling has to know of a node. Each list is [node]; held nodes that are doubled stay both.
+struct NodeProperties {
+  Field mass;     ///< kg/m (kg of revolution), carried
+  Field jacobian; ///< J, volume over the stress-free one, –; mixes with mass, as volumes add
+  Field density;  ///< kg/m³ at J = 1; a label
+  Field size;     ///< m, wanted spacing; a label
+  IndexedVector<NodeIndex, char> held; ///< corners and nodes that conditions name: they stay
+  Field broken; ///< – from 1 on it carries nothing, larger ones part first; a label; empty: nothing breaks
+  /// What may not mix, the material for example: a label, one in each part that the boundary divides the
+  /// domain into. Empty: all may.
+  IndexedVector<NodeIndex, std::int32_t> part{};
+  /// kg/m (kg of revolution), what a node's share of the body holds now, where that is not its cell: of a
+  /// cloud whose nodes stay. Empty: ρ₀ V/J of its cell.
+  Field matter{};
+};
+
+/// Part of a node's matter on its way to another.
+struct Parcel {
+  NodeIndex from, to;
+  double fraction; ///< of what `from` had at the start of the round
+};
+
+/// Sorted sparse row over the nodes the resampling began with.
+using Row = std::vector<std::pair<NodeIndex, double>>;
+
+/// What nodes have, and what they were made of.
+class Matter {
+public:
+  explicit Matter(NodeProperties properties);
+
+  const NodeProperties& node() const { return node_; }
+  bool may_mix(NodeIndex i, NodeIndex k) const {
+    return node_.part.empty() || node_.part[i] == node_.part[k];
+  }
+  bool held(NodeIndex i) const { return node_.held[i] != 0; }
+  double size_between(NodeIndex a, NodeIndex b) const {
+    return 0.5 * (node_.size[index_of(a)] + node_.size[index_of(b)]);
+  }
+  /// The number at the start; none: inserted.
+  NodeIndex old_of(NodeIndex i) const { return old_of_[i]; }
+
+  /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
+  void move(const std::vector<Parcel>& parcels);
+  /// Moves at once; `fraction` of what `from` has now.
+  void move_now(NodeIndex from, NodeIndex to, double fraction);
+
+protected:
+  /// A node without matter, with the mean of labels of others.
+  void append(const std::vector<std::pair<NodeIndex, double>>& parents);
+  void hold(NodeIndex i, char held) { node_.held[i] = held; }
+  /// Drops nodes: those that stay move up.
+  void drop(const IndexedVector<NodeIndex, char>& gone);
+  /// Writes rows and numbers, with nodes in this order: order[new] = present number.
+  template<int dim> void finish(const std::vector<std::int32_t>& order, Resampling<dim>& result) const;
+  /// Whether no node came or went.
+  bool same_nodes() const;
+
+private:
+  Row& row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i);
+  NodeRows in_order(const IndexedVector<NodeIndex, Row>& rows, const std::vector<std::int32_t>& order) const;
+
+  NodeProperties node_;
+  std::size_t old_nodes_;
+  IndexedVector<NodeIndex, NodeIndex> old_of_;     ///< number at the start; none: inserted
+  IndexedVector<NodeIndex, Row> parcels_, labels_; ///< empty: the old node itself, if there was one
+};
+
+/// Numbers after those with a mark have been dropped; none for these.
+IndexedVector<NodeIndex, NodeIndex> numbers_without(const IndexedVector<NodeIndex, char>& gone);
+/// Drops those from a list, [node].
+template<class List> void compact(const IndexedVector<NodeIndex, NodeIndex>& number, List& list) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (exists(number[i])) {
+      if (kept != i) list[kept] = std::move(list[i]);
+      ++kept;
+    }
+  list.resize(kept);
+}
+
+} // namespace cnem::adapt

@@ -1,0 +1,200 @@
+#include "adapt/space/refine_surface.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <initializer_list>
+#include <tuple>
+
+namespace cnem::adapt {
+
+using Edge = WorkingSurface::Edge;
+
+namespace {
+
+class Refinement {
+public:
+  Refinement(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits, PassReport& report)
+      : surface_(surface), size_(size), limit_(limits), report_(report), old_nodes_(size.size()),
+        debt_(size.size(), 0.0) {
+    result_.into.assign(size.size(), NodeIndex::none);
+  }
+
+  RefinedSurface run() {
+    flip_all();
+    for (int round = 0; round < limit_.rounds; ++round) {
+      const int before = changes_;
+      split_long();
+      flip_all();
+      collapse_short();
+      flip_all();
+      if (changes_ == before) break;
+    }
+    give_back(surface_, std::move(debt_), size_, limit_.give_back);
+    return std::move(result_);
+  }
+
+private:
+  /// An edge that is to change, and its nodes, by which it is known to be there still.
+  struct Candidate {
+    double order;
+    NodeIndex start, end;
+    bool operator<(const Candidate& other) const {
+      return std::tie(order, start, end) < std::tie(other.order, other.start, other.end);
+    }
+  };
+
+  double spacing(NodeIndex i) const { return size_[index_of(i)]; }
+  double spacing(Edge e) const { return 0.5 * (spacing(surface_.start(e)) + spacing(surface_.end(e))); }
+
+  /// Edges, each once, with an order below zero for those that are to change.
+  template<class Order> std::vector<Candidate> candidates(const Order& order) const {
+    std::vector<Candidate> list;
+    for (Edge e = 0; e < surface_.edges(); ++e) {
+      if (!surface_.alive(e) || surface_.across(e) < e) continue;
+      const NodeIndex a = std::min(surface_.start(e), surface_.end(e)),
+                      b = std::max(surface_.start(e), surface_.end(e));
+      if (const double value = order(e); value < 0.0) list.push_back({value, a, b});
+    }
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  void owe(double volume, std::initializer_list<NodeIndex> nodes) {
+    for (const NodeIndex i : nodes) debt_[index_of(i)] += volume / static_cast<double>(nodes.size());
+  }
+
+  void split_long() {
+    constexpr int halvings = 4;
+    for (int n = 0; n < halvings; ++n) {
+      const auto list =
+          candidates([&](Edge e) { return limit_.split_edge - surface_.length(e) / spacing(e); });
+      int done = 0;
+      for (const Candidate& c : list) {
+        const SurfaceChange change = surface_.split(surface_.between(c.start, c.end));
+        if (!change.done()) continue;
+        result_.made.push_back({c.start, c.end});
+        result_.into.push_back(NodeIndex::none);
+        size_.push_back(0.5 * (spacing(c.start) + spacing(c.end)));
+        debt_.push_back(0.0);
+        ++report_.inserted_boundary;
+        ++done;
+      }
+      changes_ += done;
+      if (done == 0) return;
+      flip_all();
+    }
+  }
+
+  void flip_all() {
+    std::deque<std::array<NodeIndex, 2>> queue;
+    const auto push = [&](Edge e) { queue.push_back({surface_.start(e), surface_.end(e)}); };
+    for (Edge e = 0; e < surface_.edges(); ++e)
+      if (surface_.alive(e) && e < surface_.across(e) && surface_.wants_flip(e)) push(e);
+    // Lawson's flips come to an end on a plane; on a bent surface they might not
+    for (std::ptrdiff_t left = 4 * surface_.edges(); left > 0 && !queue.empty(); --left) {
+      const auto [a, b] = queue.front();
+      queue.pop_front();
+      const Edge e = surface_.on_surface(a) ? surface_.between(a, b) : WorkingSurface::no_edge;
+      if (e == WorkingSurface::no_edge || !surface_.wants_flip(e)) continue;
+      const NodeIndex c = surface_.apex(e), d = surface_.apex(surface_.across(e));
+      const SurfaceChange change = surface_.flip(e, spacing(e));
+      if (!change.done()) continue;
+      owe(-change.volume, {a, b, c, d});
+      ++report_.flipped;
+      ++changes_;
+      for (const auto& [from, to] : {std::array{a, c}, {c, b}, {b, d}, {d, a}})
+        push(surface_.between(from, to));
+    }
+  }
+
+  /// The less there is to lose with a node, the sooner it goes: new nodes, those inside of faces, on creases.
+  int rank(NodeIndex i) const {
+    if (surface_.held(i) || surface_.corner(i)) return 3;
+    bool on_crease = false;
+    surface_.around(i, [&](Edge e) { on_crease |= surface_.crease(e); });
+    return on_crease ? 2 : index_of(i) < old_nodes_ ? 1 : 0;
+  }
+
+  void collapse_short() {
+    const auto shortness = [&](Edge e) { return surface_.length(e) / spacing(e) - limit_.short_edge; };
+    for (const Candidate& c : candidates(shortness)) {
+      const bool first = rank(c.start) <= rank(c.end);
+      if (!collapse(first ? c.start : c.end, first ? c.end : c.start))
+        collapse(first ? c.end : c.start, first ? c.start : c.end);
+    }
+    // nodes that creases have come near to
+    std::vector<Candidate> list;
+    for (Edge e = 0; e < surface_.edges(); ++e) {
+      if (!surface_.alive(e) || !surface_.crease(e)) continue;
+      const NodeIndex a = surface_.start(e), b = surface_.end(e), i = surface_.apex(e);
+      const Vec3 along = surface_.at(b) - surface_.at(a), to = surface_.at(i) - surface_.at(a);
+      const double place = to.dot(along) / along.squaredNorm();
+      const double height = along.cross(to).norm() / along.norm() / spacing(e);
+      if (place <= 0.0 || place >= 1.0 || height >= limit_.low_height) continue;
+      list.push_back({height, i, place < 0.5 ? a : b});
+    }
+    std::sort(list.begin(), list.end());
+    for (const Candidate& c : list) collapse(c.start, c.end);
+  }
+
+  bool collapse(NodeIndex gone, NodeIndex stays) {
+    if (!surface_.on_surface(gone) || !surface_.on_surface(stays)) return false;
+    const Edge e = surface_.between(gone, stays);
+    if (e == WorkingSurface::no_edge) return false;
+    constexpr double at_once = 0.25; // h: so short that long edges beside it do not matter
+    bool too_long = false;
+    surface_.around(gone, [&](Edge k) {
+      const NodeIndex i = surface_.end(k);
+      too_long |= (surface_.at(i) - surface_.at(stays)).norm() >
+                  limit_.split_edge * 0.5 * (spacing(i) + spacing(stays));
+    });
+    if (too_long && surface_.length(e) > at_once * spacing(e)) return false;
+    const NodeIndex c = surface_.apex(e), d = surface_.apex(surface_.across(e));
+    const SurfaceChange change = surface_.collapse(e, spacing(e));
+    if (!change.done()) return false;
+    owe(debt_[index_of(gone)] - change.volume, {stays, c, d});
+    debt_[index_of(gone)] = 0.0;
+    result_.into[gone] = stays;
+    ++report_.removed_boundary;
+    ++changes_;
+    return true;
+  }
+
+  WorkingSurface& surface_;
+  Field& size_;
+  const SurfaceThresholds& limit_;
+  PassReport& report_;
+  std::size_t old_nodes_;
+  Field debt_; ///< [node] m³, volume that it is to win back
+  RefinedSurface result_;
+  int changes_ = 0;
+};
+
+} // namespace
+
+void give_back(WorkingSurface& surface, Field debt, const Field& size, double most) {
+  constexpr int times = 3;
+  for (int n = 0; n < times; ++n) {
+    Field left(debt.size(), 0.0);
+    for (const NodeIndex i : IndexRange<NodeIndex>(debt.size())) {
+      const double owed = debt[index_of(i)], h = size[index_of(i)];
+      if (std::abs(owed) < 1e-12 * h * h * h) continue;
+      if (surface.swell(i, owed, most * h)) continue;
+      std::vector<NodeIndex> beside;
+      surface.around(i, [&](Edge e) {
+        if (surface.way_of_volume(surface.end(e)) != Vec3::Zero()) beside.push_back(surface.end(e));
+      });
+      for (const NodeIndex k : beside) left[index_of(k)] += owed / static_cast<double>(beside.size());
+    }
+    debt = std::move(left);
+  }
+}
+
+RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits,
+                              PassReport& report) {
+  return Refinement(surface, size, limits, report).run();
+}
+
+} // namespace cnem::adapt

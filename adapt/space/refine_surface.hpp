@@ -1,0 +1,38 @@
+#pragma once
+// The surface of a body keeps its resolution: long edges are split, short ones collapsed, and facets made
+// Delaunay by flips.
+#include "adapt/pass_report.hpp"
+#include "adapt/space/working_surface.hpp"
+#include "core/fields/aligned.hpp"
+
+#include <array>
+#include <vector>
+
+namespace cnem::adapt {
+
+/// Lengths in units of the wanted spacing h at the place.
+struct SurfaceThresholds {
+  double split_edge = 1.5;  ///< longer edges are split
+  double short_edge = 0.45; ///< shorter ones collapsed
+  double low_height = 0.3;  ///< nodes nearer to a crease go into one of its nodes
+  double give_back = 0.1;   ///< how far a node moves at most to give back volume
+  int rounds = 3;
+};
+
+/// What has become of nodes.
+struct RefinedSurface {
+  std::vector<std::array<NodeIndex, 2>> made; ///< the ends of the edges that were split, node after node
+  IndexedVector<NodeIndex, NodeIndex> into;   ///< [node] the one it went into; none: it is there
+};
+
+/// size: m, [node] wanted spacing, of new nodes too afterwards. Volume that collapses and flips change is
+/// given back by moving nodes near them along the gradient of the volume, not out of plane faces: only what
+/// creases and corners cannot give back is left. O(F log F). The result depends on the arguments alone.
+RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits,
+                              PassReport& report);
+
+/// Moves nodes along the gradient of the volume by `most` h at most, so that each wins the volume that it
+/// owes, debt[node] in m³; who cannot leaves it to nodes beside.
+void give_back(WorkingSurface& surface, Field debt, const Field& size, double most);
+
+} // namespace cnem::adapt

@@ -1,0 +1,287 @@
+#include "adapt/space/resample.hpp"
+
+#include "core/geometry/facets.hpp"
+#include "core/index.hpp"
+#include "voronoi/space/crossings.hpp"
+#include "voronoi/space/recovery.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem::adapt {
+
+namespace {
+
+/// m³, what the matter of a node fills.
+double filled(const WorkingBody& body, NodeIndex i) {
+  const NodeProperties& p = body.node();
+  return p.mass[index_of(i)] * p.jacobian[index_of(i)] / p.density[index_of(i)];
+}
+
+/// The matter of nodes that are gone goes to nodes at the place where each was: those that have more volume
+/// than matter take most. number: [node] in the structure; none: gone.
+std::vector<Parcel> inheritance(const WorkingBody& body, const SpaceStructure& structure,
+                                const std::vector<Removal>& list,
+                                const IndexedVector<NodeIndex, NodeIndex>& number) {
+  IndexedVector<NodeIndex, NodeIndex> body_number(structure.cell.size(), NodeIndex::none);
+  Field room(structure.cell.size());
+  for (const NodeIndex i : body.nodes())
+    if (exists(number[i])) {
+      body_number[number[i]] = i;
+      room[index_of(number[i])] = structure.volume(number[i]) - filled(body, i);
+    }
+  IndexedVector<NodeIndex, NodeIndex> near(body.size(), NodeIndex::none);
+  for (const Removal& removal : list) near[removal.gone] = removal.near;
+  std::vector<Parcel> parcels;
+  for (const Removal& removal : list) {
+    const double matter = filled(body, removal.gone);
+    if (matter == 0.0) continue;
+    NodeIndex stays = removal.near;
+    while (exists(near[stays])) stays = near[stays];
+    std::vector<NodeIndex> heirs{number[stays]};
+    for (const NodeIndex k : structure.neighbours(number[stays])) heirs.push_back(k);
+    Field share(heirs.size(), 0.0);
+    const double h = body.spacing(removal.gone);
+    double sum = 0.0;
+    for (const double least : {0.0, 1.0}) { // where none has room, all take
+      for (std::size_t n = 0; n < heirs.size(); ++n) {
+        const NodeIndex k = body_number[heirs[n]];
+        if (!body.may_mix(k, removal.gone)) continue;
+        const double distance = (body.at(k) - body.at(removal.gone)).norm() / h;
+        share[n] = std::max(room[index_of(heirs[n])], least * structure.volume(heirs[n])) /
+                   (0.1 + distance * distance * distance);
+        share[n] = std::max(share[n], 0.0);
+        sum += share[n];
+      }
+      if (sum > 0.0) break;
+    }
+    for (std::size_t n = 0; n < heirs.size(); ++n) {
+      if (!(share[n] > 0.0)) continue;
+      parcels.push_back({removal.gone, body_number[heirs[n]], share[n] / sum});
+      room[index_of(heirs[n])] -= share[n] / sum * matter;
+    }
+  }
+  return parcels;
+}
+
+/// The node nearest to one that recovering the boundary has taken out.
+NodeIndex nearest_left(const WorkingBody& body, const IndexedVector<NodeIndex, NodeIndex>& now,
+                       NodeIndex gone) {
+  NodeIndex best = NodeIndex::none;
+  for (const NodeIndex i : body.nodes()) {
+    if (!exists(now[i]) || !body.may_mix(i, gone)) continue;
+    if (!exists(best) ||
+        (body.at(i) - body.at(gone)).squaredNorm() < (body.at(best) - body.at(gone)).squaredNorm())
+      best = i;
+  }
+  return best;
+}
+
+} // namespace
+
+namespace {
+
+using Corners = std::array<NodeIndex, 3>;
+
+std::vector<Corners> sorted_facets(const Cloud<3>& cloud) {
+  std::vector<Corners> list;
+  for (const auto& facet : cloud.facets) {
+    list.push_back(facet.node);
+    std::sort(list.back().begin(), list.back().end());
+  }
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+/// Where recovering has put other facets for those of the body, nodes of these give back the volume (m³).
+void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Facet<3>>& facets, double gained,
+                    const SpaceRules& rules) {
+  const std::vector<Corners> before = sorted_facets(body.cloud());
+  body.set_boundary(facets);
+  std::vector<NodeIndex> owing;
+  for (Corners corner : sorted_facets(body.cloud()))
+    if (!std::binary_search(before.begin(), before.end(), corner))
+      owing.insert(owing.end(), corner.begin(), corner.end());
+  std::sort(owing.begin(), owing.end());
+  owing.erase(std::unique(owing.begin(), owing.end()), owing.end());
+  WorkingSurface surface(body.cloud(), body.node().held, rules.surface);
+  Field debt(body.size(), 0.0);
+  for (const NodeIndex i : owing) debt[index_of(i)] = -gained / static_cast<double>(owing.size());
+  give_back(surface, std::move(debt), body.node().size, rules.thresholds.surface.give_back);
+  for (const NodeIndex i : body.nodes()) body.place(i, surface.at(i));
+}
+
+} // namespace
+
+void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Removal>& list,
+            const SpaceRules& rules, PassReport& report) {
+  IndexedVector<NodeIndex, char> gone(body.size(), 0);
+  for (const Removal& removal : list) gone[removal.gone] = 1;
+  WorkingBody left = body;
+  left.drop(gone);
+  IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
+  const double volume = enclosed_measure(body.cloud());
+  voronoi::RecoveredBoundary recovered;
+  constexpr int times = 3;
+  for (int n = 0; n < times; ++n) {
+    recovered = voronoi::recover_boundary(left.cloud());
+    report.flipped += recovered.counts.flipped;
+    for (NodeIndex& i : number)
+      if (exists(i)) i = recovered.now[i];
+    IndexedVector<NodeIndex, char> lost(left.size(), 0);
+    for (const NodeIndex i : left.nodes()) lost[i] = !exists(recovered.now[i]);
+    left.drop(lost);
+    constexpr double little = 1e-9; // of the body
+    const double gained = enclosed_measure(recovered.cloud) - volume;
+    if (n + 1 == times || std::abs(gained) < little * volume) break;
+    restore_volume(left, recovered.cloud.facets, gained, rules);
+  }
+  std::vector<Removal> all = list;
+  for (const NodeIndex i : body.nodes()) {
+    if (exists(number[i])) body.place(i, recovered.cloud.position[number[i]]);
+    if (gone[i] || exists(number[i])) continue;
+    all.push_back({i, nearest_left(body, number, i)});
+    gone[i] = 1;
+    ++report.removed;
+  }
+  structure = structure_of(recovered.cloud, std::move(recovered.tetrahedra));
+  body.move(inheritance(body, structure, all, number));
+  body.drop(gone);
+  body.set_boundary(std::move(recovered.cloud.facets));
+  endow(body, structure);
+}
+
+void endow(WorkingBody& body, const SpaceStructure& structure) {
+  constexpr double enough = 0.7; // of its volume
+  const NodeProperties& p = body.node();
+  std::vector<NodeIndex> poor;
+  IndexedVector<NodeIndex, char> is_poor(body.size(), 0);
+  for (const NodeIndex i : body.nodes())
+    if (p.mass[index_of(i)] == 0.0 ||
+        (!exists(body.old_of(i)) && filled(body, i) < enough * structure.volume(i))) {
+      poor.push_back(i);
+      is_poor[i] = 1;
+    }
+  if (poor.empty()) return;
+  const auto giver = [&](NodeIndex i, NodeIndex k) { return !is_poor[k] && body.may_mix(i, k); };
+  // what neighbours have too much, shared out by what the poor lack
+  Field lack(body.size(), 0.0), claims(body.size(), 0.0), given(body.size(), 0.0);
+  for (const NodeIndex i : poor) {
+    lack[index_of(i)] = structure.volume(i) - filled(body, i);
+    for (const NodeIndex k : structure.neighbours(i))
+      if (giver(i, k)) claims[index_of(k)] += lack[index_of(i)];
+  }
+  std::vector<Parcel> parcels;
+  for (const NodeIndex i : poor) {
+    const double wanted = lack[index_of(i)];
+    double offered = 0.0;
+    const auto surplus = [&](NodeIndex k) {
+      return std::max(0.0, filled(body, k) - structure.volume(k)) * wanted / claims[index_of(k)];
+    };
+    for (const NodeIndex k : structure.neighbours(i))
+      if (giver(i, k)) offered += surplus(k);
+    const double taken = offered > 0.0 ? std::min(1.0, wanted / offered) : 0.0;
+    double all = 0.0;
+    for (const NodeIndex k : structure.neighbours(i))
+      if (giver(i, k)) all += filled(body, k);
+    // the rest comes evenly from all
+    constexpr double most = 0.2;
+    const double rest = all > 0.0 ? std::clamp((enough * wanted - offered) / all, 0.0, most) : 0.0;
+    for (const NodeIndex k : structure.neighbours(i)) {
+      if (!giver(i, k)) continue;
+      const double fraction =
+          std::min(taken * surplus(k) / filled(body, k) + rest, 0.8 * (1.0 - given[index_of(k)]));
+      given[index_of(k)] += fraction;
+      if (fraction > 0.0) parcels.push_back({k, i, fraction});
+    }
+  }
+  body.move(parcels);
+}
+
+namespace {
+
+/// The surface with its resolution restored; nodes at which it would cross itself then are left as they are.
+struct Refined {
+  WorkingSurface surface;
+  RefinedSurface changes;
+  Field size;
+  PassReport report;
+};
+
+Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const SpaceRules& rules) {
+  IndexedVector<NodeIndex, char> held = properties.held;
+  constexpr int most = 4;
+  for (int n = 0;; ++n) {
+    Refined result{WorkingSurface(cloud, held, rules.surface), {}, properties.size, {}};
+    if (n == most) {
+      result.changes.into.assign(cloud.position.size(), NodeIndex::none);
+      ++result.report.undone;
+      return result;
+    }
+    result.changes = refine_surface(result.surface, result.size, rules.thresholds.surface, result.report);
+    Cloud<3> after;
+    after.position = result.surface.position();
+    after.facets = result.surface.facets();
+    after.twins = cloud.twins;
+    const auto pairs = voronoi::crossings(after);
+    if (pairs.empty()) return result;
+    for (const auto& pair : pairs)
+      for (const CloudFacetIndex f : pair) {
+        // old nodes of the facet and those that its new ones come from
+        std::vector<NodeIndex> stack(after.facets[f].node.begin(), after.facets[f].node.end());
+        while (!stack.empty()) {
+          const NodeIndex i = stack.back();
+          stack.pop_back();
+          if (index_of(i) < held.size()) {
+            held[i] = 1;
+            result.surface.around(i, [&](auto e) {
+              if (index_of(result.surface.end(e)) < held.size()) held[result.surface.end(e)] = 1;
+            });
+          } else {
+            const auto& ends = result.changes.made[index_of(i) - held.size()];
+            stack.insert(stack.end(), ends.begin(), ends.end());
+          }
+        }
+      }
+  }
+}
+
+} // namespace
+
+Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const SpaceRules& rules,
+                       PassReport& report) {
+  const SpaceThresholds& limits = rules.thresholds;
+  report.crossings += static_cast<int>(voronoi::crossings(cloud).size());
+  Refined first = refined(cloud, properties, rules);
+  report += first.report;
+  WorkingBody body(cloud, std::move(properties));
+  const std::size_t old_nodes = body.size();
+  for (std::size_t n = 0; n < first.changes.made.size(); ++n) {
+    const auto& [a, b] = first.changes.made[n];
+    body.insert_between(a, b, first.surface.at(as<NodeIndex>(old_nodes + n)));
+  }
+  for (const NodeIndex i : body.nodes()) body.place(i, first.surface.at(i));
+  body.set_boundary(first.surface.facets());
+
+  fprintf(stderr, "refined dV %.2e crossings now %d\n",
+          enclosed_measure(body.cloud()) - enclosed_measure(cloud), 0);
+  std::vector<Removal> list;
+  for (const NodeIndex i : body.nodes())
+    if (exists(first.changes.into[i])) list.push_back({i, first.changes.into[i]});
+  list = crowded(body, list, limits, report);
+  SpaceStructure structure;
+  remove(body, structure, list, rules, report);
+  if (const auto more = dense(body, structure, limits); !more.empty()) {
+    report.removed += static_cast<int>(more.size());
+    remove(body, structure, more, rules, report);
+  }
+  for (int round = 0; round < limits.rounds; ++round)
+    if (!fill(body, structure, rules, report)) break;
+  balance(body, structure, {limits.light, limits.heavy, limits.rounds}, report);
+  report.volume_change = enclosed_measure(body.cloud()) - enclosed_measure(cloud);
+  Resampling<3> change = body.finish();
+  change.old_position = cloud.position;
+  return change;
+}
+
+} // namespace cnem::adapt

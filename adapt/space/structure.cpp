@@ -1,0 +1,53 @@
+#include "adapt/space/structure.hpp"
+
+#include "core/index.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem::adapt {
+
+namespace {
+
+double volume_of(const Cloud<3>& cloud, const std::array<NodeIndex, 4>& node) {
+  return measure<3>(
+      {cloud.position[node[0]], cloud.position[node[1]], cloud.position[node[2]], cloud.position[node[3]]});
+}
+
+} // namespace
+
+SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh) {
+  SpaceStructure s;
+  const std::size_t n = cloud.position.size();
+  s.cell.assign(n, 0.0);
+  std::vector<std::array<NodeIndex, 2>> edges;
+  edges.reserve(6 * mesh.node.size());
+  for (const auto& node : mesh.node) {
+    const double quarter = 0.25 * volume_of(cloud, node);
+    for (std::size_t a = 0; a < 4; ++a) {
+      s.cell[index_of(node[a])] += quarter;
+      for (std::size_t b = a + 1; b < 4; ++b)
+        edges.push_back({std::min(node[a], node[b]), std::max(node[a], node[b])});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  s.linked = other_ends(n, edges);
+  s.tetrahedra = group_by_cell<SimplexIndex>(
+      n, mesh.node.size(), [&](std::size_t t) -> const auto& { return mesh.node[t]; });
+  s.mesh = std::move(mesh);
+  return s;
+}
+
+Field spacing_of(const Cloud<3>& cloud, const SpaceStructure& structure) {
+  Field spacing(cloud.position.size(), 0.0);
+  for (std::size_t i = 0; i < spacing.size(); ++i) {
+    const auto around = structure.tetrahedra.of(i);
+    double volume = 0.0;
+    for (const SimplexIndex t : around) volume += volume_of(cloud, structure.mesh.node[t]);
+    spacing[i] = std::cbrt(6.0 * volume / static_cast<double>(around.size()));
+  }
+  return spacing;
+}
+
+} // namespace cnem::adapt

@@ -1,0 +1,27 @@
+#pragma once
+// Tetrahedra and the volumes of nodes in space: what a pass looks at between two rounds.
+#include "core/geometry/cell_complex.hpp"
+#include "voronoi/space/tetrahedra.hpp"
+
+#include <span>
+
+namespace cnem::adapt {
+
+struct SpaceStructure {
+  voronoi::Tetrahedra mesh;
+  CellLists<SimplexIndex> tetrahedra; ///< of each node
+  CellLists<NodeIndex> linked;        ///< ends of the edges of each node
+  Field cell;                         ///< [node] m³
+
+  double volume(NodeIndex i) const { return cell[index_of(i)]; }
+  std::span<const NodeIndex> neighbours(NodeIndex i) const { return linked.of(i); }
+};
+
+/// Volumes are those of median cells, a quarter of each tetrahedron. O(N).
+SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh);
+
+/// m, [node] edge of the cube that holds what a node would have inside of a lattice: (6 V)^⅓ with the mean
+/// volume V of its tetrahedra.
+Field spacing_of(const Cloud<3>& cloud, const SpaceStructure& structure);
+
+} // namespace cnem::adapt

@@ -1,0 +1,30 @@
+#include "adapt/space/working_body.hpp"
+
+#include "voronoi/space/order.hpp"
+
+#include <numeric>
+
+namespace cnem::adapt {
+
+void WorkingBody::drop(const IndexedVector<NodeIndex, char>& gone) {
+  const IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
+  Matter::drop(gone);
+  compact(number, cloud_.position);
+  for (auto& facet : cloud_.facets)
+    for (NodeIndex& i : facet.node) i = number[i];
+  std::erase_if(cloud_.twins, [&](const auto& pair) { return gone[pair[0]] || gone[pair[1]]; });
+  for (auto& pair : cloud_.twins)
+    for (NodeIndex& i : pair) i = number[i];
+}
+
+Resampling<3> WorkingBody::finish() const {
+  Resampling<3> result;
+  std::vector<std::int32_t> order(size());
+  std::iota(order.begin(), order.end(), 0);
+  if (!same_nodes()) order = voronoi::hilbert_order(cloud_.position);
+  result.cloud = voronoi::renumber(cloud_, order);
+  Matter::finish(order, result);
+  return result;
+}
+
+} // namespace cnem::adapt

@@ -1,0 +1,51 @@
+#pragma once
+// A cloud in space while it is being resampled: nodes come and go, and mass goes with them in parcels.
+#include "adapt/matter.hpp"
+#include "core/geometry/cloud.hpp"
+
+#include <array>
+
+namespace cnem::adapt {
+
+class WorkingBody : public Matter {
+public:
+  WorkingBody(Cloud<3> cloud, NodeProperties properties)
+      : Matter(std::move(properties)), cloud_(std::move(cloud)) {
+    cloud_.simplices.clear();
+    cloud_.across.clear();
+  }
+
+  const Cloud<3>& cloud() const { return cloud_; }
+  std::size_t size() const { return cloud_.position.size(); }
+  IndexRange<NodeIndex> nodes() const { return cloud_.position.indices(); }
+  const Vec3& at(NodeIndex i) const { return cloud_.position[i]; }
+  double spacing(NodeIndex i) const { return node().size[index_of(i)]; } ///< m, wanted
+
+  /// A node without matter between two others.
+  NodeIndex insert_between(NodeIndex a, NodeIndex b, const Vec3& x) {
+    append({{a, 0.5}, {b, 0.5}});
+    cloud_.position.push_back(x);
+    return as<NodeIndex>(size() - 1);
+  }
+  /// A node without matter at the place of another, and held if that is.
+  NodeIndex double_node(NodeIndex i) {
+    append({{i, 1.0}});
+    cloud_.position.push_back(Vec3(at(i)));
+    const NodeIndex made = as<NodeIndex>(size() - 1);
+    hold(made, held(i));
+    return made;
+  }
+  void place(NodeIndex i, const Vec3& x) { cloud_.position[i] = x; }
+  void set_boundary(IndexedVector<CloudFacetIndex, Facet<3>> facets) { cloud_.facets = std::move(facets); }
+
+  /// Drops nodes that have no matter left, and that no facet has; renumbers.
+  void drop(const IndexedVector<NodeIndex, char>& gone);
+
+  /// Everything since construction, with the nodes in space-filling order when any came or went.
+  Resampling<3> finish() const;
+
+private:
+  Cloud<3> cloud_;
+};
+
+} // namespace cnem::adapt

@@ -1,0 +1,366 @@
+#include "adapt/space/working_surface.hpp"
+
+#include "core/geometry/facets.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace cnem::adapt {
+
+using voronoi::next_edge;
+
+namespace {
+
+double cosine(double degrees) { return std::cos(degrees * std::numbers::pi / 180.0); }
+
+double cosine_between(const Vec3& a, const Vec3& b) {
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0.0 ? a.dot(b) / lengths : -1.0;
+}
+
+/// Least height over longest side, –.
+double shape_of(const std::array<Vec3, 3>& x) {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (x[(k + 1) % 3] - x[k]).squaredNorm());
+  return longest > 0.0 ? 2.0 * area_normal<3>(x).norm() / longest : 0.0;
+}
+
+} // namespace
+
+const char* text_of(Refusal refusal) {
+  switch (refusal) {
+  case Refusal::none:
+    return "done";
+  case Refusal::absent:
+    return "there is no such edge any more";
+  case Refusal::held:
+    return "the node has to stay";
+  case Refusal::corner:
+    return "creases or pieces meet at the node";
+  case Refusal::crease:
+    return "the way leads off a crease";
+  case Refusal::link:
+    return "other facets would meet in one edge";
+  case Refusal::normals:
+    return "a facet would turn too far";
+  case Refusal::volume:
+    return "the shape would change too much";
+  }
+  return "";
+}
+
+WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held,
+                               const SurfaceRules& rules)
+    : rules_(rules), least_crease_(cosine(rules.crease)), least_corner_(cosine(rules.corner)),
+      least_turn_(cosine(rules.turn)), least_flat_(cosine(rules.flat)), position_(cloud.position),
+      held_(held), leaving_(cloud.position.size(), no_edge), facet_(cloud.facets.begin(), cloud.facets.end()),
+      closed_(cloud.facets.size(), 0) {
+  assert(held.size() == cloud.position.size());
+  const voronoi::SurfaceEdges across = voronoi::surface_edges(cloud);
+  across_.reserve(3 * across.size());
+  for (const auto& of_facet : across) across_.insert(across_.end(), of_facet.begin(), of_facet.end());
+  for (Edge e = 0; e < edges(); ++e)
+    if (leaving_[start(e)] == no_edge) leaving_[start(e)] = e;
+  for (const CloudFacetIndex f : cloud.facets.indices()) origin_.push_back(f);
+  if (cloud.twins.empty()) return;
+  const auto behind = voronoi::facets_behind(cloud);
+  for (const CloudFacetIndex f : behind.indices()) {
+    if (!exists(behind[f])) continue;
+    closed_[index_of(f)] = 1;
+    for (const NodeIndex i : cloud.facets[f].node) held_[i] = 1;
+  }
+}
+
+WorkingSurface::Corners WorkingSurface::corners(std::size_t facet) const {
+  const auto& node = facet_[facet].node;
+  return {at(node[0]), at(node[1]), at(node[2])};
+}
+
+Vec3 WorkingSurface::normal(Edge e) const { return area_normal<3>(corners(index_of(e / 3))); }
+
+double WorkingSurface::cosine_across(Edge e) const { return cosine_between(normal(e), normal(across(e))); }
+
+int WorkingSurface::valence(NodeIndex i) const {
+  int count = 0;
+  around(i, [&](Edge) { ++count; });
+  return count;
+}
+
+WorkingSurface::Edge WorkingSurface::between(NodeIndex from, NodeIndex to) const {
+  Edge found = no_edge;
+  around(from, [&](Edge e) {
+    if (end(e) == to) found = e;
+  });
+  return found;
+}
+
+bool WorkingSurface::crease(Edge e) const {
+  return facet_[index_of(e / 3)].piece != facet_[index_of(across(e) / 3)].piece ||
+         cosine_across(e) < least_crease_;
+}
+
+bool WorkingSurface::corner(NodeIndex i) const {
+  std::array<NodeIndex, 2> other{};
+  std::size_t count = 0;
+  around(i, [&](Edge e) {
+    if (!crease(e)) return;
+    if (count < 2) other[count] = end(e);
+    ++count;
+  });
+  if (count != 2) return count != 0;
+  return cosine_between(at(i) - at(other[0]), at(other[1]) - at(i)) < least_corner_;
+}
+
+/// Of a node on a crease each side is a part; what a part that is plane is normal to is no way.
+void WorkingSurface::keep_on_planes(NodeIndex i, Vec3& way) const {
+  constexpr double plane = 1e-7;            // sine of an angle
+  std::vector<std::pair<Vec3, bool>> sides; // normal of a part between two creases, and whether it is plane
+  std::vector<Edge> fan;
+  around(i, [&](Edge e) { fan.push_back(e); });
+  const auto first = std::find_if(fan.begin(), fan.end(), [&](Edge e) { return crease(e); });
+  if (first != fan.end()) std::rotate(fan.begin(), first, fan.end());
+  // the facet of an edge comes before the edge is crossed
+  for (std::size_t k = 0; k < fan.size(); ++k) {
+    const Edge e = fan[(k + 1) % fan.size()];
+    const Vec3 n = normal(e).normalized();
+    if (sides.empty() || crease(fan[k])) sides.emplace_back(n, true);
+    if (n.cross(sides.back().first).norm() > plane) sides.back().second = false;
+  }
+  std::optional<Vec3> normal_to;
+  for (const auto& [n, is_plane] : sides) {
+    if (!is_plane) continue;
+    if (!normal_to) {
+      normal_to = n;
+      way -= way.dot(n) * n;
+    } else if (const Vec3 line = normal_to->cross(n); line.norm() > plane) {
+      way = way.dot(line) / line.squaredNorm() * line;
+    }
+  }
+}
+
+Vec3 WorkingSurface::way_of_volume(NodeIndex i) const {
+  if (!on_surface(i) || held(i) || corner(i)) return Vec3::Zero();
+  Vec3 gradient = Vec3::Zero();
+  double area = 0.0;
+  around(i, [&](Edge e) {
+    const Vec3 part = (at(end(e)) - at(i)).cross(at(apex(e)) - at(i)) / 6.0;
+    gradient += part;
+    area += part.norm();
+  });
+  keep_on_planes(i, gradient);
+  constexpr double least = 0.1; // else it is rounding, or a long way for a little volume
+  return gradient.norm() > least * area ? gradient : Vec3::Zero();
+}
+
+void WorkingSurface::join(Edge a, Edge b) {
+  across_[index_of(a)] = b;
+  across_[index_of(b)] = a;
+}
+
+WorkingSurface::Edge WorkingSurface::add_facet(const Facet<3>& facet, std::size_t parent) {
+  const Edge first = edges();
+  facet_.push_back(facet);
+  origin_.push_back(origin_[parent]);
+  closed_.push_back(0);
+  across_.resize(across_.size() + 3, no_edge);
+  return first;
+}
+
+SurfaceChange WorkingSurface::split(Edge e, const Vec3& x) {
+  if (!alive(e)) return {Refusal::absent};
+  const Edge back = across(e);
+  const std::size_t f = index_of(e / 3), g = index_of(back / 3);
+  if (closed_[f] || closed_[g]) return {Refusal::held};
+  const NodeIndex b = end(e), c = apex(e), d = apex(back), made = position_.next();
+  position_.push_back(x);
+  held_.push_back(0);
+  const Edge after = across(next_edge(e)), before = across(last_edge(back));
+  const Edge one = add_facet({{made, b, c}, facet_[f].piece}, f);
+  const Edge other = add_facet({{b, made, d}, facet_[g].piece}, g);
+  facet_[f].node[index_of(next_edge(e) % 3)] = made;
+  facet_[g].node[index_of(back % 3)] = made;
+  join(one, other);
+  join(next_edge(e), one + 2);
+  join(one + 1, after);
+  join(last_edge(back), other + 1);
+  join(other + 2, before);
+  leaving_.push_back(one);
+  leaving_[b] = one + 1;
+  return {Refusal::none, 0.0, made};
+}
+
+SurfaceChange WorkingSurface::split(Edge e) {
+  if (!alive(e)) return {Refusal::absent};
+  return split(e, 0.5 * (at(start(e)) + at(end(e))));
+}
+
+bool WorkingSurface::may_become(const Corners& before, const Corners& after) const {
+  const double shape = shape_of(after);
+  if (shape < rules_.shape && shape < shape_of(before)) return false;
+  return cosine_between(area_normal<3>(before), area_normal<3>(after)) > least_turn_;
+}
+
+/// What does not depend on where the nodes are, but for creases.
+Refusal WorkingSurface::may_collapse(Edge e) const {
+  if (!alive(e)) return Refusal::absent;
+  const NodeIndex gone = start(e), stays = end(e);
+  if (held(gone)) return Refusal::held;
+  if (corner(gone)) return Refusal::corner;
+  bool on_crease = false;
+  std::vector<NodeIndex> near;
+  around(gone, [&](Edge k) {
+    on_crease |= crease(k);
+    near.push_back(end(k));
+  });
+  if (on_crease && !crease(e)) return Refusal::crease;
+  int common = 0;
+  around(stays, [&](Edge k) { common += std::find(near.begin(), near.end(), end(k)) != near.end() ? 1 : 0; });
+  if (common != 2 || valence(apex(e)) < 4 || valence(apex(across(e))) < 4) return Refusal::link;
+  return Refusal::none;
+}
+
+SurfaceChange WorkingSurface::collapse(Edge e, double spacing) {
+  if (const Refusal refusal = may_collapse(e); refusal != Refusal::none) return {refusal};
+  const Edge back = across(e);
+  const NodeIndex gone = start(e), stays = end(e);
+  const std::size_t f = index_of(e / 3), g = index_of(back / 3);
+  const Vec3 from = at(stays);
+  // the volume is linear in the place of the node that stays: V(x) = gradient · (x − from) − lost
+  Vec3 gradient = Vec3::Zero();
+  double lost = 0.0;
+  const auto each_facet = [&](const auto& visit) { // of those that are left
+    for (const NodeIndex i : {gone, stays})
+      around(i, [&](Edge k) {
+        const std::size_t facet = index_of(k / 3);
+        if (facet != f && facet != g) visit(i, k, corners(facet));
+      });
+  };
+  each_facet([&](NodeIndex i, Edge k, const Corners&) {
+    const Vec3 area = (at(end(k)) - from).cross(at(apex(k)) - from) / 6.0;
+    gradient += area;
+    if (i == gone) lost += area.dot(at(gone) - from);
+  });
+  const double limit = rules_.volume * spacing * spacing * spacing;
+  if (std::abs(lost) > limit) return {Refusal::volume};
+  constexpr double rounding = 1e-9, farthest = 0.1;
+  Vec3 to = from;
+  if (std::abs(lost) > rounding * limit && !held(stays) && !corner(stays)) {
+    Vec3 way = gradient;
+    keep_on_planes(stays, way);
+    const double step = lost / way.squaredNorm();
+    if (way.norm() > 0.1 * gradient.norm() && std::abs(step) * way.norm() < farthest * spacing)
+      to += step * way;
+  }
+  const auto fits = [&](const Vec3& x) {
+    bool all = true;
+    each_facet([&](NodeIndex i, Edge k, const Corners& before) {
+      if (i == stays && x == from) return;
+      Corners after = before;
+      after[index_of(k % 3)] = x;
+      all = all && may_become(before, after);
+    });
+    return all;
+  };
+  if (!fits(to)) {
+    if (to == from || !fits(from)) return {Refusal::normals};
+    to = from;
+  }
+  const double volume = to == from ? -lost : gradient.dot(to - from) - lost;
+
+  std::vector<Edge> fan;
+  around(gone, [&](Edge k) { fan.push_back(k); });
+  const Edge to_apex = across(last_edge(e)), at_apex = across(next_edge(e));
+  const Edge at_other = across(next_edge(back)), from_other = across(last_edge(back));
+  const NodeIndex c = apex(e), d = apex(back);
+  for (const Edge k : fan) facet_[index_of(k / 3)].node[index_of(k % 3)] = stays;
+  join(to_apex, at_apex);
+  join(at_other, from_other);
+  for (const std::size_t facet : {f, g})
+    facet_[facet].node = {NodeIndex::none, NodeIndex::none, NodeIndex::none};
+  leaving_[gone] = no_edge;
+  leaving_[stays] = to_apex;
+  leaving_[c] = at_apex;
+  leaving_[d] = at_other;
+  position_[stays] = to;
+  return {Refusal::none, volume};
+}
+
+bool WorkingSurface::wants_flip(Edge e) const {
+  const auto cotangent = [&](Edge edge) { // of the angle across
+    const Vec3 a = at(start(edge)) - at(apex(edge)), b = at(end(edge)) - at(apex(edge));
+    return a.dot(b) / a.cross(b).norm();
+  };
+  constexpr double least = -1e-6; // of four cocircular nodes either diagonal will do
+  return cotangent(e) + cotangent(across(e)) < least;
+}
+
+SurfaceChange WorkingSurface::flip(Edge e, double spacing) {
+  if (!alive(e)) return {Refusal::absent};
+  const Edge back = across(e);
+  const std::size_t f = index_of(e / 3), g = index_of(back / 3);
+  if (closed_[f] || closed_[g]) return {Refusal::held};
+  if (facet_[f].piece != facet_[g].piece || cosine_across(e) < least_flat_) return {Refusal::crease};
+  const NodeIndex a = start(e), b = end(e), c = apex(e), d = apex(back);
+  if (c == d || between(c, d) != no_edge || valence(a) < 4 || valence(b) < 4) return {Refusal::link};
+  const Corners one{at(c), at(a), at(d)}, other{at(d), at(b), at(c)};
+  const Vec3 sum = area_normal<3>(corners(f)) + area_normal<3>(corners(g));
+  const double shape = std::min(rules_.shape, std::min(shape_of(corners(f)), shape_of(corners(g))));
+  for (const Corners& after : {one, other})
+    if (cosine_between(area_normal<3>(after), sum) < least_turn_ || shape_of(after) < shape)
+      return {Refusal::normals};
+  const double volume = (at(b) - at(a)).cross(at(c) - at(a)).dot(at(d) - at(a)) / 6.0;
+  if (std::abs(volume) > rules_.volume * spacing * spacing * spacing) return {Refusal::volume};
+
+  const Edge c_to_a = across(last_edge(e)), b_to_c = across(next_edge(e));
+  const Edge a_to_d = across(next_edge(back)), d_to_b = across(last_edge(back));
+  const Edge first = 3 * (e / 3), second = 3 * (back / 3);
+  facet_[f].node = {c, a, d};
+  facet_[g].node = {d, b, c};
+  join(first, c_to_a);
+  join(first + 1, a_to_d);
+  join(first + 2, second + 2);
+  join(second, d_to_b);
+  join(second + 1, b_to_c);
+  leaving_[c] = first;
+  leaving_[a] = first + 1;
+  leaving_[d] = second;
+  leaving_[b] = second + 1;
+  return {Refusal::none, volume};
+}
+
+bool WorkingSurface::swell(NodeIndex i, double volume, double most) {
+  const Vec3 way = way_of_volume(i);
+  if (way == Vec3::Zero()) return false;
+  const Vec3 step = volume / way.squaredNorm() * way, x = at(i) + step;
+  if (step.norm() > most) return false;
+  bool fits = true;
+  around(i, [&](Edge e) {
+    const Corners before = corners(index_of(e / 3));
+    Corners after = before;
+    after[index_of(e % 3)] = x;
+    fits = fits && may_become(before, after);
+  });
+  if (fits) position_[i] = x;
+  return fits;
+}
+
+IndexedVector<CloudFacetIndex, Facet<3>> WorkingSurface::facets() const {
+  IndexedVector<CloudFacetIndex, Facet<3>> list;
+  for (const Facet<3>& facet : facet_)
+    if (exists(facet.node[0])) list.push_back(facet);
+  return list;
+}
+
+std::vector<CloudFacetIndex> WorkingSurface::origins() const {
+  std::vector<CloudFacetIndex> list;
+  for (std::size_t f = 0; f < facet_.size(); ++f)
+    if (exists(facet_[f].node[0])) list.push_back(origin_[f]);
+  return list;
+}
+
+} // namespace cnem::adapt

@@ -1,0 +1,133 @@
+#pragma once
+// The boundary of a cloud in space while it is being resampled: edges are split, collapsed and flipped.
+#include "core/geometry/cloud.hpp"
+#include "core/index.hpp"
+#include "voronoi/space/surface.hpp"
+
+#include <array>
+#include <vector>
+
+namespace cnem::adapt {
+
+/// What a change of the surface must keep. Angles in degrees.
+struct SurfaceRules {
+  double crease = 40.0; ///< facets that turn by more meet at a crease
+  double corner = 40.0; ///< creases that turn by more have a corner there, which stays
+  double turn = 30.0;   ///< how far normals of facets may turn
+  double flat = 14.0;   ///< facets that turn by less may exchange their diagonal
+  double volume = 0.02; ///< how much volume a change may add or take (in h³) before it is given back
+  double shape = 0.05;  ///< least height of a facet over its longest side, unless it was less before
+};
+
+/// Why the surface was left as it was.
+enum class Refusal {
+  none,
+  absent,  ///< the edge is no more
+  held,    ///< the node has to stay: conditions name it, or it is on a closed slit
+  corner,  ///< creases or pieces meet there
+  crease,  ///< the way leads off a crease, or across one
+  link,    ///< other facets would meet in one edge (Dey, Edelsbrunner, Guha, Nekhayev 1999)
+  normals, ///< a facet would turn too far, or lose its height
+  volume,  ///< the shape would change too much
+};
+const char* text_of(Refusal refusal);
+
+struct SurfaceChange {
+  Refusal refusal = Refusal::none;
+  double volume = 0.0;              ///< m³ that the body has gained
+  NodeIndex made = NodeIndex::none; ///< of a split
+
+  bool done() const { return refusal == Refusal::none; }
+};
+
+/// Half-edges in triples: edge 3f + k leaves node k of facet f (voronoi/space/surface.hpp). It is closed and
+/// without branches from beginning to end: whatever would not keep it so is refused, with a reason, and then
+/// nothing has changed. Several closed components are one surface. Numbers of nodes and facets stay; those
+/// that go are left out by facets(). Cost of an operation: that of the facets round its nodes.
+class WorkingSurface {
+public:
+  using Edge = voronoi::SurfaceEdge;
+  static constexpr Edge no_edge = -1;
+
+  /// held: [node] nodes that neither move nor go. A slit that has not opened stays as it is. Throws
+  /// GeometryError as voronoi::surface_edges.
+  WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held,
+                 const SurfaceRules& rules = {});
+
+  std::size_t nodes() const { return position_.size(); }
+  const Vec3& at(NodeIndex i) const { return position_[i]; }
+  const IndexedVector<NodeIndex, Vec3>& position() const { return position_; }
+  bool on_surface(NodeIndex i) const { return leaving_[i] != no_edge; }
+  Edge edges() const {
+    return static_cast<Edge>(3 * facet_.size());
+  } ///< numbers below, of which some are gone
+  bool alive(Edge e) const { return e != no_edge && exists(facet_[index_of(e / 3)].node[0]); }
+  NodeIndex start(Edge e) const { return facet_[index_of(e / 3)].node[index_of(e % 3)]; }
+  NodeIndex end(Edge e) const { return start(voronoi::next_edge(e)); }
+  NodeIndex apex(Edge e) const { return start(last_edge(e)); }
+  Edge across(Edge e) const { return across_[index_of(e)]; }
+  double length(Edge e) const { return (at(end(e)) - at(start(e))).norm(); }
+  bool held(NodeIndex i) const { return held_[i] != 0; }
+
+  /// Calls visit(edge) for the edges that leave a node, turning clockwise as seen from outside.
+  template<class Visit> void around(NodeIndex i, Visit&& visit) const {
+    Edge e = leaving_[i];
+    if (e == no_edge) return;
+    do {
+      visit(e);
+      e = voronoi::next_edge(across(e));
+    } while (e != leaving_[i]);
+  }
+  int valence(NodeIndex i) const;
+  /// The edge between two nodes; no_edge where there is none.
+  Edge between(NodeIndex from, NodeIndex to) const;
+  /// Where facets of two pieces meet, or that turn by more than rules.crease.
+  bool crease(Edge e) const;
+  /// Creases end, branch or turn here.
+  bool corner(NodeIndex i) const;
+  /// Of which a node may move by its length without changing the volume by more than that: ∂V/∂x, m², less
+  /// what leads out of the plane faces it is on. Zero for nodes that stay.
+  Vec3 way_of_volume(NodeIndex i) const;
+
+  /// A new node at x on an edge; x on the edge changes no volume.
+  SurfaceChange split(Edge e, const Vec3& x);
+  SurfaceChange split(Edge e); ///< in the middle
+  /// The node that an edge leaves goes into its end, which moves to where the volume is what it was
+  /// (Lindstrom and Turk 1998), unless it cannot. spacing: h, m.
+  SurfaceChange collapse(Edge e, double spacing);
+  /// The edge becomes the other diagonal of its two facets.
+  SurfaceChange flip(Edge e, double spacing);
+  /// Whether the angles across from an edge are more than π together.
+  bool wants_flip(Edge e) const;
+  /// Moves a node along its way_of_volume() so that the volume grows by `volume` (m³), to first order; not
+  /// where it would have to move by more than `most` (m) or facets turn too far. Whether it did.
+  bool swell(NodeIndex i, double volume, double most);
+
+  /// The facets there are; origin: [facet] the one of the cloud that it is or is a part of.
+  IndexedVector<CloudFacetIndex, Facet<3>> facets() const;
+  std::vector<CloudFacetIndex> origins() const;
+
+private:
+  static Edge last_edge(Edge e) { return e % 3 == 0 ? e + 2 : e - 1; }
+  using Corners = std::array<Vec3, 3>;
+  Corners corners(std::size_t facet) const;
+  Vec3 normal(Edge e) const;
+  double cosine_across(Edge e) const;
+  void join(Edge a, Edge b);
+  bool may_become(const Corners& before, const Corners& after) const;
+  void keep_on_planes(NodeIndex i, Vec3& way) const;
+  Refusal may_collapse(Edge e) const;
+  Edge add_facet(const Facet<3>& facet, std::size_t parent);
+
+  SurfaceRules rules_;
+  double least_crease_, least_corner_, least_turn_, least_flat_; ///< cosines
+  IndexedVector<NodeIndex, Vec3> position_;
+  IndexedVector<NodeIndex, char> held_;
+  IndexedVector<NodeIndex, Edge> leaving_;
+  std::vector<Facet<3>> facet_;         ///< node none: gone
+  std::vector<CloudFacetIndex> origin_; ///< [facet]
+  std::vector<char> closed_;            ///< [facet] the other face of its slit lies on it
+  std::vector<Edge> across_;            ///< [edge]
+};
+
+} // namespace cnem::adapt

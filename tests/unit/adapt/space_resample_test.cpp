@@ -1,0 +1,216 @@
+// The pass in space keeps mass, momentum and heat to rounding and the volume of the body, nodes that nothing
+// happened to, held nodes, faces and creases; and clouds that deform far beyond what one triangulation
+// bears keep a surface that does not cross itself, matter where the volume is, and healthy spacings.
+#include "adapt/space/resample.hpp"
+#include "core/error.hpp"
+#include "core/geometry/facets.hpp"
+#include "tests/space_clouds.hpp"
+#include "voronoi/space/crossings.hpp"
+#include "voronoi/space/triangulate.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+namespace cnem::adapt {
+namespace {
+
+using testing::Random;
+using testing::SpaceCloud;
+using testing::SpaceShape;
+
+/// A body of matter of density 2 that deforms and is resampled.
+struct Body {
+  Cloud<3> cloud;
+  double spacing;
+  Field mass, momentum, heat, jacobian, size;
+  IndexedVector<NodeIndex, char> held;
+  PassReport total;
+
+  explicit Body(const SpaceCloud& how) : spacing(1.0 / how.cells) {
+    voronoi::RecoveredBoundary recovered = testing::recovered(how);
+    cloud = recovered.cloud;
+    const SpaceStructure structure = structure_of(cloud, std::move(recovered.tetrahedra));
+    Random random(5);
+    for (const double volume : structure.cell) {
+      jacobian.push_back(random.uniform(0.99, 1.01));
+      mass.push_back(2.0 * volume / jacobian.back());
+      momentum.push_back(mass.back() * random.uniform(-1.0, 1.0));
+      heat.push_back(mass.back() * random.uniform(300.0, 900.0));
+    }
+    size.assign(mass.size(), spacing);
+    held.assign(mass.size(), 0);
+  }
+
+  Resampling<3> resample(PassReport& report) const {
+    NodeProperties properties;
+    properties.mass = mass;
+    properties.jacobian = jacobian;
+    properties.density.assign(mass.size(), 2.0);
+    properties.size = size;
+    properties.held = held;
+    return adapt::resample(cloud, std::move(properties), {}, report);
+  }
+
+  void follow(const Resampling<3>& change) {
+    carry_mean(change.parcels, mass, jacobian);
+    for (Field* carried : {&mass, &momentum, &heat}) carry_sum(change.parcels, *carried);
+    carry_label(change.labels, size);
+    IndexedVector<NodeIndex, char> now(change.old_of.size(), 0);
+    for (const NodeIndex p : now.indices())
+      if (exists(change.old_of[p])) now[p] = held[change.old_of[p]];
+    held = now;
+    cloud = change.cloud;
+  }
+  void deform(const std::function<Vec3(const Vec3&)>& motion) {
+    for (Vec3& x : cloud.position) x = motion(x);
+  }
+};
+
+double sum(const Field& field) {
+  double total = 0.0;
+  for (const double value : field) total += value;
+  return total;
+}
+
+/// One pass, and what must hold after each.
+PassReport pass(Body& body) {
+  const double mass = sum(body.mass), momentum = sum(body.momentum), heat = sum(body.heat);
+  const double volume = enclosed_measure(body.cloud);
+  PassReport report;
+  const Resampling<3> change = body.resample(report);
+  body.follow(change);
+  EXPECT_NEAR(sum(body.mass), mass, 1e-13 * mass);
+  EXPECT_NEAR(sum(body.momentum), momentum, 1e-13 * mass);
+  EXPECT_NEAR(sum(body.heat), heat, 1e-13 * heat);
+  EXPECT_NEAR(enclosed_measure(body.cloud) - volume, report.volume_change, 1e-14);
+  EXPECT_EQ(report.crossings, 0);
+  EXPECT_TRUE(voronoi::crossings(body.cloud).empty());
+  const SpaceStructure structure = structure_of(body.cloud, voronoi::triangulate(body.cloud));
+  for (std::size_t i = 0; i < body.mass.size(); ++i) {
+    const double ratio = 2.0 * structure.cell[i] / (body.mass[i] * body.jacobian[i]);
+    EXPECT_GT(ratio, 0.79) << i;
+    EXPECT_LT(ratio, 1.26) << i;
+  }
+  body.total += report;
+  return report;
+}
+
+struct Edges {
+  double shortest, longest; ///< over the spacing
+};
+Edges edges_of(const Body& body) {
+  Edges edges{1e9, 0.0};
+  const SpaceStructure structure = structure_of(body.cloud, voronoi::triangulate(body.cloud));
+  for (const NodeIndex i : body.cloud.position.indices())
+    for (const NodeIndex k : structure.neighbours(i)) {
+      const double length = (body.cloud.position[k] - body.cloud.position[i]).norm() / body.spacing;
+      edges.shortest = std::min(edges.shortest, length);
+      edges.longest = std::max(edges.longest, length);
+    }
+  return edges;
+}
+
+TEST(SpaceResample, leaves_a_body_alone_that_needs_nothing) {
+  Body body({.shape = SpaceShape::l, .cells = 6, .jitter = 0.2});
+  pass(body);
+  PassReport report;
+  const Resampling<3> change = body.resample(report);
+  EXPECT_FALSE(report.changed());
+  EXPECT_EQ(change.cloud.position, body.cloud.position);
+  for (std::size_t p = 0; p < change.old_of.size(); ++p) {
+    EXPECT_FALSE(change.mixed(p));
+    EXPECT_EQ(change.old_of[p], as<NodeIndex>(p));
+  }
+}
+
+TEST(SpaceResample, keeps_nodes_that_nothing_happened_to_and_held_ones) {
+  Body body({.shape = SpaceShape::cube, .cells = 8, .jitter = 0.2});
+  for (std::size_t i = 0; i < body.held.size(); i += 7) body.held[i] = 1;
+  body.deform([](const Vec3& x) { return Vec3(x.x() + 0.6 * x.y() * x.y(), x.y(), x.z()); });
+  PassReport report;
+  const Resampling<3> change = body.resample(report);
+  ASSERT_EQ(change.labels.size(), change.cloud.position.size());
+  int alone = 0;
+  for (std::size_t p = 0; p < change.old_of.size(); ++p) {
+    if (!exists(change.old_of[p])) continue;
+    const auto e = index_of(change.labels.begin[p]); // labels stay with nodes
+    EXPECT_EQ(change.labels.begin[p + 1] - change.labels.begin[p], 1);
+    EXPECT_EQ(change.labels.from[e], change.old_of[p]);
+    EXPECT_EQ(change.labels.weight[e], 1.0);
+    alone +=
+        !change.mixed(p) && change.cloud.position[as<NodeIndex>(p)] == body.cloud.position[change.old_of[p]];
+  }
+  EXPECT_GT(alone, 200);
+  EXPECT_GT(report.inserted_boundary, 0);
+  for (const NodeIndex i : body.held.indices()) {
+    if (!body.held[i]) continue;
+    ASSERT_TRUE(exists(change.new_of[i]));
+    EXPECT_EQ(change.cloud.position[change.new_of[i]], body.cloud.position[i]);
+  }
+}
+
+TEST(SpaceResample, makes_the_same_bits_with_any_number_of_threads) {
+  Body body({.shape = SpaceShape::torus, .cells = 12, .jitter = 0.2});
+  body.deform([](const Vec3& x) { return Vec3(x.x() + 0.5 * x.y(), x.y(), x.z()); });
+  const int threads = omp_get_max_threads();
+  std::vector<Resampling<3>> results;
+  for (const int n : {1, 3}) {
+    omp_set_num_threads(n);
+    PassReport report;
+    results.push_back(body.resample(report));
+    EXPECT_TRUE(report.changed());
+  }
+  omp_set_num_threads(threads);
+  EXPECT_EQ(results[0].cloud.position, results[1].cloud.position);
+  EXPECT_EQ(results[0].parcels.from, results[1].parcels.from);
+  EXPECT_EQ(results[0].parcels.weight, results[1].parcels.weight);
+  EXPECT_EQ(results[0].labels.weight, results[1].labels.weight);
+}
+
+TEST(SpaceResample, shears_a_block_to_four) {
+  Body body({.shape = SpaceShape::cube, .cells = 7, .jitter = 0.2});
+  const std::size_t before = body.mass.size();
+  for (int step = 0; step < 16; ++step) {
+    body.deform([](const Vec3& x) { return Vec3(x.x() + 0.25 * x.y(), x.y(), x.z()); });
+    EXPECT_NEAR(pass(body).volume_change, 0.0, 1e-13);
+  }
+  const Edges edges = edges_of(body);
+  EXPECT_GT(edges.shortest, 0.15); // corners have become 14 degrees sharp
+  EXPECT_LT(edges.longest, 2.2);
+  EXPECT_GT(body.mass.size(), before);
+  EXPECT_LT(body.mass.size(), 2 * before);
+  EXPECT_GT(body.total.flipped, 100);
+  EXPECT_GT(body.total.removed, 10);
+  EXPECT_GT(body.total.inserted, 10);
+  EXPECT_GT(body.total.removed_boundary, 10);
+  EXPECT_EQ(body.total.undone, 0);
+}
+
+TEST(SpaceResample, upsets_a_block_to_a_third_of_its_height) {
+  Body body({.shape = SpaceShape::cube, .cells = 7, .jitter = 0.2});
+  const std::size_t before = body.mass.size();
+  const double q = std::pow(0.3, 1.0 / 12);
+  for (int step = 0; step < 12; ++step) {
+    body.deform([q](const Vec3& x) { return Vec3(x.x() / std::sqrt(q), x.y() / std::sqrt(q), x.z() * q); });
+    EXPECT_NEAR(pass(body).volume_change, 0.0, 1e-13);
+  }
+  const Edges edges = edges_of(body);
+  EXPECT_GT(edges.shortest, 0.2);
+  EXPECT_LT(edges.longest, 2.2);
+  EXPECT_LT(body.mass.size(), 2 * before);
+}
+
+TEST(SpaceResample, keeps_the_volume_of_bodies_with_bent_surfaces) {
+  for (const SpaceShape shape : {SpaceShape::torus, SpaceShape::shell, SpaceShape::thin_wall}) {
+    Body body({.shape = shape, .cells = 10, .jitter = 0.2});
+    const double volume = enclosed_measure(body.cloud);
+    for (int step = 0; step < 6; ++step) {
+      body.deform([](const Vec3& x) { return Vec3(x.x() + 0.25 * x.y(), x.y(), x.z()); });
+      pass(body);
+    }
+    EXPECT_NEAR(enclosed_measure(body.cloud), volume, 1e-6 * volume) << name_of(shape);
+  }
+}
+
+} // namespace
+} // namespace cnem::adapt

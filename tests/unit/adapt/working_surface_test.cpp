@@ -1,0 +1,150 @@
+// Thousands of random changes leave a surface closed, without branches and of the same genus, change the
+// volume by what they say, and leave plane faces and straight creases where they are.
+#include "adapt/space/working_surface.hpp"
+#include "core/geometry/facets.hpp"
+#include "tests/space_clouds.hpp"
+#include "voronoi/space/crossings.hpp"
+
+#include <gtest/gtest.h>
+#include <map>
+
+namespace cnem::adapt {
+namespace {
+
+using testing::Random;
+using testing::SpaceShape;
+using Edge = WorkingSurface::Edge;
+
+WorkingSurface surface_of(const Cloud<3>& cloud) {
+  return WorkingSurface(cloud, IndexedVector<NodeIndex, char>(cloud.position.size(), 0));
+}
+
+Cloud<3> cloud_of(const WorkingSurface& surface, const Cloud<3>& like) {
+  Cloud<3> cloud = like;
+  cloud.position = surface.position();
+  cloud.facets = surface.facets();
+  return cloud;
+}
+
+int euler_characteristic(const Cloud<3>& cloud) {
+  IndexedVector<NodeIndex, char> used(cloud.position.size(), 0);
+  for (const auto& facet : cloud.facets)
+    for (const NodeIndex i : facet.node) used[i] = 1;
+  const auto facets = static_cast<int>(cloud.facets.size());
+  return static_cast<int>(std::count(used.begin(), used.end(), 1)) - 3 * facets / 2 + facets;
+}
+
+struct Made {
+  std::map<Refusal, int> refused;
+  int split = 0, collapsed = 0, flipped = 0;
+  double volume = 0.0;
+};
+
+/// Changes anything anywhere.
+Made change_at_random(WorkingSurface& surface, std::uint64_t seed, int times, double spacing) {
+  Random random(seed);
+  Made made;
+  for (int n = 0; n < times; ++n) {
+    Edge e = WorkingSurface::no_edge;
+    do e = static_cast<Edge>(random.uniform(0, static_cast<double>(surface.edges())));
+    while (!surface.alive(e));
+    const double what = random.uniform(0, 1);
+    SurfaceChange change;
+    if (what < 0.1) {
+      change = surface.split(e);
+      made.split += change.done();
+    } else if (what < 0.5) {
+      change = surface.flip(e, spacing);
+      made.flipped += change.done();
+    } else {
+      change = surface.collapse(e, spacing);
+      made.collapsed += change.done();
+    }
+    made.volume += change.volume;
+    if (!change.done()) ++made.refused[change.refusal];
+  }
+  return made;
+}
+
+struct Body {
+  SpaceShape shape;
+  int characteristic;
+};
+
+TEST(WorkingSurface, keeps_its_genus_and_books_the_volume_under_random_changes) {
+  for (const auto& [shape, characteristic] :
+       {Body{SpaceShape::cube, 2}, Body{SpaceShape::torus, 0}, Body{SpaceShape::two_holes, -2},
+        Body{SpaceShape::shell, 4}, Body{SpaceShape::slit, 2}}) {
+    const Cloud<3> cloud = testing::unrecovered({.shape = shape, .cells = 6, .jitter = 0.2, .seed = 3});
+    WorkingSurface surface = surface_of(cloud);
+    ASSERT_EQ(euler_characteristic(cloud), characteristic) << name_of(shape);
+    for (std::uint64_t seed = 1; seed < 4; ++seed) {
+      const double before = enclosed_measure(cloud_of(surface, cloud));
+      const Made made = change_at_random(surface, seed, 5000, 1.0 / 6);
+      const Cloud<3> changed = cloud_of(surface, cloud);
+      voronoi::surface_edges(changed); // throws unless it is closed and without branches
+      EXPECT_EQ(euler_characteristic(changed), characteristic) << name_of(shape);
+      EXPECT_NEAR(enclosed_measure(changed) - before, made.volume, 1e-13) << name_of(shape);
+      EXPECT_TRUE(voronoi::crossings(changed).empty()) << name_of(shape);
+      EXPECT_GT(std::min({made.split, made.collapsed, made.flipped}), 150) << name_of(shape);
+      for (const Refusal reason : {Refusal::link, Refusal::normals, Refusal::corner, Refusal::crease})
+        EXPECT_GT(made.refused.at(reason), 0) << name_of(shape) << ": " << text_of(reason);
+    }
+  }
+}
+
+TEST(WorkingSurface, leaves_faces_creases_and_corners_of_a_cube_to_the_bit) {
+  const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = 6, .jitter = 0.3});
+  WorkingSurface surface = surface_of(cloud);
+  change_at_random(surface, 7, 10000, 1.0 / 6);
+  const Cloud<3> changed = cloud_of(surface, cloud);
+  int corners = 0;
+  for (const NodeIndex i : changed.position.indices()) corners += surface.on_surface(i) && surface.corner(i);
+  EXPECT_EQ(corners, 8);
+  for (const auto& facet : changed.facets) {
+    const std::string& plane = changed.piece_names[facet.piece]; // "x+6", "y-0", …
+    for (const NodeIndex i : facet.node)
+      EXPECT_EQ(changed.position[i][plane[0] - 'x'], plane[1] == '+' ? 1.0 : 0.0);
+  }
+  EXPECT_NEAR(enclosed_measure(changed), 1.0, 1e-14);
+  const auto origins = surface.origins();
+  ASSERT_EQ(origins.size(), changed.facets.size());
+  for (const CloudFacetIndex f : changed.facets.indices())
+    EXPECT_EQ(cloud.facets[origins[index_of(f)]].piece, changed.facets[f].piece);
+}
+
+TEST(WorkingSurface, leaves_held_nodes_and_closed_slits_alone) {
+  const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::slit, .cells = 6, .jitter = 0.2});
+  IndexedVector<NodeIndex, char> held(cloud.position.size(), 0);
+  for (std::size_t i = 0; i < held.size(); i += 5) held[i] = 1;
+  WorkingSurface surface(cloud, held);
+  change_at_random(surface, 11, 5000, 1.0 / 6);
+  const auto behind = voronoi::facets_behind(cloud);
+  for (const CloudFacetIndex f : behind.indices())
+    if (exists(behind[f]))
+      for (const NodeIndex i : cloud.facets[f].node) held[i] = 1;
+  for (const NodeIndex i : held.indices()) {
+    if (!held[i]) continue;
+    EXPECT_EQ(surface.at(i), cloud.position[i]);
+  }
+  const Cloud<3> changed = cloud_of(surface, cloud);
+  const auto pairs = voronoi::facets_behind(changed);
+  const auto count = [](const auto& list) {
+    return std::count_if(list.begin(), list.end(), [](auto f) { return exists(f); });
+  };
+  EXPECT_GT(count(behind), 20);
+  EXPECT_EQ(count(pairs), count(behind));
+}
+
+TEST(WorkingSurface, gives_back_volume_where_nodes_may_move) {
+  const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::torus, .cells = 10, .jitter = 0.1});
+  WorkingSurface surface = surface_of(cloud);
+  const double before = enclosed_measure(cloud);
+  int moved = 0;
+  for (const NodeIndex i : cloud.position.indices()) moved += surface.swell(i, 1e-9, 0.01);
+  EXPECT_GT(moved, 100);
+  EXPECT_NEAR(enclosed_measure(cloud_of(surface, cloud)) - before, 1e-9 * moved, 1e-13);
+}
+
+} // namespace
+} // namespace cnem::adapt

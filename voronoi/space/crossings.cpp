@@ -1,0 +1,116 @@
+#include "voronoi/space/crossings.hpp"
+
+#include "core/index.hpp"
+#include "voronoi/space/exact.hpp"
+#include "voronoi/space/surface.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+#include <algorithm>
+
+namespace cnem::voronoi {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Triangle = Kernel::Triangle_3;
+using Segment = Kernel::Segment_3;
+
+Point point(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
+
+/// A facet with its number.
+struct NumberedBox : CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_NONE> {
+  using Base = CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_NONE>;
+  using ID = std::int32_t;
+  NumberedBox(double low[3], double high[3], ID number_) : Base(low, high), number(number_) {}
+  ID id() const { return number; }
+  ID number;
+};
+
+class Pairs {
+public:
+  explicit Pairs(const Cloud<3>& cloud) : cloud_(cloud), group_(twin_groups(cloud)) {}
+
+  bool cross(CloudFacetIndex f, CloudFacetIndex g) const {
+    // corners that are shared come first
+    auto a = cloud_.facets[f].node, b = cloud_.facets[g].node;
+    std::size_t shared = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t m = shared; m < 3; ++m)
+        if (group_of(a[k]) == group_of(b[m])) {
+          std::swap(b[m], b[shared]);
+          std::swap(a[k], a[shared++]);
+          break;
+        }
+    if (shared == 3 || beside(a, b, shared) || beside(b, a, shared)) return false;
+    if (shared == 2) {
+      if (orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) != 0) return false;
+      return CGAL::coplanar_orientation(point(at(a[0])), point(at(a[1])), point(at(a[2])), point(at(b[2]))) !=
+             CGAL::NEGATIVE;
+    }
+    const Triangle one = triangle(a), other = triangle(b);
+    if (shared == 1)
+      return CGAL::do_intersect(Segment(one[1], one[2]), other) ||
+             CGAL::do_intersect(Segment(other[1], other[2]), one);
+    return CGAL::do_intersect(one, other);
+  }
+
+  /// Whether the corners are on one line.
+  bool flat(CloudFacetIndex f) const { return triangle(cloud_.facets[f].node).is_degenerate(); }
+
+private:
+  const Vec3& at(NodeIndex i) const { return cloud_.position[i]; }
+  NodeIndex group_of(NodeIndex i) const { return group_.empty() ? i : group_[i]; }
+  Triangle triangle(const std::array<NodeIndex, 3>& node) const {
+    return {point(at(node[0])), point(at(node[1])), point(at(node[2]))};
+  }
+  /// Whether the corners of b that are not shared are all on one side of a.
+  bool beside(const std::array<NodeIndex, 3>& a, const std::array<NodeIndex, 3>& b,
+              std::size_t shared) const {
+    int low = 1, high = -1;
+    for (std::size_t m = shared; m < 3; ++m) {
+      const int side = orientation(at(a[0]), at(a[1]), at(a[2]), at(b[m]));
+      low = std::min(low, side);
+      high = std::max(high, side);
+    }
+    return low > 0 || high < 0;
+  }
+
+  const Cloud<3>& cloud_;
+  IndexedVector<NodeIndex, NodeIndex> group_;
+};
+
+} // namespace
+
+std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud) {
+  std::vector<NumberedBox> boxes;
+  boxes.reserve(cloud.facets.size());
+  for (const CloudFacetIndex f : cloud.facets.indices()) {
+    const auto& node = cloud.facets[f].node;
+    Vec3 low = cloud.position[node[0]], high = low;
+    for (const NodeIndex i : node) {
+      low = low.cwiseMin(cloud.position[i]);
+      high = high.cwiseMax(cloud.position[i]);
+    }
+    boxes.emplace_back(low.data(), high.data(), static_cast<std::int32_t>(f));
+  }
+  const Pairs pairs(cloud);
+  std::vector<std::array<CloudFacetIndex, 2>> found;
+  std::erase_if(boxes, [&](const NumberedBox& box) {
+    const auto f = static_cast<CloudFacetIndex>(box.number);
+    if (!pairs.flat(f)) return false;
+    found.push_back({f, f});
+    return true;
+  });
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const NumberedBox& a, const NumberedBox& b) {
+    const auto f = static_cast<CloudFacetIndex>(std::min(a.number, b.number)),
+               g = static_cast<CloudFacetIndex>(std::max(a.number, b.number));
+    if (pairs.cross(f, g)) found.push_back({f, g});
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+} // namespace cnem::voronoi
