@@ -263,8 +263,6 @@ Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const S
   for (const NodeIndex i : body.nodes()) body.place(i, first.surface.at(i));
   body.set_boundary(first.surface.facets());
 
-  fprintf(stderr, "refined dV %.2e crossings now %d\n",
-          enclosed_measure(body.cloud()) - enclosed_measure(cloud), 0);
   std::vector<Removal> list;
   for (const NodeIndex i : body.nodes())
     if (exists(first.changes.into[i])) list.push_back({i, first.changes.into[i]});
@@ -275,6 +273,8 @@ Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const S
     report.removed += static_cast<int>(more.size());
     remove(body, structure, more, rules, report);
   }
+  if (const int cuts = report.cuts; separate(body, structure, rules.separation, report), report.cuts > cuts)
+    remove(body, structure, {}, rules, report);
   for (int round = 0; round < limits.rounds; ++round)
     if (!fill(body, structure, rules, report)) break;
   balance(body, structure, {limits.light, limits.heavy, limits.rounds}, report);

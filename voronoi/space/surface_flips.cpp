@@ -60,7 +60,7 @@ private:
     return -1;
   }
 
-  bool joined(NodeIndex node, SurfaceEdge leaving, NodeIndex other) const {
+  bool joined([[maybe_unused]] NodeIndex node, SurfaceEdge leaving, NodeIndex other) const {
     SurfaceEdge e = leaving;
     do {
       if (start(next_edge(e)) == other) return true;
