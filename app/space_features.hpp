@@ -4,11 +4,13 @@
 #include "app/space_adaptation.hpp"
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "report/space_recorder.hpp"
 #include "results/file_queue.hpp"
 #include "results/history_log.hpp"
 #include "results/snapshot.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,11 +22,18 @@ public:
   using Follow = SpaceAdaptation::Follow;
 
   /// `input` must outlive this object.
-  SpaceFeatures(const input::Case& input, const ExplicitSolver<3>& solver) : adaptation_(input, solver) {}
+  SpaceFeatures(const input::Case& input, const ExplicitSolver<3>& solver)
+      : input_(&input), adaptation_(input, solver) {}
+  /// Begin the files of a run, none without a folder, or go on with them; what is later than `time` (s) is
+  /// dropped. Throw IoError.
   void start(const std::filesystem::path& folder, ExplicitSolver<3>&, const Follow&) {
     adaptation_.start_log(folder);
+    if (!folder.empty()) pictures_.emplace(*input_, folder);
   }
-  void resume(const std::filesystem::path& folder, double) { adaptation_.resume_log(folder); }
+  void resume(const std::filesystem::path& folder, double time) {
+    adaptation_.resume_log(folder);
+    if (!folder.empty()) pictures_.emplace(*input_, folder).truncate(time);
+  }
   void archive(Archive& archive) { adaptation_.archive(archive); }
   double renew(ExplicitSolver<3>& solver, const Follow& follow) {
     if (adaptation_.active()) return adaptation_.renew(solver, follow);
@@ -33,7 +42,8 @@ public:
   void add_step(const ExplicitSolver<3>&) {}
   void record(const ExplicitSolver<3>&) {}
   results::Snapshot<3> snapshot(const ExplicitSolver<3>& solver) { return results::snapshot(solver); }
-  void draw(results::FileQueue&, const results::Snapshot<3>&) {}
+  /// In runs with a folder.
+  void draw(results::FileQueue& files, const results::Snapshot<3>& shot) { pictures_->record(files, shot); }
   void finish_pictures(results::FileQueue&) {}
   std::string draw_place(results::FileQueue&, const ExplicitSolver<3>&, std::size_t) { return ""; }
   std::string unload(const ExplicitSolver<3>&) { return ""; }
@@ -42,7 +52,9 @@ public:
   std::vector<std::string> flags() const { return {}; }
 
 private:
+  const input::Case* input_;
   SpaceAdaptation adaptation_;
+  std::optional<report::SpaceRecorder> pictures_;
 };
 
 } // namespace cnem::app

@@ -50,6 +50,13 @@ struct Drawing {
   std::optional<double> percentile;        ///< % of the cells (of magnitudes, of fields with a sign) in it
   std::optional<std::array<Vec2, 2>> view; ///< m, corners of the part that pictures of the whole show
   std::map<std::string, std::array<double, 2>> ranges; ///< [field] of its colours, SI
+  Vec3 eye = Vec3(1.0, -1.6, 1.0);                     ///< in space: from the body towards the eye
+};
+
+/// A plane that pictures of a body in space are cut by.
+struct Section {
+  std::string name;
+  Vec3 at, normal; ///< m; towards the eye
 };
 
 /// When checkpoints are written besides the one at step 0; 0: not by this.
@@ -65,6 +72,7 @@ struct Output {
   double fields_every = 0.0;               ///< s
   std::vector<double> pictures;            ///< s, increasing; times beyond the end are kept here
   std::vector<std::string> picture_fields; ///< of field_names()
+  std::vector<Section> sections;           ///< in space
   Drawing drawing;
   std::vector<Window> windows; ///< parts of the domain drawn enlarged, beside the whole
   std::vector<PictureNote> notes;

@@ -33,10 +33,24 @@ PictureNote read_note(const Setting& table, const Output& output) {
   return note;
 }
 
+Vec3 read_direction(const Setting& setting, Diagnostics& diagnostics) {
+  const Vec3 direction = std::get<Vec3>(setting.value);
+  if (!(direction.norm() > 0.0))
+    diagnostics.add(Mistake::range, setting.where, setting.path,
+                    "found no direction, expected one that is not zero");
+  return direction;
+}
+
 Drawing read_drawing(const Setting& table, Diagnostics& diagnostics) {
   const Setting& given = *table.find("drawing");
-  Drawing drawing{
-      given.get<bool>("mirror"), given.get<bool>("common"), given.maybe<double>("percentile"), {}, {}};
+  Drawing drawing;
+  drawing.percentile = given.maybe<double>("percentile");
+  if (given.find("eye")) {
+    drawing.eye = read_direction(*given.find("eye"), diagnostics);
+  } else {
+    drawing.mirror = given.get<bool>("mirror");
+    drawing.common = given.get<bool>("common");
+  }
   if (const Setting* view = given.find("view")) drawing.view = read_box(*view, diagnostics);
   const Setting* ranges = table.find("ranges");
   if (!ranges) return drawing;
@@ -63,6 +77,9 @@ void read_pictures(const Setting& table, Case& result, Diagnostics& diagnostics)
                     "found an empty array, expected fields such as [\"plastic_strain\"]; for a run without "
                     "pictures write output.pictures = []");
   output.drawing = read_drawing(table, diagnostics);
+  for (const Setting& section : table.entries("sections"))
+    output.sections.push_back(
+        {section.name, section.get<Vec3>("at"), read_direction(*section.find("normal"), diagnostics)});
   for (const Setting& note : table.entries("notes")) output.notes.push_back(read_note(note, output));
 }
 

@@ -51,15 +51,13 @@ void compute_defaults(Setting& root) {
   else
     root.set_default("initial.velocity", Vec2(0, 0));
   if (space && root.find("domain.block.radius")) root.set_default("domain.block.centre", Vec3(0, 0, 0));
-  if (!space) {
-    using Names = std::vector<std::string>;
-    root.set_default("output.pictures", std::vector<double>{end});
-    root.set_default("output.picture_fields",
-                     statics ? Names{"equivalent_stress", "displacement_x", "displacement_y"}
-                     : !root.get<bool>("analysis.mechanical") ? Names{"temperature"}
-                     : root.get<bool>("analysis.thermal") ? Names{"plastic_strain", "temperature", "pressure"}
-                                                          : Names{"plastic_strain", "pressure"});
-  }
+  using Names = std::vector<std::string>;
+  root.set_default("output.pictures", std::vector<double>{end});
+  root.set_default("output.picture_fields",
+                   statics ? Names{"equivalent_stress", "displacement_x", "displacement_y"}
+                   : !root.get<bool>("analysis.mechanical") ? Names{"temperature"}
+                   : root.get<bool>("analysis.thermal") ? Names{"plastic_strain", "temperature", "pressure"}
+                                                        : Names{"plastic_strain", "pressure"});
   set_material_defaults(root, temperature);
   for (const Setting& entry : root.entries("domain.regions")) {
     root.set_default(entry.path + ".material", root.get<std::string>("domain.material"));
@@ -152,7 +150,7 @@ void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   Output& output = result.output;
   output.history_every = table.get<double>("history_every");
   output.fields_every = table.get<double>("fields_every");
-  if (result.analysis.dimensions() == 2) read_pictures(table, result, diagnostics);
+  read_pictures(table, result, diagnostics);
   const Setting& checkpoint = *table.find("checkpoint");
   output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
                        checkpoint.get<double>("every_wall"),

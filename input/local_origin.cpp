@@ -79,6 +79,7 @@ void use_local_origin(Case& input) {
     for (Vec2* corner : {&window.lower, &window.upper}) shift(*corner);
   if (input.output.drawing.view)
     for (Vec2& corner : *input.output.drawing.view) shift(corner);
+  for (Section& section : input.output.sections) shift(section.at);
   for (Probe& probe : input.output.probes) shift(probe.at);
   for (SampleLine& line : input.output.lines)
     for (Vec3* end : {&line.from, &line.to}) shift(*end);

@@ -97,6 +97,19 @@ std::vector<std::uint32_t> drawing_palette(ColourMap map, double shade) {
   return palette;
 }
 
+std::vector<std::uint32_t> lit_palette(ColourMap map, double darkest) {
+  constexpr std::size_t brightnesses = first_grey / lit_levels;
+  static_assert(brightnesses * lit_levels == first_grey);
+  std::vector<std::uint32_t> palette;
+  for (std::size_t b = 0; b < brightnesses; ++b)
+    for (int k = 0; k < lit_levels; ++k)
+      palette.push_back(darkened(map_colour(map, static_cast<double>(k) / (lit_levels - 1)),
+                                 1.0 - darkest * static_cast<double>(b) / (brightnesses - 1)));
+  const std::vector<std::uint32_t> drawing = drawing_palette(map, 0.0);
+  palette.insert(palette.end(), drawing.begin() + first_grey, drawing.end());
+  return palette;
+}
+
 std::vector<std::uint8_t> nearest_colours(const PixelView& pixels, std::span<const std::uint32_t> palette) {
   std::vector<std::uint8_t> index;
   index.reserve(index_of(pixels.width) * index_of(pixels.height));

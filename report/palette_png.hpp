@@ -33,6 +33,11 @@ std::uint32_t packed(const Colour& colour);
 /// colours as 0x00RRGGBB.
 std::vector<std::uint32_t> drawing_palette(ColourMap map, double shade);
 
+/// The same for surfaces under light: eight brightnesses of fewer levels, down to 1 − `darkest`.
+std::vector<std::uint32_t> lit_palette(ColourMap map, double darkest);
+/// Colours of it that are its colour map's, at equal distances from 0 to 1.
+inline constexpr int lit_levels = 28;
+
 /// For each pixel the number of the drawing palette's colour nearest to its own, the first of equals; [y ·
 /// width + x]. Grey pixels take greys and others do not: a dark page turns greys round, cells stay as they
 /// are.

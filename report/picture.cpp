@@ -27,6 +27,9 @@ void check(const Picture& picture) {
   if (picture.value.size() != cells)
     throw InputError(
         fmt::format("picture of {}: {} values for {} cells", picture.label, picture.value.size(), cells));
+  if (!picture.darkness.empty() && picture.darkness.size() != cells)
+    throw InputError(fmt::format("picture of {}: {} darknesses for {} cells", picture.label,
+                                 picture.darkness.size(), cells));
   if (picture.width < 200) throw InputError("picture: the width must be at least 200 px");
 }
 
@@ -254,7 +257,11 @@ PaletteImage draw(const Picture& picture) {
   draw_extremes(cr, layout, picture, statement(picture), size);
   cairo_surface_flush(surface.get());
   cairo_surface_t* image = surface.get();
-  PaletteImage drawn{layout.width, layout.height, {}, drawing_palette(picture.map, cell_line_shade)};
+  PaletteImage drawn{layout.width,
+                     layout.height,
+                     {},
+                     picture.darkness.empty() ? drawing_palette(picture.map, cell_line_shade)
+                                              : lit_palette(picture.map, most_darkness)};
   drawn.index = nearest_colours({reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(image)),
                                  layout.width, layout.height,
                                  index_of(cairo_image_surface_get_stride(image)) / sizeof(std::uint32_t)},

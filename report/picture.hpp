@@ -42,6 +42,7 @@ struct Picture {
   const CellGeometry<2>* cells = nullptr;
   std::array<std::span<const double>, 2> position; ///< [component][node] m, present positions
   std::span<const double> value;                   ///< [cell], SI
+  std::span<const float> darkness;                 ///< [cell] of surfaces under light, 0 to 1; empty: flat
   std::string label;                               ///< "equivalent plastic strain"
   results::DisplayUnit unit;                       ///< of the values shown
   ColourMap map = ColourMap::strain;

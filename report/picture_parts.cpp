@@ -16,9 +16,17 @@ namespace cnem::report {
 namespace {
 
 /// One of the levels of a drawing.
-Colour drawn_colour(ColourMap map, double value, const ColourRange& range) {
-  const double s = (value - range.low) / (range.high - range.low), last = drawing_levels - 1;
+Colour drawn_colour(ColourMap map, double value, const ColourRange& range, int levels = drawing_levels) {
+  const double s = (value - range.low) / (range.high - range.low), last = levels - 1;
   return map_colour(map, std::round(s * last) / last);
+}
+
+/// Of a surface under light.
+Colour lit_colour(const Picture& picture, std::size_t cell, const ColourRange& range) {
+  Colour colour = drawn_colour(picture.map, picture.value[cell], range, lit_levels);
+  for (double* c : {&colour.red, &colour.green, &colour.blue})
+    *c *= 1.0 - most_darkness * static_cast<double>(picture.darkness[cell]);
+  return colour;
 }
 
 void select_font(cairo_t* cr, double size, bool bold) {
@@ -101,7 +109,8 @@ void paint_cells(const Surface& surface, const Picture& picture, const CellRaste
                  const ColourRange& range) {
   std::vector<std::uint32_t> colour(picture.value.size());
   for (std::size_t c = 0; c < colour.size(); ++c)
-    colour[c] = packed(drawn_colour(picture.map, picture.value[c], range));
+    colour[c] = packed(picture.darkness.empty() ? drawn_colour(picture.map, picture.value[c], range)
+                                                : lit_colour(picture, c, range));
   const std::uint32_t rim = packed({0.13, 0.13, 0.13});
   cairo_surface_flush(surface.get());
   const int width = cairo_image_surface_get_width(surface.get()),

@@ -28,6 +28,8 @@ void draw_rimmed_text(cairo_t* cr, const std::string& text, double x, double y, 
 
 /// How much darker lines between cells are than the cells.
 inline constexpr double cell_line_shade = 0.4;
+/// How much darker what turns from the light is at most.
+inline constexpr double most_darkness = 0.42;
 
 struct CellRaster;
 /// Cells filled with the colours of their values, seamless, the lines between them, and a thin dark rim

@@ -23,6 +23,7 @@ void add_pictures(Keys& k) {
       .example("\"10 us\"");
   k.add("output.picture_fields", choices, "Fields drawn.")
       .one_of(field_names(2))
+      .in_space_one_of(field_names(3))
       .or_empty()
       .computed(
           "`[\"plastic_strain\", \"temperature\", \"pressure\"]`, without temperature where no heat is "
@@ -49,6 +50,15 @@ void add_pictures(Keys& k) {
       .unit(d::length)
       .example("[\"0 0 mm\", \"6 10 mm\"]")
       .computed("the body at all times, and a part of the tools");
+  k.add("output.drawing.eye", vector, "From where a body in space is seen: from it towards the eye.")
+      .fallback("\"1 -1.6 1\"");
+  k.add("output.sections", named_tables,
+        "Planes that pictures of a body in space are cut by, beside the whole.");
+  k.add("output.sections.*", table, "A plane.");
+  k.add("output.sections.*.at", vector, "A point of it.").unit(d::length).required().example("\"0 0 0 mm\"");
+  k.add("output.sections.*.normal", vector, "Its normal, towards the eye; of any length.")
+      .required()
+      .example("\"0 -1 0\"");
   k.add("output.ranges", table, "What the colours of a field span, in its unit, in place of its values.");
   for (const FieldInfo<2>& info : field_catalogue<2>())
     k.add("output.ranges." + info.name, quantities, fmt::format("Of the {}.", info.shown.label))

@@ -1,0 +1,40 @@
+#pragma once
+// A body in space as a picture shows it: its surface lit from above, or a plane cut through its cells.
+#include "core/geometry/cloud.hpp"
+#include "core/operators/discretisation.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace cnem::report {
+
+/// Parallel projection: what is seen from far away along `eye`.
+struct BodyView {
+  Vec3 eye = Vec3(1.0, -1.6, 1.0); ///< from the body towards the eye, of any length; not zero
+
+  /// Rows: to the right, upwards (as far as it goes z, else y), towards the eye; orthonormal.
+  Mat<3> axes() const;
+};
+
+/// Polygons in the plane of a picture, from far to near: what lies before others comes after them.
+struct Scene {
+  CellGeometry<2> cells;
+  Fields<2> position;          ///< [component][vertex] m
+  Field value;                 ///< [polygon] of the field
+  std::vector<float> darkness; ///< [polygon] 0 to 1; empty: 0
+};
+
+/// The facets that face the eye, in the parts of their nodes, each with the value of its node. Lit from above
+/// the eye's left. position: [component][node] m; value: [node].
+Scene surface_scene(const IndexedVector<CloudFacetIndex, Facet<3>>& facets, const Fields<3>& position,
+                    std::span<const double> value, const BodyView& view);
+
+/// The plane of the places x with normal · (x − at) = 0 through tetrahedra, seen from where the normal
+/// points: in each the parts nearest to its nodes by barycentric coordinates (median cells), or by distance,
+/// nodes of its neighbours among them (Voronoi cells). tetrahedra: corners, right-handed.
+enum class SectionCells { median, voronoi };
+Scene section_scene(std::span<const std::array<NodeIndex, 4>> tetrahedra, const Fields<3>& position,
+                    std::span<const double> value, const Vec3& at, const Vec3& normal, SectionCells cells);
+
+} // namespace cnem::report
