@@ -53,19 +53,26 @@ public:
     Delaunay mesh = delaunay(cloud);
     Walls walls = find_walls(cloud, mesh);
     counts.lost = as<int>(walls.lost.size());
-    while (!walls.lost.empty()) {
-      counts.flipped += fit_surface(cloud, mesh, rules_.flat_angle);
-      walls = find_walls(cloud, mesh);
-      if (!remove_near(walls.lost)) break;
-      mesh = delaunay(cloud);
-      walls = find_walls(cloud, mesh);
-    }
-    peel(mesh, walls);
-    if (!walls.lost.empty()) {
+    while (true) {
+      if (!walls.lost.empty()) {
+        counts.flipped += fit_surface(cloud, mesh, rules_.flat_angle);
+        walls = find_walls(cloud, mesh);
+      }
+      peel(mesh, walls);
+      if (walls.lost.empty()) break;
       Delaunay flipped = mesh;
       counts.held = as<int>(walls.lost.size());
       walls = hold_facets(cloud, flipped, std::move(walls));
       peel(flipped, walls);
+      if (walls.lost.empty()) break;
+      if (const int flips = fit_surface(cloud, flipped, rules_.smooth_angle)) {
+        counts.flipped += flips;
+      } else if (remove_near(walls.lost)) {
+        mesh = delaunay(cloud);
+      } else {
+        break;
+      }
+      walls = find_walls(cloud, mesh);
     }
     result_.tetrahedra = filling(cloud, std::move(mesh));
     return std::move(result_);

@@ -7,6 +7,8 @@ namespace cnem::voronoi {
 
 struct RecoveryRules {
   double flat_angle = 0.2443; ///< rad (14°): facets of one piece whose normals are that near may be flipped
+  double smooth_angle =
+      0.7; ///< rad (40°): the same for facets that nothing else brings back; creases are sharper
 };
 
 /// What a recovery has done.
