@@ -20,12 +20,12 @@ constexpr double on_node = 1e-14;
 
 /// Squared lengths and products of what x, the origin, is joined to a face with.
 struct Corner {
-  Vec3 a, b, c;          ///< of the face
-  Vec3 ab, bc, ca;       ///< a × b, b × c, c × a
-  double aa, bb, cc;     ///< squares
-  double a_b, b_c, c_a;  ///< a·b, …
-  double volume;         ///< six times that of the tetrahedron
-  Vec3 centre;           ///< of its circumsphere
+  Vec3 a, b, c;            ///< of the face
+  Vec3 ab, bc, ca;         ///< a × b, b × c, c × a
+  double aa, bb, cc;       ///< squares
+  double a_b, b_c, c_a;    ///< a·b, …
+  double volume;           ///< six times that of the tetrahedron
+  Vec3 centre;             ///< of its circumsphere
   double k_ab, k_bc, k_ca; ///< height of the centre over the faces with x, by twice their area
 
   Corner(const auto& p, const auto& q, const auto& r)
@@ -160,8 +160,8 @@ NaturalNeighbours3::Outcome NaturalNeighbours3::collect(const Vec3& x, SimplexIn
     const Neighbour &a = neighbour_[index_of(face_[f].corner[0])],
                     &b = neighbour_[index_of(face_[f].corner[1])],
                     &c = neighbour_[index_of(face_[f].corner[2])];
-    const double volume = a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
-                          a.z * (b.x * c.y - b.y * c.x);
+    const double volume =
+        a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
     const double bound = flat * std::sqrt(a.squared * b.squared * c.squared);
     if (volume > bound) continue;
     if (exists(face_[f].beyond)) {
@@ -180,9 +180,8 @@ NaturalNeighbours3::Outcome NaturalNeighbours3::collect(const Vec3& x, SimplexIn
   }
   if (hidden) return Outcome::lost;
   if (joined)
-    std::erase_if(face_, [&](const Face& face) {
-      return exists(face.beyond) && in_cavity_.at(face.beyond, 0) == 1;
-    });
+    std::erase_if(
+        face_, [&](const Face& face) { return exists(face.beyond) && in_cavity_.at(face.beyond, 0) == 1; });
   return Outcome::surrounded;
 }
 
@@ -216,64 +215,65 @@ void NaturalNeighbours3::weigh_sibson() {
                  of_ca = k * ca * (bb_bc - t.a_b + t.c_a);
     const double shared_ab = t.k_ab * ab * t.a_b, shared_bc = t.k_bc * bc * t.b_c,
                  shared_ca = t.k_ca * ca * t.c_a;
-    weight_[index_of(a)] -=
-        t.aa * (t.k_ab * bb_ab + t.k_ca * cc_ca) + shared_ab + shared_ca + of_ab + of_ca;
-    weight_[index_of(b)] -=
-        t.bb * (t.k_bc * cc_bc + t.k_ab * aa_ab) + shared_bc + shared_ab + of_bc + of_ab;
-    weight_[index_of(c)] -=
-        t.cc * (t.k_ca * aa_ca + t.k_bc * bb_bc) + shared_ca + shared_bc + of_ca + of_bc;
+    weight_[index_of(a)] -= t.aa * (t.k_ab * bb_ab + t.k_ca * cc_ca) + shared_ab + shared_ca + of_ab + of_ca;
+    weight_[index_of(b)] -= t.bb * (t.k_bc * cc_bc + t.k_ab * aa_ab) + shared_bc + shared_ab + of_bc + of_ab;
+    weight_[index_of(c)] -= t.cc * (t.k_ca * aa_ca + t.k_bc * bb_bc) + shared_ca + shared_bc + of_ca + of_bc;
   }
+}
+
+/// Σ w_i (x_i − x) over the sum of the weights and the distance of the farthest neighbour.
+double NaturalNeighbours3::missed_place(double& sum, Vec3& missed) const {
+  double reach = 0.0;
+  sum = 0.0;
+  missed.setZero();
+  for (std::size_t i = 0; i < neighbour_.size(); ++i) {
+    const Neighbour& n = neighbour_[i];
+    sum += weight_[i];
+    reach = std::max(reach, n.squared);
+    missed += weight_[i] * Vec3(n.x, n.y, n.z);
+  }
+  return missed.norm() / (sum * std::sqrt(reach));
 }
 
 /// φ from the weights; false where they are no functions.
 bool NaturalNeighbours3::finish() {
-  const std::size_t count = neighbour_.size();
-  double sum = 0.0, least = 0.0, reach = 0.0;
-  Vec3 missed = Vec3::Zero();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Neighbour& n = neighbour_[i];
-    const double w = weight_[i];
-    sum += w;
-    least = std::min(least, w);
-    reach = std::max(reach, n.squared);
-    missed += w * Vec3(n.x, n.y, n.z);
+  constexpr double negative = 1e-9, rounding = 5e-15, largest = 1e-13, most = 1e-6;
+  double sum, error;
+  Vec3 missed;
+  error = missed_place(sum, missed);
+  const double least = *std::min_element(weight_.begin(), weight_.end());
+  if (!(sum > 0.0) || !(least >= -negative * sum) || !(error < most)) return false;
+  if (least < 0.0) {
+    for (double& w : weight_) w = std::max(w, 0.0);
+    error = missed_place(sum, missed);
   }
-  constexpr double negative = 1e-9, rounding = 1e-15, most = 1e-6;
-  if (!(sum > 0.0) || !(least >= -negative * sum)) return false;
-  const double error = missed.norm() / (sum * std::sqrt(reach));
-  if (!(error < most)) return false;
-  if (error > rounding || least < 0.0) {
+  if (error > rounding) {
     // Circumcentres of slivers lose digits, and Σφ x = x with them; a factor linear in x restores it.
     Mat<3> second = Mat<3>::Zero();
-    missed.setZero();
-    sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < neighbour_.size(); ++i) {
       const Vec3 d(neighbour_[i].x, neighbour_[i].y, neighbour_[i].z);
-      const double w = weight_[i] = std::max(weight_[i], 0.0);
-      sum += w;
-      missed += w * d;
-      second += w * d * d.transpose();
+      second += weight_[i] * d * d.transpose();
     }
     const Vec3 slope = second.inverse() * missed;
-    sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < neighbour_.size(); ++i) {
       const double change = slope.dot(Vec3(neighbour_[i].x, neighbour_[i].y, neighbour_[i].z));
       if (!(std::abs(change) < 0.5)) return false;
-      sum += weight_[i] *= 1.0 - change;
+      weight_[i] *= 1.0 - change;
     }
+    if (!(missed_place(sum, missed) < largest)) return false;
   }
-  node_.resize(count);
-  value_.resize(count);
+  node_.resize(neighbour_.size());
+  value_.resize(neighbour_.size());
   const double inverse = 1.0 / sum;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < neighbour_.size(); ++i) {
     node_[i] = neighbour_[i].node;
     value_[i] = inverse * weight_[i];
   }
   return true;
 }
 
-/// Linear functions of the tetrahedron with x: of those that the ways from some lead to, and the neighbours of
-/// flat ones, the one that x is the deepest in.
+/// Linear functions of the tetrahedron with x: of those that the ways from some lead to, and the neighbours
+/// of flat ones, the one that x is the deepest in.
 void NaturalNeighbours3::linear(const Vec3& x, std::span<const SimplexIndex> near) {
   constexpr double well_shaped = 1e-6;
   double deepest = -std::numeric_limits<double>::infinity(), best_quality = 0.0;

@@ -2,6 +2,7 @@
 #include "cnem/median.hpp"
 #include "cnem/space.hpp"
 #include "core/error.hpp"
+#include "core/operators/operator_checks.hpp"
 #include "tests/space_clouds.hpp"
 #include "voronoi/space/conduction.hpp"
 #include "voronoi/space/median_cells.hpp"
@@ -49,7 +50,7 @@ TEST(CnemInSpace, nothing_acts_across_a_slit) {
       for (auto l = index_of(links.begin[index_of(i)]); l < index_of(links.begin[index_of(i) + 1]); ++l)
         if (side[links.neighbour[l]] != 0) { EXPECT_EQ(side[links.neighbour[l]], side[i]); }
     }
-    EXPECT_GT(beside, 100U);
+    EXPECT_GE(beside, 100U);
   }
 }
 
@@ -95,21 +96,36 @@ TEST(CnemInSpace, gradients_of_a_quadratic_field_converge) {
   }
 }
 
-/// Of a turned lattice the diagonals of boxes are tied but for rounding, which makes tetrahedra without
-/// volume.
+/// An octahedron whose square is cut along one diagonal as seen from above and along the other from below:
+/// the tetrahedron of its nodes has no volume.
 TEST(CnemInSpace, conduction_is_finite_on_flat_tetrahedra) {
-  const auto body = recovered({.shape = SpaceShape::cube, .cells = 5, .turned = true});
-  double flattest = 1.0;
-  for (const SimplexIndex t : body.tetrahedra.node.indices()) {
-    std::array<Vec3, 4> x;
-    for (std::size_t k = 0; k < 4; ++k) x[k] = body.cloud.position[body.tetrahedra.node[t][k]];
-    flattest = std::min(flattest, measure<3>(x) * 125.0);
+  for (const double height : {0.0, 1e-17, 1e-12}) {
+    Cloud<3> cloud;
+    cloud.position = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, -height}, {0, 0, 1}, {0, 0, -1}};
+    cloud.piece_names = {"surface"};
+    for (const auto& [i, j, k] :
+         {std::array{0, 1, 4}, std::array{1, 2, 4}, std::array{2, 3, 4}, std::array{3, 0, 4},
+          std::array{1, 0, 5}, std::array{2, 1, 5}, std::array{3, 2, 5}, std::array{0, 3, 5}})
+      cloud.facets.push_back({{as<NodeIndex>(i), as<NodeIndex>(j), as<NodeIndex>(k)}, {}});
+    std::vector<voronoi::Simplex<3>> list;
+    for (const auto& [i, j, k, l] : {std::array{0, 1, 2, 4}, std::array{0, 2, 3, 4}, std::array{0, 3, 1, 5},
+                                     std::array{1, 3, 2, 5}, std::array{0, 2, 1, 3}})
+      list.push_back({as<NodeIndex>(i), as<NodeIndex>(j), as<NodeIndex>(k), as<NodeIndex>(l)});
+    const auto mesh = voronoi::connected(cloud, list);
+    const auto op = voronoi::linear_tetrahedra(cloud, mesh);
+    EXPECT_EQ(op.points, 4);
+    EXPECT_TRUE(rows_are_complete(op));
+    EXPECT_TRUE(reproduces_linear_fields(op, cloud.position));
+    for (const Field& gradient : op.gradient)
+      for (const double g : gradient) EXPECT_LT(std::abs(g), 2.0);
+    for (const auto& options : all_options()) {
+      scni::SpaceOptions on_mesh = options;
+      on_mesh.tetrahedra = list;
+      const auto rows = CnemInSpace(on_mesh).rebuild(cloud).mechanics;
+      EXPECT_TRUE(rows_are_complete(rows));
+      EXPECT_TRUE(reproduces_linear_fields(rows, cloud.position));
+    }
   }
-  ASSERT_LT(flattest, 1e-10);
-  const auto op = voronoi::linear_tetrahedra(body.cloud, body.tetrahedra);
-  EXPECT_LT(index_of(op.points), body.tetrahedra.node.size());
-  for (const Field& gradient : op.gradient)
-    for (const double g : gradient) EXPECT_LT(std::abs(g), 10.0 * 5.0);
 }
 
 TEST(CnemInSpace, falls_back_rarely) {

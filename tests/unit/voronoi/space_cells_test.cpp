@@ -1,5 +1,6 @@
 // Cells in space: they close and fill the body wherever the dual points are, and are the Voronoi cells where
 // nothing hides these.
+#include "core/error.hpp"
 #include "tests/space_clouds.hpp"
 #include "voronoi/space/voronoi_cells.hpp"
 #include "voronoi/space/walk.hpp"
@@ -33,7 +34,7 @@ std::vector<SpaceCloud> bodies() {
     for (const double jitter : {0.0, 0.4}) list.push_back({.shape = shape, .cells = 4, .jitter = jitter});
   list.push_back({.shape = SpaceShape::cube, .cells = 4, .turned = true});
   list.push_back({.shape = SpaceShape::cube, .cells = 5, .jitter = 0.3, .shear = 2.0});
-  list.push_back({.shape = SpaceShape::shell, .cells = 4, .jitter = 0.45, .shear = 1.0});
+  list.push_back({.shape = SpaceShape::shell, .cells = 4, .jitter = 0.3, .shear = 0.5});
   return list;
 }
 

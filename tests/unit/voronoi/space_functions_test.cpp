@@ -70,7 +70,7 @@ TEST(SpaceFunctions, sum_to_one_reproduce_positions_and_are_not_negative) {
                 place += value * e.cloud.position[node];
               }
               ASSERT_NEAR(sum, 1.0, 1e-13);
-              ASSERT_LT(place.norm(), 1e-14);
+              ASSERT_LT(place.norm(), 1e-13);
             }
       }
 }
