@@ -21,7 +21,8 @@ public:
     std::int32_t& slot = slot_[node];
     if (slot < 0) {
       slot = static_cast<std::int32_t>(entry_.size());
-      entry_.push_back({node, b, value});
+      node_.push_back(node);
+      entry_.push_back({b, value});
     } else {
       entry_[index_of(slot)].b += b;
       entry_[index_of(slot)].value += value;
@@ -29,23 +30,24 @@ public:
   }
 
   struct Entry {
-    NodeIndex node;
     Vec<dim> b;
     double value; ///< at the centroid, of revolution
   };
 
-  const std::vector<Entry>& sorted() {
-    std::sort(entry_.begin(), entry_.end(), [](const Entry& x, const Entry& y) { return x.node < y.node; });
-    return entry_;
-  }
-
-  void clear() {
-    for (const Entry& e : entry_) slot_[e.node] = -1;
+  /// Calls body(node, entry) in the order of the nodes and empties the row.
+  template<class Body> void take(Body&& body) {
+    std::sort(node_.begin(), node_.end());
+    for (const NodeIndex node : node_) {
+      body(node, entry_[index_of(slot_[node])]);
+      slot_[node] = -1;
+    }
+    node_.clear();
     entry_.clear();
   }
 
 private:
   IndexedVector<NodeIndex, std::int32_t> slot_; ///< index into entry_, −1: none
+  std::vector<NodeIndex> node_;
   std::vector<Entry> entry_;
 };
 
@@ -69,13 +71,12 @@ template<int dim, class Sum> void fill_rows(DiscreteOperators<dim>& op, Sum&& su
     for (auto& g : block.gradient) g.reserve(expected * (last - first));
     for (std::size_t i = first; i < last; ++i) {
       const double measure = sum(i, row);
-      for (const auto& entry : row.sorted()) {
-        block.node.push_back(entry.node);
+      row.take([&](NodeIndex node, const auto& entry) {
+        block.node.push_back(node);
         for (std::size_t d = 0; d < dim; ++d)
           block.gradient[d].push_back(entry.b[static_cast<Eigen::Index>(d)] / measure);
         if (revolution) block.hoop.push_back(entry.value / op.radius[i]);
-      }
-      row.clear();
+      });
       op.row_begin[i + 1] = static_cast<std::int32_t>(block.node.size()); // of the block, so far
     }
   };

@@ -3,6 +3,7 @@
 #include "cnem/median.hpp"
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
+#include "voronoi/space/conduction.hpp"
 #include "voronoi/space/triangulate.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +12,8 @@ namespace cnem::scni {
 
 CnemInSpace::CnemInSpace(SpaceOptions options) : options_(std::move(options)) {
   if (options_.gauss_points != 1 && options_.gauss_points != 3)
-    throw InputError(fmt::format("{} Gauss points per facet of a cell: expected 1 or 3", options_.gauss_points));
+    throw InputError(
+        fmt::format("{} Gauss points per facet of a cell: expected 1 or 3", options_.gauss_points));
 }
 
 std::string CnemInSpace::name() const {
@@ -34,9 +36,8 @@ Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
   Approximation<3> result;
   fallbacks_ = {};
   if (options_.cells == CellKind::median) {
-    const auto around = tetrahedra_of_nodes(mesh);
-    result.mechanics = median_gradients(cloud, mesh, around);
-    result.links = median_links(cloud, mesh, around, result.mechanics);
+    result.mechanics = median_gradients(cloud, mesh);
+    result.links = median_links(cloud, result.mechanics);
   } else {
     const auto spheres = voronoi::circumspheres(cloud, mesh);
     const auto cells = voronoi::voronoi_cells(cloud, mesh, spheres);
@@ -52,7 +53,7 @@ Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
     result.links = stabilisation_links(cloud, faces);
     fallbacks_ = facets.fallbacks;
   }
-  result.conduction = voronoi::linear_simplices<3>(cloud, mesh.node);
+  result.conduction = voronoi::linear_tetrahedra(cloud, mesh);
   result.node_volume = result.mechanics.volume;
   result.cells = voronoi::simplex_geometry<3>(cloud, mesh.node);
   result.cells.between_points = true;

@@ -20,10 +20,11 @@ struct SpaceOptions {
 };
 
 /// Rows are nodes with their cells, N is the identity, and b_iJ = (1/V_i) ∮ φ_J n dΓ. On constrained Voronoi
-/// cells (voronoi/space/voronoi_cells.hpp) every facet is integrated once and serves its two cells with either
-/// sign; φ are natural-neighbour functions, on the boundary linear on each facet and integrated exactly. On
-/// median cells φ are those of the tetrahedra (cnem/median.hpp). Linear fields are exact with either, and
-/// constant stress loads the boundary alone. Links are the edges of the tetrahedra, which heat conducts with.
+/// cells (voronoi/space/voronoi_cells.hpp) every facet is integrated once and serves its two cells with
+/// either sign; φ are natural-neighbour functions, on the boundary linear on each facet and integrated
+/// exactly. On median cells φ are those of the tetrahedra (cnem/median.hpp). Linear fields are exact with
+/// either, and constant stress loads the boundary alone. Links are the edges of the tetrahedra, which heat
+/// conducts with.
 class CnemInSpace final : public Discretisation<3> {
 public:
   static constexpr Promises promised{Promise::identity_values, Promise::non_negative_values,
@@ -33,7 +34,7 @@ public:
   explicit CnemInSpace(SpaceOptions options = {});
 
   /// Throws GeometryError as voronoi::triangulate (with tetrahedra of its own as voronoi::connected) and
-  /// voronoi::linear_simplices do. O(N log N).
+  /// voronoi::linear_tetrahedra do. O(N log N).
   Approximation<3> rebuild(const Cloud<3>& cloud) override;
   std::string name() const override;
   Promises promises() const override { return promised; }

@@ -33,13 +33,13 @@ public:
   bool is_plane() const {
     constexpr double epsilon = std::numeric_limits<double>::epsilon(), relative = 1e-13;
     const double bound = relative * across_.squaredNorm() + 8.0 * epsilon * middle_.norm() * across_.norm();
-    return std::all_of(corner_.begin(), corner_.end(), [&](const Vec<3>& x) {
-      return std::abs((x - middle_).dot(across_)) <= bound;
-    });
+    return std::all_of(corner_.begin(), corner_.end(),
+                       [&](const Vec<3>& x) { return std::abs((x - middle_).dot(across_)) <= bound; });
   }
 
-  /// Of a plane one: false where it crosses itself so that hardly any area is left.
-  bool find_centroid() {
+  /// Of a plane one, to be integrated as that says. by_triangles: it crosses itself so that hardly any area
+  /// is left, and the centroid is far from it.
+  Kind find_centroid() {
     const Vec<3>& origin = corner_[0];
     Vec<3> moment = Vec<3>::Zero();
     double sum = 0.0, size = 0.0;
@@ -50,9 +50,11 @@ public:
       size += std::abs(twice);
       moment += twice * (a + b);
     }
-    if (!(std::abs(sum) > 0.9 * size)) return false;
+    const double squared = across_.squaredNorm();
+    if (!(size > 2.0 * least_area * squared * std::sqrt(squared))) return Kind::none;
+    if (!(std::abs(sum) > 0.9 * size)) return Kind::by_triangles;
     centroid_ = origin + moment / (3.0 * sum);
-    return true;
+    return Kind::at_once;
   }
   const Vec<3>& centroid() const { return centroid_; }
 
@@ -119,15 +121,7 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
     for (std::size_t k = begin; k < end; ++k) {
       const auto e = as<EdgeIndex>(k);
       polygon.set(cloud, cells, e);
-      if (!polygon.is_plane()) {
-        kind[k] = Kind::by_triangles;
-        continue;
-      }
-      const auto& [i, j] = cells.rings.end[e];
-      const double distance = (cloud.position[j] - cloud.position[i]).squaredNorm();
-      kind[k] = !(cells.normal[e].norm() > least_area * distance) ? Kind::none
-                : polygon.find_centroid()                           ? Kind::at_once
-                                                                    : Kind::by_triangles;
+      kind[k] = polygon.is_plane() ? polygon.find_centroid() : Kind::by_triangles;
     }
   });
   std::vector<Item> items;
@@ -172,7 +166,7 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
         const auto& [i, j] = cells.rings.end[edge];
         const Vec<3> middle = 0.5 * (cloud.position[i] + cloud.position[j]);
         const Vec<3>&p = cells.points.place[ring[index_of(triangle)]],
-             &q = cells.points.place[ring[index_of(triangle + 1) % ring.size()]];
+              &q = cells.points.place[ring[index_of(triangle + 1) % ring.size()]];
         facet[k].area = 0.5 * (p - middle).cross(q - middle);
         if (facet[k].area.norm() > least_area * (cloud.position[j] - cloud.position[i]).squaredNorm()) {
           at.neighbours.evaluate(functions, (middle + p + q) / 3.0, at.around);

@@ -1,9 +1,10 @@
 #pragma once
-// The domains that the contract suite runs on: those of tests/clouds.hpp in the plane, meshed blocks and what
-// is bent out of them in space.
+// The domains that the contract suite runs on: those of tests/clouds.hpp in the plane; in space meshed blocks
+// and what is bent out of them, and clouds of tests/space_clouds.hpp.
 #include "clouds/tetrahedral_block.hpp"
 #include "core/geometry/facets.hpp"
 #include "tests/clouds.hpp"
+#include "tests/space_clouds.hpp"
 #include "voronoi/linear_simplices.hpp"
 
 #include <Eigen/Geometry>
@@ -16,6 +17,8 @@ template<int dim> struct Domain {
   double spacing;
   bool ties;                               ///< the simplices are not unique: cocircular nodes
   std::vector<voronoi::Simplex<3>> mesh{}; ///< in space
+  bool triangulates = false;               ///< the mesh is what triangulate() makes of the cloud
+  bool flat = false;                       ///< some of it are flat to rounding: nothing for finite elements
 };
 
 /// Random, the same for equal positions, so that a mesh stays closed: up to ±1 for each component.
@@ -63,9 +66,33 @@ inline std::vector<Domain<3>> solid_domains() {
   return list;
 }
 
+/// Clouds whose Delaunay triangulation holds the boundary: lattices that are turned or not, shaken and
+/// sheared bodies of all shapes.
+inline const std::vector<Domain<3>>& recovered_domains() {
+  static const std::vector<Domain<3>> list = [] {
+    std::vector<Domain<3>> made;
+    const auto add = [&](const std::string& name, const SpaceCloud& how) {
+      auto body = recovered(how);
+      made.push_back({name, std::move(body.cloud), 0.5 / how.cells, how.jitter == 0.0, body.tetrahedra.node,
+                      true, how.jitter == 0.0 && how.turned});
+    };
+    add("lattice", {.shape = SpaceShape::cube, .cells = 3});
+    add("lattice_turned", {.shape = SpaceShape::cube, .cells = 3, .turned = true});
+    add("cube_shaken", {.shape = SpaceShape::cube, .cells = 4, .jitter = 0.45});
+    add("cube_sheared", {.shape = SpaceShape::cube, .cells = 4, .jitter = 0.3, .shear = 2.0});
+    for (const SpaceShape shape : space_shapes)
+      if (shape != SpaceShape::cube)
+        add(name_of(shape), {.shape = shape, .cells = 4, .jitter = 0.3, .turned = true});
+    return made;
+  }();
+  return list;
+}
+
 template<int dim> std::vector<Domain<dim>> all_domains() {
   if constexpr (dim == 3) {
-    return solid_domains();
+    std::vector<Domain<3>> list = solid_domains();
+    list.insert(list.end(), recovered_domains().begin(), recovered_domains().end());
+    return list;
   } else {
     std::vector<Domain<2>> list;
     for (NamedCloud& domain : domains())

@@ -18,9 +18,14 @@ struct Method {
   methods::Options options;
   int dim = 2;
 
+  /// Whether it is made on the mesh of a domain.
+  template<int dim> bool takes_mesh(const Domain<dim>& domain) const {
+    return dim == 3 && !(domain.triangulates && entry->name == "cnem");
+  }
+
   template<int dim> std::unique_ptr<Discretisation<dim>> make(const Domain<dim>& domain) const {
     methods::Options given = options;
-    given.tetrahedra = domain.mesh;
+    if (takes_mesh(domain)) given.tetrahedra = domain.mesh;
     return methods::make<dim>(entry->name, given);
   }
 };
@@ -42,7 +47,20 @@ inline std::vector<Method> methods(Space space = Space::plane) {
           const std::string name = functions == scni::Functions::sibson ? "sibson_" : "laplace_";
           list.push_back({name + std::to_string(points), &entry, options});
         }
-      if (space == Space::plane) list.push_back({"median", &entry, {}, 3});
+      if (space == Space::plane) {
+        list.push_back({"median", &entry, {}, 3});
+        for (const auto& [functions, name] :
+             {std::pair(scni::Functions::sibson, "sibson"), std::pair(scni::Functions::laplace, "laplace"),
+              std::pair(scni::Functions::linear, "linear")})
+          for (const int points : {1, 3}) {
+            if (functions == scni::Functions::linear && points == 3) continue;
+            list.push_back(
+                {std::string("space_") + name + "_" + std::to_string(points),
+                 &entry,
+                 {.functions = functions, .cells = scni::CellKind::voronoi, .points_on_facets = points},
+                 3});
+          }
+      }
     } else if (entry.name.starts_with("sph")) {
       for (const auto kernel : {methods::Kernel::cubic_spline, methods::Kernel::wendland_c2}) {
         options.kernel = kernel;

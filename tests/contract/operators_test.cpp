@@ -128,8 +128,10 @@ TEST_P(Contract, values_are_a_partition_of_unity) {
 TEST_P(Contract, declares_the_promises_of_the_registry) {
   on_every_cloud([](const auto& domain) {
     const auto method = GetParam().make(domain);
-    for (const Promise promise : all_promises)
+    for (const Promise promise : all_promises) {
+      if (GetParam().dim == 3 && promise == Promise::hoop_rows) continue; // there are none in space
       EXPECT_EQ(method->promises().keep(promise), promised(promise)) << name_of(promise);
+    }
   });
 }
 

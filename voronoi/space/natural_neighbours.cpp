@@ -221,47 +221,51 @@ void NaturalNeighbours3::weigh_sibson() {
   }
 }
 
+/// Σ w_i (x_i − x) over the sum of the weights and the distance of the farthest neighbour.
+double NaturalNeighbours3::missed_place(double& sum, Vec3& missed) const {
+  double reach = 0.0;
+  sum = 0.0;
+  missed.setZero();
+  for (std::size_t i = 0; i < neighbour_.size(); ++i) {
+    const Neighbour& n = neighbour_[i];
+    sum += weight_[i];
+    reach = std::max(reach, n.squared);
+    missed += weight_[i] * Vec3(n.x, n.y, n.z);
+  }
+  return missed.norm() / (sum * std::sqrt(reach));
+}
+
 /// φ from the weights; false where they are no functions.
 bool NaturalNeighbours3::finish() {
-  const std::size_t count = neighbour_.size();
-  double sum = 0.0, least = 0.0, reach = 0.0;
-  Vec3 missed = Vec3::Zero();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Neighbour& n = neighbour_[i];
-    const double w = weight_[i];
-    sum += w;
-    least = std::min(least, w);
-    reach = std::max(reach, n.squared);
-    missed += w * Vec3(n.x, n.y, n.z);
+  constexpr double negative = 1e-9, rounding = 5e-15, largest = 1e-13, most = 1e-6;
+  double sum, error;
+  Vec3 missed;
+  error = missed_place(sum, missed);
+  const double least = *std::min_element(weight_.begin(), weight_.end());
+  if (!(sum > 0.0) || !(least >= -negative * sum) || !(error < most)) return false;
+  if (least < 0.0) {
+    for (double& w : weight_) w = std::max(w, 0.0);
+    error = missed_place(sum, missed);
   }
-  constexpr double negative = 1e-9, rounding = 1e-15, most = 1e-6;
-  if (!(sum > 0.0) || !(least >= -negative * sum)) return false;
-  const double error = missed.norm() / (sum * std::sqrt(reach));
-  if (!(error < most)) return false;
-  if (error > rounding || least < 0.0) {
+  if (error > rounding) {
     // Circumcentres of slivers lose digits, and Σφ x = x with them; a factor linear in x restores it.
     Mat<3> second = Mat<3>::Zero();
-    missed.setZero();
-    sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < neighbour_.size(); ++i) {
       const Vec3 d(neighbour_[i].x, neighbour_[i].y, neighbour_[i].z);
-      const double w = weight_[i] = std::max(weight_[i], 0.0);
-      sum += w;
-      missed += w * d;
-      second += w * d * d.transpose();
+      second += weight_[i] * d * d.transpose();
     }
     const Vec3 slope = second.inverse() * missed;
-    sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < neighbour_.size(); ++i) {
       const double change = slope.dot(Vec3(neighbour_[i].x, neighbour_[i].y, neighbour_[i].z));
       if (!(std::abs(change) < 0.5)) return false;
-      sum += weight_[i] *= 1.0 - change;
+      weight_[i] *= 1.0 - change;
     }
+    if (!(missed_place(sum, missed) < largest)) return false;
   }
-  node_.resize(count);
-  value_.resize(count);
+  node_.resize(neighbour_.size());
+  value_.resize(neighbour_.size());
   const double inverse = 1.0 / sum;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < neighbour_.size(); ++i) {
     node_[i] = neighbour_[i].node;
     value_[i] = inverse * weight_[i];
   }

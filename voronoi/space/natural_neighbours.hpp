@@ -86,6 +86,7 @@ private:
   bool on_wall(const Face& face);
   void weigh_laplace();
   void weigh_sibson();
+  double missed_place(double& sum, Vec3& missed) const;
   bool finish();
   void linear(const Vec3& x, std::span<const SimplexIndex> near);
 
