@@ -263,21 +263,15 @@ Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const S
   for (const NodeIndex i : body.nodes()) body.place(i, first.surface.at(i));
   body.set_boundary(first.surface.facets());
 
-  fprintf(stderr, "refined dV %.2e crossings now %d\n",
-          enclosed_measure(body.cloud()) - enclosed_measure(cloud), 0);
   std::vector<Removal> list;
   for (const NodeIndex i : body.nodes())
     if (exists(first.changes.into[i])) list.push_back({i, first.changes.into[i]});
   list = crowded(body, list, limits, report);
   SpaceStructure structure;
   remove(body, structure, list, rules, report);
-  if (const auto more = dense(body, structure, limits); !more.empty()) {
-    report.removed += static_cast<int>(more.size());
-    remove(body, structure, more, rules, report);
-  }
   for (int round = 0; round < limits.rounds; ++round)
     if (!fill(body, structure, rules, report)) break;
-  balance(body, structure, {limits.light, limits.heavy, limits.rounds}, report);
+  balance(body, structure, {limits.light, limits.heavy, limits.sweeps}, report);
   report.volume_change = enclosed_measure(body.cloud()) - enclosed_measure(cloud);
   Resampling<3> change = body.finish();
   change.old_position = cloud.position;
