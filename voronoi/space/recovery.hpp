@@ -14,6 +14,7 @@ struct RecoveryCounts {
   int lost = 0;      ///< facets that the Delaunay triangulation of the cloud as it was did not have
   int flipped = 0;   ///< edges of the surface that became the other diagonal
   int removed = 0;   ///< inner nodes in diametral balls of lost facets
+  int held = 0;      ///< facets that tetrahedra were flipped for
   int replaced = 0;  ///< facets that became others as the boundary of the tetrahedra inside
   int collapsed = 0; ///< surface nodes merged with a neighbour
 };
