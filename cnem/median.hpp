@@ -1,34 +1,27 @@
 #pragma once
 // Stabilised conforming nodal integration on median cells, with linear functions on tetrahedra: the node-based
 // smoothed finite-element method (G.R. Liu, T. Nguyen-Thoi and others, Computers & Structures 87, 2009, 14).
+#include "core/geometry/cell_complex.hpp"
 #include "core/operators/discretisation.hpp"
-#include "voronoi/linear_simplices.hpp"
-
-#include <vector>
+#include "voronoi/space/tetrahedra.hpp"
 
 namespace cnem::scni {
+
+/// The tetrahedra at each node.
+CellLists<SimplexIndex> tetrahedra_of_nodes(const voronoi::Tetrahedra& mesh);
 
 /// Rows are nodes with their median cells (voronoi/space/median_cells.hpp), N is the identity, and by the
 /// divergence theorem on them
 ///   V_i b_iJ = ¼ Σ_T V_T ∇N_J|_T over the tetrahedra T at node i, V_i = ¼ Σ_T V_T,
-/// which area vectors alone give. Linear fields are exact whatever the shape of the tetrahedra. Links are the
-/// edges; heat conducts with the linear operators of the tetrahedra.
-class MedianCells final : public Discretisation<3> {
-public:
-  static constexpr Promises promised{Promise::identity_values, Promise::non_negative_values,
-                                     Promise::tiling_cells, Promise::balanced_constant_stress};
+/// which area vectors alone give: V_T ∇N_J = −⅓ of that of the face opposite J, so that flat tetrahedra do no
+/// harm. Linear fields are exact whatever the shape of the tetrahedra. O(N). Throws GeometryError, with its
+/// place, for a node whose tetrahedra have no volume.
+DiscreteOperators<3> median_gradients(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
+                                      const CellLists<SimplexIndex>& around);
 
-  /// On these tetrahedra, which tile the domain of every cloud it is given. Throws InputError for none.
-  explicit MedianCells(std::vector<voronoi::Simplex<3>> tetrahedra);
-
-  /// Throws GeometryError as voronoi::linear_simplices does, and with its position for a node that belongs to
-  /// no tetrahedron. O(N).
-  Approximation<3> rebuild(const Cloud<3>& cloud) override;
-  std::string name() const override { return "cnem_median"; }
-  Promises promises() const override { return promised; }
-
-private:
-  std::vector<voronoi::Simplex<3>> tetrahedra_;
-};
+/// Links to the other nodes of the rows of these operators; weights as stabilisation_links, of the area
+/// vectors of the facets.
+StabilisationLinks<3> median_links(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
+                                   const CellLists<SimplexIndex>& around, const DiscreteOperators<3>& rows);
 
 } // namespace cnem::scni

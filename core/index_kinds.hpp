@@ -8,6 +8,8 @@ namespace cnem {
 enum class NodeIndex : std::int32_t { none = -1 };         ///< node of a cloud, and the cell around it
 enum class PointIndex : std::int32_t { none = -1 };        ///< stress point: row of an operator
 enum class SimplexIndex : std::int32_t { none = -1 };      ///< triangle or tetrahedron
+enum class EdgeIndex : std::int32_t { none = -1 };         ///< edge of tetrahedra
+enum class DualPointIndex : std::int32_t { none = -1 };    ///< dual point of a tetrahedron or of a facet
 enum class FaceIndex : std::int32_t { none = -1 };         ///< inner face of a complex of cells
 enum class PartIndex : std::int32_t { none = -1 };         ///< part of its boundary
 enum class CloudFacetIndex : std::int32_t { none = -1 };   ///< facet of the boundary of a cloud

@@ -17,7 +17,10 @@ constexpr std::array list{
           [](const Options& o) -> Made<2> {
             return std::make_unique<scni::Cnem>(scni::Options{o.functions, o.gauss_points, o.space});
           },
-          [](const Options& o) -> Made<3> { return std::make_unique<scni::MedianCells>(o.tetrahedra); }},
+          [](const Options& o) -> Made<3> { 
+            return std::make_unique<scni::CnemInSpace>(
+                scni::SpaceOptions{o.cells, o.functions, o.points_on_facets, o.tetrahedra});
+          }},
     Entry{"fe-triangles", FeTriangles::promised,
           [](const Options& o) -> Made<2> { return std::make_unique<FeTriangles>(o.space); }, nullptr},
     Entry{"fe-tetrahedra", FeTetrahedra::promised, nullptr,

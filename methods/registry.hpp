@@ -1,8 +1,8 @@
 #pragma once
 // Every discretisation a case can name, with what it promises and the dimensions it exists in: the one place
 // a new one is entered.
-#include "cnem/median.hpp"
 #include "cnem/scni.hpp"
+#include "cnem/space.hpp"
 #include "core/geometry/revolution.hpp"
 #include "methods/sph.hpp"
 #include "voronoi/linear_simplices.hpp"
@@ -18,7 +18,9 @@ namespace cnem::methods {
 /// What a case may choose of its method; each discretisation takes what concerns it.
 struct Options {
   scni::Functions functions = scni::Functions::sibson;
-  int gauss_points = 2; ///< per edge of a Voronoi cell, 1 to 3
+  int gauss_points = 2; ///< in the plane, per edge of a Voronoi cell, 1 to 3
+  scni::CellKind cells = scni::CellKind::median; ///< in space
+  int points_on_facets = 1;                      ///< in space, of Voronoi cells, 1 or 3
   Kernel kernel = Kernel::cubic_spline;
   double smoothing = 2.4;    ///< – support of the kernel in spacings, 1.5 to 5
   double zone_spacing = 0.0; ///< m: natural elements of the hybrid where nodes are as close as this

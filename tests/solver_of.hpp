@@ -5,9 +5,9 @@
 namespace cnem::testing {
 
 /// What it would be warned of is left aside. Throws as app::make_solver.
-inline ExplicitSolver<2> solver_of(const input::Case& input) {
+template<int dim = 2> ExplicitSolver<dim> solver_of(const input::Case& input) {
   std::vector<std::string> warnings;
-  return app::make_solver<2>(input, warnings);
+  return app::make_solver<dim>(input, warnings);
 }
 
 } // namespace cnem::testing

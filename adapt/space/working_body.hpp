@@ -27,6 +27,14 @@ public:
     cloud_.position.push_back(x);
     return as<NodeIndex>(size() - 1);
   }
+  /// A node without matter at the place of another, and held if that is.
+  NodeIndex double_node(NodeIndex i) {
+    append({{i, 1.0}});
+    cloud_.position.push_back(Vec3(at(i)));
+    const NodeIndex made = as<NodeIndex>(size() - 1);
+    hold(made, held(i));
+    return made;
+  }
   void place(NodeIndex i, const Vec3& x) { cloud_.position[i] = x; }
   void set_boundary(IndexedVector<CloudFacetIndex, Facet<3>> facets) { cloud_.facets = std::move(facets); }
 

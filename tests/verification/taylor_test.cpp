@@ -13,7 +13,9 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <tuple>
 
@@ -166,6 +168,61 @@ TEST(TaylorBar, in_space_is_as_long_as_the_reference_says) {
   EXPECT_NEAR(grid->GetBounds()[5], length, 0.02 * length);
   ASSERT_NE(grid->GetCellData()->GetArray("equivalent plastic strain"), nullptr);
   EXPECT_GT(grid->GetCellData()->GetArray("equivalent plastic strain")->GetRange()[1], 0.5);
+}
+
+/// Length, mean radius of the foot, and how far its rim is from round, m, of a bar along z.
+struct RoundBar {
+  double length = 0.0, radius = 0.0, out_of_round = 0.0;
+
+  explicit RoundBar(const State<3>& state) {
+    const auto& now = state.node.position;
+    const auto& first = state.node.initial_position;
+    const double edge = *std::max_element(first[0].begin(), first[0].end());
+    double least = 1.0, most = 0.0, nodes = 0.0;
+    for (std::size_t i = 0; i < state.node.size(); ++i) {
+      length = std::max(length, now[2][i]);
+      if (first[2][i] > 0.0 || std::hypot(first[0][i], first[1][i]) < (1.0 - 1e-9) * edge) continue;
+      const double r = std::hypot(now[0][i], now[1][i]);
+      least = std::min(least, r);
+      most = std::max(most, r);
+      radius += r;
+      nodes += 1.0;
+    }
+    radius /= nodes;
+    out_of_round = most - least;
+  }
+};
+
+// The axisymmetric reference of TaylorBar.copper_with_linear_hardening.
+TEST(TaylorBar, in_space_spreads_as_the_axisymmetric_one) {
+  const input::Case input = input::read_case(CNEM_SOURCE_DIR "/cases/three_dimensions/taylor/case.toml",
+                                             {"cloud.spacing=0.54 mm", "method.lagrangian=total"});
+  ExplicitSolver<3> solver = testing::solver_of<3>(input);
+  while (solver.state().time < input.time.end) {
+    const double dt = solver.stable_step().dt;
+    for (int n = 0; n < 10; ++n) solver.advance(dt);
+  }
+  const RoundBar bar(solver.state());
+  EXPECT_NEAR(bar.length, 21.438e-3, 0.06e-3);
+  EXPECT_NEAR(bar.radius, 7.225e-3, 0.08e-3);
+  EXPECT_LT(bar.out_of_round, 0.02 * bar.radius);
+  EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * solver.ledger().initial());
+}
+
+TEST(TaylorBar, in_space_is_the_same_on_new_references) {
+  const TemporaryFolder temporary("taylor_references");
+  const input::Case input =
+      input::read_case(CNEM_SOURCE_DIR "/cases/three_dimensions/taylor/case.toml",
+                       {"cloud.spacing=0.8 mm", "output.history_every=80 us", "output.fields_every=80 us"});
+  ASSERT_EQ(app::run(input, {.output = temporary.path(), .force = true, .version = "test"}), Exit::done);
+  const results::RunStatus status = results::read_status(temporary.path());
+  EXPECT_LT(status.energy_residual, 1e-3);
+  const results::HistoryTable history = results::read_history(temporary.path() / "history.csv");
+  const auto last = [&](const std::string& column) {
+    return history.column.at(index_of(history.find(column))).back();
+  };
+  EXPECT_NEAR(32.4e-3 + last("probe.free_end.displacement_z"), 21.438e-3, 0.06e-3);
+  EXPECT_NEAR(3.2e-3 + last("probe.foot.displacement_x"), 7.225e-3, 0.08e-3);
 }
 
 } // namespace

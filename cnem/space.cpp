@@ -1,0 +1,62 @@
+#include "cnem/space.hpp"
+
+#include "cnem/median.hpp"
+#include "cnem/smoothing.hpp"
+#include "core/error.hpp"
+#include "voronoi/space/triangulate.hpp"
+
+#include <fmt/format.h>
+
+namespace cnem::scni {
+
+CnemInSpace::CnemInSpace(SpaceOptions options) : options_(std::move(options)) {
+  if (options_.gauss_points != 1 && options_.gauss_points != 3)
+    throw InputError(fmt::format("{} Gauss points per facet of a cell: expected 1 or 3", options_.gauss_points));
+}
+
+std::string CnemInSpace::name() const {
+  if (options_.cells == CellKind::median) return "cnem_median";
+  switch (options_.functions) {
+  case voronoi::Functions::sibson:
+    return "cnem_sibson";
+  case voronoi::Functions::laplace:
+    return "cnem_laplace";
+  case voronoi::Functions::linear:
+    break;
+  }
+  return "cnem_linear";
+}
+
+Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
+  const voronoi::Tetrahedra mesh = options_.tetrahedra.empty()
+                                       ? voronoi::triangulate(cloud)
+                                       : voronoi::connected(cloud, options_.tetrahedra);
+  Approximation<3> result;
+  fallbacks_ = {};
+  if (options_.cells == CellKind::median) {
+    const auto around = tetrahedra_of_nodes(mesh);
+    result.mechanics = median_gradients(cloud, mesh, around);
+    result.links = median_links(cloud, mesh, around, result.mechanics);
+  } else {
+    const auto spheres = voronoi::circumspheres(cloud, mesh);
+    const auto cells = voronoi::voronoi_cells(cloud, mesh, spheres);
+    const FacetMeans facets =
+        facet_means(cloud, mesh, spheres, cells, options_.functions,
+                    options_.gauss_points == 1 ? FacetRule::one_point : FacetRule::one_a_triangle);
+    const auto of_cell = group_by_cell<FaceIndex>(
+        cloud.position.size(),
+        facets.facet.size(), [&](std::size_t f) -> const auto& { return facets.facet[f].cell; });
+    const FacesOfCells<3, Interface<3>> faces{cells.volume, facets.facet, of_cell, cells.boundary,
+                                              cells.neighbours};
+    result.mechanics = smoothed_gradients(cloud, faces, facets.means);
+    result.links = stabilisation_links(cloud, faces);
+    fallbacks_ = facets.fallbacks;
+  }
+  result.conduction = voronoi::linear_simplices<3>(cloud, mesh.node);
+  result.node_volume = result.mechanics.volume;
+  result.cells = voronoi::simplex_geometry<3>(cloud, mesh.node);
+  result.cells.between_points = true;
+  return result;
+}
+
+} // namespace cnem::scni

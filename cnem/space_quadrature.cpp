@@ -1,0 +1,208 @@
+#include "cnem/space_quadrature.hpp"
+
+#include "core/machine/parallel.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace cnem::scni {
+namespace {
+
+using voronoi::VoronoiCells;
+
+/// Share of the squared distance of two nodes that makes a facet.
+constexpr double least_area = 1e-14;
+
+/// How a facet is integrated.
+enum class Kind : std::uint8_t { none, at_once, by_triangles };
+
+/// A facet as a polygon.
+class Polygon {
+public:
+  void set(const Cloud<3>& cloud, const VoronoiCells& cells, EdgeIndex edge) {
+    voronoi::facet_polygon(cloud, cells, edge, corner_);
+    const auto& end = cells.rings.end[edge];
+    across_ = cloud.position[end[1]] - cloud.position[end[0]];
+    middle_ = 0.5 * (cloud.position[end[0]] + cloud.position[end[1]]);
+  }
+
+  /// Plane to rounding.
+  bool is_plane() const {
+    constexpr double epsilon = std::numeric_limits<double>::epsilon(), relative = 1e-13;
+    const double bound = relative * across_.squaredNorm() + 8.0 * epsilon * middle_.norm() * across_.norm();
+    return std::all_of(corner_.begin(), corner_.end(), [&](const Vec<3>& x) {
+      return std::abs((x - middle_).dot(across_)) <= bound;
+    });
+  }
+
+  /// Of a plane one: false where it crosses itself so that hardly any area is left.
+  bool find_centroid() {
+    const Vec<3>& origin = corner_[0];
+    Vec<3> moment = Vec<3>::Zero();
+    double sum = 0.0, size = 0.0;
+    for (std::size_t k = 1; k + 1 < corner_.size(); ++k) {
+      const Vec<3> a = corner_[k] - origin, b = corner_[k + 1] - origin;
+      const double twice = a.cross(b).dot(across_);
+      sum += twice;
+      size += std::abs(twice);
+      moment += twice * (a + b);
+    }
+    if (!(std::abs(sum) > 0.9 * size)) return false;
+    centroid_ = origin + moment / (3.0 * sum);
+    return true;
+  }
+  const Vec<3>& centroid() const { return centroid_; }
+
+  /// Calls body(point, share) for the triangles round the centroid.
+  template<class Body> void for_each_part(Body&& body) const {
+    double sum = 0.0;
+    const auto area = [&](std::size_t k) {
+      const Vec<3>&a = corner_[k], &b = corner_[(k + 1) % corner_.size()];
+      return (a - centroid_).cross(b - centroid_).dot(across_);
+    };
+    for (std::size_t k = 0; k < corner_.size(); ++k) sum += area(k);
+    for (std::size_t k = 0; k < corner_.size(); ++k)
+      body((centroid_ + corner_[k] + corner_[(k + 1) % corner_.size()]) / 3.0, area(k) / sum);
+  }
+
+private:
+  std::vector<Vec<3>> corner_;
+  Vec<3> across_, middle_, centroid_; ///< from node to node
+};
+
+/// What is integrated at once: a facet, or a triangle of its fan.
+struct Item {
+  EdgeIndex edge;
+  std::int32_t triangle; ///< −1: the facet
+};
+
+struct Functions {
+  voronoi::NaturalNeighbours3 neighbours;
+  Polygon polygon;
+  std::vector<SimplexIndex> around;
+};
+
+/// Sums up rows of functions at points: entries of one row are in the order in which they came first.
+void add_point(FaceMeans::Block& block, std::size_t start, const voronoi::NaturalNeighbours3& functions,
+               double weight) {
+  const auto node = functions.nodes();
+  const auto value = functions.values();
+  const std::size_t known = block.node.size();
+  for (std::size_t k = 0; k < node.size(); ++k) {
+    std::size_t e = start;
+    while (e < known && block.node[e] != node[k]) ++e;
+    if (e < known) {
+      block.value[e] += weight * value[k];
+    } else {
+      block.node.push_back(node[k]);
+      block.value.push_back(weight * value[k]);
+    }
+  }
+}
+
+} // namespace
+
+FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
+                       const voronoi::Circumspheres& spheres, const VoronoiCells& cells,
+                       voronoi::Functions functions, FacetRule rule) {
+  const std::size_t edges = cells.rings.end.size(), tetrahedra = mesh.node.size();
+  const auto triangles = [&](EdgeIndex e) {
+    const auto ring = cells.rings.of(e);
+    return ring.size() - (index_of(ring.front()) >= tetrahedra ? 1 : 0);
+  };
+  std::vector<Kind> kind(edges);
+  for_each_block(edges, [&](std::size_t begin, std::size_t end) {
+    Polygon polygon;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto e = as<EdgeIndex>(k);
+      polygon.set(cloud, cells, e);
+      if (!polygon.is_plane()) {
+        kind[k] = Kind::by_triangles;
+        continue;
+      }
+      const auto& [i, j] = cells.rings.end[e];
+      const double distance = (cloud.position[j] - cloud.position[i]).squaredNorm();
+      kind[k] = !(cells.normal[e].norm() > least_area * distance) ? Kind::none
+                : polygon.find_centroid()                           ? Kind::at_once
+                                                                    : Kind::by_triangles;
+    }
+  });
+  std::vector<Item> items;
+  items.reserve(edges + edges / 4);
+  for (const EdgeIndex e : cells.rings.end.indices()) {
+    if (kind[index_of(e)] == Kind::at_once) items.push_back({e, -1});
+    if (kind[index_of(e)] == Kind::by_triangles)
+      for (std::size_t k = 0; k < triangles(e); ++k) items.push_back({e, as<std::int32_t>(k)});
+  }
+
+  const voronoi::FunctionMesh function_mesh(cloud, mesh, spheres);
+  std::vector<Interface<3>> facet(items.size());
+  constexpr std::size_t size = FaceMeans::block_size;
+  std::vector<FaceMeans::Block> list((items.size() + size - 1) / size);
+  const auto integrate = [&](std::size_t b, Functions& at) {
+    FaceMeans::Block& block = list[b];
+    const std::size_t first = b * size, last = std::min(first + size, items.size());
+    block.begin.reserve(last - first + 1);
+    block.node.reserve(16 * (last - first));
+    block.value.reserve(16 * (last - first));
+    block.begin.push_back(0);
+    for (std::size_t k = first; k < last; ++k) {
+      const auto& [edge, triangle] = items[k];
+      const auto ring = cells.rings.of(edge);
+      const std::size_t start = block.node.size();
+      at.around.clear();
+      for (const DualPointIndex p : ring)
+        if (index_of(p) < tetrahedra) at.around.push_back(as<SimplexIndex>(index_of(p)));
+      facet[k] = {cells.rings.end[edge], cells.normal[edge]};
+      if (triangle < 0) {
+        at.polygon.set(cloud, cells, edge);
+        at.polygon.find_centroid();
+        const auto add = [&](const Vec<3>& x, double weight) {
+          at.neighbours.evaluate(functions, x, at.around);
+          add_point(block, start, at.neighbours, weight);
+        };
+        if (rule == FacetRule::one_point)
+          add(at.polygon.centroid(), 1.0);
+        else
+          at.polygon.for_each_part(add);
+      } else {
+        const auto& [i, j] = cells.rings.end[edge];
+        const Vec<3> middle = 0.5 * (cloud.position[i] + cloud.position[j]);
+        const Vec<3>&p = cells.points.place[ring[index_of(triangle)]],
+             &q = cells.points.place[ring[index_of(triangle + 1) % ring.size()]];
+        facet[k].area = 0.5 * (p - middle).cross(q - middle);
+        if (facet[k].area.norm() > least_area * (cloud.position[j] - cloud.position[i]).squaredNorm()) {
+          at.neighbours.evaluate(functions, (middle + p + q) / 3.0, at.around);
+          add_point(block, start, at.neighbours, 1.0);
+        }
+      }
+      block.begin.push_back(static_cast<std::int32_t>(block.node.size()));
+    }
+  };
+  voronoi::Fallbacks fallbacks;
+  ParallelFailure failure;
+#pragma omp parallel
+  {
+    std::optional<Functions> functions_here;
+#pragma omp for schedule(dynamic)
+    for (std::size_t b = 0; b < list.size(); ++b)
+      failure.guard(static_cast<std::ptrdiff_t>(b), [&] {
+        if (!functions_here)
+          functions_here.emplace(
+              Functions{voronoi::NaturalNeighbours3(cloud, mesh, function_mesh), Polygon(), {}});
+        integrate(b, *functions_here);
+      });
+#pragma omp critical
+    if (functions_here) {
+      fallbacks.to_laplace += functions_here->neighbours.fallbacks().to_laplace;
+      fallbacks.to_linear += functions_here->neighbours.fallbacks().to_linear;
+    }
+  }
+  failure.rethrow();
+  return {std::move(facet), FaceMeans(std::move(list)), fallbacks};
+}
+
+} // namespace cnem::scni

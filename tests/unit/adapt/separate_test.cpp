@@ -1,0 +1,164 @@
+// Bodies in space that part along the least surface through broken matter.
+#include "adapt/space/separate.hpp"
+#include "clouds/tetrahedral_block.hpp"
+#include "core/geometry/facets.hpp"
+#include "core/operators/resampling.hpp"
+#include "voronoi/space/recovery.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace cnem::adapt {
+namespace {
+
+/// Nodes are broken where `broken` is 1 or more.
+struct Body {
+  clouds::TetrahedralBlock block;
+  SpaceStructure structure;
+  WorkingBody body;
+
+  Body(const Vec3& size, const std::array<int, 3>& count, const std::function<double(const Vec3&)>& broken)
+      : block(clouds::tetrahedral_block(size, count)),
+        structure(structure_of(block.cloud, voronoi::connected(block.cloud, block.tetrahedra))),
+        body(block.cloud, properties(broken)) {}
+
+  NodeProperties properties(const std::function<double(const Vec3&)>& broken) const {
+    const std::size_t n = block.cloud.position.size();
+    NodeProperties p{structure.cell,
+                     Field(n, 1.0),
+                     Field(n, 1.0),
+                     Field(n, 0.1),
+                     IndexedVector<NodeIndex, char>(n, 0),
+                     {}};
+    for (const Vec3& x : block.cloud.position) p.broken.push_back(broken(x));
+    return p;
+  }
+};
+
+/// Connected components of a surface, each edge of which has to have two facets that run either way.
+int closed_components(const Cloud<3>& cloud) {
+  std::map<std::pair<NodeIndex, NodeIndex>, int> edges;
+  std::vector<std::size_t> parent(cloud.position.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](NodeIndex i) {
+    std::size_t r = index_of(i);
+    while (parent[r] != r) r = parent[r];
+    return r;
+  };
+  std::set<NodeIndex> nodes;
+  for (const Facet<3>& facet : cloud.facets)
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++edges[{facet.node[k], facet.node[(k + 1) % 3]}];
+      parent[root(facet.node[k])] = root(facet.node[(k + 1) % 3]);
+      nodes.insert(facet.node[k]);
+    }
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_TRUE(edges.contains({edge.second, edge.first}));
+  }
+  std::set<std::size_t> roots;
+  for (const NodeIndex i : nodes) roots.insert(root(i));
+  return static_cast<int>(roots.size());
+}
+
+constexpr PieceIndex faces{9};
+
+TEST(Separate, bar_with_a_broken_layer_parts_at_its_most_strained_surface) {
+  // broken in the middle third, most at x = 0.6
+  Body bar({1, 0.4, 0.4}, {10, 4, 4}, [](const Vec3& x) {
+    return std::abs(x.x() - 0.5) < 0.15 ? 1.0 + 5.0 * (std::abs(x.x() - 0.6) < 1e-9) : 0.5;
+  });
+  PassReport report;
+  const Field mass = bar.body.node().mass;
+  separate(bar.body, bar.structure, {.piece = faces}, report);
+  const Cloud<3>& cloud = bar.body.cloud();
+  EXPECT_EQ(report.cuts, 1);
+  EXPECT_EQ(report.opened, 2 * 4 * 4);
+  EXPECT_EQ(bar.body.size(), 11U * 25U + 25U);
+  EXPECT_EQ(closed_components(cloud), 2);
+  double total = 0.0, area = 0.0;
+  for (const double m : bar.body.node().mass) total += m;
+  EXPECT_NEAR(total, 0.16, 1e-15);
+  for (const NodeIndex i : bar.body.nodes())
+    EXPECT_NEAR(bar.body.node().mass[index_of(i)], bar.structure.volume(i), 1e-4);
+  for (const Facet<3>& facet : cloud.facets)
+    if (facet.piece == faces) {
+      for (const NodeIndex i : facet.node) {
+        EXPECT_NEAR(std::abs(cloud.position[i].x() - 0.6), 0.5e-3 * 0.1, 1e-12);
+        const double y = cloud.position[i].y();
+        EXPECT_TRUE(y >= 0.0 && y <= 0.4) << "doubles stay on the faces they were on";
+      }
+      area += area_normal<3>(corners_of<3>(facet, cloud.position)).norm();
+    }
+  EXPECT_NEAR(area, 2 * 0.16, 1e-12);
+  EXPECT_NO_THROW(voronoi::recover_boundary(cloud));
+}
+
+TEST(Separate, round_slug_leaves_a_sheet) {
+  const auto band = [](const Vec3& x) { return std::abs(std::hypot(x.x(), x.y()) - 0.5) < 0.13 ? 1.5 : 0.0; };
+  Body sheet({1, 1, 0.3}, {12, 12, 4}, band);
+  PassReport report;
+  separate(sheet.body, sheet.structure, {.piece = faces}, report);
+  EXPECT_EQ(report.cuts, 1);
+  EXPECT_EQ(closed_components(sheet.body.cloud()), 2);
+  const double sum = std::accumulate(sheet.body.node().mass.begin(), sheet.body.node().mass.end(), 0.0);
+  EXPECT_NEAR(sum, 0.3, 1e-13);
+  for (const NodeIndex i : sheet.block.cloud.position.indices()) // no vertex is doubled away from the band
+    if (band(sheet.block.cloud.position[i]) == 0.0) {
+      EXPECT_EQ(sheet.body.at(i), sheet.block.cloud.position[i]);
+    }
+}
+
+TEST(Separate, nothing_parts_where_a_ligament_is_whole_or_the_part_would_be_a_chip) {
+  Body ligament({1, 0.4, 0.4}, {10, 4, 4},
+                [](const Vec3& x) { return std::abs(x.x() - 0.5) < 0.15 && x.y() < 0.35 ? 2.0 : 0.0; });
+  PassReport report;
+  separate(ligament.body, ligament.structure, {.piece = faces}, report);
+  EXPECT_EQ(report.cuts, 0);
+  EXPECT_EQ(ligament.body.size(), 11U * 25U);
+  // 25 nodes beyond the broken layer at the end
+  Body chip({1, 0.4, 0.4}, {10, 4, 4},
+            [](const Vec3& x) { return x.x() > 0.85 && x.x() < 0.95 ? 2.0 : 0.0; });
+  EXPECT_TRUE(parts_between(chip.block.cloud, chip.structure.mesh, chip.body.node().broken, 51).empty());
+  EXPECT_FALSE(parts_between(chip.block.cloud, chip.structure.mesh, chip.body.node().broken, 50).empty());
+}
+
+TEST(Separate, two_bands_leave_three_parts) {
+  Body bar({2, 0.3, 0.3}, {20, 3, 3}, [](const Vec3& x) {
+    return std::abs(x.x() - 0.5) < 0.06 || std::abs(x.x() - 1.5) < 0.06 ? 1.2 : 0.0;
+  });
+  PassReport report;
+  separate(bar.body, bar.structure, {.piece = faces}, report);
+  EXPECT_EQ(report.cuts, 2);
+  EXPECT_EQ(closed_components(bar.body.cloud()), 3);
+}
+
+TEST(Separate, random_broken_matter_leaves_closed_surfaces) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    unsigned state = 747796405U * (seed + 1);
+    const auto random = [&] {
+      state = state * 1664525U + 1013904223U;
+      return (state >> 8) / 16777216.0;
+    };
+    Body bar({1, 0.5, 0.5}, {10, 5, 5}, [&](const Vec3& x) {
+      return std::abs(x.x() - 0.5 - 0.1 * std::sin(9.0 * x.y())) < 0.18
+                 ? (random() < 0.93 ? 1.0 + random() : 0.0)
+                 : 0.0;
+    });
+    PassReport report;
+    const auto volume = std::accumulate(bar.structure.cell.begin(), bar.structure.cell.end(), 0.0);
+    separate(bar.body, bar.structure, {.piece = faces}, report);
+    EXPECT_EQ(closed_components(bar.body.cloud()), 1 + report.cuts);
+    const auto left = std::accumulate(bar.structure.cell.begin(), bar.structure.cell.end(), 0.0);
+    EXPECT_NEAR(left, volume, 1e-3 * volume);
+    for (const double v : bar.structure.cell) EXPECT_GT(v, 0.0);
+  }
+}
+
+} // namespace
+} // namespace cnem::adapt

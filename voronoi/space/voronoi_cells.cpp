@@ -1,0 +1,181 @@
+#include "voronoi/space/voronoi_cells.hpp"
+
+#include "core/error.hpp"
+#include "core/geometry/facets.hpp"
+#include "core/geometry/place_text.hpp"
+#include "core/machine/parallel.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <utility>
+
+namespace cnem::voronoi {
+namespace {
+
+Vec<3> middle_of(const Cloud<3>& cloud, const std::array<NodeIndex, 2>& end) {
+  return 0.5 * (cloud.position[end[0]] + cloud.position[end[1]]);
+}
+
+bool is_open(std::span<const DualPointIndex> ring, std::size_t tetrahedra) {
+  return index_of(ring.front()) >= tetrahedra;
+}
+
+/// Calls body(p, q) for the dual points of each triangle of a fan.
+template<class Body> void for_each_triangle(const VoronoiCells& cells, EdgeIndex edge, Body&& body) {
+  const auto ring = cells.rings.of(edge);
+  for (std::size_t k = 0; k + 1 < ring.size(); ++k) body(ring[k], ring[k + 1]);
+  if (!is_open(ring, cells.points.holder.size())) body(ring.back(), ring.front());
+}
+
+void set_normal(const Cloud<3>& cloud, VoronoiCells& cells, EdgeIndex edge) {
+  const Vec<3> middle = middle_of(cloud, cells.rings.end[edge]);
+  Vec<3> sum = Vec<3>::Zero();
+  for_each_triangle(cells, edge, [&](DualPointIndex p, DualPointIndex q) {
+    sum += (cells.points.place[p] - middle).cross(cells.points.place[q] - middle);
+  });
+  cells.normal[edge] = 0.5 * sum;
+}
+
+void set_volumes(const Cloud<3>& cloud, VoronoiCells& cells) {
+  for_each_block(cells.volume.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double sum = 0.0;
+      for (const EdgeIndex e : cells.edges.of(i)) {
+        const auto& [a, b] = cells.rings.end[e];
+        sum += cells.normal[e].dot(cloud.position[b] - cloud.position[a]);
+      }
+      cells.volume[i] = sum / 6.0;
+    }
+  });
+}
+
+/// [cell] a quarter of the volumes of its tetrahedra, m³.
+Field median_volumes(const Cloud<3>& cloud, const Tetrahedra& mesh) {
+  Field volume(cloud.position.size(), 0.0);
+  for (const auto& node : mesh.node) {
+    const double quarter = 0.25 * measure<3>({cloud.position[node[0]], cloud.position[node[1]],
+                                              cloud.position[node[2]], cloud.position[node[3]]});
+    for (const NodeIndex i : node) volume[index_of(i)] += quarter;
+  }
+  return volume;
+}
+
+/// Draws in the points round cells that are too small; false when there is none.
+bool draw_in_small_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const Field& median,
+                         VoronoiCells& cells) {
+  constexpr double least = 0.15;
+  std::vector<std::uint8_t> small(cells.volume.size());
+  bool any = false;
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    small[i] = !(cells.volume[i] >= least * median[i]);
+    any = any || small[i];
+  }
+  if (!any) return false;
+  const auto is_small = [&](NodeIndex i) { return small[index_of(i)] != 0; };
+  IndexedVector<DualPointIndex, std::uint8_t> drawn(cells.points.place.size());
+  for (const SimplexIndex t : mesh.node.indices())
+    if (std::any_of(mesh.node[t].begin(), mesh.node[t].end(), is_small)) {
+      draw_in(cloud, mesh, cells.points, t);
+      drawn[dual_point_of(t)] = 1;
+    }
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    if (std::any_of(cloud.facets[f].node.begin(), cloud.facets[f].node.end(), is_small)) {
+      draw_in(cloud, mesh, cells.points, f);
+      drawn[dual_point_of(mesh, f)] = 1;
+    }
+  for (const EdgeIndex e : cells.rings.end.indices()) {
+    const auto ring = cells.rings.of(e);
+    if (std::any_of(ring.begin(), ring.end(), [&](DualPointIndex p) { return drawn[p] != 0; }))
+      set_normal(cloud, cells, e);
+  }
+  set_volumes(cloud, cells);
+  return true;
+}
+
+void add_boundary(const Cloud<3>& cloud, VoronoiCells& cells) {
+  using Place = std::array<double, 2>;
+  constexpr Place corner[3] = {{0, 0}, {1, 0}, {0, 1}}, middle[3] = {{0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+  cells.boundary.reserve(6 * cloud.facets.size());
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    for (std::size_t a = 0; a < 3; ++a) {
+      const NodeIndex node = cloud.facets[f].node[a];
+      const Place& centre = cells.points.on_facet[f];
+      cells.boundary.push_back({node, f, {corner[a], middle[a], centre}});
+      cells.boundary.push_back({node, f, {corner[a], centre, middle[(a + 2) % 3]}});
+    }
+}
+
+/// The other ends of the edges of each cell. An edge that has several rings counts once.
+CellLists<NodeIndex> neighbours_of(std::size_t cells, const EdgeRings& rings) {
+  CellLists<NodeIndex> lists = other_ends(cells, rings.end);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto list = lists.of(i);
+    if (std::adjacent_find(list.begin(), list.end()) == list.end()) continue;
+    auto edges = static_cast<const std::vector<std::array<NodeIndex, 2>>&>(rings.end);
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return other_ends(cells, edges);
+  }
+  return lists;
+}
+
+} // namespace
+
+VoronoiCells voronoi_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const Circumspheres& spheres) {
+  VoronoiCells cells;
+  cells.points = dual_points(cloud, mesh, spheres);
+  cells.rings = edge_rings(mesh);
+  const std::size_t edges = cells.rings.end.size(), nodes = cloud.position.size();
+  cells.normal.resize(edges);
+  for_each_block(edges, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) set_normal(cloud, cells, as<EdgeIndex>(e));
+  });
+  cells.edges = group_by_cell<EdgeIndex>(
+      nodes, edges, [&](std::size_t e) -> const auto& { return cells.rings.end[e]; });
+  cells.neighbours = neighbours_of(nodes, cells.rings);
+  cells.volume.resize(nodes);
+  set_volumes(cloud, cells);
+
+  const Field median = median_volumes(cloud, mesh);
+  for (std::size_t i = 0; i < nodes; ++i)
+    if (!(median[i] > 0.0))
+      throw GeometryError("the tetrahedra of the node at " + place_text(cloud.position[i]) +
+                          " m have no volume");
+  while (draw_in_small_cells(cloud, mesh, median, cells)) {}
+  add_boundary(cloud, cells);
+  return cells;
+}
+
+void facet_polygon(const Cloud<3>& cloud, const VoronoiCells& cells, EdgeIndex edge,
+                   std::vector<Vec<3>>& polygon) {
+  const auto ring = cells.rings.of(edge);
+  polygon.clear();
+  for (const DualPointIndex p : ring) polygon.push_back(cells.points.place[p]);
+  if (is_open(ring, cells.points.holder.size()))
+    polygon.push_back(middle_of(cloud, cells.rings.end[edge]));
+}
+
+CellComplex<3> cell_complex(const Cloud<3>& cloud, const Tetrahedra& mesh, const VoronoiCells& cells) {
+  CellComplex<3> complex;
+  complex.volume = cells.volume;
+  complex.boundary = cells.boundary;
+  complex.neighbours = cells.neighbours;
+  complex.interior.reserve(cells.rings.point.size());
+  const std::size_t tetrahedra = mesh.node.size();
+  const auto holder = [&](DualPointIndex p) {
+    return index_of(p) < tetrahedra ? cells.points.holder[index_of(p)] : SimplexIndex::none;
+  };
+  for (const EdgeIndex e : cells.rings.end.indices()) {
+    const Vec<3> middle = middle_of(cloud, cells.rings.end[e]);
+    for_each_triangle(cells, e, [&](DualPointIndex p, DualPointIndex q) {
+      complex.interior.push_back({cells.rings.end[e],
+                                  {holder(p), holder(q)},
+                                  {middle, cells.points.place[p], cells.points.place[q]}});
+    });
+  }
+  assert(is_closed<3>(cloud, complex));
+  return complex;
+}
+
+} // namespace cnem::voronoi
