@@ -93,11 +93,11 @@ Adaptation::Adaptation(const input::Case& input, const ExplicitSolver<2>& solver
 }
 
 void Adaptation::start_log(const std::filesystem::path& folder) {
-  if (active()) log_.start(folder, results::history_units(input_->analysis));
+  if (active()) log_.start(folder, results::history_units(input_->analysis), 2);
 }
 
 void Adaptation::resume_log(const std::filesystem::path& folder) {
-  if (active()) log_.resume(folder, results::history_units(input_->analysis));
+  if (active()) log_.resume(folder, results::history_units(input_->analysis), 2);
 }
 
 adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
@@ -196,7 +196,7 @@ void Adaptation::move_window(ExplicitSolver<2>& solver, const Follow& follow) {
 }
 
 double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
-  const results::Audit before = results::audit(solver);
+  const results::Audit<2> before = results::audit(solver);
   if (window_) move_window(solver, follow);
   adapt::PassReport report;
   double changed = 0.0;

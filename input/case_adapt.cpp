@@ -7,18 +7,12 @@
 
 namespace cnem::input {
 
-void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
-  if (result.cloud.spacing > 0.0) {
-    root.set_default("adapt.indicator.h_min", 0.25 * result.cloud.spacing);
-    root.set_default("adapt.indicator.h_max", result.cloud.spacing);
-  }
-  const Setting& table = *root.find("adapt");
-  Adaptation& rules = result.adapt;
-  rules.resample = table.get<bool>("resample");
-  rules.separate = table.get<bool>("separate");
+namespace {
+
+/// What the plane alone has.
+void read_spacing(const Setting& table, Adaptation& rules) {
   rules.cracks = table.get<bool>("cracks");
   rules.placement = table.choice<adapt::Placement>("placement");
-  rules.quiet_every = static_cast<int>(table.get<std::int64_t>("quiet_every"));
   rules.growth = table.get<double>("growth");
   rules.tool_spacing = table.maybe<double>("tool_spacing");
   rules.surface_spacing = table.maybe<double>("surface_spacing");
@@ -29,6 +23,22 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   rules.h_min = table.maybe<double>("indicator.h_min").value_or(0.0);
   rules.h_max = table.maybe<double>("indicator.h_max").value_or(0.0);
   rules.max_nodes = table.get<std::int64_t>("indicator.max_nodes");
+}
+
+} // namespace
+
+void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
+  if (result.analysis.dimensions() == 2 && result.cloud.spacing > 0.0) {
+    root.set_default("adapt.indicator.h_min", 0.25 * result.cloud.spacing);
+    root.set_default("adapt.indicator.h_max", result.cloud.spacing);
+  }
+  const Setting& table = *root.find("adapt");
+  Adaptation& rules = result.adapt;
+  rules.resample = table.get<bool>("resample");
+  rules.separate = table.get<bool>("separate");
+  rules.quiet_every = static_cast<int>(table.get<std::int64_t>("quiet_every"));
+  const bool plane = result.analysis.dimensions() == 2;
+  if (plane) read_spacing(table, rules);
 
   using Needs = adapt::IndicatedField::Needs;
   const bool refines = rules.indicator != nullptr;
@@ -48,7 +58,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict("adapt.separate",
              "found true where no material has a damage law, expected materials.NAME.damage: nothing "
              "would ever break");
-  if (rules.separate && !result.contact.active)
+  if (plane && rules.separate && !result.contact.active)
     conflict("adapt.separate",
              "found true without contact.deformable, expected contact.deformable = true: the new faces would "
              "go through each other");

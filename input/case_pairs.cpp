@@ -197,6 +197,16 @@ const std::vector<Pair>& pairs() {
          return when(c.method.lagrangian == Method::Lagrangian::total, "with method.lagrangian = \"total\"");
        },
        "\"periodic\"", "nodes are changed at a new reference", resampled},
+      {"method.cells", "\"voronoi\"", "new references without `adapt.resample`",
+       [](const Case& c) {
+         return when(!resampled(c) && c.method.lagrangian != Method::Lagrangian::total,
+                     "on new references without adapt.resample");
+       },
+       "\"median\", adapt.resample = true or method.lagrangian = \"total\"",
+       "they need tetrahedra that hold the boundary, which a pass sees to",
+       [](const Case& c) {
+         return c.analysis.dimensions() == 3 && c.method.options.cells == scni::CellKind::voronoi;
+       }},
       {"adapt.window", "", "axisymmetric analyses",
        [](const Case& c) { return when(is_round(c), "in an axisymmetric analysis"); },
        "it with analysis.kinematics = \"plane strain\"",

@@ -45,6 +45,7 @@ void compute_defaults(Setting& root) {
   root.set_default("output.history_every", end / 400.0);
   root.set_default("output.fields_every", end / 24.0);
   const bool space = root.get<std::string>("analysis.kinematics") == "three-dimensional";
+  root.set_default("method.gauss_points", std::int64_t{space ? 1 : 2});
   if (space)
     root.set_default("initial.velocity", Vec3(0, 0, 0));
   else
@@ -116,6 +117,10 @@ void read_method(Setting& root, Case& result, Diagnostics& diagnostics) {
   method.name = table.get<std::string>("name");
   method.options.functions = table.choice<scni::Functions>("functions");
   method.options.gauss_points = static_cast<int>(table.get<std::int64_t>("gauss_points"));
+  if (table.find("cells")) {
+    method.options.cells = table.choice<scni::CellKind>("cells");
+    method.options.points_on_facets = method.options.gauss_points == 1 ? 1 : 3;
+  }
   if (table.find("kernel")) {
     method.options.kernel = table.choice<methods::Kernel>("kernel");
     method.options.smoothing = table.get<double>("smoothing");

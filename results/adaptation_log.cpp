@@ -1,5 +1,6 @@
 #include "results/adaptation_log.hpp"
 
+#include "core/fields/vector_at.hpp"
 #include "mechanics/node_heat.hpp"
 #include "results/output_folder.hpp"
 
@@ -10,7 +11,9 @@ namespace cnem::results {
 
 namespace {
 
-std::vector<std::string> columns(const HistoryUnits& units) {
+constexpr const char* axes[] = {"x", "y", "z"};
+
+std::vector<std::string> columns(const HistoryUnits& units, int dimensions) {
   std::vector<std::string> names{"time[s]",
                                  "step",
                                  "cracks",
@@ -26,33 +29,45 @@ std::vector<std::string> columns(const HistoryUnits& units) {
                                  "inserted_boundary",
                                  "balanced",
                                  "undone"};
-  for (const std::string& name : {std::string("nodes"), units.enclosed + units.measure, "mass" + units.mass,
-                                  "momentum_x" + units.momentum, "momentum_y" + units.momentum,
-                                  "angular_momentum" + units.angular_momentum, "heat" + units.energy,
-                                  "energy" + units.energy, "energy_lost" + units.energy})
+  if (dimensions == 3) names.insert(names.end(), {"flipped", "crossings"});
+  std::vector<std::string> sums{"nodes", units.enclosed + units.measure, "mass" + units.mass};
+  for (int k = 0; k < dimensions; ++k) sums.push_back(fmt::format("momentum_{}{}", axes[k], units.momentum));
+  for (int k = 0; k < (dimensions == 2 ? 1 : 3); ++k)
+    sums.push_back(fmt::format("angular_momentum{}{}", dimensions == 2 ? "" : fmt::format("_{}", axes[k]),
+                               units.angular_momentum));
+  for (const char* energy : {"heat", "energy", "energy_lost"}) sums.push_back(energy + units.energy);
+  for (const std::string& name : sums)
     for (const char* when : {"before", "after"}) names.push_back(fmt::format("{}.{}", when, name));
   return names;
+}
+
+template<int dim> Turn<dim> moment(const Vec<dim>& arm, const Vec<dim>& momentum) {
+  if constexpr (dim == 2)
+    return Turn<2>(cross(arm, momentum));
+  else
+    return arm.cross(momentum);
 }
 
 double relative(double change, double scale) { return scale > 0.0 ? std::abs(change) / scale : 0.0; }
 
 } // namespace
 
-Audit audit(const ExplicitSolver<2>& solver) {
-  const State<2>& state = solver.state();
-  const NodeState<2>& node = state.node;
+template<int dim> Audit<dim> audit(const ExplicitSolver<dim>& solver) {
+  const State<dim>& state = solver.state();
+  const NodeState<dim>& node = state.node;
   const Field& inertia = solver.state().node.inertia();
-  Audit sums;
+  Audit<dim> sums;
   sums.nodes = static_cast<double>(node.size());
   sums.enclosed = enclosed_measure(solver.present_cloud(), solver.approximation().mechanics.space());
   for (std::size_t i = 0; i < node.size(); ++i) {
-    const Vec2 x(node.position[0][i], node.position[1][i]), v(node.velocity[0][i], node.velocity[1][i]);
+    const Vec<dim> x = vector_at<dim>(node.position, i), v = vector_at<dim>(node.velocity, i);
     sums.mass += node.mass[i];
     sums.momentum += inertia[i] * v;
-    sums.angular_momentum += inertia[i] * cross(x, v);
+    sums.angular_momentum += inertia[i] * moment<dim>(x, v);
     sums.momentum_scale += inertia[i] * v.norm();
     sums.angular_scale += inertia[i] * x.norm() * v.norm();
-    sums.heat += node.heat_capacity[i] * curves_of<2>(solver.model(), node, i).enthalpy(node.temperature[i]);
+    sums.heat +=
+        node.heat_capacity[i] * curves_of<dim>(solver.model(), node, i).enthalpy(node.temperature[i]);
   }
   sums.momentum -= solver.momentum_of_scaling();
   sums.enclosed += state.departed.volume;
@@ -65,39 +80,39 @@ Audit audit(const ExplicitSolver<2>& solver) {
   return sums;
 }
 
-void AdaptationLog::start(const std::filesystem::path& folder, const HistoryUnits& units) {
-  log_.start(file_in(folder, files::adaptation), columns(units));
+void AdaptationLog::start(const std::filesystem::path& folder, const HistoryUnits& units, int dimensions) {
+  log_.start(file_in(folder, files::adaptation), columns(units, dimensions));
 }
 
-void AdaptationLog::resume(const std::filesystem::path& folder, const HistoryUnits& units) {
-  log_.resume(file_in(folder, files::adaptation), columns(units), rows_);
+void AdaptationLog::resume(const std::filesystem::path& folder, const HistoryUnits& units, int dimensions) {
+  log_.resume(file_in(folder, files::adaptation), columns(units, dimensions), rows_);
 }
 
-void AdaptationLog::record(const State<2>& state, const adapt::PassReport& report, const Audit& before,
-                           const Audit& after) {
+template<int dim>
+void AdaptationLog::record(const State<dim>& state, const adapt::PassReport& report, const Audit<dim>& before,
+                           const Audit<dim>& after) {
   std::vector<double> row{state.time, static_cast<double>(state.step)};
   for (const int count : {report.cracks, report.advances, report.cuts, report.opened, report.folded,
                           report.outside, report.removed, report.removed_boundary, report.promoted,
                           report.inserted, report.inserted_boundary, report.balanced, report.undone})
     row.push_back(count);
-  for (const auto& [was, is] : {std::pair{before.nodes, after.nodes},
-                                {before.enclosed, after.enclosed},
-                                {before.mass, after.mass},
-                                {before.momentum.x(), after.momentum.x()},
-                                {before.momentum.y(), after.momentum.y()},
-                                {before.angular_momentum, after.angular_momentum},
-                                {before.heat, after.heat},
-                                {before.energy, after.energy},
-                                {before.lost, after.lost}}) {
-    row.push_back(was);
-    row.push_back(is);
-  }
+  if constexpr (dim == 3) row.insert(row.end(), {1.0 * report.flipped, 1.0 * report.crossings});
+  const auto add = [&](double was, double is) { row.insert(row.end(), {was, is}); };
+  add(before.nodes, after.nodes);
+  add(before.enclosed, after.enclosed);
+  add(before.mass, after.mass);
+  for (Eigen::Index k = 0; k < dim; ++k) add(before.momentum[k], after.momentum[k]);
+  for (Eigen::Index k = 0; k < before.angular_momentum.size(); ++k)
+    add(before.angular_momentum[k], after.angular_momentum[k]);
+  add(before.heat, after.heat);
+  add(before.energy, after.energy);
+  add(before.lost, after.lost);
   log_.write(row);
   ++rows_;
   mass_ = std::max(mass_, relative(after.mass - before.mass, before.mass));
   momentum_ = std::max(momentum_, relative((after.momentum - before.momentum).norm(), before.momentum_scale));
-  angular_ =
-      std::max(angular_, relative(after.angular_momentum - before.angular_momentum, before.angular_scale));
+  angular_ = std::max(
+      angular_, relative((after.angular_momentum - before.angular_momentum).norm(), before.angular_scale));
   heat_ = std::max(heat_, relative(after.heat - before.heat, before.heat));
   energy_ = std::max(energy_, relative(after.energy - before.energy, std::abs(before.energy)));
 }
@@ -118,5 +133,12 @@ void AdaptationLog::archive(Archive& archive) {
   archive.number("run/adapt/log/energy", "1", energy_);
   archive.number("run/adapt/log/angular", "1", angular_);
 }
+
+template Audit<2> audit(const ExplicitSolver<2>&);
+template Audit<3> audit(const ExplicitSolver<3>&);
+template void AdaptationLog::record(const State<2>&, const adapt::PassReport&, const Audit<2>&,
+                                    const Audit<2>&);
+template void AdaptationLog::record(const State<3>&, const adapt::PassReport&, const Audit<3>&,
+                                    const Audit<3>&);
 
 } // namespace cnem::results

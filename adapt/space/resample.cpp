@@ -269,6 +269,8 @@ Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const S
   list = crowded(body, list, limits, report);
   SpaceStructure structure;
   remove(body, structure, list, rules, report);
+  if (const int cuts = report.cuts; separate(body, structure, rules.separation, report), report.cuts > cuts)
+    remove(body, structure, {}, rules, report);
   for (int round = 0; round < limits.rounds; ++round)
     if (!fill(body, structure, rules, report)) break;
   balance(body, structure, {limits.light, limits.heavy, limits.sweeps}, report);

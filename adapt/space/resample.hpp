@@ -4,6 +4,7 @@
 #include "adapt/balance.hpp"
 #include "adapt/pass_report.hpp"
 #include "adapt/space/refine_surface.hpp"
+#include "adapt/space/separate.hpp"
 #include "adapt/space/structure.hpp"
 #include "adapt/space/working_body.hpp"
 
@@ -29,6 +30,7 @@ struct SpaceThresholds {
 struct SpaceRules {
   SurfaceRules surface{};
   SpaceThresholds thresholds{};
+  SeparationRules separation{}; ///< where NodeProperties::broken is given
 };
 
 /// Resamples a cloud. Conserves Σ of every quantity carried in parcels to rounding; a node that nothing

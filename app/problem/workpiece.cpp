@@ -3,6 +3,7 @@
 #include "clouds/generate.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "core/error.hpp"
+#include "voronoi/space/recovery.hpp"
 
 #include <fmt/format.h>
 #include <utility>
@@ -67,7 +68,12 @@ template<> Workpiece<3> make_workpiece(const input::Case& input) {
     const auto faces = block.faces();
     made.cloud.piece_names.assign(faces.begin(), faces.end());
     Workpiece<3> workpiece{std::move(made.cloud), input.method.options, {}};
-    workpiece.options.tetrahedra = std::move(made.tetrahedra);
+    const bool keeps_mesh = input.method.name != "cnem" ||
+                            (input.method.options.cells == scni::CellKind::median && !input.adapt.resample);
+    if (keeps_mesh)
+      workpiece.options.tetrahedra = std::move(made.tetrahedra);
+    else
+      workpiece.cloud = voronoi::recover_boundary(workpiece.cloud).cloud;
     return workpiece;
   } catch (const clouds::SpacingError& error) {
     throw input.error("cloud.spacing", error.what());

@@ -21,9 +21,17 @@ void add_method(Keys& k) {
       .one_of({"sibson", "laplace"})
       .fallback("\"sibson\"");
   k.add("method.gauss_points", integer,
-        "Per edge of a Voronoi cell (cnem, hybrid); axisymmetric analyses take at least 2.")
+        "Per edge of a Voronoi cell (cnem, hybrid); axisymmetric analyses take at least 2. In space per "
+        "facet of "
+        "one: 1, or more for one in each of its triangles.")
       .in({.low = 1, .high = 3})
-      .fallback("2");
+      .computed("2; in space 1");
+  k.add(
+       "method.cells", choice,
+       "Cells of natural elements in space: `median`, quarters of tetrahedra with their linear functions, or "
+       "`voronoi` with natural neighbour functions.")
+      .one_of({"median", "voronoi"})
+      .fallback("\"median\"");
   k.add("method.kernel", choice, "Kernel of the particles.")
       .one_of({"cubic_spline", "wendland_c2"})
       .fallback("\"cubic_spline\"")
@@ -100,7 +108,7 @@ std::vector<std::string> indicator_choices() {
 void add_adaptation(Keys& k) {
   using enum Type;
   namespace d = dimension;
-  k.add("adapt", table, "The cloud follows the deformation (explicit analyses in the plane).").always();
+  k.add("adapt", table, "The cloud follows the deformation (explicit analyses).").always();
   k.add("adapt.resample", boolean,
         "At each new reference nodes that crowd are removed, gaps are filled, the boundary is split and "
         "thinned, "

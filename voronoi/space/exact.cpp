@@ -10,16 +10,17 @@ namespace {
 
 using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Exact::Point_3 point(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
+Exact::Point_3 exact_point(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 
 } // namespace
 
 int orientation_in_doubt(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return static_cast<int>(Exact().orientation_3_object()(point(a), point(b), point(c), point(d)));
+  return static_cast<int>(
+      Exact().orientation_3_object()(exact_point(a), exact_point(b), exact_point(c), exact_point(d)));
 }
 
 bool in_coplanar_circle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Exact::Point_3 pa = point(a), pb = point(b), pc = point(c), pd = point(d);
+  const Exact::Point_3 pa = exact_point(a), pb = exact_point(b), pc = exact_point(c), pd = exact_point(d);
   const auto turn = Exact().coplanar_orientation_3_object();
   const auto side = Exact().coplanar_side_of_bounded_circle_3_object()(pa, pb, pc, pd);
   if (side != CGAL::ON_BOUNDARY) return side == CGAL::ON_BOUNDED_SIDE;

@@ -20,12 +20,12 @@ constexpr double on_node = 1e-14;
 
 /// Squared lengths and products of what x, the origin, is joined to a face with.
 struct Corner {
-  Vec3 a, b, c;          ///< of the face
-  Vec3 ab, bc, ca;       ///< a × b, b × c, c × a
-  double aa, bb, cc;     ///< squares
-  double a_b, b_c, c_a;  ///< a·b, …
-  double volume;         ///< six times that of the tetrahedron
-  Vec3 centre;           ///< of its circumsphere
+  Vec3 a, b, c;            ///< of the face
+  Vec3 ab, bc, ca;         ///< a × b, b × c, c × a
+  double aa, bb, cc;       ///< squares
+  double a_b, b_c, c_a;    ///< a·b, …
+  double volume;           ///< six times that of the tetrahedron
+  Vec3 centre;             ///< of its circumsphere
   double k_ab, k_bc, k_ca; ///< height of the centre over the faces with x, by twice their area
 
   Corner(const auto& p, const auto& q, const auto& r)
@@ -160,8 +160,8 @@ NaturalNeighbours3::Outcome NaturalNeighbours3::collect(const Vec3& x, SimplexIn
     const Neighbour &a = neighbour_[index_of(face_[f].corner[0])],
                     &b = neighbour_[index_of(face_[f].corner[1])],
                     &c = neighbour_[index_of(face_[f].corner[2])];
-    const double volume = a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
-                          a.z * (b.x * c.y - b.y * c.x);
+    const double volume =
+        a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
     const double bound = flat * std::sqrt(a.squared * b.squared * c.squared);
     if (volume > bound) continue;
     if (exists(face_[f].beyond)) {
@@ -180,9 +180,8 @@ NaturalNeighbours3::Outcome NaturalNeighbours3::collect(const Vec3& x, SimplexIn
   }
   if (hidden) return Outcome::lost;
   if (joined)
-    std::erase_if(face_, [&](const Face& face) {
-      return exists(face.beyond) && in_cavity_.at(face.beyond, 0) == 1;
-    });
+    std::erase_if(
+        face_, [&](const Face& face) { return exists(face.beyond) && in_cavity_.at(face.beyond, 0) == 1; });
   return Outcome::surrounded;
 }
 
@@ -216,12 +215,9 @@ void NaturalNeighbours3::weigh_sibson() {
                  of_ca = k * ca * (bb_bc - t.a_b + t.c_a);
     const double shared_ab = t.k_ab * ab * t.a_b, shared_bc = t.k_bc * bc * t.b_c,
                  shared_ca = t.k_ca * ca * t.c_a;
-    weight_[index_of(a)] -=
-        t.aa * (t.k_ab * bb_ab + t.k_ca * cc_ca) + shared_ab + shared_ca + of_ab + of_ca;
-    weight_[index_of(b)] -=
-        t.bb * (t.k_bc * cc_bc + t.k_ab * aa_ab) + shared_bc + shared_ab + of_bc + of_ab;
-    weight_[index_of(c)] -=
-        t.cc * (t.k_ca * aa_ca + t.k_bc * bb_bc) + shared_ca + shared_bc + of_ca + of_bc;
+    weight_[index_of(a)] -= t.aa * (t.k_ab * bb_ab + t.k_ca * cc_ca) + shared_ab + shared_ca + of_ab + of_ca;
+    weight_[index_of(b)] -= t.bb * (t.k_bc * cc_bc + t.k_ab * aa_ab) + shared_bc + shared_ab + of_bc + of_ab;
+    weight_[index_of(c)] -= t.cc * (t.k_ca * aa_ca + t.k_bc * bb_bc) + shared_ca + shared_bc + of_ca + of_bc;
   }
 }
 
@@ -272,8 +268,8 @@ bool NaturalNeighbours3::finish() {
   return true;
 }
 
-/// Linear functions of the tetrahedron with x: of those that the ways from some lead to, and the neighbours of
-/// flat ones, the one that x is the deepest in.
+/// Linear functions of the tetrahedron with x: of those that the ways from some lead to, and the neighbours
+/// of flat ones, the one that x is the deepest in.
 void NaturalNeighbours3::linear(const Vec3& x, std::span<const SimplexIndex> near) {
   constexpr double well_shaped = 1e-6;
   double deepest = -std::numeric_limits<double>::infinity(), best_quality = 0.0;

@@ -152,8 +152,7 @@ void facet_polygon(const Cloud<3>& cloud, const VoronoiCells& cells, EdgeIndex e
   const auto ring = cells.rings.of(edge);
   polygon.clear();
   for (const DualPointIndex p : ring) polygon.push_back(cells.points.place[p]);
-  if (is_open(ring, cells.points.holder.size()))
-    polygon.push_back(middle_of(cloud, cells.rings.end[edge]));
+  if (is_open(ring, cells.points.holder.size())) polygon.push_back(middle_of(cloud, cells.rings.end[edge]));
 }
 
 CellComplex<3> cell_complex(const Cloud<3>& cloud, const Tetrahedra& mesh, const VoronoiCells& cells) {
