@@ -28,6 +28,7 @@ struct SpaceThresholds {
 };
 
 struct SpaceRules {
+  scni::CellKind cells = scni::CellKind::median; ///< whose volumes matter has to fill
   SurfaceRules surface{};
   SpaceThresholds thresholds{};
   SeparationRules separation{}; ///< where NodeProperties::broken is given

@@ -1,6 +1,7 @@
 #include "adapt/space/structure.hpp"
 
 #include "core/index.hpp"
+#include "voronoi/space/voronoi_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ double volume_of(const Cloud<3>& cloud, const std::array<NodeIndex, 4>& node) {
 
 } // namespace
 
-SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh) {
+SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh, scni::CellKind cells) {
   SpaceStructure s;
   const std::size_t n = cloud.position.size();
   s.cell.assign(n, 0.0);
@@ -24,6 +25,8 @@ SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh) {
     const double quarter = 0.25 * volume_of(cloud, node);
     for (const NodeIndex i : node) s.cell[index_of(i)] += quarter;
   }
+  if (cells == scni::CellKind::voronoi)
+    s.cell = voronoi::voronoi_cells(cloud, mesh, voronoi::circumspheres(cloud, mesh)).volume;
   s.tetrahedra = group_by_cell<SimplexIndex>(
       n, mesh.node.size(), [&](std::size_t t) -> const auto& { return mesh.node[t]; });
   std::vector<std::array<NodeIndex, 2>> edges;
