@@ -73,6 +73,7 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   adapt::PassReport report;
   Cloud<3> cloud = solver.present_cloud();
   adapt::SpaceRules rules;
+  rules.cells = input_->method.options.cells;
   if (input_->adapt.separate) rules.separation.piece = fracture_piece(cloud);
   const Resampling<3> change = adapt::resample(cloud, properties(solver), rules, report);
   solver.prepare(change);

@@ -126,6 +126,9 @@ std::vector<Removal> crowded(const WorkingBody& body, const std::vector<Removal>
   return all;
 }
 
+namespace {
+
+/// Inner nodes with too little volume, no two beside each other.
 std::vector<Removal> dense(const WorkingBody& body, const SpaceStructure& structure,
                            const SpaceThresholds& limits) {
   const IndexedVector<NodeIndex, char> boundary = on_boundary(body);
@@ -151,8 +154,6 @@ std::vector<Removal> dense(const WorkingBody& body, const SpaceStructure& struct
   }
   return list;
 }
-
-namespace {
 
 struct Gap {
   double order; ///< minus the length over its limit
@@ -180,8 +181,10 @@ std::vector<Gap> gaps(const WorkingBody& body, const SpaceStructure& structure, 
 
 bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report) {
   const SpaceThresholds& limits = rules.thresholds;
+  const std::vector<Removal> going = dense(body, structure, limits);
+  report.removed += static_cast<int>(going.size());
   const std::vector<Gap> list = gaps(body, structure, limits.long_edge);
-  if (list.empty()) return false;
+  if (list.empty() && going.empty()) return false;
   // where new nodes might come, by which facets are asked who is in their way
   std::vector<Vec3> place;
   for (const Gap& gap : list) place.push_back(gap.x);
@@ -207,9 +210,9 @@ bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules,
     // other gaps must not come too near
     places.near(gap.x, clear, [&](NodeIndex other, double) { barred[other] = 1; });
   }
-  if (body.size() == before) return false;
+  if (body.size() == before && going.empty()) return false;
   report.inserted += static_cast<int>(body.size() - before);
-  remove(body, structure, {}, rules, report);
+  remove(body, structure, going, rules, report);
   return true;
 }
 

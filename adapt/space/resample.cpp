@@ -1,9 +1,12 @@
 #include "adapt/space/resample.hpp"
 
+#include "core/error.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/recovery.hpp"
+#include "voronoi/space/surface_flips.hpp"
+#include "voronoi/space/walls.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +84,27 @@ NodeIndex nearest_left(const WorkingBody& body, const IndexedVector<NodeIndex, N
 
 namespace {
 
+/// Where the boundary could not be recovered.
+struct NotRecovered {
+  std::vector<Vec3> places;
+  std::string message;
+};
+
+voronoi::RecoveredBoundary recovered_boundary(const Cloud<3>& cloud) {
+  try {
+    return voronoi::recover_boundary(cloud);
+  } catch (const GeometryError& error) {
+    constexpr double flat = 0.2443; // rad, as recover_boundary()
+    Cloud<3> flipped = cloud;
+    voronoi::flip_surface(flipped, flat);
+    NotRecovered failure{{}, error.what()};
+    for (const CloudFacetIndex f : voronoi::find_walls(flipped, voronoi::delaunay(flipped)).lost)
+      for (const Vec3& x : corners_of<3>(flipped.facets[f], flipped.position)) failure.places.push_back(x);
+    if (failure.places.empty()) throw;
+    throw failure;
+  }
+}
+
 using Corners = std::array<NodeIndex, 3>;
 
 std::vector<Corners> sorted_facets(const Cloud<3>& cloud) {
@@ -124,7 +148,7 @@ void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Remo
   voronoi::RecoveredBoundary recovered;
   constexpr int times = 3;
   for (int n = 0; n < times; ++n) {
-    recovered = voronoi::recover_boundary(left.cloud());
+    recovered = recovered_boundary(left.cloud());
     report.flipped += recovered.counts.flipped;
     for (NodeIndex& i : number)
       if (exists(i)) i = recovered.now[i];
@@ -144,7 +168,7 @@ void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Remo
     gone[i] = 1;
     ++report.removed;
   }
-  structure = structure_of(recovered.cloud, std::move(recovered.tetrahedra));
+  structure = structure_of(recovered.cloud, std::move(recovered.tetrahedra), rules.cells);
   body.move(inheritance(body, structure, all, number));
   body.drop(gone);
   body.set_boundary(std::move(recovered.cloud.facets));
@@ -208,11 +232,12 @@ struct Refined {
   PassReport report;
 };
 
-Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const SpaceRules& rules) {
+Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const Field& size,
+                const SpaceRules& rules) {
   IndexedVector<NodeIndex, char> held = properties.held;
   constexpr int most = 4;
   for (int n = 0;; ++n) {
-    Refined result{WorkingSurface(cloud, held, rules.surface), {}, properties.size, {}};
+    Refined result{WorkingSurface(cloud, held, rules.surface), {}, size, {}};
     if (n == most) {
       result.changes.into.assign(cloud.position.size(), NodeIndex::none);
       ++result.report.undone;
@@ -246,13 +271,11 @@ Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const S
   }
 }
 
-} // namespace
-
-Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const SpaceRules& rules,
-                       PassReport& report) {
+/// A pass whose surface has this spacing (m, [node]).
+Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Field& size,
+                      const SpaceRules& rules, PassReport& report) {
   const SpaceThresholds& limits = rules.thresholds;
-  report.crossings += static_cast<int>(voronoi::crossings(cloud).size());
-  Refined first = refined(cloud, properties, rules);
+  Refined first = refined(cloud, properties, size, rules);
   report += first.report;
   WorkingBody body(cloud, std::move(properties));
   const std::size_t old_nodes = body.size();
@@ -269,19 +292,44 @@ Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const S
   list = crowded(body, list, limits, report);
   SpaceStructure structure;
   remove(body, structure, list, rules, report);
-  if (const auto more = dense(body, structure, limits); !more.empty()) {
-    report.removed += static_cast<int>(more.size());
-    remove(body, structure, more, rules, report);
-  }
   if (const int cuts = report.cuts; separate(body, structure, rules.separation, report), report.cuts > cuts)
     remove(body, structure, {}, rules, report);
   for (int round = 0; round < limits.rounds; ++round)
     if (!fill(body, structure, rules, report)) break;
-  balance(body, structure, {limits.light, limits.heavy, limits.rounds}, report);
+  balance(body, structure, {limits.light, limits.heavy, limits.sweeps}, report);
   report.volume_change = enclosed_measure(body.cloud()) - enclosed_measure(cloud);
   Resampling<3> change = body.finish();
   change.old_position = cloud.position;
   return change;
+}
+
+} // namespace
+
+Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const SpaceRules& rules,
+                       PassReport& report) {
+  report.crossings += static_cast<int>(voronoi::crossings(cloud).size());
+  // Where facets are lost the other side of the body is nearer than they are long: they become shorter there.
+  constexpr int times = 4;
+  constexpr double shorter = 0.7, beside = 1.5;
+  Field size = properties.size;
+  for (int n = 1;; ++n) {
+    PassReport tried = report;
+    try {
+      Resampling<3> change = attempt(cloud, properties, size, rules, tried);
+      report = tried;
+      return change;
+    } catch (const NotRecovered& failure) {
+      if (n == times) throw GeometryError(failure.message);
+      ++report.undone;
+      for (const NodeIndex i : cloud.position.indices()) {
+        double& h = size[index_of(i)];
+        const double reach = beside * h;
+        if (std::any_of(failure.places.begin(), failure.places.end(),
+                        [&](const Vec3& x) { return (cloud.position[i] - x).squaredNorm() < reach * reach; }))
+          h *= shorter;
+      }
+    }
+  }
 }
 
 } // namespace cnem::adapt

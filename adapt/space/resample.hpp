@@ -23,10 +23,12 @@ struct SpaceThresholds {
   double clear_facet = 0.5; ///< and from facets
   double light = 0.8;       ///< ρ₀V/(mJ) below which a node gives mass away
   double heavy = 1.25;      ///< and above which it takes some
-  int rounds = 4;           ///< of insertion, and of exchange
+  int rounds = 2;           ///< of insertion
+  int sweeps = 8;           ///< of exchange
 };
 
 struct SpaceRules {
+  scni::CellKind cells = scni::CellKind::median; ///< whose volumes matter has to fill
   SurfaceRules surface{};
   SpaceThresholds thresholds{};
   SeparationRules separation{}; ///< where NodeProperties::broken is given
@@ -51,15 +53,13 @@ struct Removal {
 /// near_facet, or too near each other; in the order of their numbers.
 std::vector<Removal> crowded(const WorkingBody& body, const std::vector<Removal>& list,
                              const SpaceThresholds& limits, PassReport& report);
-/// Inner nodes with too little volume, no two beside each other.
-std::vector<Removal> dense(const WorkingBody& body, const SpaceStructure& structure,
-                           const SpaceThresholds& limits);
 /// Takes nodes out, triangulates what is left, and leaves their matter to nodes beside them that have more
 /// volume than matter. What recovering the boundary takes out goes the same way, and the volume that it
 /// changes is given back.
 void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Removal>& list,
             const SpaceRules& rules, PassReport& report);
-/// One round of insertion; false when there was nothing to do.
+/// One round of insertion in the middle of long edges, and of removal of inner nodes with too little volume;
+/// false when there was nothing to do.
 bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report);
 
 /// Matter for the nodes that have none: from neighbours that have more matter than volume, else evenly.

@@ -1,6 +1,7 @@
 #include "adapt/space/structure.hpp"
 
 #include "core/index.hpp"
+#include "voronoi/space/voronoi_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,25 +17,31 @@ double volume_of(const Cloud<3>& cloud, const std::array<NodeIndex, 4>& node) {
 
 } // namespace
 
-SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh) {
+SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh, scni::CellKind cells) {
   SpaceStructure s;
   const std::size_t n = cloud.position.size();
   s.cell.assign(n, 0.0);
-  std::vector<std::array<NodeIndex, 2>> edges;
-  edges.reserve(6 * mesh.node.size());
   for (const auto& node : mesh.node) {
     const double quarter = 0.25 * volume_of(cloud, node);
-    for (std::size_t a = 0; a < 4; ++a) {
-      s.cell[index_of(node[a])] += quarter;
-      for (std::size_t b = a + 1; b < 4; ++b)
-        edges.push_back({std::min(node[a], node[b]), std::max(node[a], node[b])});
-    }
+    for (const NodeIndex i : node) s.cell[index_of(i)] += quarter;
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  s.linked = other_ends(n, edges);
+  if (cells == scni::CellKind::voronoi)
+    s.cell = voronoi::voronoi_cells(cloud, mesh, voronoi::circumspheres(cloud, mesh)).volume;
   s.tetrahedra = group_by_cell<SimplexIndex>(
       n, mesh.node.size(), [&](std::size_t t) -> const auto& { return mesh.node[t]; });
+  std::vector<std::array<NodeIndex, 2>> edges;
+  edges.reserve(8 * n);
+  std::vector<NodeIndex> upper;
+  for (const NodeIndex i : cloud.position.indices()) {
+    upper.clear();
+    for (const SimplexIndex t : s.tetrahedra.of(i))
+      for (const NodeIndex k : mesh.node[t])
+        if (k > i) upper.push_back(k);
+    std::sort(upper.begin(), upper.end());
+    upper.erase(std::unique(upper.begin(), upper.end()), upper.end());
+    for (const NodeIndex k : upper) edges.push_back({i, k});
+  }
+  s.linked = other_ends(n, edges);
   s.mesh = std::move(mesh);
   return s;
 }

@@ -1,5 +1,6 @@
 #pragma once
 // Tetrahedra and the volumes of nodes in space: what a pass looks at between two rounds.
+#include "cnem/space.hpp"
 #include "core/geometry/cell_complex.hpp"
 #include "voronoi/space/tetrahedra.hpp"
 
@@ -17,8 +18,9 @@ struct SpaceStructure {
   std::span<const NodeIndex> neighbours(NodeIndex i) const { return linked.of(i); }
 };
 
-/// Volumes are those of median cells, a quarter of each tetrahedron. O(N).
-SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh);
+/// With the volumes of median cells, a quarter of each tetrahedron, or those of Voronoi cells. O(N).
+SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh,
+                            scni::CellKind cells = scni::CellKind::median);
 
 /// m, [node] edge of the cube that holds what a node would have inside of a lattice: (6 V)^⅓ with the mean
 /// volume V of its tetrahedra.
