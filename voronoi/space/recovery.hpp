@@ -1,0 +1,36 @@
+#pragma once
+// Makes the boundary of a cloud in space one that the Delaunay triangulation of its nodes holds.
+#include "core/geometry/cloud.hpp"
+#include "voronoi/space/tetrahedra.hpp"
+
+namespace cnem::voronoi {
+
+struct RecoveryRules {
+  double flat_angle = 0.2443; ///< rad (14°): facets of one piece whose normals are that near may be flipped
+};
+
+/// What a recovery has done.
+struct RecoveryCounts {
+  int lost = 0;      ///< facets that the Delaunay triangulation of the cloud as it was did not have
+  int flipped = 0;   ///< edges of the surface that became the other diagonal
+  int removed = 0;   ///< inner nodes in diametral balls of lost facets
+  int replaced = 0;  ///< facets that became others as the boundary of the tetrahedra inside
+  int collapsed = 0; ///< surface nodes merged with a neighbour
+};
+
+struct RecoveredBoundary {
+  Cloud<3> cloud;
+  Tetrahedra tetrahedra;
+  IndexedVector<NodeIndex, NodeIndex> now; ///< [node of the old cloud] its number; none: it is gone
+  RecoveryCounts counts;
+};
+
+/// The cheapest first: (1) Lawson's flips of the surface, within named pieces; (2) inner nodes in diametral
+/// balls of lost facets go; (3) the boundary of the tetrahedra inside becomes the surface, if it is a
+/// manifold with the same nodes, where tetrahedra that are flat on a face count as outside and new facets
+/// inherit their piece; (4) surface nodes too near each other are merged. Nodes keep their places and their
+/// order. O(N log N). Throws GeometryError as triangulate(), and where nothing helps, naming a facet that is
+/// lost.
+RecoveredBoundary recover_boundary(const Cloud<3>& cloud, const RecoveryRules& rules = {});
+
+} // namespace cnem::voronoi

@@ -1,0 +1,202 @@
+#include "voronoi/space/surface.hpp"
+
+#include "core/error.hpp"
+#include "core/geometry/place_text.hpp"
+#include "core/index.hpp"
+#include "voronoi/space/exact.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace cnem::voronoi {
+
+namespace {
+
+constexpr SurfaceEdge no_edge = -1;
+
+void check_node_index(const Cloud<3>& cloud, NodeIndex node, const std::string& who) {
+  if (node < NodeIndex{} || node >= cloud.position.next())
+    throw GeometryError(fmt::format("{} names node {}, but the cloud has nodes 0 to {}", who, as<int>(node),
+                                    cloud.nodes() - 1));
+}
+
+void check_lists(const Cloud<3>& cloud) {
+  for (const NodeIndex i : cloud.position.indices())
+    if (!cloud.position[i].allFinite())
+      throw GeometryError(fmt::format("{}: the position is not finite", describe_node(cloud, i)));
+  if (cloud.facets.empty())
+    throw GeometryError("empty domain: the cloud has no boundary facets, expected a closed surface");
+  for (const CloudFacetIndex f : cloud.facets.indices()) {
+    const auto& [a, b, c] = cloud.facets[f].node;
+    for (const NodeIndex i : {a, b, c}) check_node_index(cloud, i, fmt::format("facet {}", index_of(f)));
+    if (a == b || b == c || c == a)
+      throw GeometryError(fmt::format("{} has one node twice", describe_facet(cloud, f)));
+  }
+}
+
+/// Edges as pairs: of each edge, the one that runs the other way. Facets are found by the lower end of an
+/// edge.
+SurfaceEdges paired_edges(const Cloud<3>& cloud) {
+  const auto ends = [&](SurfaceEdge e) {
+    const auto& node = cloud.facets[facet_of(e)].node;
+    return std::array{node[place_of(e)], node[(place_of(e) + 1) % 3]};
+  };
+  const std::size_t edges = 3 * cloud.facets.size();
+  std::vector<std::uint32_t> begin(cloud.position.size() + 2, 0);
+  for (std::size_t e = 0; e < edges; ++e) {
+    const auto [a, b] = ends(as<SurfaceEdge>(e));
+    ++begin[index_of(std::min(a, b)) + 2];
+  }
+  for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  std::vector<SurfaceEdge> of_lower(edges);
+  for (std::size_t e = 0; e < edges; ++e) {
+    const auto [a, b] = ends(as<SurfaceEdge>(e));
+    of_lower[begin[index_of(std::min(a, b)) + 1]++] = as<SurfaceEdge>(e);
+  }
+  SurfaceEdges across(cloud.facets.size(), {no_edge, no_edge, no_edge});
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = ends(edge_at(f, k));
+      SurfaceEdge found = no_edge;
+      const auto edge_text = [&, a = a, b = b] {
+        return fmt::format("the edge from {} to {}", describe_node(cloud, a), describe_node(cloud, b));
+      };
+      const std::size_t lower = index_of(std::min(a, b));
+      for (std::uint32_t q = begin[lower]; q < begin[lower + 1]; ++q) {
+        const SurfaceEdge other = of_lower[q];
+        const auto [c, d] = ends(other);
+        if (other == edge_at(f, k) || std::max(c, d) != std::max(a, b)) continue;
+        if (c == a)
+          throw GeometryError(fmt::format(
+              "{} and facet {} run along {} in the same direction: expected a surface that does not branch, "
+              "with all normals outwards (inside out?)",
+              describe_facet(cloud, f), index_of(facet_of(other)), edge_text()));
+        found = other; // a third one would run as one of the two
+      }
+      if (found == no_edge)
+        throw GeometryError(fmt::format("open surface: {} has no other side at {}, expected a closed surface",
+                                        describe_facet(cloud, f), edge_text()));
+      across[f][k] = found;
+    }
+  return across;
+}
+
+/// Each node has one fan of facets.
+void check_fans(const Cloud<3>& cloud, const SurfaceEdges& across) {
+  IndexedVector<NodeIndex, std::int32_t> facets_at(cloud.position.size(), 0);
+  IndexedVector<NodeIndex, SurfaceEdge> leaving(cloud.position.size(), no_edge);
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++facets_at[cloud.facets[f].node[k]];
+      leaving[cloud.facets[f].node[k]] = edge_at(f, k);
+    }
+  for (const NodeIndex i : leaving.indices()) {
+    if (leaving[i] == no_edge) continue;
+    SurfaceEdge e = leaving[i];
+    std::int32_t count = 0;
+    do {
+      const SurfaceEdge back = across[facet_of(e)][place_of(e)];
+      e = edge_at(facet_of(back), (place_of(back) + 1) % 3);
+      ++count;
+    } while (e != leaving[i]);
+    if (count != facets_at[i])
+      throw GeometryError(fmt::format("the surface touches itself at {}: expected a node of its own for each "
+                                      "part, declared as twins",
+                                      describe_node(cloud, i)));
+  }
+}
+
+int side(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& facet, NodeIndex i) {
+  return orientation(cloud.position[facet[0]], cloud.position[facet[1]], cloud.position[facet[2]],
+                     cloud.position[i]);
+}
+
+/// Whether the segment from p to q passes through the inside of the triangle or of one of its edges.
+bool pierces(const Cloud<3>& cloud, NodeIndex p, NodeIndex q, const std::array<NodeIndex, 3>& triangle) {
+  if (side(cloud, triangle, p) * side(cloud, triangle, q) >= 0) return false;
+  int turns[3];
+  for (std::size_t k = 0; k < 3; ++k) turns[k] = side(cloud, {p, q, triangle[k]}, triangle[(k + 1) % 3]);
+  const int low = std::min({turns[0], turns[1], turns[2]}), high = std::max({turns[0], turns[1], turns[2]});
+  return low * high >= 0 && (turns[0] != 0) + (turns[1] != 0) + (turns[2] != 0) > 1;
+}
+
+bool cross(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& f, const std::array<NodeIndex, 3>& g) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (pierces(cloud, f[k], f[(k + 1) % 3], g) || pierces(cloud, g[k], g[(k + 1) % 3], f)) return true;
+  return false;
+}
+
+} // namespace
+
+std::string describe_node(const Cloud<3>& cloud, NodeIndex node) {
+  return fmt::format("node {} at {} m", index_of(node), place_text(cloud.position[node], 9));
+}
+
+std::string describe_facet(const Cloud<3>& cloud, CloudFacetIndex facet) {
+  std::string nodes;
+  for (const NodeIndex i : cloud.facets[facet].node)
+    nodes +=
+        fmt::format("{}{} at {}", nodes.empty() ? "" : ", ", index_of(i), place_text(cloud.position[i], 9));
+  return fmt::format("facet {} between nodes {} m", index_of(facet), nodes);
+}
+
+SurfaceEdges surface_edges(const Cloud<3>& cloud) {
+  check_lists(cloud);
+  SurfaceEdges across = paired_edges(cloud);
+  check_fans(cloud, across);
+  return across;
+}
+
+IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<3>& cloud) {
+  if (cloud.twins.empty()) return {};
+  IndexedVector<NodeIndex, NodeIndex> parent(cloud.position.size());
+  for (const NodeIndex i : parent.indices()) parent[i] = i;
+  const auto root = [&](NodeIndex i) {
+    while (parent[i] != i) {
+      auto& up = parent[i];
+      i = up = parent[up];
+    }
+    return i;
+  };
+  for (std::size_t t = 0; t < cloud.twins.size(); ++t) {
+    const auto& [a, b] = cloud.twins[t];
+    check_node_index(cloud, a, fmt::format("twin pair {}", t));
+    check_node_index(cloud, b, fmt::format("twin pair {}", t));
+    parent[root(a)] = root(b);
+  }
+  for (const NodeIndex i : cloud.position.indices()) parent[i] = root(i);
+  return parent;
+}
+
+IndexedVector<CloudFacetIndex, CloudFacetIndex> facets_behind(const Cloud<3>& cloud) {
+  IndexedVector<CloudFacetIndex, CloudFacetIndex> behind(cloud.facets.size(), CloudFacetIndex::none);
+  const auto group = twin_groups(cloud);
+  if (group.empty()) return behind;
+  IndexedVector<NodeIndex, std::uint8_t> paired(group.size(), 0);
+  for (const auto& [a, b] : cloud.twins) paired[a] = paired[b] = 1;
+  std::vector<std::pair<std::array<NodeIndex, 3>, CloudFacetIndex>> keys;
+  for (const CloudFacetIndex f : behind.indices()) {
+    const auto& [a, b, c] = cloud.facets[f].node;
+    if (!paired[a] && !paired[b] && !paired[c]) continue;
+    std::array key{group[a], group[b], group[c]};
+    std::sort(key.begin(), key.end());
+    keys.push_back({key, f});
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t n = 0; n + 1 < keys.size(); ++n)
+    if (keys[n].first == keys[n + 1].first) {
+      behind[keys[n].second] = keys[n + 1].second;
+      behind[keys[n + 1].second] = keys[n].second;
+    }
+  return behind;
+}
+
+void refuse_crossings(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& suspects) {
+  for (const CloudFacetIndex f : suspects)
+    for (const CloudFacetIndex g : cloud.facets.indices())
+      if (f != g && cross(cloud, cloud.facets[f].node, cloud.facets[g].node))
+        throw GeometryError(fmt::format("the surface crosses itself: {} crosses {}", describe_facet(cloud, f),
+                                        describe_facet(cloud, g)));
+}
+
+} // namespace cnem::voronoi
