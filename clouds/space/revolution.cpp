@@ -82,11 +82,12 @@ constexpr int steps = 2000; // along a piece
 
 double radius_at(const CurvePiece& piece, double s) { return std::max(piece.point(s).x(), 0.0); }
 
-/// The smaller radius of curvature of the surface that a piece sweeps.
-double curvature_radius(const CurvePiece& piece, double s) {
+/// The smaller radius of curvature of the surface that a piece sweeps; of a cone not below that at the radius
+/// `core`: its tip is one node.
+double curvature_radius(const CurvePiece& piece, double s, double core) {
   const double normal = std::abs(piece.tangent(s).y()), round = radius_at(piece, s);
+  if (!piece.is_arc()) return normal > 1e-9 ? std::max(round, core) / normal : straight;
   const double by_circle = normal > 1e-9 ? round / normal : straight;
-  if (!piece.is_arc()) return std::max(by_circle, 1e-300);
   return round > 1e-6 * piece.radius ? std::min(piece.radius, by_circle) : piece.radius;
 }
 
@@ -112,11 +113,6 @@ Monotone stereographic(const CurvePiece& piece, double core) {
   }
   if (outwards) std::ranges::reverse(distance);
   return Monotone(std::move(distance));
-}
-
-/// Wanted spacing on the surface of a piece.
-double wanted(const SpaceSpacing& spacing, const CurvePiece& piece, const Vec3& x, double s) {
-  return curved_spacing(spacing.at(x), curvature_radius(piece, s));
 }
 
 struct Edge {
@@ -229,6 +225,7 @@ private:
     std::function<double(double)> across;        ///< place on a meridian, m
     std::function<double(double)> enlarged;      ///< lengths in the plane over those on the surface
     std::function<double(const Vec2&)> fraction; ///< of a place in the plane
+    double core;                                 ///< m, radius around a pole
   };
 
   void set_spacing(Patch& patch, const CurvePiece& piece, const Plane& plane) const {
@@ -237,7 +234,7 @@ private:
     double coarsest = 0.0, finest = straight;
     std::vector<double> at, value;
     for (int k = 0; k <= samples; ++k) {
-      const double s = static_cast<double>(k) / samples, limit = curvature_radius(piece, s);
+      const double s = static_cast<double>(k) / samples, limit = curvature_radius(piece, s, plane.core);
       at.push_back(plane.across(s));
       value.push_back(plane.enlarged(s) * curved_spacing(field.spacing, limit));
       coarsest = std::max(coarsest, value.back());
@@ -248,7 +245,9 @@ private:
     if (growth < 1e-6) return;
     patch.spacing.mapped = {[&field, &piece, plane, place = patch.on_surface](const Vec2& x) {
                               const double s = plane.fraction(x);
-                              return plane.enlarged(s) * wanted(field, piece, place(x), s);
+                              return plane.enlarged(s) *
+                                     curved_spacing(field.at(place(x)),
+                                                    curvature_radius(piece, s, plane.core));
                             },
                             finest, std::min(growth, 0.9)};
   }
@@ -275,7 +274,7 @@ private:
       return turned(piece.point(fraction(x)), x.x() / size);
     };
     set_spacing(patch, piece,
-                {height, [&piece, size](double s) { return size / radius_at(piece, s); }, fraction});
+                {height, [&piece, size](double s) { return size / radius_at(piece, s); }, fraction, 0.0});
     surface_.add_patch(patch);
   }
 
@@ -332,7 +331,7 @@ private:
       return distance(s) / radius;
     };
     set_spacing(patch, piece,
-                {distance, enlarged, [&](const Vec2& x) { return distance.inverse(x.norm()); }});
+                {distance, enlarged, [&](const Vec2& x) { return distance.inverse(x.norm()); }, core});
     surface_.add_patch(patch);
   }
 

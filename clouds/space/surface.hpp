@@ -16,4 +16,22 @@ namespace cnem::clouds {
 Cloud<3> extruded_surface(const Extrusion& shape, const SpaceSpacing& spacing);
 Cloud<3> revolved_surface(const Revolution& shape, const SpaceSpacing& spacing);
 
+/// The surface that facets describe, with new nodes: edges sharper than the crease angle and those between
+/// solids stay, and divide it into pieces. These bear the names of the points nearest to them, else the
+/// name of their solid ("surface" without), numbered from the largest on where there are several.
+/// One spacing for all. Throws GeometryError, naming facets with positions, for surfaces that are open,
+/// branch, turn inside out or cross themselves, facets without area, and refinements.
+Cloud<3> remeshed_surface(const Faceted& shape, const SpaceSpacing& spacing);
+
+Cloud<3> surface_of(const SpaceDomain& domain, const SpaceSpacing& spacing);
+
+/// Facets whose normals are that near (rad; 14°) may take the other diagonal, so that it is the Delaunay one.
+inline constexpr double flat_angle = 0.2443;
+
+/// m³, of the body as described.
+double domain_volume(const SpaceDomain& domain);
+
+/// A length that the body fits into, m.
+double domain_size(const SpaceDomain& domain);
+
 } // namespace cnem::clouds
