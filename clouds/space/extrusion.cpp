@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -59,7 +60,9 @@ Ring make_ring(SurfaceBuilder& surface, const Curve& curve, const std::array<dou
                                      radius_of(piece), piece.sweep(), corner[end][p],
                                      corner[end][(p + 1) % count]));
     ring.posts.push_back(make([&](double s) { return point(piece.from, z[0] + s * (z[1] - z[0])); },
-                              z[1] - z[0], straight, 0.0, corner[0][p], corner[1][p]));
+                              z[1] - z[0],
+                              std::min(radius_of(piece), radius_of(curve.pieces[(p + count - 1) % count])),
+                              0.0, corner[0][p], corner[1][p]));
   }
   return ring;
 }
