@@ -1,5 +1,7 @@
 #include "app/explain.hpp"
 
+#include "input/space_domain.hpp"
+
 #include "app/forecast/forecast.hpp"
 #include "app/simulation.hpp"
 #include "clouds/generate.hpp"
@@ -23,8 +25,8 @@ std::string line(const char* name, const std::string& text) { return fmt::format
 double degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
 
 std::string size_of(const input::Domain& domain) {
-  if (domain.block) {
-    const auto [low, high] = domain.block->bounds();
+  if (domain.in_space()) {
+    const auto [low, high] = input::space_bounds(domain);
     return fmt::format("{} x {} x {}", si_format(high.x() - low.x(), "m"), si_format(high.y() - low.y(), "m"),
                        si_format(high.z() - low.z(), "m"));
   }

@@ -36,12 +36,10 @@ void check_options(const SpacingField& spacing, const CloudOptions& options) {
 void check_count(const DomainShape& domain, const SpacingField& spacing, const CloudOptions& options) {
   const double nodes = estimate_nodes(domain, spacing, options);
   if (nodes <= options.nodes_limit) return;
-  double finest = spacing.spacing;
-  for (const Refinement& r : spacing.refinements) finest = std::min(finest, r.spacing);
   throw SpacingError(
       fmt::format("a spacing of {:.3g} m (finest {:.3g} m) makes about {:.2g} nodes or more in "
                   "this domain; expected at most {:.2g}",
-                  spacing.spacing, finest, nodes, options.nodes_limit));
+                  spacing.spacing, spacing.finest(), nodes, options.nodes_limit));
 }
 
 /// Edges of the boundary that are much shorter than the spacing: one warning per piece, about the worst.

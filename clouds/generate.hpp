@@ -7,6 +7,8 @@
 #include "core/geometry/curve.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,30 +36,42 @@ struct DomainShape {
 };
 
 /// A region with its own spacing, from which the spacing grows by `growth` per unit of distance.
-struct Refinement {
+template<int dim> struct RefinementIn {
   enum class Region {
     path, ///< `points`: one point, or the vertices of an open polyline
     box,  ///< `points`: two opposite corners of a box parallel to the axes
   };
   Region region = Region::path;
-  std::vector<Vec2> points; ///< m
-  double spacing = 0.0;     ///< m, inside the region
-  double growth = 0.3;      ///< in (0, 1]; neighbouring edges differ by about this fraction
+  std::vector<Vec<dim>> points; ///< m
+  double spacing = 0.0;         ///< m, inside the region
+  double growth = 0.3;          ///< in (0, 1]; neighbouring edges differ by about this fraction
 
-  double distance(const Vec2& x) const; ///< from x to the region, m; 0 inside a box
+  double distance(const Vec<dim>& x) const; ///< from x to the region, m; 0 inside a box
+};
+using Refinement = RefinementIn<2>;
+
+/// Spacing on a surface in space that is mapped to the plane.
+struct MappedSpacing {
+  std::function<double(const Vec2&)> at; ///< at most the spacing away from refinements
+  double finest = 0.0;                   ///< at most the least value
+  double growth = 0.0;                   ///< at least the steepest growth, below 1
 };
 
 /// Wanted distance of neighbouring nodes, h(x) = min(spacing, min_r [spacing_r + growth_r distance_r(x)]), m.
-struct SpacingField {
+template<int dim> struct SpacingFieldIn {
   double spacing = 0.0; ///< away from every refinement, m
-  std::vector<Refinement> refinements;
+  std::vector<RefinementIn<dim>> refinements;
+  std::optional<MappedSpacing> mapped{}; ///< of the plane: takes the place of refinements
 
-  double at(const Vec2& x) const;
+  double at(const Vec<dim>& x) const;
   /// True when no refinement is finer than `spacing`.
   bool uniform() const;
+  double finest() const; ///< m, no larger than any value
+  double growth() const; ///< of the steepest refinement that is finer than `spacing`; 0: uniform
   /// Throws SpacingError for spacings or growths out of range and regions without points.
   void check() const;
 };
+using SpacingField = SpacingFieldIn<2>;
 
 enum class Pattern {
   hexagonal, ///< near-equilateral rows along x, fitted to the bounding box

@@ -12,10 +12,7 @@ namespace {
 class Surplus {
 public:
   Surplus(const voronoi::EdgeTree& tree, const SpacingField& spacing, double coarsest, double limit)
-      : tree_(tree), spacing_(spacing), coarsest_(coarsest), limit_(limit) {
-    for (const Refinement& r : spacing.refinements)
-      if (r.spacing < spacing.spacing) growth_ = std::max(growth_, r.growth);
-  }
+      : tree_(tree), spacing_(spacing), coarsest_(coarsest), limit_(limit), growth_(spacing.growth()) {}
 
   double sum = 0.0;
 
@@ -49,7 +46,7 @@ private:
   const voronoi::EdgeTree& tree_;
   const SpacingField& spacing_;
   double coarsest_, limit_;
-  double growth_ = 0.0;
+  double growth_;
 };
 
 } // namespace

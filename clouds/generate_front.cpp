@@ -9,12 +9,7 @@ namespace cnem::clouds {
 
 std::vector<Vec2> front_nodes(const Cloud<2>& boundary, const voronoi::EdgeTree& tree,
                               const SpacingField& spacing) {
-  double h_min = spacing.spacing, growth = 0.0;
-  for (const Refinement& r : spacing.refinements) {
-    h_min = std::min(h_min, r.spacing);
-    if (r.spacing < spacing.spacing) growth = std::max(growth, r.growth);
-  }
-  NodeHash placed(h_min, spacing.spacing, growth);
+  NodeHash<2> placed(spacing.finest(), spacing.spacing, spacing.growth());
 
   struct Seed {
     Vec2 x, ahead; ///< position and unit direction in which the front moves

@@ -176,7 +176,6 @@ private:
       Vec2 centre;
     };
     std::vector<Hole> holes;
-    double h_min = spacing_.spacing, growth = 0.0;
     for (const SimplexIndex t : mesh_.node.indices()) {
       const auto& n = mesh_.node[t];
       if (!movable_[index_of(n[0])] && !movable_[index_of(n[1])] && !movable_[index_of(n[2])] &&
@@ -192,11 +191,7 @@ private:
       holes.push_back({radius.norm() / h, centre});
     }
     std::ranges::stable_sort(holes, std::ranges::greater{}, &Hole::size);
-    for (const Refinement& r : spacing_.refinements) {
-      h_min = std::min(h_min, r.spacing);
-      growth = std::max(growth, r.growth);
-    }
-    NodeHash placed(h_min, spacing_.spacing, growth);
+    NodeHash<2> placed(spacing_.finest(), spacing_.spacing, spacing_.growth());
     std::vector<Vec2> centres;
     for (const Hole& candidate : holes) {
       const double h = spacing_.at(candidate.centre);

@@ -2,24 +2,25 @@
 // Nodes of strongly varying spacing in a hierarchy of hashed grids: near neighbours in constant time.
 #include "core/vec.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace cnem::clouds {
 
 /// Each node lives on the grid whose cells are between two and four times its spacing.
-class NodeHash {
+template<int dim> class NodeHash {
 public:
   /// h_min: the smallest spacing, h_max: the largest; growth: the Lipschitz constant of the spacing field.
   NodeHash(double h_min, double h_max, double growth);
 
-  void insert(const Vec2& x, double h);
+  void insert(const Vec<dim>& x, double h);
   /// Whether a node y lies nearer to x than factor (h(x) + h(y))/2.
-  bool crowded(const Vec2& x, double h, double factor) const;
+  bool crowded(const Vec<dim>& x, double h, double factor) const;
 
 private:
   struct Node {
-    Vec2 x;
+    Vec<dim> x;
     double h;
     std::int32_t next;
   };
@@ -31,6 +32,7 @@ private:
 
   int level(double h) const;
   double cell_size(int level) const;
+  std::array<std::int64_t, dim> cell(const Vec<dim>& x, double size) const;
   std::size_t slot(std::uint64_t key) const;
   void enlarge();
 

@@ -1,5 +1,6 @@
 #include "input/case.hpp"
 
+#include "input/space_domain.hpp"
 #include "mechanics/field_catalogue.hpp"
 
 #include <algorithm>
@@ -12,8 +13,13 @@ std::vector<std::string> Domain::piece_names() const {
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
-  if (block)
+  if (block && block->grid)
     for (const std::string& face : block->faces()) add(face);
+  for (const std::string& name : faceted_pieces) add(name);
+  if ((block && !block->grid) || sweep) {
+    std::ranges::for_each(pieces_of(space_domain(*this)), add);
+    return names;
+  }
   for (const CurvePiece& piece : outer.pieces) add(piece.name);
   for (const Hole& hole : holes)
     for (const CurvePiece& piece : hole.outline.pieces) add(piece.name);
@@ -43,8 +49,12 @@ std::array<std::string, 6> Block::faces() const {
 
 std::array<Vec3, 2> Block::bounds() const {
   if (shape == Shape::box) return {from.cwiseMin(to), from.cwiseMax(to)};
-  return {centre - Vec3(part == Part::quarter ? 0.0 : radius, part == Part::whole ? radius : 0.0, 0.0),
-          centre + Vec3(radius, radius, length)};
+  const bool no_left = part == Part::quarter || part == Part::eighth;
+  const bool all_round = part == Part::whole || part == Part::sector;
+  const bool ball = shape == Shape::sphere;
+  return {centre - Vec3(no_left ? 0.0 : radius, all_round ? radius : 0.0,
+                        ball && part != Part::eighth ? radius : 0.0),
+          centre + Vec3(radius, radius, ball ? radius : length)};
 }
 
 std::vector<std::string> field_names(int dimensions, bool adaptive) {

@@ -6,6 +6,7 @@
 #include "adapt/indicated_fields.hpp"
 #include "adapt/resample.hpp"
 #include "clouds/generate.hpp"
+#include "clouds/space/domain.hpp"
 #include "contact/body_contact.hpp"
 #include "core/error.hpp"
 #include "core/geometry/curve.hpp"
@@ -86,16 +87,19 @@ struct Region {
   Vec2 velocity{0, 0};         ///< m/s, at t = 0
 };
 
-/// A workpiece in space, on a structured grid.
+/// A workpiece in space of a usual shape.
 struct Block {
-  enum class Shape { box, cylinder };
-  enum class Part { whole, half, quarter };
+  enum class Shape { box, cylinder, sphere };
+  enum class Part { whole, half, quarter, eighth, sector };
   Shape shape = Shape::box;
   Vec3 from{0, 0, 0}, to{0, 0, 0}; ///< m, corners of the box
-  Vec3 centre{0, 0, 0};            ///< m, of the bottom of the cylinder, whose axis is along z
+  Vec3 centre{0, 0, 0};            ///< m; of the bottom of the cylinder, whose axis is along z
   double radius = 0.0;             ///< m
+  double inner_radius = 0.0;       ///< m, of a tube or a shell; 0: there is none
   double length = 0.0;             ///< m
-  Part part = Part::whole;         ///< of the cylinder: all, y > 0, x > 0 and y > 0, from its centre
+  Part part = Part::whole; ///< all, y > 0, x > 0 and y > 0, x, y and z > 0 from the centre, 0 < θ < angle
+  double angle = 0.0;      ///< rad, of a sector
+  bool grid = true;        ///< boxes of six tetrahedra; else a surface and nodes inside
 
   /// Names of the faces x-, x+, y-, y+, z-, z+ of the grid.
   std::array<std::string, 6> faces() const;
@@ -103,21 +107,38 @@ struct Block {
   std::array<Vec3, 2> bounds() const;
 };
 
+/// What makes a body in space of outline and holes: z is drawn out, or y becomes z and they are turned.
+struct Sweep {
+  bool turned = false;
+  double from = 0.0, to = 0.0;       ///< m along z, where it is drawn
+  double angle = 0.0;                ///< rad, where it is turned
+  Vec3 origin{0, 0, 0};              ///< m, where (0, 0) of an outline that is turned comes to lie
+  std::array<std::string, 2> ends{}; ///< names of the ends
+};
+
 struct Domain {
-  std::string material;       ///< where no region says otherwise
-  std::optional<Block> block; ///< in space; the rest is of the plane
-  Curve outer;                ///< counter-clockwise
+  std::string material;                      ///< where no region says otherwise
+  std::optional<Block> block;                ///< in space
+  std::optional<Sweep> sweep;                ///< in space, of `outer` and `holes`
+  std::optional<clouds::Faceted> faceted;    ///< in space, from a file
+  std::vector<std::string> faceted_pieces{}; ///< of it, the plane ones first
+  std::size_t plane_pieces = 0;              ///< number of these
+  Curve outer;                               ///< counter-clockwise
   std::vector<Hole> holes;
   std::vector<Crack> cracks;
   std::vector<Interface> interfaces;
   std::vector<Region> regions;
+
+  bool in_space() const { return block || sweep || faceted; }
 
   /// Names of the boundary pieces of outline, holes and cracks, each once, in order of appearance.
   std::vector<std::string> piece_names() const;
 };
 
 /// The nodes: the spacing that is wanted, and how they are laid out.
-struct CloudSpec : clouds::SpacingField, clouds::CloudOptions {};
+struct CloudSpec : clouds::SpacingField, clouds::CloudOptions {
+  std::vector<clouds::SpaceRefinement> space_refinements{}; ///< in space, in place of `refinements`
+};
 
 /// Conditions on boundary pieces; what is absent is free (mechanics) or insulated (heat). The reader has
 /// checked that pieces exist, that symmetry pieces are straight and that no two conditions fight over one

@@ -3,6 +3,7 @@
 #include "input/case_walls.hpp"
 #include "input/curve_checks.hpp"
 #include "input/schema/nearest.hpp"
+#include "input/space_domain.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -129,18 +130,52 @@ void check_spacing(const Setting& spacing, const Domain& domain, Diagnostics& di
         fmt::format("found {:g} m, expected less than the size of the domain, {:.3g} m", given, size));
 }
 
-/// The spacing of a block.
-void read_grid(const Setting& table, Case& result, Diagnostics& diagnostics) {
+/// Regions in space with a finer spacing.
+void read_space_refinements(const Setting& table, Case& result, Diagnostics& diagnostics) {
+  using Kind = clouds::SpaceRefinement::Region;
+  const Domain& domain = result.domain;
+  for (const Setting& entry : table.entries("refine")) {
+    if ((domain.block && domain.block->grid) || domain.faceted)
+      diagnostics.add(Mistake::conflict, entry.where, entry.path,
+                      domain.faceted
+                          ? "found a refinement of a surface from a file, which takes one spacing; "
+                            "expected none"
+                          : "found a refinement of a grid, expected it with grid = false");
+    const Setting *box = entry.find("box"), *points = entry.find("points");
+    const Setting *spacing = entry.find("spacing"), *factor = entry.find("factor");
+    if (!box == !points)
+      diagnostics.add(box ? Mistake::conflict : Mistake::missing_key, entry.where, entry.path,
+                      fmt::format("found {} of box and points, expected one", box ? "both" : "none"));
+    if (!spacing == !factor)
+      diagnostics.add(spacing ? Mistake::conflict : Mistake::missing_key, entry.where, entry.path,
+                      fmt::format("found {} of spacing and factor, expected one", spacing ? "both" : "none"));
+    const Setting* place = box ? box : points;
+    if (!place) continue;
+    clouds::SpaceRefinement refinement{box ? Kind::box : Kind::path, entry.vectors(place->name), 0.0,
+                                       entry.get<double>("growth")};
+    if (box ? refinement.points.size() != 2 : refinement.points.empty())
+      diagnostics.add(Mistake::type, place->where, place->path,
+                      box ? "expected two opposite corners" : "found no points, expected at least one");
+    refinement.spacing = spacing ? std::get<double>(spacing->value)
+                                 : entry.maybe<double>("factor").value_or(1.0) * result.cloud.spacing;
+    result.cloud.space_refinements.push_back(std::move(refinement));
+  }
+}
+
+/// The spacing of a workpiece in space.
+void read_space_cloud(const Setting& table, Case& result, Diagnostics& diagnostics) {
   const Setting* spacing = table.find("spacing");
   if (!spacing)
     return diagnostics.add(Mistake::missing_key, table.where, "cloud.spacing",
                            "missing, expected " + find_key("cloud.spacing")->expectation());
   result.cloud.spacing = std::get<double>(spacing->value);
-  const auto [low, high] = result.domain.block->bounds();
+  const auto [low, high] = space_bounds(result.domain);
   if (const double size = (high - low).norm(); result.cloud.spacing > size)
     diagnostics.add(Mistake::range, spacing->where, spacing->path,
                     fmt::format("found {:g} m, expected less than the size of the block, {:.3g} m",
                                 result.cloud.spacing, size));
+  read_space_refinements(table, result, diagnostics);
+  if (!result.domain.block) return;
   const Block& block = *result.domain.block;
   if (block.shape == Block::Shape::cylinder && result.cloud.spacing > 0.5 * block.radius)
     diagnostics.add(
@@ -183,7 +218,8 @@ std::array<Vec2, 2> read_box(const Setting& setting, Diagnostics& diagnostics) {
 void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
   Setting& table = *root.find("cloud");
   CloudSpec& cloud = result.cloud;
-  if (result.domain.block) return read_grid(table, result, diagnostics);
+  if (result.analysis.dimensions() == 3)
+    return result.domain.in_space() ? read_space_cloud(table, result, diagnostics) : void();
   cloud.pattern = table.choice<clouds::Pattern>("pattern");
   cloud.jitter = table.get<double>("jitter");
   cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));

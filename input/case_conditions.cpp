@@ -1,6 +1,7 @@
 // Boundary conditions of the case reader.
 #include "input/case_parts.hpp"
 #include "input/schema/nearest.hpp"
+#include "input/space_domain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 
 /// Whether the pieces of that name are segments of one direction, or a plane face; cracks and arcs are not.
 bool is_straight(const Domain& domain, const std::string& name) {
-  if (domain.block) return name != "side";
+  if (domain.in_space()) return is_plane(domain, name);
   std::optional<Vec2> direction;
   const auto fits = [&](const Curve& curve) {
     for (const CurvePiece& piece : curve.pieces) {

@@ -4,6 +4,7 @@
 #include "input/constants.hpp"
 #include "input/curve_checks.hpp"
 #include "input/outline.hpp"
+#include "input/space_domain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -115,11 +116,11 @@ void check_points(const Setting& root, const Domain& domain, Diagnostics& diagno
   const auto check = [&](const Setting& at, const Vec3& point, const char* what) {
     const Vec2 in_plane = point.head<2>();
     const std::string reason =
-        domain.block ? outside_reason(*domain.block, point) : outside_reason(domain, in_plane);
+        domain.in_space() ? outside_reason_in_space(domain, point) : outside_reason(domain, in_plane);
     if (!reason.empty())
       diagnostics.add(Mistake::geometry, at.where, at.path,
                       fmt::format("the {} {} is {}, expected a material point", what,
-                                  domain.block ? show(point) : show(in_plane), reason));
+                                  domain.in_space() ? show(point) : show(in_plane), reason));
   };
   for (const Setting& line : root.entries("output.lines")) {
     const Vec3 from = line.vector("from"), to = line.vector("to");
@@ -129,10 +130,31 @@ void check_points(const Setting& root, const Domain& domain, Diagnostics& diagno
       diagnostics.add(
           Mistake::geometry, end.where, end.path,
           fmt::format("the line has no length, it begins and ends at {}, expected two different points",
-                      domain.block ? show(to) : show(Vec2(to.head<2>()))));
+                      domain.in_space() ? show(to) : show(Vec2(to.head<2>()))));
   }
   for (const Setting& probe : root.entries("output.probes"))
     check(*probe.find("at"), probe.vector("at"), "probe at");
+}
+
+} // namespace
+
+namespace {
+
+/// Whether a workpiece in space is described in one way.
+bool one_body(const Setting& table, Diagnostics& diagnostics) {
+  const bool outer = table.find("outer"), sweep = table.find("extrude") || table.find("revolve");
+  const int ways = int(table.find("block") != nullptr) + int(table.find("stl") != nullptr) +
+                   int(table.find("extrude") != nullptr) + int(table.find("revolve") != nullptr);
+  if (ways == 1 && outer == sweep) return true;
+  const Mistake kind = ways > 1 || (ways == 1 && outer) ? Mistake::conflict : Mistake::missing_key;
+  diagnostics.add(kind, table.where, table.path,
+                  ways == 0
+                      ? "found no body in space, expected block, stl, or an outline (outer) with extrude or "
+                        "revolve"
+                  : ways > 1 ? "found several of block, stl, extrude and revolve, expected one"
+                  : outer ? "found an outline beside block or stl, expected it with extrude or revolve only"
+                          : "found no outline to extrude or revolve, expected outer or drawing");
+  return false;
 }
 
 } // namespace
@@ -141,8 +163,14 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("domain");
   Domain& domain = result.domain;
   domain.material = table.get<std::string>("material");
-  if (const Setting* block = table.find("block")) domain.block = read_block(*block, diagnostics);
-  if (domain.block) return check_points(root, domain, diagnostics);
+  const Setting *block = table.find("block"), *file = table.find("stl");
+  const Setting *extrude = table.find("extrude"), *revolve = table.find("revolve");
+  if (result.analysis.dimensions() == 3 && !one_body(table, diagnostics)) return;
+  if (block) domain.block = read_block(*block, diagnostics);
+  if (file) read_faceted(*file, result, diagnostics);
+  if (block || file) return domain.in_space() ? check_points(root, domain, diagnostics) : void();
+  if (extrude) domain.sweep = read_extrusion(*extrude, diagnostics);
+  if (revolve) domain.sweep = read_revolution(*revolve);
   const auto outer = outline(*table.find("outer"), {"outer", true}, diagnostics);
   bool complete = outer.has_value();
   if (outer) domain.outer = *outer;
@@ -153,7 +181,7 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   }
   read_walls(table, domain, diagnostics);
   if (!complete) return;
-  if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric)
+  if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric || revolve)
     check_axis(*table.find("outer"), domain, diagnostics);
   if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);
   check_walls(table, domain, diagnostics);

@@ -13,6 +13,11 @@ namespace cnem::input {
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// The workpiece of a three-dimensional analysis, and the plane of a tool of one.
 Block read_block(const Setting& table, Diagnostics& diagnostics);
+/// What draws or turns outlines into a body in space, and a body from an STL file (into Case::domain; nothing
+/// where the file is at fault).
+Sweep read_extrusion(const Setting& table, Diagnostics& diagnostics);
+Sweep read_revolution(const Setting& table);
+void read_faceted(const Setting& table, Case& result, Diagnostics& diagnostics);
 Plane read_plane(const Setting& table, Diagnostics& diagnostics);
 /// Why a point (m) is not in the block; "" when it is.
 std::string outside_reason(const Block& block, const Vec3& x);

@@ -1,6 +1,7 @@
 #include "input/local_origin.hpp"
 
 #include "input/curve_checks.hpp"
+#include "input/space_domain.hpp"
 
 #include <cmath>
 #include <utility>
@@ -9,7 +10,7 @@ namespace cnem::input {
 namespace {
 
 std::array<Vec3, 2> bounds_of(const Domain& domain) {
-  if (domain.block) return domain.block->bounds();
+  if (domain.in_space()) return space_bounds(domain);
   const auto [low, high] = bounds(domain.outer);
   return {Vec3(low.x(), low.y(), 0.0), Vec3(high.x(), high.y(), 0.0)};
 }
@@ -55,13 +56,25 @@ void use_local_origin(Case& input) {
   Domain& domain = input.domain;
   if (domain.block)
     for (Vec3* x : {&domain.block->from, &domain.block->to, &domain.block->centre}) shift(*x);
-  shift(domain.outer);
-  for (Hole& hole : domain.holes) shift(hole.outline);
+  if (domain.faceted) {
+    for (auto& triangle : domain.faceted->soup.triangles)
+      for (Vec3& x : triangle.corner) shift(x);
+    for (auto& name : domain.faceted->names) shift(name.at);
+  }
+  if (domain.sweep && domain.sweep->turned) {
+    shift(domain.sweep->origin);
+  } else {
+    shift(domain.outer);
+    for (Hole& hole : domain.holes) shift(hole.outline);
+  }
+  if (domain.sweep)
+    for (double* z : {&domain.sweep->from, &domain.sweep->to}) *z -= input.origin.z();
   for (Crack& crack : domain.cracks) shift(crack.path);
   for (Interface& interface : domain.interfaces) shift(interface.path);
   for (Region& region : domain.regions) shift(region.at);
   shift(input.cloud.nodes);
   for (clouds::Refinement& refinement : input.cloud.refinements) shift(refinement.points);
+  for (clouds::SpaceRefinement& refinement : input.cloud.space_refinements) shift(refinement.points);
   for (BoundaryCondition& condition : input.boundary) shift(condition.points);
   for (Coolant& coolant : input.coolants)
     if (coolant.box)

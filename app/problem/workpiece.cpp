@@ -1,8 +1,10 @@
 #include "app/problem/workpiece.hpp"
 
 #include "clouds/generate.hpp"
+#include "clouds/space/generate.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "core/error.hpp"
+#include "input/space_domain.hpp"
 #include "voronoi/space/recovery.hpp"
 
 #include <fmt/format.h>
@@ -61,23 +63,51 @@ template<> Workpiece<2> make_workpiece(const input::Case& input) {
   }
 }
 
-template<> Workpiece<3> make_workpiece(const input::Case& input) {
+namespace {
+
+/// Whether the tetrahedra of the start stay; otherwise each new reference finds its own.
+bool keeps_mesh(const input::Case& input) {
+  return input.method.name != "cnem" ||
+         (input.method.options.cells == scni::CellKind::median && !input.adapt.resample);
+}
+
+Workpiece<3> make_grid(const input::Case& input) {
   const input::Block& block = *input.domain.block;
+  clouds::TetrahedralBlock made = make_block(block, input.cloud.spacing, input.cloud.nodes_limit);
+  const auto faces = block.faces();
+  made.cloud.piece_names.assign(faces.begin(), faces.end());
+  Workpiece<3> workpiece{std::move(made.cloud), input.method.options, {}};
+  if (keeps_mesh(input))
+    workpiece.options.tetrahedra = std::move(made.tetrahedra);
+  else
+    workpiece.cloud = voronoi::recover_boundary(workpiece.cloud).cloud;
+  return workpiece;
+}
+
+Workpiece<3> make_body(const input::Case& input) {
+  const clouds::SpaceSpacing spacing{input.cloud.spacing, input.cloud.space_refinements};
+  clouds::GeneratedSpaceCloud generated =
+      clouds::generate_cloud(input::space_domain(input.domain), spacing, input.cloud.nodes_limit);
+  voronoi::RecoveredBoundary recovered = voronoi::recover_boundary(generated.cloud);
+  Workpiece<3> workpiece{std::move(recovered.cloud), input.method.options, std::move(generated.warnings)};
+  if (keeps_mesh(input))
+    workpiece.options.tetrahedra.assign(recovered.tetrahedra.node.begin(), recovered.tetrahedra.node.end());
+  return workpiece;
+}
+
+} // namespace
+
+template<> Workpiece<3> make_workpiece(const input::Case& input) {
+  const input::Domain& domain = input.domain;
+  const char* key = domain.block           ? "domain.block"
+                    : domain.faceted       ? "domain.stl"
+                    : domain.sweep->turned ? "domain.revolve"
+                                           : "domain.extrude";
   try {
-    clouds::TetrahedralBlock made = make_block(block, input.cloud.spacing, input.cloud.nodes_limit);
-    const auto faces = block.faces();
-    made.cloud.piece_names.assign(faces.begin(), faces.end());
-    Workpiece<3> workpiece{std::move(made.cloud), input.method.options, {}};
-    const bool keeps_mesh = input.method.name != "cnem" ||
-                            (input.method.options.cells == scni::CellKind::median && !input.adapt.resample);
-    if (keeps_mesh)
-      workpiece.options.tetrahedra = std::move(made.tetrahedra);
-    else
-      workpiece.cloud = voronoi::recover_boundary(workpiece.cloud).cloud;
-    return workpiece;
+    return domain.block && domain.block->grid ? make_grid(input) : make_body(input);
   } catch (const clouds::SpacingError& error) {
     throw input.error("cloud.spacing", error.what());
-  } catch (const GeometryError& error) { throw input.error("domain.block", error.what()); }
+  } catch (const GeometryError& error) { throw input.error(key, error.what()); }
 }
 
 } // namespace cnem::app

@@ -111,7 +111,8 @@ void add_domain(Keys& k) {
         "Outline: either `start` and `path`, or `rectangle`, or `circle`, or `drawing`. Names of its pieces "
         "are for `boundary`.")
       .required()
-      .or_from_drawing();
+      .or_from_drawing()
+      .in_plane_only_required();
   add_drawing(k, "domain.drawing",
               "Outline and holes from a file, instead of `domain.outer`: the closed curve that holds all "
               "others is the "

@@ -27,6 +27,8 @@ public:
   }
   KeyDraft& or_from_cutting() { return key_.elsewhere = "[cutting], which makes it", *this; }
   KeyDraft& or_from_drawing() { return key_.elsewhere = "domain.drawing or [cutting], which make it", *this; }
+  /// Where three-dimensional analyses may do without.
+  KeyDraft& in_plane_only_required() { return key_.free_in_space = true, *this; }
   /// Of a table: the defaults of its members hold without it.
   KeyDraft& always() { return key_.presence = Presence::fallback, *this; }
   KeyDraft& fallback(std::string toml) { return key_.fallback = std::move(toml), always(); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 namespace cnem::input {
 namespace {
@@ -17,20 +18,20 @@ struct Scoped {
 };
 
 constexpr std::array scopes{
-    Scoped{"cutting", Scope::plane, "what it makes is an outline; a workpiece in space is a domain.block"},
-    Scoped{"domain.outer", Scope::plane, "a workpiece in space is a domain.block"},
-    Scoped{"domain.drawing", Scope::plane, "a workpiece in space is a domain.block"},
-    Scoped{"domain.holes", Scope::plane, "outlines bound areas; a workpiece in space is a domain.block"},
+    Scoped{"cutting", Scope::plane, "what it makes is an outline"},
     Scoped{"domain.cracks", Scope::plane, "a polyline does not cut a body in space"},
     Scoped{"domain.interfaces", Scope::plane, "a polyline does not divide a body in space"},
-    Scoped{"domain.regions", Scope::plane, "only interfaces divide a workpiece, and a block has none"},
+    Scoped{"domain.regions", Scope::plane, "only interfaces divide a workpiece, and in space there are none"},
     Scoped{"domain.block", Scope::space, "a workpiece in the plane has an outline, domain.outer"},
-    Scoped{"cloud.pattern", Scope::plane, "nodes of a block lie on its grid"},
-    Scoped{"cloud.jitter", Scope::plane, "nodes of a block lie on its grid"},
-    Scoped{"cloud.seed", Scope::plane, "nodes of a block lie on its grid"},
-    Scoped{"cloud.nodes", Scope::plane, "tetrahedra of a block stand on its grid"},
-    Scoped{"cloud.nodes_file", Scope::plane, "tetrahedra of a block stand on its grid"},
-    Scoped{"cloud.refine", Scope::plane, "the grid of a block has one spacing"},
+    Scoped{"domain.extrude", Scope::space, "a workpiece in the plane is its outline"},
+    Scoped{"domain.revolve", Scope::space, "a body of revolution has axisymmetric kinematics"},
+    Scoped{"domain.stl", Scope::space, "a workpiece in the plane has an outline, domain.outer"},
+    Scoped{"cloud.pattern", Scope::plane, "nodes in space are laid out in one way"},
+    Scoped{"cloud.jitter", Scope::plane, "nodes in space are laid out in one way"},
+    Scoped{"cloud.seed", Scope::plane, "nodes in space are laid out in one way"},
+    Scoped{"cloud.nodes", Scope::plane, "nodes in space come with a surface"},
+    Scoped{"cloud.nodes_file", Scope::plane, "nodes in space come with a surface"},
+    Scoped{"cloud.refine.*.tips", Scope::plane, "a polyline does not cut a body in space"},
     Scoped{"initial.spin", Scope::plane, "a rotation in space needs an axis"},
     Scoped{"initial.velocity_gradient", Scope::plane, "its components are those of the plane"},
     Scoped{"initial.imperfections", Scope::plane, "they lie along polylines of the plane"},
@@ -79,13 +80,78 @@ constexpr std::array scopes{
 
 } // namespace
 
+namespace {
+
+void add_ends(Keys& k, const std::string& at, const std::string& low, const std::string& high) {
+  k.add(at + ".low", text, "Name of the boundary piece at the beginning.").fallback("\"" + low + "\"");
+  k.add(at + ".high", text, "Name of the boundary piece at the end.").fallback("\"" + high + "\"");
+}
+
+/// What makes bodies of outlines and files.
+void add_sweeps(Keys& k) {
+  k.add("domain.extrude", table,
+        "The outline `domain.outer` with `domain.holes`, drawn along z. Its pieces give their names to the "
+        "sides.");
+  k.add("domain.extrude.from", quantity, "Lower end.").unit(d::length).fallback("\"0 m\"");
+  k.add("domain.extrude.to", quantity, "Upper end.").unit(d::length).required().example("\"2 mm\"");
+  add_ends(k, "domain.extrude", "z-", "z+");
+  k.add("domain.revolve", table,
+        "The outline `domain.outer` with `domain.holes`, as in axisymmetric analyses (x the radius, y along "
+        "the "
+        "axis), turned about the axis, which becomes z, from the x axis on. Its pieces give their names to "
+        "what "
+        "they sweep.");
+  k.add("domain.revolve.angle", quantity, "A whole turn leaves no ends.")
+      .unit(d::angle)
+      .in({.low = 0.0, .high = 2.0 * std::numbers::pi, .low_open = true})
+      .fallback("\"360 deg\"");
+  k.add("domain.revolve.origin", vector, "Where (0, 0) of the outline comes to lie.")
+      .unit(d::length)
+      .fallback("\"0 0 0 m\"")
+      .example("\"0 0 5 mm\"");
+  add_ends(k, "domain.revolve", "theta-", "theta+");
+  k.add(
+      "domain.stl", table,
+      "A closed surface from an STL file, remeshed to `cloud.spacing`. Sharp edges and those between solids "
+      "stay and divide it into boundary pieces: they are called as the solid (`surface` without a name), "
+      "with "
+      "`-1`, `-2` and so on from the largest on where there are several.");
+  k.add("domain.stl.file", text, "In text or binary, relative to the case file.")
+      .required()
+      .example("\"part.stl\"");
+  k.add("domain.stl.unit", quantity, "Length of the file's unit.")
+      .unit(d::length)
+      .in(positive)
+      .fallback("\"1 mm\"");
+  k.add("domain.stl.shift", vector, "Where the file's (0, 0, 0) comes to lie.")
+      .unit(d::length)
+      .fallback("\"0 0 0 m\"")
+      .example("\"0 0 1 mm\"");
+  k.add("domain.stl.crease_angle", quantity, "Edges at which normals turn by more are sharp.")
+      .unit(d::angle)
+      .in({.low = 0.0, .high = std::numbers::pi, .low_open = true})
+      .fallback("\"40 deg\"");
+  k.add("domain.stl.names", table_list, "Names of single pieces; several may share one.");
+  k.add("domain.stl.names[].at", vector, "A place on the piece, after the shift.")
+      .unit(d::length)
+      .required()
+      .example("\"0 5 1 mm\"");
+  k.add("domain.stl.names[].name", text, "").required().example("\"left\"");
+}
+
+} // namespace
+
 void add_block(Keys& k) {
   const std::string at = "domain.block.";
-  k.add("domain.block", table, "The workpiece in space, on a structured grid of tetrahedra.").required();
+  k.add("domain.block", table, "A workpiece in space of a usual shape.");
   k.add(at + "shape", choice,
         "`box`: faces `x-`, `x+`, `y-`, `y+`, `z-`, `z+`. `cylinder`: about an axis along z, faces `bottom`, "
-        "`top` and `side`, with the cuts `x-` and `y-` of a half and a quarter.")
-      .one_of({"box", "cylinder"})
+        "`top` and `side` (and `inside`, of a tube), with the cuts `x-` and `y-` of a half and a quarter, "
+        "`theta-` "
+        "and `theta+` of a sector. `sphere`: faces `side` (and `inside`, of a shell) and cuts alike, `z-` of "
+        "an "
+        "eighth.")
+      .one_of({"box", "cylinder", "sphere"})
       .fallback("\"box\"");
   k.add(at + "from", vector, "A corner of the box.")
       .unit(d::length)
@@ -97,23 +163,44 @@ void add_block(Keys& k) {
       .required()
       .when("shape", {"box"})
       .example("\"20 10 5 mm\"");
-  k.add(at + "centre", vector, "Centre of the bottom of the cylinder.")
+  k.add(at + "centre", vector, "Centre of the sphere, or of the bottom of the cylinder.")
       .unit(d::length)
-      .when("shape", {"cylinder"})
+      .when("shape", {"cylinder", "sphere"})
       .example("\"0 0 0 mm\"")
       .computed("0");
-  k.add(at + "radius", quantity, "").unit(d::length).in(positive).required().when("shape", {"cylinder"});
+  k.add(at + "radius", quantity, "")
+      .unit(d::length)
+      .in(positive)
+      .required()
+      .when("shape", {"cylinder", "sphere"});
+  k.add(at + "inner_radius", quantity, "Of a tube or a shell.")
+      .unit(d::length)
+      .in(positive)
+      .when("shape", {"cylinder", "sphere"});
   k.add(at + "length", quantity, "Along z.")
       .unit(d::length)
       .in(positive)
       .required()
       .when("shape", {"cylinder"});
-  k.add(at + "part", choice,
-        "What of the cylinder is there: all, the half with y > 0, or the quarter with x > 0 and y > 0, from "
-        "its centre.")
-      .one_of({"whole", "half", "quarter"})
+  k.add(
+       at + "part", choice,
+       "What is there, seen from the centre: all, the half with y > 0, the quarter with x > 0 and y > 0, the "
+       "eighth of a sphere with x, y, z > 0, or the sector from the x axis to `angle`.")
+      .one_of({"whole", "half", "quarter", "eighth", "sector"})
       .fallback("\"whole\"")
-      .when("shape", {"cylinder"});
+      .when("shape", {"cylinder", "sphere"});
+  k.add(at + "angle", quantity, "Of a sector, counter-clockwise about z.")
+      .unit(d::angle)
+      .in({.low = 0.0, .high = 2.0 * std::numbers::pi, .low_open = true, .high_open = true})
+      .when("shape", {"cylinder", "sphere"})
+      .example("\"30 deg\"");
+  k.add(at + "grid", boolean,
+        "Boxes of six tetrahedra each, all of one spacing. Without: near-equilateral triangles on the "
+        "surface and "
+        "nodes inside, which may be refined, as of other bodies.")
+      .fallback("true")
+      .when("shape", {"box", "cylinder"});
+  add_sweeps(k);
 }
 
 void mark_scopes(Keys& k) {
@@ -125,6 +212,9 @@ void mark_scopes(Keys& k) {
         key.scope_reason = scoped.reason;
       }
   }
+  for (Key& key : k.all) // outlines lie in a plane, also where bodies in space are made of them
+    for (const char* outline : {"domain.outer.", "domain.drawing.", "domain.holes."})
+      if (key.path.starts_with(outline)) key.planar = true;
 }
 
 } // namespace cnem::input

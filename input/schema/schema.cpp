@@ -122,16 +122,17 @@ bool make_round(Key& key) {
 }
 
 bool make_spatial(Key& key) {
-  const bool vector =
-      key.type == Type::vector || key.type == Type::vectors || key.type == Type::vector_function;
+  const bool vector = !key.planar && (key.type == Type::vector || key.type == Type::vectors ||
+                                      key.type == Type::vector_function);
   if (vector && key.scope == Scope::everywhere) key.example.clear(); // it has two components
   if (vector) key.components = 3;
   if (!key.choices_in_space.empty()) {
     key.choices = key.choices_in_space;
     if (!key.fallback.empty()) key.fallback = fmt::format("\"{}\"", key.choices.front());
   }
+  if (key.free_in_space) key.presence = Presence::optional;
   // Forces and masses are those of whole bodies, as of revolution.
-  return make_round(key) || vector || !key.choices_in_space.empty();
+  return make_round(key) || vector || !key.choices_in_space.empty() || key.free_in_space;
 }
 
 } // namespace

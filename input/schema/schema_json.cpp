@@ -19,7 +19,7 @@ Json array_of(Json items) { return {{"type", "array"}, {"items", std::move(items
 Json components_of(const Json& item, const Key& key) {
   Json list = array_of(item);
   list["minItems"] = key.scope == Scope::space ? 3 : 2;
-  list["maxItems"] = key.scope == Scope::plane ? 2 : 3;
+  list["maxItems"] = key.planar || key.scope == Scope::plane ? 2 : 3;
   return list;
 }
 
@@ -152,8 +152,8 @@ Json object_schema(const std::string& pattern, Needs needs) {
     const bool outside =
         key->scope != Scope::everywhere &&
         (!find_key(pattern) || key->scope != find_key(pattern)->scope); // depends on the analysis
-    if (key->presence == Presence::required && key->when.sibling.empty() && key->elsewhere.empty() &&
-        !outside && needs == Needs::as_written)
+    if (key->presence == Presence::required && !key->free_in_space && key->when.sibling.empty() &&
+        key->elsewhere.empty() && !outside && needs == Needs::as_written)
       required.push_back(key->name());
     properties[key->name()] = std::move(schema);
   }

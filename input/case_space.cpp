@@ -1,0 +1,94 @@
+// Workpieces in space that are made of outlines or come from a file, of the case reader.
+#include "clouds/space/faceted.hpp"
+#include "clouds/space/stl.hpp"
+#include "core/geometry/facets.hpp"
+#include "input/case_parts.hpp"
+#include "input/curve_checks.hpp"
+#include "input/space_domain.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+namespace cnem::input {
+
+namespace {
+
+/// Names of the ends, as written.
+std::array<std::string, 2> end_names(const Setting& table) {
+  return {table.get<std::string>("low"), table.get<std::string>("high")};
+}
+
+/// Names of pieces, those on parallel planes first, and how many these are.
+std::pair<std::vector<std::string>, std::size_t> faceted_names(const Cloud<3>& surface) {
+  std::map<std::string, std::pair<Vec3, bool>> normal; // and whether all are along it
+  std::vector<std::string> order;
+  for (const Facet<3>& facet : surface.facets) {
+    const std::string& name = surface.piece_names[facet.piece];
+    const Vec3 n = area_normal<3>(corners_of(facet, surface.position)).normalized();
+    const auto [found, fresh] = normal.try_emplace(name, n, true);
+    if (fresh) order.push_back(name);
+    if (found->second.first.cross(n).norm() > 1e-5) found->second.second = false; // STL has six digits
+  }
+  const auto round =
+      std::ranges::stable_partition(order, [&](const std::string& n) { return normal[n].second; });
+  return {order, static_cast<std::size_t>(round.begin() - order.begin())};
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(fmt::format("cannot read '{}'", path));
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+} // namespace
+
+Sweep read_extrusion(const Setting& table, Diagnostics& diagnostics) {
+  Sweep sweep;
+  sweep.from = table.get<double>("from");
+  sweep.to = table.get<double>("to");
+  sweep.ends = end_names(table);
+  if (const Setting& to = *table.find("to"); !(sweep.to > sweep.from))
+    diagnostics.add(Mistake::geometry, to.where, to.path,
+                    fmt::format("an outline drawn from z = {:g} to {:g} m has no volume, expected from < to",
+                                sweep.from, sweep.to));
+  return sweep;
+}
+
+Sweep read_revolution(const Setting& table) {
+  Sweep sweep;
+  sweep.turned = true;
+  sweep.angle = table.get<double>("angle");
+  sweep.origin = table.vector("origin");
+  sweep.ends = end_names(table);
+  return sweep;
+}
+
+void read_faceted(const Setting& table, Case& result, Diagnostics& diagnostics) {
+  const Setting& file = *table.find("file");
+  clouds::Faceted faceted;
+  faceted.crease_angle = table.get<double>("crease_angle");
+  for (const Setting& entry : table.find("names") ? table.find("names")->members : std::vector<Setting>{})
+    faceted.names.push_back({entry.vector("at"), entry.get<std::string>("name")});
+  try {
+    const std::filesystem::path folder = std::filesystem::path(result.path).parent_path();
+    faceted.soup = clouds::read_stl(bytes_of((folder / std::get<std::string>(file.value)).string()),
+                                    table.get<double>("unit"));
+    const Vec3 shift = table.vector("shift");
+    for (auto& triangle : faceted.soup.triangles)
+      for (Vec3& x : triangle.corner) x += shift;
+    const Cloud<3> surface = clouds::divided_surface(faceted);
+    std::tie(result.domain.faceted_pieces, result.domain.plane_pieces) = faceted_names(surface);
+    result.domain.faceted = std::move(faceted);
+  } catch (const GeometryError& error) {
+    diagnostics.add(Mistake::geometry, file.where, file.path, error.what());
+  } catch (const InputError& error) {
+    diagnostics.add(Mistake::reference, file.where, file.path, error.what());
+  }
+}
+
+} // namespace cnem::input
