@@ -267,8 +267,8 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
   for (const ToolIndex t : tools_.indices()) {
     if (!tools_[t].response.exact()) continue;
     hits.clear();
-    ridge_hits<dim>(surface_, near_.facets(t), *tools_[t].shape, start_, end_, poses[t].start, poses[t].end,
-                    hits);
+    ridge_hits<dim>(surface_, near_.at_ridges(t), *tools_[t].shape, start_, end_, poses[t].start,
+                    poses[t].end, hits);
     if (tools_[t].equal_areas)
       share_with_faces<dim>(surface_, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
     for (const RidgeHit<dim>& hit : hits) {
@@ -276,8 +276,7 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
       contact.tool = t;
       contact.feature = hit.ridge;
       contact.facet = hit.facet;
-      const auto& ends = surface_.facets[hit.facet];
-      std::copy(ends.begin(), ends.end(), contact.node.begin());
+      std::copy(hit.node.begin(), hit.node.end(), contact.node.begin());
       std::copy(hit.weight.begin(), hit.weight.end(), contact.weight.begin());
       contact.normal = hit.normal;
       set_friction(contact, step, [&] {
