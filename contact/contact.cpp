@@ -260,6 +260,19 @@ bool RigidContact<dim>::find_on_faces(const Poses<dim>& poses, const ContactStep
   return any;
 }
 
+/// Of pairs of ridge and edge or facet those with a node that moved.
+template<int dim>
+std::span<const RidgePair> RigidContact<dim>::moved_among(std::span<const RidgePair> pairs) requires(dim ==
+                                                                                                     3) {
+  moved_.clear();
+  for (const RidgePair& pair : pairs) {
+    const auto& nodes = exists(pair.edge) ? surface_.edges[pair.edge].node : surface_.facets[pair.facet];
+    if (std::any_of(nodes.begin(), nodes.end(), [&](BoundaryNodeIndex b) { return is_taken_[b] != 0; }))
+      moved_.push_back(pair);
+  }
+  return moved_;
+}
+
 template<int dim>
 bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step) {
   bool any = false;

@@ -123,8 +123,6 @@ void NearTools<3>::list_at_ridges(const Surface<3>& surface, const ToolShape<3>&
     for (const std::int32_t r : met)
       if (!ridges[index_of(r)].is_point()) near.at_ridges.push_back({.ridge = r, .edge = e});
   }
-  if (std::none_of(ridges.begin(), ridges.end(), [](const Ridge<3>& ridge) { return ridge.is_point(); }))
-    return;
   for (const FacetIndex f : surface.facets.indices()) {
     const auto& nodes = surface.facets[f];
     const Vec3 a = position[nodes[0]];
@@ -132,7 +130,7 @@ void NearTools<3>::list_at_ridges(const Surface<3>& surface, const ToolShape<3>&
     if (far(a - shift) > 2.0 * size + skin_) continue;
     overlapping(nodes, 3);
     for (const std::int32_t r : met)
-      if (ridges[index_of(r)].is_point()) near.at_ridges.push_back({.ridge = r, .facet = f});
+      if (ridges[index_of(r)].meets_facets(4.0 * size)) near.at_ridges.push_back({.ridge = r, .facet = f});
   }
 }
 

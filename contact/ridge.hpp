@@ -60,6 +60,12 @@ template<> struct Ridge<3> {
   bool is_point() const {
     return path == Path::corner || (path == Path::circular && section.centre.x() == 0.0);
   }
+  /// Of a circular one: the arc seen along its axis, from the outside.
+  Ridge<2> arc() const { return {{0, 0}, section.centre.x() + section.radius, {1, 0}, length}; }
+  /// What may lie between the edges of a facet as long as this, m: points, and arcs that are shorter.
+  bool meets_facets(double size) const {
+    return is_point() || (path == Path::circular && arc().sharpness(size) > 0.0);
+  }
   /// Place and direction of the path at `along`.
   struct Place {
     Vec3 centre{0, 0, 0}, u{0, 0, 0}, tangent{0, 0, 0}; ///< m; –, unit
@@ -69,7 +75,7 @@ template<> struct Ridge<3> {
   double turn_towards(const Vec3& x) const;
   /// Is the unit vector n, which is normal to the path there, among the outward normals?
   bool faces(const Vec3& n, const Place& place) const { return section.faces({n.dot(place.u), n.dot(v)}); }
-  /// The same of a point.
+  /// The same of a point, or of any place of a circular one.
   bool faces(const Vec3& n) const;
   /// Of a point: its place, m.
   Vec3 point() const { return path == Path::corner ? origin : Vec3(origin + section.centre.y() * v); }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double rounding = 1e-9;       ///< of the length of an edge
 constexpr double least_crossing = 0.05; ///< sine of the angle between an edge and a ridge that crosses it
+constexpr double most_overhang = 0.1;   ///< of the length of an edge
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
 /// Normals of facets are normals of an edge between them, and those a sixth of a turn beyond.
@@ -35,25 +36,20 @@ struct Crossing {
 class EdgeAt {
 public:
   EdgeAt(const Surface<3>& surface, SurfaceEdgeIndex edge, PlacesOnBoundary<3> position, const Vec3& shift)
-      : a_(position[surface.edges[edge].node[0]] - shift),
-        along_(position[surface.edges[edge].node[1]] - position[surface.edges[edge].node[0]]),
-        length_(along_.norm()) {
-    const auto& facets = surface.edges[edge].facet;
-    const Vec3 one = normal_of(surface, facets[0], position);
-    const Vec3 other = exists(facets[1]) ? normal_of(surface, facets[1], position) : one;
-    outwards_ = (one + other).stableNormalized();
-    least_facing_ = std::max(0.0, std::cos(std::acos(std::clamp(one.dot(outwards_), -1.0, 1.0)) + beyond));
-  }
+      : surface_(surface), edge_(surface.edges[edge]), position_(position),
+        a_(position[edge_.node[0]] - shift), along_(position[edge_.node[1]] - position[edge_.node[0]]),
+        length_(along_.norm()) {}
+
   double length() const { return length_; }
 
-  /// None where they are nearly parallel or the normal does not face both.
+  /// None where they are nearly parallel, off each other's ends or by more than half the edge, or where the
+  /// normal does not face both.
   std::optional<Crossing> crossing(const Ridge<3>& ridge) const {
     if (ridge.path == Ridge<3>::Path::straight) return crossing_at(ridge, ridge.at(0.0), 0.0);
     // Newton's way to where the edge is over the circle: from tangent to tangent
     double turn = ridge.turn_towards(a_ + 0.5 * along_);
     for (int step = 0; step < 10; ++step) {
-      const Ridge<3>::Place place = ridge.at(turn);
-      const auto s = place_on_edge(place);
+      const auto s = place_on_edge(ridge.at(turn));
       if (!s) return {};
       const double next = ridge.turn_towards(a_ + std::clamp(*s, -0.5, 1.5) * along_);
       const double change = std::remainder(next - turn, full_turn);
@@ -73,17 +69,28 @@ private:
     return (along_.dot(from) - across * place.tangent.dot(from)) / det;
   }
 
+  /// Whether a normal looks into the workpiece, between the normals of the facets or nearly so.
+  bool faced_by(const Vec3& normal, const Vec3& one, const Vec3& other) const {
+    const Vec3 outwards = (one + other).stableNormalized();
+    const double half = std::acos(std::clamp(one.dot(outwards), -1.0, 1.0));
+    return -normal.dot(outwards) >= std::max(0.0, std::cos(half + beyond));
+  }
+
   std::optional<Crossing> crossing_at(const Ridge<3>& ridge, const Ridge<3>::Place& place,
                                       double turn) const {
     const auto s = place_on_edge(place);
-    if (!s) return {};
+    if (!s || *s < -most_overhang || *s > 1.0 + most_overhang) return {};
     Crossing at;
     at.on_edge = *s;
+    const Vec3 x = a_ + *s * along_, off = x - place.centre;
+    at.on_ridge = ridge.path == Ridge<3>::Path::circular ? turn : place.tangent.dot(off);
+    if (!on_path(ridge, at.on_ridge)) return {};
     at.normal = along_.cross(place.tangent).normalized();
-    if (at.normal.dot(outwards_) > 0.0) at.normal = -at.normal;
-    if (-at.normal.dot(outwards_) < least_facing_ || !ridge.faces(at.normal, place)) return {};
-    const Vec3 x = a_ + *s * along_;
-    at.on_ridge = ridge.path == Ridge<3>::Path::circular ? turn : place.tangent.dot(x - place.centre);
+    if (std::abs(at.normal.dot(off)) > length_ + ridge.section.radius) return {};
+    const Vec3 one = normal_of(surface_, edge_.facet[0], position_);
+    const Vec3 other = exists(edge_.facet[1]) ? normal_of(surface_, edge_.facet[1], position_) : one;
+    if (at.normal.dot(one + other) > 0.0) at.normal = -at.normal;
+    if (!ridge.faces(at.normal, place) || !faced_by(at.normal, one, other)) return {};
     const double parallel = along_.dot(place.tangent), across2 = length_ * length_ - parallel * parallel;
     // a ridge round a circle is curved along its path too: of a ball as much as across
     double round = 0.0;
@@ -91,24 +98,30 @@ private:
       const double out = ridge.section.radius * at.normal.dot(place.u);
       if (out > 0.0) round = out / (ridge.section.centre.x() + out);
     }
-    at.gap = at.normal.dot(x - place.centre) - ridge.section.radius +
+    at.gap = at.normal.dot(off) - ridge.section.radius +
              ridge.section.sagitta(std::sqrt(across2 + round * parallel * parallel));
     return at;
   }
 
-  Vec3 a_, along_, outwards_;
-  double length_, least_facing_;
+  bool on_path(const Ridge<3>& ridge, double at) const {
+    const double tolerance = rounding * length_;
+    if (ridge.path == Ridge<3>::Path::straight) return at >= -tolerance && at <= ridge.length + tolerance;
+    if (ridge.length >= full_turn) return true;
+    const double angle = tolerance / ridge.section.centre.x();
+    return at <= ridge.length + angle || at >= full_turn - angle;
+  }
+
+  const Surface<3>& surface_;
+  const SurfaceEdge& edge_;
+  PlacesOnBoundary<3> position_;
+  Vec3 a_, along_;
+  double length_;
 };
 
 /// By how much of the edge's length a crossing beside its end counts: where the surface is hollow the next
 /// edge may not be crossed either. No more than the ridge is deep.
-double overhang(double gap, double length) { return rounding + std::min(0.1, 2.0 * std::abs(gap) / length); }
-
-bool on_path(const Ridge<3>& ridge, double at, double tolerance) {
-  if (ridge.path == Ridge<3>::Path::straight) return at >= -tolerance && at <= ridge.length + tolerance;
-  if (ridge.length >= full_turn) return true;
-  const double angle = tolerance / ridge.section.centre.x();
-  return at <= ridge.length + angle || at >= full_turn - angle;
+double overhang(double gap, double length) {
+  return rounding + std::min(most_overhang, 2.0 * std::abs(gap) / length);
 }
 
 std::optional<RidgeHit<3>> on_edge(const Surface<3>& surface, const Ridge<3>& ridge, SurfaceEdgeIndex e,
@@ -119,7 +132,6 @@ std::optional<RidgeHit<3>> on_edge(const Surface<3>& surface, const Ridge<3>& ri
   if (!crossing || crossing->gap >= 0.0 || crossing->gap < -0.5 * now.length()) return {};
   const double over = overhang(crossing->gap, now.length());
   if (crossing->on_edge < -over || crossing->on_edge > 1.0 + over) return {};
-  if (!on_path(ridge, crossing->on_ridge, rounding * now.length())) return {};
   const auto before = EdgeAt(surface, e, start, shift_start).crossing(ridge);
   if (!before) return {};
   const double s = std::clamp(crossing->on_edge, 0.0, 1.0);
@@ -143,9 +155,23 @@ struct FacetAt {
   double size() const { return std::sqrt(area2); }
   /// The chord of a ball through its corners: twice the radius of the circle round it.
   double chord() const { return e.norm() * f.norm() * (f - e).norm() / area2; }
-  double gap(const Ridge<3>& ridge) const {
-    const double radius = ridge.section.radius;
-    return inwards.dot(a - ridge.point()) - radius + ridge.section.sagitta(chord());
+  /// The centre of the ridge where it is met: of an arc towards the facet, in the middle where that is no
+  /// way.
+  Vec3 centre(const Ridge<3>& ridge) const {
+    if (ridge.is_point()) return ridge.point();
+    constexpr double level = 0.1; // of the tilt against the arc's plane
+    const Vec3 towards = inwards - inwards.dot(ridge.v) * ridge.v + level * ridge.at(0.5 * ridge.length).u;
+    double turn = ridge.turn_towards(ridge.origin + towards);
+    if (turn > ridge.length) turn = turn < 0.5 * (ridge.length + full_turn) ? ridge.length : 0.0;
+    return ridge.at(turn).centre;
+  }
+  double gap(const Ridge<3>& ridge, const Vec3& centre) const {
+    double gap = inwards.dot(a - centre) - ridge.section.radius + ridge.section.sagitta(chord());
+    if (!ridge.is_point()) {
+      const Ridge<2> arc = ridge.arc();
+      gap += (1.0 - arc.sharpness(chord())) * arc.sagitta(chord());
+    }
+    return gap;
   }
   std::array<double, 3> weights(const Vec3& x) const {
     const double s = (x - a).cross(f).dot(-inwards) / area2, t = e.cross(x - a).dot(-inwards) / area2;
@@ -157,9 +183,11 @@ std::optional<RidgeHit<3>> on_facet(const Surface<3>& surface, const Ridge<3>& r
                                     PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                                     const Vec3& shift_start, const Vec3& shift_end) {
   const FacetAt now(surface, facet, end, shift_end);
-  const double gap = now.gap(ridge);
+  if (!ridge.is_point() && ridge.arc().sharpness(now.chord()) == 0.0) return {};
+  const Vec3 centre = now.centre(ridge);
+  const double gap = now.gap(ridge, centre);
   if (!(gap < 0.0) || gap < -0.5 * now.size() || !ridge.faces(now.inwards)) return {};
-  std::array<double, 3> weight = now.weights(ridge.point() + ridge.section.radius * now.inwards);
+  std::array<double, 3> weight = now.weights(centre + ridge.section.radius * now.inwards);
   const double over = overhang(gap, now.size());
   double sum = 0.0;
   for (double& w : weight) {
@@ -167,7 +195,8 @@ std::optional<RidgeHit<3>> on_facet(const Surface<3>& surface, const Ridge<3>& r
     sum += w = std::max(w, 0.0);
   }
   for (double& w : weight) w /= sum;
-  const double before = FacetAt(surface, facet, start, shift_start).gap(ridge);
+  const FacetAt was(surface, facet, start, shift_start);
+  const double before = was.gap(ridge, was.centre(ridge));
   const double passed = before < -rounding * now.size() ? before : std::max(before, 0.0);
   return RidgeHit<3>{0, facet, surface.facets[facet], weight, now.inwards, gap, passed};
 }
