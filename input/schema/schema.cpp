@@ -122,8 +122,8 @@ bool make_round(Key& key) {
 }
 
 bool make_spatial(Key& key) {
-  const bool vector =
-      key.type == Type::vector || key.type == Type::vectors || key.type == Type::vector_function;
+  const bool vector = !key.flat && (key.type == Type::vector || key.type == Type::vectors ||
+                                    key.type == Type::vector_function);
   if (vector && key.scope == Scope::everywhere) key.example.clear(); // it has two components
   if (vector) key.components = 3;
   if (!key.choices_in_space.empty()) {

@@ -58,6 +58,7 @@ struct Key {
   Scope scope = Scope::everywhere;
   std::string scope_reason = {}; ///< why it has none elsewhere
   std::size_t components = 2;    ///< of vectors; 3 in space
+  bool flat = false;             ///< of vectors: of a plane, in space too
   Range range = anything;
   std::vector<std::string> choices = {};
   std::vector<std::string> choices_in_space = {}; ///< where they are others
