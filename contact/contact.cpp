@@ -260,6 +260,19 @@ bool RigidContact<dim>::find_on_faces(const Poses<dim>& poses, const ContactStep
   return any;
 }
 
+/// Of pairs of ridge and edge or facet those with a node that moved.
+template<int dim>
+std::span<const RidgePair> RigidContact<dim>::moved_among(std::span<const RidgePair> pairs) requires(dim ==
+                                                                                                     3) {
+  moved_.clear();
+  for (const RidgePair& pair : pairs) {
+    const auto& nodes = exists(pair.edge) ? surface_.edges[pair.edge].node : surface_.facets[pair.facet];
+    if (std::any_of(nodes.begin(), nodes.end(), [&](BoundaryNodeIndex b) { return is_taken_[b] != 0; }))
+      moved_.push_back(pair);
+  }
+  return moved_;
+}
+
 template<int dim>
 bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step) {
   bool any = false;
@@ -267,8 +280,8 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
   for (const ToolIndex t : tools_.indices()) {
     if (!tools_[t].response.exact()) continue;
     hits.clear();
-    ridge_hits<dim>(surface_, near_.facets(t), *tools_[t].shape, start_, end_, poses[t].start, poses[t].end,
-                    hits);
+    ridge_hits<dim>(surface_, near_.at_ridges(t), *tools_[t].shape, start_, end_, poses[t].start,
+                    poses[t].end, hits);
     if (tools_[t].equal_areas)
       share_with_faces<dim>(surface_, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
     for (const RidgeHit<dim>& hit : hits) {
@@ -276,8 +289,7 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
       contact.tool = t;
       contact.feature = hit.ridge;
       contact.facet = hit.facet;
-      const auto& ends = surface_.facets[hit.facet];
-      std::copy(ends.begin(), ends.end(), contact.node.begin());
+      std::copy(hit.node.begin(), hit.node.end(), contact.node.begin());
       std::copy(hit.weight.begin(), hit.weight.end(), contact.weight.begin());
       contact.normal = hit.normal;
       set_friction(contact, step, [&] {

@@ -197,6 +197,7 @@ private:
   void answer(BoundaryNodeIndex node, ToolIndex tool, const SurfacePoint<dim>& at,
               const ContactStep<dim>& step);
   bool find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step);
+  std::span<const RidgePair> moved_among(std::span<const RidgePair> pairs) requires(dim == 3);
   bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
@@ -235,6 +236,7 @@ private:
   std::vector<BoundaryNodeIndex> inside_; ///< the box of a tool
   std::vector<Vec<dim>> from_, to_;       ///< m, of these as the tool sees them
   std::vector<Entry<dim>> entries_;
+  std::vector<RidgePair> moved_;       ///< 3D
   std::vector<Contact<dim>> contacts_; ///< in `correct` the exact ones, then all
   std::vector<Contact<dim>> answered_; ///< of tools whose response is not exact
   ImpulseSolver<dim> solver_;

@@ -45,24 +45,6 @@ Curve checked(Curve curve) {
 
 } // namespace
 
-bool Ridge<2>::faces(const Vec2& n) const {
-  constexpr double tolerance = 1e-6;
-  double turn = angle_between(first, n);
-  if (turn < -tolerance) turn += full_turn;
-  return turn <= angle + tolerance;
-}
-
-double Ridge<2>::sagitta(double l) const {
-  const double most = radius * (1.0 - std::cos(0.5 * std::min(angle, std::numbers::pi)));
-  if (l >= 2.0 * radius) return most;
-  return std::min(most, 0.25 * l * l / (radius + std::sqrt(radius * radius - 0.25 * l * l)));
-}
-
-double Ridge<2>::sharpness(double l) const {
-  const double chord = 2.0 * radius * std::sin(0.5 * std::min(angle, std::numbers::pi));
-  return chord > 0.0 ? smooth_step(l / chord - 1.0) : 1.0;
-}
-
 CurveShape::Face::Face(const CurvePiece& piece)
     : from(piece.from), to(piece.to), along(piece.tangent(0.0)), normal(right_normal(along)),
       length(piece.length()), centre(piece.centre), radius(piece.radius), side(piece.clockwise ? -1.0 : 1.0),

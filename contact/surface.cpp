@@ -7,8 +7,40 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace cnem::contact {
+
+namespace {
+
+IndexedVector<SurfaceEdgeIndex, SurfaceEdge>
+edges_of(const IndexedVector<FacetIndex, std::array<BoundaryNodeIndex, 3>>& facets) {
+  using Side = std::tuple<BoundaryNodeIndex, BoundaryNodeIndex, FacetIndex, std::size_t>;
+  std::vector<Side> sides;
+  sides.reserve(3 * facets.size());
+  for (const FacetIndex f : facets.indices())
+    for (std::size_t k = 0; k < 3; ++k) {
+      const BoundaryNodeIndex a = facets[f][k], b = facets[f][(k + 1) % 3];
+      sides.emplace_back(std::min(a, b), std::max(a, b), f, k);
+    }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::tuple<FacetIndex, std::size_t, FacetIndex>> pairs;
+  for (auto side = sides.begin(); side != sides.end();) {
+    const auto& [low, high, f, k] = *side;
+    ++side;
+    FacetIndex other = FacetIndex::none;
+    if (side != sides.end() && std::get<0>(*side) == low && std::get<1>(*side) == high)
+      other = std::get<2>(*side++);
+    pairs.emplace_back(f, k, other);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  IndexedVector<SurfaceEdgeIndex, SurfaceEdge> edges;
+  for (const auto& [f, k, other] : pairs)
+    edges.push_back({{facets[f][k], facets[f][(k + 1) % 3], facets[f][(k + 2) % 3]}, {f, other}});
+  return edges;
+}
+
+} // namespace
 
 template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary, std::size_t nodes) {
   IndexedVector<NodeIndex, BoundaryNodeIndex> number(nodes, BoundaryNodeIndex::none);
@@ -34,6 +66,7 @@ template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary,
     else
       for (const BoundaryNodeIndex a : corner) around[a].push_back(f);
   }
+  if constexpr (dim == 3) edges = edges_of(facets);
 }
 
 namespace {
@@ -191,7 +224,7 @@ void ridge_hits<2>(const Surface<2>& surface, std::span<const FacetIndex> facets
         passed = std::max(passed, 0.0);
       }
       const double s = std::clamp(place, 0.0, 1.0);
-      hits.push_back({as<std::int32_t>(r), f, {1.0 - s, s}, now.normal, gap, passed});
+      hits.push_back({as<std::int32_t>(r), f, surface.facets[f], {1.0 - s, s}, now.normal, gap, passed});
     }
     keep_last_passed(surface, end, hits, first);
   }
@@ -219,16 +252,6 @@ std::vector<RidgeDepth<2>> ridges_inside<2>(const Surface<2>& surface, const Too
     found.push_back(inside);
   }
   return found;
-}
-
-template<>
-void ridge_hits<3>(const Surface<3>&, std::span<const FacetIndex>, const ToolShape<3>&, PlacesOnBoundary<3>,
-                   PlacesOnBoundary<3>, const Vec<3>&, const Vec<3>&, std::vector<RidgeHit<3>>&) {}
-
-template<>
-std::vector<RidgeDepth<3>> ridges_inside<3>(const Surface<3>&, const ToolShape<3>&, PlacesOnBoundary<3>,
-                                            const Vec<3>&) {
-  return {};
 }
 
 } // namespace cnem::contact

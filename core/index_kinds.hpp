@@ -15,6 +15,7 @@ enum class PartIndex : std::int32_t { none = -1 };         ///< part of its boun
 enum class CloudFacetIndex : std::int32_t { none = -1 };   ///< facet of the boundary of a cloud
 enum class PieceIndex : std::int32_t { none = -1 };        ///< named piece of the boundary of a cloud
 enum class FacetIndex : std::int32_t { none = -1 };        ///< facet of the surface that contact sees
+enum class SurfaceEdgeIndex : std::int32_t { none = -1 };  ///< edge between two of its facets in space
 enum class BoundaryNodeIndex : std::int32_t { none = -1 }; ///< in contact's list of the nodes on the boundary
 enum class ToolIndex : std::int32_t { none = -1 };         ///< rigid tool
 

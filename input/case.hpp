@@ -206,6 +206,21 @@ struct Plane {
   Vec3 normal{0, 0, 0}; ///< out of the tool, of any length but zero
 };
 
+/// The solid of a tool in space, in axes of its own.
+struct ToolSolid {
+  enum class Shape { half_space, box, extruded, revolved, swept, stl };
+  Shape shape = Shape::half_space;
+  Plane plane;                                           ///< of a half-space
+  std::array<Vec3, 2> box{Vec3(0, 0, 0), Vec3(0, 0, 0)}; ///< m, low and high corner
+  Curve outline, profile;                                ///< m
+  std::optional<double> low, high;                       ///< m, ends of what is extruded; none: without end
+  double radius_low = 0.0, radius_high = 0.0;            ///< m, of the edges there
+  std::string file;                                      ///< of triangles
+  double file_unit = 1e-3;                               ///< m
+  Vec3 at{0, 0, 0}, axis{0, 0, 1};                       ///< m; –, of any length: of its axes
+  double turn = 0.0;                                     ///< rad, about its z axis
+};
+
 /// The nodes that a tool conducts with.
 struct ToolNodes {
   clouds::SpacingField spacing;
@@ -217,9 +232,9 @@ struct ToolNodes {
 /// A rigid tool. Its shape is made of that by app/problem/registry.
 struct Tool : contact::ToolSurface {
   Curve outline;                              ///< in the plane: counter-clockwise, at t = 0, m
-  std::optional<Plane> plane;                 ///< in space
+  std::optional<ToolSolid> solid;             ///< in space
   VectorFunction velocity;                    ///< m/s, without a drive; absent components are zero
-  std::optional<contact::ToolDrive<2>> drive; ///< of the plane
+  std::optional<contact::ToolDrive<3>> drive; ///< in the plane without z
   std::optional<contact::ToolMetal> metal;    ///< what its effusivity is made of, where it was not given
   std::optional<ToolNodes> section;           ///< of that metal; none: at one temperature
 };

@@ -1,4 +1,4 @@
-// Workpiece and tools of three-dimensional analyses, of the case reader.
+// Workpiece of three-dimensional analyses, of the case reader.
 #include "input/case_parts.hpp"
 #include "input/curve_checks.hpp"
 
@@ -73,14 +73,6 @@ std::string outside_reason(const Block& block, const Vec3& x) {
   const bool in_sector =
       block.part != Block::Part::sector || away.head<2>().norm() <= tolerance || angle <= block.angle + 1e-9;
   return in_box && in_shell && in_sector ? "" : "outside domain.block";
-}
-
-Plane read_plane(const Setting& table, Diagnostics& diagnostics) {
-  const Setting& normal = *table.find("normal");
-  if (!(table.vector("normal").norm() > 0.0))
-    diagnostics.add(Mistake::range, normal.where, normal.path,
-                    "found no direction, expected one such as \"0 0 1\"");
-  return {table.vector("at"), table.vector("normal")};
 }
 
 } // namespace cnem::input

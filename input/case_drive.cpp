@@ -16,10 +16,10 @@ namespace cnem::input {
 namespace {
 
 /// What stands in a direction that a guide does not let the tool go, and would be taken without a trace.
-void check_across(const Setting* setting, const std::array<TimeTable, 2>& tables, const Vec2& line,
+void check_across(const Setting* setting, const std::array<TimeTable, 3>& tables, const Vec3& line,
                   const char* what, Diagnostics& diagnostics) {
   if (!setting) return;
-  for (std::size_t k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     const std::vector<double>& values = tables[k].values();
     if (line.cwiseAbs()[static_cast<int>(k)] < 1e-9 &&
         std::any_of(values.begin(), values.end(), [](double value) { return value != 0.0; }))
@@ -31,14 +31,16 @@ void check_across(const Setting* setting, const std::array<TimeTable, 2>& tables
   }
 }
 
-void read_guide(const Setting& table, const Case& input, const Tool& tool, contact::ToolDrive<2>& drive,
+void read_guide(const Setting& table, const Case& input, const Tool& tool, contact::ToolDrive<3>& drive,
                 Diagnostics& diagnostics) {
   const Setting* direction = table.find("direction");
   if (!direction) return;
-  Vec2 line = std::get<Vec2>(direction->value);
+  Vec3 line = table.vector("direction");
   if (!(line.stableNorm() > 0.0))
     return diagnostics.add(Mistake::range, direction->where, direction->path,
-                           "found \"0 0\", expected a direction such as \"0 1\"");
+                           input.analysis.dimensions() == 3
+                               ? "found \"0 0 0\", expected a direction such as \"0 0 1\""
+                               : "found \"0 0\", expected a direction such as \"0 1\"");
   if (input.analysis.kinematics == Analysis::Kinematics::axisymmetric && line.x() != 0.0)
     return diagnostics.add(
         Mistake::conflict, direction->where, direction->path,
@@ -48,18 +50,18 @@ void read_guide(const Setting& table, const Case& input, const Tool& tool, conta
   drive.free = line * line.transpose();
   if (drive.spring) drive.spring->along = line;
   // What a guide would take without a trace was not meant.
-  const Vec2 across(-line.y(), line.x());
-  if (std::abs(across.dot(drive.initial_velocity)) > 1e-9 * drive.initial_velocity.norm())
+  const Vec3 across = drive.initial_velocity - line.dot(drive.initial_velocity) * line;
+  if (across.norm() > 1e-9 * drive.initial_velocity.norm())
     diagnostics.add(Mistake::conflict, table.find("initial_velocity")->where,
                     table.find("initial_velocity")->path,
                     "found a velocity across the direction of the tool, expected one along it");
   check_across(table.find("force"), drive.force, line, "force", diagnostics);
-  std::array<TimeTable, 2> velocity;
-  for (std::size_t k = 0; k < 2; ++k) velocity[k] = tool.velocity[k].value_or(TimeTable());
+  std::array<TimeTable, 3> velocity;
+  for (std::size_t k = 0; k < 3; ++k) velocity[k] = tool.velocity[k].value_or(TimeTable());
   check_across(table.find("velocity"), velocity, line, "velocity of the mount", diagnostics);
 }
 
-void read_spring(const Setting& table, const Setting& spring, contact::ToolDrive<2>& drive,
+void read_spring(const Setting& table, const Setting& spring, contact::ToolDrive<3>& drive,
                  Diagnostics& diagnostics) {
   const Setting* direction = table.find("direction");
   if (!direction || !direction->given) // which way the default would push is nobody's wish
@@ -97,12 +99,12 @@ void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics
                     "with a mass moves by force and initial_velocity, or by {}.spring from "
                     "a mount that has the velocity",
                     table.path));
-  contact::ToolDrive<2>& drive = tool.drive.emplace();
+  contact::ToolDrive<3>& drive = tool.drive.emplace();
   drive.mass = std::get<double>(mass->value);
   drive.damping = table.maybe<double>("damping").value_or(0.0);
   if (const auto force = table.maybe<VectorFunction>("force"))
-    for (std::size_t k = 0; k < 2; ++k) drive.force[k] = (*force)[k].value_or(TimeTable());
-  drive.initial_velocity = table.maybe<Vec2>("initial_velocity").value_or(Vec2::Zero());
+    for (std::size_t k = 0; k < 3; ++k) drive.force[k] = (*force)[k].value_or(TimeTable());
+  if (table.find("initial_velocity")) drive.initial_velocity = table.vector("initial_velocity");
   if (spring) read_spring(table, *spring, drive, diagnostics);
   read_guide(table, input, tool, drive, diagnostics);
 }

@@ -11,10 +11,8 @@
 #include <fmt/format.h>
 
 namespace cnem::input {
-namespace {
 
-/// The curve of a table; nothing, and a mistake recorded, when it cannot be made.
-std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Diagnostics& diagnostics) {
+std::optional<Curve> read_outline(const Setting& table, const OutlineNames& names, Diagnostics& diagnostics) {
   try {
     return make_outline(table, names);
   } catch (const OutlineError& error) {
@@ -28,6 +26,8 @@ std::optional<Curve> outline(const Setting& table, const OutlineNames& names, Di
     return std::nullopt;
   }
 }
+
+namespace {
 
 void check_holes(const Setting& holes, const Domain& domain, Diagnostics& diagnostics) {
   const auto fail = [&](std::size_t i, const std::string& message) {
@@ -171,11 +171,11 @@ void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
   if (block || file) return domain.in_space() ? check_points(root, domain, diagnostics) : void();
   if (extrude) domain.sweep = read_extrusion(*extrude, diagnostics);
   if (revolve) domain.sweep = read_revolution(*revolve);
-  const auto outer = outline(*table.find("outer"), {"outer", true}, diagnostics);
+  const auto outer = read_outline(*table.find("outer"), {"outer", true}, diagnostics);
   bool complete = outer.has_value();
   if (outer) domain.outer = *outer;
   for (const Setting& hole : table.entries("holes")) {
-    const auto curve = outline(hole, {hole.name, false}, diagnostics);
+    const auto curve = read_outline(hole, {hole.name, false}, diagnostics);
     complete = complete && curve;
     if (curve) domain.holes.push_back({hole.name, curve->reversed()});
   }
@@ -226,9 +226,9 @@ void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
     Tool tool;
     tool.name = table.name;
     if (result.analysis.dimensions() == 3)
-      tool.plane = read_plane(*table.find("plane"), diagnostics);
+      tool.solid = read_solid(table, result, diagnostics);
     else
-      tool.outline = outline(table, {table.name, false}, diagnostics).value_or(Curve{});
+      tool.outline = read_outline(table, {table.name, false}, diagnostics).value_or(Curve{});
     if (!result.domain.outer.pieces.empty() && !tool.outline.pieces.empty())
       check_overlap(table, tool, result, diagnostics);
     tool.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});

@@ -1,6 +1,7 @@
 #pragma once
 // The steps of the case reader, between its translation units.
 #include "input/case.hpp"
+#include "input/outline.hpp"
 #include "input/schema/settings.hpp"
 
 #include <optional>
@@ -11,14 +12,16 @@ namespace cnem::input {
 
 /// Domain and tools: outlines, holes and cracks, and whether they fit into one another.
 void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
-/// The workpiece of a three-dimensional analysis, and the plane of a tool of one.
+/// The workpiece of a three-dimensional analysis, and the solid of a tool of one.
 Block read_block(const Setting& table, Diagnostics& diagnostics);
 /// What draws or turns outlines into a body in space, and a body from an STL file (into Case::domain; nothing
 /// where the file is at fault).
 Sweep read_extrusion(const Setting& table, Diagnostics& diagnostics);
 Sweep read_revolution(const Setting& table);
 void read_faceted(const Setting& table, Case& result, Diagnostics& diagnostics);
-Plane read_plane(const Setting& table, Diagnostics& diagnostics);
+ToolSolid read_solid(const Setting& table, const Case& input, Diagnostics& diagnostics);
+/// The curve of a table with an outline; a wrong one is a mistake: then none.
+std::optional<Curve> read_outline(const Setting& table, const OutlineNames& names, Diagnostics& diagnostics);
 /// Why a point (m) is not in the block; "" when it is.
 std::string outside_reason(const Block& block, const Vec3& x);
 

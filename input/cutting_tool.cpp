@@ -26,7 +26,7 @@ double reach(const Curve& curve, const Vec2& d) {
 }
 
 Vec2 motion_of(const Tool& tool, double end) {
-  Vec2 way = tool.drive ? Vec2(end * tool.drive->initial_velocity) : Vec2(0, 0);
+  Vec2 way = tool.drive ? Vec2(end * tool.drive->initial_velocity.head<2>()) : Vec2(0, 0);
   for (std::size_t k = 0; k < 2; ++k)
     if (tool.velocity[k]) way[static_cast<int>(k)] = tool.velocity[k]->integral(end);
   return way;

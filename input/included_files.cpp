@@ -26,10 +26,11 @@ void merge(Value& into, Value from) {
   }
 }
 
-/// Drawings that an included file names are seen from its folder.
+/// Drawings and triangles that an included file names are seen from its folder.
 void place_drawings(Value& value, const fs::path& folder) {
   for (Member& member : value.members) {
-    Member* file = member.key == "drawing" ? member.value.find("file") : nullptr;
+    const bool names_file = member.key == "drawing" || member.key == "stl";
+    Member* file = names_file ? member.value.find("file") : nullptr;
     if (file && file->value.kind == Kind::text) file->value.text = (folder / file->value.text).string();
     place_drawings(member.value, folder);
   }

@@ -86,7 +86,7 @@ void use_local_origin(Case& input) {
     shift(tool.outline);
     if (tool.section)
       for (clouds::Refinement& refinement : tool.section->spacing.refinements) shift(refinement.points);
-    if (tool.plane) shift(tool.plane->at);
+    if (tool.solid) shift(tool.solid->at), shift(tool.solid->plane.at);
   }
   for (Window& window : input.output.windows)
     for (Vec2* corner : {&window.lower, &window.upper}) shift(*corner);

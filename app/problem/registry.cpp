@@ -4,9 +4,9 @@
 #include "app/places.hpp"
 #include "app/problem/bodies.hpp"
 #include "app/problem/tool_sections.hpp"
+#include "app/problem/tool_solid.hpp"
 #include "app/problem/workpiece.hpp"
 #include "contact/curve_shape.hpp"
-#include "contact/plane_shape.hpp"
 #include "core/geometry/facets.hpp"
 #include "methods/registry.hpp"
 
@@ -168,23 +168,30 @@ void hold_axis(const input::Case& input, Cloud<2>& cloud, std::vector<Support<2>
         {"axis", Support<2>::Kind::symmetry, Vec2(-1, 0), {}, std::move(axis), pieces_on_axis(input, cloud)});
 }
 
+/// The first components of the drive of a tool.
+template<int dim> contact::ToolDrive<dim> drive_of(const contact::ToolDrive<3>& spec) {
+  contact::ToolDrive<dim> drive;
+  drive.mass = spec.mass;
+  for (std::size_t k = 0; k < dim; ++k) drive.force[k] = spec.force[k];
+  drive.initial_velocity = spec.initial_velocity.template head<dim>();
+  drive.free = spec.free.template topLeftCorner<dim, dim>();
+  if (spec.spring) drive.spring = {spec.spring->spring, spec.spring->along.template head<dim>()};
+  drive.damping = spec.damping;
+  return drive;
+}
+
 template<int dim>
 contact::Tool<dim> make_tool(const input::Case& input, const input::Tool& spec, const Cloud<dim>& cloud) {
   contact::Tool<dim> tool;
   static_cast<contact::ToolSurface&>(tool) = spec;
   if (spec.section) tool.thermal.conductance = 0.0; // its section exchanges heat, not one temperature
   tool.motion.velocity = components_of<dim>(spec.velocity);
+  if (spec.drive) tool.drive = drive_of<dim>(*spec.drive);
   try {
-    if constexpr (dim == 2) {
-      tool.drive = spec.drive;
+    if constexpr (dim == 2)
       tool.shape = std::make_shared<contact::CurveShape>(spec.outline);
-    } else {
-      // A half-space has no end; what looks through boxes first gets one larger than anything that happens.
-      constexpr double far = 1e3;
-      double reach = 0.0;
-      for (const Vec3& x : cloud.position) reach = std::max(reach, (x - spec.plane->at).norm());
-      tool.shape = std::make_shared<contact::PlaneShape<3>>(spec.plane->at, spec.plane->normal, far * reach);
-    }
+    else
+      tool.shape = make_solid(*spec.solid, cloud);
   } catch (const InputError& error) { throw input.error("tools." + spec.name, error.what()); }
   return tool;
 }

@@ -85,6 +85,10 @@ public:
       each_of(domain->value, "holes", "domain.holes");
     }
     each_of(document_, "tools", "tools");
+    if (Member* tools = table_at(document_, "tools"))
+      for (Member& tool : tools->value.members)
+        if (Member* profile = table_at(tool.value, "profile"))
+          outline(profile->value, "tools.*.profile", fmt::format("tools.{}.profile", tool.key), tool.key);
   }
 
 private:

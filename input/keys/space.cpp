@@ -36,23 +36,15 @@ constexpr std::array scopes{
     Scoped{"initial.velocity_gradient", Scope::plane, "its components are those of the plane"},
     Scoped{"initial.imperfections", Scope::plane, "they lie along polylines of the plane"},
     Scoped{"periodic", Scope::plane, "sides are matched along lines"},
-    Scoped{"tools.*.start", Scope::plane, "an outline bounds no tool in space; give its plane"},
-    Scoped{"tools.*.path", Scope::plane, "an outline bounds no tool in space; give its plane"},
-    Scoped{"tools.*.path[]", Scope::plane, "an outline bounds no tool in space; give its plane"},
-    Scoped{"tools.*.close", Scope::plane, "an outline bounds no tool in space; give its plane"},
-    Scoped{"tools.*.rectangle", Scope::plane, "an outline bounds no tool in space; give its plane"},
-    Scoped{"tools.*.drawing", Scope::plane, "an outline bounds no tool in space; give its plane"},
-    Scoped{"tools.*.circle", Scope::plane, "an outline bounds no tool in space; give its plane"},
-    Scoped{"tools.*.rotate", Scope::plane, "a plane is turned by its normal"},
+    Scoped{"tools.*.shape", Scope::space, "a tool in the plane has an outline, such as a rectangle"},
     Scoped{"tools.*.plane", Scope::space, "a tool in the plane has an outline, such as a rectangle"},
-    Scoped{"tools.*.mass", Scope::plane, "a half-space has no mass to give"},
-    Scoped{"tools.*.force", Scope::plane, "a half-space has no mass to push"},
-    Scoped{"tools.*.initial_velocity", Scope::plane, "it is that of a tool with a mass; give its velocity"},
-    Scoped{"tools.*.direction", Scope::plane, "it guides a tool with a mass"},
-    Scoped{"tools.*.spring", Scope::plane, "it pushes a tool with a mass"},
-    Scoped{"tools.*.damping", Scope::plane, "it slows a tool with a mass"},
-    Scoped{"tools.*.equal_areas", Scope::plane, "a plane has no arcs"},
-    Scoped{"tools.*.heat.section", Scope::plane, "a half-space has no outline to fill with nodes"},
+    Scoped{"tools.*.box", Scope::space, "a tool in the plane has an outline, such as a rectangle"},
+    Scoped{"tools.*.extrude", Scope::space, "a tool in the plane is its outline"},
+    Scoped{"tools.*.profile", Scope::space, "a tool in the plane is its outline"},
+    Scoped{"tools.*.stl", Scope::space, "a tool in the plane has an outline, such as a rectangle"},
+    Scoped{"tools.*.place", Scope::space, "a tool in the plane is turned by rotate"},
+    Scoped{"tools.*.equal_areas", Scope::plane, "edges on arcs are not shared out in space"},
+    Scoped{"tools.*.heat.section", Scope::plane, "what conducts in a tool is a plane section"},
     Scoped{"contact", Scope::plane, "faces that touch each other are found along outlines"},
     Scoped{"coolants", Scope::plane, "faces that a cut makes are of the plane"},
     Scoped{"adapt.cracks", Scope::plane, "broken matter in space parts where it goes through"},
@@ -77,6 +69,14 @@ constexpr std::array scopes{
     Scoped{"report.springback", Scope::plane, "bodies are let go in the plane only"},
     Scoped{"report.experiment", Scope::plane, "measured curves are laid over those of the plane alone"},
 };
+
+/// Outlines of tools, and what lies below these keys: of a plane, also where the tool is in space.
+constexpr std::array flat{"tools.*.start",  "tools.*.path",    "tools.*.rectangle", "tools.*.circle",
+                          "tools.*.rotate", "tools.*.drawing", "tools.*.profile"};
+
+bool below(const std::string& key, const std::string& path) {
+  return key == path || key.starts_with(path + ".") || key.starts_with(path + "[");
+}
 
 } // namespace
 
@@ -204,6 +204,9 @@ void add_block(Keys& k) {
 }
 
 void mark_scopes(Keys& k) {
+  for (Key& key : k.all)
+    key.planar =
+        std::any_of(flat.begin(), flat.end(), [&](const char* path) { return below(key.path, path); });
   for (const Scoped& scoped : scopes) {
     const std::string path = scoped.path;
     for (Key& key : k.all)

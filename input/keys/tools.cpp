@@ -46,6 +46,66 @@ void add_tool_section(Keys& k, const std::string& at) {
   add_constants(k, at + ".coating", constant_texts<ToolCoating>(ToolCoating::parameters));
 }
 
+/// What bounds a tool in space.
+void add_solid(Keys& k, const std::string& at) {
+  k.add(at + "shape", choice,
+        "What bounds the tool. `half-space`: a `plane`. `box`: between two corners. `extruded`: the outline "
+        "(`start` and `path`, `rectangle`, `circle` or `drawing`), which lies across the z axis of the tool, "
+        "along that axis. `revolved`: the outline, its x the distance from the z axis of the tool and its y "
+        "along it, turned about the axis. `swept`: a `profile` goes along the outline. `stl`: triangles of a "
+        "file. All but the first are placed by `place`.")
+      .one_of({"half-space", "box", "extruded", "revolved", "swept", "stl"})
+      .fallback("\"half-space\"");
+  k.add(at + "plane", table, "A tool bounded by a plane, a wall or an anvil.")
+      .required()
+      .when("shape", {"half-space"});
+  k.add(at + "plane.at", vector, "A point of the plane at time 0.").unit(d::length).required();
+  k.add(at + "plane.normal", vector, "Out of the tool, towards the workpiece; of any length.").required();
+  k.add(at + "box", table, "A box parallel to the axes of the tool.").required().when("shape", {"box"});
+  k.add(at + "box.from", vector, "A corner.").unit(d::length).required().example("\"0 0 0 mm\"");
+  k.add(at + "box.to", vector, "The opposite corner.").unit(d::length).required().example("\"20 10 5 mm\"");
+  k.add(at + "extrude", table, "From where to where an outline is extruded, along the z axis of the tool.")
+      .when("shape", {"extruded"});
+  k.add(at + "extrude.from", quantity, "").unit(d::length).example("\"0 mm\"").computed("without end");
+  k.add(at + "extrude.to", quantity, "").unit(d::length).example("\"10 mm\"").computed("without end");
+  k.add(
+       at + "extrude.edge_from", quantity,
+       "Radius of the edge round the end `from`: a cutting edge. Convex corners of the outline need the same "
+       "radius at least.")
+      .unit(d::length)
+      .in(not_negative)
+      .fallback("\"0 mm\"");
+  k.add(at + "extrude.edge_to", quantity, "The same at the end `to`.")
+      .unit(d::length)
+      .in(not_negative)
+      .fallback("\"0 mm\"");
+  k.add(at + "profile", table,
+        "A section that goes along the outline: its x is the distance from the outline, positive outside of "
+        "it, "
+        "its y is along the z axis of the tool. A die is one to the right of x = 0, along the outline of its "
+        "opening.")
+      .required()
+      .when("shape", {"swept"});
+  add_outline(k, at + "profile", "the name of the tool");
+  k.add(at + "stl", table, "Triangles, in text or binary, that close around the solid and face outwards.")
+      .required()
+      .when("shape", {"stl"});
+  k.add(at + "stl.file", text, "Relative to the file of the case.").required().example("\"punch.stl\"");
+  k.add(at + "stl.unit", text, "Of the file's lengths.").fallback("\"mm\"");
+  k.add(at + "place", table,
+        "Where the axes of the tool lie at time 0: without it they are those of the workpiece.");
+  k.add(at + "place.at", vector, "Where its (0, 0, 0) comes to lie.")
+      .unit(d::length)
+      .example("\"0 0 5 mm\"")
+      .computed("0");
+  k.add(at + "place.axis", vector, "Where its z axis points, of any length.")
+      .example("\"0 1 0\"")
+      .computed("along z");
+  k.add(at + "place.turn", quantity, "How far it is turned about its z axis first.")
+      .unit(d::angle)
+      .fallback("\"0 deg\"");
+}
+
 } // namespace
 
 void add_tools(Keys& k) {
@@ -53,11 +113,9 @@ void add_tools(Keys& k) {
   k.add("tools", named_tables, "Rigid tools.");
   k.add("tools.*", table,
         "A rigid tool, solid inside its outline: either `start` and `path`, or `rectangle`, or `circle`; in "
-        "three-dimensional analyses solid behind a `plane`.");
+        "three-dimensional analyses of a `shape`.");
   add_outline(k, "tools.*", "the name of the tool");
-  k.add(at + "plane", table, "A tool bounded by a plane, a wall or an anvil.").required();
-  k.add(at + "plane.at", vector, "A point of the plane at time 0.").unit(d::length).required();
-  k.add(at + "plane.normal", vector, "Out of the tool, towards the workpiece; of any length.").required();
+  add_solid(k, at);
   k.add(at + "velocity", vector_function,
         "Prescribed translation; constant, ramped or over time. With `spring` that of its mount.")
       .unit(d::velocity)

@@ -18,7 +18,7 @@ Json array_of(Json items) { return {{"type", "array"}, {"items", std::move(items
 /// Two components, or three.
 Json components_of(const Json& item, const Key& key) {
   Json list = array_of(item);
-  list["minItems"] = key.scope == Scope::space ? 3 : 2;
+  list["minItems"] = key.scope == Scope::space && !key.planar ? 3 : 2;
   list["maxItems"] = key.planar || key.scope == Scope::plane ? 2 : 3;
   return list;
 }

@@ -48,6 +48,6 @@ TEST(NearTools, lists_the_nodes_and_facets_at_tools_alone) {
   ASSERT_EQ(near.nodes(0_tool).size(), 5U) << "x = 0.5 to 0.9 on the upper side";
   for (const BoundaryNodeIndex b : near.nodes(0_tool))
     EXPECT_NEAR(scene.position(scene.contact->boundary_nodes()[b]).y(), 1.0, 1e-4);
-  EXPECT_LE(near.facets(0_tool).size(), 10U) << "of 60";
-  EXPECT_GE(near.facets(0_tool).size(), 3U);
+  EXPECT_LE(near.at_ridges(0_tool).size(), 10U) << "of 60";
+  EXPECT_GE(near.at_ridges(0_tool).size(), 3U);
 }
