@@ -1,6 +1,10 @@
 #pragma once
-// The body that whole steps are measured on.
+// The bodies that whole steps are measured on: blocks of 304L in steady simple shear at 1e5 /s, their
+// boundary driven, so that every node flows.
 #include "benchmarks/models.hpp"
+#include "clouds/tetrahedral_block.hpp"
+#include "cnem/median.hpp"
+#include "tests/clouds.hpp"
 
 #include <cmath>
 #include <utility>
@@ -8,26 +12,56 @@
 
 namespace cnem::benchmarks {
 
-/// A 304L block in steady simple shear at 1e5 /s, its boundary driven, so that every node flows.
-inline ExplicitSolver<2> sheared_block(int nodes) {
-  const double size = 1e-2;
-  clouds::SpacingField spacing;
-  spacing.spacing = size / std::sqrt(nodes * std::sqrt(0.75));
-  Problem<2> model = model_304L(testing::box({0, 0}, {size, size}, "side"), spacing);
+inline constexpr double block_edge = 1e-2; ///< m
+
+/// The block in the plane or in space, whose cloud and method the model has.
+template<int dim> ExplicitSolver<dim> sheared(Problem<dim> model) {
   const auto n = static_cast<std::size_t>(model.cloud.nodes());
   const double rate = 1e5;
-  std::vector<Support<2>> supports;
-  for (const Facet<2>& facet : model.cloud.facets) {
-    const NodeIndex i = facet.node[0];
-    const double vx = rate * model.cloud.position[i].y();
-    supports.push_back({"side", Support<2>::Kind::velocity, Vec2(1, 0), TimeTable(vx), {i}});
-    supports.push_back({"side", Support<2>::Kind::velocity, Vec2(0, 1), TimeTable(0.0), {i}});
-  }
-  model.supports = Supports<2>(std::move(supports), n);
-  Fields<2> velocity;
+  std::vector<bool> held(n, false);
+  std::vector<Support<dim>> supports;
+  for (const Facet<dim>& facet : model.cloud.facets)
+    for (const NodeIndex i : facet.node) {
+      if (held[index_of(i)]) continue;
+      held[index_of(i)] = true;
+      for (int k = 0; k < dim; ++k)
+        supports.push_back({"side",
+                            Support<dim>::Kind::velocity,
+                            Vec<dim>::Unit(k),
+                            TimeTable(k == 0 ? rate * model.cloud.position[i].y() : 0.0),
+                            {i}});
+    }
+  model.supports = Supports<dim>(std::move(supports), n);
+  Fields<dim> velocity;
   resize_all(velocity, n);
   for (std::size_t i = 0; i < n; ++i) velocity[0][i] = rate * model.cloud.position[i].y();
-  return start(std::move(model), std::move(velocity));
+  return start<dim>(std::move(model), std::move(velocity));
+}
+
+/// C-NEM.
+inline ExplicitSolver<2> sheared_block(int nodes) {
+  clouds::SpacingField spacing;
+  spacing.spacing = block_edge / std::sqrt(nodes * std::sqrt(0.75));
+  return sheared(model_304L(testing::box({0, 0}, {block_edge, block_edge}, "side"), spacing));
+}
+
+/// On a lattice of tetrahedra whose inner nodes are moved by up to a tenth of the spacing.
+inline clouds::TetrahedralBlock block_in_space(int nodes) {
+  const int count = static_cast<int>(std::lround(std::cbrt(nodes))) - 1;
+  const double spacing = block_edge / count;
+  testing::Random random(1);
+  return clouds::tetrahedral_block(
+      Vec3::Constant(block_edge), {count, count, count}, [&](const Vec3& x) -> Vec3 {
+        if (x.minCoeff() < 0.5 * spacing || x.maxCoeff() > block_edge - 0.5 * spacing) return x;
+        return x + 0.1 * spacing * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      });
+}
+
+/// Median cells.
+inline ExplicitSolver<3> sheared_block_in_space(int nodes) {
+  clouds::TetrahedralBlock block = block_in_space(nodes);
+  return sheared(model_304L<3>(std::move(block.cloud),
+                               std::make_unique<scni::MedianCells>(std::move(block.tetrahedra))));
 }
 
 } // namespace cnem::benchmarks
