@@ -7,6 +7,7 @@
 #include "tests/clouds.hpp"
 
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -19,18 +20,17 @@ template<int dim> ExplicitSolver<dim> sheared(Problem<dim> model) {
   const auto n = static_cast<std::size_t>(model.cloud.nodes());
   const double rate = 1e5;
   std::vector<bool> held(n, false);
-  std::vector<Support<dim>> supports;
+  std::map<double, std::vector<NodeIndex>> at_velocity;
   for (const Facet<dim>& facet : model.cloud.facets)
     for (const NodeIndex i : facet.node) {
-      if (held[index_of(i)]) continue;
+      if (!held[index_of(i)]) at_velocity[rate * model.cloud.position[i].y()].push_back(i);
       held[index_of(i)] = true;
-      for (int k = 0; k < dim; ++k)
-        supports.push_back({"side",
-                            Support<dim>::Kind::velocity,
-                            Vec<dim>::Unit(k),
-                            TimeTable(k == 0 ? rate * model.cloud.position[i].y() : 0.0),
-                            {i}});
     }
+  std::vector<Support<dim>> supports;
+  for (const auto& [velocity, nodes] : at_velocity)
+    for (int k = 0; k < dim; ++k)
+      supports.push_back({"side", Support<dim>::Kind::velocity, Vec<dim>::Unit(k),
+                          TimeTable(k == 0 ? velocity : 0.0), nodes});
   model.supports = Supports<dim>(std::move(supports), n);
   Fields<dim> velocity;
   resize_all(velocity, n);

@@ -26,10 +26,10 @@ Row<dim> row_of(const DiscreteOperators<dim>& operators, const Field& position, 
   if (operators.of_revolution()) row.hoop = 0.0;
   for (auto e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e) {
     const auto j = index_of(operators.node[e]);
-    if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[dim * j];
+    if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[beside<dim> * j];
     for (int k = 0; k < dim; ++k) {
       const double b = operators.gradient[index_of(k)][e];
-      for (int i = 0; i < dim; ++i) row.deformation(i, k) += position[dim * j + index_of(i)] * b;
+      for (int i = 0; i < dim; ++i) row.deformation(i, k) += position[beside<dim> * j + index_of(i)] * b;
     }
   }
   return row;

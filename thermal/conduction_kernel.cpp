@@ -15,7 +15,7 @@ void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const do
     for (int k = 0; k < dim; ++k) F[k] = Small<dim>::zero();
     for (std::int32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
       const auto j = static_cast<std::ptrdiff_t>(rows.index[e]);
-      const auto x = Small<dim>::load(position + dim * j);
+      const auto x = Small<dim>::load(position + beside<dim> * j);
       if (hoop) stretch += hoop[e] * x[0];
       for (int k = 0; k < dim; ++k) {
         F[k] += x * rows.weight[k][e];
