@@ -11,21 +11,26 @@
 
 namespace cnem::benchmarks {
 
+inline plasticity::Material steel_304L() {
+  return {.name = "304L",
+          .density = 7850.0,
+          .elasticity = {210e9, 0.33},
+          .hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
+          .anisotropy = {},
+          .damage = {},
+          .equation_of_state = {},
+          .measured = {},
+          .specific_heat = 500.0,
+          .conductivity = 5.86,
+          .heat_curves = {}};
+}
+
 /// A cloud free of supports and loads.
 template<int dim> Problem<dim> model_304L(Cloud<dim> cloud, std::unique_ptr<Discretisation<dim>> method) {
   Problem<dim> model;
   model.cloud = std::move(cloud);
   model.method = std::move(method);
-  model.materials = {
-      {.name = "304L",
-       .density = 7850.0,
-       .elasticity = {210e9, 0.33},
-       .hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
-       .anisotropy = {},
-       .damage = {},
-       .measured = {},
-       .specific_heat = 500.0,
-       .conductivity = 5.86}};
+  model.materials = {steel_304L()};
   model.supports = Supports<dim>({}, static_cast<std::size_t>(model.cloud.nodes()));
   model.loads = Loads<dim>({}, {}, {}, model.cloud.position);
   return model;

@@ -22,6 +22,8 @@ template<int dim> void measure(benchmark::State& state, ExplicitSolver<dim> (*ma
     if (++count % 10 == 0) dt = solver.stable_step().dt;
     solver.advance(dt);
   }
+  const DiscreteOperators<dim>& op = solver.approximation().mechanics;
+  state.counters["entries_a_row"] = static_cast<double>(op.node.size()) / op.points;
   double flowing = 0.0;
   for (const double r : solver.state().point.plastic_rate) flowing += r > 0.0;
   const auto nodes = static_cast<double>(solver.state().node.size());
@@ -57,6 +59,17 @@ BENCHMARK(explicit_step_in_space)
     ->Args({20000, 2})
     ->Args({200000, 1})
     ->Args({200000, 2})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// Rows as long as those of Voronoi cells.
+void explicit_step_of_wide_rows(benchmark::State& state) {
+  measure<3>(state, benchmarks::sheared_block_of_wide_rows);
+}
+BENCHMARK(explicit_step_of_wide_rows)
+    ->ArgNames({"nodes", "threads"})
+    ->Args({20000, 1})
+    ->Args({20000, 2})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
