@@ -66,9 +66,13 @@ public:
 
   CNEM_INLINE TrialStress(const T (&b)[symmetric], double two_mu) : two_mu_(two_mu) {
     for (int c = 0; c < symmetric; ++c) b_[c] = b[c];
-    mean_ = (b[0] + b[1] + b[2]) * T(1.0 / 3.0);
+    // from differences to 1, which are exact in metals, so that volumes are
+    T beyond[3];
+    for (int c = 0; c < 3; ++c) beyond[c] = b[c] - T(1.0);
+    const T shift = (beyond[0] + beyond[1] + beyond[2]) * T(1.0 / 3.0);
+    mean_ = T(1.0) + shift;
     const T by_mean = T(1.0) / mean_;
-    for (int c = 0; c < 3; ++c) e_[c] = (b[c] - mean_) * by_mean;
+    for (int c = 0; c < 3; ++c) e_[c] = (beyond[c] - shift) * by_mean;
     for (int c = 3; c < symmetric; ++c) e_[c] = b[c] * by_mean;
     square_[0] = e_[0] * e_[0] + e_[3] * e_[3] + e_[5] * e_[5];
     square_[1] = e_[3] * e_[3] + e_[1] * e_[1] + e_[4] * e_[4];
@@ -87,13 +91,14 @@ public:
     T p[3];
     horner(series, j2_, j3_, p);
     const T trace = T(2.0) * j2_ * p[1] + T(3.0) * j3_ * p[2];
-    total = T(1.5) * log(mean_) + T(0.5) * trace;
+    const T rounded = shift - (mean_ - T(1.0));
+    total = T(1.5) * (log(mean_) + rounded * by_mean) + T(0.5) * trace;
     linear_ = T(0.5) * (p[0] + j2_ * p[2]);
     quadratic_ = T(0.5) * p[1];
     const T third = T(1.0 / 3.0) * j2_;
-    q = T(two_mu) * sqrt(T(3.0) * max(linear_ * linear_ * j2_ +
-                                          quadratic_ * (quadratic_ * j2_ * third + T(3.0) * linear_ * j3_),
-                                      T(0.0)));
+    const T norm = linear_ * linear_ * j2_ + quadratic_ * (quadratic_ * j2_ * third + T(3.0) * linear_ * j3_);
+    const Mask<T> distorted = j2_ > T(0x1p-106); // beyond the rounding of b
+    q = select(distorted, T(two_mu) * sqrt(T(3.0) * max(norm, T(0.0))), T(0.0));
     determinant_ = mean_ * mean_ * mean_ * ((T(1.0) - j2_) + j3_);
     const T two_thirds = third + third;
     const T a1 = T(two_mu) * linear_, a2 = T(two_mu) * quadratic_;
