@@ -11,30 +11,41 @@
 
 namespace cnem::benchmarks {
 
-/// Free of supports and loads, C-NEM.
-inline Problem<2> model_304L(const Curve& outline, const clouds::SpacingField& spacing) {
-  Problem<2> model;
-  model.cloud = clouds::generate_cloud({outline, {}, {}}, spacing, {}).cloud;
-  model.method = std::make_unique<scni::Cnem>();
-  model.materials = {
-      {.name = "304L",
-       .density = 7850.0,
-       .elasticity = {210e9, 0.33},
-       .hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
-       .anisotropy = {},
-       .damage = {},
-       .measured = {},
-       .specific_heat = 500.0,
-       .conductivity = 5.86}};
-  model.supports = Supports<2>({}, static_cast<std::size_t>(model.cloud.nodes()));
-  model.loads = Loads<2>({}, {}, {}, model.cloud.position);
+inline plasticity::Material steel_304L() {
+  return {.name = "304L",
+          .density = 7850.0,
+          .elasticity = {210e9, 0.33},
+          .hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
+          .anisotropy = {},
+          .damage = {},
+          .equation_of_state = {},
+          .measured = {},
+          .specific_heat = 500.0,
+          .conductivity = 5.86,
+          .heat_curves = {}};
+}
+
+/// A cloud free of supports and loads.
+template<int dim> Problem<dim> model_304L(Cloud<dim> cloud, std::unique_ptr<Discretisation<dim>> method) {
+  Problem<dim> model;
+  model.cloud = std::move(cloud);
+  model.method = std::move(method);
+  model.materials = {steel_304L()};
+  model.supports = Supports<dim>({}, static_cast<std::size_t>(model.cloud.nodes()));
+  model.loads = Loads<dim>({}, {}, {}, model.cloud.position);
   return model;
 }
 
+/// C-NEM in the plane.
+inline Problem<2> model_304L(const Curve& outline, const clouds::SpacingField& spacing) {
+  return model_304L<2>(clouds::generate_cloud({outline, {}, {}}, spacing, {}).cloud,
+                       std::make_unique<scni::Cnem>());
+}
+
 /// With the given velocities, [component][node] m/s, at 296 K.
-inline ExplicitSolver<2> start(Problem<2> model, Fields<2> velocity) {
+template<int dim> ExplicitSolver<dim> start(Problem<dim> model, Fields<dim> velocity) {
   Field temperature(velocity[0].size(), 296.0);
-  return ExplicitSolver<2>(std::move(model), std::move(velocity), std::move(temperature));
+  return ExplicitSolver<dim>(std::move(model), std::move(velocity), std::move(temperature));
 }
 
 } // namespace cnem::benchmarks

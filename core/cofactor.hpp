@@ -12,11 +12,8 @@ CNEM_INLINE double cofactor(const Small<2> (&f)[2], Small<2> (&c)[2]) {
   return f[0][0] * f[1][1] - f[1][0] * f[0][1];
 }
 CNEM_INLINE double cofactor(const Small<3> (&f)[3], Small<3> (&c)[3]) {
-  for (int k = 0; k < 3; ++k) {
-    const Small<3>&a = f[(k + 1) % 3], &b = f[(k + 2) % 3];
-    for (int i = 0; i < 3; ++i) c[k].v[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-  }
-  return f[0][0] * c[0][0] + f[0][1] * c[0][1] + f[0][2] * c[0][2];
+  for (int k = 0; k < 3; ++k) c[k] = cross(f[(k + 1) % 3], f[(k + 2) % 3]);
+  return f[0].dot(c[0]);
 }
 
 /// The same by components as in core/fields/state.hpp: in the plane xx, xy, yx, yy, zz.

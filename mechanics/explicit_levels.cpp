@@ -16,7 +16,8 @@ template<int dim> int ExplicitSolver<dim>::sub_steps() const {
 /// in units of the finest one.
 template<int dim> void ExplicitSolver<dim>::scale_to_impulses(const LevelRange& range) {
   const double steps = 1 << range.level;
-  for (std::size_t c = dim * dim * range.begin; c < dim * dim * range.end; ++c) stress_.columns[c] *= steps;
+  constexpr std::size_t stride = column_stress<dim>;
+  for (std::size_t c = stride * range.begin; c < stride * range.end; ++c) stress_.columns[c] *= steps;
   if constexpr (dim == 2)
     for (std::size_t p = range.begin; p < range.end; ++p) stress_.out_of_plane[p] *= steps;
   if (!approximation_.mechanics.nodal) return;
@@ -65,7 +66,7 @@ template<int dim> void ExplicitSolver<dim>::restore_columns() {
       const auto cofactor = cofactors<dim>(f, p);
       for (std::size_t k = 0; k < dim; ++k)
         for (std::size_t i = 0; i < dim; ++i)
-          stress_.columns[(p * dim + k) * dim + i] -= q * cofactor[i * dim + k];
+          stress_.columns[(p * dim + k) * beside<dim> + i] -= q * cofactor[i * dim + k];
       if constexpr (dim == 2) stress_.out_of_plane[p] -= q * cofactor[4];
     }
   }

@@ -94,7 +94,7 @@ template<int dim> void ExplicitSolver<dim>::update_stress(int activity, int befo
   each([&](Term<dim>& term) { term.begin_stress(body, due); });
   if (!due.whole)
     for_each_range(local_.silenced(before), [&](const LevelRange& range) {
-      fill_records(stress_.columns, dim * dim, range, 0.0);
+      fill_records(stress_.columns, column_stress<dim>, range, 0.0);
       if constexpr (dim == 2) fill_records(stress_.out_of_plane, 1, range, 0.0);
     });
   const auto points = plasticity::stress_points(point);

@@ -36,7 +36,7 @@ void deformation_gradient(const DiscreteOperators<dim>& operators, const Field& 
     for (std::size_t p = begin; p < end; ++p) {
       double stretch = 0.0;
       for (std::size_t e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e)
-        stretch += operators.hoop[e] * position[dim * index_of(operators.node[e])];
+        stretch += operators.hoop[e] * position[beside<dim> * index_of(operators.node[e])];
       deformation[4][p] = stretch;
     }
   }
@@ -80,10 +80,11 @@ template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators
 
 template<int dim> void copy_stress_columns(const Fields<tensor_size<dim>>& piola, ColumnStress<dim>& stress) {
   const std::size_t n = piola[0].size();
-  stress.columns.resize(dim * dim * n);
+  stress.columns.resize(column_stress<dim> * n);
   for (std::size_t p = 0; p < n; ++p)
     for (std::size_t i = 0; i < dim; ++i)
-      for (std::size_t k = 0; k < dim; ++k) stress.columns[(p * dim + k) * dim + i] = piola[i * dim + k][p];
+      for (std::size_t k = 0; k < dim; ++k)
+        stress.columns[(p * dim + k) * beside<dim> + i] = piola[i * dim + k][p];
   if constexpr (dim == 2) stress.out_of_plane = piola[4];
 }
 

@@ -26,7 +26,7 @@ template<int dim> Field average_at_nodes(const DiscreteOperators<dim>& operators
 
 /// Stresses as forces are made from them.
 template<int dim> struct ColumnStress {
-  Field columns;      ///< [point][k][i] P_ik, Pa
+  Field columns;      ///< [point][k] P_ik side by side, Pa
   Field out_of_plane; ///< [point] in the plane: P_zz, Pa
 };
 

@@ -1,4 +1,5 @@
 #include "core/cofactor.hpp"
+#include "core/records.hpp"
 #include "mechanics/step_kernels.hpp"
 
 namespace cnem::CNEM_ISA {
@@ -7,13 +8,13 @@ namespace {
 
 /// Norm of what an entry does to its point: |F⁻ᵀ b|, of revolution with the hoop entry h
 /// (mechanics/stable_step.hpp).
-template<int dim, class Index>
-CNEM_INLINE double block_norm(const double* inverse, const SparseRows<dim, Index>& rows, const double* hoop,
+template<class Index>
+CNEM_INLINE double block_norm(const double* inverse, const SparseRows<2, Index>& rows, const double* hoop,
                               std::int32_t e) {
-  auto b = Small<dim>::load(inverse) * rows.weight[0][e];
-  for (int k = 1; k < dim; ++k) b += Small<dim>::load(inverse + k * dim) * rows.weight[k][e];
+  auto b = Small<2>::load(inverse) * rows.weight[0][e];
+  b += Small<2>::load(inverse + 2) * rows.weight[1][e];
   if (!hoop) return sqrt(b.dot(b));
-  const double h = hoop[e] * inverse[dim * dim + 1], apart = b.dot(b) + h * h;
+  const double h = hoop[e] * inverse[5], apart = b.dot(b) + h * h;
   return sqrt(max(apart + 2.0 * h * b[0], apart));
 }
 
@@ -36,50 +37,99 @@ CNEM_INLINE Pack<1> row_norms(const double* inverse, const OperatorRows<2>& rows
   return sqrt(x * x + y * y);
 }
 
+/// Of an entry in space the squares of the components of det F · F⁻ᵀ b.
+template<class Index>
+CNEM_INLINE Small<3> squares(const double* cofactor, const SparseRows<3, Index>& rows, std::int32_t e) {
+  auto b = Small<3>::load(cofactor) * rows.weight[0][e];
+  for (int k = 1; k < 3; ++k) b += Small<3>::load(cofactor + 4 * k) * rows.weight[k][e];
+  return b * b;
+}
+
+/// |det F · F⁻ᵀ b| of as many entries of a point in space as a register holds.
+CNEM_INLINE Pack<1> row_norms(const double* cofactor, const OperatorRows<3>& rows, std::int32_t e) {
+  Pack<1> squares = Pack<1>(0.0);
+  for (int i = 0; i < 3; ++i) {
+    Pack<1> b = Pack<1>(cofactor[i]) * load<Pack<1>>(rows.weight[0] + e);
+    for (int k = 1; k < 3; ++k) b = b + Pack<1>(cofactor[4 * k + i]) * load<Pack<1>>(rows.weight[k] + e);
+    squares = squares + b * b;
+  }
+  return sqrt(squares);
+}
+
+/// The points p … p + width − 1.
+template<class T>
+CNEM_INLINE void invert_in_space(const double* const* deformation, double* record, std::ptrdiff_t p) {
+  T f[9], cof[9], columns[12];
+  for (int c = 0; c < 9; ++c) f[c] = load<T>(deformation[c] + p);
+  columns[3] = T(1.0) / cofactor(f, cof);
+  columns[7] = columns[11] = T(0.0);
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) columns[4 * k + i] = cof[3 * i + k];
+  constexpr int stride = SpectralView<3>::stride;
+  side_by_side<stride>(columns, record + stride * p);
+}
+
 } // namespace
 
 template<int dim>
 void invert(const double* const* deformation, const SpectralView<dim>& view, std::ptrdiff_t begin,
             std::ptrdiff_t end) {
-  for (std::ptrdiff_t p = begin; p < end; ++p) {
-    Small<dim> F[dim], cof[dim];
-    for (int k = 0; k < dim; ++k) {
-      double column[dim];
-      for (int i = 0; i < dim; ++i) column[i] = deformation[i * dim + k][p];
-      F[k] = Small<dim>::load(column);
+  std::ptrdiff_t p = begin;
+  if constexpr (dim == 3) {
+    constexpr int width = Number<Pack<1>>::width;
+    for (; p + width <= end; p += width) invert_in_space<Pack<1>>(deformation, view.inverse, p);
+    for (; p < end; ++p) invert_in_space<double>(deformation, view.inverse, p);
+  } else {
+    for (; p < end; ++p) {
+      Small<2> F[2], cof[2];
+      for (int k = 0; k < 2; ++k) F[k] = Small<2>::of(deformation[k][p], deformation[2 + k][p]);
+      const double det = cofactor(F, cof), out_of_plane = deformation[4][p];
+      double* own = view.inverse + SpectralView<2>::stride * p;
+      for (int k = 0; k < 2; ++k) (cof[k] * (1.0 / det)).store(own + k * 2);
+      own[4] = det * out_of_plane;
+      own[5] = 1.0 / out_of_plane;
     }
-    const double det = cofactor(F, cof), out_of_plane = dim == 2 ? deformation[dim * dim][p] : 1.0;
-    double* own = view.inverse + SpectralView<dim>::stride * p;
-    for (int k = 0; k < dim; ++k) (cof[k] * (1.0 / det)).store(own + k * dim);
-    own[dim * dim] = det * out_of_plane;
-    own[dim * dim + 1] = 1.0 / out_of_plane;
   }
 }
 
 template<int dim>
 void spectral_transfer(const SpectralView<dim>& view, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  constexpr int stride = SpectralView<dim>::stride;
   for (std::ptrdiff_t j = begin; j < end; ++j) {
     double sum = 0.0;
     std::int32_t e = view.columns.begin[j];
     const std::int32_t last = view.columns.begin[j + 1];
-    if constexpr (dim == 2)
+    const auto point = [&](std::int32_t entry) {
+      return static_cast<std::ptrdiff_t>(view.columns.index[entry]);
+    };
+    if constexpr (dim == 3) {
+      for (; e + 1 < last; e += 2) {
+        const std::ptrdiff_t p = point(e), q = point(e + 1);
+        const Small<3> a = squares(view.inverse + stride * p, view.columns, e),
+                       b = squares(view.inverse + stride * q, view.columns, e + 1);
+        const Small<2> norms = square_roots(component_sums(a, b));
+        sum += view.share[p] * norms[0] + view.share[q] * norms[1];
+      }
+      if (e < last) {
+        const Small<3> a = squares(view.inverse + stride * point(e), view.columns, e);
+        sum += view.share[point(e)] * sqrt(component_sum(a));
+      }
+    } else {
       if (!view.weighted_hoop) {
         auto two = Small<2>::zero();
         for (; e + 1 < last; e += 2) {
-          const auto p = static_cast<std::ptrdiff_t>(view.columns.index[e]),
-                     q = static_cast<std::ptrdiff_t>(view.columns.index[e + 1]);
-          const double *first = view.inverse + SpectralView<dim>::stride * p,
-                       *second = view.inverse + SpectralView<dim>::stride * q;
+          const std::ptrdiff_t p = point(e), q = point(e + 1);
+          const double *first = view.inverse + stride * p, *second = view.inverse + stride * q;
           two += two_norms(first, second, view.columns, e) *
-                 Small<2>::of(view.share[p] * first[dim * dim], view.share[q] * second[dim * dim]);
+                 Small<2>::of(view.share[p] * first[4], view.share[q] * second[4]);
         }
         sum = two[0] + two[1];
       }
-    for (; e < last; ++e) {
-      const auto p = static_cast<std::ptrdiff_t>(view.columns.index[e]);
-      const double* inverse = view.inverse + SpectralView<dim>::stride * p;
-      sum += view.share[p] *
-             (inverse[dim * dim] * block_norm<dim>(inverse, view.columns, view.weighted_hoop, e));
+      for (; e < last; ++e) {
+        const std::ptrdiff_t p = point(e);
+        const double* inverse = view.inverse + stride * p;
+        sum += view.share[p] * (inverse[4] * block_norm(inverse, view.columns, view.weighted_hoop, e));
+      }
     }
     view.transfer[j] = sum / view.weight[j];
   }
@@ -87,25 +137,29 @@ void spectral_transfer(const SpectralView<dim>& view, std::ptrdiff_t begin, std:
 
 template<int dim>
 void spectral_rows(const SpectralView<dim>& view, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  constexpr int width = Number<Pack<1>>::width;
   for (std::ptrdiff_t p = begin; p < end; ++p) {
     const double* inverse = view.inverse + SpectralView<dim>::stride * p;
     double sum = 0.0;
     std::int32_t e = view.rows.begin[p];
     const std::int32_t last = view.rows.begin[p + 1];
-    if constexpr (dim == 2)
-      if (!view.hoop) {
-        constexpr int width = Number<Pack<1>>::width;
-        for (; e + width <= last; e += width) {
-          double norm[width];
-          store(norm, row_norms(inverse, view.rows, e));
-          for (int k = 0; k < width; ++k)
-            sum += norm[k] * view.transfer[static_cast<std::ptrdiff_t>(view.rows.index[e + k])];
-        }
+    if (dim == 3 || !view.hoop)
+      for (; e + width <= last; e += width) {
+        double norm[width];
+        store(norm, row_norms(inverse, view.rows, e));
+        for (int k = 0; k < width; ++k)
+          sum += norm[k] * view.transfer[static_cast<std::ptrdiff_t>(view.rows.index[e + k])];
       }
-    for (; e < last; ++e)
-      sum += block_norm<dim>(inverse, view.rows, view.hoop, e) *
-             view.transfer[static_cast<std::ptrdiff_t>(view.rows.index[e])];
-    view.image[p] = view.modulus[p] * sum;
+    for (; e < last; ++e) {
+      double norm;
+      if constexpr (dim == 3)
+        norm = sqrt(component_sum(squares(inverse, view.rows, e)));
+      else
+        norm = block_norm(inverse, view.rows, view.hoop, e);
+      sum += norm * view.transfer[static_cast<std::ptrdiff_t>(view.rows.index[e])];
+    }
+    const double scale = dim == 3 ? view.modulus[p] * inverse[3] : view.modulus[p];
+    view.image[p] = scale * sum;
   }
 }
 

@@ -3,20 +3,66 @@
 #include "core/cofactor.hpp"
 #include "core/machine/simd.hpp"
 #include "core/operators/sparse_rows.hpp"
+#include "core/records.hpp"
 #include "core/small_vector.hpp"
 
 namespace cnem::CNEM_ISA {
 
+namespace {
+
+/// The columns of F at a point.
+template<int dim>
+CNEM_INLINE void deformation_row(const OperatorRows<dim>& rows, const double* position, std::ptrdiff_t p,
+                                 Small<dim> (&column)[dim]) {
+  for (int k = 0; k < dim; ++k) column[k] = Small<dim>::zero();
+  for (std::int32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
+    const auto x = Small<dim>::load(position + beside<dim> * static_cast<std::ptrdiff_t>(rows.index[e]));
+    for (int k = 0; k < dim; ++k) column[k] += x * rows.weight[k][e];
+  }
+}
+
+/// Minus what the stresses do to a node. In space each column of a stress has a sum of its own: one for all
+/// would wait for itself.
+CNEM_INLINE Small<2> internal_force(const OperatorColumns<2>& columns, const double* stress,
+                                    std::ptrdiff_t j) {
+  auto f = Small<2>::zero();
+  for (std::int32_t e = columns.begin[j]; e < columns.begin[j + 1]; ++e) {
+    const double* P = stress + 4 * static_cast<std::ptrdiff_t>(columns.index[e]);
+    for (int k = 0; k < 2; ++k) f += Small<2>::load(P + k * 2) * columns.weight[k][e];
+  }
+  return f;
+}
+CNEM_INLINE Small<3> internal_force(const OperatorColumns<3>& columns, const double* stress,
+                                    std::ptrdiff_t j) {
+  auto f0 = Small<3>::zero(), f1 = f0, f2 = f0;
+  for (std::int32_t e = columns.begin[j]; e < columns.begin[j + 1]; ++e) {
+    const double* P = stress + column_stress<3> * static_cast<std::ptrdiff_t>(columns.index[e]);
+    f0 += Small<3>::load(P) * columns.weight[0][e];
+    f1 += Small<3>::load(P + 4) * columns.weight[1][e];
+    f2 += Small<3>::load(P + 8) * columns.weight[2][e];
+  }
+  return f0 + f1 + f2;
+}
+
+} // namespace
+
 template<int dim>
 void deformation_rows(const OperatorRows<dim>& rows, const double* position, double* const* deformation,
                       std::ptrdiff_t begin, std::ptrdiff_t end) {
-  for (std::ptrdiff_t p = begin; p < end; ++p) {
-    Small<dim> column[dim];
-    for (int k = 0; k < dim; ++k) column[k] = Small<dim>::zero();
-    for (std::int32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
-      const auto x = Small<dim>::load(position + dim * static_cast<std::ptrdiff_t>(rows.index[e]));
-      for (int k = 0; k < dim; ++k) column[k] += x * rows.weight[k][e];
+  std::ptrdiff_t p = begin;
+  if constexpr (dim == 3)
+    for (; p + 4 <= end; p += 4) {
+      Small<3> column[4][3];
+      for (int n = 0; n < 4; ++n) deformation_row(rows, position, p + n, column[n]);
+      for (int k = 0; k < 3; ++k) {
+        Small<3> component[3];
+        components(column[0][k], column[1][k], column[2][k], column[3][k], component);
+        for (int i = 0; i < 3; ++i) component[i].store(deformation[i * 3 + k] + p);
+      }
     }
+  for (; p < end; ++p) {
+    Small<dim> column[dim];
+    deformation_row(rows, position, p, column);
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < dim; ++k) deformation[i * dim + k][p] = column[k][i];
   }
@@ -26,127 +72,25 @@ template<int dim>
 void force_columns(const OperatorColumns<dim>& columns, const double* stress, double* const* force,
                    std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t j = begin; j < end; ++j) {
-    auto f = Small<dim>::zero();
-    for (std::int32_t e = columns.begin[j]; e < columns.begin[j + 1]; ++e) {
-      const double* P = stress + dim * dim * static_cast<std::ptrdiff_t>(columns.index[e]);
-      for (int k = 0; k < dim; ++k) f += Small<dim>::load(P + k * dim) * columns.weight[k][e];
-    }
+    const Small<dim> f = internal_force(columns, stress, j);
     for (int i = 0; i < dim; ++i) force[i][j] -= f[i];
   }
 }
 
 namespace {
 
-/// Four numbers of an edge record in one register.
-using Quad [[gnu::vector_size(32)]] = double;
-using UnalignedQuad [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-
-CNEM_INLINE Quad load_quad(const double* p) { return *reinterpret_cast<const UnalignedQuad*>(p); }
-CNEM_INLINE Small<2> low(Quad a) { return {__builtin_shufflevector(a, a, 0, 1)}; }
-CNEM_INLINE Small<2> high(Quad a) { return {__builtin_shufflevector(a, a, 2, 3)}; }
-
-/// edge_defect in the plane, where a record is two registers and one cache line.
-EdgeEnergy plane_edge_defect(const LinkRows& links, double alpha, const double* volume,
-                             const double* position, const double* record, double* stress,
-                             double* const* force, std::ptrdiff_t begin, std::ptrdiff_t end) {
-  constexpr int stride = 8;
-  auto energies = Small<2>::zero(); // now, before
-  for (std::ptrdiff_t i = begin; i < end; ++i) {
-    const double* own = record + stride * i;
-    const Small<2> x = Small<2>::load(position + 2 * i);
-    const Quad F = load_quad(own), rest = load_quad(own + 4) * Quad{1.0, 1.0, -1.0, -1.0};
-    auto pull = Small<2>::zero();
-    Quad moment = {};
-    const std::int32_t last = links.begin[i + 1];
-    for (std::int32_t e = links.begin[i]; e < last; ++e) {
-      const auto j = static_cast<std::ptrdiff_t>(links.neighbour[e]);
-      const double* other = record + stride * j;
-      const Quad sum = load_quad(other + 4) + rest; // moduli, X_ij
-      const Quad dX = __builtin_shufflevector(sum, sum, 2, 2, 3, 3);
-      const Quad mean = (load_quad(other) + F) * dX;
-      const Small<2> r = (Small<2>::load(position + 2 * j) - x) - (low(mean) + high(mean)) * 0.5;
-      const Small<2> stiffness = low(sum) * links.weight[e];
-      const Small<2> square = r * r;
-      energies += stiffness * (square + swapped(square));
-      const Small<2> tension = r * first(stiffness);
-      pull += tension;
-      moment += __builtin_shufflevector(tension.v, tension.v, 0, 1, 0, 1) * dX;
-    }
-    const double scale = 0.5 * alpha;
-    const Quad share = moment * (Quad{scale, scale, scale, scale} * (0.5 / volume[i]));
-    force[0][i] += pull[0] * scale;
-    force[1][i] += pull[1] * scale;
-    double* P = stress + 4 * i;
-    (Small<2>::load(P) - low(share)).store(P);
-    (Small<2>::load(P + 2) - high(share)).store(P + 2);
-  }
-  const Small<2> sum = energies * (0.5 * alpha);
-  return {0.25 * sum[0], 0.25 * (sum[1] - sum[0])}; // ½ of ½ Σ k|r|²: every link is seen from both its ends
-}
-
-} // namespace
-
-template<int dim>
-EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume, const double* position,
-                       const double* record, double* stress, double* const* force, std::ptrdiff_t begin,
-                       std::ptrdiff_t end) {
-  if constexpr (dim == 2)
-    return plane_edge_defect(links, alpha, volume, position, record, stress, force, begin, end);
-  constexpr int stride = edge_record<dim>, place = dim * dim + 2;
-  double stored = 0.0, released = 0.0;
-  for (std::ptrdiff_t i = begin; i < end; ++i) {
-    const double* own = record + stride * i;
-    const auto X = Small<dim>::load(own + place), x = Small<dim>::load(position + dim * i);
-    Small<dim> F[dim], moment[dim];
-    for (int k = 0; k < dim; ++k) {
-      F[k] = Small<dim>::load(own + k * dim);
-      moment[k] = Small<dim>::zero();
-    }
-    auto pull = Small<dim>::zero();
-    for (std::int32_t e = links.begin[i]; e < links.begin[i + 1]; ++e) {
-      const auto j = static_cast<std::ptrdiff_t>(links.neighbour[e]);
-      const double* other = record + stride * j;
-      const auto dX = Small<dim>::load(other + place) - X;
-      auto r = Small<dim>::load(position + dim * j) - x;
-      for (int k = 0; k < dim; ++k) r -= (F[k] + Small<dim>::load(other + k * dim)) * (0.5 * dX[k]);
-      const double scale = 0.5 * alpha * links.weight[e], r2 = r.dot(r);
-      const double stiffness = scale * (own[dim * dim] + other[dim * dim]);
-      stored += stiffness * r2;
-      released += (scale * (own[dim * dim + 1] + other[dim * dim + 1]) - stiffness) * r2;
-      const auto tension = r * stiffness;
-      pull += tension;
-      for (int k = 0; k < dim; ++k) moment[k] += tension * dX[k];
-    }
-    const double half_inverse_volume = 0.5 / volume[i];
-    for (int k = 0; k < dim; ++k) {
-      double* P = stress + dim * dim * i + dim * k;
-      (Small<dim>::load(P) - moment[k] * half_inverse_volume).store(P);
-      force[k][i] += pull[k];
-    }
-  }
-  return {0.25 * stored, 0.25 * released}; // ½ of ½ Σ k|r|²: every link is seen from both its ends
-}
-
-namespace {
-
 inline constexpr double two_pi = 6.283185307179586;
 
-/// Stores n numbers of each point at the begin of its record.
-template<int stride, int n> CNEM_INLINE void side_by_side(const double (&value)[n], double* record) {
-  for (int c = 0; c < n; ++c) record[c] = value[c];
-}
-template<int stride, int n> CNEM_INLINE void side_by_side(const Pack<1> (&value)[n], double* record) {
-  constexpr int width = Number<Pack<1>>::width;
-  for (int c = 0; c + 1 < n; c += 2) {
-    const auto even = even_pairs(value[c].v[0], value[c + 1].v[0]);
-    const auto odd = odd_pairs(value[c].v[0], value[c + 1].v[0]);
-    for (int lane = 0; lane < width; lane += 2) {
-      Small<2>::of(even[lane], even[lane + 1]).store(record + stride * lane + c);
-      Small<2>::of(odd[lane], odd[lane + 1]).store(record + stride * (lane + 1) + c);
+/// The columns of a tensor side by side, times `share`.
+template<int dim, class T, int general, int n>
+CNEM_INLINE void columns_of(const T (&tensor)[general], double share, T (&columns)[n]) {
+  for (int k = 0; k < dim; ++k) {
+    for (int i = 0; i < dim; ++i) {
+      const T& component = tensor[i * dim + k];
+      columns[k * beside<dim> + i] = dim == 2 ? component : component * T(share);
     }
+    if constexpr (dim == 3) columns[k * beside<dim> + dim] = T(0.0);
   }
-  if constexpr (n % 2 == 1)
-    for (int lane = 0; lane < width; ++lane) record[stride * lane + n - 1] = value[n - 1].v[0][lane];
 }
 
 /// The points p … p + width − 1.
@@ -201,22 +145,21 @@ CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic
   store(points.pressure + p, q);
   store(points.jacobian + p, J);
   if constexpr (dim == 2) store(points.out_of_plane + p, stress[4]);
-  T columns[dim * dim];
-  for (int i = 0; i < dim; ++i)
-    for (int k = 0; k < dim; ++k) columns[k * dim + i] = stress[i * dim + k];
-  side_by_side<dim * dim>(columns, points.columns + dim * dim * p);
+  constexpr int stride = column_stress<dim>;
+  T columns[stride];
+  columns_of<dim>(stress, 1.0, columns);
+  side_by_side<stride>(columns, points.columns + stride * p);
 
   if (!edge.record) return;
   const T last = load<T>(edge.modulus + p);
   const T secant = select(strained, mu * flow * inverse[2], last);
   store(edge.modulus_before + p, last);
   store(edge.modulus + p, secant);
-  T record[dim * dim + 2];
-  for (int i = 0; i < dim; ++i)
-    for (int k = 0; k < dim; ++k) record[k * dim + i] = f[i * dim + k];
-  record[dim * dim] = secant;
-  record[dim * dim + 1] = last;
-  side_by_side<edge_record<dim>>(record, edge.record + edge_record<dim> * p);
+  T record[EdgeRecord<dim>::place]; // places in the reference stay
+  columns_of<dim>(f, EdgeRecord<dim>::share, record);
+  record[EdgeRecord<dim>::modulus] = secant;
+  record[EdgeRecord<dim>::modulus_before] = last;
+  side_by_side<EdgeRecord<dim>::size>(record, edge.record + EdgeRecord<dim>::size * p);
 }
 
 } // namespace
@@ -246,8 +189,6 @@ ViscousSums viscous_stress(const ViscousPoints<dim>& points, double quadratic, d
                                       std::ptrdiff_t, std::ptrdiff_t);                                       \
   template void force_columns<dim>(const OperatorColumns<dim>&, const double*, double* const*,               \
                                    std::ptrdiff_t, std::ptrdiff_t);                                          \
-  template EdgeEnergy edge_defect<dim>(const LinkRows&, double, const double*, const double*, const double*, \
-                                       double*, double* const*, std::ptrdiff_t, std::ptrdiff_t);             \
   template ViscousSums viscous_stress<dim>(const ViscousPoints<dim>&, double, double, double,                \
                                            std::ptrdiff_t, std::ptrdiff_t);
 CNEM_INSTANTIATE(2)

@@ -2,9 +2,9 @@
 // The passes of an explicit step that gather over neighbours or sweep over points, one entry per instruction
 // set. Raw pointers only: kernels see no standard containers (cmake/cnem.cmake, cnem_kernel).
 //
-// What is gathered lies side by side, one record per node or point, so that a neighbour costs one cache line:
-// positions [node][k]; stresses by columns [point][k][i] = P_ik; edge records [node][edge_record]: F by
-// columns [k][i], the penalty's modulus of this step and of the step before, X.
+// What is gathered lies side by side, one record per node or point, so that a neighbour costs one cache line,
+// in space one register a vector: positions [node][k]; stresses by columns [point][k][i] = P_ik; edge
+// records.
 #include "core/operators/sparse_rows.hpp"
 
 #include <cstddef>
@@ -19,8 +19,21 @@ struct LinkRows {
   const double* weight;
 };
 
-/// Numbers of an edge record.
-template<int dim> inline constexpr int edge_record = dim* dim + 2 + dim;
+/// Numbers of the columns of a stress.
+template<int dim> inline constexpr int column_stress = dim* beside<dim>;
+
+/// What the edge defect reads of a node, numbered: the columns of F times `share`, the penalty's modulus of
+/// this step and of the step before, X.
+template<int dim> struct EdgeRecord;
+template<> struct EdgeRecord<2> {
+  static constexpr int modulus = 4, modulus_before = 5, place = 6, size = 8;
+  static constexpr double share = 1.0;
+};
+/// In space the moduli stand in the fourth numbers of the first two columns.
+template<> struct EdgeRecord<3> {
+  static constexpr int modulus = 3, modulus_before = 7, place = 12, size = 16;
+  static constexpr double share = 0.5;
+};
 
 /// ½ Σ k |r|² of the block's half of its links, and what falling moduli let go, J/m^(3−dim).
 struct EdgeEnergy {
@@ -57,7 +70,9 @@ template<int dim> struct ViscousPoints {
 
 /// What the bound on the highest frequency reads; hoop entries are null but of revolution.
 template<int dim> struct SpectralView {
-  static constexpr int stride = dim * dim + 2;
+  /// Numbers of a point: in the plane F⁻ᵀ by columns, det F, 1/F_θθ; in space the columns of det F · F⁻ᵀ side
+  /// by side, in the fourth number of the first 1/det F.
+  static constexpr int stride = dim == 2 ? 6 : 12;
   OperatorRows<dim> rows;       ///< b_pJ
   OperatorColumns<dim> columns; ///< V_p b_pJ
   const double* hoop;           ///< of `rows`
@@ -65,7 +80,7 @@ template<int dim> struct SpectralView {
   const double* modulus;        ///< [point] k
   const double* weight;         ///< [node] M
   const double* share;          ///< [point] x
-  double* inverse;              ///< [point][stride] F⁻ᵀ by columns, det F, 1/F_θθ
+  double* inverse;              ///< [point][stride]
   double* transfer;             ///< [node] s_J
   double* image;                ///< [point] (A x)_p
 };

@@ -5,6 +5,7 @@
 #include "plasticity/plastic_corrector.hpp"
 #include "plasticity/return_map_parameters.hpp"
 #include "plasticity/spectral.hpp"
+#include "plasticity/trial_stress.hpp"
 
 namespace cnem::plasticity::CNEM_ISA {
 
@@ -31,40 +32,29 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Kernel
   const T plastic_work = load<T>(points.plastic_work + i);
   const Deformation<dim, T> deformation(f);
 
-  // (ii), (iii) elastic trial: b_e = F C_p⁻¹ Fᵀ = V_e², with its principal directions instead of a rotation
+  // (ii), (iii) elastic trial: b_e = F C_p⁻¹ Fᵀ = V_e²
   T b[symmetric];
   deformation.push_forward(elastic, b);
-  const Spectrum<dim, T> spectrum(b);
-  const T(&l)[3] = spectrum.value;
 
-  // (iv) trial logarithmic strain, without its thermal part
-  T strain[3];
-  logarithms(l, strain);
-  for (T& e : strain) e = T(0.5) * e;
-  const T total = strain[0] + strain[1] + strain[2];
+  // (iv) trial logarithmic strain, without its thermal part, (v) trial stress
+  const TrialStress<dim, T> trial(b, law.two_mu);
+  const T& total = trial.total;
   T volumetric = total;
   if (law.three_expansion != 0.0)
     volumetric = total - T(law.three_expansion) * (temperature - T(law.reference));
-
-  // (v) trial stress
-  const T mean = total * T(1.0 / 3.0);
-  T deviator[3];
-  for (int k = 0; k < 3; ++k) deviator[k] = T(law.two_mu) * (strain[k] - mean);
   const T tension = T(law.kappa) * volumetric;
-  const T q =
-      sqrt(T(1.5) * (deviator[0] * deviator[0] + deviator[1] * deviator[1] + deviator[2] * deviator[2]));
+  const T& q = trial.q;
 
   const T history = abs(plastic_work) + abs(last_stress);
   const T pressure = abs(tension);
-  const Mask<T> valid = (deformation.determinant > T(0.0)) & (l[0] > T(0.0)) & (l[1] > T(0.0)) &
-                        (l[2] > T(0.0)) & (temperature >= T(0.0)) & (plastic_strain >= T(0.0)) &
-                        (last_rate >= T(0.0)) & (history < T(1e300)) & (pressure < T(1e300)) &
-                        (q < T(largest_strain * law.two_mu));
+  const Mask<T> valid = (deformation.determinant > T(0.0)) & trial.positive() & (temperature >= T(0.0)) &
+                        (plastic_strain >= T(0.0)) & (last_rate >= T(0.0)) & (history < T(1e300)) &
+                        (pressure < T(1e300)) & (q < T(largest_strain * law.two_mu));
   Mask<T> bad = !valid;
 
   T inverse[4];
   reciprocals(
-      {deformation.determinant, l[0] * l[1] * l[2], max(q, T(1e-100)), max(plastic_strain, T(1e-100))},
+      {deformation.determinant, trial.determinant(), max(q, T(1e-100)), max(plastic_strain, T(1e-100))},
       inverse);
 
   // (vi) plastic consistency, (vii) plastic corrector
@@ -83,9 +73,8 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Kernel
       work = T(0.5) * (last_stress + stress) * increment;
 
       // (ix) b_e = exp(−2 Δγ N) b_e^trial; C_p⁻¹ takes the difference, so that it does not drift when Δγ = 0
-      T change[3], tensor[symmetric], delta[symmetric];
-      for (int k = 0; k < 3; ++k) change[k] = l[k] * (exp(T(-law.by_mu) * shrink * deviator[k]) - T(1.0));
-      spectrum.isotropic(change, tensor);
+      T tensor[symmetric], delta[symmetric];
+      trial.flow(T(-law.by_mu) * shrink, tensor);
       deformation.pull_back(tensor, inverse[0], delta);
       for (int c = 0; c < symmetric; ++c) {
         const T updated = elastic[c] + delta[c];
@@ -96,9 +85,8 @@ CNEM_INLINE Mask<T> return_map_step(const ReturnMapParameters& law, const Kernel
   }
 
   // (viii) stress: τ = dev τ^trial (1 − 3μ Δγ/q) − p 1, and P = τ cof F / J_e
-  T principal[3], tau[symmetric], piola[general];
-  for (int k = 0; k < 3; ++k) principal[k] = deviator[k] * reduction + tension;
-  spectrum.isotropic(principal, tau);
+  T tau[symmetric], piola[general];
+  trial.stress(reduction, tension, tau);
   const T inverse_elastic_volume = sqrt(inverse[1]);
   deformation.piola(tau, inverse_elastic_volume, piola);
 

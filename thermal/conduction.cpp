@@ -7,8 +7,11 @@
 #include "core/vec.hpp"
 #include "thermal/conduction_kernels.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 namespace cnem {
@@ -26,10 +29,10 @@ Row<dim> row_of(const DiscreteOperators<dim>& operators, const Field& position, 
   if (operators.of_revolution()) row.hoop = 0.0;
   for (auto e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e) {
     const auto j = index_of(operators.node[e]);
-    if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[dim * j];
+    if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[beside<dim> * j];
     for (int k = 0; k < dim; ++k) {
       const double b = operators.gradient[index_of(k)][e];
-      for (int i = 0; i < dim; ++i) row.deformation(i, k) += position[dim * j + index_of(i)] * b;
+      for (int i = 0; i < dim; ++i) row.deformation(i, k) += position[beside<dim> * j + index_of(i)] * b;
     }
   }
   return row;
@@ -43,10 +46,9 @@ void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Fie
   conductivity_ = given_ = std::move(conductivity);
   limited_ = false;
   corner_.clear();
-  const bool triangles = linear_triangles();
-  flux_.assign((triangles ? 3 : dim) * index_of(operators.points), 0.0);
-  if (!triangles) return;
-  number_corners();
+  const bool simplices = linear_simplices(operators);
+  flux_.assign((simplices ? dim + 1 : dim) * index_of(operators.points), 0.0);
+  if (simplices) number_corners();
 }
 
 namespace {
@@ -68,25 +70,31 @@ void subtract_flow(const OperatorColumns<dim>& columns, const Field& flux, Field
 
 } // namespace
 
-/// Plane triangles: three nodes a row, whose gradients are the linear ones.
-template<int dim> bool Conduction<dim>::linear_triangles() const {
-  const DiscreteOperators<dim>& op = *operators_;
-  if (dim != 2 || op.of_revolution()) return false;
+/// dim + 1 nodes a row, whose gradients are the linear ones.
+template<int dim> bool Conduction<dim>::linear_simplices(const DiscreteOperators<dim>& op) {
+  if (op.of_revolution()) return false;
   for (int p = 0; p <= op.points; ++p)
-    if (op.row_begin[index_of(p)] != 3 * p) return false;
+    if (op.row_begin[index_of(p)] != (dim + 1) * p) return false;
   return true;
 }
 
 namespace {
 
-void triangle_heat(const std::vector<NodeIndex>& triangle, const Field& position, const Field& temperature,
-                   const Field& conductivity, Field& heat, std::size_t begin, std::size_t end) {
-  CNEM_ON_ACTIVE_ISA(conduction_triangles(
-      triangle.data(), position.data(), temperature.data(), conductivity.data(), heat.data(),
-      static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end)));
+template<int dim>
+void simplex_heat(const std::vector<NodeIndex>& corner, const Field& position, const Field& temperature,
+                  const Field& conductivity, Field& heat, std::size_t begin, std::size_t end) {
+  const auto first = static_cast<std::ptrdiff_t>(begin), last = static_cast<std::ptrdiff_t>(end);
+  if constexpr (dim == 2) {
+    CNEM_ON_ACTIVE_ISA(conduction_triangles(corner.data(), position.data(), temperature.data(),
+                                            conductivity.data(), heat.data(), first, last));
+  } else {
+    CNEM_ON_ACTIVE_ISA(conduction_tetrahedra(corner.data(), position.data(), temperature.data(),
+                                             conductivity.data(), heat.data(), first, last));
+  }
 }
 
-void add_corners(const DiscreteOperators<2>& op, const std::vector<std::int32_t>& corner, const Field& heat,
+template<int dim>
+void add_corners(const DiscreteOperators<dim>& op, const std::vector<std::int32_t>& corner, const Field& heat,
                  Field& flow, std::size_t begin, std::size_t end) {
   CNEM_ON_ACTIVE_ISA(conduction_corners(op.col_begin.data(), corner.data(), heat.data(), flow.data(),
                                         static_cast<std::ptrdiff_t>(begin),
@@ -95,37 +103,47 @@ void add_corners(const DiscreteOperators<2>& op, const std::vector<std::int32_t>
 
 } // namespace
 
-/// Triangles counter-clockwise, and where each entry of a column finds its corner.
+template<int dim> void Conduction<dim>::keep_what_conducts(DiscreteOperators<dim>& op) {
+  if (dim == 2 || !linear_simplices(op)) return;
+  for (Field* field : {&op.value, &op.weighted_value}) *field = Field();
+  for (Fields<dim>* fields : {&op.gradient, &op.weighted_gradient}) *fields = Fields<dim>();
+  op.point = std::vector<PointIndex>();
+}
+
+/// Where each entry of a column finds its corner, and triangles counter-clockwise. Tetrahedra conduct as well
+/// from either side.
 template<int dim> void Conduction<dim>::number_corners() {
   const DiscreteOperators<dim>& op = *operators_;
-  triangle_ = op.node;
-  corner_.resize(op.node.size());
-  std::vector<std::int32_t> next(op.col_begin.begin(), op.col_begin.end() - 1);
-  for (std::size_t first = 0; first < op.node.size(); first += 3) { // by increasing triangle, as columns are
-    const Field &bx = op.gradient[0], &by = op.gradient[1];
-    const bool clockwise = bx[first] * by[first + 1] - by[first] * bx[first + 1] < 0.0;
-    if (clockwise) std::swap(triangle_[first + 1], triangle_[first + 2]);
-    for (std::size_t e = first; e < first + 3; ++e)
-      corner_[index_of(next[index_of(triangle_[e])]++)] = as<std::int32_t>(e);
+  if constexpr (dim == 2) {
+    triangle_ = op.node;
+    for (std::size_t first = 0; first < op.node.size(); first += 3) {
+      const Field &bx = op.gradient[0], &by = op.gradient[1];
+      const bool clockwise = bx[first] * by[first + 1] - by[first] * bx[first + 1] < 0.0;
+      if (clockwise) std::swap(triangle_[first + 1], triangle_[first + 2]);
+    }
   }
+  const std::vector<NodeIndex>& node = dim == 2 ? triangle_ : op.node;
+  corner_.resize(node.size());
+  std::vector<std::int32_t> next(op.col_begin.begin(), op.col_begin.end() - 1);
+  for (std::size_t e = 0; e < node.size(); ++e) // by increasing row, as columns are
+    corner_[index_of(next[index_of(node[e])]++)] = as<std::int32_t>(e);
 }
 
 template<int dim>
-void Conduction<dim>::add_triangle_flow(const Field& position, const Field& temperature, Field& flow) {
-  if constexpr (dim == 2) {
-    const DiscreteOperators<2>& op = *operators_;
-    for_each_block(index_of(op.points), [&](std::size_t begin, std::size_t end) {
-      triangle_heat(triangle_, position, temperature, conductivity_, flux_, begin, end);
-    });
-    for_each_block(index_of(op.nodes), [&](std::size_t begin, std::size_t end) {
-      add_corners(op, corner_, flux_, flow, begin, end);
-    });
-  }
+void Conduction<dim>::add_simplex_flow(const Field& position, const Field& temperature, Field& flow) {
+  const DiscreteOperators<dim>& op = *operators_;
+  const std::vector<NodeIndex>& corner = dim == 2 ? triangle_ : op.node;
+  for_each_block(index_of(op.points), [&](std::size_t begin, std::size_t end) {
+    simplex_heat<dim>(corner, position, temperature, conductivity_, flux_, begin, end);
+  });
+  for_each_block(index_of(op.nodes), [&](std::size_t begin, std::size_t end) {
+    add_corners(op, corner_, flux_, flow, begin, end);
+  });
 }
 
 template<int dim>
 void Conduction<dim>::add_flow(const Field& position, const Field& temperature, Field& flow) {
-  if (!corner_.empty()) return add_triangle_flow(position, temperature, flow);
+  if (!corner_.empty()) return add_simplex_flow(position, temperature, flow);
   const DiscreteOperators<dim>& op = *operators_;
   const auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
   const auto columns = sparse_rows<dim>(op.col_begin, op.point, op.weighted_gradient);
@@ -150,6 +168,22 @@ template<int dim> double Conduction<dim>::conducting_determinant(const Mat2& f, 
   return conducting(f.determinant(), least_of_sides * 2.0 * op.volume[p] * squares);
 }
 
+/// ∇φ of the corners of a tetrahedron and 6V, with which the kernels let it conduct.
+std::pair<std::array<Vec3, 4>, double> conducting_gradients(const NodeIndex* corner, const Field& position) {
+  Vec3 x[4];
+  for (int c = 0; c < 4; ++c) x[c] = Vec3::Map(position.data() + beside<3> * index_of(corner[c]));
+  const Vec3 opposite[3] = {(x[2] - x[0]).cross(x[3] - x[0]), (x[3] - x[0]).cross(x[1] - x[0]),
+                            (x[1] - x[0]).cross(x[2] - x[0])};
+  double squares = 0.0;
+  for (int c = 0; c < 4; ++c)
+    for (int d = c + 1; d < 4; ++d) squares += (x[d] - x[c]).squaredNorm();
+  const double carrying =
+      conducting((x[1] - x[0]).dot(opposite[0]), least_of_edges * squares * std::sqrt(squares));
+  const Vec3 sum = opposite[0] + opposite[1] + opposite[2];
+  return {{-sum / carrying, opposite[0] / carrying, opposite[1] / carrying, opposite[2] / carrying},
+          carrying};
+}
+
 /// Gershgorin's bound as for waves, with b = F⁻ᵀ b_r and V = V_r det F (mechanics/stable_step.hpp): |b| of
 /// the entries, Σ V k |b| and Σ V of the nodes.
 template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) {
@@ -158,6 +192,16 @@ template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) 
   around_.assign(index_of(op.nodes), 0.0);
   norm_.resize(op.node.size());
   for (std::size_t p = 0; p < index_of(op.points); ++p) {
+    if constexpr (dim == 3)
+      if (!corner_.empty()) {
+        const auto [gradient, carrying] = conducting_gradients(op.node.data() + 4 * p, position);
+        for (std::size_t e = 4 * p; e < 4 * p + 4; ++e) {
+          norm_[e] = gradient[e % 4].norm();
+          transfer_[index_of(op.node[e])] += carrying / 6.0 * conductivity_[p] * norm_[e];
+          around_[index_of(op.node[e])] += carrying / 6.0;
+        }
+        continue;
+      }
     const Row<dim> row = row_of<dim>(op, position, p);
     Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
     double determinant = row.deformation.determinant();
@@ -182,7 +226,9 @@ template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) 
 template<int dim> double Conduction<dim>::fastest_decay(const Field& position, const Field& heat_capacity) {
   lift_limit();
   look_at_transfer(position);
-  return decay_bound(heat_capacity);
+  const double decay = decay_bound(heat_capacity);
+  norm_ = Field();
+  return decay;
 }
 
 template<int dim> double Conduction<dim>::decay_bound(const Field& heat_capacity) const {

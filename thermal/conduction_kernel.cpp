@@ -15,7 +15,7 @@ void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const do
     for (int k = 0; k < dim; ++k) F[k] = Small<dim>::zero();
     for (std::int32_t e = rows.begin[p]; e < rows.begin[p + 1]; ++e) {
       const auto j = static_cast<std::ptrdiff_t>(rows.index[e]);
-      const auto x = Small<dim>::load(position + dim * j);
+      const auto x = Small<dim>::load(position + beside<dim> * j);
       if (hoop) stretch += hoop[e] * x[0];
       for (int k = 0; k < dim; ++k) {
         F[k] += x * rows.weight[k][e];
@@ -65,6 +65,27 @@ void conduction_triangles(const NodeIndex* node, const double* position, const d
     heat[3 * t] = opposite_a.dot(flux);
     heat[3 * t + 1] = opposite_b.dot(flux);
     heat[3 * t + 2] = opposite_c.dot(flux);
+  }
+}
+
+void conduction_tetrahedra(const NodeIndex* node, const double* position, const double* temperature,
+                           const double* conductivity, double* heat, std::ptrdiff_t begin,
+                           std::ptrdiff_t end) {
+  for (std::ptrdiff_t t = begin; t < end; ++t) {
+    std::ptrdiff_t corner[4];
+    for (int c = 0; c < 4; ++c) corner[c] = static_cast<std::ptrdiff_t>(node[4 * t + c]);
+    const auto at = [&](int c) { return Small<3>::load(position + beside<3> * corner[c]); };
+    const Small<3> a = at(0), x = at(1) - a, y = at(2) - a, z = at(3) - a;
+    const Small<3> opposite[3] = {cross(y, z), cross(z, x), cross(x, y)}; // 6V ∇φ of the corners 1, 2, 3
+    const Small<3> u = y - x, v = z - y, w = x - z;
+    const double squares = component_sum(x * x + y * y + z * z + u * u + v * v + w * w);
+    const double carrying = conducting(x.dot(opposite[0]), least_of_edges * squares * sqrt(squares));
+    auto sum = Small<3>::zero();
+    for (int c = 0; c < 3; ++c) sum += opposite[c] * (temperature[corner[c + 1]] - temperature[corner[0]]);
+    const Small<3> flux = sum * (-conductivity[t] / (6.0 * carrying));
+    double received = 0.0;
+    for (int c = 0; c < 3; ++c) received += heat[4 * t + c + 1] = opposite[c].dot(flux);
+    heat[4 * t] = -received;
   }
 }
 

@@ -7,14 +7,16 @@
 
 namespace cnem {
 
-// Triangles that carry heat may go flat and inside out between two references, as a film is drawn out. With
-// their area as it stands they would conduct without bound, and then from cold to hot. They conduct as if it
-// were positive and not below a share of what their sides allow: less than a hundred times as well as on the
-// reference. Conduction takes at most a hundredth of the step that was stable there
+// Simplices that carry heat may go flat and inside out between two references, as a film is drawn out. With
+// their measure as it stands they would conduct without bound, and then from cold to hot. They conduct as if
+// it were positive and not below a share of what their sides allow: less than a hundred times as well as on
+// the reference. Conduction takes at most a hundredth of the step that was stable there
 // (mechanics/terms/heat.cpp).
 constexpr double least_of_square = 0.01; ///< of det F over ‖F‖², which is 0.5 on the reference
 constexpr double least_of_sides =
     0.004; ///< of 2A over the sum of the squares of the sides, 0.29 if they are equal
+constexpr double least_of_edges =
+    0.0005; ///< of 6V over the 3/2nd power of the sum of the squares of the edges, 0.048 if they are equal
 constexpr double conducting(double area, double least) {
   const double size = area < 0.0 ? -area : area;
   return size < least ? least : size;
@@ -31,6 +33,10 @@ constexpr double conducting(double area, double least) {
   void conduction_triangles(const NodeIndex* node, const double* position, const double* temperature,        \
                             const double* conductivity, double* heat, std::ptrdiff_t begin,                  \
                             std::ptrdiff_t end);                                                             \
+  /* the same of tetrahedra, heat [tetrahedron][4] */                                                        \
+  void conduction_tetrahedra(const NodeIndex* node, const double* position, const double* temperature,       \
+                             const double* conductivity, double* heat, std::ptrdiff_t begin,                 \
+                             std::ptrdiff_t end);                                                            \
   /* flow += heat of the node's corners */                                                                   \
   void conduction_corners(const std::int32_t* first, const std::int32_t* corner, const double* heat,         \
                           double* flow, std::ptrdiff_t begin, std::ptrdiff_t end);                           \

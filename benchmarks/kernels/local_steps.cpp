@@ -39,7 +39,7 @@ ExplicitSolver<2> shearing(double coarse, bool local) {
   model.local.on = local;
   Fields<2> velocity;
   resize_all(velocity, static_cast<std::size_t>(model.cloud.nodes()));
-  return start(std::move(model), std::move(velocity));
+  return start<2>(std::move(model), std::move(velocity));
 }
 
 struct Seconds {

@@ -4,20 +4,26 @@
 #include <benchmark/benchmark.h>
 #include <omp.h>
 
+#include <string>
+#include <utility>
+
 namespace {
 
 using namespace cnem;
 
-void explicit_step(benchmark::State& state) {
+template<int dim> void measure(benchmark::State& state, ExplicitSolver<dim> (*make)(int)) {
   omp_set_num_threads(static_cast<int>(state.range(1)));
-  ExplicitSolver<2> solver = benchmarks::sheared_block(static_cast<int>(state.range(0)));
+  ExplicitSolver<dim> solver = make(static_cast<int>(state.range(0)));
   double dt = solver.stable_step().dt;
   while (solver.state().time < 4e-7) solver.advance(dt); // past the elastic limit everywhere
+  const StepTimes before = solver.times();
   std::int64_t count = 0;
   for (auto _ : state) {
     if (++count % 10 == 0) dt = solver.stable_step().dt;
     solver.advance(dt);
   }
+  const DiscreteOperators<dim>& op = solver.approximation().mechanics;
+  state.counters["entries_a_row"] = static_cast<double>(op.node.size()) / op.points;
   double flowing = 0.0;
   for (const double r : solver.state().point.plastic_rate) flowing += r > 0.0;
   const auto nodes = static_cast<double>(solver.state().node.size());
@@ -25,13 +31,45 @@ void explicit_step(benchmark::State& state) {
   state.counters["flowing"] = flowing / nodes;
   state.counters["node_steps_per_s"] =
       benchmark::Counter(nodes * static_cast<double>(count), benchmark::Counter::kIsRate);
+  const StepTimes& times = solver.times();
+  const std::pair<const char*, double> parts[] = {{"motion_ns", times.motion - before.motion},
+                                                  {"stress_ns", times.stress - before.stress},
+                                                  {"forces_ns", times.forces - before.forces},
+                                                  {"heat_ns", times.heat - before.heat}};
+  for (const auto& [name, seconds] : parts)
+    state.counters[name] = 1e9 * seconds / (nodes * static_cast<double>(count));
 }
+
+void explicit_step(benchmark::State& state) { measure<2>(state, benchmarks::sheared_block); }
 BENCHMARK(explicit_step)
     ->ArgNames({"nodes", "threads"})
     ->Args({20000, 1})
     ->Args({20000, 2})
     ->Args({200000, 1})
     ->Args({200000, 2})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+void explicit_step_in_space(benchmark::State& state) {
+  measure<3>(state, benchmarks::sheared_block_in_space);
+}
+BENCHMARK(explicit_step_in_space)
+    ->ArgNames({"nodes", "threads"})
+    ->Args({20000, 1})
+    ->Args({20000, 2})
+    ->Args({200000, 1})
+    ->Args({200000, 2})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+/// Rows as long as those of Voronoi cells.
+void explicit_step_of_wide_rows(benchmark::State& state) {
+  measure<3>(state, benchmarks::sheared_block_of_wide_rows);
+}
+BENCHMARK(explicit_step_of_wide_rows)
+    ->ArgNames({"nodes", "threads"})
+    ->Args({20000, 1})
+    ->Args({20000, 2})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 

@@ -108,6 +108,40 @@ CNEM_INLINE DoubleVector odd_pairs(DoubleVector a, DoubleVector b) {
 }
 #endif
 
+/// One number of each of four vectors side by side at p, those of the next lane `stride` numbers further.
+template<int stride>
+CNEM_INLINE void store_fours(DoubleVector a, DoubleVector b, DoubleVector c, DoubleVector d, double* p) {
+  using Four [[gnu::vector_size(32)]] = double;
+  using Unaligned [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+  const DoubleVector even[2] = {even_pairs(a, b), even_pairs(c, d)},
+                     odd[2] = {odd_pairs(a, b), odd_pairs(c, d)};
+  const auto put = [p](int lane, Four x) { *reinterpret_cast<Unaligned*>(p + stride * lane) = x; };
+#if defined(CNEM_ISA_avx512)
+  const auto low = [](DoubleVector x, DoubleVector y) {
+    return __builtin_shufflevector(x, y, 0, 1, 8, 9, 4, 5, 12, 13);
+  };
+  const auto high = [](DoubleVector x, DoubleVector y) {
+    return __builtin_shufflevector(x, y, 2, 3, 10, 11, 6, 7, 14, 15);
+  };
+  const auto put_both = [put](int lane, DoubleVector x) {
+    put(lane, __builtin_shufflevector(x, x, 0, 1, 2, 3));
+    put(lane + 4, __builtin_shufflevector(x, x, 4, 5, 6, 7));
+  };
+  put_both(0, low(even[0], even[1]));
+  put_both(1, low(odd[0], odd[1]));
+  put_both(2, high(even[0], even[1]));
+  put_both(3, high(odd[0], odd[1]));
+#elif defined(CNEM_ISA_avx2)
+  put(0, __builtin_shufflevector(even[0], even[1], 0, 1, 4, 5));
+  put(1, __builtin_shufflevector(odd[0], odd[1], 0, 1, 4, 5));
+  put(2, __builtin_shufflevector(even[0], even[1], 2, 3, 6, 7));
+  put(3, __builtin_shufflevector(odd[0], odd[1], 2, 3, 6, 7));
+#else
+  put(0, __builtin_shufflevector(even[0], even[1], 0, 1, 2, 3));
+  put(1, __builtin_shufflevector(odd[0], odd[1], 0, 1, 2, 3));
+#endif
+}
+
 #define CNEM_EACH(...)                                                                                       \
   for (int k = 0; k < n; ++k) __VA_ARGS__
 // NOLINTBEGIN(bugprone-macro-parentheses): types cannot stand in parentheses

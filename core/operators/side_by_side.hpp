@@ -1,6 +1,6 @@
 #pragma once
-// Vector fields with their components side by side, [node · dim + component]: what passes that gather over
-// neighbours read, so that a neighbour costs one cache line.
+// Vector fields with their components side by side, [node · beside<dim> + component], in space followed by a
+// zero: what passes that gather over neighbours read, so that a neighbour costs one cache line.
 #include "core/fields/aligned.hpp"
 #include "core/operators/sparse_rows.hpp"
 
@@ -23,11 +23,11 @@ void place_side_by_side(const Fields<dim>& field, Field& side_by_side, std::size
   const auto from = pointers(field);
   double* to = side_by_side.data();
   for (std::size_t i = begin; i < end; ++i)
-    for (std::size_t k = 0; k < dim; ++k) to[i * dim + k] = from[k][i];
+    for (std::size_t k = 0; k < dim; ++k) to[i * beside<dim> + k] = from[k][i];
 }
 
 template<int dim> Field side_by_side(const Fields<dim>& field) {
-  Field result(dim * field[0].size());
+  Field result(beside<dim> * field[0].size());
   place_side_by_side<dim>(field, result, 0, field[0].size());
   return result;
 }

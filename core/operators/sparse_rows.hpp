@@ -4,6 +4,10 @@
 
 namespace cnem {
 
+/// Numbers that a vector takes where components lie side by side (core/operators/side_by_side.hpp): in space
+/// a fourth, so that a neighbour is one register in one cache line.
+template<int dim> inline constexpr int beside = dim == 2 ? 2 : 4;
+
 /// Rows or columns of an operator with dim weights an entry, and what stands at the other side of each entry.
 template<int dim, class Index> struct SparseRows {
   const std::int32_t* begin;

@@ -9,23 +9,22 @@ namespace cnem {
 template<int dim>
 void EdgeDefect<dim>::store_records(const Fields<tensor_size<dim>>& deformation, const Field& reference,
                                     std::size_t begin, std::size_t end) {
-  constexpr std::size_t stride = edge_record<dim>;
-  if (record_.size() != stride * modulus_.size()) record_.resize(stride * modulus_.size());
+  using Record = EdgeRecord<dim>;
+  if (record_.size() != Record::size * modulus_.size()) record_.assign(Record::size * modulus_.size(), 0.0);
   const auto F = pointers(deformation);
   for (std::size_t i = begin; i < end; ++i) {
-    double* own = record_.data() + stride * i;
+    double* own = record_.data() + Record::size * i;
     for (std::size_t a = 0; a < dim; ++a)
-      for (std::size_t k = 0; k < dim; ++k) own[k * dim + a] = F[a * dim + k][i];
-    own[dim * dim] = modulus_[i];
-    own[dim * dim + 1] = modulus_before_[i];
-    for (std::size_t k = 0; k < dim; ++k) own[dim * dim + 2 + k] = reference[dim * i + k];
+      for (std::size_t k = 0; k < dim; ++k) own[k * beside<dim> + a] = Record::share * F[a * dim + k][i];
+    own[Record::modulus] = modulus_[i];
+    own[Record::modulus_before] = modulus_before_[i];
+    for (std::size_t k = 0; k < dim; ++k) own[Record::place + k] = reference[beside<dim> * i + k];
   }
 }
 
 template<int dim> void EdgeDefect<dim>::hold_moduli(std::size_t begin, std::size_t end) {
-  constexpr std::size_t stride = edge_record<dim>;
   for (std::size_t i = begin; i < end; ++i)
-    record_[stride * i + dim * dim] = modulus_[i] = modulus_before_[i];
+    record_[EdgeRecord<dim>::size * i + EdgeRecord<dim>::modulus] = modulus_[i] = modulus_before_[i];
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "mechanics/terms/link_smoother.hpp"
 
 #include "core/index.hpp"
+#include "core/operators/side_by_side.hpp"
 #include "core/vec.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -56,7 +57,7 @@ LinkSmoother<dim>::LinkSmoother(const StabilisationLinks<dim>& links, const Fiel
     each_link(i, [&](std::size_t j, double length) {
       Vec<dim> way;
       for (std::size_t k = 0; k < dim; ++k)
-        way[static_cast<Eigen::Index>(k)] = reference[dim * j + k] - reference[dim * i + k];
+        way[static_cast<Eigen::Index>(k)] = reference[beside<dim> * j + k] - reference[beside<dim> * i + k];
       const double distance2 = way.squaredNorm();
       matrix += way * way.transpose() / distance2;
       links_.push_back(

@@ -22,7 +22,7 @@ template<int dim> class LinkSmoother {
 public:
   using Values = Eigen::Array<double, symmetric_size<dim>, 1>;
 
-  /// reference: [node · dim + component] m; share: [node] s, 0 for nodes that take no part; kind: [node],
+  /// reference: [node] m, side by side; share: [node] s, 0 for nodes that take no part; kind: [node],
   /// links between different ones do not count; mass: [node] M, m² or m³; strength: c.
   LinkSmoother(const StabilisationLinks<dim>& links, const Field& reference, const Field& share,
                const std::vector<std::int32_t>& kind, const Field& mass, double strength);

@@ -53,7 +53,8 @@ void swell(PointState<dim>& point, ColumnStress<dim>& stress, std::size_t p, dou
     change[c] = point.piola[c][p] - before;
   }
   for (std::size_t i = 0; i < dim; ++i)
-    for (std::size_t k = 0; k < dim; ++k) stress.columns[(p * dim + k) * dim + i] += change[i * dim + k];
+    for (std::size_t k = 0; k < dim; ++k)
+      stress.columns[(p * dim + k) * beside<dim> + i] += change[i * dim + k];
   if constexpr (dim == 2) stress.out_of_plane[p] += change[4];
   for (Field& component : point.inverse_plastic_cauchy_green) component[p] *= scale;
   point.stored_energy[p] += dtheta * (tension + 0.5 * kappa * dtheta);
@@ -121,7 +122,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
         if (level_of(j) > due.activity || other[increment] == 0.0 || bulk_modulus_[j] != kappa) continue;
         double linear = 0.0, distance2 = 0.0;
         for (std::size_t k = 0; k < dim; ++k) {
-          const double X = reference[dim * j + k] - reference[dim * i + k];
+          const double X = reference[beside<dim> * j + k] - reference[beside<dim> * i + k];
           linear += (own[1 + k] + other[1 + k]) * X;
           distance2 += X * X;
         }

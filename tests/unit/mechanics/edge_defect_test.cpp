@@ -15,7 +15,7 @@ struct Linked {
   StabilisationLinks<3> links{{0, 3, 6, 9, 12}, {}, Field(12, weight)};
   Fields<3> reference, position, force;
   Fields<9> deformation;
-  ColumnStress<3> stress{Field(36, 0.0), {}};
+  ColumnStress<3> stress{Field(4 * column_stress<3>, 0.0), {}};
   EdgeDefect<3> edges{alpha};
 
   Linked(const Mat<3>& f) {
@@ -66,7 +66,7 @@ TEST(EdgeDefectInSpace, draws_back_a_node_that_the_gradients_do_not_see) {
     double moment = 0.0;
     for (std::size_t n = 1; n < 4; ++n)
       moment += stiffness * -shift * (body.reference[k][n] - body.reference[k][0]);
-    EXPECT_NEAR(body.stress.columns[3 * k + 2], -0.5 * moment, 1e-15) << k;
+    EXPECT_NEAR(body.stress.columns[beside<3> * k + 2], -0.5 * moment, 1e-15) << k;
   }
 }
 
