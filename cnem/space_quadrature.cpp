@@ -81,7 +81,7 @@ struct Item {
   std::int32_t triangle; ///< −1: the facet
 };
 
-struct Functions {
+struct FunctionsAt {
   voronoi::NaturalNeighbours3 neighbours;
   Polygon polygon;
   std::vector<SimplexIndex> around;
@@ -136,7 +136,7 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
   std::vector<Interface<3>> facet(items.size());
   constexpr std::size_t size = FaceMeans::block_size;
   std::vector<FaceMeans::Block> list((items.size() + size - 1) / size);
-  const auto integrate = [&](std::size_t b, Functions& at) {
+  const auto integrate = [&](std::size_t b, FunctionsAt& at) {
     FaceMeans::Block& block = list[b];
     const std::size_t first = b * size, last = std::min(first + size, items.size());
     block.begin.reserve(last - first + 1);
@@ -180,13 +180,13 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
   ParallelFailure failure;
 #pragma omp parallel
   {
-    std::optional<Functions> functions_here;
+    std::optional<FunctionsAt> functions_here;
 #pragma omp for schedule(dynamic)
     for (std::size_t b = 0; b < list.size(); ++b)
       failure.guard(static_cast<std::ptrdiff_t>(b), [&] {
         if (!functions_here)
           functions_here.emplace(
-              Functions{voronoi::NaturalNeighbours3(cloud, mesh, function_mesh), Polygon(), {}});
+              FunctionsAt{voronoi::NaturalNeighbours3(cloud, mesh, function_mesh), Polygon(), {}});
         integrate(b, *functions_here);
       });
 #pragma omp critical

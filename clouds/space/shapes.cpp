@@ -15,8 +15,8 @@ namespace {
 double volume_per_angle(const Curve& curve) {
   double sum = 0.0;
   for (const CurvePiece& piece : curve.pieces) {
-    constexpr int steps = 2000;
-    const int count = piece.is_arc() ? steps : 1;
+    constexpr int divisions = 2000;
+    const int count = piece.is_arc() ? divisions : 1;
     for (int k = 0; k < count; ++k) {
       const Vec2 a = piece.point(static_cast<double>(k) / count),
                  b = piece.point(static_cast<double>(k + 1) / count);
