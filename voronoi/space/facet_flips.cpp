@@ -225,13 +225,6 @@ private:
     return is_there(target);
   }
 
-  /// The same for the same tetrahedra.
-  static std::vector<Nodes> key_of(std::vector<Nodes> nodes) {
-    for (Nodes& node : nodes) std::sort(node.begin(), node.end());
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  }
-
   static constexpr int most_steps = 30;
 
   Exchanges exchanges_;
