@@ -97,7 +97,7 @@ TEST(recovery, keeps_nodes_pieces_and_what_a_flat_faced_body_encloses) {
   EXPECT_NEAR(enclosed_measure(body.cloud), enclosed_measure(cloud), 1e-12);
   ASSERT_EQ(body.now.size(), cloud.position.size());
   for (const NodeIndex i : cloud.position.indices())
-    if (exists(body.now[i])) EXPECT_EQ(body.cloud.position[body.now[i]], cloud.position[i]);
+    if (exists(body.now[i])) { EXPECT_EQ(body.cloud.position[body.now[i]], cloud.position[i]); }
   std::vector<double> area(cloud.piece_names.size(), 0.0);
   for (const auto& facet : cloud.facets)
     area[index_of(facet.piece)] += area_normal<3>(corners_of(facet, cloud.position)).norm();
