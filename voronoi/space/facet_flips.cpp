@@ -17,7 +17,7 @@ namespace {
 
 using Nodes = FlipMesh::Nodes;
 
-constexpr std::uint64_t most_orders = 1; ///< in which lost facets are brought back
+constexpr std::uint64_t most_orders = 6; ///< in which lost facets are brought back
 
 class Holder {
 public:

@@ -11,7 +11,6 @@
 #include "voronoi/space/walls.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -74,6 +73,7 @@ public:
       }
       walls = find_walls(cloud, mesh);
     }
+    if (!cloud.mates.empty()) cloud.mates = facets_behind(cloud);
     result_.tetrahedra = filling(cloud, std::move(mesh));
     return std::move(result_);
   }

@@ -6,6 +6,7 @@
 #include "core/index.hpp"
 #include "tests/space_clouds.hpp"
 #include "voronoi/space/exact.hpp"
+#include "voronoi/space/filling.hpp"
 #include "voronoi/space/triangulate.hpp"
 #include "voronoi/space/winding.hpp"
 
@@ -160,6 +161,24 @@ TEST(triangulation_in_space, winding_numbers_tell_inside_from_outside) {
   EXPECT_EQ(Winding(cube)({0.5, 0.5, 1.0}), 0) << "on a facet";
   EXPECT_EQ(Winding(cube)({0.5, 0.5, 0.0}), 0) << "on a facet";
   EXPECT_EQ(Winding(cube)({0.25, 0.25, 0.5}), 1) << "below an edge and a node";
+}
+
+TEST(triangulation_in_space, says_that_lost_facets_want_recovery) {
+  const SpaceCloud how{.shape = SpaceShape::notch, .cells = 6, .shear = 1.54, .shear_plane = 3};
+  expect_error(unrecovered(how), {"facets are no faces of Delaunay tetrahedra", "node", "recovered first"});
+  const RecoveredBoundary body = recovered(how);
+  expect_filled(body.cloud, body.tetrahedra);
+}
+
+TEST(triangulation_in_space, of_a_turned_lattice_hardly_a_tetrahedron_is_flat) {
+  std::size_t flat = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    const RecoveredBoundary body = recovered({.shape = space_shapes[seed - 1], .turned = true, .seed = seed});
+    expect_filled(body.cloud, body.tetrahedra);
+    for (const auto& node : body.tetrahedra.node) flat += is_flat(corners(body.cloud, node));
+    all += body.tetrahedra.node.size();
+  }
+  EXPECT_LT(flat, all / 500);
 }
 
 TEST(triangulation_in_space, refuses_bad_clouds_by_their_nodes) {
