@@ -2,6 +2,7 @@
 
 #include "core/index.hpp"
 #include "voronoi/space/exchanges.hpp"
+#include "voronoi/space/surface.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -236,6 +237,7 @@ private:
 
 Walls hold_facets(const Cloud<3>& cloud, Delaunay& mesh, Walls walls) {
   if (walls.lost.empty()) return walls;
+  refuse_crossings(cloud, walls.lost);
   Delaunay best;
   std::size_t least = walls.lost.size() + 1;
   for (std::uint64_t order = 0; order < most_orders && least > 0; ++order) {
