@@ -2,6 +2,7 @@
 
 #include "core/index.hpp"
 #include "voronoi/space/exchanges.hpp"
+#include "voronoi/space/surface.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -17,7 +18,7 @@ namespace {
 
 using Nodes = FlipMesh::Nodes;
 
-constexpr std::uint64_t most_orders = 1; ///< in which lost facets are brought back
+constexpr std::uint64_t most_orders = 6; ///< in which lost facets are brought back
 
 class Holder {
 public:
@@ -225,13 +226,6 @@ private:
     return is_there(target);
   }
 
-  /// The same for the same tetrahedra.
-  static std::vector<Nodes> key_of(std::vector<Nodes> nodes) {
-    for (Nodes& node : nodes) std::sort(node.begin(), node.end());
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  }
-
   static constexpr int most_steps = 30;
 
   Exchanges exchanges_;
@@ -243,6 +237,7 @@ private:
 
 Walls hold_facets(const Cloud<3>& cloud, Delaunay& mesh, Walls walls) {
   if (walls.lost.empty()) return walls;
+  refuse_crossings(cloud, walls.lost);
   Delaunay best;
   std::size_t least = walls.lost.size() + 1;
   for (std::uint64_t order = 0; order < most_orders && least > 0; ++order) {

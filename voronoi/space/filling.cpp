@@ -37,7 +37,6 @@ std::array<std::size_t, 4> canonical(const std::array<NodeIndex, 4>& node) {
 }
 
 [[noreturn]] void throw_lost(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& lost) {
-  refuse_crossings(cloud, lost);
   throw GeometryError(fmt::format("{} of {} facets are no faces of Delaunay tetrahedra, the first {}: the "
                                   "boundary has to be recovered first",
                                   lost.size(), cloud.facets.size(), describe_facet(cloud, lost.front())));

@@ -11,7 +11,6 @@
 #include "voronoi/space/walls.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -69,11 +68,12 @@ public:
         counts.flipped += flips;
       } else if (remove_near(walls.lost)) {
         mesh = delaunay(cloud);
-      } else {
+      } else if (counts.replaced > 0 || !adopt(mesh)) {
         break;
       }
       walls = find_walls(cloud, mesh);
     }
+    if (!cloud.mates.empty()) cloud.mates = facets_behind(cloud);
     result_.tetrahedra = filling(cloud, std::move(mesh));
     return std::move(result_);
   }
@@ -86,6 +86,22 @@ private:
       result_.counts.flipped += flips;
       walls = find_walls(result_.cloud, mesh);
     }
+  }
+
+  /// Takes the boundary of the tetrahedra inside for the surface, if that is a manifold with the same nodes.
+  /// Whether it is.
+  bool adopt(const Delaunay& mesh) {
+    Cloud<3>& cloud = result_.cloud;
+    Cloud<3> candidate = cloud;
+    try {
+      Adopted adopted = adopted_facets(cloud, mesh, find_walls(cloud, mesh), inside_by_winding(cloud, mesh));
+      candidate.facets = std::move(adopted.facets);
+      surface_edges(candidate);
+      if (on_surface(candidate) != on_surface(cloud)) return false;
+      result_.counts.replaced = adopted.replaced;
+    } catch (const GeometryError&) { return false; }
+    cloud = std::move(candidate);
+    return true;
   }
 
   /// Takes inner nodes out of the diametral balls of facets. Whether there were any.

@@ -120,7 +120,15 @@ bool pierces(const Cloud<3>& cloud, NodeIndex p, NodeIndex q, const std::array<N
   return low * high >= 0 && (turns[0] != 0) + (turns[1] != 0) + (turns[2] != 0) > 1;
 }
 
+bool apart(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& f, const std::array<NodeIndex, 3>& g) {
+  const auto at = [&](NodeIndex i) { return cloud.position[i].array(); };
+  const auto low = [&](const auto& n) { return at(n[0]).min(at(n[1])).min(at(n[2])).eval(); };
+  const auto high = [&](const auto& n) { return at(n[0]).max(at(n[1])).max(at(n[2])).eval(); };
+  return (low(f) > high(g)).any() || (low(g) > high(f)).any();
+}
+
 bool cross(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& f, const std::array<NodeIndex, 3>& g) {
+  if (apart(cloud, f, g)) return false;
   for (std::size_t k = 0; k < 3; ++k)
     if (pierces(cloud, f[k], f[(k + 1) % 3], g) || pierces(cloud, g[k], g[(k + 1) % 3], f)) return true;
   return false;

@@ -40,7 +40,7 @@ IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<3>& cloud);
 IndexedVector<CloudFacetIndex, CloudFacetIndex> facets_behind(const Cloud<3>& cloud);
 
 /// Throws the GeometryError that says where the boundary crosses itself, naming the two facets, if one of the
-/// given facets crosses another. O(given · facets): for the error path.
+/// given facets crosses another. O(given · facets).
 void refuse_crossings(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& suspects);
 
 } // namespace cnem::voronoi
