@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <numeric>
+#include <omp.h>
 
 namespace cnem::testing {
 namespace {
@@ -26,6 +27,8 @@ SpaceCloud random_body(int seed) {
 }
 
 TEST(RandomBodies, fill_their_volume_and_reproduce_linear_fields) {
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1); // bodies are too small to share
   int built = 0;
   for (int seed = 0; seed < clouds; ++seed) {
     const SpaceCloud how = random_body(seed);
@@ -62,9 +65,10 @@ TEST(RandomBodies, fill_their_volume_and_reproduce_linear_fields) {
       for (const NodeIndex i : facet.node)
         force[index_of(i)] -= area_normal<3>(corners_of<3>(facet, cloud.position)) / 3.0;
     for (const Vec3& f : force) EXPECT_LT(f.norm() * how.cells * how.cells, 1e-11);
-    if (HasFailure()) return;
+    if (HasFailure()) break;
   }
-  EXPECT_GT(built, clouds / 2);
+  omp_set_num_threads(threads);
+  if (!HasFailure()) { EXPECT_GT(built, clouds / 2); }
 }
 
 } // namespace

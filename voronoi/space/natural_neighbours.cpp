@@ -157,12 +157,7 @@ NaturalNeighbours3::Outcome NaturalNeighbours3::collect(const Vec3& x, SimplexIn
   }
   bool joined = false, hidden = false;
   for (std::size_t f = 0; f < face_.size(); ++f) {
-    const Neighbour &a = neighbour_[index_of(face_[f].corner[0])],
-                    &b = neighbour_[index_of(face_[f].corner[1])],
-                    &c = neighbour_[index_of(face_[f].corner[2])];
-    const double volume =
-        a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
-    const double bound = flat * std::sqrt(a.squared * b.squared * c.squared);
+    const auto [volume, bound] = volume_with(face_[f]);
     if (volume > bound) continue;
     if (exists(face_[f].beyond)) {
       if (in_cavity_.at(face_[f].beyond, 0) == 1) continue; // taken for another face
@@ -178,10 +173,61 @@ NaturalNeighbours3::Outcome NaturalNeighbours3::collect(const Vec3& x, SimplexIn
       hidden = true; // another wall in the same plane may be the one that x is on
     }
   }
-  if (hidden) return Outcome::lost;
+  if (hidden) return leave_hidden(x, start);
   if (joined)
     std::erase_if(
         face_, [&](const Face& face) { return exists(face.beyond) && in_cavity_.at(face.beyond, 0) == 1; });
+  return Outcome::surrounded;
+}
+
+/// Six times the volume of x with a face, and what of it is rounding.
+std::pair<double, double> NaturalNeighbours3::volume_with(const Face& face) const {
+  const Neighbour &a = neighbour_[index_of(face.corner[0])], &b = neighbour_[index_of(face.corner[1])],
+                  &c = neighbour_[index_of(face.corner[2])];
+  return {a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x),
+          flat * std::sqrt(a.squared * b.squared * c.squared)};
+}
+
+/// Takes tetrahedra out of the cavity whose faces x sees from behind, until it sees all from within: walls
+/// may hide them, or tetrahedra are not Delaunay. That with x in it stays.
+NaturalNeighbours3::Outcome NaturalNeighbours3::leave_hidden(const Vec3& x, SimplexIndex start) {
+  const SpaceWalkEnd at = walk(cloud_, mesh_, start, x);
+  if (exists(at.facet)) return Outcome::lost;
+  if (in_cavity_.at(at.tetrahedron, 0) != 1) {
+    take(at.tetrahedron);
+    grow(x);
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    face_.clear();
+    for (std::size_t k = 0; k < cavity_.size(); ++k) {
+      const SimplexIndex t = cavity_[k];
+      if (in_cavity_.at(t, 0) != 1) continue;
+      for (std::size_t f = 0; f < 4; ++f) {
+        const SimplexIndex beyond = functions_.record[t].neighbour[f];
+        if (exists(beyond) && in_cavity_.at(beyond, 0) == 1) continue;
+        const auto& [p, q, r] = face_of_tetrahedron[f];
+        const Face face{{corner_[k][p], corner_[k][q], corner_[k][r]}, beyond};
+        const auto [volume, bound] = volume_with(face);
+        if (volume > bound) {
+          face_.push_back(face);
+          continue;
+        }
+        if (t == at.tetrahedron) return Outcome::lost;
+        in_cavity_.at(t, 0) = 0;
+        changed = true;
+        break;
+      }
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < cavity_.size(); ++k)
+    if (in_cavity_.at(cavity_[k], 0) == 1) {
+      cavity_[kept] = cavity_[k];
+      corner_[kept++] = corner_[k];
+    }
+  cavity_.resize(kept);
+  corner_.resize(kept);
   return Outcome::surrounded;
 }
 
@@ -262,12 +308,13 @@ bool NaturalNeighbours3::finish() {
     }
     if (!(missed_place(sum, missed) < largest)) return false;
   }
-  node_.resize(neighbour_.size());
-  value_.resize(neighbour_.size());
+  node_.clear();
+  value_.clear();
   const double inverse = 1.0 / sum;
   for (std::size_t i = 0; i < neighbour_.size(); ++i) {
-    node_[i] = neighbour_[i].node;
-    value_[i] = inverse * weight_[i];
+    if (weight_[i] == 0.0) continue; // of tetrahedra that x does not see
+    node_.push_back(neighbour_[i].node);
+    value_.push_back(inverse * weight_[i]);
   }
   return true;
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cnem::voronoi {
@@ -84,6 +85,8 @@ private:
   void take(SimplexIndex tetrahedron);
   std::int32_t place(NodeIndex node, const Vec3& x);
   bool on_wall(const Face& face);
+  std::pair<double, double> volume_with(const Face& face) const;
+  Outcome leave_hidden(const Vec3& x, SimplexIndex start);
   void weigh_laplace();
   void weigh_sibson();
   double missed_place(double& sum, Vec3& missed) const;
