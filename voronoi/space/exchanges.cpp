@@ -19,6 +19,12 @@ Face face_of(NodeIndex a, NodeIndex b, NodeIndex c) {
   return face;
 }
 
+std::vector<FlipMesh::Nodes> key_of(std::vector<FlipMesh::Nodes> nodes) {
+  for (FlipMesh::Nodes& node : nodes) std::sort(node.begin(), node.end());
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
 Exchanges::Exchanges(const Cloud<3>& cloud, Delaunay& delaunay)
     : mesh(cloud, delaunay), first_(delaunay.first) {
   for (const auto& facet : cloud.facets) {

@@ -20,6 +20,9 @@ struct Exchange {
   std::vector<FlipMesh::Nodes> fresh;
 };
 
+/// The same list for the same tetrahedra.
+std::vector<FlipMesh::Nodes> key_of(std::vector<FlipMesh::Nodes> nodes);
+
 class Exchanges {
 public:
   Exchanges(const Cloud<3>& cloud, Delaunay& mesh);

@@ -4,6 +4,9 @@
 #include "voronoi/space/exchanges.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
+#include <random>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -14,12 +17,14 @@ namespace {
 
 using Nodes = FlipMesh::Nodes;
 
+constexpr std::uint64_t most_orders = 6; ///< in which lost facets are brought back
+
 class Holder {
 public:
   Holder(const Cloud<3>& cloud, Delaunay& mesh)
       : exchanges_(cloud, mesh), mesh_(exchanges_.mesh), cloud_(cloud) {}
 
-  void hold(const std::vector<CloudFacetIndex>& lost) {
+  void hold(const std::vector<CloudFacetIndex>& lost, std::uint64_t order) {
     std::vector<Edge> edges;
     std::vector<Face> facets;
     for (const CloudFacetIndex f : lost) {
@@ -31,6 +36,14 @@ public:
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     std::sort(facets.begin(), facets.end());
     facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+    if (order > 0) {
+      std::mt19937_64 random(order);
+      const auto shuffle = [&](auto& list) {
+        for (std::size_t n = list.size(); n > 1; --n) std::swap(list[n - 1], list[random() % n]);
+      };
+      shuffle(edges);
+      shuffle(facets);
+    }
     for (int round = 0; round < 3; ++round) {
       const std::size_t left = edges.size() + facets.size();
       std::erase_if(edges, [&](const Edge& e) { return bring(e); });
@@ -45,7 +58,8 @@ private:
   struct Crossings {
     std::vector<Face> faces;
     std::vector<Edge> edges;
-    int measure() const { return static_cast<int>(2 * faces.size() + 3 * edges.size()); }
+    std::vector<SimplexIndex> tetrahedra; ///< that have them
+    int measure() const { return static_cast<int>(8 * faces.size() + 6 * edges.size() + tetrahedra.size()); }
   };
 
   bool is_there(const Edge& e) { return exists(mesh_.with(e.first, e.second)); }
@@ -79,13 +93,17 @@ private:
           std::sort(sorted.begin(), sorted.end());
           if (std::find(found.faces.begin(), found.faces.end(), sorted) == found.faces.end())
             found.faces.push_back(sorted);
+          found.tetrahedra.push_back(t);
           if (exists(mesh_.neighbours(t)[k])) add(mesh_.neighbours(t)[k]);
         } else if (zeros == 1) {
           const auto q = index_of(std::find(turn.begin(), turn.end(), 0) - turn.begin());
           const Edge crossed = edge_of(face[q], face[(q + 1) % 3]);
           if (std::find(found.edges.begin(), found.edges.end(), crossed) != found.edges.end()) continue;
           found.edges.push_back(crossed);
-          for (const SimplexIndex other : mesh_.ring(crossed.first, crossed.second, t).tetrahedra) add(other);
+          for (const SimplexIndex other : mesh_.ring(crossed.first, crossed.second, t).tetrahedra) {
+            add(other);
+            found.tetrahedra.push_back(other);
+          }
         }
       }
     }
@@ -115,83 +133,99 @@ private:
           if (std::find(found.edges.begin(), found.edges.end(), edge) != found.edges.end()) continue;
           if (!pierces(edge, facet)) continue;
           found.edges.push_back(edge);
-          for (const SimplexIndex other : mesh_.ring(edge.first, edge.second, t).tetrahedra)
+          for (const SimplexIndex other : mesh_.ring(edge.first, edge.second, t).tetrahedra) {
             if (std::find(list.begin(), list.end(), other) == list.end()) list.push_back(other);
+            found.tetrahedra.push_back(other);
+          }
         }
     }
     return found;
   }
 
-  std::vector<Exchange> exchanges_for(const Edge&, const Crossings& crossings) {
-    std::vector<Exchange> exchanges;
+  /// Exchanges of what crosses, or, `wide`, of anything of the tetrahedra that are crossed.
+  std::vector<Exchange> exchanges_for(const Crossings& crossings, bool wide) {
     std::vector<Edge> edges = crossings.edges;
-    for (const auto& face : crossings.faces) {
-      exchanges_.add_split(face, exchanges);
+    std::vector<Face> faces = crossings.faces;
+    for (const Face& face : crossings.faces)
       for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_of(face[k], face[(k + 1) % 3]));
+    for (const Edge& edge : crossings.edges)
+      for (const NodeIndex i :
+           mesh_.ring(edge.first, edge.second, mesh_.with(edge.first, edge.second)).around)
+        faces.push_back(face_of(edge.first, edge.second, i));
+    for (const SimplexIndex t : crossings.tetrahedra) {
+      if (!wide) break;
+      const Nodes& node = mesh_.nodes(t);
+      for (std::size_t p = 0; p < 4; ++p) {
+        for (std::size_t q = 0; q < p; ++q) edges.push_back(edge_of(node[p], node[q]));
+        const auto& [a, b, c] = face_of_tetrahedron[p];
+        faces.push_back(face_of(node[a], node[b], node[c]));
+      }
     }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    std::vector<Exchange> exchanges;
+    for (const Face& face : faces) exchanges_.add_split(face, exchanges);
     for (const Edge& edge : edges) exchanges_.add_removals(edge, exchanges);
     return exchanges;
   }
 
-  std::vector<Exchange> exchanges_for(const Face&, const Crossings& crossings) {
-    std::vector<Exchange> exchanges;
-    std::vector<Face> faces;
-    for (const Edge& edge : crossings.edges) {
-      exchanges_.add_removals(edge, exchanges);
-      for (const NodeIndex i :
-           mesh_.ring(edge.first, edge.second, mesh_.with(edge.first, edge.second)).around)
-        faces.push_back({edge.first, edge.second, i});
-    }
-    for (auto& face : faces) std::sort(face.begin(), face.end());
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    for (const auto& face : faces) exchanges_.add_split(face, exchanges);
-    return exchanges;
+  template<class Target> int measure(const Target& target) {
+    return is_there(target) ? -1 : crossings(target).measure();
   }
 
+  /// f() while an exchange is made.
+  template<class Function> int tried(const Exchange& exchange, const Function& f) {
+    const std::vector<Nodes> before = exchanges_.nodes_of(exchange.old);
+    const std::vector<SimplexIndex> made = mesh_.replace(exchange.old, exchange.fresh);
+    const int result = f();
+    mesh_.replace(made, before); // gives each its number back
+    return result;
+  }
+
+  /// The least measure that one exchange leads to.
+  template<class Target> int least_after_next(const Target& target) {
+    if (is_there(target)) return -1;
+    const Crossings now = crossings(target);
+    int least = now.measure();
+    for (const Exchange& exchange : exchanges_for(now, false)) {
+      least = std::min(least, tried(exchange, [&] { return measure(target); }));
+      if (least < 0) break;
+    }
+    return least;
+  }
+
+  /// Exchanges, the one that leaves least in the way first, and where none leaves less, the one after which
+  /// the next does. None is made or taken back twice.
   template<class Target> bool bring(const Target& target) {
-    if (is_there(target)) return true;
     if constexpr (std::is_same_v<Target, Face>)
       for (std::size_t k = 0; k < 3; ++k)
         if (!is_there(edge_of(target[k], target[(k + 1) % 3]))) return false;
-    std::set<std::vector<Nodes>> tried;
+    std::set<std::vector<Nodes>> known;
     for (int step = 0; step < most_steps; ++step) {
-      const std::vector<Exchange> exchanges = exchanges_for(target, crossings(target));
-      const Exchange* choice = nullptr;
-      int best = 0;
-      for (const Exchange& exchange : exchanges) {
-        if (tried.contains(key_of(exchange.fresh))) continue;
-        const int then = measure_after(exchange, target);
-        if (!choice || then < best) best = then, choice = &exchange;
+      if (is_there(target)) return true;
+      const Crossings now = crossings(target);
+      std::optional<Exchange> choice;
+      int best = now.measure();
+      for (const bool wide : {false, true}) {
+        if (choice) break;
+        if (wide) best = std::numeric_limits<int>::max();
+        for (const Exchange& exchange : exchanges_for(now, wide)) {
+          if (known.contains(key_of(exchange.fresh))) continue;
+          const int then = tried(exchange, [&] { return wide ? least_after_next(target) : measure(target); });
+          if (then < best) best = then, choice = exchange;
+        }
       }
       if (!choice) return false;
-      tried.insert(key_of(exchanges_.nodes_of(choice->old)));
-      tried.insert(key_of(choice->fresh));
+      known.insert(key_of(exchanges_.nodes_of(choice->old)));
+      known.insert(key_of(choice->fresh));
       mesh_.replace(choice->old, choice->fresh);
-      if (best < 0) return true;
     }
-    return false;
+    return is_there(target);
   }
 
-  /// The same for the same tetrahedra.
-  static std::vector<Nodes> key_of(std::vector<Nodes> nodes) {
-    for (Nodes& node : nodes) std::sort(node.begin(), node.end());
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  }
-
-  /// Crossings that an exchange would leave; −1: the target is there.
-  template<class Target> int measure_after(const Exchange& exchange, const Target& target) {
-    const std::vector<Nodes> before = exchanges_.nodes_of(exchange.old);
-    const std::vector<SimplexIndex> made = mesh_.replace(exchange.old, exchange.fresh);
-    const int then = is_there(target) ? -1 : crossings(target).measure();
-    mesh_.replace(made, before); // gives each its number back
-    return then;
-  }
-
-  static constexpr int most_steps = 40;
+  static constexpr int most_steps = 30;
 
   Exchanges exchanges_;
   FlipMesh& mesh_;
@@ -202,7 +236,15 @@ private:
 
 Walls hold_facets(const Cloud<3>& cloud, Delaunay& mesh, Walls walls) {
   if (walls.lost.empty()) return walls;
-  Holder(cloud, mesh).hold(walls.lost);
+  Delaunay best;
+  std::size_t least = walls.lost.size() + 1;
+  for (std::uint64_t order = 0; order < most_orders && least > 0; ++order) {
+    Delaunay flipped = mesh;
+    Holder(cloud, flipped).hold(walls.lost, order);
+    const std::size_t left = find_walls(cloud, flipped).lost.size();
+    if (left < least) least = left, best = std::move(flipped);
+  }
+  mesh = std::move(best);
   return find_walls(cloud, mesh);
 }
 

@@ -11,7 +11,6 @@
 #include "voronoi/space/walls.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -53,20 +52,28 @@ public:
     Delaunay mesh = delaunay(cloud);
     Walls walls = find_walls(cloud, mesh);
     counts.lost = as<int>(walls.lost.size());
-    while (!walls.lost.empty()) {
-      counts.flipped += fit_surface(cloud, mesh, rules_.flat_angle);
-      walls = find_walls(cloud, mesh);
-      if (!remove_near(walls.lost)) break;
-      mesh = delaunay(cloud);
-      walls = find_walls(cloud, mesh);
-    }
-    peel(mesh, walls);
-    if (!walls.lost.empty()) {
+    while (true) {
+      if (!walls.lost.empty()) {
+        counts.flipped += fit_surface(cloud, mesh, rules_.flat_angle);
+        walls = find_walls(cloud, mesh);
+      }
+      peel(mesh, walls);
+      if (walls.lost.empty()) break;
       Delaunay flipped = mesh;
       counts.held = as<int>(walls.lost.size());
       walls = hold_facets(cloud, flipped, std::move(walls));
       peel(flipped, walls);
+      if (walls.lost.empty()) break;
+      if (const int flips = fit_surface(cloud, flipped, rules_.smooth_angle)) {
+        counts.flipped += flips;
+      } else if (remove_near(walls.lost)) {
+        mesh = delaunay(cloud);
+      } else if (counts.replaced > 0 || !adopt(mesh)) {
+        break;
+      }
+      walls = find_walls(cloud, mesh);
     }
+    if (!cloud.mates.empty()) cloud.mates = facets_behind(cloud);
     result_.tetrahedra = filling(cloud, std::move(mesh));
     return std::move(result_);
   }
@@ -79,6 +86,22 @@ private:
       result_.counts.flipped += flips;
       walls = find_walls(result_.cloud, mesh);
     }
+  }
+
+  /// Takes the boundary of the tetrahedra inside for the surface, if that is a manifold with the same nodes.
+  /// Whether it is.
+  bool adopt(const Delaunay& mesh) {
+    Cloud<3>& cloud = result_.cloud;
+    Cloud<3> candidate = cloud;
+    try {
+      Adopted adopted = adopted_facets(cloud, mesh, find_walls(cloud, mesh), inside_by_winding(cloud, mesh));
+      candidate.facets = std::move(adopted.facets);
+      surface_edges(candidate);
+      if (on_surface(candidate) != on_surface(cloud)) return false;
+      result_.counts.replaced = adopted.replaced;
+    } catch (const GeometryError&) { return false; }
+    cloud = std::move(candidate);
+    return true;
   }
 
   /// Takes inner nodes out of the diametral balls of facets. Whether there were any.

@@ -7,16 +7,17 @@ namespace cnem::voronoi {
 
 struct RecoveryRules {
   double flat_angle = 0.2443; ///< rad (14°): facets of one piece whose normals are that near may be flipped
+  double smooth_angle =
+      0.7; ///< rad (40°): the same for facets that nothing else brings back; creases are sharper
 };
 
 /// What a recovery has done.
 struct RecoveryCounts {
-  int lost = 0;      ///< facets that the Delaunay triangulation of the cloud as it was did not have
-  int flipped = 0;   ///< edges of the surface that became the other diagonal
-  int removed = 0;   ///< inner nodes in diametral balls of lost facets
-  int held = 0;      ///< facets that tetrahedra were flipped for
-  int replaced = 0;  ///< facets that became others as the boundary of the tetrahedra inside
-  int collapsed = 0; ///< surface nodes merged with a neighbour
+  int lost = 0;     ///< facets that the Delaunay triangulation did not have after Lawson's flips
+  int flipped = 0;  ///< edges of the surface that became the other diagonal
+  int held = 0;     ///< lost facets for which tetrahedra were flipped
+  int removed = 0;  ///< inner nodes in diametral balls of lost facets
+  int replaced = 0; ///< facets that came with the boundary of the tetrahedra inside
 };
 
 struct RecoveredBoundary {
@@ -26,12 +27,14 @@ struct RecoveredBoundary {
   RecoveryCounts counts;
 };
 
-/// The cheapest first: (1) Lawson's flips of the surface, within named pieces; (2) inner nodes in diametral
-/// balls of lost facets go; (3) the boundary of the tetrahedra inside becomes the surface, if it is a
-/// manifold with the same nodes, where tetrahedra that are flat on a face count as outside and new facets
-/// inherit their piece; (4) surface nodes too near each other are merged. Nodes keep their places and their
-/// order. O(N log N). Throws GeometryError as triangulate(), and where nothing helps, naming a facet that is
-/// lost.
+/// The cheapest first: (1) Lawson's flips of the surface within named pieces, and flips to diagonals that the
+/// tetrahedra have, such that none that is flat to rounding lies on the inner side of two facets; (2) flips
+/// of tetrahedra (facet_flips.hpp), which change neither nodes nor surface; (3) flips of the surface at
+/// larger angles; (4) inner nodes in diametral balls of lost facets go; (5) the boundary of the tetrahedra
+/// inside becomes the surface, if it is a manifold with the same nodes, where tetrahedra that are flat on a
+/// face count as outside and new facets inherit their piece. Nodes keep their places and their order, creases
+/// between pieces stay but for (5). triangulate() of the new cloud gives the tetrahedra. O(N log N). Throws
+/// GeometryError as triangulate(), and where nothing helps, naming a facet that is lost.
 RecoveredBoundary recover_boundary(const Cloud<3>& cloud, const RecoveryRules& rules = {});
 
 } // namespace cnem::voronoi

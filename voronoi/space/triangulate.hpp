@@ -5,15 +5,17 @@
 
 namespace cnem::voronoi {
 
-/// The Delaunay tetrahedra of the nodes that are inside the boundary, whose facets have to be among their
-/// faces: recover_boundary() (voronoi/space/recovery.hpp) makes clouds for which they are. Tetrahedra begin
-/// with their lowest node and stand in the order of their nodes, so that they follow from the positions and
-/// the set of facets alone. O(N log N).
+/// The tetrahedra inside the boundary: Delaunay ones away from it. Where facets are no faces of these,
+/// tetrahedra are flipped until they are (facet_flips.hpp), which succeeds for most clouds that
+/// recover_boundary() (recovery.hpp) has not seen and for all it returns. Tetrahedra begin with their lowest
+/// node and stand in the order of their nodes: they follow from the positions and the set of facets alone.
+/// Right-handed by exact predicates; among cospherical nodes that were turned a few may have no more volume
+/// than rounding. O(N log N).
 ///
 /// Throws GeometryError, naming nodes with positions, for a surface that is open, branches, touches or
 /// crosses itself or is inside out; nodes outside; coincident nodes that are no declared twins; positions
-/// that are not finite; facets that are no faces of Delaunay tetrahedra, and tetrahedra on the boundary that
-/// are flat to rounding (the boundary has to be recovered first).
+/// that are not finite; facets that stay lost, and tetrahedra between two facets that are flat to rounding
+/// (the boundary has to be recovered first).
 Tetrahedra triangulate(const Cloud<3>& cloud);
 
 } // namespace cnem::voronoi
