@@ -6,6 +6,7 @@
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/recovery.hpp"
 #include "voronoi/space/surface_flips.hpp"
+#include "voronoi/space/triangulate.hpp"
 #include "voronoi/space/walls.hpp"
 
 #include <algorithm>
@@ -90,19 +91,22 @@ struct NotRecovered {
   std::string message;
 };
 
+/// Throws, for an error of the triangulation, what it is about; the error itself where no facet is lost.
+[[noreturn]] void tell_places(const Cloud<3>& cloud, const GeometryError& error) {
+  constexpr double flat = 0.2443; // rad, as recover_boundary()
+  Cloud<3> flipped = cloud;
+  voronoi::flip_surface(flipped, flat);
+  NotRecovered failure{{}, error.what()};
+  for (const CloudFacetIndex f : voronoi::find_walls(flipped, voronoi::delaunay(flipped)).lost)
+    for (const Vec3& x : corners_of<3>(flipped.facets[f], flipped.position)) failure.places.push_back(x);
+  if (failure.places.empty()) throw GeometryError(error);
+  throw failure;
+}
+
 voronoi::RecoveredBoundary recovered_boundary(const Cloud<3>& cloud) {
   try {
     return voronoi::recover_boundary(cloud);
-  } catch (const GeometryError& error) {
-    constexpr double flat = 0.2443; // rad, as recover_boundary()
-    Cloud<3> flipped = cloud;
-    voronoi::flip_surface(flipped, flat);
-    NotRecovered failure{{}, error.what()};
-    for (const CloudFacetIndex f : voronoi::find_walls(flipped, voronoi::delaunay(flipped)).lost)
-      for (const Vec3& x : corners_of<3>(flipped.facets[f], flipped.position)) failure.places.push_back(x);
-    if (failure.places.empty()) throw;
-    throw failure;
-  }
+  } catch (const GeometryError& error) { tell_places(cloud, error); }
 }
 
 using Corners = std::array<NodeIndex, 3>;
@@ -169,6 +173,7 @@ void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Remo
     ++report.removed;
   }
   structure = structure_of(recovered.cloud, std::move(recovered.tetrahedra), rules.cells);
+  structure.held = recovered.counts.held;
   body.move(inheritance(body, structure, all, number));
   body.drop(gone);
   body.set_boundary(std::move(recovered.cloud.facets));
@@ -300,6 +305,11 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
   report.volume_change = enclosed_measure(body.cloud()) - enclosed_measure(cloud);
   Resampling<3> change = body.finish();
   change.old_position = cloud.position;
+  if (structure.held > 0) { // whoever triangulates has to find a way to hold them too
+    try {
+      voronoi::triangulate(change.cloud);
+    } catch (const GeometryError& error) { tell_places(change.cloud, error); }
+  }
   return change;
 }
 
@@ -308,8 +318,9 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
 Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const SpaceRules& rules,
                        PassReport& report) {
   report.crossings += static_cast<int>(voronoi::crossings(cloud).size());
-  // Where facets are lost the other side of the body is nearer than they are long: they become shorter there.
-  constexpr int times = 4;
+  // Where facets are lost the other side of the body is nearer than they are long: they become shorter there,
+  // once. More would not end beside crowded creases.
+  constexpr int times = 2;
   constexpr double shorter = 0.7, beside = 1.5;
   Field size = properties.size;
   for (int n = 1;; ++n) {

@@ -25,11 +25,14 @@ struct Body {
   Field mass, momentum, heat, jacobian, size;
   IndexedVector<NodeIndex, char> held;
   PassReport total;
+  SpaceRules rules;
 
-  explicit Body(const SpaceCloud& how) : spacing(1.0 / how.cells) {
+  explicit Body(const SpaceCloud& how, scni::CellKind cells = scni::CellKind::median)
+      : spacing(1.0 / how.cells) {
+    rules.cells = cells;
     voronoi::RecoveredBoundary recovered = testing::recovered(how);
     cloud = recovered.cloud;
-    const SpaceStructure structure = structure_of(cloud, std::move(recovered.tetrahedra));
+    const SpaceStructure structure = structure_of(cloud, std::move(recovered.tetrahedra), cells);
     Random random(5);
     for (const double volume : structure.cell) {
       jacobian.push_back(random.uniform(0.99, 1.01));
@@ -48,7 +51,7 @@ struct Body {
     properties.density.assign(mass.size(), 2.0);
     properties.size = size;
     properties.held = held;
-    return adapt::resample(cloud, std::move(properties), {}, report);
+    return adapt::resample(cloud, std::move(properties), rules, report);
   }
 
   void follow(const Resampling<3>& change) {
@@ -85,7 +88,8 @@ PassReport pass(Body& body) {
   EXPECT_NEAR(enclosed_measure(body.cloud) - volume, report.volume_change, 1e-14);
   EXPECT_EQ(report.crossings, 0);
   EXPECT_TRUE(voronoi::crossings(body.cloud).empty());
-  const SpaceStructure structure = structure_of(body.cloud, voronoi::triangulate(body.cloud));
+  const SpaceStructure structure =
+      structure_of(body.cloud, voronoi::triangulate(body.cloud), body.rules.cells);
   for (std::size_t i = 0; i < body.mass.size(); ++i) {
     const double ratio = 2.0 * structure.cell[i] / (body.mass[i] * body.jacobian[i]);
     EXPECT_GT(ratio, 0.79) << i;
@@ -210,6 +214,26 @@ TEST(SpaceResample, keeps_the_volume_of_bodies_with_bent_surfaces) {
     }
     EXPECT_NEAR(enclosed_measure(body.cloud), volume, 1e-6 * volume) << name_of(shape);
   }
+}
+
+TEST(SpaceResample, fills_voronoi_cells_where_the_method_has_these) {
+  Body body({.shape = SpaceShape::cube, .cells = 6, .jitter = 0.2}, scni::CellKind::voronoi);
+  for (int step = 0; step < 4; ++step) {
+    body.deform([](const Vec3& x) { return Vec3(x.x() + 0.4 * x.y(), x.y(), x.z()); });
+    pass(body);
+  }
+  EXPECT_GT(body.total.balanced, 10);
+}
+
+TEST(SpaceResample, refuses_a_surface_that_crosses_itself_and_counts_where) {
+  Body body({.shape = SpaceShape::thin_wall, .cells = 6});
+  const auto middle = std::find_if(body.cloud.position.begin(), body.cloud.position.end(),
+                                   [](const Vec3& x) { return (x - Vec3(0.5, 0.5, 0.0)).norm() < 1e-9; });
+  ASSERT_NE(middle, body.cloud.position.end());
+  middle->z() = 1.5 * body.spacing; // through the other side
+  PassReport report;
+  EXPECT_THROW(body.resample(report), GeometryError);
+  EXPECT_GT(report.crossings, 0);
 }
 
 } // namespace
