@@ -3,6 +3,8 @@
 #include "core/error.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
+#include "voronoi/space/facet_flips.hpp"
+#include "voronoi/space/flat_flips.hpp"
 #include "voronoi/space/surface.hpp"
 
 #include <algorithm>
@@ -34,6 +36,13 @@ std::array<std::size_t, 4> canonical(const std::array<NodeIndex, 4>& node) {
                   describe_node(cloud, node[3])));
 }
 
+[[noreturn]] void throw_lost(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& lost) {
+  refuse_crossings(cloud, lost);
+  throw GeometryError(fmt::format("{} of {} facets are no faces of Delaunay tetrahedra, the first {}: the "
+                                  "boundary has to be recovered first",
+                                  lost.size(), cloud.facets.size(), describe_facet(cloud, lost.front())));
+}
+
 } // namespace
 
 bool is_flat(const std::array<Vec3, 4>& x) {
@@ -46,8 +55,10 @@ bool is_flat(const std::array<Vec3, 4>& x) {
   return 6.0 * measure<3>(x) <= longest * (rounding * std::sqrt(longest) + 1e-14 * size);
 }
 
-Tetrahedra filling(const Cloud<3>& cloud, const Delaunay& mesh, const Walls& walls,
-                   const IndexedVector<SimplexIndex, std::uint8_t>& inside) {
+namespace {
+
+Tetrahedra numbered(const Cloud<3>& cloud, const Delaunay& mesh, const Walls& walls,
+                    const IndexedVector<SimplexIndex, std::uint8_t>& inside) {
   const auto own = own_nodes(cloud, mesh, walls, inside);
 
   struct Entry {
@@ -98,6 +109,19 @@ Tetrahedra filling(const Cloud<3>& cloud, const Delaunay& mesh, const Walls& wal
     if (!exists(result.of_node[i]))
       throw GeometryError(fmt::format("{} lies outside the domain", describe_node(cloud, i)));
   return result;
+}
+
+} // namespace
+
+Tetrahedra filling(const Cloud<3>& cloud, Delaunay mesh) {
+  Walls walls = hold_facets(cloud, mesh, find_walls(cloud, mesh));
+  if (!walls.lost.empty()) throw_lost(cloud, walls.lost);
+  auto inside = inside_of_walls(cloud, mesh, walls);
+  if (exchange_flat(cloud, mesh, inside)) {
+    walls = find_walls(cloud, mesh);
+    inside = inside_of_walls(cloud, mesh, walls);
+  }
+  return numbered(cloud, mesh, walls, inside);
 }
 
 } // namespace cnem::voronoi

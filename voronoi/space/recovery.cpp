@@ -3,8 +3,10 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/adoption.hpp"
+#include "voronoi/space/facet_flips.hpp"
 #include "voronoi/space/filling.hpp"
 #include "voronoi/space/surface.hpp"
+#include "voronoi/space/surface_fit.hpp"
 #include "voronoi/space/surface_flips.hpp"
 #include "voronoi/space/walls.hpp"
 
@@ -46,29 +48,62 @@ public:
 
   RecoveredBoundary run() {
     Cloud<3>& cloud = result_.cloud;
-    result_.counts.flipped = flip_surface(cloud, rules_.flat_angle);
+    RecoveryCounts& counts = result_.counts;
+    counts.flipped = flip_surface(cloud, rules_.flat_angle);
     Delaunay mesh = delaunay(cloud);
     Walls walls = find_walls(cloud, mesh);
-    result_.counts.lost = as<int>(walls.lost.size());
-    while (!walls.lost.empty() && remove_near(walls.lost)) {
-      mesh = delaunay(cloud);
+    counts.lost = as<int>(walls.lost.size());
+    while (true) {
+      if (!walls.lost.empty()) {
+        counts.flipped += fit_surface(cloud, mesh, rules_.flat_angle);
+        walls = find_walls(cloud, mesh);
+      }
+      peel(mesh, walls);
+      if (walls.lost.empty()) break;
+      Delaunay flipped = mesh;
+      counts.held = as<int>(walls.lost.size());
+      walls = hold_facets(cloud, flipped, std::move(walls));
+      peel(flipped, walls);
+      if (walls.lost.empty()) break;
+      if (const int flips = fit_surface(cloud, flipped, rules_.smooth_angle)) {
+        counts.flipped += flips;
+      } else if (remove_near(walls.lost)) {
+        mesh = delaunay(cloud);
+      } else if (counts.replaced > 0 || !adopt(mesh)) {
+        break;
+      }
       walls = find_walls(cloud, mesh);
     }
-    if (!walls.lost.empty()) {
-      const Adopted adopted = adopted_facets(cloud, mesh, walls, inside_by_winding(cloud, mesh));
-      const auto nodes = on_surface(cloud);
-      cloud.facets = adopted.facets;
-      result_.counts.replaced = adopted.replaced;
-      surface_edges(cloud);
-      if (on_surface(cloud) != nodes) throw GeometryError("other nodes");
-      walls = find_walls(cloud, mesh);
-    }
-    if (!walls.lost.empty()) throw GeometryError("lost");
-    result_.tetrahedra = filling(cloud, mesh, walls, inside_of_walls(cloud, mesh, walls));
+    result_.tetrahedra = filling(cloud, std::move(mesh));
     return std::move(result_);
   }
 
 private:
+  void peel(const Delaunay& mesh, Walls& walls) {
+    for (int layer = 0; layer < most_layers; ++layer) {
+      const int flips = peel_flat(result_.cloud, mesh, walls, rules_.flat_angle);
+      if (flips == 0) return;
+      result_.counts.flipped += flips;
+      walls = find_walls(result_.cloud, mesh);
+    }
+  }
+
+  /// Takes the boundary of the tetrahedra inside for the surface, if that is a manifold with the same nodes.
+  /// Whether it is.
+  bool adopt(const Delaunay& mesh) {
+    Cloud<3>& cloud = result_.cloud;
+    Cloud<3> candidate = cloud;
+    try {
+      Adopted adopted = adopted_facets(cloud, mesh, find_walls(cloud, mesh), inside_by_winding(cloud, mesh));
+      candidate.facets = std::move(adopted.facets);
+      surface_edges(candidate);
+      if (on_surface(candidate) != on_surface(cloud)) return false;
+      result_.counts.replaced = adopted.replaced;
+    } catch (const GeometryError&) { return false; }
+    cloud = std::move(candidate);
+    return true;
+  }
+
   /// Takes inner nodes out of the diametral balls of facets. Whether there were any.
   bool remove_near(const std::vector<CloudFacetIndex>& lost) {
     const Cloud<3>& cloud = result_.cloud;
@@ -108,6 +143,8 @@ private:
     for (NodeIndex& i : result_.now)
       if (exists(i)) i = number[i];
   }
+
+  static constexpr int most_layers = 10; ///< of flat tetrahedra on each other
 
   RecoveryRules rules_;
   RecoveredBoundary result_;

@@ -7,6 +7,8 @@ namespace cnem::voronoi {
 
 struct RecoveryRules {
   double flat_angle = 0.2443; ///< rad (14°): facets of one piece whose normals are that near may be flipped
+  double smooth_angle =
+      0.7; ///< rad (40°): the same for facets that nothing else brings back; creases are sharper
 };
 
 /// What a recovery has done.
@@ -14,6 +16,7 @@ struct RecoveryCounts {
   int lost = 0;      ///< facets that the Delaunay triangulation of the cloud as it was did not have
   int flipped = 0;   ///< edges of the surface that became the other diagonal
   int removed = 0;   ///< inner nodes in diametral balls of lost facets
+  int held = 0;      ///< facets that tetrahedra were flipped for
   int replaced = 0;  ///< facets that became others as the boundary of the tetrahedra inside
   int collapsed = 0; ///< surface nodes merged with a neighbour
 };

@@ -1,0 +1,50 @@
+#pragma once
+// Ways to exchange tetrahedra for others that keep the facets of a cloud and the edges of its surface.
+#include "voronoi/space/flip_mesh.hpp"
+
+#include <utility>
+
+namespace cnem::voronoi {
+
+/// Two nodes, the lower first.
+using Edge = std::pair<NodeIndex, NodeIndex>;
+/// Three nodes in increasing order.
+using Face = std::array<NodeIndex, 3>;
+
+inline Edge edge_of(NodeIndex a, NodeIndex b) { return {std::min(a, b), std::max(a, b)}; }
+Face face_of(NodeIndex a, NodeIndex b, NodeIndex c);
+
+/// Tetrahedra and those that may stand in their place.
+struct Exchange {
+  std::vector<SimplexIndex> old;
+  std::vector<FlipMesh::Nodes> fresh;
+};
+
+/// The same list for the same tetrahedra.
+std::vector<FlipMesh::Nodes> key_of(std::vector<FlipMesh::Nodes> nodes);
+
+class Exchanges {
+public:
+  Exchanges(const Cloud<3>& cloud, Delaunay& mesh);
+
+  FlipMesh mesh;
+
+  /// A facet of the cloud as a face, an edge of one, with the first node at each place.
+  Face at_first(const Facet<3>& facet) const;
+  bool is_edge(const Edge& edge) const;
+  bool is_facet(const Face& face) const;
+
+  /// Appends ways to fill the tetrahedra round an edge without it, at most 24; none for edges of the surface.
+  void add_removals(const Edge& edge, std::vector<Exchange>& exchanges);
+  /// Appends the way to put three tetrahedra in the place of the two at a face, if there is one.
+  void add_split(const Face& face, std::vector<Exchange>& exchanges);
+
+  std::vector<FlipMesh::Nodes> nodes_of(const std::vector<SimplexIndex>& tetrahedra) const;
+
+private:
+  const IndexedVector<NodeIndex, NodeIndex>& first_;
+  std::vector<Edge> edges_;  ///< of the surface, in order
+  std::vector<Face> facets_; ///< in order
+};
+
+} // namespace cnem::voronoi
