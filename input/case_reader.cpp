@@ -221,6 +221,11 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   read_materials(root, result, diagnostics);
   read_output(root, result, diagnostics);
   read_domain(root, result, diagnostics);
+  if (Setting* file = root.find("domain.stl.file")) // the resolved case stands elsewhere
+    file->value = std::filesystem::absolute(std::filesystem::path(result.path).parent_path() /
+                                            std::get<std::string>(file->value))
+                      .lexically_normal()
+                      .string();
   read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
   if (Setting* cutting = root.find("cutting")) result.cutting = read_cutting(*cutting, diagnostics);

@@ -15,8 +15,8 @@ struct GeneratedSpaceCloud {
 /// inside stands in the diametral ball of a facet. Inside, a body-centred lattice (uniform spacing) or a
 /// front that grows from the surface (graded), smoothed; nodes are in space-filling order. A function of its
 /// arguments alone. Throws GeometryError, with positions, as extruded_surface, revolved_surface and
-/// remeshed_surface, and a SpacingError with the estimate for more than `nodes_limit` nodes. About 20 µs a
-/// node with a uniform spacing, 60 µs graded.
+/// remeshed_surface, and a SpacingError with the estimate for more than `nodes_limit` nodes. About 40 µs a
+/// node with a uniform spacing, 90 µs graded.
 GeneratedSpaceCloud generate_cloud(const SpaceDomain& domain, const SpaceSpacing& spacing,
                                    double nodes_limit = 5.0e6);
 

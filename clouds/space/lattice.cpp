@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace cnem::clouds {
 
@@ -73,8 +75,8 @@ std::vector<Vec3> front_nodes(const Cloud<3>& surface, const Room& room, const S
           {{1.0, 0.0}, {0.816497, 0.0}, {0.0, 0.0}, {-0.816497, 0.0}}}; // cosines
       const int level = direction == 0 ? 0 : direction < 4 ? 1 : direction < 10 ? 2 : 3;
       const double c = ring[static_cast<std::size_t>(level)][0], s = std::sqrt(1.0 - c * c);
-      const double turn = level == 2 ? (direction - 4) * M_PI / 3.0 + M_PI / 6.0
-                                     : (direction - (level == 1 ? 1 : 10)) * 2.0 * M_PI / 3.0;
+      const double turn = level == 2 ? (direction - 4) * std::numbers::pi / 3.0 + std::numbers::pi / 6.0
+                                     : (direction - (level == 1 ? 1 : 10)) * 2.0 * std::numbers::pi / 3.0;
       const Vec3 to = c * seed.ahead + s * (std::cos(turn) * u + std::sin(turn) * v);
       const Vec3 x = seed.x + to * (0.5 * stride * (seed.h + spacing.at(seed.x + seed.h * to)));
       const double h = spacing.at(x);

@@ -258,7 +258,9 @@ std::string scope_of(const Key& table) {
 
 std::string required_text(const Key& table) {
   if (table.presence != Presence::required) return "";
-  return table.elsewhere.empty() ? " Required." : fmt::format(" Required, or {}.", table.elsewhere);
+  const std::string where = table.free_in_space ? " in the plane" : "";
+  return table.elsewhere.empty() ? fmt::format(" Required{}.", where)
+                                 : fmt::format(" Required{}, or {}.", where, table.elsewhere);
 }
 
 std::string default_text(const Key& key) {
