@@ -44,7 +44,6 @@ constexpr std::array scopes{
     Scoped{"tools.*.place", Scope::space, "a tool in the plane is turned by rotate"},
     Scoped{"tools.*.equal_areas", Scope::plane, "edges on arcs are not shared out in space"},
     Scoped{"tools.*.heat.section", Scope::plane, "what conducts in a tool is a plane section"},
-    Scoped{"contact", Scope::plane, "faces that touch each other are found along outlines"},
     Scoped{"coolants", Scope::plane, "faces that a cut makes are of the plane"},
     Scoped{"adapt", Scope::plane, "nodes are put into Voronoi cells of the plane"},
     Scoped{"fracture", Scope::plane, "a crack front in space is a line, not a tip"},
