@@ -114,6 +114,21 @@ TEST(SpaceContact, a_sharp_box_does_not_sink_between_the_nodes_of_a_coarse_surfa
   }
 }
 
+TEST(SpaceContact, a_tilted_prism_goes_in_corner_first) {
+  SpaceMasses scene = space_block({7, 7, 4}, 0.1, {0, 0, 0}, 12.0, 0.4);
+  const auto prism = std::make_shared<PlacedShape>(
+      std::make_shared<SweptShape>(SweptShape::extruded(
+          polygon({{-0.13, -0.12}, {0.14, -0.13}, {0.13, 0.14}, {-0.12, 0.11}}), 0.0, 1.0)),
+      rotation_about({1, 0.5, 0}, 0.3) * rotation_about({0, 0, 1}, 0.4), Vec3(0.31, 0.29, 0.36));
+  scene.start({tool(space_box({-1, -1, -1}, {2, 2, 0})), tool(prism, {0, 0, -0.2}, 0.1)});
+  double worst = 0.0;
+  for (int i = 0; i < 700; ++i) { // its corner reaches a side of the groove it has made
+    scene.step(1e-3);
+    if (i % 20 == 0) worst = std::max(worst, deepest(scene, *prism, {0, 0, -0.2 * scene.time}));
+  }
+  EXPECT_LT(worst, 1e-3);
+}
+
 TEST(SpaceContact, without_ridges_it_would_sink_in) {
   SpaceMasses scene = space_block({7, 7, 4}, 0.1, {0, 0, 0}, 12.0, 0.4);
   const auto punch = std::make_shared<WithoutRidges>(space_box({0.17, 0.19, 0.3}, {0.42, 0.44, 1.0}));
