@@ -215,5 +215,6 @@ template<int dim> void BodyContact<dim>::archive(Archive& archive, const Surface
 }
 
 template class BodyContact<2>;
+template class BodyContact<3>;
 
 } // namespace cnem::contact

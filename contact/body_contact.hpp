@@ -26,6 +26,19 @@ template<int dim> struct FacetHit {
   double clearance = 0.0; ///< m, gap that is kept so that boundaries that touch never cross by rounding
 };
 
+/// Two edges of a surface in space.
+struct EdgePair {
+  SurfaceEdgeIndex one{}, other{};
+};
+
+/// Edges that have gone through each other.
+struct EdgeHit {
+  EdgePair pair;
+  std::array<double, 2> weight_one{}, weight_other{}; ///< of their ends
+  Vec3 normal{0, 0, 0};                               ///< out of the body of the other
+  double start = 0.0, clearance = 0.0;                ///< m, as of FacetHit
+};
+
 /// Lists pairs of node and facet that are near each other (a bounding-volume tree over the facets) and looks
 /// at those alone until boundary nodes have moved by half a skin. Nodes are never paired with facets that end
 /// at them, nor, seen through the body, with facets of its far side: of pairs whose node lies behind the
@@ -46,6 +59,10 @@ public:
   void find(const Surface<dim>& surface, PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end,
             std::vector<FacetHit<dim>>& hits) const;
 
+  /// In space: the same of edges that crossed between their nodes, in the order of the edges.
+  void find_edges(const Surface<dim>& surface, PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end,
+                  std::vector<EdgeHit>& hits) const requires(dim == 3);
+
   double size() const { return size_; } ///< m, extent of the boundary as listed: the scale of rounding
   int listings() const { return listings_; }
 
@@ -64,6 +81,7 @@ private:
   IndexedVector<BoundaryNodeIndex, std::int32_t> group_; ///< −1: free
   IndexedVector<BoundaryNodeIndex, Vec<dim>> listed_;    ///< m; empty: no list yet
   std::vector<Pair> pairs_;                              ///< by node, then facet
+  std::vector<EdgePair> edge_pairs_;                     ///< 3D
   double skin_ = 0.0;                                    ///< m
   double size_ = 0.0;
   int listings_ = 0;
@@ -73,6 +91,14 @@ template<> void BodyContact<2>::list(const Surface<2>& surface);
 template<>
 void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, PlacesOnBoundary<2> end,
                           std::vector<FacetHit<2>>& hits) const;
+template<> void BodyContact<3>::list(const Surface<3>& surface);
+template<>
+void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
+                          std::vector<FacetHit<3>>& hits) const;
+template<>
+void BodyContact<3>::find_edges(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
+                                std::vector<EdgeHit>& hits) const;
 extern template class BodyContact<2>;
+extern template class BodyContact<3>;
 
 } // namespace cnem::contact

@@ -24,8 +24,6 @@ constexpr int sweeps = 100; ///< of Gauss-Seidel in a pass, at most
 template<int dim>
 RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space, BodyContactLaw bodies)
     : tools_(std::move(tools)), motions_(tools_), space_(space), law_(bodies) {
-  if (dim == 3 && law_.active)
-    throw InputError("contact between parts of the workpiece is known in the plane alone");
   for (const Tool<dim>& tool : tools_) {
     if (!tool.shape) throw InputError(fmt::format("tool '{}' has no shape", tool.name));
     tool.friction.check(fmt::format("tool '{}'", tool.name));
@@ -43,8 +41,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
                                      const std::vector<NodeConstraint<dim>>& constraints,
                                      IndexedSpan<NodeIndex, const std::int32_t> group) {
   surface_ = Surface<dim>(facets, nodes);
-  if constexpr (dim == 2)
-    if (law_.active) bodies_.set_boundary(surface_, group);
+  if (law_.active) bodies_.set_boundary(surface_, group);
   const std::size_t n = surface_.node.size();
   free_.assign(n, Mat<dim>::Identity());
   for (const NodeConstraint<dim>& constraint : constraints) {
@@ -92,11 +89,10 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
   tool_reactions_ = motions_.reactions(tools_, poses);
   look_for_passages(poses, step, longest);
   near_.look(surface_, tools_, poses, end_);
-  if constexpr (dim == 2)
-    if (law_.active) {
-      bodies_.look(surface_, start_, end_);
-      size_ = std::max(size_, bodies_.size());
-    }
+  if (law_.active) {
+    bodies_.look(surface_, start_, end_);
+    size_ = std::max(size_, bodies_.size());
+  }
   respond(poses, step);
   if (!answered_.empty()) {
     move(poses, step.dt);
@@ -323,7 +319,7 @@ bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactSte
   Pose<dim> rest;
   for (const Pose<dim>& pose : poses) rest.recovery = pose.recovery; // all have the same
   std::vector<FacetHit<dim>> hits;
-  if constexpr (dim == 2) bodies_.find(surface_, start_, end_, hits);
+  bodies_.find(surface_, start_, end_, hits);
   for (const FacetHit<dim>& hit : hits) {
     const auto& ends = surface_.facets[hit.facet];
     Contact<dim> contact;
@@ -342,6 +338,33 @@ bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactSte
       double both = step.window[hit.node];
       for (std::size_t a = 0; a < dim; ++a) both += hit.weight[a] * step.window[ends[a]];
       return 0.5 * both * area;
+    });
+    any |= add(contact, hit.start, hit.clearance, rest, step);
+  }
+  if constexpr (dim == 3) any |= find_on_edges(rest, step);
+  return any;
+}
+
+/// Edges of bodies that cross each other.
+template<int dim>
+bool RigidContact<dim>::find_on_edges(const Pose<dim>& rest,
+                                      const ContactStep<dim>& step) requires(dim == 3) {
+  bool any = false;
+  std::vector<EdgeHit> hits;
+  bodies_.find_edges(surface_, start_, end_, hits);
+  for (const EdgeHit& hit : hits) {
+    const SurfaceEdge &one = surface_.edges[hit.pair.one], &other = surface_.edges[hit.pair.other];
+    Contact<3> contact;
+    contact.feature = 1 + as<std::int32_t>(hit.pair.other);
+    contact.facet = one.facet[0]; // with its first node it is the edge
+    contact.node = {one.node[0], one.node[1], other.node[0], other.node[1]};
+    contact.weight = {hit.weight_one[0], hit.weight_one[1], -hit.weight_other[0], -hit.weight_other[1]};
+    contact.normal = hit.normal;
+    set_friction(contact, step, [&] { // of a quarter of each end: its facets touch elsewhere too
+      double area = 0.0;
+      for (std::size_t a = 0; a < 4; ++a)
+        area += 0.125 * std::abs(contact.weight[a]) * rubbing_area(contact.node[a], step.window);
+      return area;
     });
     any |= add(contact, hit.start, hit.clearance, rest, step);
   }

@@ -199,6 +199,7 @@ private:
   bool find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step);
   std::span<const RidgePair> moved_among(std::span<const RidgePair> pairs) requires(dim == 3);
   bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);
+  bool find_on_edges(const Pose<dim>& rest, const ContactStep<dim>& step) requires(dim == 3);
   bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
            const ContactStep<dim>& step);

@@ -113,7 +113,7 @@ template<int dim> void RigidContact<dim>::list_touches() {
   if (law_.conductance == 0.0) return;
   constexpr double closed = 1e-3; // of the facet
   for (const Contact<dim>& contact : contacts_) {
-    if (exists(contact.tool)) continue;
+    if (exists(contact.tool) || contact.weight[0] != 1.0) continue; // edges touch beside nodes that do
     BodyTouch<dim> touch;
     for (std::size_t a = 0; a < dim; ++a) {
       touch.facet[a] = surface_.node[contact.node[a + 1]];
@@ -198,7 +198,7 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
     if (tools_[t].drive) motions_.archive(archive, t);
   }
   if (!law_.active) return;
-  if constexpr (dim == 2) bodies_.archive(archive, surface_);
+  bodies_.archive(archive, surface_);
   archive.number("solver/body_contact/size", "m", size_);
   archive.number("solver/body_contact/pressing", "N/m", body_result_.pressing);
   archive.number("solver/body_contact/energy/workpiece", "J/m", body_result_.total.workpiece);

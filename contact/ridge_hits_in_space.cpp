@@ -201,12 +201,15 @@ std::optional<RidgeHit<3>> on_facet(const Surface<3>& surface, const Ridge<3>& r
   return RidgeHit<3>{0, facet, surface.facets[facet], weight, now.inwards, gap, passed};
 }
 
-/// What was inside already and is pushed out another way than what it shares a node with, which is less deep,
-/// came in through that.
-void drop_seen_from_behind(std::vector<RidgeHit<3>>& hits, std::size_t first) {
-  if (std::none_of(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
-                   [](const RidgeHit<3>& hit) { return hit.start < 0.0; }))
-    return;
+/// What was well inside already and is pushed out another way than what it shares a node with, which is less
+/// deep, came in through that. Little depth stays: a ridge may press on both sides of an edge of the
+/// workpiece.
+void drop_seen_from_behind(PlacesOnBoundary<3> position, std::vector<RidgeHit<3>>& hits, std::size_t first) {
+  constexpr double deep = 0.05; // of the length of an edge
+  const auto is_deep = [&](const RidgeHit<3>& hit) {
+    return -hit.start > deep * (position[hit.node[1]] - position[hit.node[0]]).norm();
+  };
+  if (std::none_of(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(), is_deep)) return;
   const auto share_node = [](const RidgeHit<3>& one, const RidgeHit<3>& other) {
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < 3; ++b)
@@ -216,7 +219,7 @@ void drop_seen_from_behind(std::vector<RidgeHit<3>>& hits, std::size_t first) {
   const std::vector<RidgeHit<3>> all(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end());
   hits.resize(first);
   for (const RidgeHit<3>& hit : all)
-    if (hit.start >= 0.0 || std::none_of(all.begin(), all.end(), [&](const RidgeHit<3>& other) {
+    if (!is_deep(hit) || std::none_of(all.begin(), all.end(), [&](const RidgeHit<3>& other) {
           return other.start > hit.start && other.normal.dot(hit.normal) < 0.5 && share_node(hit, other);
         }))
       hits.push_back(hit);
@@ -238,7 +241,7 @@ void ridge_hits<3>(const Surface<3>& surface, std::span<const RidgePair> candida
     hit->ridge = pair.ridge;
     hits.push_back(*hit);
   }
-  drop_seen_from_behind(hits, first);
+  drop_seen_from_behind(end, hits, first);
 }
 
 /// Corners and tips alone: along an edge that has entered the workpiece the nodes beside it tell.

@@ -45,7 +45,6 @@ constexpr std::array scopes{
     Scoped{"tools.*.place", Scope::space, "a tool in the plane is turned by rotate"},
     Scoped{"tools.*.equal_areas", Scope::plane, "edges on arcs are not shared out in space"},
     Scoped{"tools.*.heat.section", Scope::plane, "what conducts in a tool is a plane section"},
-    Scoped{"contact", Scope::plane, "faces that touch each other are found along outlines"},
     Scoped{"coolants", Scope::plane, "faces that a cut makes are of the plane"},
     Scoped{"adapt.cracks", Scope::plane, "broken matter in space parts where it goes through"},
     Scoped{"adapt.placement", Scope::plane, "nodes in space are put between others"},

@@ -17,6 +17,23 @@ std::shared_ptr<SweptShape> space_box(const Vec3& low, const Vec3& high) {
       SweptShape::extruded(cnem::testing::box(low.head<2>(), high.head<2>()), low.z(), high.z()));
 }
 
+/// A tool whose edges pass between nodes.
+struct WithoutRidges : ToolShape<3> {
+  std::shared_ptr<const ToolShape<3>> shape;
+  std::vector<Ridge<3>> none;
+  explicit WithoutRidges(std::shared_ptr<const ToolShape<3>> of) : shape(std::move(of)) {}
+  SurfacePoint<3> closest(const Vec3& x) const override { return shape->closest(x); }
+  void entries(std::span<const Vec3> from, std::span<const Vec3> to,
+               std::vector<Entry<3>>& found) const override {
+    shape->entries(from, to, found);
+  }
+  const std::vector<Ridge<3>>& ridges() const override { return none; }
+  Box<3> bounds() const override { return shape->bounds(); }
+  double least_thickness() const override { return shape->least_thickness(); }
+  double thickness_along(const Vec3& direction) const override { return shape->thickness_along(direction); }
+  double passed(const Vec3& from, const Vec3& to) const override { return shape->passed(from, to); }
+};
+
 /// How deep the surface of a body reaches into a tool, from samples of all facets, m.
 double deepest(const SpaceMasses& scene, const ToolShape<3>& shape, const Vec3& shift, int parts = 12) {
   double depth = 0.0;
@@ -77,25 +94,64 @@ TEST(SpaceContact, an_edge_presses_on_an_edge_between_nodes) {
 }
 
 TEST(SpaceContact, a_sharp_box_does_not_sink_between_the_nodes_of_a_coarse_surface) {
-  for (const double friction : {0.0, 0.3})
-    for (const double turn : {0.0, 0.4}) {
-      SpaceMasses scene = space_block({7, 7, 4}, 0.1, {0, 0, 0}, 12.0, 0.4);
-      const Mat<3> rotation = rotation_about({0, 0, 1}, turn);
-      const auto punch = std::make_shared<PlacedShape>(space_box({-0.13, -0.11, 0.0}, {0.12, 0.14, 1.0}),
-                                                       rotation, Vec3(0.3, 0.3, 0.3));
-      const auto die = space_box({-1, -1, -1}, {2, 2, 0});
-      scene.start({tool(die, {0, 0, 0}, friction), tool(punch, {0, 0, -0.1}, friction)});
-      double worst = 0.0;
-      for (int i = 0; i < 1000; ++i) {
-        scene.step(1e-3);
-        if (i % 20 == 0) worst = std::max(worst, deepest(scene, *punch, {0, 0, -0.1 * scene.time}));
-        const Vec3 balance =
-            scene.momentum() - scene.contact->results()[0].impulse - scene.contact->results()[1].impulse;
-        ASSERT_LT(balance.norm(), 1e-12) << i;
-      }
-      EXPECT_LT(worst, 1e-6) << friction << ' ' << turn;
-      EXPECT_LT(scene.contact->results()[1].force.z(), -0.1);
+  for (const auto& [friction, turn] : {std::pair{0.0, 0.0}, std::pair{0.3, 0.4}}) {
+    SpaceMasses scene = space_block({7, 7, 4}, 0.1, {0, 0, 0}, 12.0, 0.4);
+    const Mat<3> rotation = rotation_about({0, 0, 1}, turn);
+    const auto punch = std::make_shared<PlacedShape>(space_box({-0.13, -0.11, 0.0}, {0.12, 0.14, 1.0}),
+                                                     rotation, Vec3(0.3, 0.3, 0.3));
+    const auto die = space_box({-1, -1, -1}, {2, 2, 0});
+    scene.start({tool(die, {0, 0, 0}, friction), tool(punch, {0, 0, -0.1}, friction)});
+    double worst = 0.0;
+    for (int i = 0; i < 600; ++i) {
+      scene.step(1e-3);
+      if (i % 20 == 0) worst = std::max(worst, deepest(scene, *punch, {0, 0, -0.1 * scene.time}));
+      const Vec3 balance =
+          scene.momentum() - scene.contact->results()[0].impulse - scene.contact->results()[1].impulse;
+      ASSERT_LT(balance.norm(), 1e-12) << i;
     }
+    EXPECT_LT(worst, 1e-6) << friction << ' ' << turn;
+    EXPECT_LT(scene.contact->results()[1].force.z(), -0.1);
+  }
+}
+
+TEST(SpaceContact, a_tilted_prism_goes_in_corner_first) {
+  SpaceMasses scene = space_block({7, 7, 4}, 0.1, {0, 0, 0}, 12.0, 0.4);
+  const auto prism = std::make_shared<PlacedShape>(
+      std::make_shared<SweptShape>(SweptShape::extruded(
+          polygon({{-0.13, -0.12}, {0.14, -0.13}, {0.13, 0.14}, {-0.12, 0.11}}), 0.0, 1.0)),
+      rotation_about({1, 0.5, 0}, 0.3) * rotation_about({0, 0, 1}, 0.4), Vec3(0.31, 0.29, 0.36));
+  scene.start({tool(space_box({-1, -1, -1}, {2, 2, 0})), tool(prism, {0, 0, -0.2}, 0.1)});
+  double worst = 0.0;
+  for (int i = 0; i < 700; ++i) { // its corner reaches a side of the groove it has made
+    scene.step(1e-3);
+    if (i % 20 == 0) worst = std::max(worst, deepest(scene, *prism, {0, 0, -0.2 * scene.time}));
+  }
+  EXPECT_LT(worst, 1e-3);
+}
+
+TEST(SpaceContact, without_ridges_it_would_sink_in) {
+  SpaceMasses scene = space_block({7, 7, 4}, 0.1, {0, 0, 0}, 12.0, 0.4);
+  const auto punch = std::make_shared<WithoutRidges>(space_box({0.17, 0.19, 0.3}, {0.42, 0.44, 1.0}));
+  scene.start({tool(space_box({-1, -1, -1}, {2, 2, 0})), tool(punch, {0, 0, -0.1})});
+  for (int i = 0; i < 600; ++i) scene.step(1e-3);
+  EXPECT_GT(deepest(scene, *punch, {0, 0, -0.1 * scene.time}), 0.01);
+}
+
+TEST(SpaceContact, a_small_rounded_corner_does_not_pass_through_a_facet) {
+  // radii far below the facets: of the corner in plan, and of the cutting edge
+  SpaceMasses scene = space_block({7, 7, 4}, 0.1, {0, 0, 0}, 12.0, 0.4);
+  const double edge = 0.01;
+  const auto punch =
+      std::make_shared<PlacedShape>(std::make_shared<SweptShape>(SweptShape::extruded(
+                                        rounded_box({-0.13, -0.11}, {0.12, 0.14}, 0.03), 0.0, 1.0, edge)),
+                                    rotation_about({0, 0, 1}, 0.4), Vec3(0.31, 0.29, 0.3));
+  scene.start({tool(space_box({-1, -1, -1}, {2, 2, 0})), tool(punch, {0, 0, -0.1}, 0.1)});
+  double worst = 0.0;
+  for (int i = 0; i < 600; ++i) {
+    scene.step(1e-3);
+    if (i % 20 == 0) worst = std::max(worst, deepest(scene, *punch, {0, 0, -0.1 * scene.time}));
+  }
+  EXPECT_LT(worst, 1.05 * edge * (1.0 - std::sqrt(0.5))) << "the height of the edge's arc over its chord";
 }
 
 TEST(SpaceContact, a_round_punch_with_a_sharp_edge_goes_down_between_nodes) {
@@ -105,7 +161,7 @@ TEST(SpaceContact, a_round_punch_with_a_sharp_edge_goes_down_between_nodes) {
       Mat<3>::Identity(), Vec3(0.31, 0.29, 0.3));
   scene.start({tool(space_box({-1, -1, -1}, {2, 2, 0})), tool(punch, {0, 0, -0.1})});
   double worst = 0.0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 600; ++i) {
     scene.step(1e-3);
     if (i % 20 == 0) worst = std::max(worst, deepest(scene, *punch, {0, 0, -0.1 * scene.time}));
   }
@@ -204,7 +260,7 @@ TEST(SpaceContact, results_do_not_depend_on_when_near_parts_are_listed) {
     return scene;
   };
   SpaceMasses seldom = make(), always = make();
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 150; ++i) {
     seldom.step(1e-3);
     always.contact->set_boundary(always.facets, always.mass.size(), {});
     always.step(1e-3);
@@ -213,7 +269,7 @@ TEST(SpaceContact, results_do_not_depend_on_when_near_parts_are_listed) {
       ASSERT_EQ(seldom.v[k], always.v[k]) << i;
     }
   }
-  EXPECT_LT(seldom.contact->near().listings(), 60);
+  EXPECT_LT(seldom.contact->near().listings(), 30);
 }
 
 TEST(SpaceContact, triangles_of_a_box_press_as_the_box_does) {
@@ -222,7 +278,7 @@ TEST(SpaceContact, triangles_of_a_box_press_as_the_box_does) {
   const auto die = space_box({-1, -1, -1}, {2, 2, 0});
   one.start({tool(die), tool(space_box(low, high), {0, 0, -0.1})});
   other.start({tool(die), tool(std::make_shared<TriangleShape>(triangle_box(low, high)), {0, 0, -0.1})});
-  for (int i = 0; i < 500; ++i) one.step(1e-3), other.step(1e-3);
+  for (int i = 0; i < 300; ++i) one.step(1e-3), other.step(1e-3);
   const Vec3 a = one.contact->results()[1].impulse, b = other.contact->results()[1].impulse;
   EXPECT_LT((a - b).norm(), 1e-6 * a.norm());
   for (int i = 0; i < one.nodes(); ++i) EXPECT_LT((one.position(i) - other.position(i)).norm(), 1e-7);

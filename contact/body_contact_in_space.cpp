@@ -1,0 +1,286 @@
+// Bodies on bodies in space: nodes against facets, and edges against edges, which cross between nodes.
+#include "contact/body_contact.hpp"
+#include "contact/box_tree.hpp"
+#include "core/index.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace cnem::contact {
+namespace {
+
+constexpr double skin_of_facets = 0.5;  ///< skin over the mean length of edges
+constexpr double clearance = 1e-6;      ///< of a facet's size: what stays between bodies that touch
+constexpr double rounding = 1e-9;       ///< of a facet's size: a gap of nothing
+constexpr double overhang = 1e-6;       ///< of a facet's size, by which crossings beside it count
+constexpr double facing = -0.25;        ///< cosine between normals below which two facets face each other
+constexpr double least_crossing = 0.05; ///< sine of the angle between edges that cross
+
+/// A facet at one time.
+struct FacetView {
+  Vec3 a, e, f, normal;
+  double area2, size; ///< m², twice the area; m
+
+  FacetView(const Surface<3>& surface, FacetIndex facet, PlacesOnBoundary<3> position)
+      : a(position[surface.facets[facet][0]]), e(position[surface.facets[facet][1]] - a),
+        f(position[surface.facets[facet][2]] - a), normal(e.cross(f)), area2(normal.norm()),
+        size(std::sqrt(area2)) {
+    normal /= area2;
+  }
+  double gap(const Vec3& x) const { return normal.dot(x - a); }
+  std::array<double, 3> weights(const Vec3& x) const {
+    const double s = (x - a).cross(f).dot(normal) / area2, t = e.cross(x - a).dot(normal) / area2;
+    return {1.0 - s - t, s, t};
+  }
+  Vec3 at(const std::array<double, 3>& w) const { return a + w[1] * e + w[2] * f; }
+  Vec3 middle() const { return a + (e + f) / 3.0; }
+  /// The nearest point, by projection on the plane and the three sides.
+  Vec3 nearest(const Vec3& x) const {
+    const auto w = weights(x);
+    if (std::min({w[0], w[1], w[2]}) >= 0.0) return at(w);
+    Vec3 best = a;
+    double least = std::numeric_limits<double>::infinity();
+    const std::array<Vec3, 3> corner{a, a + e, a + f};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 side = corner[(k + 1) % 3] - corner[k];
+      const Vec3 p = corner[k] + std::clamp(side.dot(x - corner[k]) / side.squaredNorm(), 0.0, 1.0) * side;
+      if (const double d = (x - p).squaredNorm(); d < least) least = d, best = p;
+    }
+    return best;
+  }
+};
+
+bool inside(const std::array<double, 3>& w, double over) { return std::min({w[0], w[1], w[2]}) >= -over; }
+
+std::array<double, 3> clamped(std::array<double, 3> w) {
+  double sum = 0.0;
+  for (double& share : w) sum += share = std::max(share, 0.0);
+  for (double& share : w) share /= sum;
+  return w;
+}
+
+bool faces(const Surface<3>& surface, BoundaryNodeIndex node, const Vec3& normal,
+           PlacesOnBoundary<3> position) {
+  return std::any_of(surface.around[node].begin(), surface.around[node].end(), [&](FacetIndex f) {
+    return FacetView(surface, f, position).normal.dot(normal) < facing;
+  });
+}
+
+/// How often the boundary encloses x: the solid angles of its facets (van Oosterom and Strackee 1983).
+double winding_number(const Surface<3>& surface, PlacesOnBoundary<3> position, const Vec3& x) {
+  double angle = 0.0;
+  for (const auto& nodes : surface.facets) {
+    const Vec3 a = position[nodes[0]] - x, b = position[nodes[1]] - x, c = position[nodes[2]] - x;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle / (2.0 * std::numbers::pi);
+}
+
+Box<3> box_of(PlacesOnBoundary<3> position, std::span<const BoundaryNodeIndex> nodes, double margin) {
+  Box<3> box{position[nodes[0]], position[nodes[0]]};
+  for (const BoundaryNodeIndex b : nodes) {
+    box.low = box.low.cwiseMin(position[b]);
+    box.high = box.high.cwiseMax(position[b]);
+  }
+  box.low.array() -= margin;
+  box.high.array() += margin;
+  return box;
+}
+
+/// A hit with when it happened, to choose between facets that meet.
+struct Candidate {
+  FacetHit<3> hit;
+  double when;
+};
+
+/// Of two facets that meet at a convex edge or corner of their body, a node came in through the one it passed
+/// last.
+void keep_last_passed(const Surface<3>& surface, PlacesOnBoundary<3> position,
+                      std::vector<Candidate>& of_node) {
+  const auto beaten = [&](const Candidate& c) {
+    return std::any_of(of_node.begin(), of_node.end(), [&](const Candidate& other) {
+      const auto &f = surface.facets[c.hit.facet], &g = surface.facets[other.hit.facet];
+      if (c.hit.facet == other.hit.facet ||
+          std::find_first_of(f.begin(), f.end(), g.begin(), g.end()) == f.end())
+        return false;
+      const FacetView mine(surface, c.hit.facet, position), theirs(surface, other.hit.facet, position);
+      if (mine.gap(theirs.middle()) >= -rounding * mine.size) return false; // flat or hollow
+      return other.when > c.when || (other.when == c.when && other.hit.facet < c.hit.facet);
+    });
+  };
+  std::vector<Candidate> kept;
+  for (const Candidate& c : of_node)
+    if (!beaten(c)) kept.push_back(c);
+  of_node = std::move(kept);
+}
+
+/// Two edges at one time: the gap along the normal common to both, out of the body of the second.
+struct Crossing {
+  Vec3 normal{0, 0, 0};
+  double s = 0.0, t = 0.0; ///< on the first and on the second
+  double gap = 0.0, length = 0.0;
+
+  bool between(double over) const { return s >= -over && s <= 1.0 + over && t >= -over && t <= 1.0 + over; }
+};
+
+Vec3 outwards(const Surface<3>& surface, const SurfaceEdge& edge, PlacesOnBoundary<3> position) {
+  Vec3 sum = Vec3::Zero();
+  for (const FacetIndex f : edge.facet)
+    if (exists(f)) sum += FacetView(surface, f, position).normal;
+  return sum;
+}
+
+std::optional<Crossing> crossing(const Surface<3>& surface, const SurfaceEdge& one, const SurfaceEdge& other,
+                                 PlacesOnBoundary<3> position) {
+  const Vec3 x = position[one.node[0]], e = position[one.node[1]] - x;
+  const Vec3 y = position[other.node[0]], f = position[other.node[1]] - y;
+  const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f), det = ee * ff - ef * ef;
+  if (det < least_crossing * least_crossing * ee * ff) return {};
+  const Vec3 r = y - x;
+  Crossing at;
+  at.s = (e.dot(r) * ff - f.dot(r) * ef) / det;
+  at.t = (e.dot(r) * ef - f.dot(r) * ee) / det;
+  if (!at.between(0.1)) return {};
+  at.length = std::sqrt(std::min(ee, ff));
+  at.normal = e.cross(f).normalized();
+  const Vec3 out_one = outwards(surface, one, position), out_other = outwards(surface, other, position);
+  if (at.normal.dot(out_other - out_one) < 0.0) at.normal = -at.normal;
+  if (at.normal.dot(out_other) < 0.25 * out_other.norm() || at.normal.dot(out_one) > -0.25 * out_one.norm())
+    return {}; // they do not face each other
+  at.gap = at.normal.dot(x + at.s * e - y - at.t * f);
+  return at;
+}
+
+} // namespace
+
+template<> void BodyContact<3>::list(const Surface<3>& surface) {
+  pairs_.clear();
+  edge_pairs_.clear();
+  ++listings_;
+  Vec3 low = listed_.front(), high = low;
+  for (const Vec3& x : listed_) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  size_ = (high - low).norm();
+  double total = 0.0;
+  for (const auto& nodes : surface.facets) total += (listed_[nodes[1]] - listed_[nodes[0]]).norm();
+  skin_ = skin_of_facets * total / static_cast<double>(std::max<std::size_t>(surface.facets.size(), 1));
+  std::vector<Box<3>> boxes;
+  for (const auto& nodes : surface.facets) boxes.push_back(box_of(listed_, nodes, 0.0));
+  const BoxTree facets(std::move(boxes));
+  std::vector<std::int32_t> near;
+  const auto find_near = [&](const BoxTree& tree, const Box<3>& box) {
+    near.clear();
+    tree.overlapping(box, [&](std::int32_t i) { near.push_back(i); });
+    std::sort(near.begin(), near.end());
+  };
+  // what lies behind a facet does so in another body, or may come round a corner
+  const auto may_meet = [&](double gap, double size, const Vec3& middle, bool beside) {
+    if (gap >= -rounding * size) return true;
+    const double bodies = winding_number(surface, listed_, middle);
+    return bodies > 1.5 || (bodies < 0.5 && beside);
+  };
+  for (const BoundaryNodeIndex b : listed_.indices()) {
+    const auto& around = surface.around[b];
+    if (std::all_of(around.begin(), around.end(), [&](FacetIndex f) { return bonded(surface, f); })) continue;
+    find_near(facets, box_of(listed_, std::array{b}, skin_));
+    for (const std::int32_t i : near) {
+      const auto f = as<FacetIndex>(i);
+      if (bonded(surface, f) || related(surface, b, f)) continue;
+      const FacetView facet(surface, f, listed_);
+      const Vec3 foot = facet.nearest(listed_[b]);
+      if ((foot - listed_[b]).norm() > skin_) continue;
+      if (may_meet(facet.gap(listed_[b]), facet.size, 0.5 * (foot + listed_[b]),
+                   !inside(facet.weights(listed_[b]), 0.0)))
+        pairs_.push_back({b, f});
+    }
+  }
+  boxes.clear();
+  for (const SurfaceEdge& edge : surface.edges)
+    boxes.push_back(box_of(listed_, std::span(edge.node).first(2), 0.0));
+  const BoxTree edges(std::move(boxes));
+  const auto tied = [&](const SurfaceEdge& edge) {
+    return bonded(surface, edge.facet[0]) && bonded(surface, edge.facet[1]);
+  };
+  for (const SurfaceEdgeIndex e : surface.edges.indices()) {
+    const SurfaceEdge& one = surface.edges[e];
+    if (tied(one)) continue;
+    find_near(edges, box_of(listed_, std::span(one.node).first(2), skin_));
+    for (const std::int32_t i : near) {
+      const auto o = as<SurfaceEdgeIndex>(i);
+      if (o <= e || tied(surface.edges[o])) continue;
+      const SurfaceEdge& other = surface.edges[o];
+      const auto same = [&](BoundaryNodeIndex p, BoundaryNodeIndex q) {
+        return p == q || (group_[p] >= 0 && group_[p] == group_[q]);
+      };
+      if (same(one.node[0], other.node[0]) || same(one.node[0], other.node[1]) ||
+          same(one.node[1], other.node[0]) || same(one.node[1], other.node[1]))
+        continue;
+      const auto at = crossing(surface, one, other, listed_);
+      if (at && at->gap < -rounding * at->length) { // edges of two facets that see each other from behind
+        if (std::abs(at->gap) > skin_) continue;
+        const Vec3 x = (1.0 - at->s) * listed_[one.node[0]] + at->s * listed_[one.node[1]];
+        if (winding_number(surface, listed_, x - 0.5 * at->gap * at->normal) < 1.5) continue;
+      }
+      edge_pairs_.push_back({e, o});
+    }
+  }
+}
+
+template<>
+void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
+                          std::vector<FacetHit<3>>& hits) const {
+  std::vector<Candidate> crossed;
+  for (std::size_t first = 0; first < pairs_.size();) {
+    const BoundaryNodeIndex b = pairs_[first].node;
+    crossed.clear();
+    FacetHit<3> within;
+    double depth = std::numeric_limits<double>::infinity();
+    for (; first < pairs_.size() && pairs_[first].node == b; ++first) {
+      const FacetIndex f = pairs_[first].facet;
+      const FacetView now(surface, f, end);
+      const double kept = clearance * now.size, gap = now.gap(end[b]) - kept;
+      if (gap >= 0.0 || gap < -2.0 * skin_) continue;
+      const FacetView before(surface, f, start);
+      if (!faces(surface, b, before.normal, start)) continue;
+      const double gap_before = before.gap(start[b]) - kept;
+      const auto place = now.weights(end[b]);
+      FacetHit<3> hit{b, f, clamped(place), now.normal, std::min(gap_before, 0.0), kept};
+      if (gap_before >= -kept - rounding * before.size) {
+        const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;
+        std::array<double, 3> there = before.weights(start[b]);
+        for (std::size_t k = 0; k < 3; ++k) there[k] = (1.0 - when) * there[k] + when * place[k];
+        if (inside(there, overhang)) crossed.push_back({hit, when});
+      } else if (inside(place, 0.0) && -gap < std::min(depth, skin_)) {
+        depth = -gap;
+        within = hit;
+      }
+    }
+    keep_last_passed(surface, end, crossed);
+    for (const Candidate& c : crossed) hits.push_back(c.hit);
+    if (crossed.empty() && depth < std::numeric_limits<double>::infinity()) hits.push_back(within);
+  }
+}
+
+template<>
+void BodyContact<3>::find_edges(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
+                                std::vector<EdgeHit>& hits) const {
+  for (const EdgePair& pair : edge_pairs_) {
+    const SurfaceEdge &one = surface.edges[pair.one], &other = surface.edges[pair.other];
+    const auto now = crossing(surface, one, other, end);
+    if (!now) continue;
+    const double kept = clearance * now->length, gap = now->gap - kept;
+    if (gap >= 0.0 || gap < -skin_ || !now->between(overhang)) continue;
+    const auto before = crossing(surface, one, other, start);
+    if (!before || before->normal.dot(now->normal) < 0.0) continue;
+    const double gap_before = before->gap - kept, s = std::clamp(now->s, 0.0, 1.0),
+                 t = std::clamp(now->t, 0.0, 1.0);
+    hits.push_back({pair, {1.0 - s, s}, {1.0 - t, t}, now->normal, std::min(gap_before, 0.0), kept});
+  }
+}
+
+} // namespace cnem::contact

@@ -1,0 +1,111 @@
+// Bodies on bodies in space: nodes on facets, edges across edges, momentum, and what only looks near.
+#include "space_masses.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace cnem;
+using namespace cnem::contact;
+using namespace cnem::contact::testing;
+
+namespace {
+
+/// Adds the masses of another scene, turned and shifted.
+void append(SpaceMasses& scene, const SpaceMasses& other, const Mat<3>& turn, const Vec3& shift,
+            const Vec3& velocity) {
+  const int offset = scene.nodes();
+  for (int i = 0; i < other.nodes(); ++i)
+    scene.add(turn * other.position(i) + shift, other.mass[std::size_t(i)], velocity);
+  for (SpaceMasses::Spring s : other.springs) {
+    s.a += offset, s.b += offset;
+    scene.springs.push_back(s);
+  }
+  for (const Facet<3>& f : other.facets)
+    scene.facet(as<int>(f.node[0]) + offset, as<int>(f.node[1]) + offset, as<int>(f.node[2]) + offset);
+}
+
+Vec3 angular_momentum(const SpaceMasses& scene) {
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < scene.nodes(); ++i)
+    sum += scene.mass[std::size_t(i)] * scene.position(i).cross(scene.velocity(i));
+  return sum;
+}
+
+/// Whether a point is inside facets from `first` on.
+bool encloses(const SpaceMasses& scene, std::size_t first, std::size_t last, const Vec3& x) {
+  double angle = 0.0;
+  for (std::size_t f = first; f < last; ++f) {
+    const auto& n = scene.facets[f].node;
+    const Vec3 a = scene.position(as<int>(n[0])) - x, b = scene.position(as<int>(n[1])) - x,
+               c = scene.position(as<int>(n[2])) - x;
+    angle += std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                                               b.dot(c) * a.norm() + c.dot(a) * b.norm());
+  }
+  return angle > std::numbers::pi;
+}
+
+} // namespace
+
+TEST(SpaceBodies, oblique_impact_keeps_momenta_and_balances_energy) {
+  SpaceMasses scene = space_block({4, 4, 4}, 0.25, {0, 0, 0}, 100.0, 0.0);
+  const std::size_t own = scene.facets.size();
+  const int nodes = scene.nodes();
+  append(scene, space_block({4, 4, 3}, 0.22, {0, 0, 0}, 80.0, 0.0), rotation_about({1, 2, 3}, 0.3),
+         {0.1, 0.15, 0.95}, {0.3, 0.1, -1.0});
+  scene.start({}, BodyContactLaw{true, Coulomb{0.2}});
+  const Vec3 momentum = scene.momentum(), angular = angular_momentum(scene);
+  bool touched = false;
+  for (int i = 0; i < 600; ++i) {
+    scene.step(5e-4);
+    touched = touched || scene.contact->body_result().pressing > 0.0;
+    if (i % 50 != 0) continue;
+    for (int n = 0; n < nodes; ++n)
+      ASSERT_FALSE(encloses(scene, own, scene.facets.size(), scene.position(n))) << n << " at step " << i;
+    for (int n = nodes; n < scene.nodes(); ++n)
+      ASSERT_FALSE(encloses(scene, 0, own, scene.position(n))) << n << " at step " << i;
+  }
+  EXPECT_TRUE(touched);
+  EXPECT_LT((scene.momentum() - momentum).norm(), 1e-12);
+  EXPECT_LT((angular_momentum(scene) - angular).norm(), 1e-3) << "but for slip along facets within a step";
+  const ContactWork work = scene.contact->body_result().total;
+  EXPECT_NEAR(work.workpiece, work.recovery - work.friction - work.impact, 1e-12);
+  EXPECT_GT(work.impact, 0.0);
+  EXPECT_GT(work.friction, 0.0);
+}
+
+TEST(SpaceBodies, edges_that_cross_stop_each_other) {
+  // two roofs, ridge across ridge, whose nodes never meet a facet
+  const auto roof = [](SpaceMasses& scene, double side, double mass) {
+    const int first = scene.nodes();
+    for (const Vec3& x : {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, -0.2, -1), Vec3(1, -0.2, -1),
+                          Vec3(-1, 0.2, -1), Vec3(1, 0.2, -1)})
+      scene.add(side > 0.0 ? Vec3(x) : Vec3(x.y(), x.x(), 0.01 - x.z()), mass);
+    const auto facet = [&](int a, int b, int c) { scene.facet(first + a, first + b, first + c); };
+    facet(0, 2, 3), facet(0, 3, 1), facet(0, 1, 5), facet(0, 5, 4);
+    facet(2, 4, 5), facet(2, 5, 3), facet(0, 4, 2), facet(1, 3, 5);
+  };
+  SpaceMasses scene;
+  roof(scene, 1.0, 1.0);
+  roof(scene, -1.0, 2.0);
+  for (int i = 6; i < 12; ++i) scene.v[2][std::size_t(i)] = -1.0;
+  scene.start({}, BodyContactLaw{true, Coulomb{0.0}});
+  const Vec3 momentum = scene.momentum();
+  for (int i = 0; i < 12; ++i) scene.step(1e-3);
+  EXPECT_GT(scene.velocity(0).z(), -1.0);
+  const double low = 0.5 * (scene.position(6).z() + scene.position(7).z()),
+               high = 0.5 * (scene.position(0).z() + scene.position(1).z());
+  EXPECT_GT(low - high, 0.0);
+  EXPECT_LT(low - high, 1e-5);
+  EXPECT_LT((scene.momentum() - momentum).norm(), 1e-13);
+  EXPECT_LT(scene.velocity(0).z(), -0.1) << "the ridge below has taken its share";
+}
+
+TEST(SpaceBodies, a_thin_body_does_not_touch_its_own_far_side) {
+  SpaceMasses scene = space_block({6, 6, 2}, 0.1, {0, 0, 0}, 1.0, 0.0);
+  for (double& z : scene.x[2]) z *= 0.2; // the far side is within the skin
+  scene.set_velocity({1.0, 0.3, -0.2});
+  for (auto& spring : scene.springs) spring.stiffness = 0.0;
+  scene.start({}, BodyContactLaw{true, Coulomb{0.0}});
+  for (int i = 0; i < 20; ++i) scene.step(1e-3);
+  EXPECT_EQ(scene.contact->body_result().total.workpiece, 0.0);
+  for (int i = 0; i < scene.nodes(); ++i) EXPECT_LT((scene.velocity(i) - Vec3(1.0, 0.3, -0.2)).norm(), 1e-14);
+}
