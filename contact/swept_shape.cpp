@@ -111,12 +111,12 @@ SweptShape::SweptShape(std::optional<CurveShape> outline, CurveShape section)
 SweptShape SweptShape::extruded(Curve outline, double low, double high, double radius_low,
                                 double radius_high) {
   if (!(low < high))
-    throw InputError(
-        fmt::format("an extruded outline from z = {:.6g} m to {:.6g} m has no volume", low, high));
+    throw InputError(fmt::format(
+        "an extruded outline from z = {:.6g} m to {:.6g} m has no volume, expected a higher end", low, high));
   if (!(radius_low >= 0.0 && radius_high >= 0.0 && radius_low + radius_high <= high - low))
-    throw InputError(
-        fmt::format("edges with radii of {:.6g} m and {:.6g} m do not fit on a length of {:.6g} m",
-                    radius_low, radius_high, high - low));
+    throw InputError(fmt::format("edges with radii of {:.6g} m and {:.6g} m do not fit on a length of {:.6g} "
+                                 "m, expected a longer tool or smaller radii",
+                                 radius_low, radius_high, high - low));
   CurveShape plan(std::move(outline));
   const Box<2> box = plan.bounds(); // no point inside is farther from the outline than half of its width
   const double depth = (box.high - box.low).norm() + radius_low + radius_high;

@@ -47,7 +47,9 @@ std::shared_ptr<const contact::ToolShape<3>> own_shape(const input::ToolSolid& s
   case stl:
     try {
       return std::make_shared<contact::TriangleShape>(read_stl(solid.file, solid.file_unit));
-    } catch (const GeometryError& error) { throw InputError(solid.file + ": " + error.what()); }
+    } catch (const GeometryError& error) {
+      throw InputError(solid.file + ": " + error.what() + ", expected triangles that close around the solid");
+    }
   case half_space:
     break;
   }

@@ -63,7 +63,8 @@ TriangleSurface parse_binary(std::string_view bytes, double scale) {
     for (std::size_t k = 0; k < 3; ++k) {
       corner[k] = Vec3(number[3 * k + 3], number[3 * k + 4], number[3 * k + 5]);
       if (!corner[k].allFinite())
-        throw InputError(fmt::format("triangle {} has a corner that is no place", t + 1));
+        throw InputError(
+            fmt::format("triangle {} has a corner that is no place, expected finite numbers", t + 1));
     }
     gathered.add(corner);
   }
@@ -148,7 +149,7 @@ TriangleSurface parse_stl(std::string_view bytes, double scale) {
 
 TriangleSurface read_stl(const std::string& path, double scale) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: cannot be read", path));
+  if (!file) throw InputError(fmt::format("{}: cannot be read, expected a file of STL", path));
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   try {
     return parse_stl(bytes, scale);

@@ -169,7 +169,7 @@ lines.l = {{ from = "{0} 1 {0} m", to = "{1} 1 {1} m", fields = ["velocity_z"] }
   EXPECT_EQ(near.origin, Vec3(0, 0, 0));
   EXPECT_LT((far.origin - Vec3(4097, 0, 4097)).norm(), 4.0);
   const auto places = [](const Case& c) {
-    return std::vector<Vec3>{c.domain.block->from, c.domain.block->to,    c.boundary[0].points[0],
+    return std::vector<Vec3>{c.domain.block->from,       c.domain.block->to,    c.boundary[0].points[0],
                              c.tools[0].solid->plane.at, c.output.probes[0].at, c.output.lines[0].from,
                              c.output.lines[0].to};
   };
