@@ -12,8 +12,6 @@
 namespace cnem::contact {
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
-
 double angle_between(const Vec2& a, const Vec2& b) { return std::atan2(cross(a, b), a.dot(b)); }
 
 Curve checked(Curve curve) {

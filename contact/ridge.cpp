@@ -7,7 +7,6 @@
 namespace cnem::contact {
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double tolerance = 1e-6; ///< rad
 
 } // namespace

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace cnem::contact {
+
+inline constexpr double full_turn = 2.0 * std::numbers::pi; ///< rad
 
 template<int dim> struct Box {
   Vec<dim> low, high; ///< m

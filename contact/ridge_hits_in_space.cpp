@@ -15,7 +15,6 @@ namespace {
 constexpr double rounding = 1e-9;       ///< of the length of an edge
 constexpr double least_crossing = 0.05; ///< sine of the angle between an edge and a ridge that crosses it
 constexpr double most_overhang = 0.1;   ///< of the length of an edge
-constexpr double full_turn = 2.0 * std::numbers::pi;
 
 /// Normals of facets are normals of an edge between them, and those a sixth of a turn beyond.
 const double beyond = std::numbers::pi / 6.0;

@@ -13,7 +13,6 @@
 namespace cnem::contact {
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr double least_turn = 1e-6; ///< rad
 
 Vec3 in_space(const Vec2& x, double z) { return {x.x(), x.y(), z}; }

@@ -22,11 +22,6 @@ std::size_t corner_of(const Tetrahedra& mesh, SimplexIndex t, NodeIndex i) {
   return static_cast<std::size_t>(std::find(node.begin(), node.end(), i) - node.begin());
 }
 
-double volume_of(const Cloud<3>& cloud, const std::array<NodeIndex, 4>& node) {
-  return measure<3>(
-      {cloud.position[node[0]], cloud.position[node[1]], cloud.position[node[2]], cloud.position[node[3]]});
-}
-
 /// The tetrahedra around a node in sets that faces at the node connect within a part; the largest first, and
 /// of equal ones that of the first tetrahedron.
 std::vector<std::vector<SimplexIndex>> sets_around(const Cloud<3>& cloud, const SpaceStructure& structure,

@@ -8,14 +8,10 @@
 
 namespace cnem::adapt {
 
-namespace {
-
 double volume_of(const Cloud<3>& cloud, const std::array<NodeIndex, 4>& node) {
   return measure<3>(
       {cloud.position[node[0]], cloud.position[node[1]], cloud.position[node[2]], cloud.position[node[3]]});
 }
-
-} // namespace
 
 SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh, scni::CellKind cells) {
   SpaceStructure s;

@@ -4,6 +4,7 @@
 #include "core/geometry/cell_complex.hpp"
 #include "voronoi/space/tetrahedra.hpp"
 
+#include <array>
 #include <span>
 
 namespace cnem::adapt {
@@ -18,6 +19,9 @@ struct SpaceStructure {
   double volume(NodeIndex i) const { return cell[index_of(i)]; }
   std::span<const NodeIndex> neighbours(NodeIndex i) const { return linked.of(i); }
 };
+
+/// m³, of a right-handed tetrahedron.
+double volume_of(const Cloud<3>& cloud, const std::array<NodeIndex, 4>& node);
 
 /// With the volumes of median cells, a quarter of each tetrahedron, or those of Voronoi cells. O(N).
 SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh,
