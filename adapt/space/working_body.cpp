@@ -1,6 +1,6 @@
 #include "adapt/space/working_body.hpp"
 
-#include "voronoi/space/order.hpp"
+#include "voronoi/order.hpp"
 
 #include <numeric>
 

@@ -1,6 +1,6 @@
 // The order of nodes in space is a Hilbert curve: on a lattice of a power of two each node is beside the
 // last.
-#include "voronoi/space/order.hpp"
+#include "voronoi/order.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>
