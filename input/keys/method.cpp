@@ -30,7 +30,7 @@ void add_method(Keys& k) {
        "method.cells", choice,
        "Cells of natural elements in space: `median`, quarters of tetrahedra with their linear functions, or "
        "`voronoi` with natural neighbour functions.")
-      .one_of({"median", "voronoi"})
+      .one_of({"voronoi", "median"})
       .fallback("\"median\"");
   k.add("method.kernel", choice, "Kernel of the particles.")
       .one_of({"cubic_spline", "wendland_c2"})
