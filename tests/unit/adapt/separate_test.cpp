@@ -16,12 +16,13 @@ namespace cnem::adapt {
 namespace {
 
 /// Nodes are broken where `broken` is 1 or more.
-struct Body {
+struct PartingBody {
   clouds::TetrahedralBlock block;
   SpaceStructure structure;
   WorkingBody body;
 
-  Body(const Vec3& size, const std::array<int, 3>& count, const std::function<double(const Vec3&)>& broken)
+  PartingBody(const Vec3& size, const std::array<int, 3>& count,
+              const std::function<double(const Vec3&)>& broken)
       : block(clouds::tetrahedral_block(size, count)),
         structure(structure_of(block.cloud, voronoi::connected(block.cloud, block.tetrahedra))),
         body(block.cloud, properties(broken)) {}
@@ -69,7 +70,7 @@ constexpr PieceIndex faces{9};
 
 TEST(Separate, bar_with_a_broken_layer_parts_at_its_most_strained_surface) {
   // broken in the middle third, most at x = 0.6
-  Body bar({1, 0.4, 0.4}, {10, 4, 4}, [](const Vec3& x) {
+  PartingBody bar({1, 0.4, 0.4}, {10, 4, 4}, [](const Vec3& x) {
     return std::abs(x.x() - 0.5) < 0.15 ? 1.0 + 5.0 * (std::abs(x.x() - 0.6) < 1e-9) : 0.5;
   });
   PassReport report;
@@ -100,7 +101,7 @@ TEST(Separate, bar_with_a_broken_layer_parts_at_its_most_strained_surface) {
 
 TEST(Separate, round_slug_leaves_a_sheet) {
   const auto band = [](const Vec3& x) { return std::abs(std::hypot(x.x(), x.y()) - 0.5) < 0.13 ? 1.5 : 0.0; };
-  Body sheet({1, 1, 0.3}, {12, 12, 4}, band);
+  PartingBody sheet({1, 1, 0.3}, {12, 12, 4}, band);
   PassReport report;
   separate(sheet.body, sheet.structure, {.piece = faces}, report);
   EXPECT_EQ(report.cuts, 1);
@@ -114,21 +115,22 @@ TEST(Separate, round_slug_leaves_a_sheet) {
 }
 
 TEST(Separate, nothing_parts_where_a_ligament_is_whole_or_the_part_would_be_a_chip) {
-  Body ligament({1, 0.4, 0.4}, {10, 4, 4},
-                [](const Vec3& x) { return std::abs(x.x() - 0.5) < 0.15 && x.y() < 0.35 ? 2.0 : 0.0; });
+  PartingBody ligament({1, 0.4, 0.4}, {10, 4, 4}, [](const Vec3& x) {
+    return std::abs(x.x() - 0.5) < 0.15 && x.y() < 0.35 ? 2.0 : 0.0;
+  });
   PassReport report;
   separate(ligament.body, ligament.structure, {.piece = faces}, report);
   EXPECT_EQ(report.cuts, 0);
   EXPECT_EQ(ligament.body.size(), 11U * 25U);
   // 25 nodes beyond the broken layer at the end
-  Body chip({1, 0.4, 0.4}, {10, 4, 4},
-            [](const Vec3& x) { return x.x() > 0.85 && x.x() < 0.95 ? 2.0 : 0.0; });
+  PartingBody chip({1, 0.4, 0.4}, {10, 4, 4},
+                   [](const Vec3& x) { return x.x() > 0.85 && x.x() < 0.95 ? 2.0 : 0.0; });
   EXPECT_TRUE(parts_between(chip.block.cloud, chip.structure.mesh, chip.body.node().broken, 51).empty());
   EXPECT_FALSE(parts_between(chip.block.cloud, chip.structure.mesh, chip.body.node().broken, 50).empty());
 }
 
 TEST(Separate, two_bands_leave_three_parts) {
-  Body bar({2, 0.3, 0.3}, {20, 3, 3}, [](const Vec3& x) {
+  PartingBody bar({2, 0.3, 0.3}, {20, 3, 3}, [](const Vec3& x) {
     return std::abs(x.x() - 0.5) < 0.06 || std::abs(x.x() - 1.5) < 0.06 ? 1.2 : 0.0;
   });
   PassReport report;
@@ -145,7 +147,7 @@ TEST(Separate, random_broken_matter_leaves_closed_surfaces) {
       state = state * 1664525U + 1013904223U;
       return (state >> 8) / 16777216.0;
     };
-    Body bar({1, 0.5, 0.5}, {10, 5, 5}, [&](const Vec3& x) {
+    PartingBody bar({1, 0.5, 0.5}, {10, 5, 5}, [&](const Vec3& x) {
       return std::abs(x.x() - 0.5 - 0.1 * std::sin(9.0 * x.y())) < 0.18
                  ? (random() < 0.93 ? 1.0 + random() : 0.0)
                  : 0.0;

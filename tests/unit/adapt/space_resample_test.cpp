@@ -19,7 +19,7 @@ using testing::SpaceCloud;
 using testing::SpaceShape;
 
 /// A body of matter of density 2 that deforms and is resampled.
-struct Body {
+struct FollowedBody {
   Cloud<3> cloud;
   double spacing;
   Field mass, momentum, heat, jacobian, size;
@@ -27,7 +27,7 @@ struct Body {
   PassReport total;
   SpaceRules rules;
 
-  explicit Body(const SpaceCloud& how, scni::CellKind cells = scni::CellKind::median)
+  explicit FollowedBody(const SpaceCloud& how, scni::CellKind cells = scni::CellKind::median)
       : spacing(1.0 / how.cells) {
     rules.cells = cells;
     voronoi::RecoveredBoundary recovered = testing::recovered(how);
@@ -76,7 +76,7 @@ double sum(const Field& field) {
 }
 
 /// One pass, and what must hold after each.
-PassReport pass(Body& body) {
+PassReport pass(FollowedBody& body) {
   const double mass = sum(body.mass), momentum = sum(body.momentum), heat = sum(body.heat);
   const double volume = enclosed_measure(body.cloud);
   PassReport report;
@@ -102,7 +102,7 @@ PassReport pass(Body& body) {
 struct Edges {
   double shortest, longest; ///< over the spacing
 };
-Edges edges_of(const Body& body) {
+Edges edges_of(const FollowedBody& body) {
   Edges edges{1e9, 0.0};
   const SpaceStructure structure = structure_of(body.cloud, voronoi::triangulate(body.cloud));
   for (const NodeIndex i : body.cloud.position.indices())
@@ -115,7 +115,7 @@ Edges edges_of(const Body& body) {
 }
 
 TEST(SpaceResample, leaves_a_body_alone_that_needs_nothing) {
-  Body body({.shape = SpaceShape::l, .cells = 6, .jitter = 0.2});
+  FollowedBody body({.shape = SpaceShape::l, .cells = 6, .jitter = 0.2});
   pass(body);
   PassReport report;
   const Resampling<3> change = body.resample(report);
@@ -128,7 +128,7 @@ TEST(SpaceResample, leaves_a_body_alone_that_needs_nothing) {
 }
 
 TEST(SpaceResample, keeps_nodes_that_nothing_happened_to_and_held_ones) {
-  Body body({.shape = SpaceShape::cube, .cells = 8, .jitter = 0.2});
+  FollowedBody body({.shape = SpaceShape::cube, .cells = 8, .jitter = 0.2});
   for (std::size_t i = 0; i < body.held.size(); i += 7) body.held[i] = 1;
   body.deform([](const Vec3& x) { return Vec3(x.x() + 0.6 * x.y() * x.y(), x.y(), x.z()); });
   PassReport report;
@@ -154,7 +154,7 @@ TEST(SpaceResample, keeps_nodes_that_nothing_happened_to_and_held_ones) {
 }
 
 TEST(SpaceResample, makes_the_same_bits_with_any_number_of_threads) {
-  Body body({.shape = SpaceShape::torus, .cells = 12, .jitter = 0.2});
+  FollowedBody body({.shape = SpaceShape::torus, .cells = 12, .jitter = 0.2});
   body.deform([](const Vec3& x) { return Vec3(x.x() + 0.5 * x.y(), x.y(), x.z()); });
   const int threads = omp_get_max_threads();
   std::vector<Resampling<3>> results;
@@ -172,7 +172,7 @@ TEST(SpaceResample, makes_the_same_bits_with_any_number_of_threads) {
 }
 
 TEST(SpaceResample, shears_a_block_to_four) {
-  Body body({.shape = SpaceShape::cube, .cells = 7, .jitter = 0.2});
+  FollowedBody body({.shape = SpaceShape::cube, .cells = 7, .jitter = 0.2});
   const std::size_t before = body.mass.size();
   for (int step = 0; step < 16; ++step) {
     body.deform([](const Vec3& x) { return Vec3(x.x() + 0.25 * x.y(), x.y(), x.z()); });
@@ -191,7 +191,7 @@ TEST(SpaceResample, shears_a_block_to_four) {
 }
 
 TEST(SpaceResample, upsets_a_block_to_a_third_of_its_height) {
-  Body body({.shape = SpaceShape::cube, .cells = 7, .jitter = 0.2});
+  FollowedBody body({.shape = SpaceShape::cube, .cells = 7, .jitter = 0.2});
   const std::size_t before = body.mass.size();
   const double q = std::pow(0.3, 1.0 / 12);
   for (int step = 0; step < 12; ++step) {
@@ -206,7 +206,7 @@ TEST(SpaceResample, upsets_a_block_to_a_third_of_its_height) {
 
 TEST(SpaceResample, keeps_the_volume_of_bodies_with_bent_surfaces) {
   for (const SpaceShape shape : {SpaceShape::torus, SpaceShape::shell, SpaceShape::thin_wall}) {
-    Body body({.shape = shape, .cells = 10, .jitter = 0.2});
+    FollowedBody body({.shape = shape, .cells = 10, .jitter = 0.2});
     const double volume = enclosed_measure(body.cloud);
     for (int step = 0; step < 6; ++step) {
       body.deform([](const Vec3& x) { return Vec3(x.x() + 0.25 * x.y(), x.y(), x.z()); });
@@ -217,7 +217,7 @@ TEST(SpaceResample, keeps_the_volume_of_bodies_with_bent_surfaces) {
 }
 
 TEST(SpaceResample, fills_voronoi_cells_where_the_method_has_these) {
-  Body body({.shape = SpaceShape::cube, .cells = 6, .jitter = 0.2}, scni::CellKind::voronoi);
+  FollowedBody body({.shape = SpaceShape::cube, .cells = 6, .jitter = 0.2}, scni::CellKind::voronoi);
   for (int step = 0; step < 4; ++step) {
     body.deform([](const Vec3& x) { return Vec3(x.x() + 0.4 * x.y(), x.y(), x.z()); });
     pass(body);
@@ -226,7 +226,7 @@ TEST(SpaceResample, fills_voronoi_cells_where_the_method_has_these) {
 }
 
 TEST(SpaceResample, refuses_a_surface_that_crosses_itself_and_counts_where) {
-  Body body({.shape = SpaceShape::thin_wall, .cells = 6});
+  FollowedBody body({.shape = SpaceShape::thin_wall, .cells = 6});
   const auto middle = std::find_if(body.cloud.position.begin(), body.cloud.position.end(),
                                    [](const Vec3& x) { return (x - Vec3(0.5, 0.5, 0.0)).norm() < 1e-9; });
   ASSERT_NE(middle, body.cloud.position.end());

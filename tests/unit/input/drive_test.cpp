@@ -45,19 +45,19 @@ TEST(Tools, MassAndForceArePerThicknessOrOfTheWholeBody) {
                                 "initial_velocity = \"0 -2 m/s\""),
                      "x");
   ASSERT_TRUE(plane.tools.front().drive);
-  const contact::ToolDrive<2>& drive = *plane.tools.front().drive;
+  const contact::ToolDrive<3>& drive = *plane.tools.front().drive;
   EXPECT_EQ(drive.mass, 2000.0);
   EXPECT_NEAR(drive.force[1](0.5e-6), -2.5e6, 1e-6);
   EXPECT_EQ(drive.force[0](1.0), 0.0);
-  EXPECT_EQ(drive.free, Mat2(Vec2(0, 1).asDiagonal()));
-  EXPECT_EQ(drive.initial_velocity, Vec2(0, -2));
+  EXPECT_EQ(drive.free, Mat<3>(Vec3(0, 1, 0).asDiagonal()));
+  EXPECT_EQ(drive.initial_velocity, Vec3(0, -2, 0));
   const Case far = read_case_text(with_press("mass = \"2 t/m\"\ndirection = \"0 -1e200\""), "x");
   EXPECT_EQ(far.tools.front().drive->free, drive.free) << "of any length";
   const std::string round = "[analysis]\nkinematics = \"axisymmetric\"\n";
   const Case body = read_case_text(with_press("mass = \"2 kg\"\nforce = \"0 -5 kN\"", round), "x");
   EXPECT_EQ(body.tools.front().drive->mass, 2.0);
   EXPECT_EQ(body.tools.front().drive->force[1](1.0), -5000.0);
-  EXPECT_EQ(body.tools.front().drive->free, Mat2(Vec2(0, 1).asDiagonal()));
+  EXPECT_EQ(body.tools.front().drive->free, Mat<3>(Vec3(0, 1, 0).asDiagonal()));
   const Case again = read_case_text(body.resolved, "x"); // the resolved case has its units, and no velocity
   EXPECT_EQ(again.tools.front().drive->mass, 2.0);
   EXPECT_EQ(again.resolved.substr(again.resolved.find('\n')), body.resolved.substr(body.resolved.find('\n')));
@@ -67,10 +67,10 @@ TEST(Tools, HangOnSpringsWhoseFarEndMayMove) {
   const std::string slide = "mass = \"20 kg/m\"\ndirection = \"0 -2\"\nvelocity = \"0 -3 m/s\"\n"
                             "damping = \"40 kN s/m2\"\n";
   const Case press = read_case_text(with_press(slide + "spring = { stiffness = \"2 GN/m2\" }"), "x");
-  const contact::ToolDrive<2>& drive = *press.tools.front().drive;
+  const contact::ToolDrive<3>& drive = *press.tools.front().drive;
   EXPECT_EQ(drive.damping, 4e4);
   ASSERT_TRUE(drive.spring);
-  EXPECT_EQ(drive.spring->along, Vec2(0, -1));
+  EXPECT_EQ(drive.spring->along, Vec3(0, -1, 0));
   EXPECT_EQ(drive.spring->spring.force(1e-4), 2e5);
   EXPECT_EQ(drive.spring->spring.charge(0.0), 1.0);
   EXPECT_EQ(press.tools.front().velocity[1].value()(0.0), -3.0) << "of the mount";

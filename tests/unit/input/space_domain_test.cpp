@@ -8,7 +8,7 @@
 namespace cnem::input {
 namespace {
 
-Case read(const std::string& domain, const std::string& cloud = "") {
+Case with_domain(const std::string& domain, const std::string& cloud = "") {
   return read_case_text(fmt::format(R"(
 [analysis]
 kinematics = "three-dimensional"
@@ -40,28 +40,32 @@ std::string planes(const Domain& domain) {
 const std::string rectangle = "outer.rectangle = { from = \"0 0 mm\", to = \"4 2 mm\" }\n";
 
 TEST(SpaceDomain, NamesItsPieces) {
-  EXPECT_EQ(planes(read("block = { from = \"0 0 0 mm\", to = \"1 2 3 mm\", grid = false }").domain),
+  EXPECT_EQ(planes(with_domain("block = { from = \"0 0 0 mm\", to = \"1 2 3 mm\", grid = false }").domain),
             "y-| x+| y+| x-| z-| z+|");
   EXPECT_EQ(
-      planes(read("block = { shape = \"cylinder\", radius = \"2 mm\", inner_radius = \"1 mm\", length = \"1 "
-                  "mm\", part = \"quarter\", grid = false }")
+      planes(with_domain(
+                 "block = { shape = \"cylinder\", radius = \"2 mm\", inner_radius = \"1 mm\", length = \"1 "
+                 "mm\", part = \"quarter\", grid = false }")
                  .domain),
       "y-| side x-| inside bottom| top|");
-  EXPECT_EQ(planes(read("block = { shape = \"sphere\", radius = \"2 mm\", part = \"eighth\" }").domain),
-            "z-| side y-| x-|");
-  EXPECT_EQ(planes(read("block = { shape = \"sphere\", radius = \"2 mm\", part = \"half\" }").domain),
+  EXPECT_EQ(
+      planes(with_domain("block = { shape = \"sphere\", radius = \"2 mm\", part = \"eighth\" }").domain),
+      "z-| side y-| x-|");
+  EXPECT_EQ(planes(with_domain("block = { shape = \"sphere\", radius = \"2 mm\", part = \"half\" }").domain),
             "side y-|");
-  EXPECT_EQ(planes(read(rectangle + "holes.bore.circle = { centre = \"2 1 mm\", radius = \"0.5 mm\" }\n"
-                                    "extrude = { to = \"1 mm\", high = \"lid\" }")
-                       .domain),
-            "bottom| right| top| left| bore z-| lid|");
-  EXPECT_EQ(planes(read(rectangle + "revolve.angle = \"90 deg\"").domain),
+  EXPECT_EQ(
+      planes(with_domain(rectangle + "holes.bore.circle = { centre = \"2 1 mm\", radius = \"0.5 mm\" }\n"
+                                     "extrude = { to = \"1 mm\", high = \"lid\" }")
+                 .domain),
+      "bottom| right| top| left| bore z-| lid|");
+  EXPECT_EQ(planes(with_domain(rectangle + "revolve.angle = \"90 deg\"").domain),
             "bottom| right top| theta-| theta+|");
-  EXPECT_EQ(planes(read(rectangle + "revolve = {}").domain), "bottom| right top|");
+  EXPECT_EQ(planes(with_domain(rectangle + "revolve = {}").domain), "bottom| right top|");
 }
 
 TEST(SpaceDomain, KnowsWhereItIs) {
-  const Domain turned = read(rectangle + "revolve = { angle = \"180 deg\", origin = \"0 0 1 mm\" }").domain;
+  const Domain turned =
+      with_domain(rectangle + "revolve = { angle = \"180 deg\", origin = \"0 0 1 mm\" }").domain;
   const auto [low, high] = space_bounds(turned);
   EXPECT_LT((low - Vec3(-4e-3, 0, 1e-3)).norm(), 1e-12);
   EXPECT_LT((high - Vec3(4e-3, 4e-3, 3e-3)).norm(), 1e-12);
@@ -69,7 +73,7 @@ TEST(SpaceDomain, KnowsWhereItIs) {
   EXPECT_NE(outside_reason_in_space(turned, {-1e-3, -1e-3, 2e-3}), "");
   EXPECT_NE(outside_reason_in_space(turned, {3.9e-3, 3.9e-3, 2e-3}), "");
   const Domain shell =
-      read(
+      with_domain(
           "block = { shape = \"sphere\", radius = \"2 mm\", inner_radius = \"1 mm\", centre = \"1 0 0 mm\" }")
           .domain;
   EXPECT_EQ(outside_reason_in_space(shell, {2.5e-3, 0, 0}), "");
@@ -78,9 +82,9 @@ TEST(SpaceDomain, KnowsWhereItIs) {
 
 TEST(SpaceDomain, IsRefinedInSpace) {
   const Case fine =
-      read("block = { from = \"0 0 0 mm\", to = \"4 2 2 mm\", grid = false }",
-           "refine.a = { points = [\"4 2 1 mm\"], factor = 0.25 }\n"
-           "refine.b = { box = [\"0 0 0 mm\", \"1 1 1 mm\"], spacing = \"0.2 mm\", growth = 0.5 }");
+      with_domain("block = { from = \"0 0 0 mm\", to = \"4 2 2 mm\", grid = false }",
+                  "refine.a = { points = [\"4 2 1 mm\"], factor = 0.25 }\n"
+                  "refine.b = { box = [\"0 0 0 mm\", \"1 1 1 mm\"], spacing = \"0.2 mm\", growth = 0.5 }");
   ASSERT_EQ(fine.cloud.space_refinements.size(), 2u);
   EXPECT_EQ(fine.cloud.space_refinements[0].points.front(), Vec3(4e-3, 2e-3, 1e-3));
   EXPECT_DOUBLE_EQ(fine.cloud.space_refinements[0].spacing, 0.125e-3);
@@ -89,8 +93,8 @@ TEST(SpaceDomain, IsRefinedInSpace) {
 
 TEST(SpaceDomain, FarAwayIsCountedFromAnOriginOfItsOwn) {
   const auto at = [](const std::string& x) {
-    return read(rectangle + "revolve = { angle = \"90 deg\", origin = \"" + x + " 0 0 mm\" }",
-                "refine.a = { points = [\"" + x + " 0 0 mm\"], factor = 0.5 }");
+    return with_domain(rectangle + "revolve = { angle = \"90 deg\", origin = \"" + x + " 0 0 mm\" }",
+                       "refine.a = { points = [\"" + x + " 0 0 mm\"], factor = 0.5 }");
   };
   const Case near = at("0"), far = at("1e6");
   EXPECT_EQ(near.origin, Vec3(0, 0, 0));

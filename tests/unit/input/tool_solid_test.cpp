@@ -8,7 +8,7 @@
 namespace cnem::input {
 namespace {
 
-Case read(const std::string& tool) {
+Case with_tool(const std::string& tool) {
   return read_case_text(R"([analysis]
 kinematics = "three-dimensional"
 [time]
@@ -29,7 +29,7 @@ lagrangian = "total"
 }
 
 TEST(ToolSolid, punch_with_a_rounded_cutting_edge) {
-  const Case c = read(R"(shape = "extruded"
+  const Case c = with_tool(R"(shape = "extruded"
 rectangle = { from = "-1 -2 mm", to = "1 2 mm", fillet = "0.5 mm" }
 extrude = { from = "0 mm", to = "8 mm", edge_from = "0.1 mm" }
 place = { at = "0 0 3 mm", axis = "0 1 0", turn = "90 deg" }
@@ -49,30 +49,30 @@ velocity = "0 0 -5 m/s"
 }
 
 TEST(ToolSolid, die_round_an_opening_and_a_body_of_revolution) {
-  const Case die = read(R"(shape = "swept"
+  const Case die = with_tool(R"(shape = "swept"
 circle = { centre = "0 0 mm", radius = "5 mm" }
 profile = { start = "0 -3 mm", path = [{ to = "4 -3 mm" }, { to = "4 0 mm" }, { to = "0 0 mm", fillet = "0.2 mm" }] }
 )");
   EXPECT_EQ(die.tools.at(0).solid->profile.pieces.size(), 5U);
   EXPECT_FALSE(die.tools[0].solid->low.has_value());
-  const Case round = read("shape = \"revolved\"\nrectangle = { from = \"0 3 mm\", to = \"1 9 mm\" }\n");
+  const Case round = with_tool("shape = \"revolved\"\nrectangle = { from = \"0 3 mm\", to = \"1 9 mm\" }\n");
   EXPECT_EQ(round.tools.at(0).solid->outline.pieces.size(), 4U);
 }
 
 TEST(ToolSolid, triangles_are_seen_from_the_folder_of_the_case) {
-  const Case c = read("shape = \"stl\"\nstl = { file = \"punch.stl\", unit = \"um\" }\n");
+  const Case c = with_tool("shape = \"stl\"\nstl = { file = \"punch.stl\", unit = \"um\" }\n");
   EXPECT_EQ(c.tools.at(0).solid->file, "folder/punch.stl");
   EXPECT_EQ(c.tools[0].solid->file_unit, 1e-6);
 }
 
 TEST(ToolSolid, a_half_space_is_what_no_shape_means) {
-  const Case c = read("plane = { at = \"0 0 0 mm\", normal = \"0 0 2\" }\n");
+  const Case c = with_tool("plane = { at = \"0 0 0 mm\", normal = \"0 0 2\" }\n");
   EXPECT_EQ(c.tools.at(0).solid->shape, ToolSolid::Shape::half_space);
   EXPECT_EQ(c.tools[0].solid->plane.normal, Vec3(0, 0, 2));
 }
 
 TEST(ToolSolid, moves_as_a_body_along_a_line) {
-  const Case c = read(R"(shape = "box"
+  const Case c = with_tool(R"(shape = "box"
 box = { from = "0 0 5 mm", to = "2 2 3 mm" }
 mass = "0.5 kg"
 direction = "0 0 -2"

@@ -26,7 +26,7 @@ TEST(Order, VisitsNeighbouringCellsOneAfterTheOther) {
 TEST(Order, IsAPermutationAlsoOfCoincidentPoints) {
   auto order = hilbert_order(std::vector<Vec2>(5, Vec2(1, 2)));
   EXPECT_EQ(order, (std::vector<std::int32_t>{0, 1, 2, 3, 4}));
-  EXPECT_TRUE(hilbert_order({}).empty());
+  EXPECT_TRUE(hilbert_order(std::vector<Vec2>{}).empty());
 }
 
 TEST(Order, RenumberedCloudIsTheSameDomain) {
