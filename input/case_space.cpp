@@ -41,7 +41,7 @@ std::pair<std::vector<std::string>, std::size_t> faceted_names(const Cloud<3>& s
 
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("cannot read '{}'", path));
+  if (!file) throw InputError(fmt::format("cannot read '{}', expected an STL file", path));
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 

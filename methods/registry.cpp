@@ -17,7 +17,7 @@ constexpr std::array list{
           [](const Options& o) -> Made<2> {
             return std::make_unique<scni::Cnem>(scni::Options{o.functions, o.gauss_points, o.space});
           },
-          [](const Options& o) -> Made<3> { 
+          [](const Options& o) -> Made<3> {
             return std::make_unique<scni::CnemInSpace>(
                 scni::SpaceOptions{o.cells, o.functions, o.points_on_facets, o.tetrahedra});
           }},
@@ -65,6 +65,7 @@ std::vector<std::string> names_in(int dim) {
 }
 
 std::vector<std::string> names_that_keep(Promise promise, int dim) {
+  if (promise == Promise::hoop_rows && dim == 3) return {}; // bodies of revolution are of the plane
   return names_where(
       [&](const Entry& method) { return method.exists_in(dim) && method.promises.keep(promise); });
 }

@@ -1,7 +1,6 @@
 #include "report/space_recorder.hpp"
 
 #include "core/index.hpp"
-#include "mechanics/field_catalogue.hpp"
 #include "report/body_view.hpp"
 #include "results/fields.hpp"
 

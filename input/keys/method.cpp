@@ -25,6 +25,7 @@ void add_method(Keys& k) {
         "facet of "
         "one: 1, or more for one in each of its triangles.")
       .in({.low = 1, .high = 3})
+      .example("2")
       .computed("2; in space 1");
   k.add(
        "method.cells", choice,

@@ -161,6 +161,7 @@ plane = {{ at = "{0} 0 {0} m", normal = "0 0 1" }}
 [output]
 probes.p = {{ at = "{1} 1 {1} m", fields = ["stress_yz"] }}
 lines.l = {{ from = "{0} 1 {0} m", to = "{1} 1 {1} m", fields = ["velocity_z"] }}
+sections.s = {{ at = "{0} 1 {1} m", normal = "0 -1 0" }}
 )",
                                       x, x + 2.0),
                           "case.toml");
@@ -169,9 +170,9 @@ lines.l = {{ from = "{0} 1 {0} m", to = "{1} 1 {1} m", fields = ["velocity_z"] }
   EXPECT_EQ(near.origin, Vec3(0, 0, 0));
   EXPECT_LT((far.origin - Vec3(4097, 0, 4097)).norm(), 4.0);
   const auto places = [](const Case& c) {
-    return std::vector<Vec3>{c.domain.block->from,       c.domain.block->to,    c.boundary[0].points[0],
-                             c.tools[0].solid->plane.at, c.output.probes[0].at, c.output.lines[0].from,
-                             c.output.lines[0].to};
+    return std::vector<Vec3>{c.domain.block->from,       c.domain.block->to,     c.boundary[0].points[0],
+                             c.tools[0].solid->plane.at, c.output.probes[0].at,  c.output.lines[0].from,
+                             c.output.lines[0].to,       c.output.sections[0].at};
   };
   for (std::size_t k = 0; k < places(near).size(); ++k)
     EXPECT_EQ(places(near)[k] + Vec3(4096, 0, 4096), places(far)[k] + far.origin) << k;
@@ -221,6 +222,7 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
                               "output.drawing.view",
                               "output.windows.*.box",
                               "output.probes.*.at",
+                              "output.sections.*.at",
                               "output.lines.*.from",
                               "output.lines.*.to"};
   for (const std::string outline : {"domain.outer", "domain.holes.*", "tools.*"})

@@ -20,10 +20,27 @@ TEST(Pictures, show_what_the_analysis_computes) {
             Names{"pressure"});
 }
 
-TEST(Pictures, are_of_the_plane) {
-  const Case space =
-      read_case(std::string(CNEM_SOURCE_DIR) + "/cases/three_dimensions/taylor_tetrahedra/case.toml");
-  EXPECT_TRUE(space.output.picture_fields.empty());
+TEST(Pictures, in_space_are_seen_from_an_eye_and_cut_by_planes) {
+  const std::string name =
+      std::string(CNEM_SOURCE_DIR) + "/cases/three_dimensions/taylor_tetrahedra/case.toml";
+  const Case plain = read_case(name);
+  EXPECT_EQ(plain.output.picture_fields, (std::vector<std::string>{"plastic_strain", "pressure"}));
+  EXPECT_EQ(plain.output.drawing.eye, Vec3(1.0, -1.6, 1.0));
+  EXPECT_TRUE(plain.output.sections.empty());
+  const Case cut = read_case(name, {"output.drawing.eye=\"0 -1 0\"",
+                                    "output.sections.middle={ at = \"0 1 0 mm\", normal = \"0 -2 0\" }"});
+  EXPECT_EQ(cut.output.drawing.eye, Vec3(0, -1, 0));
+  ASSERT_EQ(cut.output.sections.size(), 1U);
+  EXPECT_EQ(cut.output.sections[0].name, "middle");
+  EXPECT_EQ(cut.output.sections[0].at, Vec3(0, 1e-3, 0));
+  EXPECT_EQ(cut.output.sections[0].normal, Vec3(0, -2, 0));
+  try {
+    read_case(name, {"output.drawing.eye=\"0 0 0\""});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("output.drawing.eye': found no direction"), std::string::npos)
+        << error.what();
+  }
 }
 
 } // namespace
