@@ -126,7 +126,7 @@ private:
           fmt::format("found {}, expected a table such as {{ file = \"part.dxf\" }}", drawing.value.show()));
       return;
     }
-    const Setting setting = apply_schema(drawing.value, pattern + ".drawing", key, diagnostics_);
+    const Setting setting = apply_schema(drawing.value, pattern + ".drawing", key, diagnostics_, &document_);
     if (!diagnostics_.empty()) return;
     try {
       Sheet sheet = read(setting, name);

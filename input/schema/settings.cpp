@@ -285,13 +285,13 @@ Setting apply_schema(const Value& document, Diagnostics& diagnostics) {
 }
 
 Setting apply_schema(const Value& table, const std::string& pattern, const std::string& path,
-                     Diagnostics& diagnostics) {
+                     Diagnostics& diagnostics, const Value* document) {
   Setting setting;
   setting.key = find_key(pattern);
   setting.path = path;
   setting.where = table.where;
   setting.given = true;
-  Resolver(diagnostics, "").table(setting, &table, pattern);
+  Resolver(diagnostics, document ? kinematics_of(*document) : "").table(setting, &table, pattern);
   return setting;
 }
 

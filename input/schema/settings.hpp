@@ -77,9 +77,10 @@ private:
 /// what was wrong.
 Setting apply_schema(const Value& document, Diagnostics& diagnostics);
 
-/// The same for a table alone: `pattern` is its key, `path` what messages call it.
+/// The same for a table alone: `pattern` is its key, `path` what messages call it; kinematics are those of
+/// `document`, else plane.
 Setting apply_schema(const Value& table, const std::string& pattern, const std::string& path,
-                     Diagnostics& diagnostics);
+                     Diagnostics& diagnostics, const Value* document = nullptr);
 
 /// The tree as TOML in SI, which reads back to the same tree.
 std::string write_resolved(const Setting& root, std::string_view header);

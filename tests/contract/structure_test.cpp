@@ -194,8 +194,12 @@ TEST_P(Contract, rebuilding_on_a_used_object_gives_the_bits_of_a_fresh_one) {
 
 TEST_P(Contract, operators_move_and_turn_with_the_cloud) {
   on_every_domain([]<int dim>(const Domain<dim>& domain, const Approximation<dim>& before) {
-    // Where nodes are cocircular the triangles may flip, which cells and natural neighbours do not notice.
-    if (domain.ties && (!before.mechanics.nodal || GetParam().entry->name == "hybrid")) return;
+    // Where nodes are cocircular the simplices may flip, which Voronoi cells and natural neighbours do not
+    // notice.
+    const std::string& name = GetParam().name;
+    const bool of_simplices = !before.mechanics.nodal || GetParam().entry->name == "hybrid" ||
+                              name == "median" || name == "space_linear_1";
+    if (domain.ties && of_simplices) return;
     Cloud<dim> moved = domain.cloud;
     const Vec<dim> shift = dim == 2 ? Vec<dim>(Vec<dim>::LinSpaced(0.4, -0.9)) : Vec<dim>::Zero();
     for (Vec<dim>& x : moved.position) x = rotation<dim>() * x + shift;
