@@ -58,7 +58,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict("adapt.separate",
              "found true where no material has a damage law, expected materials.NAME.damage: nothing "
              "would ever break");
-  if (plane && rules.separate && !result.contact.active)
+  if (rules.separate && !result.contact.active)
     conflict("adapt.separate",
              "found true without contact.deformable, expected contact.deformable = true: the new faces would "
              "go through each other");

@@ -233,8 +233,8 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   if (plane) {
     read_windows(root, result, diagnostics);
     read_coolants(root, result, diagnostics);
-    read_contact(root, result, diagnostics);
   }
+  read_contact(root, result, diagnostics);
   diagnostics.throw_if_any();
   read_regions(root, result, diagnostics);
   read_boundary(root, result, diagnostics);
@@ -242,8 +242,8 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   read_initial_and_loads(root, result, diagnostics);
   read_method(root, result, diagnostics);
   read_shown_units(root, result, diagnostics);
+  read_adaptation(root, result, diagnostics);
   if (plane) {
-    read_adaptation(root, result, diagnostics);
     read_fracture(root, result, diagnostics);
     read_report(root, result, diagnostics);
     if (root.find("adapt.window")) read_moving_window(root, result, diagnostics);

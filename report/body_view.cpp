@@ -6,26 +6,66 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
 
 namespace cnem::report {
 namespace {
 
-void add_polygon(Scene& scene, std::span<const Vec2> corners, double value) {
-  if (scene.cells.begin.empty()) {
-    scene.cells.begin.push_back(0);
-    scene.cells.vertex_begin.push_back(0);
+/// Polygons that share vertices where they meet: lines between them are drawn once, and the rim of the body
+/// is where none meets another.
+class Polygons {
+public:
+  /// size: m, of what is drawn: places nearer than a ten-millionth of it are one.
+  explicit Polygons(double size) : unit_(1e-7 * size) {
+    scene_.cells.begin.push_back(0);
+    scene_.cells.vertex_begin.push_back(0);
   }
-  for (const Vec2& x : corners) {
-    const auto v = as<std::int32_t>(scene.cells.vertex.size());
-    scene.cells.vertex.push_back(x);
-    scene.cells.index.push_back(v);
-    scene.cells.vertex_node.push_back(as<NodeIndex>(v));
-    scene.cells.vertex_weight.push_back(1.0);
-    scene.cells.vertex_begin.push_back(v + 1);
-    for (std::size_t k = 0; k < 2; ++k) scene.position[k].push_back(x[static_cast<Eigen::Index>(k)]);
+
+  void add(std::span<const Vec2> corners, double value) {
+    const std::size_t first = scene_.cells.index.size();
+    for (const Vec2& x : corners) {
+      const std::int32_t v = vertex(x);
+      auto& index = scene_.cells.index;
+      if (index.size() > first && index.back() == v) continue;
+      index.push_back(v);
+    }
+    auto& index = scene_.cells.index;
+    if (index.size() > first + 1 && index.back() == index[first]) index.pop_back();
+    if (index.size() < first + 3) return index.resize(first);
+    scene_.cells.begin.push_back(as<std::int32_t>(index.size()));
+    scene_.value.push_back(value);
   }
-  scene.cells.begin.push_back(as<std::int32_t>(scene.cells.index.size()));
-  scene.value.push_back(value);
+
+  Scene& scene() { return scene_; }
+
+private:
+  std::int32_t vertex(const Vec2& x) {
+    const std::pair key(std::llround(x.x() / unit_), std::llround(x.y() / unit_));
+    const auto v = as<std::int32_t>(scene_.cells.vertex.size());
+    const auto [place, fresh] = at_.emplace(key, v);
+    if (!fresh) return place->second;
+    scene_.cells.vertex.push_back(x);
+    scene_.cells.vertex_node.push_back(as<NodeIndex>(v));
+    scene_.cells.vertex_weight.push_back(1.0);
+    scene_.cells.vertex_begin.push_back(v + 1);
+    for (std::size_t k = 0; k < 2; ++k) scene_.position[k].push_back(x[static_cast<Eigen::Index>(k)]);
+    return v;
+  }
+
+  double unit_; ///< m
+  Scene scene_;
+  std::map<std::pair<long long, long long>, std::int32_t> at_;
+};
+
+double size_of(const Fields<3>& position) {
+  double size = 0.0;
+  for (const Field& component : position) {
+    const auto [low, high] = std::minmax_element(component.begin(), component.end());
+    if (low != component.end()) size = std::max(size, *high - *low);
+  }
+  return size;
 }
 
 } // namespace
@@ -58,7 +98,7 @@ Scene surface_scene(const IndexedVector<CloudFacetIndex, Facet<3>>& facets, cons
     seen.push_back({axes.row(2).dot(corner[0] + corner[1] + corner[2]), f});
   }
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.depth < b.depth; });
-  Scene scene;
+  Polygons polygons(size_of(position));
   for (const Seen& s : seen) {
     const Facet<3>& facet = facets[s.facet];
     const auto corner = corners_of<3>(facet, position);
@@ -68,11 +108,11 @@ Scene surface_scene(const IndexedVector<CloudFacetIndex, Facet<3>>& facets, cons
     const Vec2 centre = (x[0] + x[1] + x[2]) / 3.0;
     for (std::size_t a = 0; a < 3; ++a) {
       const Vec2 after = 0.5 * (x[a] + x[(a + 1) % 3]), before = 0.5 * (x[a] + x[(a + 2) % 3]);
-      add_polygon(scene, std::array{x[a], after, centre, before}, value[index_of(facet.node[a])]);
-      scene.darkness.push_back(static_cast<float>(1.0 - lit));
+      polygons.add(std::array{x[a], after, centre, before}, value[index_of(facet.node[a])]);
+      polygons.scene().darkness.resize(polygons.scene().value.size(), static_cast<float>(1.0 - lit));
     }
   }
-  return scene;
+  return std::move(polygons.scene());
 }
 
 namespace {
@@ -165,7 +205,7 @@ Scene section_scene(std::span<const Tetrahedron> tetrahedra, const Fields<3>& po
   const Vec3 towards = axes.row(2);
   const std::vector<Tetrahedron> across =
       cells == SectionCells::voronoi ? nodes_across(tetrahedra) : std::vector<Tetrahedron>();
-  Scene scene;
+  Polygons polygons(size_of(position));
   Polygon part, scratch;
   std::vector<Vec2> corners;
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
@@ -200,10 +240,10 @@ Scene section_scene(std::span<const Tetrahedron> tetrahedra, const Fields<3>& po
       if (part.size() < 3) continue;
       corners.clear();
       for (const Corner& c : part) corners.push_back(c.x);
-      add_polygon(scene, corners, value[index_of(candidates[a])]);
+      polygons.add(corners, value[index_of(candidates[a])]);
     }
   }
-  return scene;
+  return std::move(polygons.scene());
 }
 
 } // namespace cnem::report
