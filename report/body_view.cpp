@@ -24,16 +24,20 @@ public:
   }
 
   void add(std::span<const Vec2> corners, double value) {
-    const std::size_t first = scene_.cells.index.size();
+    auto& index = scene_.cells.index;
+    const std::size_t first = index.size();
     for (const Vec2& x : corners) {
       const std::int32_t v = vertex(x);
-      auto& index = scene_.cells.index;
       if (index.size() > first && index.back() == v) continue;
       index.push_back(v);
     }
-    auto& index = scene_.cells.index;
     if (index.size() > first + 1 && index.back() == index[first]) index.pop_back();
     if (index.size() < first + 3) return index.resize(first);
+    double twice = 0.0;
+    for (std::size_t k = first; k < index.size(); ++k)
+      twice += cross(scene_.cells.vertex[index_of(index[k])],
+                     scene_.cells.vertex[index_of(index[k + 1 < index.size() ? k + 1 : first])]);
+    if (twice < 0.0) std::reverse(index.begin() + static_cast<std::ptrdiff_t>(first), index.end());
     scene_.cells.begin.push_back(as<std::int32_t>(index.size()));
     scene_.value.push_back(value);
   }

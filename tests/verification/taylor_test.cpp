@@ -225,5 +225,37 @@ TEST(TaylorBar, in_space_is_the_same_on_new_references) {
   EXPECT_NEAR(3.2e-3 + last("probe.foot.displacement_x"), 7.225e-3, 0.08e-3);
 }
 
+TEST(TaylorBar, in_space_is_the_same_where_its_cloud_follows_the_deformation) {
+  for (const char* cells : {"median", "voronoi"}) {
+    SCOPED_TRACE(cells);
+    const TemporaryFolder temporary("taylor_resampled");
+    const input::Case input = input::read_case(
+        CNEM_SOURCE_DIR "/cases/three_dimensions/taylor/case.toml",
+        {"cloud.spacing=0.54 mm", "adapt.resample=true", std::string("method.cells=") + cells,
+         "method.functions=laplace", "output.history_every=80 us", "output.fields_every=80 us"});
+    ASSERT_EQ(app::run(input, {.output = temporary.path(), .force = true, .version = "test"}), Exit::done);
+    const results::RunStatus status = results::read_status(temporary.path());
+    EXPECT_LT(status.energy_residual, 1e-3);
+    const auto metric = [&](std::string_view name) {
+      for (const auto& [key, value] : status.metrics)
+        if (key == name) return value;
+      ADD_FAILURE() << "no metric " << name;
+      return 0.0;
+    };
+    EXPECT_GT(metric("adapt.passes"), 5.0);
+    EXPECT_GT(metric("adapt.inserted") + metric("adapt.inserted_boundary"), 10.0);
+    EXPECT_LT(metric("adapt.mass_error"), 1e-12);
+    EXPECT_LT(metric("adapt.momentum_error"), 1e-12);
+    EXPECT_LT(metric("adapt.heat_error"), 1e-12);
+    EXPECT_EQ(metric("adapt.crossings"), 0.0);
+    const results::HistoryTable history = results::read_history(temporary.path() / "history.csv");
+    const auto last = [&](const std::string& column) {
+      return history.column.at(index_of(history.find(column))).back();
+    };
+    EXPECT_NEAR(32.4e-3 + last("probe.free_end.displacement_z"), 21.438e-3, 0.06e-3);
+    EXPECT_NEAR(3.2e-3 + last("probe.foot.displacement_x"), 7.225e-3, 0.08e-3);
+  }
+}
+
 } // namespace
 } // namespace cnem::testing
