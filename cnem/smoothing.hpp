@@ -39,8 +39,7 @@ FacesOfCells<dim, InnerFace<dim>> faces_between(const CellComplex<dim>& cells,
 /// body of revolution (core/operators/operators.hpp).
 template<int dim, class Face>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOfCells<dim, Face>& cells,
-                                          const FaceMeans& means,
-                                          const CentroidValues* revolution = nullptr);
+                                          const FaceMeans& means, const CentroidValues* revolution = nullptr);
 template<int dim>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
                                           const CellLists<FaceIndex>& faces, const FaceMeans& means,

@@ -1,5 +1,5 @@
-// Rebuild of all operators in space on a shaken cube, phase by phase, one thread: counter per_node (s, printed
-// with its SI prefix). Run: OMP_NUM_THREADS=1 build/benchmark_rebuild_space
+// Rebuild of all operators in space on a shaken cube, phase by phase, one thread: counter per_node (s,
+// printed with its SI prefix). Run: OMP_NUM_THREADS=1 build/benchmark_rebuild_space
 #include "cnem/median.hpp"
 #include "cnem/space.hpp"
 #include "tests/space_clouds.hpp"
@@ -61,8 +61,8 @@ void smoothing_and_links(benchmark::State& state) {
     const auto of_cell = group_by_cell<FaceIndex>(
         cloud.position.size(),
         facets.facet.size(), [&](std::size_t f) -> const auto& { return facets.facet[f].cell; });
-    const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facets.facet, of_cell,
-                                                          cells.boundary, cells.neighbours};
+    const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facets.facet, of_cell, cells.boundary,
+                                                          cells.neighbours};
     return std::pair(scni::smoothed_gradients(cloud, faces, facets.means),
                      scni::stabilisation_links(cloud, faces));
   });
@@ -87,10 +87,9 @@ void whole_median(benchmark::State& state) {
 }
 
 void whole_voronoi(benchmark::State& state) {
-  scni::CnemInSpace method(
-      {scni::CellKind::voronoi,
-       state.range(0) == 0 ? voronoi::Functions::sibson : voronoi::Functions::laplace,
-       static_cast<int>(state.range(1))});
+  scni::CnemInSpace method({scni::CellKind::voronoi,
+                            state.range(0) == 0 ? voronoi::Functions::sibson : voronoi::Functions::laplace,
+                            static_cast<int>(state.range(1))});
   per_node(state, [&] { return method.rebuild(Geometry::get().cloud); });
 }
 

@@ -7,7 +7,7 @@ namespace cnem::voronoi {
 /// One sphere a tetrahedron.
 struct Circumspheres {
   IndexedVector<SimplexIndex, Vec<3>> centre; ///< m; may lie outside the tetrahedron and beyond the boundary
-  IndexedVector<SimplexIndex, double> limit;  ///< squared radius less the rounding error of |x − centre|², m²
+  IndexedVector<SimplexIndex, double> limit; ///< squared radius less the rounding error of |x − centre|², m²
 };
 
 /// Tetrahedra that are flat to rounding (six times their volume below 1e-10 of the product of three edges)

@@ -12,8 +12,9 @@ namespace cnem::voronoi {
 struct DualPoints {
   IndexedVector<DualPointIndex, Vec<3>> place;                    ///< m
   IndexedVector<CloudFacetIndex, std::array<double, 2>> on_facet; ///< as in BoundaryPart::place
-  IndexedVector<SimplexIndex, SimplexIndex> holder;  ///< the tetrahedron that the point of each lies in
-  IndexedVector<SimplexIndex, CloudFacetIndex> wall; ///< the facet that hides the circumcentre; none: none does
+  IndexedVector<SimplexIndex, SimplexIndex> holder; ///< the tetrahedron that the point of each lies in
+  IndexedVector<SimplexIndex, CloudFacetIndex>
+      wall; ///< the facet that hides the circumcentre; none: none does
 };
 
 /// O(N).

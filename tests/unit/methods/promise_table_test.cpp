@@ -15,7 +15,7 @@ std::set<std::string> wanted_rows() {
   std::string head = "| promise |", places = "| exists in |";
   for (const Entry& method : registry()) {
     head += fmt::format(" `{}` |", method.name);
-    places += method.exists_in(2) ? " plane |" : " space |";
+    places += !method.exists_in(2) ? " space |" : method.exists_in(3) ? " plane, space |" : " plane |";
   }
   rows = {head, places};
   for (const Promise promise : all_promises) {
