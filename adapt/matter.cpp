@@ -1,6 +1,9 @@
 #include "adapt/matter.hpp"
 
+#include "voronoi/order.hpp"
+
 #include <algorithm>
+#include <numeric>
 
 namespace cnem::adapt {
 
@@ -130,12 +133,14 @@ NodeRows Matter::in_order(const IndexedVector<NodeIndex, Row>& rows,
   return result;
 }
 
-bool Matter::same_nodes() const {
-  return old_of_.size() == old_nodes_ &&
-         std::find(old_of_.begin(), old_of_.end(), NodeIndex::none) == old_of_.end();
-}
-
-template<int dim> void Matter::finish(const std::vector<std::int32_t>& order, Resampling<dim>& result) const {
+template<int dim> Resampling<dim> Matter::finished(const Cloud<dim>& cloud) const {
+  const bool same = old_of_.size() == old_nodes_ &&
+                    std::find(old_of_.begin(), old_of_.end(), NodeIndex::none) == old_of_.end();
+  std::vector<std::int32_t> order(old_of_.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (!same) order = voronoi::hilbert_order(cloud.position);
+  Resampling<dim> result;
+  result.cloud = voronoi::renumber(cloud, order);
   result.parcels = in_order(parcels_, order);
   result.labels = in_order(labels_, order);
   result.new_of.assign(old_nodes_, NodeIndex::none);
@@ -144,8 +149,9 @@ template<int dim> void Matter::finish(const std::vector<std::int32_t>& order, Re
     result.old_of[p] = old_of_[as<NodeIndex>(order[p])];
     if (exists(result.old_of[p])) result.new_of[result.old_of[p]] = as<NodeIndex>(p);
   }
+  return result;
 }
-template void Matter::finish(const std::vector<std::int32_t>&, Resampling<2>&) const;
-template void Matter::finish(const std::vector<std::int32_t>&, Resampling<3>&) const;
+template Resampling<2> Matter::finished(const Cloud<2>&) const;
+template Resampling<3> Matter::finished(const Cloud<3>&) const;
 
 } // namespace cnem::adapt

@@ -13,7 +13,7 @@ namespace cnem::adapt {
 
 /// What resampling has to know of a node. Each list is [node]; held nodes that are doubled stay both.
 struct NodeProperties {
-  Field mass;     ///< kg/m (kg of revolution), carried
+  Field mass;     ///< kg/m (kg of revolution, in space), carried
   Field jacobian; ///< J, volume over the stress-free one, –; mixes with mass, as volumes add
   Field density;  ///< kg/m³ at J = 1; a label
   Field size;     ///< m, wanted spacing; a label
@@ -63,10 +63,9 @@ protected:
   void hold(NodeIndex i, char held) { node_.held[i] = held; }
   /// Drops nodes: those that stay move up.
   void drop(const IndexedVector<NodeIndex, char>& gone);
-  /// Writes rows and numbers, with nodes in this order: order[new] = present number.
-  template<int dim> void finish(const std::vector<std::int32_t>& order, Resampling<dim>& result) const;
-  /// Whether no node came or went.
-  bool same_nodes() const;
+  /// Everything since construction on a cloud of the present nodes, which are put in space-filling order when
+  /// any came or went.
+  template<int dim> Resampling<dim> finished(const Cloud<dim>& cloud) const;
 
 private:
   Row& row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i);

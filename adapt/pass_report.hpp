@@ -7,8 +7,8 @@ namespace cnem::adapt {
 struct PassReport {
   int cracks = 0;   ///< opened from the boundary to a tip inside
   int advances = 0; ///< times that a tip went on
-  int cuts = 0;     ///< paths through broken matter that were opened
-  int opened = 0;   ///< edges of these
+  int cuts = 0;     ///< paths, in space surfaces, through broken matter that were opened
+  int opened = 0;   ///< edges, in space facets, of these
   int films = 0;    ///< cuts among them at the waists of films
   int folded = 0;   ///< boundary nodes at which the boundary turned back on itself or crossed
   int outside = 0;  ///< interior nodes found outside the boundary, or in another part

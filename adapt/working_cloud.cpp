@@ -258,14 +258,6 @@ void WorkingCloud::refresh_facets() {
   }
 }
 
-Resampling<2> WorkingCloud::finish() {
-  Resampling<2> result;
-  std::vector<std::int32_t> order(size());
-  std::iota(order.begin(), order.end(), 0);
-  if (!same_nodes()) order = voronoi::hilbert_order(cloud_.position);
-  result.cloud = voronoi::renumber(cloud_, order);
-  Matter::finish(order, result);
-  return result;
-}
+Resampling<2> WorkingCloud::finish() { return Matter::finished(cloud_); }
 
 } // namespace cnem::adapt

@@ -1,9 +1,9 @@
 #include "app/adaptation.hpp"
 
+#include "app/adaptation_parts.hpp"
 #include "app/tool_tips.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "mechanics/kinematics.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,15 +16,6 @@
 namespace cnem::app {
 
 namespace {
-
-/// The piece that new faces belong to.
-PieceIndex fracture_piece(Cloud<2>& cloud) {
-  constexpr const char* name = input::Adaptation::fracture_piece;
-  const auto found = std::find(cloud.piece_names.begin(), cloud.piece_names.end(), name);
-  const auto piece = as<PieceIndex>(found - cloud.piece_names.begin());
-  if (found == cloud.piece_names.end()) cloud.piece_names.emplace_back(name);
-  return piece;
-}
 
 /// Nodes at which the boundary turns by more than 30 degrees.
 IndexedVector<NodeIndex, std::int32_t> corners(const Cloud<2>& cloud) {
@@ -101,25 +92,8 @@ void Adaptation::resume_log(const std::filesystem::path& folder) {
 }
 
 adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
-  const State<2>& state = solver.state();
-  const std::size_t n = state.node.size();
-  adapt::NodeProperties properties;
-  properties.mass = state.node.mass;
-  properties.size = std::move(wanted);
+  adapt::NodeProperties properties = node_properties(*input_, solver, std::move(wanted));
   properties.held.assign(corner_.begin(), corner_.end());
-  properties.jacobian.resize(n);
-  properties.density.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    properties.jacobian[i] = jacobian<2>(state.point.deformation, i) / state.point.stress_free[i];
-    properties.density[i] = solver.model().materials[index_of(state.point.material[i])].density;
-  }
-  if (input_->materials.size() > 1)
-    properties.part.assign(state.node.material.begin(), state.node.material.end());
-  if (input_->adapt.separate) { // of what is broken, the most strained is in the middle of the band
-    properties.broken = state.point.softening;
-    for (std::size_t i = 0; i < n; ++i)
-      if (properties.broken[i] >= 1.0) properties.broken[i] += state.point.plastic_strain[i];
-  }
   return properties;
 }
 
@@ -224,10 +198,7 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
     wanted_ = std::move(wanted);
     follow_nodes(change, solver.state().time);
     follow(change);
-    const auto none = [](NodeIndex i) { return !exists(i); };
-    const auto came = std::count_if(change.old_of.begin(), change.old_of.end(), none),
-               went = std::count_if(change.new_of.begin(), change.new_of.end(), none);
-    changed = static_cast<double>(came + went) / static_cast<double>(change.old_of.size());
+    changed = share_changed(change);
   } catch (const GeometryError&) {
     size_ = size_before;
     flow_ = flow_before;

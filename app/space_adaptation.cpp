@@ -1,7 +1,9 @@
 #include "app/space_adaptation.hpp"
 
+#include "app/adaptation_parts.hpp"
+#include "clouds/space/domain.hpp"
+#include "core/error.hpp"
 #include "core/index.hpp"
-#include "mechanics/kinematics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +13,31 @@
 namespace cnem::app {
 namespace {
 
-/// The piece that new faces belong to.
-PieceIndex fracture_piece(Cloud<3>& cloud) {
-  constexpr const char* name = input::Adaptation::fracture_piece;
-  const auto found = std::find(cloud.piece_names.begin(), cloud.piece_names.end(), name);
-  const auto piece = as<PieceIndex>(found - cloud.piece_names.begin());
-  if (found == cloud.piece_names.end()) cloud.piece_names.emplace_back(name);
-  return piece;
+/// Gives nodes that no links join, over however many others, different parts: nothing goes from one to
+/// another.
+void keep_bodies_apart(const StabilisationLinks<3>& links, adapt::NodeProperties& properties) {
+  const std::size_t n = properties.mass.size();
+  std::vector<std::int32_t> body(n, -1);
+  std::int32_t bodies = 0;
+  std::vector<std::size_t> stack;
+  for (std::size_t first = 0; first < n; ++first) {
+    if (body[first] >= 0) continue;
+    body[first] = bodies;
+    stack.push_back(first);
+    while (!stack.empty()) {
+      const std::size_t i = stack.back();
+      stack.pop_back();
+      for (auto l = index_of(links.begin[i]); l < index_of(links.begin[i + 1]); ++l)
+        if (std::int32_t& other = body[index_of(links.neighbour[l])]; other < 0) {
+          other = bodies;
+          stack.push_back(index_of(links.neighbour[l]));
+        }
+    }
+    ++bodies;
+  }
+  if (bodies == 1) return;
+  properties.part.resize(n, 0);
+  for (std::size_t i = 0; i < n; ++i) properties.part[i] = properties.part[i] * bodies + body[i];
 }
 
 using Report = adapt::PassReport;
@@ -33,10 +53,24 @@ constexpr std::pair<const char*, int Report::*> counts[] = {{"cuts", &Report::cu
                                                             {"undone", &Report::undone},
                                                             {"crossings", &Report::crossings}};
 
+/// Marks the nodes that supports hold for their own sake, and not for the boundary that they are on.
+void hold_points(const Cloud<3>& cloud, const Supports<3>& supports, IndexedVector<NodeIndex, char>& held) {
+  for (const Support<3>& support : supports.list()) {
+    IndexedVector<NodeIndex, char> on_piece(held.size(), 0);
+    for (const Facet<3>& facet : cloud.facets)
+      if (std::find(support.pieces.begin(), support.pieces.end(), facet.piece) != support.pieces.end())
+        for (const NodeIndex i : facet.node) on_piece[i] = 1;
+    for (const NodeIndex i : support.nodes)
+      if (!on_piece[i]) held[i] = 1;
+  }
+}
+
 } // namespace
 
 SpaceAdaptation::SpaceAdaptation(const input::Case& input, const ExplicitSolver<3>& solver) : input_(&input) {
-  if (active()) size_.assign(solver.state().node.size(), input.cloud.spacing);
+  if (!active()) return;
+  const clouds::SpaceSpacing spacing{input.cloud.spacing, input.cloud.space_refinements};
+  for (const Vec3& x : solver.conditions().cloud.position) size_.push_back(spacing.at(x));
 }
 
 void SpaceAdaptation::start_log(const std::filesystem::path& folder) {
@@ -47,27 +81,6 @@ void SpaceAdaptation::resume_log(const std::filesystem::path& folder) {
   if (active()) log_.resume(folder, results::history_units(input_->analysis), 3);
 }
 
-adapt::NodeProperties SpaceAdaptation::properties(const ExplicitSolver<3>& solver) const {
-  const State<3>& state = solver.state();
-  const std::size_t n = state.node.size();
-  adapt::NodeProperties properties;
-  properties.mass = state.node.mass;
-  properties.size = size_;
-  properties.held.assign(n, 0);
-  properties.jacobian.resize(n);
-  properties.density.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    properties.jacobian[i] = jacobian<3>(state.point.deformation, i) / state.point.stress_free[i];
-    properties.density[i] = solver.model().materials[index_of(state.point.material[i])].density;
-  }
-  if (input_->adapt.separate) { // of what is broken, the most strained is in the middle of the band
-    properties.broken = state.point.softening;
-    for (std::size_t i = 0; i < n; ++i)
-      if (properties.broken[i] >= 1.0) properties.broken[i] += state.point.plastic_strain[i];
-  }
-  return properties;
-}
-
 double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   const results::Audit<3> before = results::audit(solver);
   adapt::PassReport report;
@@ -75,17 +88,22 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   adapt::SpaceRules rules;
   rules.cells = input_->method.options.cells;
   if (input_->adapt.separate) rules.separation.piece = fracture_piece(cloud);
-  const Resampling<3> change = adapt::resample(cloud, properties(solver), rules, report);
-  solver.prepare(change);
-  carry_label(change.labels, size_);
-  follow(change);
-  ++passes_;
-  total_ += report;
-  log_.record(solver.state(), report, before, results::audit(solver));
-  const auto none = [](NodeIndex i) { return !exists(i); };
-  const auto came = std::count_if(change.old_of.begin(), change.old_of.end(), none),
-             went = std::count_if(change.new_of.begin(), change.new_of.end(), none);
-  return static_cast<double>(came + went) / static_cast<double>(change.old_of.size());
+  adapt::NodeProperties properties = node_properties(*input_, solver, size_);
+  hold_points(cloud, solver.conditions().supports, properties.held);
+  keep_bodies_apart(solver.approximation().links, properties);
+  try {
+    const Resampling<3> change = adapt::resample(cloud, std::move(properties), rules, report);
+    solver.prepare(change);
+    carry_label(change.labels, size_);
+    follow(change);
+    ++passes_;
+    total_ += report;
+    log_.record(solver.state(), report, before, results::audit(solver));
+    return share_changed(change);
+  } catch (const GeometryError&) { // the surface that crosses itself is why most fail
+    total_.crossings += report.crossings;
+    throw;
+  }
 }
 
 std::vector<std::pair<std::string, double>> SpaceAdaptation::metrics() const {

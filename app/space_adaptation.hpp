@@ -36,8 +36,6 @@ public:
   void archive(Archive& archive);
 
 private:
-  adapt::NodeProperties properties(const ExplicitSolver<3>& solver) const;
-
   const input::Case* input_;
   Field size_; ///< [node] m, wanted spacing
   adapt::PassReport total_;

@@ -3,8 +3,9 @@
 // boundary driven, so that every node flows.
 #include "benchmarks/models.hpp"
 #include "clouds/tetrahedral_block.hpp"
-#include "cnem/median.hpp"
+#include "cnem/space.hpp"
 #include "tests/clouds.hpp"
+#include "voronoi/space/recovery.hpp"
 
 #include <cmath>
 #include <map>
@@ -53,58 +54,21 @@ inline clouds::TetrahedralBlock block_in_space(int nodes) {
   return clouds::tetrahedral_block(
       Vec3::Constant(block_edge), {count, count, count}, [&](const Vec3& x) -> Vec3 {
         if (x.minCoeff() < 0.5 * spacing || x.maxCoeff() > block_edge - 0.5 * spacing) return x;
-        return x + 0.1 * spacing * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        return x + 0.1 * spacing * Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
       });
 }
 
-/// Median cells.
-inline ExplicitSolver<3> sheared_block_in_space(int nodes) {
+/// Median cells on the lattice, or Voronoi cells with Laplace functions on the Delaunay tetrahedra of its
+/// nodes.
+inline ExplicitSolver<3> sheared_block_in_space(int nodes, scni::CellKind cells) {
   clouds::TetrahedralBlock block = block_in_space(nodes);
-  return sheared(model_304L<3>(std::move(block.cloud),
-                               std::make_unique<scni::MedianCells>(std::move(block.tetrahedra))));
-}
-
-/// Median cells whose rows are means of those of a node and its first two neighbours: as many entries as
-/// functions on Voronoi cells have, and links of median cells.
-class WideRows final : public Discretisation<3> {
-public:
-  explicit WideRows(std::vector<voronoi::Simplex<3>> tetrahedra) : cells_(std::move(tetrahedra)) {}
-
-  Approximation<3> rebuild(const Cloud<3>& cloud) override {
-    Approximation<3> result = cells_.rebuild(cloud);
-    const DiscreteOperators<3> narrow = result.mechanics;
-    DiscreteOperators<3>& wide = result.mechanics;
-    wide.node.clear();
-    for (Field& component : wide.gradient) component.clear();
-    for (std::size_t i = 0; i < narrow.volume.size(); ++i) {
-      std::map<NodeIndex, Vec3> row;
-      const std::int32_t first = result.links.begin[i];
-      for (const NodeIndex from : {as<NodeIndex>(i), result.links.neighbour[index_of(first)],
-                                   result.links.neighbour[index_of(first + 1)]})
-        for (auto e = index_of(narrow.row_begin[index_of(from)]);
-             e < index_of(narrow.row_begin[index_of(from) + 1]); ++e)
-          row.try_emplace(narrow.node[e], Vec3::Zero()).first->second +=
-              Vec3(narrow.gradient[0][e], narrow.gradient[1][e], narrow.gradient[2][e]) / 3.0;
-      for (const auto& [node, b] : row) {
-        wide.node.push_back(node);
-        for (std::size_t k = 0; k < 3; ++k) wide.gradient[k].push_back(b[static_cast<Eigen::Index>(k)]);
-      }
-      wide.row_begin[i + 1] = as<std::int32_t>(wide.node.size());
-    }
-    wide.build_transpose();
-    return result;
-  }
-  std::string name() const override { return "wide_rows"; }
-  Promises promises() const override { return scni::MedianCells::promised; }
-
-private:
-  scni::MedianCells cells_;
-};
-
-inline ExplicitSolver<3> sheared_block_of_wide_rows(int nodes) {
-  clouds::TetrahedralBlock block = block_in_space(nodes);
+  scni::SpaceOptions options{.cells = cells};
+  if (cells == scni::CellKind::median)
+    options.tetrahedra = std::move(block.tetrahedra);
+  else
+    block.cloud = voronoi::recover_boundary(block.cloud).cloud;
   return sheared(
-      model_304L<3>(std::move(block.cloud), std::make_unique<WideRows>(std::move(block.tetrahedra))));
+      model_304L<3>(std::move(block.cloud), std::make_unique<scni::CnemInSpace>(std::move(options))));
 }
 
 } // namespace cnem::benchmarks

@@ -171,11 +171,7 @@ private:
   }
 
   std::vector<Vec2> hole_centres() const {
-    struct Hole {
-      double size;
-      Vec2 centre;
-    };
-    std::vector<Hole> holes;
+    std::vector<Hole<2>> holes;
     for (const SimplexIndex t : mesh_.node.indices()) {
       const auto& n = mesh_.node[t];
       if (!movable_[index_of(n[0])] && !movable_[index_of(n[1])] && !movable_[index_of(n[2])] &&
@@ -190,16 +186,7 @@ private:
         continue;
       holes.push_back({radius.norm() / h, centre});
     }
-    std::ranges::stable_sort(holes, std::ranges::greater{}, &Hole::size);
-    NodeHash<2> placed(spacing_.finest(), spacing_.spacing, spacing_.growth());
-    std::vector<Vec2> centres;
-    for (const Hole& candidate : holes) {
-      const double h = spacing_.at(candidate.centre);
-      if (placed.crowded(candidate.centre, h, 0.9)) continue;
-      placed.insert(candidate.centre, h);
-      centres.push_back(candidate.centre);
-    }
-    return centres;
+    return centres_apart<2>(std::move(holes), spacing_);
   }
 
   std::vector<bool> crowding_nodes() const {

@@ -2,8 +2,10 @@
 // Nodes of strongly varying spacing in a hierarchy of hashed grids: near neighbours in constant time.
 #include "core/vec.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace cnem::clouds {
@@ -43,5 +45,27 @@ private:
   std::vector<Slot> slots_;
   std::size_t used_ = 0;
 };
+
+/// A place without a node, and how far it is from others over the wanted spacing.
+template<int dim> struct Hole {
+  double size;
+  Vec<dim> centre; ///< m
+};
+
+/// The centres of holes, the largest first, that are not near larger ones. Spacing: at(x), finest(), growth()
+/// and the largest as `spacing`, m.
+template<int dim, class Spacing>
+std::vector<Vec<dim>> centres_apart(std::vector<Hole<dim>> holes, const Spacing& spacing) {
+  std::ranges::stable_sort(holes, std::ranges::greater{}, &Hole<dim>::size);
+  NodeHash<dim> placed(spacing.finest(), spacing.spacing, spacing.growth());
+  std::vector<Vec<dim>> centres;
+  for (const Hole<dim>& candidate : holes) {
+    const double h = spacing.at(candidate.centre);
+    if (placed.crowded(candidate.centre, h, 0.9)) continue;
+    placed.insert(candidate.centre, h);
+    centres.push_back(candidate.centre);
+  }
+  return centres;
+}
 
 } // namespace cnem::clouds

@@ -47,6 +47,25 @@ private:
   std::vector<Block> blocks_;
 };
 
+/// Adds functions at a point, times `weight`, to the row of a block that begins at `start`: its entries are
+/// in the order in which they came first. functions: nodes() and values().
+template<class Functions>
+void add_point(FaceMeans::Block& block, std::size_t start, const Functions& functions, double weight) {
+  const auto node = functions.nodes();
+  const auto value = functions.values();
+  const std::size_t known = block.node.size();
+  for (std::size_t k = 0; k < node.size(); ++k) {
+    std::size_t e = start;
+    while (e < known && block.node[e] != node[k]) ++e;
+    if (e < known) {
+      block.value[e] += weight * value[k];
+    } else {
+      block.node.push_back(node[k]);
+      block.value.push_back(weight * value[k]);
+    }
+  }
+}
+
 /// Integrates with `face_rule(points)`. make() gives the functions, one object a thread: evaluate(x, simplex)
 /// at a point of a face with InnerFace::simplex, then nodes() and values(). Faces whose area is less than
 /// 1e-14 of the distance between their nodes (to the power dim − 1) are skipped: they carry rounding only. Of
@@ -78,19 +97,7 @@ FaceMeans face_means(const Cloud<dim>& cloud, const CellComplex<dim>& cells, int
         const Vec<dim> at = point_on<dim>(face.corner, point.place);
         const double weight = space == Space::revolution ? point.weight * at.x() : point.weight;
         functions.evaluate(at, face.simplex);
-        const auto node = functions.nodes();
-        const auto value = functions.values();
-        const std::size_t known = block.node.size();
-        for (std::size_t k = 0; k < node.size(); ++k) {
-          std::size_t e = start;
-          while (e < known && block.node[e] != node[k]) ++e;
-          if (e < known) {
-            block.value[e] += weight * value[k];
-          } else {
-            block.node.push_back(node[k]);
-            block.value.push_back(weight * value[k]);
-          }
-        }
+        add_point(block, start, functions, weight);
       }
       block.begin.push_back(static_cast<std::int32_t>(block.node.size()));
     }

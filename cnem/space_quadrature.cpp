@@ -87,24 +87,6 @@ struct FunctionsAt {
   std::vector<SimplexIndex> around;
 };
 
-/// Sums up rows of functions at points: entries of one row are in the order in which they came first.
-void add_point(FaceMeans::Block& block, std::size_t start, const voronoi::NaturalNeighbours3& functions,
-               double weight) {
-  const auto node = functions.nodes();
-  const auto value = functions.values();
-  const std::size_t known = block.node.size();
-  for (std::size_t k = 0; k < node.size(); ++k) {
-    std::size_t e = start;
-    while (e < known && block.node[e] != node[k]) ++e;
-    if (e < known) {
-      block.value[e] += weight * value[k];
-    } else {
-      block.node.push_back(node[k]);
-      block.value.push_back(weight * value[k]);
-    }
-  }
-}
-
 } // namespace
 
 FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,

@@ -29,6 +29,7 @@ template<int dim> struct FacetHit {
 /// Two edges of a surface in space.
 struct EdgePair {
   SurfaceEdgeIndex one{}, other{};
+  bool overlaps = false; ///< they were within each other's bodies when they were listed
 };
 
 /// Edges that have gone through each other.

@@ -1,6 +1,6 @@
 // Bodies on bodies in space: nodes against facets, and edges against edges, which cross between nodes.
 #include "contact/body_contact.hpp"
-#include "contact/box_tree.hpp"
+#include "core/geometry/box_tree.hpp"
 #include "core/index.hpp"
 
 #include <Eigen/Geometry>
@@ -136,6 +136,20 @@ Vec3 outwards(const Surface<3>& surface, const SurfaceEdge& edge, PlacesOnBounda
   return sum;
 }
 
+/// m, of the nearest points of two edges (Ericson 2005, 5.1.9).
+double distance_of_edges(const SurfaceEdge& one, const SurfaceEdge& other, PlacesOnBoundary<3> position) {
+  const Vec3 x = position[one.node[0]], e = position[one.node[1]] - x;
+  const Vec3 y = position[other.node[0]], f = position[other.node[1]] - y, r = x - y;
+  const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f), er = e.dot(r), fr = f.dot(r);
+  const double det = ee * ff - ef * ef;
+  double s = det > 0.0 ? std::clamp((ef * fr - er * ff) / det, 0.0, 1.0) : 0.0, t = (ef * s + fr) / ff;
+  if (t < 0.0 || t > 1.0) {
+    t = std::clamp(t, 0.0, 1.0);
+    s = std::clamp((ef * t - er) / ee, 0.0, 1.0);
+  }
+  return (r + s * e - t * f).norm();
+}
+
 std::optional<Crossing> crossing(const Surface<3>& surface, const SurfaceEdge& one, const SurfaceEdge& other,
                                  PlacesOnBoundary<3> position) {
   const Vec3 x = position[one.node[0]], e = position[one.node[1]] - x;
@@ -220,13 +234,14 @@ template<> void BodyContact<3>::list(const Surface<3>& surface) {
       if (same(one.node[0], other.node[0]) || same(one.node[0], other.node[1]) ||
           same(one.node[1], other.node[0]) || same(one.node[1], other.node[1]))
         continue;
+      if (distance_of_edges(one, other, listed_) > skin_) continue;
       const auto at = crossing(surface, one, other, listed_);
-      if (at && at->gap < -rounding * at->length) { // edges of two facets that see each other from behind
-        if (std::abs(at->gap) > skin_) continue;
+      const bool behind = at && at->gap < -rounding * at->length;
+      if (behind) { // edges of two facets that see each other from behind
         const Vec3 x = (1.0 - at->s) * listed_[one.node[0]] + at->s * listed_[one.node[1]];
         if (winding_number(surface, listed_, x - 0.5 * at->gap * at->normal) < 1.5) continue;
       }
-      edge_pairs_.push_back({e, o});
+      edge_pairs_.push_back({e, o, behind});
     }
   }
 }
@@ -246,7 +261,6 @@ void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, 
       const double kept = clearance * now.size, gap = now.gap(end[b]) - kept;
       if (gap >= 0.0 || gap < -2.0 * skin_) continue;
       const FacetView before(surface, f, start);
-      if (!faces(surface, b, before.normal, start)) continue;
       const double gap_before = before.gap(start[b]) - kept;
       const auto place = now.weights(end[b]);
       FacetHit<3> hit{b, f, clamped(place), now.normal, std::min(gap_before, 0.0), kept};
@@ -254,8 +268,10 @@ void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, 
         const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;
         std::array<double, 3> there = before.weights(start[b]);
         for (std::size_t k = 0; k < 3; ++k) there[k] = (1.0 - when) * there[k] + when * place[k];
-        if (inside(there, overhang)) crossed.push_back({hit, when});
-      } else if (inside(place, 0.0) && -gap < std::min(depth, skin_)) {
+        if (inside(there, overhang) && faces(surface, b, before.normal, start))
+          crossed.push_back({hit, when});
+      } else if (inside(place, 0.0) && -gap < std::min(depth, skin_) &&
+                 faces(surface, b, before.normal, start)) {
         depth = -gap;
         within = hit;
       }
@@ -277,6 +293,7 @@ void BodyContact<3>::find_edges(const Surface<3>& surface, PlacesOnBoundary<3> s
     if (gap >= 0.0 || gap < -skin_ || !now->between(overhang)) continue;
     const auto before = crossing(surface, one, other, start);
     if (!before || before->normal.dot(now->normal) < 0.0) continue;
+    if (!pair.overlaps && before->gap < -rounding * before->length) continue; // through a wall, from behind
     const double gap_before = before->gap - kept, s = std::clamp(now->s, 0.0, 1.0),
                  t = std::clamp(now->t, 0.0, 1.0);
     hits.push_back({pair, {1.0 - s, s}, {1.0 - t, t}, now->normal, std::min(gap_before, 0.0), kept});

@@ -201,7 +201,7 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
   const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
-           c.node[0] == contact.node[0];
+           c.node == contact.node;
   });
   if (known == earlier) {
     take(contact, step);
@@ -276,8 +276,10 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
   for (const ToolIndex t : tools_.indices()) {
     if (!tools_[t].response.exact()) continue;
     hits.clear();
-    ridge_hits<dim>(surface_, near_.at_ridges(t), *tools_[t].shape, start_, end_, poses[t].start,
-                    poses[t].end, hits);
+    std::span<const RidgeCandidate<dim>> pairs = near_.at_ridges(t);
+    if constexpr (dim == 3)
+      if (stands(t)) pairs = moved_among(pairs);
+    ridge_hits<dim>(surface_, pairs, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
     if (tools_[t].equal_areas)
       share_with_faces<dim>(surface_, *tools_[t].shape, start_, end_, poses[t].start, poses[t].end, hits);
     for (const RidgeHit<dim>& hit : hits) {

@@ -113,7 +113,7 @@ template<int dim> void RigidContact<dim>::list_touches() {
   if (law_.conductance == 0.0) return;
   constexpr double closed = 1e-3; // of the facet
   for (const Contact<dim>& contact : contacts_) {
-    if (exists(contact.tool) || contact.weight[0] != 1.0) continue; // edges touch beside nodes that do
+    if (exists(contact.tool) || contact.feature != 0) continue; // edges touch beside nodes that do
     BodyTouch<dim> touch;
     for (std::size_t a = 0; a < dim; ++a) {
       touch.facet[a] = surface_.node[contact.node[a + 1]];

@@ -1,9 +1,9 @@
 #pragma once
 // Which parts of the boundary tools may meet soon, so that the others need not be looked at in each step.
-#include "contact/box_tree.hpp"
 #include "contact/surface.hpp"
 #include "contact/tool.hpp"
 #include "contact/tool_motions.hpp"
+#include "core/geometry/box_tree.hpp"
 
 #include <span>
 #include <vector>

@@ -1,5 +1,6 @@
 #pragma once
 // Convex ridges of tools: corners and edges, sharp or rounded, that may pass between nodes of the workpiece.
+#include "core/geometry/box.hpp"
 #include "core/vec.hpp"
 
 #include <algorithm>
@@ -11,12 +12,7 @@ namespace cnem::contact {
 
 inline constexpr double full_turn = 2.0 * std::numbers::pi; ///< rad
 
-template<int dim> struct Box {
-  Vec<dim> low, high; ///< m
-  bool contains(const Vec<dim>& x) const {
-    return (x.array() >= low.array()).all() && (x.array() <= high.array()).all();
-  }
-};
+using cnem::Box;
 
 /// A convex ridge of a tool, sharp or rounded, that may pass between nodes of the workpiece.
 template<int dim> struct Ridge;

@@ -172,7 +172,7 @@ void read_space_cloud(const Setting& table, Case& result, Diagnostics& diagnosti
   const auto [low, high] = space_bounds(result.domain);
   if (const double size = (high - low).norm(); result.cloud.spacing > size)
     diagnostics.add(Mistake::range, spacing->where, spacing->path,
-                    fmt::format("found {:g} m, expected less than the size of the block, {:.3g} m",
+                    fmt::format("found {:g} m, expected less than the size of the workpiece, {:.3g} m",
                                 result.cloud.spacing, size));
   read_space_refinements(table, result, diagnostics);
   if (!result.domain.block) return;

@@ -152,7 +152,7 @@ const std::vector<Pair>& pairs() {
 
       {"analysis.type", "\"static\"", "three-dimensional analyses",
        [](const Case& c) { return when(c.analysis.dimensions() == 3, "in a three-dimensional analysis"); },
-       "\"explicit\"", "what equilibrium is solved with are operators of the plane", is_static},
+       "\"explicit\"", "cracks, springback and pages of equilibrium are those of the plane", is_static},
       {"domain.cracks", "", "axisymmetric static analyses",
        [](const Case& c) { return when(is_static(c) && is_round(c), "in an axisymmetric static analysis"); },
        "a plane one", "tip functions and interaction integrals are those of plane cracks"},

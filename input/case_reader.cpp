@@ -29,6 +29,18 @@ std::string name_after(const std::string& path, const std::string& generic) {
 
 namespace {
 
+/// Files of surfaces are named from the root: the resolved case stands elsewhere.
+void place_files(Setting& root, const std::string& path) {
+  namespace fs = std::filesystem;
+  const auto place = [&](Setting* file) {
+    if (!file) return;
+    const fs::path there = fs::path(path).parent_path() / std::get<std::string>(file->value);
+    file->value = fs::absolute(there).lexically_normal().string();
+  };
+  place(root.find("domain.stl.file"));
+  for (const Setting& tool : root.entries("tools")) place(root.find(tool.path + ".stl.file"));
+}
+
 /// Defaults that depend on other keys.
 void compute_defaults(Setting& root) {
   const bool statics = root.get<std::string>("analysis.type") == "static";
@@ -221,13 +233,9 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   read_materials(root, result, diagnostics);
   read_output(root, result, diagnostics);
   read_domain(root, result, diagnostics);
-  if (Setting* file = root.find("domain.stl.file")) // the resolved case stands elsewhere
-    file->value = std::filesystem::absolute(std::filesystem::path(result.path).parent_path() /
-                                            std::get<std::string>(file->value))
-                      .lexically_normal()
-                      .string();
   read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
+  place_files(root, result.path);
   if (Setting* cutting = root.find("cutting")) result.cutting = read_cutting(*cutting, diagnostics);
   const bool plane = result.analysis.dimensions() == 2;
   if (plane) {

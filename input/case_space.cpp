@@ -1,6 +1,5 @@
 // Workpieces in space that are made of outlines or come from a file, of the case reader.
 #include "clouds/space/faceted.hpp"
-#include "clouds/space/stl.hpp"
 #include "core/geometry/facets.hpp"
 #include "input/case_parts.hpp"
 #include "input/curve_checks.hpp"
@@ -10,8 +9,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 namespace cnem::input {
@@ -37,12 +34,6 @@ std::pair<std::vector<std::string>, std::size_t> faceted_names(const Cloud<3>& s
   const auto round =
       std::ranges::stable_partition(order, [&](const std::string& n) { return normal[n].second; });
   return {order, static_cast<std::size_t>(round.begin() - order.begin())};
-}
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("cannot read '{}', expected an STL file", path));
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 } // namespace
@@ -76,8 +67,7 @@ void read_faceted(const Setting& table, Case& result, Diagnostics& diagnostics) 
     faceted.names.push_back({entry.vector("at"), entry.get<std::string>("name")});
   try {
     const std::filesystem::path folder = std::filesystem::path(result.path).parent_path();
-    faceted.soup = clouds::read_stl(bytes_of((folder / std::get<std::string>(file.value)).string()),
-                                    table.get<double>("unit"));
+    faceted.soup = read_stl((folder / std::get<std::string>(file.value)).string(), table.get<double>("unit"));
     const Vec3 shift = table.vector("shift");
     for (auto& triangle : faceted.soup.triangles)
       for (Vec3& x : triangle.corner) x += shift;

@@ -11,8 +11,10 @@ namespace {
 
 using Shape = ToolSolid::Shape;
 
+constexpr const char* outline_keys[] = {"start", "path", "rectangle", "circle", "drawing", "rotate"};
+
 bool has_outline(const Setting& table) {
-  return table.find("start") || table.find("path") || table.find("rectangle") || table.find("circle");
+  return std::ranges::any_of(outline_keys, [&](const char* key) { return table.find(key) != nullptr; });
 }
 
 Plane read_plane(const Setting& table, Diagnostics& diagnostics) {
@@ -67,20 +69,6 @@ void read_place(const Setting& table, ToolSolid& solid, Diagnostics& diagnostics
                     "found no direction, expected one such as \"0 1 0\"");
 }
 
-void read_stl_file(const Setting& table, const Case& input, ToolSolid& solid, Diagnostics& diagnostics) {
-  const Setting& unit = *table.find("unit");
-  solid.file = (std::filesystem::path(input.path).parent_path() / table.get<std::string>("file")).string();
-  try {
-    const Unit found = parse_unit(std::get<std::string>(unit.value));
-    if (found.dimension != dimension::length) throw std::invalid_argument("no length");
-    solid.file_unit = found.to_si(1.0);
-  } catch (const std::exception&) {
-    diagnostics.add(Mistake::unit, unit.where, unit.path,
-                    fmt::format("found \"{}\", expected a unit of length such as \"mm\"",
-                                std::get<std::string>(unit.value)));
-  }
-}
-
 } // namespace
 
 ToolSolid read_solid(const Setting& table, const Case& input, Diagnostics& diagnostics) {
@@ -91,7 +79,7 @@ ToolSolid read_solid(const Setting& table, const Case& input, Diagnostics& diagn
   if (outlined) {
     solid.outline = read_outline(table, {table.name, false}, diagnostics).value_or(Curve{});
   } else if (has_outline(table)) {
-    for (const char* key : {"start", "path", "rectangle", "circle"})
+    for (const char* key : outline_keys)
       if (const Setting* found = table.find(key))
         diagnostics.add(Mistake::conflict, found->where, found->path,
                         fmt::format("found an outline of a tool with shape = \"{}\", expected it with "
@@ -103,7 +91,10 @@ ToolSolid read_solid(const Setting& table, const Case& input, Diagnostics& diagn
   read_ends(table, solid, diagnostics);
   if (const Setting* profile = table.find("profile"))
     solid.profile = read_outline(*profile, {table.name, false}, diagnostics).value_or(Curve{});
-  if (const Setting* stl = table.find("stl")) read_stl_file(*stl, input, solid, diagnostics);
+  if (const Setting* stl = table.find("stl")) {
+    solid.file = (std::filesystem::path(input.path).parent_path() / stl->get<std::string>("file")).string();
+    solid.file_unit = stl->get<double>("unit");
+  }
   read_place(table, solid, diagnostics);
   return solid;
 }

@@ -211,13 +211,18 @@ std::array<Vec3, 2> space_bounds(const Domain& domain) {
   const auto [low, high] = bounds(domain.outer);
   if (!sweep.turned) return {Vec3(low.x(), low.y(), sweep.from), Vec3(high.x(), high.y(), sweep.to)};
   Vec2 from = high.x() * Vec2::Ones(), to = -from; // of the sector around the profile
-  for (int k = 0; k <= 64; ++k)
+  const auto reach = [&](const Vec2& direction) {
     for (const double radius : {low.x(), high.x()}) {
-      const double angle = sweep.angle * k / 64.0;
-      const Vec2 x = radius * Vec2(std::cos(angle), std::sin(angle));
-      from = from.cwiseMin(x);
-      to = to.cwiseMax(x);
+      from = from.cwiseMin(radius * direction);
+      to = to.cwiseMax(radius * direction);
     }
+  };
+  reach({1, 0});
+  reach({std::cos(sweep.angle), std::sin(sweep.angle)});
+  const std::array<Vec2, 3> quarters{Vec2(0, 1), Vec2(-1, 0),
+                                     Vec2(0, -1)}; // where it reaches furthest along an axis
+  for (std::size_t k = 0; k < quarters.size(); ++k)
+    if (sweep.angle > 0.25 * full_turn * static_cast<double>(k + 1)) reach(quarters[k]);
   return {sweep.origin + Vec3(from.x(), from.y(), low.y()), sweep.origin + Vec3(to.x(), to.y(), high.y())};
 }
 

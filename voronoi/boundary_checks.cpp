@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
+#include "voronoi/twins.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -14,12 +15,6 @@ namespace {
 std::string describe_point(const Vec2& x) { return place_text(x, 9) + " m"; }
 
 const Vec2& at(const Cloud<2>& cloud, NodeIndex node) { return cloud.position[node]; }
-
-void check_node_index(const Cloud<2>& cloud, NodeIndex node, const std::string& who) {
-  if (node < NodeIndex{} || node >= cloud.position.next())
-    throw GeometryError(fmt::format("{} names node {}, but the cloud has nodes 0 to {}", who, as<int>(node),
-                                    cloud.nodes() - 1));
-}
 
 } // namespace
 
@@ -71,27 +66,6 @@ IndexedVector<NodeIndex, CloudFacetIndex> outgoing_facets(const Cloud<2>& cloud)
                                       leaves ? "arrives" : "leaves"));
   }
   return leaving;
-}
-
-IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<2>& cloud) {
-  if (cloud.twins.empty()) return {};
-  IndexedVector<NodeIndex, NodeIndex> parent(cloud.position.size());
-  for (const NodeIndex i : parent.indices()) parent[i] = i;
-  const auto root = [&](NodeIndex i) {
-    while (parent[i] != i) {
-      auto& up = parent[i];
-      i = up = parent[up];
-    }
-    return i;
-  };
-  for (std::size_t t = 0; t < cloud.twins.size(); ++t) {
-    const auto& [a, b] = cloud.twins[t];
-    check_node_index(cloud, a, fmt::format("twin pair {}", t));
-    check_node_index(cloud, b, fmt::format("twin pair {}", t));
-    parent[root(a)] = root(b);
-  }
-  for (const NodeIndex i : cloud.position.indices()) parent[i] = root(i);
-  return parent;
 }
 
 void throw_crossing(const Cloud<2>& cloud) {

@@ -19,9 +19,6 @@ std::string describe_facet(const Cloud<2>& cloud, CloudFacetIndex facet);
 /// and loops that are open or branch.
 IndexedVector<NodeIndex, CloudFacetIndex> outgoing_facets(const Cloud<2>& cloud);
 
-/// Union of the declared twins: two nodes may coincide when their groups are the same. Empty without twins.
-IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<2>& cloud);
-
 /// Throws the GeometryError that explains why facets cross. O(facets²): for the error path only.
 [[noreturn]] void throw_crossing(const Cloud<2>& cloud);
 

@@ -5,6 +5,7 @@
 #include "voronoi/boundary_checks.hpp"
 #include "voronoi/retriangulation.hpp"
 #include "voronoi/simplex_order.hpp"
+#include "voronoi/twins.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>

@@ -35,11 +35,10 @@ struct Guarded {
 
   Guarded(const WorkingBody& body, const Facet<3>& facet, double depth_of_spacing)
       : corner(corners_of<3>(facet, body.cloud().position)) {
-    const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], n = u.cross(v);
-    const Vec3 to = (u.squaredNorm() * v.cross(n) + v.squaredNorm() * n.cross(u)) / (2.0 * n.squaredNorm());
-    centre = corner[0] + to;
-    radius = to.norm();
-    inwards = -n.normalized();
+    const DiametralBall ball = diametral_ball(corner);
+    centre = ball.centre;
+    radius = ball.radius;
+    inwards = -area_normal<3>(corner).normalized();
     double h = 0.0;
     for (const NodeIndex i : facet.node) h += body.spacing(i) / 3.0;
     depth = depth_of_spacing * h;
@@ -64,7 +63,7 @@ NodeIndex nearest_corner(const WorkingBody& body, const Facet<3>& facet, const V
   return best;
 }
 
-/// A corner of the facet whose centroid is nearest, of the same part if there is one.
+/// The nearest corner of a facet of the same part; none: the part has no boundary.
 NodeIndex nearest_of_boundary(const WorkingBody& body, NodeIndex node) {
   double best = std::numeric_limits<double>::max();
   NodeIndex found = NodeIndex::none;
@@ -94,13 +93,15 @@ std::vector<Removal> crowded(const WorkingBody& body, const std::vector<Removal>
   for (const NodeIndex i : body.nodes())
     if (outside[i] && !body.held(i)) {
       near[i] = nearest_of_boundary(body, i);
-      ++report.outside;
+      report.outside += exists(near[i]);
     }
   const NodeGrid grid(body.cloud().position, mean_spacing(body));
   for (const auto& facet : body.cloud().facets) {
     const Guarded guarded(body, facet, limits.near_facet);
     grid.near(guarded.centre, guarded.reach(), [&](NodeIndex i, double) {
-      if (boundary[i] || exists(near[i]) || body.held(i) || !guarded.too_near(body.at(i))) return;
+      if (boundary[i] || exists(near[i]) || body.held(i) || !body.may_mix(i, facet.node[0]) ||
+          !guarded.too_near(body.at(i)))
+        return;
       near[i] = nearest_corner(body, facet, body.at(i));
       ++report.removed;
     });

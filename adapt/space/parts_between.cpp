@@ -198,18 +198,22 @@ private:
   /// cannot.
   bool without_branches() {
     constexpr int rounds = 50;
-    for (int round = 0; round < rounds; ++round)
-      if (!join_at_edges()) return true;
+    for (int round = 0; round < rounds; ++round) {
+      const Joined joined = join_at_edges();
+      if (joined != Joined::some) return joined == Joined::none_needed;
+    }
     return false;
   }
 
-  /// A tetrahedron at an edge, and its two faces there.
+  enum class Joined { none_needed, some, impossible };
+
+  /// A tetrahedron at an edge.
   struct AtEdge {
     std::array<NodeIndex, 2> edge;
     SimplexIndex tetrahedron;
   };
 
-  bool join_at_edges() {
+  Joined join_at_edges() {
     std::vector<AtEdge> list;
     IndexedVector<NodeIndex, char> on_cut(cloud_.position.size(), 0);
     for (const SimplexIndex t : mesh_.node.indices())
@@ -225,15 +229,17 @@ private:
     std::sort(list.begin(), list.end(), [](const AtEdge& a, const AtEdge& b) {
       return a.edge != b.edge ? a.edge < b.edge : a.tetrahedron < b.tetrahedron;
     });
-    bool changed = false;
+    Joined all = Joined::none_needed;
     for (std::size_t first = 0, last = 0; first < list.size(); first = last) {
       while (last < list.size() && list[last].edge == list[first].edge) ++last;
-      changed = join_around(std::span(list).subspan(first, last - first)) || changed;
+      const Joined here = join_around(std::span(list).subspan(first, last - first));
+      if (here == Joined::impossible) return here;
+      if (here == Joined::some) all = here;
     }
-    return changed;
+    return all;
   }
 
-  bool join_around(std::span<const AtEdge> around) {
+  Joined join_around(std::span<const AtEdge> around) {
     // runs of one part around the edge
     std::vector<std::vector<SimplexIndex>> runs;
     std::vector<char> seen(around.size(), 0);
@@ -268,9 +274,10 @@ private:
       for (std::size_t b = a + 1; b < runs.size(); ++b) {
         if (part(runs[a][0]) != part(runs[b][0])) continue;
         for (const std::size_t r : runs[a].size() <= runs[b].size() ? std::array{a, b} : std::array{b, a})
-          if (give_away(runs[r])) return true;
+          if (give_away(runs[r])) return Joined::some;
+        return Joined::impossible; // both hold what has to stay
       }
-    return false;
+    return Joined::none_needed;
   }
 
   /// The blocks of these tetrahedra go to the part beside them with which they share most of what is cut.

@@ -132,7 +132,7 @@ private:
       const Vec3 along = surface_.at(b) - surface_.at(a), to = surface_.at(i) - surface_.at(a);
       const double place = to.dot(along) / along.squaredNorm();
       const double height = along.cross(to).norm() / along.norm() / spacing(e);
-      if (place <= 0.0 || place >= 1.0 || height >= limit_.low_height) continue;
+      if (!(place > 0.0 && place < 1.0 && height < limit_.low_height)) continue;
       list.push_back({height, i, place < 0.5 ? a : b});
     }
     std::sort(list.begin(), list.end());

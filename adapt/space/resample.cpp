@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/facets.hpp"
+#include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/recovery.hpp"
@@ -41,6 +42,9 @@ std::vector<Parcel> inheritance(const WorkingBody& body, const SpaceStructure& s
     const double matter = filled(body, removal.gone);
     if (matter == 0.0) continue;
     NodeIndex stays = removal.near;
+    if (!exists(stays))
+      throw GeometryError("nothing is left beside the node at " + place_text(body.at(removal.gone)) +
+                          " m that may take its matter");
     while (exists(near[stays])) stays = near[stays];
     std::vector<NodeIndex> heirs{number[stays]};
     for (const NodeIndex k : structure.neighbours(number[stays])) heirs.push_back(k);
@@ -59,6 +63,9 @@ std::vector<Parcel> inheritance(const WorkingBody& body, const SpaceStructure& s
       }
       if (sum > 0.0) break;
     }
+    if (!(sum > 0.0))
+      throw GeometryError("no neighbour of the node at " + place_text(body.at(removal.gone)) +
+                          " m may take its matter");
     for (std::size_t n = 0; n < heirs.size(); ++n) {
       if (!(share[n] > 0.0)) continue;
       parcels.push_back({removal.gone, body_number[heirs[n]], share[n] / sum});

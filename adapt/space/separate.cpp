@@ -87,7 +87,7 @@ void set_apart(WorkingBody& body, std::size_t first_new, const std::vector<NodeI
 
 } // namespace
 
-void separate(WorkingBody& body, SpaceStructure& structure, const SeparationRules& rules,
+void separate(WorkingBody& body, const SpaceStructure& structure, const SeparationRules& rules,
               PassReport& report) {
   if (body.node().broken.empty()) return;
   const Parts part = parts_between(body.cloud(), structure.mesh, body.node().broken, rules.least_part);
@@ -141,8 +141,6 @@ void separate(WorkingBody& body, SpaceStructure& structure, const SeparationRule
 
   report.cuts += *std::max_element(part.begin(), part.end());
   report.opened += static_cast<int>(opened.size() / 2);
-  const std::vector<std::array<NodeIndex, 4>> tetrahedra(corner.begin(), corner.end());
-  structure = structure_of(body.cloud(), voronoi::connected(body.cloud(), tetrahedra));
 }
 
 } // namespace cnem::adapt

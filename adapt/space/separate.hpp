@@ -26,7 +26,8 @@ parts_between(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, const Fiel
 /// Opens the faces between parts. A node has a double for each of the connected sets of tetrahedra around it
 /// that a part leaves it, and its matter is shared out by their volumes; the doubles are set apart along the
 /// normals of the new faces, within the facets they are on. Counts cuts and opened facets. structure: that of
-/// the body, brought up to date.
-void separate(WorkingBody& body, SpaceStructure& structure, const SeparationRules& rules, PassReport& report);
+/// the body before.
+void separate(WorkingBody& body, const SpaceStructure& structure, const SeparationRules& rules,
+              PassReport& report);
 
 } // namespace cnem::adapt

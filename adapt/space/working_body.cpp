@@ -17,14 +17,6 @@ void WorkingBody::drop(const IndexedVector<NodeIndex, char>& gone) {
     for (NodeIndex& i : pair) i = number[i];
 }
 
-Resampling<3> WorkingBody::finish() const {
-  Resampling<3> result;
-  std::vector<std::int32_t> order(size());
-  std::iota(order.begin(), order.end(), 0);
-  if (!same_nodes()) order = voronoi::hilbert_order(cloud_.position);
-  result.cloud = voronoi::renumber(cloud_, order);
-  Matter::finish(order, result);
-  return result;
-}
+Resampling<3> WorkingBody::finish() const { return Matter::finished(cloud_); }
 
 } // namespace cnem::adapt

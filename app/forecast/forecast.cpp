@@ -184,7 +184,7 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
   Forecast expected;
   expected.nodes_first = expected.nodes_last = count;
   std::vector<Stretch> course;
-  double spacing = 1.0; // m, of the cells that limit the first step
+  double spacing = 0.0; // m, of the cells that limit the first step
   if constexpr (dim == 2) {
     const Cloud<2>& cloud = solver.conditions().cloud;
     const adapt::Structure structure = adapt::build_structure(cloud, input.analysis.space());
@@ -199,9 +199,9 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
       course = course_of_blanking(input, solver, structure, Steps(input, solver, control, spacing), expected);
     }
   }
+  if (dim == 3) spacing = expected.finest = input.cloud.spacing;
   if (course.empty())
-    course = {{input.time.end, dim == 2 ? expected.finest : spacing,
-               0.5 * (expected.nodes_first + expected.nodes_last)}};
+    course = {{input.time.end, expected.finest, 0.5 * (expected.nodes_first + expected.nodes_last)}};
   const Steps steps(input, solver, control, spacing);
   double node_steps = 0.0;
   for (const Stretch& stretch : course) {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace cnem;
 
-template<int dim> void measure(benchmark::State& state, ExplicitSolver<dim> (*make)(int)) {
+template<int dim> void measure(benchmark::State& state, auto&& make) {
   omp_set_num_threads(static_cast<int>(state.range(1)));
   ExplicitSolver<dim> solver = make(static_cast<int>(state.range(0)));
   double dt = solver.stable_step().dt;
@@ -41,37 +41,23 @@ template<int dim> void measure(benchmark::State& state, ExplicitSolver<dim> (*ma
 }
 
 void explicit_step(benchmark::State& state) { measure<2>(state, benchmarks::sheared_block); }
-BENCHMARK(explicit_step)
-    ->ArgNames({"nodes", "threads"})
-    ->Args({20000, 1})
-    ->Args({20000, 2})
-    ->Args({200000, 1})
-    ->Args({200000, 2})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-
-void explicit_step_in_space(benchmark::State& state) {
-  measure<3>(state, benchmarks::sheared_block_in_space);
+void step_on_median_cells(benchmark::State& state) {
+  measure<3>(state,
+             [](int nodes) { return benchmarks::sheared_block_in_space(nodes, scni::CellKind::median); });
 }
-BENCHMARK(explicit_step_in_space)
-    ->ArgNames({"nodes", "threads"})
-    ->Args({20000, 1})
-    ->Args({20000, 2})
-    ->Args({200000, 1})
-    ->Args({200000, 2})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-
-/// Rows as long as those of Voronoi cells.
-void explicit_step_of_wide_rows(benchmark::State& state) {
-  measure<3>(state, benchmarks::sheared_block_of_wide_rows);
+void step_on_voronoi_cells(benchmark::State& state) {
+  measure<3>(state,
+             [](int nodes) { return benchmarks::sheared_block_in_space(nodes, scni::CellKind::voronoi); });
 }
-BENCHMARK(explicit_step_of_wide_rows)
-    ->ArgNames({"nodes", "threads"})
-    ->Args({20000, 1})
-    ->Args({20000, 2})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+
+void sizes(benchmark::internal::Benchmark* step) {
+  step->ArgNames({"nodes", "threads"})->UseRealTime()->Unit(benchmark::kMillisecond);
+  for (const int nodes : {20000, 200000})
+    for (const int threads : {1, 2}) step->Args({nodes, threads});
+}
+BENCHMARK(explicit_step)->Apply(sizes);
+BENCHMARK(step_on_median_cells)->Apply(sizes);
+BENCHMARK(step_on_voronoi_cells)->Apply(sizes);
 
 } // namespace
 

@@ -1,6 +1,7 @@
 #pragma once
 // Bodies in space that are described by outlines of the plane or by a closed surface of facets.
 #include "clouds/generate.hpp"
+#include "core/geometry/stl.hpp"
 
 #include <array>
 #include <string>
@@ -27,16 +28,6 @@ struct Revolution {
   Vec3 origin{0, 0, 0};                        ///< m, where (0, 0) of the profile comes to lie
   double angle = 0.0;                          ///< rad, in (0, 2π]
   std::string low = "theta-", high = "theta+"; ///< names of the ends, where the angle leaves some
-};
-
-/// Corners and triangles as in an STL file; every triangle brings its own corners.
-struct FacetSoup {
-  struct Triangle {
-    std::array<Vec3, 3> corner; ///< m, anticlockwise as seen from outside
-    std::int32_t solid = 0;
-  };
-  std::vector<Triangle> triangles;
-  std::vector<std::string> solids; ///< their names; may be empty texts
 };
 
 /// A closed surface that is given by facets, and remeshed to the wanted spacing.

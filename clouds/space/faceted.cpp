@@ -4,6 +4,7 @@
 #include "core/geometry/facets.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
+#include "voronoi/space/crossings.hpp"
 #include "voronoi/space/remesh.hpp"
 #include "voronoi/space/surface.hpp"
 
@@ -51,7 +52,7 @@ private:
 
 /// The facets as a closed surface, each solid a piece. Corners closer than a millionth of the size are one,
 /// and facets that thereby lose their area go.
-Cloud<3> joined(const FacetSoup& soup) {
+Cloud<3> merged(const FacetSoup& soup) {
   if (soup.triangles.empty()) throw GeometryError("the surface has no facets");
   Vec3 low = soup.triangles.front().corner[0], high = low;
   for (std::size_t f = 0; f < soup.triangles.size(); ++f)
@@ -142,12 +143,12 @@ std::vector<std::string> names_of(const Parts& parts, const Faceted& shape, cons
 } // namespace
 
 Cloud<3> divided_surface(const Faceted& shape) {
-  Cloud<3> surface = joined(shape.soup);
+  Cloud<3> surface = merged(shape.soup);
   const voronoi::SurfaceEdges across = voronoi::surface_edges(surface);
   if (!(enclosed_measure(surface) > 0.0))
     throw GeometryError("the surface is inside out: its facets run clockwise as seen from outside; expected "
                         "anticlockwise ones");
-  if (const auto pairs = voronoi::crossing_facets(surface, 1); !pairs.empty())
+  if (const auto pairs = voronoi::crossings(surface); !pairs.empty())
     throw GeometryError(fmt::format("the surface crosses itself: {} and {}; expected facets that meet at "
                                     "common edges only",
                                     voronoi::describe_facet(surface, pairs[0][0]),

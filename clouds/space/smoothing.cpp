@@ -155,11 +155,7 @@ private:
   }
 
   std::vector<Vec3> hole_centres() const {
-    struct Hole {
-      double size;
-      Vec3 centre;
-    };
-    std::vector<Hole> holes;
+    std::vector<Hole<3>> holes;
     for (const auto& n : mesh_.node) {
       if (std::ranges::none_of(n, [&](NodeIndex i) { return movable(i) || index_of(i) < fixed_; })) continue;
       const auto x = corners(n);
@@ -174,16 +170,7 @@ private:
         continue;
       holes.push_back({radius / h, at});
     }
-    std::ranges::stable_sort(holes, std::ranges::greater{}, &Hole::size);
-    NodeHash<3> placed(spacing_.finest(), spacing_.spacing, spacing_.growth());
-    std::vector<Vec3> centres;
-    for (const Hole& candidate : holes) {
-      const double h = spacing_.at(candidate.centre);
-      if (placed.crowded(candidate.centre, h, 0.9)) continue;
-      placed.insert(candidate.centre, h);
-      centres.push_back(candidate.centre);
-    }
-    return centres;
+    return centres_apart<3>(std::move(holes), spacing_);
   }
 
   bool inside(const Vec3& x) const {

@@ -50,6 +50,17 @@ template<int dim> double measure(const std::array<Vec<dim>, dim + 1>& x) {
     return (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6.0;
 }
 
+/// The smallest ball with the corners of a triangle on it.
+struct DiametralBall {
+  Vec<3> centre; ///< m
+  double radius; ///< m
+};
+inline DiametralBall diametral_ball(const std::array<Vec<3>, 3>& corner) {
+  const Vec<3> u = corner[1] - corner[0], v = corner[2] - corner[0], n = u.cross(v);
+  const Vec<3> to = (u.squaredNorm() * v.cross(n) + v.squaredNorm() * n.cross(u)) / (2.0 * n.squaredNorm());
+  return {corner[0] + to, to.norm()};
+}
+
 /// Shares ∫ φ dΓ of the corners in the area, φ linear on the facet; of revolution m².
 template<int dim> std::array<double, dim> corner_areas(Space space, const std::array<Vec<dim>, dim>& corner) {
   if constexpr (dim == 2) {

@@ -1,159 +1,152 @@
-// STL: 80 bytes of anything, the number of triangles, and 50 bytes for each; or text, "solid … facet …
-// endsolid".
-#include "core/error.hpp"
-#include "core/geometry/triangle_surface.hpp"
-#include "core/index.hpp"
+#include "core/geometry/stl.hpp"
 
-#include <array>
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
-#include <map>
 
 namespace cnem {
+
 namespace {
 
-constexpr std::size_t header = 84, record = 50;
+constexpr std::size_t header = 84, record = 50; // bytes of a binary file
 
-class Gatherer {
-public:
-  explicit Gatherer(double scale) : scale_(scale) {}
-
-  void add(const std::array<Vec3, 3>& corners) {
-    std::array<std::int32_t, 3> triangle{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 x = scale_ * corners[k] + Vec3::Zero(); // −0 is 0
-      const auto [found, is_new] =
-          number_.try_emplace({x.x(), x.y(), x.z()}, as<std::int32_t>(surface_.points.size()));
-      if (is_new) surface_.points.push_back(x);
-      triangle[k] = found->second;
-    }
-    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
-      surface_.triangles.push_back(triangle);
-  }
-  TriangleSurface take() { return std::move(surface_); }
-
-private:
-  double scale_;
-  TriangleSurface surface_;
-  std::map<std::array<double, 3>, std::int32_t> number_;
-};
-
-bool is_binary(std::string_view bytes) {
-  if (bytes.size() < header) return false;
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + 80, sizeof count);
-  return bytes.size() == header + record * std::size_t{count} || !bytes.starts_with("solid");
+float number_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + k])) << (8 * k);
+  return std::bit_cast<float>(bits);
 }
 
-TriangleSurface parse_binary(std::string_view bytes, double scale) {
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + 80, sizeof count);
-  if (bytes.size() < header + record * std::size_t{count})
-    throw InputError(fmt::format("found {} bytes, expected binary STL of {} triangles in {} bytes",
-                                 bytes.size(), count, header + record * std::size_t{count}));
-  Gatherer gathered(scale);
-  for (std::size_t t = 0; t < count; ++t) {
-    std::array<float, 12> number{};
-    std::memcpy(number.data(), bytes.data() + header + record * t, sizeof number);
-    std::array<Vec3, 3> corner;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corner[k] = Vec3(number[3 * k + 3], number[3 * k + 4], number[3 * k + 5]);
-      if (!corner[k].allFinite())
-        throw InputError(
-            fmt::format("triangle {} has a corner that is no place, expected finite numbers", t + 1));
-    }
-    gathered.add(corner);
-  }
-  return gathered.take();
+std::uint32_t count_at(std::string_view bytes, std::size_t at) {
+  return std::bit_cast<std::uint32_t>(number_at(bytes, at));
 }
 
-/// Words of a text with the line each stands on.
+FacetSoup read_binary(std::string_view bytes, double scale) {
+  FacetSoup soup;
+  soup.solids = {""};
+  for (std::size_t at = header; at + record <= bytes.size(); at += record) {
+    FacetSoup::Triangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t c = 0; c < 3; ++c)
+        triangle.corner[k][static_cast<int>(c)] =
+            scale * static_cast<double>(number_at(bytes, at + 12 * (k + 1) + 4 * c));
+      if (!triangle.corner[k].allFinite())
+        throw InputError(fmt::format("triangle {} has a corner that is no place, expected finite numbers",
+                                     soup.triangles.size() + 1));
+    }
+    soup.triangles.push_back(triangle);
+  }
+  return soup;
+}
+
+/// Words of a text, with the line they stand on.
 class Words {
 public:
-  explicit Words(std::string_view text) : left_(text) {}
+  explicit Words(std::string_view text) : text_(text) {}
 
   std::string_view next() {
-    while (!left_.empty() && is_space(left_.front())) {
-      line_ += left_.front() == '\n';
-      left_.remove_prefix(1);
-    }
-    std::size_t n = 0;
-    while (n < left_.size() && !is_space(left_[n])) ++n;
-    const std::string_view word = left_.substr(0, n);
-    left_.remove_prefix(n);
-    return word;
+    while (at_ < text_.size() && is_space(text_[at_])) line_ += text_[at_++] == '\n';
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+    return text_.substr(begin, at_ - begin);
   }
-  void skip_line() {
-    const auto end = left_.find('\n');
-    left_.remove_prefix(end == std::string_view::npos ? left_.size() : end);
+  std::string_view rest_of_line() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    std::string_view rest = text_.substr(at_, end - at_);
+    at_ = end;
+    while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
+    while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
+    return rest;
   }
   void expect(std::string_view word) {
-    if (const std::string_view found = next(); found != word) fail(found, word);
+    if (const auto found = next(); found != word) fail(found, fmt::format("\"{}\"", word));
   }
   double number() {
-    std::string_view word = next();
-    const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
+    const std::string_view word = next();
+    std::string_view digits = word;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
     double value = 0.0;
-    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (fault != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
       fail(word, "a number");
     return value;
   }
-  [[noreturn]] void fail(std::string_view found, std::string_view wanted) const {
-    throw InputError(fmt::format("line {}: found {}, expected {} of STL", line_,
-                                 found.empty() ? "the end" : fmt::format("'{}'", found.substr(0, 40)),
-                                 wanted));
+  [[noreturn]] void fail(std::string_view found, std::string_view expected) const {
+    throw InputError(fmt::format("line {} of the STL file: found {}, expected {}", line_,
+                                 found.empty() ? "its end" : fmt::format("\"{}\"", found.substr(0, 40)),
+                                 expected));
   }
 
 private:
-  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-  std::string_view left_;
+  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
   int line_ = 1;
 };
 
-TriangleSurface parse_text(std::string_view text, double scale) {
-  Words words(text);
-  Gatherer gathered(scale);
-  words.expect("solid");
-  words.skip_line();
+FacetSoup read_text(std::string_view bytes, double scale) {
+  FacetSoup soup;
+  Words words(bytes);
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-    if (word == "solid" || word == "endsolid") {
-      words.skip_line();
-      continue;
+    if (word != "solid") words.fail(word, "\"solid\"");
+    const std::string name(words.rest_of_line());
+    const auto known = std::ranges::find(soup.solids, name);
+    const auto solid = static_cast<std::int32_t>(known - soup.solids.begin());
+    if (known == soup.solids.end()) soup.solids.push_back(name);
+    for (word = words.next(); word != "endsolid"; word = words.next()) {
+      if (word != "facet") words.fail(word, "\"facet\" or \"endsolid\"");
+      FacetSoup::Triangle triangle;
+      triangle.solid = solid;
+      words.expect("normal");
+      for (int k = 0; k < 3; ++k) words.number();
+      words.expect("outer");
+      words.expect("loop");
+      for (Vec3& corner : triangle.corner) {
+        words.expect("vertex");
+        for (double& component : corner) component = scale * words.number();
+      }
+      words.expect("endloop");
+      words.expect("endfacet");
+      soup.triangles.push_back(triangle);
     }
-    if (word != "facet") words.fail(word, "facet or endsolid");
-    words.skip_line(); // its normal
-    words.expect("outer"), words.expect("loop");
-    std::array<Vec3, 3> corner;
-    for (Vec3& x : corner) {
-      words.expect("vertex");
-      for (double& value : x) value = words.number();
-    }
-    words.expect("endloop"), words.expect("endfacet");
-    gathered.add(corner);
+    words.rest_of_line();
   }
-  return gathered.take();
+  return soup;
 }
 
 } // namespace
 
-TriangleSurface parse_stl(std::string_view bytes, double scale) {
-  TriangleSurface surface = is_binary(bytes) ? parse_binary(bytes, scale) : parse_text(bytes, scale);
-  if (surface.triangles.empty()) throw InputError("found no triangle, expected STL with some");
-  return surface;
+FacetSoup parse_stl(std::string_view bytes, double scale) {
+  // Binary files may begin with "solid", too: their length tells.
+  const std::size_t told = bytes.size() < header ? 0 : header + record * std::size_t{count_at(bytes, 80)};
+  std::string_view start = bytes.substr(0, 256);
+  start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
+  FacetSoup soup;
+  if (told != 0 && bytes.size() == told)
+    soup = read_binary(bytes, scale);
+  else if (start.starts_with("solid"))
+    soup = read_text(bytes, scale);
+  else
+    throw InputError(
+        fmt::format("found {} bytes that are no STL file, expected \"solid\" at its start or, in "
+                    "binary, 84 bytes and 50 for each triangle{}",
+                    bytes.size(), told == 0 ? "" : fmt::format(", {} for what it says it has", told)));
+  if (soup.triangles.empty()) throw InputError("found no triangle in the STL file, expected some");
+  return soup;
 }
 
-TriangleSurface read_stl(const std::string& path, double scale) {
+FacetSoup read_stl(const std::string& path, double scale) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: cannot be read, expected a file of STL", path));
+  if (!file) throw InputError(fmt::format("cannot read '{}', expected an STL file", path));
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  try {
-    return parse_stl(bytes, scale);
-  } catch (const InputError& error) { throw InputError(fmt::format("{}: {}", path, error.what())); }
+  return parse_stl(bytes, scale);
 }
 
 } // namespace cnem

@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <map>
 #include <tuple>
 
 namespace cnem {
@@ -80,6 +82,24 @@ void check_closed(const TriangleSurface& surface) {
   if (!(surface.volume() > 0.0))
     throw GeometryError(fmt::format("the surface is inside out: its normals enclose {:.6g} m³, triangle {}",
                                     surface.volume(), describe(surface, 0)));
+}
+
+TriangleSurface joined(const FacetSoup& soup) {
+  TriangleSurface surface;
+  std::map<std::array<double, 3>, std::int32_t> number;
+  for (const FacetSoup::Triangle& facet : soup.triangles) {
+    std::array<std::int32_t, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 x = facet.corner[k] + Vec3::Zero(); // −0 is 0
+      const auto [found, is_new] =
+          number.try_emplace({x.x(), x.y(), x.z()}, as<std::int32_t>(surface.points.size()));
+      if (is_new) surface.points.push_back(x);
+      triangle[k] = found->second;
+    }
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+      surface.triangles.push_back(triangle);
+  }
+  return surface;
 }
 
 } // namespace cnem

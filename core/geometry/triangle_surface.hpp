@@ -1,11 +1,10 @@
 #pragma once
-// Closed surfaces of triangles, and STL files that hold them.
+// Closed surfaces of triangles.
+#include "core/geometry/stl.hpp"
 #include "core/vec.hpp"
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace cnem {
@@ -28,13 +27,7 @@ struct TriangleSurface {
 /// positive. O(n log n).
 void check_closed(const TriangleSurface& surface);
 
-/// Reads STL, text or binary, with one solid or several; lengths times `scale` are in m. Corners with the
-/// same coordinates are one point, triangles with two of these are left out. Normals are those of the order
-/// of the corners; those in the file are not looked at. Throws InputError, with the line or triangle, for
-/// what is no STL, ends early, or has numbers that are not finite.
-TriangleSurface parse_stl(std::string_view bytes, double scale);
-
-/// The same from a file; the message names it. Throws InputError where it cannot be read.
-TriangleSurface read_stl(const std::string& path, double scale);
+/// Corners with the same coordinates are one point; triangles with two of these are left out.
+TriangleSurface joined(const FacetSoup& soup);
 
 } // namespace cnem

@@ -17,7 +17,8 @@ void add_drive(Keys& k, const std::string& tool) {
       .in(positive)
       .example("\"50 kg/m\"");
   k.add(tool + "force", vector_function,
-        "On a tool with a mass, its weight included; per unit thickness, or of the whole body of revolution.")
+        "On a tool with a mass, its weight included; per unit thickness, or of the whole body (of "
+        "revolution, in space).")
       .unit(d::force_per_length)
       .of_revolution(d::force)
       .example("{ value = \"0 -2 MN/m\", ramp = \"1 ms\", smooth = true }");

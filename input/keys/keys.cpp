@@ -102,7 +102,7 @@ void add_conditions(Keys& k) {
        "Instead of or beside `pieces`: the nodes nearest to these points, for `velocity` and `displacement`.")
       .unit(d::length)
       .example("[\"0 0 mm\"]");
-  k.add(at + "symmetry", boolean, "No velocity normal to the piece, which must be straight.")
+  k.add(at + "symmetry", boolean, "No velocity normal to the piece, which must be straight (in space plane).")
       .fallback("false");
   k.add(at + "velocity", vector_function, "Prescribed velocity; one component alone leaves the other free.")
       .unit(d::velocity)

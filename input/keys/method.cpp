@@ -17,7 +17,8 @@ void add_method(Keys& k) {
       .one_of(methods::names_in(2))
       .in_space_one_of(methods::names_in(3))
       .fallback("\"cnem\"");
-  k.add("method.functions", choice, "Natural neighbour functions (cnem).")
+  k.add("method.functions", choice,
+        "Natural neighbour functions (cnem; in space with `method.cells = \"voronoi\"`).")
       .one_of({"sibson", "laplace"})
       .fallback("\"sibson\"");
   k.add("method.gauss_points", integer,
@@ -32,7 +33,8 @@ void add_method(Keys& k) {
        "Cells of natural elements in space: `median`, quarters of tetrahedra with their linear functions, or "
        "`voronoi` with natural neighbour functions.")
       .one_of({"voronoi", "median"})
-      .fallback("\"median\"");
+      .fallback("\"median\"")
+      .when("name", {"cnem"});
   k.add("method.kernel", choice, "Kernel of the particles.")
       .one_of({"cubic_spline", "wendland_c2"})
       .fallback("\"cubic_spline\"")
@@ -116,7 +118,9 @@ void add_adaptation(Keys& k) {
         "and mass is exchanged between neighbours whose cells no longer fit it; all of it conservative.")
       .fallback("false");
   k.add("adapt.separate", boolean,
-        "At each new reference the cloud is cut along edges between broken nodes (materials with `damage`) "
+        "At each new reference the cloud is cut along edges (in space: faces) between broken nodes "
+        "(materials with "
+        "`damage`) "
         "where broken matter joins two parts of the boundary: nodes are doubled, nothing is deleted, the new "
         "faces are the piece `fracture`. Needs `contact.deformable`.")
       .fallback("false");

@@ -3,6 +3,7 @@
 #include "input/keys/keys.hpp"
 #include "mechanics/field_catalogue.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace cnem::input {
@@ -60,10 +61,15 @@ void add_pictures(Keys& k) {
       .required()
       .example("\"0 -1 0\"");
   k.add("output.ranges", table, "What the colours of a field span, in its unit, in place of its values.");
-  for (const FieldInfo<2>& info : field_catalogue<2>())
-    k.add("output.ranges." + info.name, quantities, fmt::format("Of the {}.", info.shown.label))
+  const auto add_range = [&](const auto& info) {
+    const std::string path = "output.ranges." + info.name;
+    if (std::ranges::find(k.all, path, &Key::path) != k.all.end()) return;
+    k.add(path, quantities, fmt::format("Of the {}.", info.shown.label))
         .unit(info.unit.empty() ? d::none : parse_unit(info.unit).dimension)
         .example(info.unit.empty() ? "\"0 1\"" : fmt::format("\"0 1 {}\"", info.unit));
+  };
+  for (const FieldInfo<2>& info : field_catalogue<2>()) add_range(info);
+  for (const FieldInfo<3>& info : field_catalogue<3>()) add_range(info);
 }
 
 } // namespace cnem::input

@@ -91,7 +91,10 @@ void add_solid(Keys& k, const std::string& at) {
       .required()
       .when("shape", {"stl"});
   k.add(at + "stl.file", text, "Relative to the file of the case.").required().example("\"punch.stl\"");
-  k.add(at + "stl.unit", text, "Of the file's lengths.").fallback("\"mm\"");
+  k.add(at + "stl.unit", quantity, "Length of the file's unit.")
+      .unit(d::length)
+      .in(positive)
+      .fallback("\"1 mm\"");
   k.add(at + "place", table,
         "Where the axes of the tool lie at time 0: without it they are those of the workpiece.");
   k.add(at + "place.at", vector, "Where its (0, 0, 0) comes to lie.")

@@ -48,11 +48,11 @@ template<int dim> struct StaticSolution {
   Fields<tensor_size<dim>> gradient; ///< [·][point] ∇u, with the strain out of the plane in the place of zz;
                                      ///< with what is thermal
   Fields<symmetric_size<dim>> stress; ///< [·][point] Pa
-  Fields<dim> reaction;               ///< [k][node] K u − f at held nodes, N/m; 0 elsewhere
-  double strain_energy = 0.0;         ///< J/m ½ Σ V σ:ε, ε the strain less the thermal one
-  double stabilisation_energy = 0.0;  ///< J/m
-  double external_work = 0.0;         ///< J/m ½ f·u + ½ reactions · prescribed displacements
-  double thermal_work = 0.0; ///< J/m −½ Σ V tr σ α ΔT, of the heat against what holds the body
+  Fields<dim> reaction;               ///< [k][node] K u − f at held nodes, N/m^(3−dim); 0 elsewhere
+  double strain_energy = 0.0;         ///< J/m^(3−dim) ½ Σ V σ:ε, ε the strain less the thermal one
+  double stabilisation_energy = 0.0;  ///< J/m^(3−dim)
+  double external_work = 0.0;         ///< J/m^(3−dim) ½ f·u + ½ reactions · prescribed displacements
+  double thermal_work = 0.0; ///< J/m^(3−dim) −½ Σ V tr σ α ΔT, of the heat against what holds the body
   double residual = 0.0;     ///< – ‖K u − f‖ of the free unknowns over the largest nodal force norm
   double condition = 0.0;    ///< – of the stiffness scaled to a unit diagonal, estimated
 };

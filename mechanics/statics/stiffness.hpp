@@ -45,7 +45,7 @@ template<int dim> Fields<tensor_size<dim>> gradients(const StaticProblem<dim>& p
 template<int dim>
 Fields<symmetric_size<dim>> stresses(const StaticProblem<dim>& problem, Fields<tensor_size<dim>>& gradient);
 
-/// −Σ V σ b: minus the internal force of the stress points, [k][function].
+/// Σ V σ b: what the stresses of the points hold up, [k][function].
 template<int dim>
 Fields<dim> internal_force(const StaticProblem<dim>& problem, const Fields<symmetric_size<dim>>& stress);
 

@@ -39,8 +39,7 @@ bool is_explicit(const fs::path& input) {
 std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::path& output, int threads) {
   std::vector<std::string> words{"run",           input.string(), "--output",
                                  output.string(), "--threads",    std::to_string(threads)};
-  if (input::read_case((input / "case.toml").string()).analysis.dimensions() == 2)
-    words.insert(words.end(), {"--set", "output.picture_fields=[\"pressure\"]"});
+  words.insert(words.end(), {"--set", "output.picture_fields=[\"pressure\"]"});
   return words;
 }
 

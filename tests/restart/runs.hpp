@@ -17,6 +17,7 @@ struct SmallCase {
 const std::vector<SmallCase>& small_cases();
 /// The one of them that is three-dimensional.
 std::string space_case();
+std::string space_sheared();
 /// Bonded, periodic and cracked.
 std::string parts_case();
 /// A crack that runs, with damage averaged over a length.

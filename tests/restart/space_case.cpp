@@ -43,4 +43,63 @@ keep = 3
 )toml" + testing::steel_304l;
 }
 
+// A strip that a punch with a mass shears off over a die: the cloud follows, breaks and parts; its parts
+// touch.
+std::string space_sheared() {
+  return R"toml(
+[analysis]
+kinematics = "three-dimensional"
+[time]
+end = "10 us"
+[domain]
+material = "steel"
+block = { from = "0 0 0 mm", to = "4 0.8 1 mm" }
+[cloud]
+spacing = "0.2 mm"
+[method]
+rereference = { every = 60, strain = 0.2 }
+[adapt]
+resample = true
+separate = true
+[contact]
+deformable = true
+friction = { law = "coulomb", coefficient = 0.1 }
+[boundary.sides]
+pieces = ["y-", "y+"]
+symmetry = true
+[boundary.middle]
+pieces = ["x-"]
+symmetry = true
+[tools.punch]
+shape = "box"
+box = { from = "-1 -1 1 mm", to = "1.9 2 3 mm" }
+mass = "1 g"
+direction = "0 0 -1"
+initial_velocity = "0 0 -60 m/s"
+friction = { law = "coulomb", coefficient = 0.2 }
+[tools.die]
+shape = "extruded"
+start = "2 0 mm"
+path = [{ to = "6 0 mm" }, { to = "6 -2 mm" }, { to = "2 -2 mm", fillet = "0.1 mm" }]
+place = { at = "0 0 0 mm", axis = "0 -1 0" }
+[output]
+history_every = "0.5 us"
+fields_every = "5 us"
+pictures = "10 us"
+sections.side = { at = "0 0.3 0 mm", normal = "0 -1 0" }
+[output.checkpoint]
+every_steps = 40
+every_wall = "0 s"
+keep = 3
+)toml" + testing::steel_304l +
+         R"toml(
+[materials.steel.damage]
+law = "johnson-cook"
+D1 = 0.1
+D2 = 0.2
+D3 = -1.5
+fracture_energy = "10 kJ/m2"
+)toml";
+}
+
 } // namespace cnem::app

@@ -232,8 +232,12 @@ TEST(TaylorBar, in_space_is_the_same_where_its_cloud_follows_the_deformation) {
     const input::Case input = input::read_case(
         CNEM_SOURCE_DIR "/cases/three_dimensions/taylor/case.toml",
         {"cloud.spacing=0.54 mm", "adapt.resample=true", std::string("method.cells=") + cells,
-         "method.functions=laplace", "output.history_every=80 us", "output.fields_every=80 us"});
+         "method.functions=laplace", "output.history_every=80 us", "output.fields_every=80 us",
+         "output.picture_fields=[\"plastic_strain\"]", "output.ranges.plastic_strain=\"0 3\"",
+         "output.sections.cut={ at = \"0 0.1 0 mm\", normal = \"0 -1 0\" }"});
     ASSERT_EQ(app::run(input, {.output = temporary.path(), .force = true, .version = "test"}), Exit::done);
+    for (const char* picture : {"plastic_strain_000.png", "plastic_strain_cut_000.png"})
+      EXPECT_GT(std::filesystem::file_size(temporary.path() / "pictures" / picture), 5000U);
     const results::RunStatus status = results::read_status(temporary.path());
     EXPECT_LT(status.energy_residual, 1e-3);
     const auto metric = [&](std::string_view name) {

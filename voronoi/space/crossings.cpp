@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "voronoi/space/exact.hpp"
 #include "voronoi/space/surface.hpp"
+#include "voronoi/twins.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>

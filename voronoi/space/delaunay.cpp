@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/surface.hpp"
+#include "voronoi/twins.hpp"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>

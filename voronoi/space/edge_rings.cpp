@@ -8,10 +8,6 @@
 namespace cnem::voronoi {
 namespace {
 
-/// Corners of the edges of a tetrahedron, and the other two in even order.
-constexpr std::array<std::array<std::size_t, 4>, 6> edges_of_tetrahedron = {
-    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
-
 /// A tetrahedron with an edge: going round counter-clockwise the way in is across from corner `out`, the way
 /// on from corner `in`.
 struct Step {

@@ -1,15 +1,12 @@
 #include "voronoi/space/median_cells.hpp"
 
 #include "core/index.hpp"
+#include "voronoi/space/tetrahedra.hpp"
 
 #include <algorithm>
 
 namespace cnem::voronoi {
 namespace {
-
-/// An edge and the two corners beside it, in even order.
-constexpr std::size_t corners_at_edges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
-                                                {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
 
 using Place = std::array<double, 2>;
 
@@ -41,7 +38,7 @@ CellComplex<3> median_cells(const Cloud<3>& cloud, std::span<const Simplex<3>> t
     for (std::size_t k = 0; k < 4; ++k) x[k] = cloud.position[tetrahedra[t][k]];
     for (const NodeIndex i : tetrahedra[t]) cells.volume[index_of(i)] += 0.25 * measure<3>(x);
     const Vec<3> centre = (x[0] + x[1] + x[2] + x[3]) / 4.0;
-    for (const auto& [a, b, c, d] : corners_at_edges) {
+    for (const auto& [a, b, c, d] : edges_of_tetrahedron) {
       const Vec<3> middle = (x[a] + x[b]) / 2.0, one = (x[a] + x[b] + x[c]) / 3.0,
                    other = (x[a] + x[b] + x[d]) / 3.0;
       const std::array<NodeIndex, 2> edge{tetrahedra[t][a], tetrahedra[t][b]};

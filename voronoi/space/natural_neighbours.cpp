@@ -323,7 +323,7 @@ bool NaturalNeighbours3::finish() {
 /// of flat ones, the one that x is the deepest in.
 void NaturalNeighbours3::linear(const Vec3& x, std::span<const SimplexIndex> near) {
   constexpr double well_shaped = 1e-6;
-  double deepest = -std::numeric_limits<double>::infinity(), best_quality = 0.0;
+  double deepest = -std::numeric_limits<double>::infinity(), best_quality = deepest;
   const auto try_in = [&](SimplexIndex t) {
     const auto p = corners_of(cloud_, mesh_, t);
     Mat<3> edges;

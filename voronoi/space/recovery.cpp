@@ -1,6 +1,7 @@
 #include "voronoi/space/recovery.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/adoption.hpp"
 #include "voronoi/space/facet_flips.hpp"
@@ -25,18 +26,6 @@ std::vector<std::uint8_t> on_surface(const Cloud<3>& cloud) {
   return is;
 }
 
-struct Ball {
-  Vec3 centre;
-  double square; ///< of the radius
-};
-
-/// The smallest ball with the corners of a facet on it.
-Ball diametral_ball(const std::array<Vec3, 3>& x) {
-  const Vec3 u = x[1] - x[0], v = x[2] - x[0], n = u.cross(v);
-  const Vec3 to = (u.squaredNorm() * v.cross(n) + v.squaredNorm() * n.cross(u)) / (2.0 * n.squaredNorm());
-  return {x[0] + to, to.squaredNorm()};
-}
-
 class Recovery {
 public:
   Recovery(const Cloud<3>& cloud, const RecoveryRules& rules) : rules_(rules) {
@@ -52,18 +41,28 @@ public:
     Delaunay mesh = delaunay(cloud);
     Walls walls = find_walls(cloud, mesh);
     counts.lost = as<int>(walls.lost.size());
-    while (true) {
+    for (int round = 0;; ++round) {
+      if (round == most_rounds)
+        throw GeometryError(fmt::format("{} is lost, and {} rounds of recovery did not bring it back",
+                                        describe_facet(cloud, walls.lost.front()), most_rounds));
       if (!walls.lost.empty()) {
         counts.flipped += fit_surface(cloud, mesh, rules_.flat_angle);
         walls = find_walls(cloud, mesh);
       }
       peel(mesh, walls);
-      if (walls.lost.empty()) break;
+      if (walls.lost.empty()) {
+        counts.held = 0;
+        break;
+      }
       Delaunay flipped = mesh;
       counts.held = as<int>(walls.lost.size());
       walls = hold_facets(cloud, flipped, std::move(walls));
-      peel(flipped, walls);
-      if (walls.lost.empty()) break;
+      const bool peeled = peel(flipped, walls);
+      if (walls.lost.empty()) {
+        if (!peeled || holds(mesh)) break;
+        walls = find_walls(cloud, mesh);
+        continue;
+      }
       if (const int flips = fit_surface(cloud, flipped, rules_.smooth_angle)) {
         counts.flipped += flips;
       } else if (remove_near(walls.lost)) {
@@ -79,13 +78,20 @@ public:
   }
 
 private:
-  void peel(const Delaunay& mesh, Walls& walls) {
+  /// Whether there was anything flat on the surface.
+  bool peel(const Delaunay& mesh, Walls& walls) {
     for (int layer = 0; layer < most_layers; ++layer) {
       const int flips = peel_flat(result_.cloud, mesh, walls, rules_.flat_angle);
-      if (flips == 0) return;
+      if (flips == 0) return layer > 0;
       result_.counts.flipped += flips;
       walls = find_walls(result_.cloud, mesh);
     }
+    return true;
+  }
+
+  /// Whether triangulating the cloud anew holds its facets.
+  bool holds(Delaunay mesh) const {
+    return hold_facets(result_.cloud, mesh, find_walls(result_.cloud, mesh)).lost.empty();
   }
 
   /// Takes the boundary of the tetrahedra inside for the surface, if that is a manifold with the same nodes.
@@ -112,10 +118,10 @@ private:
     bool any = false;
     for (const CloudFacetIndex f : lost) {
       const auto& node = cloud.facets[f].node;
-      const Ball ball =
+      const DiametralBall ball =
           diametral_ball({cloud.position[node[0]], cloud.position[node[1]], cloud.position[node[2]]});
       for (const NodeIndex i : cloud.position.indices())
-        if (!surface[index_of(i)] && (cloud.position[i] - ball.centre).squaredNorm() < ball.square)
+        if (!surface[index_of(i)] && (cloud.position[i] - ball.centre).norm() < ball.radius)
           goes[i] = any = true;
     }
     if (any) remove(goes);
@@ -144,6 +150,7 @@ private:
       if (exists(i)) i = number[i];
   }
 
+  static constexpr int most_rounds = 30;
   static constexpr int most_layers = 10; ///< of flat tetrahedra on each other
 
   RecoveryRules rules_;

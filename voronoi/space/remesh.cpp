@@ -4,7 +4,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 #include <algorithm>
 #include <cmath>
@@ -73,20 +72,6 @@ bool share_out(Mesh& mesh, const Kept& kept, double h) {
 }
 
 } // namespace
-
-std::vector<std::array<CloudFacetIndex, 2>> crossing_facets(const Cloud<3>& surface, std::size_t limit) {
-  const Mesh mesh = mesh_of(surface);
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
-  std::vector<std::array<CloudFacetIndex, 2>> found;
-  for (const auto& [one, other] : pairs) {
-    const auto a = as<CloudFacetIndex>(one.idx()), b = as<CloudFacetIndex>(other.idx());
-    found.push_back({std::min(a, b), std::max(a, b)});
-  }
-  std::ranges::sort(found);
-  if (found.size() > limit) found.resize(limit);
-  return found;
-}
 
 Cloud<3> remesh(const Cloud<3>& surface, double h) {
   namespace pmp = CGAL::Polygon_mesh_processing;

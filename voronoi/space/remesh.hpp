@@ -2,13 +2,7 @@
 // New triangles for a closed surface, at a wanted spacing. CGAL stays behind remesh.cpp.
 #include "core/geometry/cloud.hpp"
 
-#include <array>
-#include <vector>
-
 namespace cnem::voronoi {
-
-/// Pairs of facets of a closed surface that cross each other, at most `limit`. O(N log N).
-std::vector<std::array<CloudFacetIndex, 2>> crossing_facets(const Cloud<3>& surface, std::size_t limit);
 
 /// Triangles with edges of about h (m) on the surface of `surface`, whose facets' pieces stay apart: edges
 /// between them are divided anew along themselves, and their ends and forks stay. Nodes are all new

@@ -4,6 +4,7 @@
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/exact.hpp"
+#include "voronoi/twins.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,12 +14,6 @@ namespace cnem::voronoi {
 namespace {
 
 constexpr SurfaceEdge no_edge = -1;
-
-void check_node_index(const Cloud<3>& cloud, NodeIndex node, const std::string& who) {
-  if (node < NodeIndex{} || node >= cloud.position.next())
-    throw GeometryError(fmt::format("{} names node {}, but the cloud has nodes 0 to {}", who, as<int>(node),
-                                    cloud.nodes() - 1));
-}
 
 void check_lists(const Cloud<3>& cloud) {
   for (const NodeIndex i : cloud.position.indices())
@@ -153,27 +148,6 @@ SurfaceEdges surface_edges(const Cloud<3>& cloud) {
   SurfaceEdges across = paired_edges(cloud);
   check_fans(cloud, across);
   return across;
-}
-
-IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<3>& cloud) {
-  if (cloud.twins.empty()) return {};
-  IndexedVector<NodeIndex, NodeIndex> parent(cloud.position.size());
-  for (const NodeIndex i : parent.indices()) parent[i] = i;
-  const auto root = [&](NodeIndex i) {
-    while (parent[i] != i) {
-      auto& up = parent[i];
-      i = up = parent[up];
-    }
-    return i;
-  };
-  for (std::size_t t = 0; t < cloud.twins.size(); ++t) {
-    const auto& [a, b] = cloud.twins[t];
-    check_node_index(cloud, a, fmt::format("twin pair {}", t));
-    check_node_index(cloud, b, fmt::format("twin pair {}", t));
-    parent[root(a)] = root(b);
-  }
-  for (const NodeIndex i : cloud.position.indices()) parent[i] = root(i);
-  return parent;
 }
 
 IndexedVector<CloudFacetIndex, CloudFacetIndex> facets_behind(const Cloud<3>& cloud) {

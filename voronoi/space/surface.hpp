@@ -33,9 +33,6 @@ std::string describe_facet(const Cloud<3>& cloud, CloudFacetIndex facet);
 /// which the surface is open, branches or turns inside out, and nodes at which it touches itself.
 SurfaceEdges surface_edges(const Cloud<3>& cloud);
 
-/// Union of the declared twins: two nodes may coincide when their groups are the same. Empty without twins.
-IndexedVector<NodeIndex, NodeIndex> twin_groups(const Cloud<3>& cloud);
-
 /// [facet] the one of the other face of a slit, at the same places the other way round; none: it has none.
 IndexedVector<CloudFacetIndex, CloudFacetIndex> facets_behind(const Cloud<3>& cloud);
 

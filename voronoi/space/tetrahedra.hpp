@@ -22,6 +22,10 @@ struct Tetrahedra {
 inline constexpr std::array<std::array<std::size_t, 3>, 4> face_of_tetrahedron = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
+/// Corners of the edges of a tetrahedron, and the other two in even order.
+inline constexpr std::array<std::array<std::size_t, 4>, 6> edges_of_tetrahedron = {
+    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
+
 /// Who is whose neighbour among right-handed tetrahedra that tile the domain of a cloud. O(N log N). Throws
 /// GeometryError, naming nodes with their positions, where a face belongs to one tetrahedron and is no facet
 /// of the cloud, is a facet and belongs to none or to two, or belongs to more than two; and for a node that

@@ -142,7 +142,12 @@ VoronoiCells voronoi_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const 
     if (!(median[i] > 0.0))
       throw GeometryError("the tetrahedra of the node at " + place_text(cloud.position[i]) +
                           " m have no volume");
-  while (draw_in_small_cells(cloud, mesh, median, cells)) {}
+  constexpr int most_halvings = 60;
+  for (int n = 0; draw_in_small_cells(cloud, mesh, median, cells); ++n)
+    if (n == most_halvings)
+      throw GeometryError(
+          "cells stay without volume wherever their points are put: nodes are on one plane to "
+          "rounding");
   add_boundary(cloud, cells);
   return cells;
 }

@@ -1,14 +1,11 @@
 // Surfaces of STL files: what is read, how they are divided, what is refused.
 #include "clouds/space/faceted.hpp"
 #include "clouds/space/generate.hpp"
-#include "clouds/space/stl.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "tests/unit/clouds/space_shapes.hpp"
 #include "voronoi/space/recovery.hpp"
 
-#include <bit>
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace cnem::clouds {
@@ -26,47 +23,6 @@ Faceted faceted(const std::string& body, double spacing) {
   for (const testing::Body& candidate : testing::bodies())
     if (candidate.name == body) return {soup_of(surface_of(candidate.domain, {spacing, {}})), 0.6981317, {}};
   return {};
-}
-
-std::string text_of(const FacetSoup& soup) {
-  std::string text = "solid part one\n";
-  for (const auto& triangle : soup.triangles) {
-    text += " facet normal 0 0 0\n  outer loop\n";
-    for (const Vec3& x : triangle.corner) text += fmt::format("   vertex {} {} {}\n", x.x(), x.y(), x.z());
-    text += "  endloop\n endfacet\n";
-  }
-  return text + "endsolid part one\n";
-}
-
-void put(std::string& bytes, std::uint32_t word) {
-  for (int k = 0; k < 4; ++k) bytes += static_cast<char>((word >> (8 * k)) & 0xFFU);
-}
-
-std::string binary_of(const FacetSoup& soup) {
-  std::string bytes = "solid, says the header";
-  bytes.resize(80, ' ');
-  put(bytes, static_cast<std::uint32_t>(soup.triangles.size()));
-  for (const auto& triangle : soup.triangles) {
-    for (int k = 0; k < 3; ++k) put(bytes, 0);
-    for (const Vec3& x : triangle.corner)
-      for (const double component : x)
-        put(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(component)));
-    bytes += std::string(2, '\0');
-  }
-  return bytes;
-}
-
-TEST(Stl, IsReadInTextAndInBinary) {
-  const FacetSoup soup = faceted("box", 5.0).soup;
-  const FacetSoup text = read_stl(text_of(soup), 1e-3), binary = read_stl(binary_of(soup), 1e-3);
-  EXPECT_EQ(text.solids, std::vector<std::string>{"part one"});
-  ASSERT_EQ(text.triangles.size(), soup.triangles.size());
-  ASSERT_EQ(binary.triangles.size(), soup.triangles.size());
-  for (std::size_t f = 0; f < soup.triangles.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_LT((text.triangles[f].corner[k] - 1e-3 * soup.triangles[f].corner[k]).norm(), 1e-15);
-      EXPECT_LT((binary.triangles[f].corner[k] - 1e-3 * soup.triangles[f].corner[k]).norm(), 1e-9);
-    }
 }
 
 TEST(Stl, IsDividedAtCreasesAndNamed) {
@@ -124,20 +80,6 @@ TEST(Stl, SaysWhatIsWrongWithASurface) {
   flat.soup.triangles.push_back({{Vec3(5, 0, 0), Vec3(6, 0, 0), Vec3(7, 0, 0)}, 0});
   EXPECT_PRED2(contains, error_of(flat), "has no area");
   EXPECT_PRED2(contains, error_of({}), "no facets");
-}
-
-TEST(Stl, SaysWhatIsWrongWithAFile) {
-  const auto error = [](const std::string& bytes) -> std::string {
-    try {
-      read_stl(bytes, 1.0);
-    } catch (const GeometryError& caught) { return caught.what(); }
-    return "";
-  };
-  EXPECT_NE(error("ply\n").find("no STL file"), std::string::npos);
-  EXPECT_NE(
-      error("solid a\n facet normal 0 0 x\n").find("line 2 of the STL file: found \"x\", expected a number"),
-      std::string::npos);
-  EXPECT_NE(error("solid a\n").find("found its end, expected \"facet\" or \"endsolid\""), std::string::npos);
 }
 
 } // namespace

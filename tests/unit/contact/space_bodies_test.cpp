@@ -109,3 +109,16 @@ TEST(SpaceBodies, a_thin_body_does_not_touch_its_own_far_side) {
   EXPECT_EQ(scene.contact->body_result().total.workpiece, 0.0);
   for (int i = 0; i < scene.nodes(); ++i) EXPECT_LT((scene.velocity(i) - Vec3(1.0, 0.3, -0.2)).norm(), 1e-14);
 }
+
+TEST(SpaceBodies, sides_of_a_thin_body_slide_along_each_other_untouched) {
+  SpaceMasses scene = space_block({6, 6, 2}, 0.1, {0, 0, 0}, 1.0, 0.0);
+  for (double& z : scene.x[2]) z *= 0.2;
+  for (auto& spring : scene.springs) spring.stiffness = 0.0;
+  for (std::size_t i = 0; i < scene.x[2].size(); ++i) {
+    scene.v[0][i] = 100.0 * scene.x[2][i]; // edges of the two sides come to cross, within the skin
+    scene.v[1][i] = 60.0 * scene.x[2][i];
+  }
+  scene.start({}, BodyContactLaw{true, Coulomb{0.0}});
+  for (int i = 0; i < 40; ++i) scene.step(1e-3);
+  EXPECT_EQ(scene.contact->body_result().total.workpiece, 0.0);
+}

@@ -68,32 +68,51 @@ template<class Act> std::string message_of(Act&& act) {
 } // namespace
 
 TEST(Stl, text_and_binary_are_the_same_surface) {
-  const TriangleSurface read = parse_stl(text, 1e-3);
+  const TriangleSurface read = joined(parse_stl(text, 1e-3));
   ASSERT_EQ(read.points.size(), 4U);
   ASSERT_EQ(read.triangles.size(), 4U);
   EXPECT_NO_THROW(check_closed(read));
   EXPECT_NEAR(read.volume(), 1e-9 / 6.0, 1e-24);
-  const TriangleSurface again = parse_stl(binary(parse_stl(text, 1.0)), 1e-3);
+  const TriangleSurface again = joined(parse_stl(binary(joined(parse_stl(text, 1.0))), 1e-3));
   ASSERT_EQ(again.triangles, read.triangles);
   EXPECT_EQ(again.points, read.points);
 }
 
+TEST(Stl, solids_keep_their_names_and_those_of_one_name_are_one) {
+  std::string second = text;
+  second.replace(second.find("solid tip"), 9, "solid other part");
+  const FacetSoup soup = parse_stl(text + second + text, 1.0);
+  EXPECT_EQ(soup.solids, (std::vector<std::string>{"tip", "other part"}));
+  ASSERT_EQ(soup.triangles.size(), 12U);
+  EXPECT_EQ(soup.triangles[0].solid, 0);
+  EXPECT_EQ(soup.triangles[4].solid, 1);
+  EXPECT_EQ(soup.triangles[8].solid, 0);
+}
+
 TEST(Stl, tells_what_is_wrong_and_where) {
-  EXPECT_NE(message_of([] { parse_stl("", 1.0); }).find("expected solid"), std::string::npos);
+  EXPECT_NE(message_of([] { parse_stl("", 1.0); }).find("no STL file"), std::string::npos);
   std::string broken = text;
   broken.replace(broken.find("vertex 0 1 0"), 12, "vertex 0 x 0");
-  EXPECT_EQ(message_of([&] { parse_stl(broken, 1.0); }), "line 5: found 'x', expected a number of STL");
-  EXPECT_NE(message_of([] { parse_stl(text.substr(0, 150), 1.0); }).find("the end"), std::string::npos);
-  const std::string bytes = binary(parse_stl(text, 1.0));
-  EXPECT_NE(message_of([&] { parse_stl(bytes.substr(0, 200), 1.0); }).find("found 200 bytes"),
+  EXPECT_EQ(message_of([&] { parse_stl(broken, 1.0); }),
+            "line 5 of the STL file: found \"x\", expected a number");
+  EXPECT_NE(message_of([] { parse_stl(text.substr(0, 150), 1.0); }).find("found its end"), std::string::npos);
+  const std::string bytes = binary(joined(parse_stl(text, 1.0)));
+  EXPECT_NE(
+      message_of([&] { parse_stl(bytes.substr(0, 200), 1.0); }).find("found 200 bytes that are no STL file"),
+      std::string::npos);
+  EXPECT_NE(message_of([] { parse_stl("ply\n", 1.0); }).find("found 4 bytes that are no STL file"),
+            std::string::npos);
+  EXPECT_NE(message_of([] { parse_stl("solid a\n", 1.0); }).find("expected \"facet\" or \"endsolid\""),
             std::string::npos);
   EXPECT_NE(message_of([] { parse_stl("solid\nendsolid\n", 1.0); }).find("no triangle"), std::string::npos);
-  EXPECT_NE(message_of([] { read_stl("/nowhere.stl", 1.0); }).find("/nowhere.stl: cannot be read"),
+  EXPECT_NE(message_of([] {
+              read_stl("/nowhere.stl", 1.0);
+            }).find("cannot read '/nowhere.stl', expected an STL file"),
             std::string::npos);
 }
 
 TEST(Stl, open_turned_and_inverted_surfaces_are_refused_by_triangle) {
-  const TriangleSurface closed = parse_stl(text, 1.0);
+  const TriangleSurface closed = joined(parse_stl(text, 1.0));
   TriangleSurface open = closed;
   open.triangles.pop_back();
   EXPECT_NE(message_of([&] {

@@ -60,7 +60,7 @@ profile = { start = "0 -3 mm", path = [{ to = "4 -3 mm" }, { to = "4 0 mm" }, { 
 }
 
 TEST(ToolSolid, triangles_are_seen_from_the_folder_of_the_case) {
-  const Case c = with_tool("shape = \"stl\"\nstl = { file = \"punch.stl\", unit = \"um\" }\n");
+  const Case c = with_tool("shape = \"stl\"\nstl = { file = \"punch.stl\", unit = \"1 um\" }\n");
   EXPECT_EQ(c.tools.at(0).solid->file, "folder/punch.stl");
   EXPECT_EQ(c.tools[0].solid->file_unit, 1e-6);
 }

@@ -1,6 +1,6 @@
 #pragma once
 // A tree of boxes in space: which of many things are near a place, without looking at all of them.
-#include "contact/ridge.hpp"
+#include "core/geometry/box.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,11 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace cnem::contact {
-
-inline bool overlap(const Box<3>& a, const Box<3>& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-}
+namespace cnem {
 
 /// Halves boxes at the median of their middles, along the longest side, down to four. O(n log n) to make.
 class BoxTree {
@@ -110,4 +106,4 @@ private:
   std::vector<Branch> branch_;
 };
 
-} // namespace cnem::contact
+} // namespace cnem

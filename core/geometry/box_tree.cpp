@@ -1,11 +1,11 @@
-#include "contact/box_tree.hpp"
+#include "core/geometry/box_tree.hpp"
 
 #include "core/index.hpp"
 
 #include <numeric>
 #include <utility>
 
-namespace cnem::contact {
+namespace cnem {
 namespace {
 
 constexpr std::size_t leaf = 4; ///< boxes at most
@@ -44,4 +44,4 @@ std::int32_t BoxTree::grow(std::span<std::int32_t> part) {
   return as<std::int32_t>(at);
 }
 
-} // namespace cnem::contact
+} // namespace cnem

@@ -1,0 +1,78 @@
+// What passes in space leave as a case wants it.
+#include "app/space_adaptation.hpp"
+#include "input/case_reader.hpp"
+#include "tests/solver_of.hpp"
+#include "tests/steel.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace cnem::app {
+namespace {
+
+input::Case block(const std::string& more) {
+  return input::read_case_text(R"toml(
+[analysis]
+kinematics = "three-dimensional"
+[time]
+end = "1 us"
+[domain]
+material = "steel"
+block = { from = "0 0 0 mm", to = "2 1 1 mm", grid = false }
+[method]
+rereference = { strain = 0.2 }
+[adapt]
+resample = true
+)toml" + more + testing::steel_304l,
+                               "case.toml");
+}
+
+const SpaceAdaptation::Follow nothing = [](const Resampling<3>&) {};
+
+TEST(SpaceAdaptation, graded_clouds_stay_graded) {
+  const input::Case input = block(R"toml(
+[cloud]
+spacing = "0.25 mm"
+refine.corner = { points = ["0 0 0 mm"], spacing = "0.05 mm" }
+)toml");
+  ExplicitSolver<3> solver = testing::solver_of<3>(input);
+  SpaceAdaptation adaptation(input, solver);
+  const auto near_corner = [&] {
+    const auto& x = solver.state().node.position;
+    int count = 0;
+    for (std::size_t i = 0; i < x[0].size(); ++i) count += std::hypot(x[0][i], x[1][i], x[2][i]) < 0.5e-3;
+    return count;
+  };
+  const int fine = near_corner();
+  ASSERT_GT(fine, 40);
+  for (int pass = 0; pass < 3; ++pass) adaptation.renew(solver, nothing);
+  EXPECT_NEAR(near_corner(), fine, 0.2 * fine);
+}
+
+TEST(SpaceAdaptation, nodes_that_points_of_supports_name_stay) {
+  const input::Case input = block(R"toml(
+[cloud]
+spacing = "0.25 mm"
+[boundary.pin]
+points = ["1 0.5 0.5 mm"]
+velocity = "0 0 0 m/s"
+[boundary.base]
+pieces = ["z-"]
+symmetry = true
+)toml");
+  ExplicitSolver<3> solver = testing::solver_of<3>(input);
+  SpaceAdaptation adaptation(input, solver);
+  const auto pinned = [&] {
+    for (const Support<3>& support : solver.conditions().supports.list())
+      if (support.name == "pin") return support.nodes.size();
+    return std::size_t{0};
+  };
+  ASSERT_EQ(pinned(), 1U);
+  for (int pass = 0; pass < 2; ++pass) adaptation.renew(solver, nothing);
+  EXPECT_EQ(pinned(), 1U);
+}
+
+} // namespace
+} // namespace cnem::app
