@@ -2,7 +2,7 @@
 #include "adapt/resample.hpp"
 #include "adapt/simplices.hpp"
 #include "core/index.hpp"
-#include "voronoi/locate.hpp"
+#include "voronoi/plane/locate.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "adapt/indicator.hpp"
 
 #include "core/error.hpp"
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 namespace cnem::adapt {
 namespace {

@@ -2,7 +2,7 @@
 #include "adapt/resample.hpp"
 #include "core/index.hpp"
 #include "core/machine/parallel.hpp"
-#include "voronoi/edge_tree.hpp"
+#include "voronoi/plane/edge_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

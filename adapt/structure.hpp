@@ -2,9 +2,9 @@
 // Cells without shape functions: what insertion and removal look at between two rounds.
 #include "core/geometry/revolution.hpp"
 #include "core/index.hpp"
-#include "voronoi/cells.hpp"
-#include "voronoi/circumcircles.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/cells.hpp"
+#include "voronoi/plane/circumcircles.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <cstdint>
 #include <numbers>

@@ -1,8 +1,8 @@
 #include "adapt/working_cloud.hpp"
 
 #include "core/error.hpp"
-#include "voronoi/boundary_checks.hpp"
 #include "voronoi/order.hpp"
+#include "voronoi/plane/boundary_checks.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -5,8 +5,8 @@
 #include "clouds/generate_interior.hpp"
 #include "clouds/generate_list.hpp"
 #include "core/geometry/place_text.hpp"
-#include "voronoi/edge_tree.hpp"
 #include "voronoi/order.hpp"
+#include "voronoi/plane/edge_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "clouds/generate_boundary.hpp"
 #include "core/error.hpp"
 #include "core/geometry/place_text.hpp"
-#include "voronoi/edge_tree.hpp"
+#include "voronoi/plane/edge_tree.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include "clouds/generate_boundary.hpp"
-#include "voronoi/edge_tree.hpp"
+#include "voronoi/plane/edge_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 // Interior nodes of a cloud: lattices, growing fronts, smoothing.
 #include "clouds/generate.hpp"
-#include "voronoi/edge_tree.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/edge_tree.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 namespace cnem::clouds {
 

@@ -1,6 +1,6 @@
 #include "clouds/generate.hpp"
 #include "core/index.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "clouds/generate_interior.hpp"
 #include "clouds/node_hash.hpp"
 #include "core/index.hpp"
-#include "voronoi/delaunay_flips.hpp"
 #include "voronoi/order.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/delaunay_flips.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>

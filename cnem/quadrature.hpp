@@ -3,8 +3,8 @@
 #include "core/geometry/cell_complex.hpp"
 #include "core/geometry/revolution.hpp"
 #include "core/machine/parallel.hpp"
-#include "voronoi/cells.hpp"
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/cells.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 #include <algorithm>
 #include <cmath>

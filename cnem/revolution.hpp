@@ -2,8 +2,8 @@
 // What the smoothed gradients of a body of revolution need beside the facets: centroids of the cells and the
 // functions there.
 #include "core/operators/discretisation.hpp"
-#include "voronoi/cells.hpp"
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/cells.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 namespace cnem::scni {
 

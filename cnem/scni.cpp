@@ -4,8 +4,8 @@
 #include "cnem/revolution.hpp"
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
-#include "voronoi/cells.hpp"
 #include "voronoi/linear_simplices.hpp"
+#include "voronoi/plane/cells.hpp"
 
 #include <fmt/format.h>
 

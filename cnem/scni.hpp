@@ -4,7 +4,7 @@
 #include "cnem/quadrature.hpp"
 #include "core/geometry/revolution.hpp"
 #include "core/operators/discretisation.hpp"
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 namespace cnem::scni {
 

@@ -2,8 +2,8 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "voronoi/circumcircles.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/circumcircles.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>

@@ -4,7 +4,7 @@
 #include "core/operators/discretisation.hpp"
 #include "fracture/crack_tip.hpp"
 #include "fracture/williams.hpp"
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "methods/fe_simplices.hpp"
 
 #include "core/error.hpp"
-#include "voronoi/overlaps.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/overlaps.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

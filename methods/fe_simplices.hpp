@@ -28,7 +28,7 @@ public:
   /// Throws GeometryError as voronoi::triangulate and voronoi::linear_simplices do, and with its position for
   /// a node that belongs to no simplex.
   Approximation<dim> rebuild(const Cloud<dim>& cloud) override;
-  /// In the plane: by what new triangles cover of old ones (voronoi/overlaps.hpp).
+  /// In the plane: by what new triangles cover of old ones (voronoi/plane/overlaps.hpp).
   std::optional<PointRows> point_parcels(const DiscreteOperators<dim>& old, const DiscreteOperators<dim>& now,
                                          const Cloud<dim>& cloud) const override;
   std::string name() const override { return dim == 2 ? "fe_triangle" : "fe_tetrahedron"; }

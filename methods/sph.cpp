@@ -5,8 +5,8 @@
 #include "core/index.hpp"
 #include "core/machine/parallel.hpp"
 #include "core/operators/operator_checks.hpp"
-#include "voronoi/cells.hpp"
 #include "voronoi/linear_simplices.hpp"
+#include "voronoi/plane/cells.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

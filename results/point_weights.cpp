@@ -1,7 +1,7 @@
 #include "results/point_weights.hpp"
 
 #include "core/error.hpp"
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 #include <Eigen/LU>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
-// Predicates whose sign is exact: rounding decides where it cannot be wrong (Shewchuk 1997), else CGAL,
-// behind exact.cpp.
+// Predicates of the plane whose sign is exact: rounding decides where it cannot be wrong (Shewchuk 1997),
+// else CGAL, behind exact.cpp.
 #include "core/vec.hpp"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "core/index.hpp"
 #include "core/operators/resampling.hpp"
 
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,9 @@
 #include "methods/fe_simplices.hpp"
 #include "methods/sph.hpp"
 #include "tests/clouds.hpp"
-#include "voronoi/cells.hpp"
 #include "voronoi/linear_simplices.hpp"
 #include "voronoi/order.hpp"
+#include "voronoi/plane/cells.hpp"
 
 #include <benchmark/benchmark.h>
 

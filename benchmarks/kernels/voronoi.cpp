@@ -1,9 +1,9 @@
 // Geometry kernels, ns per node: a jittered square in Hilbert order is triangulated, cut into cells, and the
 // functions are evaluated once on every cell facet, as a rebuild of the operators does with one Gauss point.
-#include "voronoi/cells.hpp"
-#include "voronoi/natural_neighbours.hpp"
 #include "voronoi/order.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/cells.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "clouds/generate_interior.hpp"
 #include "core/index.hpp"
-#include "voronoi/edge_tree.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/edge_tree.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // all.
 #include "core/index.hpp"
 #include "tests/degenerate/random_clouds.hpp"
-#include "voronoi/cells.hpp"
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/cells.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // What new triangles take of old ones on adversarial clouds whose nodes move: matter is shared out whole and
 // fills the new triangles, however flat they are.
-#include "voronoi/overlaps.hpp"
+#include "voronoi/plane/overlaps.hpp"
 
 #include "core/error.hpp"
 #include "core/fields/aligned.hpp"
 #include "core/index.hpp"
 #include "tests/clouds.hpp"
 #include "tests/degenerate/random_clouds.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // A triangulation that begins with an earlier one is the one from nothing, to the bit: on adversarial clouds
 // whose nodes move, come and go.
-#include "voronoi/retriangulation.hpp"
+#include "voronoi/plane/retriangulation.hpp"
 
 #include "core/error.hpp"
 #include "core/fields/aligned.hpp"
@@ -8,7 +8,7 @@
 #include "tests/clouds.hpp"
 #include "tests/degenerate/random_clouds.hpp"
 #include "tests/index_literals.hpp"
-#include "voronoi/plain_boundary.hpp"
+#include "voronoi/plane/plain_boundary.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include "core/index.hpp"
 #include "mechanics/ties.hpp"
 #include "tests/fuzz/shapes.hpp"
-#include "voronoi/cells.hpp"
+#include "voronoi/plane/cells.hpp"
 
 #include <algorithm>
 #include <cmath>

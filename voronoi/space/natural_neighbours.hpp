@@ -1,6 +1,6 @@
 #pragma once
 // Constrained natural neighbours in space: Sibson and Laplace functions at any point.
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/functions.hpp"
 #include "voronoi/space/circumspheres.hpp"
 #include "voronoi/space/local_index.hpp"
 #include "voronoi/space/tetrahedra.hpp"

@@ -2,7 +2,7 @@
 // Domains that the tests of the cloud generator share.
 #include "clouds/generate.hpp"
 #include "tests/curves.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Clouds from geometry: counts, conformity to the boundary, quality, repeatability.
 #include "generate_shapes.hpp"
-#include "voronoi/delaunay_flips.hpp"
+#include "voronoi/plane/delaunay_flips.hpp"
 
 #include <gtest/gtest.h>
 

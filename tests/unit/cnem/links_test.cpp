@@ -2,7 +2,7 @@
 #include "cnem/scni.hpp"
 #include "sparse.hpp"
 #include "tests/clouds.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <gtest/gtest.h>
 

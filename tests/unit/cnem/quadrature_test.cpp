@@ -3,7 +3,7 @@
 #include "cnem/scni.hpp"
 #include "core/error.hpp"
 #include "tests/clouds.hpp"
-#include "voronoi/cells.hpp"
+#include "voronoi/plane/cells.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "core/index.hpp"
-#include "voronoi/cells.hpp"
+#include "voronoi/plane/cells.hpp"
 
 #include "tests/unit/voronoi/small_clouds.hpp"
 

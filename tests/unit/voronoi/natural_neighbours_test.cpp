@@ -1,9 +1,9 @@
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "tests/unit/voronoi/small_clouds.hpp"
-#include "voronoi/cells.hpp"
+#include "voronoi/plane/cells.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "voronoi/order.hpp"
 
 #include "tests/unit/voronoi/small_clouds.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>

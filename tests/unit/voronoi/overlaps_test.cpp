@@ -1,10 +1,10 @@
 // What new triangles take of old ones: known fractions, walls, domains that have folded.
-#include "voronoi/overlaps.hpp"
+#include "voronoi/plane/overlaps.hpp"
 
 #include "core/error.hpp"
 #include "tests/clouds.hpp"
 #include "tests/unit/voronoi/small_clouds.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <gtest/gtest.h>
 

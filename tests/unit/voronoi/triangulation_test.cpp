@@ -1,4 +1,4 @@
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include "core/error.hpp"
 #include "core/index.hpp"

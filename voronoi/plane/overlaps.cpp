@@ -1,4 +1,4 @@
-#include "voronoi/overlaps.hpp"
+#include "voronoi/plane/overlaps.hpp"
 
 #include "core/error.hpp"
 #include "core/geometry/cell_complex.hpp"

@@ -1,4 +1,4 @@
-#include "voronoi/circumcircles.hpp"
+#include "voronoi/plane/circumcircles.hpp"
 
 #include "core/index.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // A triangulation from an earlier one, far cheaper than from nothing.
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <optional>
 

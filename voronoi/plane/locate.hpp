@@ -1,6 +1,6 @@
 #pragma once
 // Where a point lies among the triangles of the domain.
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <array>
 #include <cstdint>

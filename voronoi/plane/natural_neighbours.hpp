@@ -1,18 +1,15 @@
 #pragma once
 // Constrained natural neighbours: Sibson and Laplace functions at any point (paper 004, (66)-(69), (71)).
-#include "voronoi/circumcircles.hpp"
-#include "voronoi/locate.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/functions.hpp"
+#include "voronoi/plane/circumcircles.hpp"
+#include "voronoi/plane/locate.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cnem::voronoi {
-
-/// Sibson: ratios of stolen areas, C¹ but at nodes. Laplace (non-Sibson): ratios of facet to distance, C⁰.
-/// Linear: those of the Delaunay triangle, with the same properties but fewer neighbours.
-enum class Functions { sibson, laplace, linear };
 
 /// Evaluates shape functions on one triangulation. Cheap to construct; holds references and scratch memory,
 /// so use one per thread. Nothing is allocated in an evaluation once the scratch has grown to the largest
@@ -27,7 +24,7 @@ public:
   void evaluate(Functions functions, const Vec2& x, SimplexIndex hint = {});
 
   /// Functions at a point of the facet between two cells: saves locating it.
-  /// `triangle`: InnerFace::simplex of the cells (voronoi/cells.hpp).
+  /// `triangle`: InnerFace::simplex of the cells (voronoi/plane/cells.hpp).
   void evaluate_on_facet(Functions functions, const Vec2& x, const std::array<SimplexIndex, 2>& triangle);
 
   /// Functions and their gradients at x. At nodes and on the boundary, where they have no (two-sided)

@@ -1,4 +1,4 @@
-#include "voronoi/boundary_checks.hpp"
+#include "voronoi/plane/boundary_checks.hpp"
 
 #include "core/error.hpp"
 #include "core/geometry/place_text.hpp"

@@ -1,4 +1,4 @@
-#include "voronoi/delaunay_flips.hpp"
+#include "voronoi/plane/delaunay_flips.hpp"
 
 #include "core/index.hpp"
 

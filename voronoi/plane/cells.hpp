@@ -2,8 +2,8 @@
 // Constrained Voronoi cells clipped by the domain: the integration cells of the method (paper 004, (70)).
 #include "core/geometry/cell_complex.hpp"
 #include "core/operators/discretisation.hpp"
-#include "voronoi/circumcircles.hpp"
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/circumcircles.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "voronoi/edge_tree.hpp"
+#include "voronoi/plane/edge_tree.hpp"
 
 #include "voronoi/order.hpp"
 

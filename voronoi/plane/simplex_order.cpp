@@ -1,4 +1,4 @@
-#include "voronoi/simplex_order.hpp"
+#include "voronoi/plane/simplex_order.hpp"
 
 #include "core/index.hpp"
 

@@ -1,4 +1,4 @@
-#include "voronoi/locate.hpp"
+#include "voronoi/plane/locate.hpp"
 
 #include "core/index.hpp"
 

@@ -1,10 +1,10 @@
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "voronoi/boundary_checks.hpp"
-#include "voronoi/retriangulation.hpp"
-#include "voronoi/simplex_order.hpp"
+#include "voronoi/plane/boundary_checks.hpp"
+#include "voronoi/plane/retriangulation.hpp"
+#include "voronoi/plane/simplex_order.hpp"
 #include "voronoi/twins.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>

@@ -1,8 +1,8 @@
-#include "voronoi/cells.hpp"
+#include "voronoi/plane/cells.hpp"
 
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "voronoi/boundary_checks.hpp"
+#include "voronoi/plane/boundary_checks.hpp"
 
 #include <algorithm>
 #include <cassert>

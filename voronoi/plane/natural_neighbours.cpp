@@ -1,4 +1,4 @@
-#include "voronoi/natural_neighbours.hpp"
+#include "voronoi/plane/natural_neighbours.hpp"
 
 #include "core/error.hpp"
 #include "core/index.hpp"

@@ -1,4 +1,4 @@
-#include "voronoi/plain_boundary.hpp"
+#include "voronoi/plane/plain_boundary.hpp"
 
 #include "core/index.hpp"
 #include "voronoi/exact.hpp"

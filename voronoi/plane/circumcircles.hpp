@@ -1,6 +1,6 @@
 #pragma once
 // Circumcircles of the Delaunay triangles: Voronoi vertices, and the in-circle test of natural neighbours.
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 #include <vector>
 

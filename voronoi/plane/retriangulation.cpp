@@ -1,10 +1,10 @@
-#include "voronoi/retriangulation.hpp"
+#include "voronoi/plane/retriangulation.hpp"
 
 #include "core/index.hpp"
-#include "voronoi/boundary_checks.hpp"
 #include "voronoi/exact.hpp"
-#include "voronoi/plain_boundary.hpp"
-#include "voronoi/simplex_order.hpp"
+#include "voronoi/plane/boundary_checks.hpp"
+#include "voronoi/plane/plain_boundary.hpp"
+#include "voronoi/plane/simplex_order.hpp"
 
 #include <algorithm>
 #include <utility>

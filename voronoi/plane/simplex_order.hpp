@@ -1,6 +1,6 @@
 #pragma once
 // The order of triangles as a function of the triangles alone, whoever made them and in whatever order.
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 namespace cnem::voronoi {
 

@@ -1,6 +1,6 @@
 #include "core/index.hpp"
-#include "voronoi/cells.hpp"
-#include "voronoi/locate.hpp"
+#include "voronoi/plane/cells.hpp"
+#include "voronoi/plane/locate.hpp"
 
 namespace cnem::voronoi {
 

@@ -1,6 +1,6 @@
 #pragma once
 // Keeps a triangulation Delaunay while its nodes move a little, far cheaper than building a new one.
-#include "voronoi/triangulation.hpp"
+#include "voronoi/plane/triangulation.hpp"
 
 namespace cnem::voronoi {
 
