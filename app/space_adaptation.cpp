@@ -41,17 +41,13 @@ void keep_bodies_apart(const StabilisationLinks<3>& links, adapt::NodeProperties
 }
 
 using Report = adapt::PassReport;
-constexpr std::pair<const char*, int Report::*> counts[] = {{"cuts", &Report::cuts},
-                                                            {"opened", &Report::opened},
-                                                            {"outside", &Report::outside},
-                                                            {"removed", &Report::removed},
-                                                            {"removed_boundary", &Report::removed_boundary},
-                                                            {"inserted", &Report::inserted},
-                                                            {"inserted_boundary", &Report::inserted_boundary},
-                                                            {"flipped", &Report::flipped},
-                                                            {"balanced", &Report::balanced},
-                                                            {"undone", &Report::undone},
-                                                            {"crossings", &Report::crossings}};
+constexpr std::pair<const char*, int Report::*> counts[] = {
+    {"cuts", &Report::cuts},         {"opened", &Report::opened},
+    {"folded", &Report::folded},     {"outside", &Report::outside},
+    {"removed", &Report::removed},   {"removed_boundary", &Report::removed_boundary},
+    {"inserted", &Report::inserted}, {"inserted_boundary", &Report::inserted_boundary},
+    {"flipped", &Report::flipped},   {"balanced", &Report::balanced},
+    {"undone", &Report::undone},     {"crossings", &Report::crossings}};
 
 /// Marks the nodes that supports hold for their own sake, and not for the boundary that they are on.
 void hold_points(const Cloud<3>& cloud, const Supports<3>& supports, IndexedVector<NodeIndex, char>& held) {

@@ -66,14 +66,16 @@ public:
     contact_.sliding = sliding;
   }
 
-  /// Velocity of the contact point of the nodes along u per unit impulse along u; 0 where they are held.
+  /// Velocity of the contact point of the nodes along u per unit impulse along u; 0 where they are held, also
+  /// where u is off what holds them by less than 1e-3 rad: a face in a plane of symmetry that is flat but for
+  /// rounding would throw nodes along it.
   double node_mobility(const Vec<dim>& u) const {
     double sum = 0.0, free = 0.0;
     each([&](double weight, const Reaction<dim>& node) {
       sum += weight * weight * u.dot(node.inverse * u);
       free += weight * weight * node.inverse.trace();
     });
-    return sum > 1e-12 * free ? sum : 0.0;
+    return sum > 1e-6 * free ? sum : 0.0;
   }
 
   /// The same of nodes against tool.

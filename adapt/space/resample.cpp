@@ -1,5 +1,6 @@
 #include "adapt/space/resample.hpp"
 
+#include "adapt/space/unfold.hpp"
 #include "core/error.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/geometry/place_text.hpp"
@@ -305,13 +306,11 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
   SpaceStructure structure;
   remove(body, structure, list, rules, report);
   if (const int cuts = report.cuts; separate(body, structure, rules.separation, report), report.cuts > cuts)
-    remove(body, structure, {}, rules, report);
+    remove(body, structure, crowded(body, {}, limits, report), rules, report);
   for (int round = 0; round < limits.rounds; ++round)
     if (!fill(body, structure, rules, report)) break;
   balance(body, structure, {limits.light, limits.heavy, limits.sweeps}, report);
-  report.volume_change = enclosed_measure(body.cloud()) - enclosed_measure(cloud);
   Resampling<3> change = body.finish();
-  change.old_position = cloud.position;
   if (structure.held > 0) { // whoever triangulates has to find a way to hold them too
     try {
       voronoi::triangulate(change.cloud);
@@ -322,9 +321,13 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
 
 } // namespace
 
-Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const SpaceRules& rules,
+Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const SpaceRules& rules,
                        PassReport& report) {
-  report.crossings += static_cast<int>(voronoi::crossings(cloud).size());
+  Cloud<3> cloud = present;
+  if (const auto pairs = voronoi::crossings(cloud); !pairs.empty()) {
+    report.crossings += static_cast<int>(pairs.size());
+    unfold(cloud, properties.held, properties.size, report);
+  }
   // Where facets are lost the other side of the body is nearer than they are long: they become shorter there,
   // once. More would not end beside crowded creases.
   constexpr int times = 2;
@@ -334,7 +337,9 @@ Resampling<3> resample(const Cloud<3>& cloud, NodeProperties properties, const S
     PassReport tried = report;
     try {
       Resampling<3> change = attempt(cloud, properties, size, rules, tried);
+      change.old_position = present.position;
       report = tried;
+      report.volume_change += enclosed_measure(change.cloud) - enclosed_measure(present);
       return change;
     } catch (const NotRecovered& failure) {
       if (n == times) throw GeometryError(failure.message);

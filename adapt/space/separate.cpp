@@ -1,5 +1,6 @@
 #include "adapt/space/separate.hpp"
 
+#include "adapt/space/boundary_planes.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 
@@ -61,17 +62,18 @@ std::vector<std::vector<SimplexIndex>> sets_around(const Cloud<3>& cloud, const 
 }
 
 /// Moves the doubles apart: against the mean normal of the new facets at each, within its other facets.
-void set_apart(WorkingBody& body, std::size_t first_new, const std::vector<NodeIndex>& moved, double gap) {
+void set_apart(WorkingBody& body, std::size_t first_new, const std::vector<NodeIndex>& moved, double gap,
+               const BoundaryPlanes& planes) {
   const Cloud<3>& cloud = body.cloud();
   IndexedVector<NodeIndex, Vec3> normal(body.size(), Vec3::Zero());
-  IndexedVector<NodeIndex, std::vector<Vec3>> kept(body.size());
+  IndexedVector<NodeIndex, std::vector<CloudFacetIndex>> kept(body.size());
   for (const CloudFacetIndex f : cloud.facets.indices()) {
     const Vec3 n = area_normal<3>(corners_of<3>(cloud.facets[f], cloud.position));
     for (const NodeIndex i : cloud.facets[f].node) {
       if (index_of(f) >= first_new)
         normal[i] += n;
       else
-        kept[i].push_back(n.normalized());
+        kept[i].push_back(f);
     }
   }
   std::vector<Vec3> place;
@@ -79,10 +81,70 @@ void set_apart(WorkingBody& body, std::size_t first_new, const std::vector<NodeI
     Vec3 way = normal[i].norm() > 0.0 ? Vec3(-normal[i].normalized()) : Vec3::Zero();
     constexpr int times = 3; // where facets meet at an angle
     for (int n = 0; n < times; ++n)
-      for (const Vec3& other : kept[i]) way -= other * other.dot(way);
-    place.push_back(body.at(i) + 0.5 * gap * body.spacing(i) * way);
+      for (const CloudFacetIndex f : kept[i]) {
+        const Vec3 other = area_normal<3>(corners_of<3>(cloud.facets[f], cloud.position)).normalized();
+        way -= other * other.dot(way);
+      }
+    place.push_back(body.at(i) + 0.5 * gap * body.spacing(i) * planes.keep(kept[i], way));
   }
   for (std::size_t n = 0; n < moved.size(); ++n) body.place(moved[n], place[n]);
+}
+
+/// Between faces of tetrahedra a cut has teeth as long as their edges: nodes of it go to the mean of their
+/// neighbours on it, on the boundary to that of those there, within its facets, as far as no tetrahedron
+/// loses most of its volume.
+void smooth_cut(WorkingBody& body, const SpaceStructure& structure, const Parts& part,
+                const BoundaryPlanes& planes) {
+  const Tetrahedra& mesh = structure.mesh;
+  const Cloud<3>& cloud = body.cloud();
+  std::vector<std::array<NodeIndex, 2>> edges;
+  IndexedVector<NodeIndex, std::vector<Vec3>> kept(body.size());
+  IndexedVector<NodeIndex, char> on_cut(body.size(), 0);
+  for (const SimplexIndex t : mesh.node.indices())
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (exists(mesh.facet[t][k]) || part[mesh.neighbour[t][k]] == part[t]) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const NodeIndex a = mesh.node[t][face_of_tetrahedron[k][c]],
+                        b = mesh.node[t][face_of_tetrahedron[k][(c + 1) % 3]];
+        on_cut[a] = 1;
+        edges.push_back({std::min(a, b), std::max(a, b)});
+      }
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const auto& facet : cloud.facets) {
+    const Vec3 n = area_normal<3>(corners_of<3>(facet, cloud.position)).normalized();
+    for (const NodeIndex i : facet.node)
+      if (on_cut[i]) kept[i].push_back(n);
+  }
+  const CellLists<NodeIndex> beside = other_ends(body.size(), edges);
+  std::vector<double> least; // volumes that tetrahedra keep, m³
+  constexpr double most_lost = 0.7;
+  for (const auto& node : mesh.node) least.push_back((1.0 - most_lost) * volume_of(cloud, node));
+  constexpr int times = 5;
+  for (int n = 0; n < times; ++n)
+    for (const NodeIndex i : body.nodes()) {
+      if (!on_cut[i] || body.held(i)) continue;
+      const Vec3 from = body.at(i);
+      Vec3 sum = Vec3::Zero();
+      double count = 0.0;
+      for (const NodeIndex k : beside.of(i))
+        if (kept[i].empty() || !kept[k].empty()) {
+          sum += body.at(k);
+          count += 1.0;
+        }
+      if (count < 2.0) continue;
+      Vec3 way = 0.5 * (sum / count - from);
+      constexpr int projections = 3;
+      for (int m = 0; m < projections; ++m)
+        for (const Vec3& normal : kept[i]) way -= normal * normal.dot(way);
+      body.place(i, from + planes.keep(i, way));
+      for (const SimplexIndex t : structure.tetrahedra.of(i))
+        if (volume_of(cloud, mesh.node[t]) < least[index_of(t)]) {
+          body.place(i, from);
+          break;
+        }
+    }
 }
 
 } // namespace
@@ -93,6 +155,8 @@ void separate(WorkingBody& body, const SpaceStructure& structure, const Separati
   const Parts part = parts_between(body.cloud(), structure.mesh, body.node().broken, rules.least_part);
   if (part.empty()) return;
   const Tetrahedra& mesh = structure.mesh;
+  const BoundaryPlanes planes(body.cloud());
+  smooth_cut(body, structure, part, planes);
   const Cloud<3> before = body.cloud();
 
   Doubles corner = mesh.node;
@@ -137,7 +201,7 @@ void separate(WorkingBody& body, const SpaceStructure& structure, const Separati
   facets.insert(facets.end(), opened.begin(), opened.end());
   body.set_boundary(std::move(facets));
   body.move(parcels);
-  set_apart(body, first_new, moved, rules.gap);
+  set_apart(body, first_new, moved, rules.gap, planes);
 
   report.cuts += *std::max_element(part.begin(), part.end());
   report.opened += static_cast<int>(opened.size() / 2);

@@ -50,7 +50,7 @@ std::string space_sheared() {
 [analysis]
 kinematics = "three-dimensional"
 [time]
-end = "10 us"
+end = "12.5 us"
 [domain]
 material = "steel"
 block = { from = "0 0 0 mm", to = "4 0.8 1 mm" }
@@ -85,7 +85,7 @@ place = { at = "0 0 0 mm", axis = "0 -1 0" }
 [output]
 history_every = "0.5 us"
 fields_every = "5 us"
-pictures = "10 us"
+pictures = "12.5 us"
 sections.side = { at = "0 0.3 0 mm", normal = "0 -1 0" }
 [output.checkpoint]
 every_steps = 40

@@ -1,0 +1,31 @@
+#pragma once
+// The planes of a boundary in space, on which nodes that move have to stay.
+#include "core/geometry/cell_complex.hpp"
+#include "core/geometry/cloud.hpp"
+
+#include <span>
+
+namespace cnem::adapt {
+
+/// Which facets of a body are parts of planes: another of their piece beside them has the same normal to
+/// rounding. Facets of curved pieces are none. Keeps what it needs of the cloud as it is now. O(F log F).
+/// Throws GeometryError as voronoi::surface_edges() does.
+class BoundaryPlanes {
+public:
+  explicit BoundaryPlanes(const Cloud<3>& cloud);
+
+  /// What of a way leaves a node on the planes that its facets are of: all of it, or the part along one plane
+  /// or the line in which two meet; nothing where three meet.
+  Vec3 keep(NodeIndex node, const Vec3& way) const { return keep(around_.of(node), way); }
+  /// The same for the planes of some facets.
+  Vec3 keep(std::span<const CloudFacetIndex> facets, const Vec3& way) const;
+
+  /// [node] its facets.
+  std::span<const CloudFacetIndex> around(NodeIndex node) const { return around_.of(node); }
+
+private:
+  CellLists<CloudFacetIndex> around_;
+  IndexedVector<CloudFacetIndex, Vec3> plane_; ///< normal; 0 of a facet that is of no plane
+};
+
+} // namespace cnem::adapt

@@ -1,0 +1,18 @@
+#pragma once
+// Takes folds out of a surface in space before it is resampled.
+#include "adapt/pass_report.hpp"
+#include "core/fields/aligned.hpp"
+#include "core/geometry/cloud.hpp"
+
+namespace cnem::adapt {
+
+/// Moves nodes of facets that cross each other (voronoi::crossings) until none does, at most half of the
+/// wanted spacing and some rounds: towards the mean of their neighbours on the surface, which takes ridges
+/// down that have fallen over, and where two faces have run into each other out of the other one. Nodes stay
+/// on the planes that boundaries have there. What that encloses more or less is given back by nodes around.
+/// Counts the moved nodes as folded. held: [node] those that stay; size: [node] m, wanted spacing.
+/// O(F log² F) a round. Throws GeometryError as voronoi::surface_edges() does.
+void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
+            PassReport& report);
+
+} // namespace cnem::adapt
