@@ -1,9 +1,9 @@
 #include "evaluate/blanking.hpp"
 #include "core/index.hpp"
 
+#include "evaluate/blanking_parts.hpp"
 #include "evaluate/force_stroke.hpp"
 #include "mechanics/statics/rigid_motion.hpp"
-#include "results/fields.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -107,16 +107,6 @@ std::vector<PieceIndex> other_pieces(const input::Domain& domain,
       others.push_back(piece);
   }
   return others;
-}
-
-/// Nodes whose metal has lost all of its strength but what rubble bears.
-std::vector<char> broken_nodes(const results::Snapshot<2>& shot) {
-  if (shot.state.point.softening.empty()) return {};
-  constexpr double all = 0.99; // resampling takes means
-  const Field softening = results::values_at_nodes(shot, "softening");
-  std::vector<char> broken;
-  for (const double lost : softening) broken.push_back(lost >= all);
-  return broken;
 }
 
 double largest_of(const Fields<2>& displacement, const std::vector<std::int32_t>& part, std::int32_t wanted) {
@@ -231,15 +221,15 @@ std::vector<BodySpringback> springback_of_bodies(std::span<const Cut> cuts, cons
   return bodies;
 }
 
-namespace {
-
-/// What was measured, beside each face that was computed.
-std::vector<MeasuredHeights> beside(const std::vector<ShearedFace>& faces,
-                                    const std::vector<input::MeasuredFace>& measured) {
+std::vector<MeasuredHeights> measured_beside(const std::vector<ShearedFace>& faces,
+                                             const std::vector<input::MeasuredFace>& measured) {
   std::vector<MeasuredHeights> list;
   for (const ShearedFace& face : faces)
     for (const input::MeasuredFace& one : measured) {
-      if (one.body != face.body) continue;
+      const auto same = [&](const MeasuredHeights& known) { // of a section at another angle
+        return known.cut == face.cut && known.body == face.body;
+      };
+      if (one.body != face.body || std::any_of(list.begin(), list.end(), same)) continue;
       MeasuredHeights& heights = list.emplace_back(MeasuredHeights{face.cut, face.body});
       const auto set = [&](double& height, const std::optional<input::MeasuredHeight>& given) {
         if (given) height = given->share ? given->value * face.thickness : given->value;
@@ -252,8 +242,6 @@ std::vector<MeasuredHeights> beside(const std::vector<ShearedFace>& faces,
     }
   return list;
 }
-
-} // namespace
 
 BlankingResult evaluate_blanking(const input::Case& input, const results::Snapshot<2>& shot,
                                  const Supports<2>& supports, const Springback* springback,
@@ -330,7 +318,7 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
   for (const Cut& cut : cuts)
     for (ShearedFace& face : measure_cut(cut, tools, sheet, asked.parallel, result.smoothing))
       result.faces.push_back(std::move(face));
-  result.measured = beside(result.faces, asked.measured);
+  result.measured = measured_beside(result.faces, asked.measured);
   if (springback)
     result.springback =
         springback_of_bodies(cuts, tools, sheet, springback->displacement, shot.state.node.mass);

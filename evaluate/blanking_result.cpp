@@ -5,6 +5,7 @@
 #include "evaluate/json_carrier.hpp"
 #include "results/output_folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ constexpr std::array<const char*, 9> zone_names{
 template<class Face, class Carry> void carry_face(Face& face, Carry& carry) {
   carry("cut", face.cut);
   carry("body", face.body);
+  carry.newer("angle[rad]", face.angle);
   carry("parted", face.parted);
   carry.newer("measured", face.measured);
   carry("note", face.note);
@@ -66,6 +68,7 @@ template<class Result, class Carry> void carry_result(Result& result, Carry& car
   carry("punch", result.punch);
   carry("direction_x", result.direction_x);
   carry("direction_y", result.direction_y);
+  carry.newer("direction_z", result.direction_z);
   carry("stroke[m]", result.stroke);
   carry("time[s]", result.time);
   carry("smoothing[m]", result.smoothing);
@@ -91,8 +94,81 @@ std::size_t zone_index(const std::string& name) {
 
 const char* zone_name(Zone zone) { return zone_names[static_cast<std::size_t>(zone)]; }
 
-std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& result) {
-  std::vector<std::pair<std::string, double>> metrics;
+std::vector<std::vector<const ShearedFace*>> faces_of_bodies(const BlankingResult& result) {
+  std::vector<std::vector<const ShearedFace*>> bodies;
+  for (const ShearedFace& face : result.faces) {
+    const auto same = [&](const std::vector<const ShearedFace*>& body) {
+      return body.front()->cut == face.cut && body.front()->body == face.body;
+    };
+    const auto known = std::find_if(bodies.begin(), bodies.end(), same);
+    (known == bodies.end() ? bodies.emplace_back() : *known).push_back(&face);
+  }
+  return bodies;
+}
+
+RoundHeight round_height(const std::vector<const ShearedFace*>& faces, double ShearedFace::*size) {
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  for (const ShearedFace* face : faces)
+    if (face->measured && std::isfinite(face->*size)) {
+      sum += face->*size;
+      count += 1.0;
+    }
+  if (count == 0.0) return {std::nan(""), std::nan("")};
+  const double mean = sum / count;
+  for (const ShearedFace* face : faces)
+    if (face->measured && std::isfinite(face->*size)) squares += (face->*size - mean) * (face->*size - mean);
+  return {mean, std::sqrt(squares / count)};
+}
+
+namespace {
+
+using Metrics = std::vector<std::pair<std::string, double>>;
+
+/// One body at one cut: in the plane a face, in space its mean and spread round the punch.
+void add_body(const BlankingResult& result, const std::vector<const ShearedFace*>& faces, Metrics& metrics) {
+  const ShearedFace& first = *faces.front();
+  const bool round = std::isfinite(first.angle);
+  const std::string at = first.cut.empty() ? fmt::format("blanking.{}", first.body)
+                                           : fmt::format("blanking.{}.{}", first.cut, first.body);
+  const auto parted =
+      static_cast<double>(std::count_if(faces.begin(), faces.end(), [](auto* face) { return face->parted; }));
+  metrics.emplace_back(at + ".parted", parted / static_cast<double>(faces.size()));
+  if (std::none_of(faces.begin(), faces.end(), [](auto* face) { return face->measured; })) return;
+  const auto add = [&](const std::string& name, const char* unit, double ShearedFace::*size) {
+    const RoundHeight height = round_height(faces, size);
+    if (!std::isfinite(height.mean)) return height.mean;
+    metrics.emplace_back(fmt::format("{}.{}[{}]", at, name, unit), height.mean);
+    if (round) metrics.emplace_back(fmt::format("{}.{}_spread[{}]", at, name, unit), height.spread);
+    return height.mean;
+  };
+  const double thickness = round_height(faces, &ShearedFace::thickness).mean;
+  for (const auto& [name, size] : {std::pair{"rollover", &ShearedFace::rollover},
+                                   {"burnish", &ShearedFace::burnish},
+                                   {"broken", &ShearedFace::broken},
+                                   {"fracture", &ShearedFace::fracture},
+                                   {"second_burnish", &ShearedFace::second_burnish},
+                                   {"hole", &ShearedFace::hole},
+                                   {"burr", &ShearedFace::burr}})
+    metrics.emplace_back(fmt::format("{}.{}_share", at, name), add(name, "m", size) / thickness);
+  add("rollover_width", "m", &ShearedFace::rollover_width);
+  add("fracture_angle", "rad", &ShearedFace::fracture_angle);
+  if (const MeasuredHeights* measured = measured_of(result, first))
+    for (const auto& [name, there, size] :
+         {std::tuple{"rollover", measured->rollover, &ShearedFace::rollover},
+          {"burnish", measured->burnish, &ShearedFace::burnish},
+          {"fracture", measured->fracture, &ShearedFace::fracture},
+          {"burr", measured->burr, &ShearedFace::burr}})
+      if (std::isfinite(there)) {
+        metrics.emplace_back(fmt::format("{}.{}_measured[m]", at, name), there);
+        metrics.emplace_back(fmt::format("{}.{}_difference[m]", at, name),
+                             round_height(faces, size).mean - there);
+      }
+}
+
+} // namespace
+
+Metrics metrics_of(const BlankingResult& result) {
+  Metrics metrics;
   metrics.emplace_back("blanking.stroke[m]", result.stroke);
   for (const ToolForce& force : result.forces) {
     metrics.emplace_back(fmt::format("blanking.largest_force.{}[{}]", force.tool, result.force_unit),
@@ -100,34 +176,8 @@ std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& res
     metrics.emplace_back(fmt::format("blanking.stroke_at_largest_force.{}[m]", force.tool), force.stroke);
     metrics.emplace_back(fmt::format("blanking.work.{}[{}]", force.tool, result.work_unit), force.work);
   }
-  for (const ShearedFace& face : result.faces) {
-    const std::string at = face.cut.empty() ? fmt::format("blanking.{}", face.body)
-                                            : fmt::format("blanking.{}.{}", face.cut, face.body);
-    metrics.emplace_back(at + ".parted", face.parted ? 1.0 : 0.0);
-    if (!face.measured) continue;
-    for (const auto& [name, height] : {std::pair{"rollover", face.rollover},
-                                       {"burnish", face.burnish},
-                                       {"broken", face.broken},
-                                       {"fracture", face.fracture},
-                                       {"second_burnish", face.second_burnish},
-                                       {"hole", face.hole},
-                                       {"burr", face.burr}}) {
-      metrics.emplace_back(fmt::format("{}.{}[m]", at, name), height);
-      metrics.emplace_back(fmt::format("{}.{}_share", at, name), height / face.thickness);
-    }
-    metrics.emplace_back(at + ".rollover_width[m]", face.rollover_width);
-    if (std::isfinite(face.fracture_angle))
-      metrics.emplace_back(at + ".fracture_angle[rad]", face.fracture_angle);
-    if (const MeasuredHeights* measured = measured_of(result, face))
-      for (const auto& [name, there, here] : {std::tuple{"rollover", measured->rollover, face.rollover},
-                                              {"burnish", measured->burnish, face.burnish},
-                                              {"fracture", measured->fracture, face.fracture},
-                                              {"burr", measured->burr, face.burr}})
-        if (std::isfinite(there)) {
-          metrics.emplace_back(fmt::format("{}.{}_measured[m]", at, name), there);
-          metrics.emplace_back(fmt::format("{}.{}_difference[m]", at, name), here - there);
-        }
-  }
+  for (const std::vector<const ShearedFace*>& faces : faces_of_bodies(result))
+    add_body(result, faces, metrics);
   return metrics;
 }
 
@@ -137,8 +187,8 @@ const MeasuredHeights* measured_of(const BlankingResult& result, const ShearedFa
   return nullptr;
 }
 
-std::vector<std::pair<std::string, double>> metrics_of(const std::vector<BodySpringback>& bodies) {
-  std::vector<std::pair<std::string, double>> metrics;
+Metrics metrics_of(const std::vector<BodySpringback>& bodies) {
+  Metrics metrics;
   double largest = 0.0;
   for (const BodySpringback& body : bodies) largest = std::max(largest, body.largest);
   metrics.emplace_back("springback.largest[m]", largest);

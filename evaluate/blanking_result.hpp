@@ -21,13 +21,14 @@ const char* zone_name(Zone zone);
 /// A sheared face as docs/blanking.md defines it. Heights along the cutting direction, m. What was not found
 /// is 0, and `note` says why; a face that is not `measured` has no heights at all.
 struct ShearedFace {
-  std::string cut;        ///< "left" or "right" where the punch cuts on both sides, else empty
-  std::string body;       ///< "slug" or "skeleton"
-  bool parted = false;    ///< the body has come off at this cut
-  bool measured = true;   ///< heights mean something
-  std::string note;       ///< empty when there is nothing to say
-  double thickness = 0.0; ///< m, of the sheet before, at the cut: shares are of it
-  double rollover = 0.0, rollover_width = 0.0;                            ///< m
+  std::string cut;  ///< "left" or "right" where the punch cuts on both sides, else empty
+  std::string body; ///< "slug" or "skeleton"
+  double angle = std::numeric_limits<double>::quiet_NaN(); ///< rad, of the section in space; NaN in the plane
+  bool parted = false;                                     ///< the body has come off at this cut
+  bool measured = true;                                    ///< heights mean something
+  std::string note;                                        ///< empty when there is nothing to say
+  double thickness = 0.0;                      ///< m, of the sheet before, at the cut: shares are of it
+  double rollover = 0.0, rollover_width = 0.0; ///< m
   double burnish = 0.0, fracture = 0.0, second_burnish = 0.0, burr = 0.0; ///< m
   double broken = 0.0, hole = 0.0;                                        ///< m
   double fracture_angle = std::numeric_limits<double>::quiet_NaN(); ///< rad, from the cutting direction; > 0:
@@ -71,16 +72,16 @@ struct BodySpringback {
 struct BlankingResult {
   std::string punch;
   std::vector<std::string> dies;
-  double direction_x = 0.0,
-         direction_y = 0.0;               ///< of the cut: unit vector of the punch's motion against the die
+  double direction_x = 0.0, direction_y = 0.0,
+         direction_z = 0.0;               ///< of the cut: unit vector of the punch's motion against the die
   double stroke = 0.0;                    ///< m, of the punch against the die
   double time = 0.0;                      ///< s
   double smoothing = 0.0, parallel = 0.0; ///< m, rad, with which faces were measured
   std::string note;                       ///< why there are no faces; empty otherwise
-  std::string force_unit = "N/m", work_unit = "J/m"; ///< of revolution: N, J
+  std::string force_unit = "N/m", work_unit = "J/m"; ///< of revolution and in space: N, J
   double cut_length =
-      0.0; ///< that forces are of: number of cuts, per depth; of revolution m, round the punch
-  std::vector<ShearedFace> faces;
+      0.0; ///< that forces are of: number of cuts, per depth; of revolution and in space m, round the punch
+  std::vector<ShearedFace> faces;        ///< in space by angle, slug and skeleton of each section in turn
   std::vector<MeasuredHeights> measured; ///< of some of the faces
   std::vector<ToolForce> forces;
   std::vector<BodySpringback> springback;
@@ -89,7 +90,17 @@ struct BlankingResult {
 /// What was measured of a face; nullptr where nothing was.
 const MeasuredHeights* measured_of(const BlankingResult& result, const ShearedFace& face);
 
-/// Named numbers for status.json, with units: "blanking.slug.rollover[m]", …
+/// Mean and standard deviation of a height round the punch, m.
+struct RoundHeight {
+  double mean = 0.0, spread = 0.0;
+};
+/// Faces of one body at one cut at all angles, in their order; in the plane one each.
+std::vector<std::vector<const ShearedFace*>> faces_of_bodies(const BlankingResult& result);
+/// Over the faces that are measured.
+RoundHeight round_height(const std::vector<const ShearedFace*>& faces, double ShearedFace::*size);
+
+/// Named numbers for status.json, in space means round the punch with their spread, with units:
+/// "blanking.slug.rollover[m]", …
 std::vector<std::pair<std::string, double>> metrics_of(const BlankingResult& result);
 /// "springback.largest[m]", "springback.slug.angle_change[rad]", …
 std::vector<std::pair<std::string, double>> metrics_of(const std::vector<BodySpringback>& bodies);

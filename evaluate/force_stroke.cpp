@@ -188,7 +188,7 @@ std::optional<LeadingForce> leading_force(const results::HistoryTable& history) 
 
 LeadingForce leading_force(const BlankingResult& result) {
   return {.of = result.punch,
-          .along = {result.direction_x, result.direction_y, 0.0},
+          .along = {result.direction_x, result.direction_y, result.direction_z},
           .over_stroke = true,
           .against = result.dies};
 }

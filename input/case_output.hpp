@@ -73,6 +73,7 @@ struct Output {
   std::vector<double> pictures;            ///< s, increasing; times beyond the end are kept here
   std::vector<std::string> picture_fields; ///< of field_names()
   std::vector<Section> sections;           ///< in space
+  bool surface = false, polyhedra = false; ///< in space: frames have these parts beside tetrahedra and nodes
   Drawing drawing;
   std::vector<Window> windows; ///< parts of the domain drawn enlarged, beside the whole
   std::vector<PictureNote> notes;
@@ -101,6 +102,9 @@ struct BlankingReport {
   double parallel = 0.0;           ///< rad
   std::optional<double> smoothing; ///< m
   std::vector<MeasuredFace> measured;
+  int sections = 0; ///< in space: round the punch
+  std::optional<Vec3>
+      centre; ///< m, in space: on the axis that they go through; none: the middle of the punch
 };
 
 /// A measured curve that the force of a tool is compared with: scaled, shifted, and without the compliance of

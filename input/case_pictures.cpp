@@ -45,12 +45,11 @@ Drawing read_drawing(const Setting& table, Diagnostics& diagnostics) {
   const Setting& given = *table.find("drawing");
   Drawing drawing;
   drawing.percentile = given.maybe<double>("percentile");
-  if (given.find("eye")) {
+  drawing.common = given.get<bool>("common");
+  if (given.find("eye"))
     drawing.eye = read_direction(*given.find("eye"), diagnostics);
-  } else {
+  else
     drawing.mirror = given.get<bool>("mirror");
-    drawing.common = given.get<bool>("common");
-  }
   if (const Setting* view = given.find("view")) drawing.view = read_box(*view, diagnostics);
   const Setting* ranges = table.find("ranges");
   if (!ranges) return drawing;

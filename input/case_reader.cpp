@@ -162,6 +162,8 @@ void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   Output& output = result.output;
   output.history_every = table.get<double>("history_every");
   output.fields_every = table.get<double>("fields_every");
+  if (table.find("surface")) output.surface = table.get<bool>("surface");
+  if (table.find("polyhedra")) output.polyhedra = table.get<bool>("polyhedra");
   read_pictures(table, result, diagnostics);
   const Setting& checkpoint = *table.find("checkpoint");
   output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
@@ -251,9 +253,9 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   read_method(root, result, diagnostics);
   read_shown_units(root, result, diagnostics);
   read_adaptation(root, result, diagnostics);
+  read_report(root, result, diagnostics);
   if (plane) {
     read_fracture(root, result, diagnostics);
-    read_report(root, result, diagnostics);
     if (root.find("adapt.window")) read_moving_window(root, result, diagnostics);
   }
   check_promises(root, result, diagnostics);

@@ -38,6 +38,10 @@ void read_blanking(Setting& root, Case& result, Diagnostics& diagnostics) {
   }
   report.parallel = root.get<double>("report.blanking.parallel");
   report.smoothing = root.find("report.blanking")->maybe<double>("smoothing");
+  if (result.domain.in_space()) {
+    report.sections = static_cast<int>(root.get<std::int64_t>("report.blanking.sections"));
+    if (root.find("report.blanking.centre")) report.centre = root.find("report.blanking")->vector("centre");
+  }
   read_measured_faces(root, report, diagnostics);
   result.report.blanking = std::move(report);
 }
@@ -103,8 +107,10 @@ void read_shown_units(const Setting& root, Case& result, Diagnostics& diagnostic
 }
 
 void read_report(Setting& root, Case& result, Diagnostics& diagnostics) {
-  root.set_default("report.springback", root.find("report.blanking") != nullptr && !tied(result));
-  result.report.springback = root.get<bool>("report.springback");
+  if (!result.domain.in_space()) {
+    root.set_default("report.springback", root.find("report.blanking") != nullptr && !tied(result));
+    result.report.springback = root.get<bool>("report.springback");
+  }
   if (root.find("report.blanking")) read_blanking(root, result, diagnostics);
   if (root.find("report.cutting")) read_cutting_report(root, result, diagnostics);
   read_experiments(root, result, diagnostics);

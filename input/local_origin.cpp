@@ -93,6 +93,7 @@ void use_local_origin(Case& input) {
   if (input.output.drawing.view)
     for (Vec2& corner : *input.output.drawing.view) shift(corner);
   for (Section& section : input.output.sections) shift(section.at);
+  if (input.report.blanking && input.report.blanking->centre) shift(*input.report.blanking->centre);
   for (Probe& probe : input.output.probes) shift(probe.at);
   for (SampleLine& line : input.output.lines)
     for (Vec3* end : {&line.from, &line.to}) shift(*end);

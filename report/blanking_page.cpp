@@ -12,6 +12,7 @@
 namespace cnem::report {
 namespace {
 
+using evaluate::BlankingResult;
 using evaluate::ShearedFace;
 using evaluate::Zone;
 using results::ShownUnits;
@@ -111,16 +112,30 @@ std::string table_of(const ShearedFace& face, const evaluate::MeasuredHeights* m
   return html + "</table>\n";
 }
 
-std::string faces(const evaluate::BlankingResult& result, const ShownUnits& units) {
+std::string drawn_face(const BlankingResult& result, const ShearedFace& face, const ShownUnits& units) {
+  const std::string where = std::isfinite(face.angle) ? fmt::format(" at {:.0f}°", face.angle / degree) : "";
+  std::string html =
+      fmt::format("<figure class=\"face\"><h3>Face of the {}{}</h3>\n<div>{}{}</div>",
+                  html_escape(title_of(face)), where, face.profile.size() > 1 ? face_drawing(face) : "",
+                  face.found() ? table_of(face, evaluate::measured_of(result, face), units) : "");
+  if (!face.note.empty()) html += fmt::format("<figcaption>{}</figcaption>", html_escape(face.note));
+  return html + "</figure>\n";
+}
+
+/// In space the first face of each body that was measured.
+std::string faces(const BlankingResult& result, const ShownUnits& units) {
   std::string html;
-  for (const evaluate::ShearedFace& face : result.faces) {
-    html += fmt::format("<figure class=\"face\"><h3>Face of the {}</h3>\n<div>{}{}</div>",
-                        html_escape(title_of(face)), face.profile.size() > 1 ? face_drawing(face) : "",
-                        face.found() ? table_of(face, evaluate::measured_of(result, face), units) : "");
-    if (!face.note.empty()) html += fmt::format("<figcaption>{}</figcaption>", html_escape(face.note));
-    html += "</figure>\n";
+  for (const auto& body : evaluate::faces_of_bodies(result)) {
+    const auto measured =
+        std::find_if(body.begin(), body.end(), [](auto* face) { return face->measured && face->found(); });
+    html += drawn_face(result, **(measured == body.end() ? body.begin() : measured), units);
   }
   return html.empty() ? "" : "<div class=\"charts faces\">\n" + html + "</div>\n";
+}
+
+std::string figure_of(const Chart& chart, const ShownUnits& units) {
+  return fmt::format("<figure><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
+                     html_escape(chart.title), svg_chart(chart, units), html_escape(chart.note));
 }
 
 std::string force_table(const evaluate::BlankingResult& result, const ShownUnits& units) {
@@ -169,8 +184,9 @@ std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
   for (std::size_t k = 0; k < result.forces.size(); ++k) {
     const evaluate::ToolForce& force = result.forces[k];
     if (!(force.largest > 0.0)) continue;
-    const evaluate::ForceCurve curve = evaluate::force_curve(
-        history, force.tool, result.punch, result.dies, Vec3(result.direction_x, result.direction_y, 0.0));
+    const evaluate::ForceCurve curve =
+        evaluate::force_curve(history, force.tool, result.punch, result.dies,
+                              Vec3(result.direction_x, result.direction_y, result.direction_z));
     ChartSeries raw, smooth, mark;
     raw.x = curve.stroke;
     raw.y = curve.force;
@@ -191,6 +207,41 @@ std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
       "value; full: Gaussian low-pass in time, σ = {}; dashed: the largest of it.",
       units.format(evaluate::force_filter(history.column.front()), "s", 3));
   return chart;
+}
+
+std::vector<Chart> round_charts(const BlankingResult& result, const ShownUnits& units) {
+  std::vector<Chart> charts;
+  for (const auto& faces : evaluate::faces_of_bodies(result)) {
+    if (!std::isfinite(faces.front()->angle)) continue;
+    Chart chart;
+    chart.title = fmt::format("Heights of the {} round the punch", title_of(*faces.front()));
+    chart.x_label = "angle";
+    chart.x_unit = "°";
+    chart.y_label = "height";
+    chart.y_unit = "m";
+    chart.note = "Means with their standard deviations:";
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+      const auto [mean, spread] = evaluate::round_height(faces, heights[k].size);
+      if (!(mean > 0.0)) continue;
+      ChartSeries line, level;
+      line.label = heights[k].name;
+      line.colour = level.colour = static_cast<int>(k);
+      level.dashed = true;
+      for (const ShearedFace* face : faces) {
+        line.x.push_back(face->angle / degree);
+        line.y.push_back(face->measured ? face->*heights[k].size : std::nan(""));
+      }
+      level.x = {line.x.front(), line.x.back()};
+      level.y = {mean, mean};
+      chart.note += fmt::format("{} {} {} ± {}", chart.series.empty() ? "" : ",", heights[k].name,
+                                units.format(mean, "m", 3), units.format(spread, "m", 2));
+      chart.series.insert(chart.series.end(), {line, level});
+    }
+    chart.note += ". Dashed: the means. Angles count from x, counter-clockwise as seen from where the punch "
+                  "comes from.";
+    if (faces.size() > 1 && !chart.series.empty()) charts.push_back(std::move(chart));
+  }
+  return charts;
 }
 
 std::string face_drawing(const ShearedFace& face) {
@@ -255,10 +306,10 @@ std::string render_blanking(const evaluate::BlankingResult& result, const std::o
   std::string html;
   if (!result.note.empty()) html += fmt::format("<p>{}</p>\n", html_escape(result.note));
   html += faces(result, units);
-  if (forces)
-    html += fmt::format(
-        "<div class=\"charts wide\">\n<figure><h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n</div>\n",
-        html_escape(forces->title), svg_chart(*forces, units), html_escape(forces->note));
+  std::string charts;
+  for (const Chart& chart : round_charts(result, units)) charts += figure_of(chart, units);
+  if (forces) charts += figure_of(*forces, units);
+  if (!charts.empty()) html += fmt::format("<div class=\"charts wide\">\n{}</div>\n", charts);
   const std::string tables = force_table(result, units) + springback_table(result, units);
   if (!tables.empty()) html += fmt::format("<div class=\"tables\">\n{}</div>\n", tables);
   return html;

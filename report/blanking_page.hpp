@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cnem::report {
 
@@ -13,6 +14,10 @@ namespace cnem::report {
 std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
                                         const results::HistoryTable& history,
                                         const results::ShownUnits& units = {});
+
+/// Heights over the angle round the punch, a chart for each body that was measured in several sections.
+std::vector<Chart> round_charts(const evaluate::BlankingResult& result,
+                                const results::ShownUnits& units = {});
 
 /// One face as an <svg> element: the body beside the cut, its zones in colours, shares at the side.
 std::string face_drawing(const evaluate::ShearedFace& face);

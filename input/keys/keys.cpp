@@ -214,6 +214,14 @@ void add_output(Keys& k) {
       .in(not_negative)
       .example("\"0.1 us\"")
       .computed("`time.end`/400");
+  k.add("output.surface", boolean,
+        "Each frame of `fields.pvd` has the surface of the body as triangles, too.")
+      .fallback("false");
+  k.add("output.polyhedra", boolean,
+        "Each frame of `fields.pvd` has the cells of the nodes as polyhedra, too, beside the tetrahedra "
+        "between "
+        "nodes.")
+      .fallback("false");
   k.add("output.fields_every", quantity, "Time between `.vtu` files; 0: none but first and last.")
       .unit(d::time)
       .in(not_negative)

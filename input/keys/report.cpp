@@ -19,8 +19,7 @@ void add_blanking(Keys& k) {
   k.add("report.blanking", table,
         "Sheared faces of slug and skeleton (rollover, burnish, fracture, burr), largest forces, work. The "
         "cuts are where a side of the punch passes an edge of the die; the cutting direction is that of the "
-        "punch "
-        "against the die.");
+        "punch against the die. In space sections round the punch are evaluated, with mean and spread.");
   add_leading_tool(k, "report.blanking.punch", "punch");
   k.add("report.blanking.die", texts, "One or several tools.")
       .example("\"die\"")
@@ -36,6 +35,16 @@ void add_blanking(Keys& k) {
       .in(positive)
       .example("\"0.05 mm\"")
       .computed("a fiftieth of the thickness");
+  k.add("report.blanking.sections", integer,
+        "How many radial sections are evaluated round the punch, in the middle of equal angles of where it "
+        "cuts.")
+      .in({.low = 1.0, .high = 360.0})
+      .fallback("8");
+  k.add("report.blanking.centre", vector,
+        "A place on the axis along the cutting direction that sections go through.")
+      .unit(d::length)
+      .example("\"0 0 0 mm\"")
+      .computed("the middle of the punch");
   k.add("report.blanking.measured", named_tables,
         "Heights of the faces of `slug` and `skeleton` of an experiment, beside which the computed ones "
         "stand.");

@@ -231,6 +231,48 @@ TEST(BlankingPage, metrics_have_heights_and_shares) {
   EXPECT_EQ(metrics_of(example().springback).front().second, 8e-6);
 }
 
+// In space: a face an angle, means with their spread, heights over the angle.
+TEST_F(BlankingFile, round_the_punch_there_are_means_and_spreads) {
+  BlankingResult result = example();
+  result.direction_y = 0.0;
+  result.direction_z = -1.0;
+  result.faces.assign(4, result.faces[0]);
+  for (std::size_t k = 0; k < 4; ++k) {
+    result.faces[k].angle = 0.5 * static_cast<double>(k);
+    result.faces[k].burnish = (0.2 + 0.1 * static_cast<double>(k % 2)) * 1e-3;
+    result.faces[k].parted = k > 0;
+  }
+  result.faces[3].measured = false;
+  result.faces[3].burnish = 9.0;
+  MeasuredHeights measured{result.faces[0].cut, result.faces[0].body};
+  measured.burnish = 0.3e-3;
+  result.measured = {measured};
+  write_blanking(folder, result);
+  const auto back = read_blanking(folder);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->faces[2].angle, 1.0);
+  EXPECT_EQ(back->direction_z, -1.0);
+  std::map<std::string, double> value;
+  for (const auto& [name, number] : metrics_of(*back))
+    EXPECT_TRUE(value.emplace(name, number).second) << name;
+  const double mean = 0.7e-3 / 3.0;
+  EXPECT_EQ(value.at("blanking.slug.parted"), 0.75);
+  EXPECT_NEAR(value.at("blanking.slug.burnish[m]"), mean, 1e-15);
+  EXPECT_NEAR(value.at("blanking.slug.burnish_share"), mean / 1e-3, 1e-12);
+  EXPECT_NEAR(value.at("blanking.slug.burnish_spread[m]"), 0.1e-3 * std::sqrt(2.0) / 3.0, 1e-15);
+  EXPECT_EQ(value.at("blanking.slug.rollover_spread[m]"), 0.0);
+  EXPECT_NEAR(value.at("blanking.slug.burnish_difference[m]"), mean - 0.3e-3, 1e-15);
+  const auto charts = report::round_charts(*back);
+  ASSERT_EQ(charts.size(), 1U);
+  EXPECT_EQ(charts[0].series[2].label, "Burnish");
+  EXPECT_NEAR(charts[0].series[2].x[1], 0.5 / std::numbers::pi * 180.0, 1e-9);
+  EXPECT_TRUE(std::isnan(charts[0].series[2].y[3]));
+  input::expect_parts(
+      report::render_blanking(*back, std::nullopt),
+      {"Face of the slug at 0°", "Heights of the slug round the punch", "Burnish 0.233 mm ± 0.047 mm"});
+  EXPECT_TRUE(report::round_charts(example()).empty());
+}
+
 TEST(BlankingPage, a_face_that_cannot_be_measured_has_words_and_no_numbers) {
   BlankingResult result = example();
   ShearedFace& face = result.faces[0];

@@ -158,6 +158,11 @@ points = ["{0} 0 {0} m"]
 velocity = "0 0 0 m/s"
 [tools.wall]
 plane = {{ at = "{0} 0 {0} m", normal = "0 0 1" }}
+[tools.punch]
+plane = {{ at = "{1} 0 {1} m", normal = "0 0 -1" }}
+velocity = "0 0 -1 m/s"
+[report.blanking]
+centre = "{0} 2 {1} m"
 [output]
 probes.p = {{ at = "{1} 1 {1} m", fields = ["stress_yz"] }}
 lines.l = {{ from = "{0} 1 {0} m", to = "{1} 1 {1} m", fields = ["velocity_z"] }}
@@ -170,9 +175,9 @@ sections.s = {{ at = "{0} 1 {1} m", normal = "0 -1 0" }}
   EXPECT_EQ(near.origin, Vec3(0, 0, 0));
   EXPECT_LT((far.origin - Vec3(4097, 0, 4097)).norm(), 4.0);
   const auto places = [](const Case& c) {
-    return std::vector<Vec3>{c.domain.block->from,       c.domain.block->to,     c.boundary[0].points[0],
-                             c.tools[0].solid->plane.at, c.output.probes[0].at,  c.output.lines[0].from,
-                             c.output.lines[0].to,       c.output.sections[0].at};
+    return std::vector<Vec3>{c.domain.block->from,       c.domain.block->to,      c.boundary[0].points[0],
+                             c.tools[0].solid->plane.at, c.output.probes[0].at,   c.output.lines[0].from,
+                             c.output.lines[0].to,       c.output.sections[0].at, *c.report.blanking->centre};
   };
   for (std::size_t k = 0; k < places(near).size(); ++k)
     EXPECT_EQ(places(near)[k] + Vec3(4096, 0, 4096), places(far)[k] + far.origin) << k;
@@ -224,7 +229,8 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
                               "output.probes.*.at",
                               "output.sections.*.at",
                               "output.lines.*.from",
-                              "output.lines.*.to"};
+                              "output.lines.*.to",
+                              "report.blanking.centre"};
   for (const std::string outline : {"domain.outer", "domain.holes.*", "tools.*"})
     for (const char* key : {".start", ".path[].to", ".path[].centre", ".rectangle.from", ".rectangle.to",
                             ".circle.centre", ".rotate.centre"})
