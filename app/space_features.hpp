@@ -1,7 +1,8 @@
 #pragma once
-// What runs in space have of app/plane_features.hpp: their state, and a cloud that follows the deformation.
-// What they have not is refused by the reader (input/keys/space.cpp).
+// What runs in space have of app/plane_features.hpp: their state, a cloud that follows the deformation,
+// pictures, the evaluation of cuts. What they have not is refused by the reader (input/keys/space.cpp).
 #include "app/space_adaptation.hpp"
+#include "evaluate/blanking_result.hpp"
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "report/space_recorder.hpp"
@@ -44,17 +45,24 @@ public:
   results::Snapshot<3> snapshot(const ExplicitSolver<3>& solver) { return results::snapshot(solver); }
   /// In runs with a folder.
   void draw(results::FileQueue& files, const results::Snapshot<3>& shot) { pictures_->record(files, shot); }
-  void finish_pictures(results::FileQueue&) {}
+  /// Gives all pictures of a field one scale, once the fields are on the disk. Throws IoError.
+  void finish_pictures(results::FileQueue& files) {
+    if (pictures_) pictures_->finish(files);
+  }
   std::string draw_place(results::FileQueue&, const ExplicitSolver<3>&, std::size_t) { return ""; }
   std::string unload(const ExplicitSolver<3>&) { return ""; }
-  void evaluate(const std::filesystem::path&, const ExplicitSolver<3>&, const results::HistoryLog&) {}
-  std::vector<std::pair<std::string, double>> metrics() const { return adaptation_.metrics(); }
+  /// Evaluates the cut of a run that has ended, where the case asks for it, and writes it into the folder, if
+  /// there is one. Throws IoError.
+  void evaluate(const std::filesystem::path& folder, const ExplicitSolver<3>& solver,
+                const results::HistoryLog& history);
+  std::vector<std::pair<std::string, double>> metrics() const;
   std::vector<std::string> flags() const { return {}; }
 
 private:
   const input::Case* input_;
   SpaceAdaptation adaptation_;
   std::optional<report::SpaceRecorder> pictures_;
+  std::optional<evaluate::BlankingResult> blanking_; ///< of the state at the end
 };
 
 } // namespace cnem::app

@@ -2,6 +2,7 @@
 
 #include "core/fields/vector_at.hpp"
 #include "core/geometry/facets.hpp"
+#include "core/geometry/plane_section.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
@@ -23,10 +24,11 @@ public:
     scene_.cells.vertex_begin.push_back(0);
   }
 
-  void add(std::span<const Vec2> corners, double value) {
+  /// Corners with their heights towards the eye, m.
+  void add(std::span<const Vec3> corners, NodeIndex node) {
     auto& index = scene_.cells.index;
     const std::size_t first = index.size();
-    for (const Vec2& x : corners) {
+    for (const Vec3& x : corners) {
       const std::int32_t v = vertex(x);
       if (index.size() > first && index.back() == v) continue;
       index.push_back(v);
@@ -39,28 +41,30 @@ public:
                      scene_.cells.vertex[index_of(index[k + 1 < index.size() ? k + 1 : first])]);
     if (twice < 0.0) std::reverse(index.begin() + static_cast<std::ptrdiff_t>(first), index.end());
     scene_.cells.begin.push_back(as<std::int32_t>(index.size()));
-    scene_.value.push_back(value);
+    scene_.node.push_back(node);
   }
 
   Scene& scene() { return scene_; }
 
 private:
-  std::int32_t vertex(const Vec2& x) {
-    const std::pair key(std::llround(x.x() / unit_), std::llround(x.y() / unit_));
+  std::int32_t vertex(const Vec3& x) {
+    const std::array key{std::llround(x.x() / unit_), std::llround(x.y() / unit_),
+                         std::llround(x.z() / unit_)};
     const auto v = as<std::int32_t>(scene_.cells.vertex.size());
     const auto [place, fresh] = at_.emplace(key, v);
     if (!fresh) return place->second;
-    scene_.cells.vertex.push_back(x);
+    scene_.cells.vertex.emplace_back(x.head<2>());
     scene_.cells.vertex_node.push_back(as<NodeIndex>(v));
     scene_.cells.vertex_weight.push_back(1.0);
     scene_.cells.vertex_begin.push_back(v + 1);
     for (std::size_t k = 0; k < 2; ++k) scene_.position[k].push_back(x[static_cast<Eigen::Index>(k)]);
+    scene_.depth.push_back(x.z());
     return v;
   }
 
   double unit_; ///< m
   Scene scene_;
-  std::map<std::pair<long long, long long>, std::int32_t> at_;
+  std::map<std::array<long long, 3>, std::int32_t> at_;
 };
 
 double size_of(const Fields<3>& position) {
@@ -86,37 +90,121 @@ Mat<3> BodyView::axes() const {
   return axes;
 }
 
-Scene surface_scene(const IndexedVector<CloudFacetIndex, Facet<3>>& facets, const Fields<3>& position,
-                    std::span<const double> value, const BodyView& view) {
-  const Mat<3> axes = view.axes();
-  const Vec3 light = axes.transpose() * Vec3(-0.4, 0.6, 1.0).normalized();
-  struct Seen {
-    double depth;
-    CloudFacetIndex facet;
-  };
-  std::vector<Seen> seen;
-  for (const CloudFacetIndex f : facets.indices()) {
-    const auto corner = corners_of<3>(facets[f], position);
-    const Vec3 normal = area_normal<3>(corner);
-    if (!(axes.row(2).dot(normal) > 0.0)) continue;
-    seen.push_back({axes.row(2).dot(corner[0] + corner[1] + corner[2]), f});
+namespace {
+
+/// From above the eye's left, a unit vector in the axes of the picture.
+Vec3 light() { return Vec3(-0.4, 0.6, 1.0).normalized(); }
+
+float darkness_of(const Vec3& normal) {
+  return static_cast<float>(1.0 - std::max(0.0, light().dot(normal.normalized())));
+}
+
+/// What of a convex polygon is on the side that the normal comes from.
+void keep(std::vector<Vec3>& polygon, std::vector<Vec3>& scratch, const KeptSide& side) {
+  scratch.clear();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3 &a = polygon[k], &b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
+    const double at_a = side.normal.dot(a - side.at), at_b = side.normal.dot(b - side.at);
+    if (at_a <= 0.0) scratch.push_back(a);
+    if ((at_a <= 0.0) != (at_b <= 0.0)) scratch.push_back(a + at_a / (at_a - at_b) * (b - a));
   }
-  std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.depth < b.depth; });
+  polygon.swap(scratch);
+}
+
+/// Where planes that face the eye have cut a solid open.
+void fill_openings(SolidFaces& faces, const TriangleSurface& surface, std::span<const KeptSide> sides,
+                   const Mat<3>& axes) {
+  constexpr float shade = 0.55F; // whatever the light
+  std::vector<Vec3> polygon, scratch;
+  for (const KeptSide& side : sides) {
+    if (!(axes.row(2).dot(side.normal) > 1e-9)) continue;
+    const Mat<3> own = BodyView{side.normal}.axes();
+    const CutPlane plane{side.at, own.row(0), own.row(1)};
+    for (const SectionLoop& loop : cut(surface, plane)) {
+      if (!(loop.area() > 0.0)) continue; // cavities are closed over
+      polygon.clear();
+      for (const Vec2& x : loop.point)
+        polygon.emplace_back(plane.at + x.x() * plane.right + x.y() * plane.up);
+      for (const KeptSide& other : sides)
+        if (&other != &side) keep(polygon, scratch, other);
+      std::vector<Vec2> flat;
+      for (const Vec3& x : polygon) flat.push_back(plane.flat(x));
+      for (const auto& [a, b, c] : ear_triangles(flat)) {
+        faces.corner.push_back({Vec3(axes * polygon[a]), Vec3(axes * polygon[b]), Vec3(axes * polygon[c])});
+        faces.darkness.push_back(shade);
+      }
+    }
+  }
+}
+
+} // namespace
+
+Field Scene::values(std::span<const double> at_nodes) const {
+  Field values;
+  values.reserve(node.size());
+  for (const NodeIndex i : node) values.push_back(at_nodes[index_of(i)]);
+  return values;
+}
+
+Scene surface_scene(std::span<const std::array<NodeIndex, 3>> facets, const Fields<3>& position,
+                    const BodyView& view) {
+  const Mat<3> axes = view.axes();
   Polygons polygons(size_of(position));
-  for (const Seen& s : seen) {
-    const Facet<3>& facet = facets[s.facet];
-    const auto corner = corners_of<3>(facet, position);
-    const double lit = std::max(0.0, light.dot(area_normal<3>(corner).normalized()));
-    std::array<Vec2, 3> x;
-    for (std::size_t a = 0; a < 3; ++a) x[a] = (axes * corner[a]).head<2>();
-    const Vec2 centre = (x[0] + x[1] + x[2]) / 3.0;
+  for (const auto& facet : facets) {
+    std::array<Vec3, 3> x;
+    for (std::size_t a = 0; a < 3; ++a) x[a] = axes * vector_at<3>(position, index_of(facet[a]));
+    const Vec3 normal = area_normal<3>(x);
+    if (!(normal.z() > 0.0)) continue;
+    const Vec3 centre = (x[0] + x[1] + x[2]) / 3.0;
     for (std::size_t a = 0; a < 3; ++a) {
-      const Vec2 after = 0.5 * (x[a] + x[(a + 1) % 3]), before = 0.5 * (x[a] + x[(a + 2) % 3]);
-      polygons.add(std::array{x[a], after, centre, before}, value[index_of(facet.node[a])]);
-      polygons.scene().darkness.resize(polygons.scene().value.size(), static_cast<float>(1.0 - lit));
+      const Vec3 after = 0.5 * (x[a] + x[(a + 1) % 3]), before = 0.5 * (x[a] + x[(a + 2) % 3]);
+      polygons.add(std::array{x[a], after, centre, before}, facet[a]);
+      polygons.scene().darkness.resize(polygons.scene().node.size(), darkness_of(normal));
     }
   }
   return std::move(polygons.scene());
+}
+
+void add_solid(SolidFaces& faces, const TriangleSurface& surface, std::span<const KeptSide> sides,
+               const BodyView& view) {
+  const Mat<3> axes = view.axes();
+  std::vector<Vec3> polygon, scratch;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto corner = surface.corners(t);
+    const Vec3 normal = axes * area_normal<3>(corner);
+    if (!(normal.z() > 0.0)) continue;
+    polygon.assign(corner.begin(), corner.end());
+    for (const KeptSide& side : sides) keep(polygon, scratch, side);
+    for (Vec3& x : polygon) x = axes * x;
+    for (std::size_t k = 2; k < polygon.size(); ++k) {
+      faces.corner.push_back({polygon[0], polygon[k - 1], polygon[k]});
+      faces.darkness.push_back(darkness_of(normal));
+    }
+  }
+  fill_openings(faces, surface, sides, axes);
+}
+
+std::vector<std::array<NodeIndex, 3>> boundary_of(std::span<const std::array<NodeIndex, 4>> tetrahedra) {
+  struct Face {
+    std::array<NodeIndex, 3> key, corner;
+  };
+  constexpr std::array<std::array<std::size_t, 3>, 4> outwards{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  std::vector<Face> faces;
+  for (const auto& tetrahedron : tetrahedra)
+    for (const auto& [a, b, c] : outwards) {
+      Face face{{}, {tetrahedron[a], tetrahedron[b], tetrahedron[c]}};
+      face.key = face.corner;
+      std::sort(face.key.begin(), face.key.end());
+      faces.push_back(face);
+    }
+  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  std::vector<std::array<NodeIndex, 3>> boundary;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const bool shared = (f > 0 && faces[f - 1].key == faces[f].key) ||
+                        (f + 1 < faces.size() && faces[f + 1].key == faces[f].key);
+    if (!shared) boundary.push_back(faces[f].corner);
+  }
+  return boundary;
 }
 
 namespace {
@@ -203,15 +291,15 @@ std::vector<Tetrahedron> nodes_across(std::span<const Tetrahedron> tetrahedra) {
 
 } // namespace
 
-Scene section_scene(std::span<const Tetrahedron> tetrahedra, const Fields<3>& position,
-                    std::span<const double> value, const Vec3& at, const Vec3& normal, SectionCells cells) {
+Scene section_scene(std::span<const Tetrahedron> tetrahedra, const Fields<3>& position, const Vec3& at,
+                    const Vec3& normal, SectionCells cells) {
   const Mat<3> axes = BodyView{normal}.axes();
   const Vec3 towards = axes.row(2);
   const std::vector<Tetrahedron> across =
       cells == SectionCells::voronoi ? nodes_across(tetrahedra) : std::vector<Tetrahedron>();
   Polygons polygons(size_of(position));
   Polygon part, scratch;
-  std::vector<Vec2> corners;
+  std::vector<Vec3> corners;
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     std::array<Vec3, 4> corner;
     std::array<double, 4> height{};
@@ -243,10 +331,11 @@ Scene section_scene(std::span<const Tetrahedron> tetrahedra, const Fields<3>& po
       }
       if (part.size() < 3) continue;
       corners.clear();
-      for (const Corner& c : part) corners.push_back(c.x);
-      polygons.add(corners, value[index_of(candidates[a])]);
+      for (const Corner& c : part) corners.emplace_back(c.x.x(), c.x.y(), 0.0);
+      polygons.add(corners, candidates[a]);
     }
   }
+  polygons.scene().depth.clear();
   return std::move(polygons.scene());
 }
 

@@ -171,15 +171,17 @@ CellRaster rasterise(const PictureLayout& layout, const CellGeometry<2>& cells,
   return raster;
 }
 
-std::shared_ptr<const CellRaster> CellRasters::of(const PictureLayout& layout, const CellGeometry<2>& cells,
+std::shared_ptr<const CellRaster> CellRasters::of(const PictureLayout& layout, const Picture& picture,
                                                   const std::vector<Vec2>& vertices, double line) {
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
     return made.line == line && made.layout == layout;
   });
   if (found != made_.end()) return found->raster;
-  made_.push_back(
-      {layout, line, std::make_shared<const CellRaster>(rasterise(layout, cells, vertices, line))});
+  CellRaster raster = picture.depth.empty()
+                          ? rasterise(layout, *picture.cells, vertices, line)
+                          : rasterise(layout, *picture.cells, vertices, picture.depth, picture.solids);
+  made_.push_back({layout, line, std::make_shared<const CellRaster>(std::move(raster))});
   return made_.back().raster;
 }
 

@@ -30,6 +30,9 @@ void check(const Picture& picture) {
   if (!picture.darkness.empty() && picture.darkness.size() != cells)
     throw InputError(fmt::format("picture of {}: {} darknesses for {} cells", picture.label,
                                  picture.darkness.size(), cells));
+  if (!picture.depth.empty() && picture.depth.size() != picture.cells->vertex.size())
+    throw InputError(fmt::format("picture of {}: {} depths for {} vertices", picture.label,
+                                 picture.depth.size(), picture.cells->vertex.size()));
   if (picture.width < 200) throw InputError("picture: the width must be at least 200 px");
 }
 
@@ -55,6 +58,9 @@ PictureWindow body_window(const Picture& picture, const std::vector<Vec2>& verti
   for (const PictureTool& tool : picture.tools)
     for (const CurvePiece& piece : tool.curve->pieces)
       for (const double s : {0.0, 0.25, 0.5, 0.75}) tools.add(piece.point(s) + tool.displacement);
+  if (picture.solids)
+    for (const auto& face : picture.solids->corner)
+      for (const Vec3& x : face) tools.add(x.head<2>());
   for (int k = 0; k < 2; ++k) {
     window.low[k] = std::max(std::min(window.low[k], tools.low[k] - 0.025 * size), body.low[k] - 0.12 * size);
     window.high[k] =
@@ -226,8 +232,7 @@ PaletteImage draw(const Picture& picture) {
   const bool lines = picture.edges.value_or(cell_size(layout, *picture.cells, vertices) > 7.0 * unit);
   CellRasters own;
   CellRasters& rasters = picture.rasters ? *picture.rasters : own;
-  paint_cells(surface, picture, *rasters.of(layout, *picture.cells, vertices, lines ? 0.7 * unit : 0.0),
-              range);
+  paint_cells(surface, picture, *rasters.of(layout, picture, vertices, lines ? 0.7 * unit : 0.0), range);
   for (const PictureTool& tool : picture.tools) {
     cairo_save(cr);
     keep_sides(cr, layout, tool.kept);

@@ -36,6 +36,12 @@ struct PictureTool {
   std::vector<SymmetryLine> kept{}; ///< drawn on that side of these lines which normals come from
 };
 
+/// Faces in space that no field colours: tools.
+struct SolidFaces {
+  std::vector<std::array<Vec3, 3>> corner; ///< m: to the right, upwards, towards the eye
+  std::vector<float> darkness;             ///< [face] 0 to 1
+};
+
 class CellRasters;
 
 struct Picture {
@@ -43,8 +49,10 @@ struct Picture {
   std::array<std::span<const double>, 2> position; ///< [component][node] m, present positions
   std::span<const double> value;                   ///< [cell], SI
   std::span<const float> darkness;                 ///< [cell] of surfaces under light, 0 to 1; empty: flat
-  std::string label;                               ///< "equivalent plastic strain"
-  results::DisplayUnit unit;                       ///< of the values shown
+  std::span<const double> depth;      ///< [vertex] m, towards the eye; empty: cells do not hide others
+  const SolidFaces* solids = nullptr; ///< among cells with a depth; null: none
+  std::string label;                  ///< "equivalent plastic strain"
+  results::DisplayUnit unit;          ///< of the values shown
   ColourMap map = ColourMap::strain;
   std::optional<ColourRange> range; ///< SI; by default that of the values
   std::optional<double> percentile; ///< % of the values in the range, to be stated

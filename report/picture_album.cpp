@@ -29,6 +29,20 @@ PictureScale scale_of(const nlohmann::json& entry, const char* name) {
   return {{range[0], range[1]}, {Vec2(view[0], view[1]), Vec2(view[2], view[3])}};
 }
 
+nlohmann::ordered_json as_json(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
+
+Vec3 vector_of(const nlohmann::json& json) {
+  const auto x = json.get<std::array<double, 3>>();
+  return {x[0], x[1], x[2]};
+}
+
+void read_places(AlbumEntry& entry, const nlohmann::json& json) {
+  if (!json.contains("tools")) return;
+  for (const nlohmann::json& tool : json.at("tools")) entry.tools.push_back(vector_of(tool));
+  for (const nlohmann::json& side : json.at("sides"))
+    entry.sides.push_back({vector_of(side.at(0)), vector_of(side.at(1))});
+}
+
 } // namespace
 
 PictureAlbum::PictureAlbum(const fs::path& output_folder)
@@ -37,10 +51,12 @@ PictureAlbum::PictureAlbum(const fs::path& output_folder)
   std::error_code error;
   if (!fs::exists(index, error)) return;
   try {
-    for (const nlohmann::json& entry : nlohmann::json::parse(results::read_file(index)))
+    for (const nlohmann::json& entry : nlohmann::json::parse(results::read_file(index))) {
       entries_.push_back({entry.at("file"), entry.at("field"), entry.at("time"), entry.at("caption"),
                           entry.at("note"), entry.value("series", std::string()), scale_of(entry, "own"),
                           scale_of(entry, "drawn")}); // without series and scales: of older versions
+      read_places(entries_.back(), entry);
+    }
   } catch (const nlohmann::json::exception& problem) {
     throw IoError(fmt::format("{} is not an index of pictures: {}", index.string(), problem.what()));
   }
@@ -83,7 +99,7 @@ void PictureAlbum::truncate(double time) {
 
 std::string PictureAlbum::index() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const AlbumEntry& entry : entries_)
+  for (const AlbumEntry& entry : entries_) {
     json.push_back({{"file", entry.file},
                     {"field", entry.field},
                     {"time", entry.time},
@@ -92,6 +108,13 @@ std::string PictureAlbum::index() const {
                     {"series", entry.series},
                     {"own", as_json(entry.own)},
                     {"drawn", as_json(entry.drawn)}});
+    if (entry.tools.empty()) continue;
+    auto& places = json.back();
+    places["tools"] = nlohmann::ordered_json::array();
+    places["sides"] = nlohmann::ordered_json::array();
+    for (const Vec3& tool : entry.tools) places["tools"].push_back(as_json(tool));
+    for (const auto& [at, normal] : entry.sides) places["sides"].push_back({as_json(at), as_json(normal)});
+  }
   return json.dump(2) + "\n";
 }
 

@@ -3,6 +3,7 @@
 #include "report/picture.hpp"
 #include "results/file_queue.hpp"
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ struct AlbumEntry {
   std::string series{}; ///< name of the field where it is one of several times; "" of a picture alone
   PictureScale own{};   ///< that of its values and its body alone
   PictureScale drawn{}; ///< as it is on the disk
+  // in space, where files of fields do not tell them
+  std::vector<Vec3> tools{}; ///< [tool] m, how far each has moved
+  std::vector<std::array<Vec3, 2>>
+      sides{}; ///< planes that tools are drawn to: m, a place; normal out of the body
 };
 
 /// pictures/ of an output folder.

@@ -111,6 +111,11 @@ void paint_cells(const Surface& surface, const Picture& picture, const CellRaste
   for (std::size_t c = 0; c < colour.size(); ++c)
     colour[c] = packed(picture.darkness.empty() ? drawn_colour(picture.map, picture.value[c], range)
                                                 : lit_colour(picture, c, range));
+  if (picture.solids)
+    for (const float darkness : picture.solids->darkness) {
+      const double grey = 0.86 * (1.0 - most_darkness * static_cast<double>(darkness));
+      colour.push_back(packed({grey, grey, grey}));
+    }
   const std::uint32_t rim = packed({0.13, 0.13, 0.13});
   cairo_surface_flush(surface.get());
   const int width = cairo_image_surface_get_width(surface.get()),

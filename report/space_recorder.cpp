@@ -1,39 +1,15 @@
 #include "report/space_recorder.hpp"
 
 #include "core/index.hpp"
-#include "report/body_view.hpp"
 #include "results/fields.hpp"
 
-#include <fmt/format.h>
-#include <memory>
+#include <algorithm>
+#include <map>
+#include <optional>
 #include <utility>
-#include <vector>
 
 namespace cnem::report {
 namespace {
-
-/// Corners of the tetrahedra that are drawn as cells.
-std::vector<std::array<NodeIndex, 4>> tetrahedra_of(const CellGeometry<3>& cells) {
-  std::vector<std::array<NodeIndex, 4>> list;
-  for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
-    std::array<NodeIndex, 4> corner;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto vertex = index_of(cells.index[index_of(cells.begin[c]) + k]);
-      corner[k] = cells.vertex_node[index_of(cells.vertex_begin[vertex])];
-    }
-    list.push_back(corner);
-  }
-  return list;
-}
-
-Picture picture_of(const input::Case& input, const std::string& field, double time) {
-  Picture picture;
-  show_field(picture, field_info<3>(field).shown, results::ShownUnits(input.report.units));
-  picture.title = input.title;
-  picture.time = time;
-  if (!input.output.drawing.ranges.contains(field)) picture.percentile = input.output.drawing.percentile;
-  return picture;
-}
 
 ColourRange range_of(const input::Case& input, const std::string& field, const Picture& picture) {
   const input::Drawing& drawing = input.output.drawing;
@@ -42,38 +18,88 @@ ColourRange range_of(const input::Case& input, const std::string& field, const P
   return value_span(picture.map, picture.value, drawing.percentile.value_or(usual_percentile(picture.map)));
 }
 
+std::size_t bytes_of(const SpaceView& view) {
+  return sizeof(double) * (6 * view.scene.cells.vertex.size() + 9 * view.solids.corner.size() +
+                           view.values.size() * view.scene.node.size());
+}
+
 } // namespace
 
+const std::vector<TriangleSurface>& SpaceRecorder::tools() {
+  if (tools_.empty()) tools_ = tool_surfaces(*case_);
+  return tools_;
+}
+
 void SpaceRecorder::record(results::FileQueue& files, const results::Snapshot<3>& shot) {
-  const input::Output& output = case_->output;
-  const Fields<3>& position = shot.state.node.position;
-  const auto tetrahedra = tetrahedra_of(shot.approximation.cells);
-  const SectionCells cells =
-      case_->method.options.cells == scni::CellKind::voronoi ? SectionCells::voronoi : SectionCells::median;
-  for (const std::string& name : output.picture_fields) {
-    const Field value = results::values_at_nodes(shot, name);
-    const auto draw = [&](Scene made, const std::string& key, std::string caption) {
-      const auto scene = std::make_shared<const Scene>(std::move(made));
-      if (scene->value.empty()) return;
-      Picture picture = picture_of(*case_, name, shot.state.time);
-      picture.cells = &scene->cells;
-      picture.position = {scene->position[0], scene->position[1]};
-      picture.value = scene->value;
-      picture.darkness = scene->darkness;
-      picture.edges = scene->darkness.empty() ? picture.edges : false;
-      AlbumEntry entry{.field = picture.label, .time = picture.time, .caption = std::move(caption)};
+  const SpaceSource source = space_source(*case_, shot, case_->output.picture_fields);
+  const auto views = space_views(*case_, source, tools());
+  for (std::size_t f = 0; f < source.names.size(); ++f)
+    for (const auto& view : views) {
+      const std::string& name = source.names[f];
+      Picture picture = picture_of(*case_, source, *view, f);
+      AlbumEntry entry{
+          .field = picture.label, .time = picture.time, .caption = view->section, .series = name};
       entry.own = {range_of(*case_, name, picture), whole_window(picture)};
       entry.drawn = {widened(picture.map, entry.own.range), entry.own.view};
+      entry.tools = source.tools;
+      entry.sides = source.sides;
       picture.range = entry.drawn.range;
       picture.window = entry.drawn.view;
       album_.add(
-          files, key, std::move(entry), [scene, picture] { return draw_png(picture); },
-          sizeof(double) * 6 * scene->cells.vertex.size());
-    };
-    draw(surface_scene(shot.cloud.facets, position, value, {output.drawing.eye}), name, "");
-    for (const input::Section& section : output.sections)
-      draw(section_scene(tetrahedra, position, value, section.at, section.normal, cells),
-           name + "_" + section.name, section.name);
+          files, view->section.empty() ? name : name + "_" + view->section, std::move(entry),
+          [view, picture] { return draw_png(picture); }, bytes_of(*view) / source.names.size());
+    }
+}
+
+/// One range for a field, one view for a section.
+std::vector<PictureScale> SpaceRecorder::wanted_scales() const {
+  std::map<std::string, ColourRange> range;
+  std::map<std::string, PictureWindow> window;
+  for (const AlbumEntry& entry : album_.entries()) {
+    if (entry.series.empty()) continue;
+    const auto [at, fresh] = range.emplace(entry.series, entry.own.range);
+    if (!fresh) at->second = joined(at->second, entry.own.range);
+    const auto [place, first] = window.emplace(entry.caption, entry.own.view);
+    if (!first) place->second = joined(place->second, entry.own.view);
+  }
+  std::vector<PictureScale> wanted;
+  for (const AlbumEntry& entry : album_.entries())
+    wanted.push_back(entry.series.empty()
+                         ? entry.drawn
+                         : PictureScale{widened(field_info<3>(entry.series).shown.map, range[entry.series]),
+                                        window[entry.caption]});
+  return wanted;
+}
+
+void SpaceRecorder::finish(results::FileQueue& files) {
+  if (!case_->output.drawing.common || album_.entries().empty()) return;
+  const std::vector<PictureScale> wanted = wanted_scales();
+  for (const results::FieldFiles& frame : results::read_field_series(folder_)) {
+    if (!std::filesystem::exists(folder_ / frame.nodes)) continue; // taken away: pictures stay as they are
+    std::optional<SpaceSource> source;                             // read where it is needed
+    std::vector<std::shared_ptr<SpaceView>> views;
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      const AlbumEntry entry = album_.entries()[k];
+      if (entry.time != frame.time || wanted[k] == entry.drawn || entry.tools.size() != case_->tools.size())
+        continue; // of an older version: it stays as it is
+      if (!source) {
+        std::vector<std::string> names;
+        for (const std::string& name : case_->output.picture_fields)
+          if (results::has_node_field(folder_ / frame.nodes, results::array_in_files(field_info<3>(name))))
+            names.push_back(name);
+        source = space_source(*case_, folder_, frame, names, entry);
+        views = space_views(*case_, *source, tools());
+      }
+      const auto field = std::ranges::find(source->names, entry.series) - source->names.begin();
+      const auto view = std::ranges::find(views, entry.caption, [](const auto& one) { return one->section; });
+      if (index_of(field) == source->names.size() || view == views.end()) continue;
+      Picture picture = picture_of(*case_, *source, **view, index_of(field));
+      picture.range = wanted[k].range;
+      picture.window = wanted[k].view;
+      album_.replace(
+          files, k, wanted[k], [kept = *view, picture] { return draw_png(picture); },
+          bytes_of(**view) / source->names.size());
+    }
   }
 }
 

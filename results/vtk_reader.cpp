@@ -156,6 +156,45 @@ bool has_cell_field(const fs::path& file, const FileArray& array) {
   return GridFile(file).reader->GetCellDataArraySelection()->ArrayExists(array.name.c_str()) != 0;
 }
 
+NodeFields read_node_fields(const fs::path& cells, const fs::path& nodes,
+                            const std::vector<FileArray>& arrays, const Vec3& origin) {
+  NodeFields fields;
+  const auto grid = read_grid(cells, {}), points = read_grid(nodes, {});
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
+    grid->GetCellPoints(c, corners);
+    if (corners->GetNumberOfIds() != 4)
+      throw IoError(fmt::format("{} has a cell of {} points, expected tetrahedra", cells.string(),
+                                corners->GetNumberOfIds()));
+    std::array<NodeIndex, 4> corner;
+    for (int k = 0; k < 4; ++k) {
+      if (corners->GetId(k) >= points->GetNumberOfPoints())
+        throw IoError(fmt::format("{} has more points than {}", cells.string(), nodes.string()));
+      corner[index_of(k)] = as<NodeIndex>(corners->GetId(k));
+    }
+    fields.tetrahedra.push_back(corner);
+  }
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i) {
+    std::array<double, 3> x{};
+    points->GetPoint(i, x.data());
+    for (std::size_t k = 0; k < 3; ++k) fields.position[k].push_back(x[k] - origin[as<int>(k)]);
+  }
+  for (const FileArray& wanted : arrays) {
+    vtkDataArray* array = points->GetPointData()->GetArray(wanted.name.c_str());
+    const int component = as<int>(wanted.component);
+    if (!array || component >= array->GetNumberOfComponents())
+      throw IoError(fmt::format("{} has not all of the field '{}'", nodes.string(), wanted.name));
+    Field& values = fields.values.emplace_back();
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+      values.push_back(array->GetComponent(i, component));
+  }
+  return fields;
+}
+
+bool has_node_field(const fs::path& file, const FileArray& array) {
+  return GridFile(file).reader->GetPointDataArraySelection()->ArrayExists(array.name.c_str()) != 0;
+}
+
 Vec2 read_tool_displacement(const fs::path& file) {
   const auto grid = read_grid(file, {});
   vtkDataArray* array = grid->GetPointData()->GetArray(vertex_displacement);

@@ -53,6 +53,21 @@ CellFields read_cell_fields(const std::filesystem::path& file, const std::vector
 /// Whether a file of fields has an array for cells. Throws IoError where it is none.
 bool has_cell_field(const std::filesystem::path& file, const FileArray& array);
 
+/// The nodes of one time in space with the tetrahedra between them.
+struct NodeFields {
+  std::vector<std::array<NodeIndex, 4>> tetrahedra;
+  Fields<3> position;        ///< [component][node] m
+  std::vector<Field> values; ///< [name][node]
+};
+
+/// Reads these arrays of nodes; places in the files are counted from `origin` here. Throws IoError when the
+/// files cannot be read, have no tetrahedra or lack a field.
+NodeFields read_node_fields(const std::filesystem::path& cells, const std::filesystem::path& nodes,
+                            const std::vector<FileArray>& arrays, const Vec3& origin);
+
+/// Whether a file of fields has an array for nodes. Throws IoError where it is none.
+bool has_node_field(const std::filesystem::path& file, const FileArray& array);
+
 /// How far a tool has moved, m, by its file. Throws IoError.
 Vec2 read_tool_displacement(const std::filesystem::path& file);
 

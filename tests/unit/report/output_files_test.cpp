@@ -284,12 +284,12 @@ TEST_F(DrawnCells, pictures_of_several_fields_share_what_cells_cover) {
   }
   EXPECT_NE(alone[0], alone[1]);
   EXPECT_EQ(together, alone);
-  const auto raster = rasters.of(layout, cells, cells.vertex, 0.0);
-  EXPECT_EQ(rasters.of(layout, cells, cells.vertex, 0.0), raster);
-  EXPECT_NE(rasters.of(layout, cells, cells.vertex, 1.0), raster);
+  const auto raster = rasters.of(layout, picture, cells.vertex, 0.0);
+  EXPECT_EQ(rasters.of(layout, picture, cells.vertex, 0.0), raster);
+  EXPECT_NE(rasters.of(layout, picture, cells.vertex, 1.0), raster);
   PictureLayout shifted = layout;
   shifted.origin.x() += 1.0;
-  EXPECT_NE(rasters.of(shifted, cells, cells.vertex, 0.0), raster);
+  EXPECT_NE(rasters.of(shifted, picture, cells.vertex, 0.0), raster);
 }
 
 TEST_F(DrawnCells, cells_that_are_not_finite_are_left_out) {
