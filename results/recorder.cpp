@@ -317,6 +317,15 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
     frame.node_vectors.push_back(vector_field<dim>("springback [m]", kept->springback));
   }
   if constexpr (dim == 2) frame.tools = tool_outlines(*input_, shot);
+  if constexpr (dim == 3) {
+    if (input_->output.surface)
+      for (const Facet<3>& facet : shot.cloud.facets) frame.surface.push_back(facet.node);
+    if (input_->output.polyhedra)
+      frame.polyhedra =
+          polyhedra(input_->method.options.cells == scni::CellKind::voronoi ? PolyhedraOf::voronoi_cells
+                                                                            : PolyhedraOf::median_cells,
+                    shot.cloud, tetrahedra_of(shot.approximation.cells), kept->position);
+  }
   writer_.write(files, std::shared_ptr<const FieldFrame<dim>>(kept, &frame));
   if constexpr (dim == 2)
     if (const auto tools = tool_frame(shot, input_->origin)) {

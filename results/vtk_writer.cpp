@@ -16,7 +16,9 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <cassert>
+#include <deque>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -159,6 +161,88 @@ template<int dim> std::string nodes_text(const FieldFrame<dim>& frame) {
   return text_of(*grid);
 }
 
+/// Values of some nodes, with their names.
+struct Chosen {
+  std::deque<Field> values;
+  std::vector<ScalarField> scalars;
+  std::vector<VectorField> vectors;
+};
+Chosen chosen(const FieldFrame<3>& frame, const std::vector<std::size_t>& nodes) {
+  Chosen of;
+  const auto pick = [&](std::span<const double> all) -> std::span<const double> {
+    if (all.empty()) return {};
+    Field& values = of.values.emplace_back();
+    for (const std::size_t i : nodes) values.push_back(all[i]);
+    return values;
+  };
+  for (const ScalarField& field : frame.node_scalars) of.scalars.push_back({field.name, pick(field.values)});
+  for (const VectorField& field : frame.node_vectors) {
+    VectorField& to = of.vectors.emplace_back(VectorField{field.name, {}, field.component_names});
+    for (const auto& component : field.component) to.component.push_back(pick(component));
+  }
+  return of;
+}
+
+std::string surface_text(const FieldFrame<3>& frame) {
+  std::vector<std::size_t> nodes;
+  for (const auto& facet : frame.surface)
+    for (const NodeIndex i : facet) nodes.push_back(index_of(i));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(nodes.size()));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    set_point<3>(*points, static_cast<vtkIdType>(k), frame.origin,
+                 {frame.position[0][nodes[k]], frame.position[1][nodes[k]], frame.position[2][nodes[k]]});
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  grid->AllocateEstimate(static_cast<vtkIdType>(frame.surface.size()), 3);
+  for (const auto& facet : frame.surface) {
+    std::array<vtkIdType, 3> corner{};
+    for (std::size_t a = 0; a < 3; ++a)
+      corner[a] = std::lower_bound(nodes.begin(), nodes.end(), index_of(facet[a])) - nodes.begin();
+    grid->InsertNextCell(VTK_TRIANGLE, 3, corner.data());
+  }
+  const Chosen fields = chosen(frame, nodes);
+  add_fields(*grid->GetPointData(), static_cast<vtkIdType>(nodes.size()), fields.scalars, fields.vectors);
+  add_time(*grid, frame.time);
+  return text_of(*grid);
+}
+
+std::string polyhedra_text(const FieldFrame<3>& frame) {
+  const Polyhedra& cells = *frame.polyhedra;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(cells.point.size()));
+  for (std::size_t k = 0; k < cells.point.size(); ++k)
+    set_point<3>(*points, static_cast<vtkIdType>(k), frame.origin, cells.point[k]);
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  std::vector<vtkIdType> faces, corner;
+  for (const std::vector<std::int32_t>& cell : cells.cell) {
+    faces.clear();
+    corner.clear();
+    for (const std::int32_t f : cell) {
+      const auto face = cells.face(index_of(f < 0 ? -1 - f : f));
+      faces.push_back(static_cast<vtkIdType>(face.size()));
+      if (f < 0)
+        faces.insert(faces.end(), face.rbegin(), face.rend());
+      else
+        faces.insert(faces.end(), face.begin(), face.end());
+      corner.insert(corner.end(), face.begin(), face.end());
+    }
+    std::sort(corner.begin(), corner.end());
+    corner.erase(std::unique(corner.begin(), corner.end()), corner.end());
+    grid->InsertNextCell(VTK_POLYHEDRON, static_cast<vtkIdType>(corner.size()), corner.data(),
+                         static_cast<vtkIdType>(cell.size()), faces.data());
+  }
+  add_fields(*grid->GetCellData(), static_cast<vtkIdType>(cells.cell.size()), frame.node_scalars,
+             frame.node_vectors);
+  add_time(*grid, frame.time);
+  return text_of(*grid);
+}
+
 std::string outline_text(const ToolOutline& tool, const Vec3& origin, double time) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -242,6 +326,17 @@ template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<cons
           [tool, origin = frame->origin, time = frame->time] { return outline_text(tool, origin, time); },
           sizeof(Vec2) * tool.corners.size());
     }
+  if constexpr (dim == 3) {
+    const auto add = [&](const char* part, std::string (*text)(const FieldFrame<3>&), std::size_t size) {
+      entry.tools.push_back({part, name(part)});
+      queue.put(
+          folder_ / entry.tools.back().file, [frame, text] { return text(*frame); }, size);
+    };
+    if (!frame->surface.empty()) add("surface", surface_text, bytes);
+    if (frame->polyhedra)
+      add("polyhedra", polyhedra_text,
+          bytes + sizeof(std::int32_t) * 4 * frame->polyhedra->face_point.size());
+  }
   entries_.push_back(std::move(entry));
   queue.put(folder_ / series_.list, collection());
 }

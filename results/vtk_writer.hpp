@@ -5,11 +5,13 @@
 #include "core/operators/discretisation.hpp"
 #include "results/file_queue.hpp"
 #include "results/output_folder.hpp"
+#include "results/polyhedra.hpp"
 #include "results/vtk_reader.hpp"
 
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +51,8 @@ template<int dim> struct FieldFrame {
   std::vector<ScalarField> node_scalars;
   std::vector<VectorField> node_vectors;
   std::vector<ToolOutline> tools{};
+  std::vector<std::array<NodeIndex, 3>> surface{}; ///< in space, outwards; empty: no file
+  std::optional<Polyhedra> polyhedra{};            ///< in space, the cells of the nodes
 };
 
 /// Present positions of the vertices of the cells, x_v = Σ weight x_node, m.
@@ -70,7 +74,8 @@ struct Series {
   const char* prefix = "";
 };
 
-/// Writes fields/cells_*.vtu, fields/nodes_*.vtu, fields/outline_TOOL_*.vtu and, after each frame, fields.pvd
+/// Writes fields/cells_*.vtu, fields/nodes_*.vtu, fields/outline_TOOL_*.vtu (or surface_*.vtu,
+/// polyhedra_*.vtu) and, after each frame, fields.pvd
 /// (replaced atomically, so that a killed run leaves a valid series).
 class FieldWriter {
 public:
