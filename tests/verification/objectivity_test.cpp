@@ -5,6 +5,7 @@
 #include "mechanics/statics/statics.hpp"
 #include "methods/registry.hpp"
 #include "plasticity/hardening_laws.hpp"
+#include "voronoi/space/recovery.hpp"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -18,14 +19,16 @@ namespace {
 
 using clouds::TetrahedralBlock;
 
-/// 4 × 3 × 2 mm, inner nodes off their lattice.
+/// 4 × 3 × 2 mm, nodes off their lattice, on faces along these: no four on a circle.
 TetrahedralBlock block() {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> step(-0.2e-3, 0.2e-3);
   const Vec<3> size(4e-3, 3e-3, 2e-3);
   return clouds::tetrahedral_block(size, {4, 3, 2}, [&](const Vec<3>& x) -> Vec<3> {
-    const Vec<3> moved = x + Vec<3>{step(random), step(random), step(random)};
-    return (x.array() > 1e-9).all() && (x.array() < size.array() - 1e-9).all() ? moved : x;
+    Vec<3> moved = x;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (const double by = step(random); x[k] > 1e-9 && x[k] < size[k] - 1e-9) moved[k] += by;
+    return moved;
   });
 }
 
@@ -58,7 +61,8 @@ struct Loaded {
   std::vector<Support<3>> held;
   std::vector<Traction<3>> pulled;
 
-  Loaded(const Mat<3>& rotation, double pull) {
+  Loaded(const Mat<3>& rotation, double pull, scni::CellKind cells = scni::CellKind::median) {
+    if (cells == scni::CellKind::voronoi) body.cloud = voronoi::recover_boundary(body.cloud).cloud;
     std::vector<NodeIndex> left;
     std::vector<Facet<3>> right;
     for (const NodeIndex i : body.cloud.position.indices())
@@ -87,10 +91,14 @@ double difference(const Fields<3>& of, const Fields<3>& from, const Mat<3>& rota
   return most / scale;
 }
 
-TEST(Objectivity, equilibrium_of_a_turned_block_is_the_turned_one) {
+class Equilibrium : public ::testing::TestWithParam<scni::CellKind> {};
+
+TEST_P(Equilibrium, of_a_turned_block_is_the_turned_one) {
   const auto solve = [](const Mat<3>& rotation) {
-    const Loaded loaded(rotation, 1e8);
+    const Loaded loaded(rotation, 1e8, GetParam());
     Problem<3> model = problem_of(loaded.body, loaded.held, loaded.pulled);
+    if (GetParam() == scni::CellKind::voronoi)
+      model.method = methods::make<3>("cnem", {.functions = scni::Functions::laplace, .cells = GetParam()});
     const Approximation<3> approximation = model.method->rebuild(model.cloud);
     Fields<3> position;
     resize_all(position, model.cloud.position.size());
@@ -111,6 +119,12 @@ TEST(Objectivity, equilibrium_of_a_turned_block_is_the_turned_one) {
   EXPECT_LT(difference(turned.reaction, straight.reaction, arbitrary), 1e-9);
   EXPECT_NEAR(turned.strain_energy, straight.strain_energy, 1e-9 * straight.strain_energy);
 }
+
+INSTANTIATE_TEST_SUITE_P(cells, Equilibrium,
+                         ::testing::Values(scni::CellKind::median, scni::CellKind::voronoi),
+                         [](const auto& run) {
+                           return run.param == scni::CellKind::median ? "median" : "voronoi";
+                         });
 
 // Metal that flows, on new references.
 TEST(Objectivity, steps_of_a_turned_block_are_the_turned_ones) {
