@@ -212,6 +212,12 @@ template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) 
         inverse_transpose << f(1, 1), -f(1, 0), -f(0, 1), f(0, 0);
         inverse_transpose /= conducting;
       }
+    if constexpr (dim == 3) {
+      const Mat<dim>& f = row.deformation;
+      determinant = conducting(determinant, least_of_cube * f.squaredNorm() * f.norm());
+      for (int k = 0; k < 3; ++k)
+        inverse_transpose.col(k) = f.col((k + 1) % 3).cross(f.col((k + 2) % 3)) / determinant;
+    }
     const double volume = op.volume[p] * determinant * row.hoop;
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       Vec<dim> b;

@@ -25,8 +25,10 @@ void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const do
     const double det = cofactor(F, cof);
     auto spatial = Small<dim>::zero(); // det F · F⁻ᵀ ∇_X T
     for (int k = 0; k < dim; ++k) spatial += cof[k] * gradient[k];
-    double volume = det;
-    if constexpr (dim == 2) volume = conducting(det, least_of_square * (F[0].dot(F[0]) + F[1].dot(F[1])));
+    double squares = 0.0;
+    for (int k = 0; k < dim; ++k) squares += F[k].dot(F[k]);
+    const double volume =
+        conducting(det, dim == 2 ? least_of_square * squares : least_of_cube * squares * sqrt(squares));
     const double scale = conductivity[p] * stretch / volume;
     for (int k = 0; k < dim; ++k) flux[dim * p + k] = scale * cof[k].dot(spatial);
   }

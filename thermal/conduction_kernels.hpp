@@ -13,6 +13,7 @@ namespace cnem {
 // the reference. Conduction takes at most a hundredth of the step that was stable there
 // (mechanics/terms/heat.cpp).
 constexpr double least_of_square = 0.01; ///< of det F over ‖F‖², which is 0.5 on the reference
+constexpr double least_of_cube = 0.004;  ///< in space over ‖F‖³, which is 0.19 on the reference
 constexpr double least_of_sides =
     0.004; ///< of 2A over the sum of the squares of the sides, 0.29 if they are equal
 constexpr double least_of_edges =

@@ -155,9 +155,9 @@ void separate(WorkingBody& body, const SpaceStructure& structure, const Separati
   const Parts part = parts_between(body.cloud(), structure.mesh, body.node().broken, rules.least_part);
   if (part.empty()) return;
   const Tetrahedra& mesh = structure.mesh;
-  const BoundaryPlanes planes(body.cloud());
+  const Cloud<3> before = body.cloud(); // whose volumes share matter out
+  const BoundaryPlanes planes(before);
   smooth_cut(body, structure, part, planes);
-  const Cloud<3> before = body.cloud();
 
   Doubles corner = mesh.node;
   std::vector<Parcel> parcels;

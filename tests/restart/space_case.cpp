@@ -55,7 +55,7 @@ end = "12.5 us"
 material = "steel"
 block = { from = "0 0 0 mm", to = "4 0.8 1 mm" }
 [cloud]
-spacing = "0.2 mm"
+spacing = "0.25 mm"
 [method]
 rereference = { every = 60, strain = 0.2 }
 [adapt]

@@ -141,6 +141,31 @@ TEST(Separate, two_bands_leave_three_parts) {
   EXPECT_EQ(closed_components(bar.body.cloud()), 3);
 }
 
+TEST(Separate, a_cut_across_the_edges_of_tetrahedra_is_smooth) {
+  PartingBody bar({1, 0.5, 0.5}, {20, 10, 10},
+                  [](const Vec3& x) { return std::abs(x.x() - 0.35 - 0.6 * x.y()) < 0.1 ? 1.0 : 0.0; });
+  PassReport report;
+  const double volume = enclosed_measure(bar.block.cloud);
+  separate(bar.body, bar.structure, {.piece = faces}, report);
+  ASSERT_EQ(report.cuts, 1);
+  const Cloud<3>& cloud = bar.body.cloud();
+  double area = 0.0, tilt = 0.0; // ∫ (n · n of the plane)² over one of the two faces
+  const Vec3 plane = Vec3(1, -0.6, 0).normalized();
+  for (const Facet<3>& facet : cloud.facets) {
+    if (facet.piece != faces) continue;
+    const Vec3 n = area_normal<3>(corners_of<3>(facet, cloud.position));
+    area += n.norm();
+    tilt += n.dot(plane) * n.dot(plane) / n.norm();
+  }
+  EXPECT_GT(tilt, 0.9 * area) << "faces of tetrahedra as they were: 0.86";
+  EXPECT_NEAR(enclosed_measure(cloud), volume, 1e-3 * volume);
+  for (const Facet<3>& facet : cloud.facets) // nodes of the cut stay on the planes of the bar
+    if (facet.piece != faces) {
+      const Vec3 n = area_normal<3>(corners_of<3>(facet, cloud.position)).normalized();
+      EXPECT_NEAR(n.cwiseAbs().maxCoeff(), 1.0, 1e-14);
+    }
+}
+
 TEST(Separate, random_broken_matter_leaves_closed_surfaces) {
   int cuts = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {

@@ -236,5 +236,31 @@ TEST(SpaceResample, refuses_a_surface_that_crosses_itself_and_counts_where) {
   EXPECT_GT(report.crossings, 0);
 }
 
+// A node on top falls over the ring around it, one on an edge over that: what is left of a ridge under a
+// tool.
+TEST(SpaceResample, takes_folds_out_and_keeps_planes_and_volume) {
+  FollowedBody body({.shape = SpaceShape::cube, .cells = 6});
+  const double volume = enclosed_measure(body.cloud), h = body.spacing;
+  const auto node_at = [&](const Vec3& x) -> Vec3& {
+    return *std::min_element(
+        body.cloud.position.begin(), body.cloud.position.end(),
+        [&](const Vec3& a, const Vec3& b) { return (a - x).squaredNorm() < (b - x).squaredNorm(); });
+  };
+  node_at({0.5, 0.5, 1.0}) += h * Vec3(1.2, 0.1, -0.3);
+  node_at({0.0, 0.5, 1.0}) += h * Vec3(0.0, 1.15, -0.1);
+  PassReport report;
+  body.follow(body.resample(report));
+  EXPECT_GT(report.crossings, 0);
+  EXPECT_GT(report.folded, 0);
+  EXPECT_TRUE(voronoi::crossings(body.cloud).empty());
+  EXPECT_NEAR(enclosed_measure(body.cloud), volume, 0.01 * volume);
+  double on_plane = 0.0;
+  for (const Facet<3>& facet : body.cloud.facets) {
+    const auto x = corners_of<3>(facet, body.cloud.position);
+    if (x[0].x() == 0.0 && x[1].x() == 0.0 && x[2].x() == 0.0) on_plane += area_normal<3>(x).norm();
+  }
+  EXPECT_NEAR(on_plane, 1.0, 0.02);
+}
+
 } // namespace
 } // namespace cnem::adapt

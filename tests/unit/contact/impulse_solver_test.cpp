@@ -177,3 +177,17 @@ TEST(ImpulseSolver, a_node_without_room_is_not_thrown) {
     EXPECT_LT(scene.nodes[0_boundary].change.norm() * dt, 2e-3) << wedge;
   }
 }
+
+// A face in a plane of symmetry that rounding has tilted presses along what its nodes are free to do.
+TEST(ImpulseSolver, what_is_held_but_for_rounding_takes_no_impulse) {
+  for (const auto& [tilt, throws] : {std::pair(2e-5, false), std::pair(0.01, true)}) {
+    Scene scene;
+    scene.tools.resize(1);
+    Reaction<2> node;
+    node.inverse = Vec2(1, 0).asDiagonal(); // held in y
+    scene.nodes.push_back(node);
+    scene.contacts.push_back(on_tool(Vec2(tilt, 1).normalized(), 1e-9, {{0_boundary, 1.0}}));
+    ImpulseSolver<2>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 100);
+    EXPECT_EQ(scene.contacts[0].pressing > 0.0, throws) << tilt;
+  }
+}

@@ -131,23 +131,34 @@ TEST(ConductionInSpace, no_mode_decays_faster_than_the_bound) {
   EXPECT_LE(bound, 4.0 * fastest);
 }
 
-/// A tetrahedron that has gone flat, or inside out, conducts as one that is nearly flat.
+/// A tetrahedron that has gone flat, or inside out, conducts as one that is nearly flat; also where rows of
+/// the cloud are no tetrahedra (voronoi/space/conduction.hpp), and the bound of the decay knows.
 TEST(ConductionInSpace, flat_tetrahedra_conduct_from_warm_to_cold) {
   Cloud<3> cloud;
   for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
     cloud.position.push_back(x);
   const std::vector<voronoi::Simplex<3>> one{
       {as<NodeIndex>(0), as<NodeIndex>(1), as<NodeIndex>(2), as<NodeIndex>(3)}};
-  const DiscreteOperators<3> op = voronoi::linear_simplices<3>(cloud, one);
-  Conduction<3> conduction;
-  conduction.set_operators(op, Field(1, k));
-  for (const double height : {1e-9, 0.0, -1e-9, -0.5}) {
-    const Field position{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.3, 0.3, height, 0};
-    const Field temperature{300, 300, 300, 400};
-    Field flow(4, 0.0);
-    conduction.add_flow(position, temperature, flow);
-    EXPECT_LT(flow[3], 0.0) << height;
-    EXPECT_GT(flow[3], -1e4 * k) << height;
+  const DiscreteOperators<3> tetrahedron = voronoi::linear_simplices<3>(cloud, one);
+  DiscreteOperators<3> row = tetrahedron; // the same with a fifth entry, of no weight
+  row.node.push_back(as<NodeIndex>(0));
+  row.row_begin.back() = 5;
+  row.value.push_back(0.0);
+  for (Field& component : row.gradient) component.push_back(0.0);
+  row.build_transpose();
+  for (const DiscreteOperators<3>* op : {&tetrahedron, &std::as_const(row)}) {
+    SCOPED_TRACE(op->node.size());
+    Conduction<3> conduction;
+    conduction.set_operators(*op, Field(1, k));
+    for (const double height : {1e-9, 0.0, -1e-9, -0.5}) {
+      const Field position{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.3, 0.3, height, 0};
+      const Field temperature{300, 300, 300, 400};
+      Field flow(4, 0.0);
+      conduction.add_flow(position, temperature, flow);
+      EXPECT_LT(flow[3], 0.0) << height;
+      EXPECT_GT(flow[3], -1e4 * k) << height;
+      EXPECT_GT(conduction.fastest_decay(position, Field(4, 1.0)), -flow[3] / 100.0) << height;
+    }
   }
 }
 
