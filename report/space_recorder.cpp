@@ -2,6 +2,7 @@
 
 #include "core/index.hpp"
 #include "report/body_view.hpp"
+#include "report/picture_source.hpp"
 #include "results/fields.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ ColourRange range_of(const input::Case& input, const std::string& field, const P
 
 void SpaceRecorder::record(results::FileQueue& files, const results::Snapshot<3>& shot) {
   const input::Output& output = case_->output;
-  const Fields<3>& position = shot.state.node.position;
+  const Fields<3> position = drawn_positions<3>(shot);
   const auto tetrahedra = tetrahedra_of(shot.approximation.cells);
   const SectionCells cells =
       case_->method.options.cells == scni::CellKind::voronoi ? SectionCells::voronoi : SectionCells::median;
@@ -61,7 +62,10 @@ void SpaceRecorder::record(results::FileQueue& files, const results::Snapshot<3>
       picture.value = scene->value;
       picture.darkness = scene->darkness;
       picture.edges = scene->darkness.empty() ? picture.edges : false;
-      AlbumEntry entry{.field = picture.label, .time = picture.time, .caption = std::move(caption)};
+      AlbumEntry entry{.field = picture.label,
+                       .time = picture.time,
+                       .caption = std::move(caption),
+                       .note = note_of_scale(shot.displacement_scale)};
       entry.own = {range_of(*case_, name, picture), whole_window(picture)};
       entry.drawn = {widened(picture.map, entry.own.range), entry.own.view};
       picture.range = entry.drawn.range;

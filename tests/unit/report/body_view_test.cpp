@@ -2,6 +2,7 @@
 #include "clouds/tetrahedral_block.hpp"
 #include "report/body_view.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
