@@ -67,7 +67,10 @@ TEST_P(Threads, do_not_change_the_bits) {
   expect_same_bits(all_cases()[GetParam()], std::string(isa_name(active_isa())));
 }
 INSTANTIATE_TEST_SUITE_P(Of, Threads, ::testing::Range(std::size_t{0}, all_cases().size()),
-                         [](const auto& index) { return all_cases()[index.param].filename().string(); });
+                         [](const auto& index) { // two folders may hold a case of the same name
+                           const fs::path& folder = all_cases()[index.param];
+                           return folder.parent_path().filename().string() + "_" + folder.filename().string();
+                         });
 
 // A run that lost what it wrote last: its checkpoint is ten steps older than its end.
 TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
