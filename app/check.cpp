@@ -151,9 +151,10 @@ std::vector<std::pair<std::string, std::string>> variable_texts(const input::Cas
 Checked check(const input::Case& input, const RunOptions& options) {
   const ThreadCount threads(options.threads);
   use_threads(options.threads);
-  if (input.analysis.type == input::Analysis::Type::statics) return check_static(input, options);
-  return input.analysis.dimensions() == 3 ? check_explicit<3>(input, options)
-                                          : check_explicit<2>(input, options);
+  const bool space = input.analysis.dimensions() == 3;
+  if (input.analysis.type == input::Analysis::Type::statics)
+    return space ? check_static<3>(input, options) : check_static<2>(input, options);
+  return space ? check_explicit<3>(input, options) : check_explicit<2>(input, options);
 }
 
 } // namespace cnem::app

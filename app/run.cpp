@@ -103,6 +103,12 @@ input::Case resolved_case(const fs::path& folder) {
   return input;
 }
 
+std::unique_ptr<Session> static_run(const input::Case& input, const RunOptions& options,
+                                    RunObserver& observer) {
+  if (input.analysis.dimensions() == 3) return std::make_unique<StaticRun<3>>(input, options, observer);
+  return std::make_unique<StaticRun<2>>(input, options, observer);
+}
+
 } // namespace
 
 template<int dim> void Run::begin(RunObserver& observer) {
@@ -156,7 +162,7 @@ Run::Run(input::Case input, RunOptions options, RunObserver& observer)
   use_threads(options_.threads);
   if (!options_.output.empty()) lock_.emplace(options_.output, another_run);
   if (input_.analysis.type == input::Analysis::Type::statics) {
-    const auto make = [&] { session_ = std::make_unique<StaticRun>(input_, options_, observer); };
+    const auto make = [&] { session_ = static_run(input_, options_, observer); };
     // The status of a run that is there stays until that run is replaced.
     const bool there = lock_ && results::holds_run(options_.output);
     there ? make() : before_steps(input_, options_, make);
@@ -178,7 +184,7 @@ Run::Run(RunOptions options, RunObserver& observer) : options_(std::move(options
   if (input_.analysis.type == input::Analysis::Type::statics) {
     observer.outcome("a static analysis has no checkpoints: it is solved again");
     options_.force = true;
-    session_ = std::make_unique<StaticRun>(input_, options_, observer);
+    session_ = static_run(input_, options_, observer);
   } else if (input_.analysis.dimensions() == 3)
     resume<3>(observer);
   else

@@ -37,6 +37,13 @@ Ridge<3>::Place Ridge<3>::at(double along) const {
   return {origin + section.centre.x() * radial + section.centre.y() * v, radial, c * w - s * u};
 }
 
+Ridge<3>::Place Ridge<3>::facing(const Vec3& x) const {
+  const Vec3 from = x - origin, out = from - from.dot(v) * v;
+  const double radius = out.norm();
+  const Vec3 radial = radius > 0.0 ? Vec3(out / radius) : u;
+  return {origin + section.centre.x() * radial + section.centre.y() * v, radial, v.cross(radial)};
+}
+
 double Ridge<3>::turn_towards(const Vec3& x) const {
   const Vec3 from = x - origin;
   const double turn = std::atan2(from.dot(v.cross(u)), from.dot(u));

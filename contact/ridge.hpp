@@ -70,7 +70,9 @@ template<> struct Ridge<3> {
     Vec3 centre{0, 0, 0}, u{0, 0, 0}, tangent{0, 0, 0}; ///< m; –, unit
   };
   Place at(double along) const;
-  /// Of a circular one: where it faces x, rad in [0, 2π); may lie beyond its end.
+  /// Of a circular one: where it faces x, as if it went all round.
+  Place facing(const Vec3& x) const;
+  /// The same as an angle, rad in [0, 2π); may lie beyond its end.
   double turn_towards(const Vec3& x) const;
   /// Is the unit vector n, which is normal to the path there, among the outward normals?
   bool faces(const Vec3& n, const Place& place) const { return section.faces({n.dot(place.u), n.dot(v)}); }

@@ -26,10 +26,9 @@ Vec3 normal_of(const Surface<3>& surface, FacetIndex facet, PlacesOnBoundary<3> 
 
 /// Where an edge and a ridge come closest to each other.
 struct Crossing {
-  Vec3 normal{0, 0, 0};  ///< –, unit, out of the tool, normal to both
-  double on_edge = 0.0;  ///< from 0 to 1 between its ends
-  double on_ridge = 0.0; ///< m, or rad
-  double gap = 0.0;      ///< m, along the normal, with the chord's sagitta
+  Vec3 normal{0, 0, 0}; ///< –, unit, out of the tool, normal to both
+  double on_edge = 0.0; ///< from 0 to 1 between its ends
+  double gap = 0.0;     ///< m, along the normal, with the chord's sagitta
 };
 
 class EdgeAt {
@@ -44,19 +43,27 @@ public:
   /// None where they are nearly parallel, off each other's ends or by more than half the edge, or where the
   /// normal does not face both.
   std::optional<Crossing> crossing(const Ridge<3>& ridge) const {
-    if (ridge.path == Ridge<3>::Path::straight) return crossing_at(ridge, ridge.at(0.0), 0.0);
+    if (ridge.path == Ridge<3>::Path::straight) return crossing_at(ridge, ridge.at(0.0));
     // Newton's way to where the edge is over the circle: from tangent to tangent
-    double turn = ridge.turn_towards(a_ + 0.5 * along_);
+    Ridge<3>::Place place = ridge.facing(a_ + 0.5 * along_);
     for (int step = 0; step < 10; ++step) {
-      const auto s = place_on_edge(ridge.at(turn));
+      const auto s = place_on_edge(place);
       if (!s) return {};
-      const double next = ridge.turn_towards(a_ + std::clamp(*s, -0.5, 1.5) * along_);
-      const double change = std::remainder(next - turn, full_turn);
-      turn = next;
-      if (std::abs(change) * ridge.section.centre.x() <= rounding * length_)
-        return crossing_at(ridge, ridge.at(turn), turn);
+      const Ridge<3>::Place next = ridge.facing(a_ + std::clamp(*s, -0.5, 1.5) * along_);
+      const double change = (next.u - place.u).norm();
+      place = next;
+      if (change * ridge.section.centre.x() <= rounding * length_) return crossing_at(ridge, place);
     }
     return {};
+  }
+
+  /// Whether a ridge is so far that it does not reach the edge: a crossing that counts is nearer to the
+  /// middle of the edge than its overhang, half of its length deep and the radius together.
+  bool beyond_reach(const Ridge<3>& ridge) const {
+    if (ridge.path == Ridge<3>::Path::straight) return false;
+    const Vec3 middle = a_ + 0.5 * along_;
+    const double reach = ridge.section.radius + 1.2 * length_;
+    return (middle - ridge.facing(middle).centre).squaredNorm() > reach * reach;
   }
 
 private:
@@ -75,15 +82,13 @@ private:
     return -normal.dot(outwards) >= std::max(0.0, std::cos(half + beyond));
   }
 
-  std::optional<Crossing> crossing_at(const Ridge<3>& ridge, const Ridge<3>::Place& place,
-                                      double turn) const {
+  std::optional<Crossing> crossing_at(const Ridge<3>& ridge, const Ridge<3>::Place& place) const {
     const auto s = place_on_edge(place);
     if (!s || *s < -most_overhang || *s > 1.0 + most_overhang) return {};
     Crossing at;
     at.on_edge = *s;
     const Vec3 x = a_ + *s * along_, off = x - place.centre;
-    at.on_ridge = ridge.path == Ridge<3>::Path::circular ? turn : place.tangent.dot(off);
-    if (!on_path(ridge, at.on_ridge)) return {};
+    if (!on_path(ridge, place, off)) return {};
     at.normal = along_.cross(place.tangent).normalized();
     if (std::abs(at.normal.dot(off)) > length_ + ridge.section.radius) return {};
     const Vec3 one = normal_of(surface_, edge_.facet[0], position_);
@@ -102,11 +107,15 @@ private:
     return at;
   }
 
-  bool on_path(const Ridge<3>& ridge, double at) const {
+  /// Whether the ridge is there at all; off: from the place to the crossing.
+  bool on_path(const Ridge<3>& ridge, const Ridge<3>::Place& place, const Vec3& off) const {
     const double tolerance = rounding * length_;
-    if (ridge.path == Ridge<3>::Path::straight) return at >= -tolerance && at <= ridge.length + tolerance;
+    if (ridge.path == Ridge<3>::Path::straight) {
+      const double at = place.tangent.dot(off);
+      return at >= -tolerance && at <= ridge.length + tolerance;
+    }
     if (ridge.length >= full_turn) return true;
-    const double angle = tolerance / ridge.section.centre.x();
+    const double angle = tolerance / ridge.section.centre.x(), at = ridge.turn_towards(place.centre);
     return at <= ridge.length + angle || at >= full_turn - angle;
   }
 
@@ -127,6 +136,7 @@ std::optional<RidgeHit<3>> on_edge(const Surface<3>& surface, const Ridge<3>& ri
                                    PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                                    const Vec3& shift_start, const Vec3& shift_end) {
   const EdgeAt now(surface, e, end, shift_end);
+  if (now.beyond_reach(ridge)) return {};
   const auto crossing = now.crossing(ridge);
   if (!crossing || crossing->gap >= 0.0 || crossing->gap < -0.5 * now.length()) return {};
   const double over = overhang(crossing->gap, now.length());

@@ -150,9 +150,6 @@ const std::vector<Pair>& pairs() {
        "what is different along and across the rolling direction is not the same all around", nullptr,
        [](const Case& c) { return "materials." + planar(c)->name + ".anisotropy"; }},
 
-      {"analysis.type", "\"static\"", "three-dimensional analyses",
-       [](const Case& c) { return when(c.analysis.dimensions() == 3, "in a three-dimensional analysis"); },
-       "\"explicit\"", "cracks, springback and pages of equilibrium are those of the plane", is_static},
       {"domain.cracks", "", "axisymmetric static analyses",
        [](const Case& c) { return when(is_static(c) && is_round(c), "in an axisymmetric static analysis"); },
        "a plane one", "tip functions and interaction integrals are those of plane cracks"},
@@ -199,7 +196,7 @@ const std::vector<Pair>& pairs() {
        "\"periodic\"", "nodes are changed at a new reference", resampled},
       {"method.cells", "\"voronoi\"", "new references without `adapt.resample`",
        [](const Case& c) {
-         return when(!resampled(c) && c.method.lagrangian != Method::Lagrangian::total,
+         return when(!is_static(c) && !resampled(c) && c.method.lagrangian != Method::Lagrangian::total,
                      "on new references without adapt.resample");
        },
        "\"median\", adapt.resample = true or method.lagrangian = \"total\"",

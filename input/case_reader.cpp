@@ -66,7 +66,9 @@ void compute_defaults(Setting& root) {
   using Names = std::vector<std::string>;
   root.set_default("output.pictures", std::vector<double>{end});
   root.set_default("output.picture_fields",
-                   statics ? Names{"equivalent_stress", "displacement_x", "displacement_y"}
+                   statics && space
+                       ? Names{"equivalent_stress", "displacement_x", "displacement_y", "displacement_z"}
+                   : statics ? Names{"equivalent_stress", "displacement_x", "displacement_y"}
                    : !root.get<bool>("analysis.mechanical") ? Names{"temperature"}
                    : root.get<bool>("analysis.thermal") ? Names{"plastic_strain", "temperature", "pressure"}
                                                         : Names{"plastic_strain", "pressure"});

@@ -165,7 +165,7 @@ py::bytes PythonRun::picture(const std::string& field, int width) {
     throw InputError(fmt::format("width: found {}, expected {} to {} pixels", width, least, most));
   const std::string& name = field.empty() ? input().output.picture_fields.front() : field;
   info_of(name, *shot);
-  const auto source = report::picture_source(input(), *shot, report::drawn_positions(*shot), {name});
+  const auto source = report::picture_source(input(), *shot, report::drawn_positions<2>(*shot), {name});
   report::Picture picture = report::picture_of(input(), *source, 0);
   picture.range = report::widened(picture.map, report::own_span(input(), name, picture));
   if (const auto& view = input().output.drawing.view)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <optional>
 #include <utility>
@@ -38,14 +37,13 @@ std::string PictureRecorder::note_of(double time, const std::string& field) cons
 
 void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<2>& shot) {
   const input::Output& output = case_->output;
-  const Source source = picture_source(*case_, shot, drawn_positions(shot), output.picture_fields);
+  const Source source = picture_source(*case_, shot, drawn_positions<2>(shot), output.picture_fields);
   for (std::size_t f = 0; f < source->names.size(); ++f) {
     const std::string& name = source->names[f];
     const Picture picture = picture_of(*case_, *source, f);
     AlbumEntry entry{.field = {}, .caption = "", .note = note_of(shot.state.time, name), .series = name};
-    if (shot.displacement_scale != 1.0)
-      entry.note += fmt::format("{}Displacements are drawn {:.3g} times as large as they are.",
-                                entry.note.empty() ? "" : " ", shot.displacement_scale);
+    if (const std::string scaled = note_of_scale(shot.displacement_scale); !scaled.empty())
+      entry.note += (entry.note.empty() ? "" : " ") + scaled;
     entry.own.range = own_span(*case_, name, picture);
     entry.own.view = output.drawing.view
                          ? PictureWindow{output.drawing.view->front(), output.drawing.view->back()}

@@ -70,15 +70,23 @@ std::size_t PictureSource::bytes() const {
   return sizeof(double) * (6 * fields.cells.vertex.size() + fields.values.size() * fields.cells.begin.size());
 }
 
-Fields<2> drawn_positions(const results::Snapshot<2>& shot) {
-  Fields<2> drawn = shot.state.node.position;
+template<int dim> Fields<dim> drawn_positions(const results::Snapshot<dim>& shot) {
+  Fields<dim> drawn = shot.state.node.position;
   if (shot.displacement_scale != 1.0)
-    for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t k = 0; k < dim; ++k)
       for (std::size_t i = 0; i < drawn[k].size(); ++i) {
         const double start = shot.state.node.initial_position[k][i];
         drawn[k][i] = start + shot.displacement_scale * (drawn[k][i] - start);
       }
   return drawn;
+}
+
+template Fields<2> drawn_positions<2>(const results::Snapshot<2>&);
+template Fields<3> drawn_positions<3>(const results::Snapshot<3>&);
+
+std::string note_of_scale(double displacement_scale) {
+  if (displacement_scale == 1.0) return "";
+  return fmt::format("Displacements are drawn {:.3g} times as large as they are.", displacement_scale);
 }
 
 std::shared_ptr<PictureSource> picture_source(const input::Case& input, const results::Snapshot<2>& shot,

@@ -30,7 +30,9 @@ struct PictureSource {
 };
 
 /// Where pictures draw the nodes of a state, [component][node] m.
-Fields<2> drawn_positions(const results::Snapshot<2>& shot);
+template<int dim> Fields<dim> drawn_positions(const results::Snapshot<dim>& shot);
+/// Says that displacements are drawn larger or smaller; empty when they are not.
+std::string note_of_scale(double displacement_scale);
 
 /// `input` must outlive what is returned. position: of nodes, m, as they are to be drawn.
 std::shared_ptr<PictureSource> picture_source(const input::Case& input, const results::Snapshot<2>& shot,

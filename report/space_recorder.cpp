@@ -1,6 +1,7 @@
 #include "report/space_recorder.hpp"
 
 #include "core/index.hpp"
+#include "report/picture_source.hpp"
 #include "results/fields.hpp"
 
 #include <algorithm>
@@ -39,6 +40,10 @@ void SpaceRecorder::record(results::FileQueue& files, const results::Snapshot<3>
       Picture picture = picture_of(*case_, source, *view, f);
       AlbumEntry entry{
           .field = picture.label, .time = picture.time, .caption = view->section, .series = name};
+      if (shot.displacement_scale != 1.0) { // which its files do not tell
+        entry.note = note_of_scale(shot.displacement_scale);
+        entry.series.clear();
+      }
       entry.own = {range_of(*case_, name, picture), whole_window(picture)};
       entry.drawn = {widened(picture.map, entry.own.range), entry.own.view};
       entry.tools = source.tools;

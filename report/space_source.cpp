@@ -6,6 +6,7 @@
 #include "core/index.hpp"
 #include "input/space_domain.hpp"
 #include "input/tool_surface.hpp"
+#include "report/picture_source.hpp"
 #include "results/fields.hpp"
 #include "results/polyhedra.hpp"
 
@@ -86,7 +87,7 @@ SpaceSource space_source(const input::Case& input, const results::Snapshot<3>& s
                          const std::vector<std::string>& names) {
   SpaceSource source{.time = shot.state.time,
                      .tetrahedra = results::tetrahedra_of(shot.approximation.cells),
-                     .position = shot.state.node.position,
+                     .position = drawn_positions<3>(shot),
                      .names = names};
   for (std::size_t k = 0; k < 3; ++k) // as their files give them back
     for (double& x : source.position[k]) {

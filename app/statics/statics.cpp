@@ -3,10 +3,12 @@
 #include "app/process/exhaustion.hpp"
 #include "app/profile.hpp"
 #include "core/error.hpp"
+#include "core/fields/vector_at.hpp"
 #include "core/index.hpp"
 #include "mechanics/statics/rigid_motion.hpp"
 #include "report/picture_recorder.hpp"
 #include "report/report.hpp"
+#include "report/space_recorder.hpp"
 #include "results/fields.hpp"
 #include "results/output_folder.hpp"
 #include "results/recorder.hpp"
@@ -17,20 +19,22 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <omp.h>
+#include <type_traits>
 
 namespace cnem::app {
 
 namespace {
 
-double largest_displacement(const StaticModel& model, const StaticSolution<2>& solution) {
+template<int dim>
+double largest_displacement(const StaticModel<dim>& model, const StaticSolution<dim>& solution) {
   double most = 0.0;
   for (std::size_t i = 0; i < model.position[0].size(); ++i)
-    most = std::max(most, std::hypot(solution.displacement[0][i], solution.displacement[1][i]));
+    most = std::max(most, vector_at<dim>(solution.displacement, i).stableNorm());
   return most;
 }
 
 /// Largest displacements are drawn as at most 5% of the size of the body, and never enlarged less than true.
-double drawing_scale(const StaticModel& model, const StaticSolution<2>& solution) {
+template<int dim> double drawing_scale(const StaticModel<dim>& model, const StaticSolution<dim>& solution) {
   double size = 0.0;
   for (const Field& x : model.position) {
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
@@ -40,19 +44,20 @@ double drawing_scale(const StaticModel& model, const StaticSolution<2>& solution
   return most > 0.0 ? 0.05 * size / most : 1.0;
 }
 
-StaticSolution<2> at_rest(const StaticModel& model) {
-  StaticSolution<2> nothing;
-  resize_all(nothing.displacement, index_of(model.enriched.operators.nodes));
-  resize_all(nothing.gradient, index_of(model.enriched.operators.points));
-  resize_all(nothing.stress, index_of(model.enriched.operators.points));
+template<int dim> StaticSolution<dim> at_rest(const StaticModel<dim>& model) {
+  StaticSolution<dim> nothing;
+  resize_all(nothing.displacement, index_of(model.operators().nodes));
+  resize_all(nothing.gradient, index_of(model.operators().points));
+  resize_all(nothing.stress, index_of(model.operators().points));
   return nothing;
 }
 
 } // namespace
 
-StaticRun::StaticRun(const input::Case& input, const RunOptions& options, RunObserver& observer)
+template<int dim>
+StaticRun<dim>::StaticRun(const input::Case& input, const RunOptions& options, RunObserver& observer)
     : input_(input), options_(options), observer_(observer),
-      model_(watch_.time("setup", [&] { return StaticModel(input); })), solution_(at_rest(model_)),
+      model_(watch_.time("setup", [&] { return StaticModel<dim>(input); })), solution_(at_rest(model_)),
       state_(as_state(model_, solution_)), history_(options.keep_history), status_(blank_status()) {
   if (!options_.output.empty()) {
     results::prepare_output_folder(options_.output, options_.force);
@@ -61,12 +66,12 @@ StaticRun::StaticRun(const input::Case& input, const RunOptions& options, RunObs
   watch_.pause();
 }
 
-results::Snapshot<2> StaticRun::shot() const {
+template<int dim> results::Snapshot<dim> StaticRun<dim>::shot() const {
   return {state_,  model_.approximation, model_.setup.problem.cloud, model_.setup.problem.contact,
           nullptr, displacement_scale_};
 }
 
-void StaticRun::write_history() {
+template<int dim> void StaticRun<dim>::write_history() {
   const results::HistoryUnits units = results::history_units(input_.analysis);
   std::vector<std::pair<std::string, double>> row{{"time[s]", input_.time.end},
                                                   {"step", 0.0},
@@ -76,14 +81,14 @@ void StaticRun::write_history() {
   for (std::size_t s = 0; s < supports.list().size(); ++s) {
     const std::string& name = supports.list()[s].name;
     if (s > 0 && supports.list()[s - 1].name == name) continue;
-    Vec2 force = Vec2::Zero();
+    Vec<dim> force = Vec<dim>::Zero();
     for (const auto& p : supports.prescribed()) {
       if (supports.list()[index_of(p.support)].name != name) continue;
-      const auto i = index_of(p.node);
-      force += p.direction.dot(Vec2(solution_.reaction[0][i], solution_.reaction[1][i])) * p.direction;
+      force += p.direction.dot(vector_at<dim>(solution_.reaction, index_of(p.node))) * p.direction;
     }
-    row.emplace_back("support." + name + ".force_x" + units.force, force.x());
-    row.emplace_back("support." + name + ".force_y" + units.force, force.y());
+    for (std::size_t k = 0; k < dim; ++k)
+      row.emplace_back(fmt::format("support.{}.force_{}{}", name, "xyz"[k], units.force),
+                       force[static_cast<Eigen::Index>(k)]);
   }
   row.emplace_back("energy.elastic" + units.energy, solution_.strain_energy);
   row.emplace_back("energy.stabilisation" + units.energy, solution_.stabilisation_energy);
@@ -107,27 +112,28 @@ void StaticRun::write_history() {
 }
 
 /// Without what comes of the solution.
-results::RunStatus StaticRun::blank_status() const {
+template<int dim> results::RunStatus StaticRun<dim>::blank_status() const {
   results::RunStatus status;
   status.version = options_.version;
   status.case_name = input_.name;
   status.time = input_.time.end;
   status.nodes = static_cast<std::int64_t>(model_.position[0].size());
-  status.points = model_.enriched.operators.points;
+  status.points = model_.operators().points;
   status.threads = omp_get_max_threads();
   status.peak_rss_bytes = results::peak_rss_bytes();
   status.warnings = model_.setup.warnings;
   return status;
 }
 
-void StaticRun::judge(const std::vector<TipResult>& tips) {
+template<int dim> void StaticRun<dim>::judge(const std::vector<TipResult>& tips) {
   const results::HistoryUnits units = results::history_units(input_.analysis);
   status_ = blank_status();
   status_.exit = Exit::done;
   status_.reason = "solved";
   status_.energy_residual = solution_.residual;
-  for (const std::string& warning : closed_cracks(model_, solution_))
-    status_.warnings.push_back(input_.placed(warning));
+  if constexpr (dim == 2)
+    for (const std::string& warning : closed_cracks(model_, solution_))
+      status_.warnings.push_back(input_.placed(warning));
   if (std::string text = beyond_yield(model_, solution_); !text.empty())
     status_.warnings.push_back(std::move(text));
   for (const TipResult& tip : tips) {
@@ -141,10 +147,10 @@ void StaticRun::judge(const std::vector<TipResult>& tips) {
   status_.add_metric("external_work" + units.energy, solution_.external_work);
   status_.add_metric("largest_displacement[m]", largest_displacement(model_, solution_));
   status_.add_metric("condition_number", solution_.condition);
-  status_.add_metric("enriched_nodes", model_.enriched.enriched_nodes());
+  if constexpr (dim == 2) status_.add_metric("enriched_nodes", model_.cracks.enriched.enriched_nodes());
 }
 
-std::filesystem::path StaticRun::write_report() {
+template<int dim> std::filesystem::path StaticRun<dim>::write_report() {
   const auto note_times = [&] {
     status_.wall_s = watch_.spent();
     status_.cpu_s = watch_.cpu();
@@ -160,7 +166,7 @@ std::filesystem::path StaticRun::write_report() {
 }
 
 /// The status and report of a solution that means nothing: there are no fields to show.
-void StaticRun::give_up(const DivergenceError& error) {
+template<int dim> void StaticRun<dim>::give_up(const DivergenceError& error) {
   status_ = blank_status();
   status_.exit = Exit::diverged;
   results::PostMortem& dead = status_.post_mortem.emplace();
@@ -173,26 +179,28 @@ void StaticRun::give_up(const DivergenceError& error) {
       "their units.");
   dead.last_good = "nothing was solved";
   if (error.node >= 0) {
-    const Vec2 at = input_.origin.head<2>() + model_.setup.problem.cloud.position[index_of(error.node)];
+    const Vec<dim> at =
+        input_.origin.template head<dim>() + model_.setup.problem.cloud.position[NodeIndex{error.node}];
     dead.x = at.x();
     dead.y = at.y();
+    if constexpr (dim == 3) dead.z = at.z();
   }
   const std::filesystem::path report = write_report();
   observer_.outcome("diverged: " + status_.reason);
   if (!report.empty()) observer_.outcome("report: " + report.string());
 }
 
-void StaticRun::write_files() {
+template<int dim> void StaticRun<dim>::write_files() {
+  using Pictures = std::conditional_t<dim == 2, report::PictureRecorder, report::SpaceRecorder>;
   results::FileQueue files;
-  results::SampleLines<2>(input_, shot().cloud, model_.approximation).write(shot(), options_.output);
+  results::SampleLines<dim>(input_, shot().cloud, model_.approximation).write(shot(), options_.output);
   watch_.time("output.fields",
               [&] { results::FieldRecorder(options_.output, input_).record(files, shot()); });
-  watch_.time("output.pictures",
-              [&] { report::PictureRecorder(input_, options_.output).record(files, shot()); });
+  watch_.time("output.pictures", [&] { Pictures(input_, options_.output).record(files, shot()); });
   watch_.time("output.disk", [&] { files.wait(); });
 }
 
-void StaticRun::solve() {
+template<int dim> void StaticRun<dim>::solve() {
   for (const std::string& warning : model_.setup.warnings) observer_.remark("warning: " + warning);
   std::vector<TipResult> tips;
   try {
@@ -201,7 +209,7 @@ void StaticRun::solve() {
         return solve_statics(model_.problem());
       } catch (const InputError& error) { throw input_.error("boundary", error.what()); }
     });
-    tips = evaluate_tips(model_, solution_);
+    if constexpr (dim == 2) tips = evaluate_tips(model_, solution_);
   } catch (const DivergenceError& error) { return give_up(error); }
   state_ = as_state(model_, solution_);
   displacement_scale_ = drawing_scale(model_, solution_);
@@ -224,7 +232,7 @@ void StaticRun::solve() {
   observer_.recorded(true, true);
 }
 
-std::optional<Exit> StaticRun::go_on() {
+template<int dim> std::optional<Exit> StaticRun<dim>::go_on() {
   if (!ended_) {
     watch_.go_on();
     before_steps(input_, options_, [&] { solve(); });
@@ -234,8 +242,8 @@ std::optional<Exit> StaticRun::go_on() {
   return static_cast<Exit>(status_.exit);
 }
 
-Checked check_static(const input::Case& input, const RunOptions& options) {
-  const StaticModel model(input);
+template<int dim> Checked check_static(const input::Case& input, const RunOptions& options) {
+  const StaticModel<dim> model(input);
   Checked checked;
   checked.warnings = model.setup.warnings;
   const auto add = [&](const char* label, std::string text) {
@@ -247,29 +255,35 @@ Checked check_static(const input::Case& input, const RunOptions& options) {
   };
   add("case", input.title.empty() ? input.name : input.title);
   count("nodes", model.position[0].size());
-  count("points", model.enriched.operators.points);
-  count("unknowns", 2 * model.enriched.operators.nodes);
-  for (std::size_t t = 0; t < model.tips.size(); ++t) {
-    const fracture::CrackTip& tip = model.tips[t];
-    const fracture::Ring ring = rings(input.fracture, tip).back();
-    add("tip",
-        fmt::format("{} at ({:.6g}, {:.6g}) m, spacing {:.3g} m, enriched within {:.3g} m, integral from "
-                    "{:.3g} to {:.3g} m",
-                    tip.name, input.origin.x() + tip.position.x(), input.origin.y() + tip.position.y(),
-                    tip.spacing, model.enrichment_radius[t], ring.inner, ring.outer));
-  }
-  const std::string motion = missing_support(model.enriched.operators, model.setup.problem.cloud.position,
-                                             model.setup.problem.supports);
+  count("points", model.operators().points);
+  count("unknowns", dim * model.operators().nodes);
+  if constexpr (dim == 2)
+    for (std::size_t t = 0; t < model.cracks.tips.size(); ++t) {
+      const fracture::CrackTip& tip = model.cracks.tips[t];
+      const fracture::Ring ring = rings(input.fracture, tip).back();
+      add("tip",
+          fmt::format("{} at ({:.6g}, {:.6g}) m, spacing {:.3g} m, enriched within {:.3g} m, integral from "
+                      "{:.3g} to {:.3g} m",
+                      tip.name, input.origin.x() + tip.position.x(), input.origin.y() + tip.position.y(),
+                      tip.spacing, model.cracks.enrichment_radius[t], ring.inner, ring.outer));
+    }
+  const std::string motion =
+      missing_support(model.operators(), model.setup.problem.cloud.position, model.setup.problem.supports);
   if (motion.empty()) add("supports", "hold all rigid motions");
   if (!options.output.empty()) {
-    const State<2> state = as_state(model, at_rest(model));
+    const State<dim> state = as_state(model, at_rest(model));
     add("fields",
         write_initial_fields(input, options,
-                             results::Snapshot<2>{state, model.approximation, model.setup.problem.cloud,
-                                                  model.setup.problem.contact}));
+                             results::Snapshot<dim>{state, model.approximation, model.setup.problem.cloud,
+                                                    model.setup.problem.contact}));
   }
   if (!motion.empty()) checked.fault = input.error("boundary", motion).what();
   return checked;
 }
+
+template class StaticRun<2>;
+template class StaticRun<3>;
+template Checked check_static<2>(const input::Case&, const RunOptions&);
+template Checked check_static<3>(const input::Case&, const RunOptions&);
 
 } // namespace cnem::app

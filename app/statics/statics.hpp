@@ -11,7 +11,7 @@
 namespace cnem::app {
 
 /// Solved in one go. Before that its state is that of the body at rest.
-class StaticRun final : public Session {
+template<int dim> class StaticRun final : public Session {
 public:
   /// Builds the model, then takes the folder. `input` and `observer` must outlive this object. Throws
   /// InputError and IoError.
@@ -25,7 +25,7 @@ public:
   const results::HistoryLog& history() const override { return history_; }
 
 private:
-  results::Snapshot<2> shot() const;
+  results::Snapshot<dim> shot() const;
   void solve();
   void give_up(const DivergenceError& error);
   void write_history();
@@ -39,9 +39,9 @@ private:
   RunOptions options_;
   RunObserver& observer_;
   Stopwatch watch_;
-  StaticModel model_;
-  StaticSolution<2> solution_;
-  State<2> state_;
+  StaticModel<dim> model_;
+  StaticSolution<dim> solution_;
+  State<dim> state_;
   double displacement_scale_ = 1.0; ///< of pictures
   results::HistoryLog history_;
   results::RunStatus status_;
@@ -50,6 +50,9 @@ private:
 
 /// Builds geometry: nodes, unknowns, crack tips with the domains they are evaluated in, and what is held.
 /// Throws InputError.
-Checked check_static(const input::Case& input, const RunOptions& options);
+template<int dim> Checked check_static(const input::Case& input, const RunOptions& options);
+
+extern template class StaticRun<2>;
+extern template class StaticRun<3>;
 
 } // namespace cnem::app

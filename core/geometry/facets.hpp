@@ -50,7 +50,9 @@ template<int dim> double measure(const std::array<Vec<dim>, dim + 1>& x) {
     return (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6.0;
 }
 
-/// The smallest ball with the corners of a triangle on it.
+/// Where no other node should be for a triangle to be a face of Delaunay tetrahedra: the smallest ball with
+/// its corners on it. Of a sliver, whose ball would be wider than twice its longest side, the ball over that
+/// side, which holds it: else a body would be emptied by one facet.
 struct DiametralBall {
   Vec<3> centre; ///< m
   double radius; ///< m
@@ -58,6 +60,14 @@ struct DiametralBall {
 inline DiametralBall diametral_ball(const std::array<Vec<3>, 3>& corner) {
   const Vec<3> u = corner[1] - corner[0], v = corner[2] - corner[0], n = u.cross(v);
   const Vec<3> to = (u.squaredNorm() * v.cross(n) + v.squaredNorm() * n.cross(u)) / (2.0 * n.squaredNorm());
+  double longest = 0.0;
+  Vec<3> middle = corner[0];
+  for (std::size_t k = 0; k < 3; ++k)
+    if (const double side = (corner[(k + 1) % 3] - corner[k]).norm(); side > longest) {
+      longest = side;
+      middle = 0.5 * (corner[k] + corner[(k + 1) % 3]);
+    }
+  if (!(to.norm() <= longest)) return {middle, 0.5 * longest};
   return {corner[0] + to, to.norm()};
 }
 

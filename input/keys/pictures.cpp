@@ -29,7 +29,7 @@ void add_pictures(Keys& k) {
       .computed(
           "`[\"plastic_strain\", \"temperature\", \"pressure\"]`, without temperature where no heat is "
           "solved for; `[\"temperature\"]` where heat is alone; `[\"equivalent_stress\", \"displacement_x\", "
-          "\"displacement_y\"]` in static analyses");
+          "\"displacement_y\"]` in static analyses, in space with `\"displacement_z\"`");
   k.add("output.drawing", table, "How pictures are drawn.").always();
   k.add("output.drawing.mirror", boolean,
         "Draw halves and quarters whole: mirrored behind straight pieces with `symmetry` and the axis of a "

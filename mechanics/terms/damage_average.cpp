@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -63,16 +64,27 @@ void DamageAverage<dim>::list(const DiscreteOperators<dim>& operators, const Fie
 
 template<int dim> void DamageAverage<dim>::share(PointState<dim>& point) {
   growth_.resize(point.size());
-  for (std::size_t p = 0; p < growth_.size(); ++p) growth_[p] = point.damage[p] - before_[p];
+  near_growth_.assign(point.size(), 0);
+  for_each_block(point.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      growth_[p] = point.damage[p] - before_[p];
+      if (growth_[p] == 0.0) continue;
+      for (std::size_t e = begin_[p]; e < begin_[p + 1]; ++e) // lists are symmetric
+        std::atomic_ref(near_growth_[index_of(other_[e])]).store(1, std::memory_order_relaxed);
+    }
+  });
   for_each_block(point.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       if (begin_[p] == begin_[p + 1] || before_[p] >= 1.0) continue;
-      double sum = 0.0, total = 0.0;
-      for (std::size_t e = begin_[p]; e < begin_[p + 1]; ++e) {
-        const std::size_t q = index_of(other_[e]);
-        const double weight = before_[q] < 1.0 ? weight_[e] : 0.0;
-        sum += weight * growth_[q];
-        total += weight;
+      double sum = 0.0, total = 1.0;
+      if (near_growth_[p]) {
+        total = 0.0;
+        for (std::size_t e = begin_[p]; e < begin_[p + 1]; ++e) {
+          const std::size_t q = index_of(other_[e]);
+          const double weight = before_[q] < 1.0 ? weight_[e] : 0.0;
+          sum += weight * growth_[q];
+          total += weight;
+        }
       }
       point.damage[p] = std::min(before_[p] + sum / total, 1.0); // p itself is among them
       point.initiation_strain[p] = point.damage[p] >= 1.0 ? point.plastic_strain[p] : 0.0;

@@ -32,6 +32,7 @@ private:
   std::vector<std::int32_t> other_; ///< points
   Field weight_;                    ///< w V
   Field before_, growth_;           ///< [point] D and dD; scratch of a step
+  std::vector<char> near_growth_;   ///< [point] whether any dD near it is not 0
 };
 
 extern template class DamageAverage<2>;

@@ -114,7 +114,7 @@ Table crack() {
       set.push_back(fmt::format("cloud.refine.tips.spacing={} mm", near));
       const input::Case input =
           input::read_case(CNEM_SOURCE_DIR "/cases/paper/crack_straight/case.toml", set);
-      const app::StaticModel model(input);
+      const app::StaticModel<2> model(input);
       const auto tips = app::evaluate_tips(model, solve_statics(model.problem()));
       const double unit = 1e6 * std::sqrt(std::numbers::pi * 1e-4);
       values.push_back(model.setup.problem.cloud.nodes());

@@ -20,7 +20,7 @@ struct Solved {
 };
 
 Solved solve(const input::Case& input) {
-  const app::StaticModel model(input);
+  const app::StaticModel<2> model(input);
   const StaticSolution<2> solution = solve_statics(model.problem());
   Solved result;
   for (const app::TipResult& tip : app::evaluate_tips(model, solution)) result.tip.emplace(tip.name, tip);
@@ -104,10 +104,10 @@ TEST(CrackInPlate, on_triangles_is_warned_of_though_domains_agree) {
 
 TEST(CrackInPlate, along_the_load_carries_nothing_and_is_not_doubted) {
   const input::Case input = input::read_case(paper_case, {"domain.cracks.main.rotate.angle=90 deg"});
-  const app::StaticModel model(input);
+  const app::StaticModel<2> model(input);
   const StaticSolution<2> solution = solve_statics(model.problem());
-  for (std::size_t p = 0; p < model.enriched.position.size(); ++p)
-    EXPECT_NEAR(solution.stress[1][p], 1e6, 1e6 * 1e-6) << model.enriched.position[p].transpose();
+  for (std::size_t p = 0; p < model.cracks.enriched.position.size(); ++p)
+    EXPECT_NEAR(solution.stress[1][p], 1e6, 1e6 * 1e-6) << model.cracks.enriched.position[p].transpose();
   for (const app::TipResult& tip : app::evaluate_tips(model, solution)) {
     EXPECT_LT(std::hypot(tip.intensity.K_I, tip.intensity.K_II), 3e-4 * unit(1e-4)) << tip.name;
     EXPECT_EQ(app::doubt(tip), "") << tip.name;

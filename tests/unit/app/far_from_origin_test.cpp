@@ -75,7 +75,7 @@ boundary.bottom = { pieces = ["bottom"], symmetry = true }
 boundary.right = { pieces = ["right"], displacement = { x = "7.8125 um" } }
 )"),
                                                     "case.toml");
-    const StaticModel model(input);
+    const StaticModel<2> model(input);
     const StaticSolution<2> solution = solve_statics(model.problem());
     double worst = 0.0;
     for (const double stress : solution.stress[0]) worst = std::max(worst, std::abs(stress / exact - 1.0));

@@ -5,6 +5,7 @@
 #include "report/body_view.hpp"
 #include "report/cell_raster.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
