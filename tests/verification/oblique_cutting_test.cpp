@@ -16,8 +16,8 @@ struct Force {
 Force cut_at(const std::string& inclination) {
   const FinishedRun done = finish(input::read_case(
       CNEM_SOURCE_DIR "/cases/three_dimensions/oblique_cutting/case.toml",
-      {"let.inclination=" + inclination, "let.length=0.04 mm", "cloud.refine.layer.spacing=60 um",
-       "output.pictures=[]", "output.fields_every=1 s"}));
+      {"let.inclination=" + inclination, "let.width=0.4 mm", "let.length=0.04 mm",
+       "cloud.refine.layer.spacing=60 um", "output.pictures=[]", "output.fields_every=1 s"}));
   expect_nothing_lost(done);
   const std::vector<double>&stroke = done.of("cutter.stroke"), &x = done.of("cutter.force_x"),
         &y = done.of("cutter.force_y");
