@@ -6,8 +6,23 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <vector>
 
 namespace cnem::adapt {
+
+Vec3 within_planes(std::span<const Vec3> normals, const Vec3& way) {
+  constexpr double parallel = 1e-6; // sine of an angle
+  if (normals.empty()) return way;
+  const Vec3& first = normals.front();
+  std::optional<Vec3> line;
+  for (const Vec3& n : normals) {
+    const Vec3 cross = first.cross(n);
+    if (cross.norm() <= parallel) continue;
+    if (line && line->cross(cross.normalized()).norm() > parallel) return Vec3::Zero();
+    line = cross.normalized();
+  }
+  return line ? Vec3(way.dot(*line) * *line) : Vec3(way - way.dot(first) * first);
+}
 
 BoundaryPlanes::BoundaryPlanes(const Cloud<3>& cloud)
     : around_(group_by_cell<CloudFacetIndex>(
@@ -31,21 +46,10 @@ BoundaryPlanes::BoundaryPlanes(const Cloud<3>& cloud)
 }
 
 Vec3 BoundaryPlanes::keep(std::span<const CloudFacetIndex> facets, const Vec3& way) const {
-  constexpr double parallel = 1e-6; // sine of an angle
-  std::optional<Vec3> one, line;
-  for (const CloudFacetIndex f : facets) {
-    const Vec3& n = plane_[f];
-    if (n.isZero()) continue;
-    if (!one) {
-      one = n;
-    } else if (const Vec3 cross = one->cross(n); cross.norm() > parallel) {
-      if (line && line->cross(cross.normalized()).norm() > parallel) return Vec3::Zero();
-      line = cross.normalized();
-    }
-  }
-  if (line) return way.dot(*line) * *line;
-  if (one) return way - way.dot(*one) * *one;
-  return way;
+  std::vector<Vec3> normals;
+  for (const CloudFacetIndex f : facets)
+    if (!plane_[f].isZero()) normals.push_back(plane_[f]);
+  return within_planes(normals, way);
 }
 
 } // namespace cnem::adapt

@@ -7,6 +7,11 @@
 
 namespace cnem::adapt {
 
+/// What of a way leaves a place on planes with these unit normals: all of it, or the part along one plane or
+/// along the line in which they meet; nothing where they meet in a point. Normals that are less than 1e-6 rad
+/// apart are those of one plane.
+Vec3 within_planes(std::span<const Vec3> normals, const Vec3& way);
+
 /// Which facets of a body are parts of planes: another of their piece beside them has the same normal to
 /// rounding. Facets of curved pieces are none. Keeps what it needs of the cloud as it is now. O(F log F).
 /// Throws GeometryError as voronoi::surface_edges() does.
@@ -14,8 +19,7 @@ class BoundaryPlanes {
 public:
   explicit BoundaryPlanes(const Cloud<3>& cloud);
 
-  /// What of a way leaves a node on the planes that its facets are of: all of it, or the part along one plane
-  /// or the line in which two meet; nothing where three meet.
+  /// What of a way leaves a node on the planes that its facets are of.
   Vec3 keep(NodeIndex node, const Vec3& way) const { return keep(around_.of(node), way); }
   /// The same for the planes of some facets.
   Vec3 keep(std::span<const CloudFacetIndex> facets, const Vec3& way) const;

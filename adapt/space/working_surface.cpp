@@ -1,5 +1,6 @@
 #include "adapt/space/working_surface.hpp"
 
+#include "adapt/space/boundary_planes.hpp"
 #include "core/geometry/facets.hpp"
 
 #include <Eigen/Geometry>
@@ -7,7 +8,6 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 namespace cnem::adapt {
@@ -131,16 +131,10 @@ void WorkingSurface::keep_on_planes(NodeIndex i, Vec3& way) const {
     if (sides.empty() || crease(fan[k])) sides.emplace_back(n, true);
     if (n.cross(sides.back().first).norm() > plane) sides.back().second = false;
   }
-  std::optional<Vec3> normal_to;
-  for (const auto& [n, is_plane] : sides) {
-    if (!is_plane) continue;
-    if (!normal_to) {
-      normal_to = n;
-      way -= way.dot(n) * n;
-    } else if (const Vec3 line = normal_to->cross(n); line.norm() > plane) {
-      way = way.dot(line) / line.squaredNorm() * line;
-    }
-  }
+  std::vector<Vec3> planes;
+  for (const auto& [n, is_plane] : sides)
+    if (is_plane) planes.push_back(n);
+  way = within_planes(planes, way);
 }
 
 Vec3 WorkingSurface::way_of_volume(NodeIndex i) const {

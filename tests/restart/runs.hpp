@@ -15,7 +15,7 @@ struct SmallCase {
 /// revolution, finite elements, particles, damage, parts that touch or are bonded and adapt, a failure that
 /// is gone back from, a window that moves, space.
 const std::vector<SmallCase>& small_cases();
-/// The one of them that is three-dimensional.
+/// Those of them that are three-dimensional: a block that is hit, and a strip that is sheared until it parts.
 std::string space_case();
 std::string space_sheared();
 /// Bonded, periodic and cracked.

@@ -4,7 +4,7 @@
 #include "mechanics/explicit_solver.hpp"
 #include "mechanics/statics/statics.hpp"
 #include "methods/registry.hpp"
-#include "plasticity/hardening_laws.hpp"
+#include "tests/unit/mechanics/models.hpp"
 #include "voronoi/space/recovery.hpp"
 
 #include <Eigen/Geometry>
@@ -131,14 +131,7 @@ TEST(Objectivity, steps_of_a_turned_block_are_the_turned_ones) {
   const auto advance = [](const Mat<3>& rotation) {
     const Loaded loaded(rotation, 8e8);
     Problem<3> model = problem_of(loaded.body, loaded.held, loaded.pulled);
-    model.materials.front().hardening = plasticity::JohnsonCook{.A = 253e6,
-                                                                .B = 685e6,
-                                                                .n = 0.312,
-                                                                .C = 0.0973,
-                                                                .rate0 = 1.0,
-                                                                .m = 2.044,
-                                                                .T0 = 296.0,
-                                                                .Tmelt = 1698.0};
+    model.materials.front().hardening = steel_304L().hardening;
     Fields<3> velocity;
     resize_all(velocity, model.cloud.position.size());
     auto solver = std::make_unique<ExplicitSolver<3>>(std::move(model), std::move(velocity),

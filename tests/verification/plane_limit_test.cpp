@@ -8,7 +8,7 @@
 namespace cnem::testing {
 namespace {
 
-constexpr double spacing = 0.4e-3; // m; the blank is 20 mm long and 10 mm high
+constexpr double slab_spacing = 0.4e-3; // m; the blank is 20 mm long and 10 mm high
 
 /// cases/paper/shearing_rounded at twice its spacing, as it is read in the plane and in space.
 /// tool: what makes a body in space of the outline of a tool.
@@ -82,7 +82,7 @@ double mean_force(const FinishedRun& done, const std::string& tool, double from,
 
 /// Force on both tools over time, averaged over 2 us (the plates ring), within 3% of the plane's.
 void expect_plane_forces(const FinishedRun& plane, const FinishedRun& space, int cells) {
-  const double width = cells * spacing;
+  const double width = cells * slab_spacing;
   for (int from = 2; from < 12; from += 2)
     for (const char* tool : {"punch", "die"}) {
       const double expected = mean_force(plane, tool, from, from + 2);
@@ -101,7 +101,7 @@ TEST(PlaneLimit, shearing_slab_between_planes_has_the_forces_of_the_plane) {
     expect_plane_forces(plane, space, cells);
     for (const double across : space.of("punch.force_z")) EXPECT_LT(std::abs(across), 1e-9);
   }
-  const double free = mean_force(in_space(2, ""), "punch", 2, 12) / (2 * spacing);
+  const double free = mean_force(in_space(2, ""), "punch", 2, 12) / (2 * slab_spacing);
   EXPECT_LT(std::abs(free), 0.95 * std::abs(mean_force(plane, "punch", 2, 12)));
 }
 
