@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 namespace cnem::contact {
@@ -71,15 +70,28 @@ bool faces(const Surface<3>& surface, BoundaryNodeIndex node, const Vec3& normal
   });
 }
 
-/// How often the boundary encloses x: the solid angles of its facets (van Oosterom and Strackee 1983).
-double winding_number(const Surface<3>& surface, PlacesOnBoundary<3> position, const Vec3& x) {
-  double angle = 0.0;
-  for (const auto& nodes : surface.facets) {
-    const Vec3 a = position[nodes[0]] - x, b = position[nodes[1]] - x, c = position[nodes[2]] - x;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return angle / (2.0 * std::numbers::pi);
+/// How often the boundary encloses x: the facets through which a ray upwards goes out, less those through
+/// which it comes in. facets: tree of their boxes. O(log F) and what is above.
+int winding_number(const Surface<3>& surface, PlacesOnBoundary<3> position, const BoxTree& facets,
+                   const Vec3& x) {
+  // of the line through two nodes as seen from above; what is on it counts alike for both facets there
+  const auto side = [&](BoundaryNodeIndex p, BoundaryNodeIndex q) {
+    const bool turned = q < p;
+    if (turned) std::swap(p, q);
+    const Vec3 to = position[q] - position[p], at = x - position[p];
+    return (to.x() * at.y() - to.y() * at.x() >= 0.0) != turned ? 1 : -1;
+  };
+  Box<3> ray{x, x};
+  ray.high.z() = std::numeric_limits<double>::infinity();
+  int count = 0;
+  facets.overlapping(ray, [&](std::int32_t i) {
+    const auto& [p, q, r] = surface.facets[as<FacetIndex>(i)];
+    const int up = side(p, q);
+    if (side(q, r) != up || side(r, p) != up) return;
+    const Vec3 a = position[p] - x, b = position[q] - x, c = position[r] - x;
+    if (up * a.dot(b.cross(c)) > 0.0) count += up;
+  });
+  return count;
 }
 
 Box<3> box_of(PlacesOnBoundary<3> position, std::span<const BoundaryNodeIndex> nodes, double margin) {
@@ -195,8 +207,8 @@ template<> void BodyContact<3>::list(const Surface<3>& surface) {
   // what lies behind a facet does so in another body, or may come round a corner
   const auto may_meet = [&](double gap, double size, const Vec3& middle, bool beside) {
     if (gap >= -rounding * size) return true;
-    const double bodies = winding_number(surface, listed_, middle);
-    return bodies > 1.5 || (bodies < 0.5 && beside);
+    const int bodies = winding_number(surface, listed_, facets, middle);
+    return bodies > 1 || (bodies < 1 && beside);
   };
   for (const BoundaryNodeIndex b : listed_.indices()) {
     const auto& around = surface.around[b];
@@ -239,7 +251,7 @@ template<> void BodyContact<3>::list(const Surface<3>& surface) {
       const bool behind = at && at->gap < -rounding * at->length;
       if (behind) { // edges of two facets that see each other from behind
         const Vec3 x = (1.0 - at->s) * listed_[one.node[0]] + at->s * listed_[one.node[1]];
-        if (winding_number(surface, listed_, x - 0.5 * at->gap * at->normal) < 1.5) continue;
+        if (winding_number(surface, listed_, facets, x - 0.5 * at->gap * at->normal) < 2) continue;
       }
       edge_pairs_.push_back({e, o, behind});
     }

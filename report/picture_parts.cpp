@@ -178,6 +178,10 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
   results::Ticks ticks = results::round_ticks(low, high, wanted);
   while (ticks.value.size() < 2 && wanted < 12) // fewer than wanted fit about a zero in the middle
     ticks = results::round_ticks(low, high, ++wanted);
+  const double at = x + width + 13.0 * unit, room = layout.width - at;
+  double label_size = size; // long ones are smaller
+  for (const std::string& label : ticks.label)
+    label_size = std::min(label_size, size * room / text_width(cr, label, size));
   cairo_set_source_rgb(cr, 0.18, 0.18, 0.18);
   cairo_set_line_width(cr, 1.5 * unit);
   for (std::size_t k = 0; k < ticks.value.size(); ++k) {
@@ -185,7 +189,7 @@ void draw_colour_bar(cairo_t* cr, const PictureLayout& layout, const Picture& pi
     cairo_move_to(cr, x + width, y);
     cairo_line_to(cr, x + width + 7.0 * unit, y);
     cairo_stroke(cr);
-    draw_text(cr, ticks.label[k], x + width + 13.0 * unit, y + 0.36 * size, size);
+    draw_text(cr, ticks.label[k], at, y + 0.36 * label_size, label_size);
   }
   if (!shown.unit.empty()) draw_text(cr, shown.unit, x, layout.plot_top + 0.75 * size, size);
   if (invalid) {

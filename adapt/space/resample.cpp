@@ -281,6 +281,11 @@ Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const F
           }
         }
       }
+    for (const NodeIndex i : cloud.position.indices()) { // what has gone into nodes there stays, too
+      NodeIndex at = i;
+      while (exists(result.changes.into[at])) at = result.changes.into[at];
+      if (index_of(at) < held.size() && held[at]) held[i] = 1;
+    }
   }
 }
 

@@ -308,7 +308,10 @@ SurfaceChange WorkingSurface::flip(Edge e, double spacing) {
     if (cosine_between(area_normal<3>(after), sum) < least_turn_ || shape_of(after) < shape)
       return {Refusal::normals};
   const double volume = (at(b) - at(a)).cross(at(c) - at(a)).dot(at(d) - at(a)) / 6.0;
-  if (std::abs(volume) > rules_.volume * spacing * spacing * spacing) return {Refusal::volume};
+  const double cube = spacing * spacing * spacing;
+  if (std::abs(volume) > rules_.volume * cube) return {Refusal::volume};
+  constexpr double plane = 1e-9;
+  if (held(a) && held(b) && held(c) && held(d) && std::abs(volume) > plane * cube) return {Refusal::held};
 
   const Edge c_to_a = across(last_edge(e)), b_to_c = across(next_edge(e));
   const Edge a_to_d = across(next_edge(back)), d_to_b = across(last_edge(back));

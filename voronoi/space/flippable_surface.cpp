@@ -1,11 +1,13 @@
 #include "voronoi/space/flippable_surface.hpp"
 
+#include "voronoi/space/exact.hpp"
+
 #include <Eigen/Geometry>
 
 namespace cnem::voronoi {
 
-FlippableSurface::FlippableSurface(Cloud<3>& cloud)
-    : cloud_(cloud), across_(surface_edges(cloud)), behind_(facets_behind(cloud)) {}
+FlippableSurface::FlippableSurface(Cloud<3>& cloud, const FixedNodes& fixed)
+    : cloud_(cloud), fixed_(fixed), across_(surface_edges(cloud)), behind_(facets_behind(cloud)) {}
 
 /// The edge of f at which g is across; −1: there is none.
 SurfaceEdge FlippableSurface::edge_between(CloudFacetIndex f, CloudFacetIndex g) const {
@@ -30,6 +32,9 @@ bool FlippableSurface::may_flip(SurfaceEdge e, double least_cosine) const {
   const auto at = [&](NodeIndex i) -> const Vec3& { return cloud_.position[i]; };
   const NodeIndex c = apex(e), d = apex(back);
   const Vec3 &xa = at(start(e)), &xb = at(start(back)), &xc = at(c), &xd = at(d);
+  const auto fixed = [&](NodeIndex i) { return !fixed_.empty() && fixed_[i]; };
+  if ((fixed(start(e)) || fixed(start(back)) || fixed(c) || fixed(d)) && orientation(xa, xb, xc, xd) != 0)
+    return false;
   const Vec3 one = (xb - xa).cross(xc - xa), other = (xd - xa).cross(xb - xa);
   if (one.dot(other) < least_cosine * one.norm() * other.norm()) return false;
   const Vec3 normal = one + other, left = (xa - xc).cross(xd - xc), right = (xd - xc).cross(xb - xc);

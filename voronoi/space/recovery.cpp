@@ -4,6 +4,7 @@
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/adoption.hpp"
+#include "voronoi/space/crossings.hpp"
 #include "voronoi/space/facet_flips.hpp"
 #include "voronoi/space/filling.hpp"
 #include "voronoi/space/surface.hpp"
@@ -28,7 +29,8 @@ std::vector<std::uint8_t> on_surface(const Cloud<3>& cloud) {
 
 class Recovery {
 public:
-  Recovery(const Cloud<3>& cloud, const RecoveryRules& rules) : rules_(rules) {
+  Recovery(const Cloud<3>& cloud, const RecoveryRules& rules)
+      : rules_(rules), fixed_(cloud.position.size(), 0) {
     result_.cloud = cloud;
     result_.now.resize(cloud.position.size());
     for (const NodeIndex i : result_.now.indices()) result_.now[i] = i;
@@ -37,16 +39,20 @@ public:
   RecoveredBoundary run() {
     Cloud<3>& cloud = result_.cloud;
     RecoveryCounts& counts = result_.counts;
-    counts.flipped = flip_surface(cloud, rules_.flat_angle);
     Delaunay mesh = delaunay(cloud);
-    Walls walls = find_walls(cloud, mesh);
+    Walls walls;
+    without_crossings([&] {
+      counts.flipped = flip_surface(cloud, rules_.flat_angle, fixed_);
+      walls = find_walls(cloud, mesh);
+      return !walls.lost.empty();
+    });
     counts.lost = as<int>(walls.lost.size());
     for (int round = 0;; ++round) {
       if (round == most_rounds)
         throw GeometryError(fmt::format("{} is lost, and {} rounds of recovery did not bring it back",
                                         describe_facet(cloud, walls.lost.front()), most_rounds));
       if (!walls.lost.empty()) {
-        counts.flipped += fit_surface(cloud, mesh, rules_.flat_angle);
+        counts.flipped += fit(mesh, rules_.flat_angle);
         walls = find_walls(cloud, mesh);
       }
       peel(mesh, walls);
@@ -63,7 +69,7 @@ public:
         walls = find_walls(cloud, mesh);
         continue;
       }
-      if (const int flips = fit_surface(cloud, flipped, rules_.smooth_angle)) {
+      if (const int flips = fit(flipped, rules_.smooth_angle)) {
         counts.flipped += flips;
       } else if (remove_near(walls.lost)) {
         mesh = delaunay(cloud);
@@ -78,6 +84,33 @@ public:
   }
 
 private:
+  /// Flips edges of the surface, and where it may cross itself and does so again without those there: of two
+  /// sides of a body that nearly touch one may have been pushed through the other.
+  template<class Flips> void without_crossings(const Flips& flips_that_may_cross) {
+    constexpr int most = 4;
+    const auto before = result_.cloud.facets;
+    for (int n = 1; flips_that_may_cross() && n < most && mark_crossings(); ++n)
+      result_.cloud.facets = before;
+  }
+
+  int fit(const Delaunay& mesh, double angle) {
+    int flips = 0;
+    without_crossings([&] { return (flips = fit_surface(result_.cloud, mesh, angle, fixed_)) > 0; });
+    return flips;
+  }
+
+  /// Fixes the nodes of facets that cross each other now. Whether there are any that were not fixed.
+  bool mark_crossings() {
+    bool any = false;
+    for (const auto& pair : crossings(result_.cloud))
+      for (const CloudFacetIndex f : pair)
+        for (const NodeIndex i : result_.cloud.facets[f].node) {
+          any = any || !fixed_[i];
+          fixed_[i] = 1;
+        }
+    return any;
+  }
+
   /// Whether there was anything flat on the surface.
   bool peel(const Delaunay& mesh, Walls& walls) {
     for (int layer = 0; layer < most_layers; ++layer) {
@@ -132,14 +165,17 @@ private:
     Cloud<3>& cloud = result_.cloud;
     IndexedVector<NodeIndex, NodeIndex> number(goes.size(), NodeIndex::none);
     IndexedVector<NodeIndex, Vec3> kept;
+    FixedNodes fixed;
     for (const NodeIndex i : goes.indices())
       if (!goes[i]) {
         number[i] = kept.next();
         kept.push_back(cloud.position[i]);
+        fixed.push_back(fixed_[i]);
       } else {
         ++result_.counts.removed;
       }
     cloud.position = std::move(kept);
+    fixed_ = std::move(fixed);
     cloud.simplices.clear();
     cloud.across.clear();
     for (auto& facet : cloud.facets)
@@ -154,6 +190,7 @@ private:
   static constexpr int most_layers = 10; ///< of flat tetrahedra on each other
 
   RecoveryRules rules_;
+  FixedNodes fixed_; ///< [node of the cloud now]
   RecoveredBoundary result_;
 };
 

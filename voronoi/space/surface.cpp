@@ -1,6 +1,7 @@
 #include "voronoi/space/surface.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/box_tree.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/exact.hpp"
@@ -115,15 +116,17 @@ bool pierces(const Cloud<3>& cloud, NodeIndex p, NodeIndex q, const std::array<N
   return low * high >= 0 && (turns[0] != 0) + (turns[1] != 0) + (turns[2] != 0) > 1;
 }
 
-bool apart(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& f, const std::array<NodeIndex, 3>& g) {
-  const auto at = [&](NodeIndex i) { return cloud.position[i].array(); };
-  const auto low = [&](const auto& n) { return at(n[0]).min(at(n[1])).min(at(n[2])).eval(); };
-  const auto high = [&](const auto& n) { return at(n[0]).max(at(n[1])).max(at(n[2])).eval(); };
-  return (low(f) > high(g)).any() || (low(g) > high(f)).any();
+Box<3> box_of(const Cloud<3>& cloud, CloudFacetIndex f) {
+  const auto& node = cloud.facets[f].node;
+  Box<3> box{cloud.position[node[0]], cloud.position[node[0]]};
+  for (const NodeIndex i : node) {
+    box.low = box.low.cwiseMin(cloud.position[i]);
+    box.high = box.high.cwiseMax(cloud.position[i]);
+  }
+  return box;
 }
 
 bool cross(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& f, const std::array<NodeIndex, 3>& g) {
-  if (apart(cloud, f, g)) return false;
   for (std::size_t k = 0; k < 3; ++k)
     if (pierces(cloud, f[k], f[(k + 1) % 3], g) || pierces(cloud, g[k], g[(k + 1) % 3], f)) return true;
   return false;
@@ -174,11 +177,21 @@ IndexedVector<CloudFacetIndex, CloudFacetIndex> facets_behind(const Cloud<3>& cl
 }
 
 void refuse_crossings(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& suspects) {
-  for (const CloudFacetIndex f : suspects)
-    for (const CloudFacetIndex g : cloud.facets.indices())
-      if (f != g && cross(cloud, cloud.facets[f].node, cloud.facets[g].node))
-        throw GeometryError(fmt::format("the surface crosses itself: {} crosses {}", describe_facet(cloud, f),
-                                        describe_facet(cloud, g)));
+  std::vector<Box<3>> boxes;
+  for (const CloudFacetIndex f : cloud.facets.indices()) boxes.push_back(box_of(cloud, f));
+  const BoxTree tree(std::move(boxes));
+  for (const CloudFacetIndex f : suspects) {
+    CloudFacetIndex crossed = CloudFacetIndex::none;
+    tree.overlapping(box_of(cloud, f), [&](std::int32_t number) {
+      const auto g = as<CloudFacetIndex>(number);
+      if (f != g && (!exists(crossed) || g < crossed) &&
+          cross(cloud, cloud.facets[f].node, cloud.facets[g].node))
+        crossed = g;
+    });
+    if (exists(crossed))
+      throw GeometryError(fmt::format("the surface crosses itself: {} crosses {}", describe_facet(cloud, f),
+                                      describe_facet(cloud, crossed)));
+  }
 }
 
 } // namespace cnem::voronoi

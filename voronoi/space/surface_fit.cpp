@@ -2,7 +2,6 @@
 
 #include "core/index.hpp"
 #include "voronoi/space/filling.hpp"
-#include "voronoi/space/flippable_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,9 +50,9 @@ private:
 
 } // namespace
 
-int fit_surface(Cloud<3>& cloud, const Delaunay& mesh, double flat_angle) {
+int fit_surface(Cloud<3>& cloud, const Delaunay& mesh, double flat_angle, const FixedNodes& fixed) {
   const SurfaceFaces faces(cloud, mesh);
-  FlippableSurface surface(cloud);
+  FlippableSurface surface(cloud, fixed);
   const double least_cosine = std::cos(flat_angle);
   std::vector<SurfaceEdge> stack;
   const auto push = [&](CloudFacetIndex f) {

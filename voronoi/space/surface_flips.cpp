@@ -2,7 +2,6 @@
 
 #include "core/index.hpp"
 #include "voronoi/space/exact.hpp"
-#include "voronoi/space/flippable_surface.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -24,8 +23,8 @@ bool is_lengthy(const FlippableSurface& surface, SurfaceEdge e) {
 
 } // namespace
 
-int flip_surface(Cloud<3>& cloud, double flat_angle) {
-  FlippableSurface surface(cloud);
+int flip_surface(Cloud<3>& cloud, double flat_angle, const FixedNodes& fixed) {
+  FlippableSurface surface(cloud, fixed);
   const double least_cosine = std::cos(flat_angle);
   std::vector<SurfaceEdge> stack;
   for (const CloudFacetIndex f : cloud.facets.indices())

@@ -1,6 +1,6 @@
 #pragma once
 // Diagonals of the surface that a Delaunay triangulation of its nodes is likely to have.
-#include "core/geometry/cloud.hpp"
+#include "voronoi/space/flippable_surface.hpp"
 
 namespace cnem::voronoi {
 
@@ -8,7 +8,7 @@ namespace cnem::voronoi {
 /// becomes the other diagonal where the angles across from it are more than π together and the facets after
 /// it are not folded. Facets on one plane follow exact predicates and, of cocircular nodes, the perturbation
 /// of the Delaunay triangulation, so that on a plane face of the convex hull none is lost. The two faces of a
-/// slit flip together. The number of flips. O(facets).
-int flip_surface(Cloud<3>& cloud, double flat_angle);
+/// slit flip together. fixed: as of FlippableSurface. The number of flips. O(facets).
+int flip_surface(Cloud<3>& cloud, double flat_angle, const FixedNodes& fixed = {});
 
 } // namespace cnem::voronoi

@@ -136,6 +136,20 @@ TEST(WorkingSurface, leaves_held_nodes_and_closed_slits_alone) {
   EXPECT_EQ(count(pairs), count(behind));
 }
 
+// Held nodes keep the surface between them; on a plane either diagonal is as good.
+TEST(WorkingSurface, turns_no_edge_between_held_nodes_off_a_plane) {
+  const auto flips = [](SpaceShape shape, char hold) {
+    const Cloud<3> cloud = testing::unrecovered({.shape = shape, .cells = 6, .jitter = 0.2});
+    WorkingSurface surface(cloud, IndexedVector<NodeIndex, char>(cloud.position.size(), hold));
+    int done = 0;
+    for (Edge e = 0; e < surface.edges(); ++e) done += surface.flip(e, 1.0 / 6).done();
+    return done;
+  };
+  EXPECT_GT(flips(SpaceShape::shell, 0), 10);
+  EXPECT_EQ(flips(SpaceShape::shell, 1), 0);
+  EXPECT_GT(flips(SpaceShape::cube, 1), 10);
+}
+
 TEST(WorkingSurface, gives_back_volume_where_nodes_may_move) {
   const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::torus, .cells = 10, .jitter = 0.1});
   WorkingSurface surface = surface_of(cloud);

@@ -5,8 +5,10 @@
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "tests/space_clouds.hpp"
+#include "voronoi/space/crossings.hpp"
 #include "voronoi/space/exact.hpp"
 #include "voronoi/space/filling.hpp"
+#include "voronoi/space/surface_flips.hpp"
 #include "voronoi/space/triangulate.hpp"
 #include "voronoi/space/winding.hpp"
 
@@ -116,6 +118,46 @@ TEST(recovery, nothing_crosses_a_slit) {
       const bool has_b = std::find(node.begin(), node.end(), b) != node.end();
       EXPECT_FALSE(has_a && has_b);
     }
+}
+
+/// Two prisms with 0.1 mm between them, on the long diagonal of a face that is not flat. Below it is a
+/// crease, above the short diagonal looks better, but passes through the crease.
+Cloud<3> prisms_on_a_crease() {
+  Cloud<3> cloud;
+  constexpr double raised = 0.04, gap = 1e-4;
+  const std::array<Vec2, 4> base{Vec2(0, 0), Vec2(1, 0), Vec2(1.6, 0.8), Vec2(0.6, 0.8)};
+  const auto add = [&](double z, double more) {
+    for (std::size_t k = 0; k < 4; ++k)
+      cloud.position.push_back({base[k].x(), base[k].y(), z + (k % 2 == 0 ? more : 0.0)});
+  };
+  add(-1.0, 0.0), add(0.0, raised), add(gap, raised), add(1.0, 0.0);
+  const auto facet = [&](int a, int b, int c, int piece) {
+    cloud.facets.push_back({{as<NodeIndex>(a), as<NodeIndex>(b), as<NodeIndex>(c)}, as<PieceIndex>(piece)});
+  };
+  for (const int first : {0, 8}) {
+    const int low = first, high = first + 4;
+    facet(low, low + 2, low + 1, 0), facet(low, low + 3, low + 2, first == 0 ? 0 : 1);
+    facet(high, high + 1, high + 2, first == 0 ? 2 : 1), facet(high, high + 2, high + 3, 1);
+    for (int k = 0; k < 4; ++k) {
+      const int next = (k + 1) % 4;
+      facet(low + k, low + next, high + next, 3 + k), facet(low + k, high + next, high + k, 3 + k);
+    }
+  }
+  cloud.facets[as<CloudFacetIndex>(12)].piece =
+      cloud.facets[as<CloudFacetIndex>(13)].piece; // above: one piece
+  for (int k = 0; k < 7; ++k) cloud.piece_names.push_back(std::to_string(k));
+  return cloud;
+}
+
+TEST(recovery, flips_do_not_push_one_side_through_the_other) {
+  const Cloud<3> cloud = prisms_on_a_crease();
+  ASSERT_TRUE(crossings(cloud).empty());
+  Cloud<3> flipped = cloud;
+  flip_surface(flipped, RecoveryRules{}.flat_angle);
+  ASSERT_FALSE(crossings(flipped).empty());
+  const RecoveredBoundary body = recover_boundary(cloud);
+  EXPECT_TRUE(crossings(body.cloud).empty());
+  expect_filled(body.cloud, body.tetrahedra);
 }
 
 TEST(triangulation_in_space, circumspheres_are_empty) {
