@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -35,10 +36,23 @@ Mat<3> rotation_about(const Vec3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
 
+namespace {
+
+/// The shortest rotation between unit vectors that are not opposite. Eigen's own takes a singular value
+/// decomposition for those that are, which compiles for longer than all else here.
+Mat<3> shortest_rotation(const Vec3& from, const Vec3& to) {
+  const double s = std::sqrt(2.0 * (1.0 + to.dot(from)));
+  const Vec3 axis = from.cross(to) / s;
+  return Eigen::Quaterniond(0.5 * s, axis.x(), axis.y(), axis.z()).toRotationMatrix();
+}
+
+} // namespace
+
 Mat<3> rotation_of_z(const Vec3& to) {
-  const Vec3 z(0, 0, 1);
-  if (to.dot(z) < -1.0 + 1e-15) return rotation_about({1, 0, 0}, std::numbers::pi);
-  return Eigen::Quaterniond::FromTwoVectors(z, to).toRotationMatrix();
+  const Vec3 z(0, 0, 1), end = to.normalized();
+  if (end.dot(z) < -1.0 + 1e-12)
+    return shortest_rotation(-z, end) * rotation_about({1, 0, 0}, std::numbers::pi);
+  return shortest_rotation(z, end);
 }
 
 } // namespace cnem::contact

@@ -39,8 +39,11 @@ void DamageAverage<dim>::list(const DiscreteOperators<dim>& operators, const Fie
   std::map<Key, std::vector<std::int32_t>> grid;
   for (std::size_t p = 0; p < n; ++p) grid[key_of(p)].push_back(static_cast<std::int32_t>(p));
   begin_.assign(1, 0);
+  group_begin_.assign(1, 0);
   other_.clear();
   weight_.clear();
+  group_.clear();
+  counts_.clear();
   constexpr int around = dim == 2 ? 9 : 27;
   for (std::size_t p = 0; p < n; ++p) {
     const std::int32_t material = point.material[p];
@@ -58,36 +61,77 @@ void DamageAverage<dim>::list(const DiscreteOperators<dim>& operators, const Fie
         weight_.push_back((1.0 - squared) * (1.0 - squared) * operators.volume[index_of(q)]);
       }
     }
+    for (std::size_t e = begin_.back(); e < other_.size(); ++e) {
+      const std::int32_t group = other_[e] / group_size;
+      const auto first = group_.begin() + static_cast<std::ptrdiff_t>(group_begin_.back());
+      if (std::find(first, group_.end(), group) == group_.end()) group_.push_back(group);
+    }
     begin_.push_back(other_.size());
+    group_begin_.push_back(group_.size());
   }
 }
 
+template<int dim> bool DamageAverage<dim>::grows_near(std::size_t p) const {
+  return std::any_of(group_.begin() + static_cast<std::ptrdiff_t>(group_begin_[p]),
+                     group_.begin() + static_cast<std::ptrdiff_t>(group_begin_[p + 1]),
+                     [&](std::int32_t group) { return group_grows_[index_of(group)] != 0; });
+}
+
+template<int dim>
+std::array<double, DamageAverage<dim>::rows> DamageAverage<dim>::sums(std::size_t first,
+                                                                      std::size_t last) const {
+  std::array<double, rows> sum{};
+  std::array<std::size_t, rows> begin{}, length{};
+  for (std::size_t r = 0; r < last - first; ++r) {
+    begin[r] = begin_[first + r];
+    length[r] = begin_[first + r + 1] - begin[r];
+  }
+  const auto add = [&](std::size_t r, std::size_t k) {
+    sum[r] += weight_[begin[r] + k] * growth_[index_of(other_[begin[r] + k])];
+  };
+  const std::size_t common = *std::min_element(length.begin(), length.end());
+  for (std::size_t k = 0; k < common; ++k)
+    for (std::size_t r = 0; r < rows; ++r) add(r, k);
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t k = common; k < length[r]; ++k) add(r, k);
+  return sum;
+}
+
 template<int dim> void DamageAverage<dim>::share(PointState<dim>& point) {
-  growth_.resize(point.size());
-  near_growth_.assign(point.size(), 0);
-  for_each_block(point.size(), [&](std::size_t begin, std::size_t end) {
+  const std::size_t n = point.size();
+  growth_.resize(n);
+  total_.resize(n);
+  group_grows_.assign(n / group_size + 1, 0);
+  bool stale = counts_.size() != n;
+  counts_.resize(n);
+  std::atomic_ref<bool> changed(stale);
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      growth_[p] = point.damage[p] - before_[p];
-      if (growth_[p] == 0.0) continue;
-      for (std::size_t e = begin_[p]; e < begin_[p + 1]; ++e) // lists are symmetric
-        std::atomic_ref(near_growth_[index_of(other_[e])]).store(1, std::memory_order_relaxed);
+      const char counts = before_[p] < 1.0;
+      growth_[p] = counts ? point.damage[p] - before_[p] : 0.0;
+      if (growth_[p] != 0.0)
+        std::atomic_ref(group_grows_[p / group_size]).store(1, std::memory_order_relaxed);
+      if (counts == counts_[p]) continue;
+      counts_[p] = counts;
+      changed.store(true, std::memory_order_relaxed);
     }
   });
-  for_each_block(point.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      if (begin_[p] == begin_[p + 1] || before_[p] >= 1.0) continue;
-      double sum = 0.0, total = 1.0;
-      if (near_growth_[p]) {
-        total = 0.0;
-        for (std::size_t e = begin_[p]; e < begin_[p + 1]; ++e) {
-          const std::size_t q = index_of(other_[e]);
-          const double weight = before_[q] < 1.0 ? weight_[e] : 0.0;
-          sum += weight * growth_[q];
-          total += weight;
-        }
+  for_each_block(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; stale && p < end; ++p) {
+      total_[p] = 0.0;
+      for (std::size_t e = begin_[p]; e < begin_[p + 1]; ++e)
+        if (counts_[index_of(other_[e])]) total_[p] += weight_[e];
+    }
+    for (std::size_t first = begin; first < end; first += rows) {
+      const std::size_t last = std::min(first + rows, end);
+      bool grows = false;
+      for (std::size_t p = first; p < last && !grows; ++p) grows = grows_near(p);
+      const std::array<double, rows> sum = grows ? sums(first, last) : std::array<double, rows>{};
+      for (std::size_t p = first; p < last; ++p) {
+        if (begin_[p] == begin_[p + 1] || !counts_[p]) continue;
+        point.damage[p] = std::min(before_[p] + sum[p - first] / total_[p], 1.0); // p itself is among them
+        point.initiation_strain[p] = point.damage[p] >= 1.0 ? point.plastic_strain[p] : 0.0;
       }
-      point.damage[p] = std::min(before_[p] + sum / total, 1.0); // p itself is among them
-      point.initiation_strain[p] = point.damage[p] >= 1.0 ? point.plastic_strain[p] : 0.0;
     }
   });
 }

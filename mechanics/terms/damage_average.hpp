@@ -5,6 +5,7 @@
 #include "core/operators/operators.hpp"
 #include "plasticity/material.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,13 +27,25 @@ public:
   void share(PointState<dim>& point);
 
 private:
+  static constexpr int group_size = 32; ///< points that follow each other, and mostly lie near each other
+
+  static constexpr std::size_t rows = 4; ///< summed side by side, as each sum waits for its last addition
+
+  /// Σ w V dD of some points that follow each other, at most as many as rows.
+  std::array<double, rows> sums(std::size_t first, std::size_t last) const;
+  bool grows_near(std::size_t p) const; ///< or in the same group as what is near
+
   bool active_;
-  std::vector<double> radius_;      ///< [material] m; 0: its damage is local
-  std::vector<std::size_t> begin_;  ///< [point + 1]
-  std::vector<std::int32_t> other_; ///< points
-  Field weight_;                    ///< w V
-  Field before_, growth_;           ///< [point] D and dD; scratch of a step
-  std::vector<char> near_growth_;   ///< [point] whether any dD near it is not 0
+  std::vector<double> radius_;           ///< [material] m; 0: its damage is local
+  std::vector<std::size_t> begin_;       ///< [point + 1]
+  std::vector<std::int32_t> other_;      ///< points
+  Field weight_;                         ///< w V
+  std::vector<std::size_t> group_begin_; ///< [point + 1]
+  std::vector<std::int32_t> group_;      ///< of points, that have any of those near
+  Field before_, growth_;                ///< [point] D and dD; scratch of a step
+  std::vector<char> group_grows_;        ///< [group] whether any of its dD is not 0
+  std::vector<char> counts_;             ///< [point] whether D < 1
+  Field total_;                          ///< [point] Σ w V over those near it that count
 };
 
 extern template class DamageAverage<2>;

@@ -41,6 +41,9 @@ struct Averaged {
   Vec2 place(std::size_t p) const { return {at[0][p], at[1][p]}; }
   void grow(const std::function<double(const Vec2&)>& by) {
     average.list(operators, reference, point);
+    grow_on(by);
+  }
+  void grow_on(const std::function<double(const Vec2&)>& by) { ///< in the next step, on the same reference
     average.begin(point);
     for (std::size_t p = 0; p < point.damage.size(); ++p)
       point.damage[p] = std::min(1.0, point.damage[p] + by(place(p)));
@@ -97,6 +100,21 @@ TEST(DamageAverage, what_is_broken_neither_takes_nor_gives) {
     EXPECT_NEAR(a.point.damage[p], in(a.place(p)) ? 1.0 : 0.25, 1e-15);
     EXPECT_EQ(a.point.initiation_strain[p], 0.0);
   }
+}
+
+TEST(DamageAverage, what_breaks_gives_nothing_from_the_next_step_on) {
+  Averaged a;
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p)
+    if (std::abs(a.place(p).x() - 0.5) < 1.2 * spacing) a.point.damage[p] = 0.99;
+  a.grow([](const Vec2&) { return 0.02; });
+  const Field before = a.point.damage;
+  a.grow_on([](const Vec2&) { return 0.25; });
+  int broken = 0;
+  for (std::size_t p = 0; p < before.size(); ++p) {
+    broken += before[p] >= 1.0;
+    EXPECT_NEAR(a.point.damage[p], before[p] >= 1.0 ? 1.0 : before[p] + 0.25, 1e-15);
+  }
+  EXPECT_GT(broken, 10);
 }
 
 TEST(DamageAverage, begins_to_soften_where_the_mean_reaches_one) {
