@@ -74,5 +74,39 @@ symmetry = true
   EXPECT_EQ(pinned(), 1U);
 }
 
+TEST(SpaceAdaptation, an_indicator_halves_the_spacing_of_surface_and_inside_down_to_h_min) {
+  const input::Case input = block(R"toml(
+[cloud]
+spacing = "0.25 mm"
+[adapt.indicator]
+field = "plastic_strain"
+h_min = "0.1 mm"
+)toml");
+  ExplicitSolver<3> solver = testing::solver_of<3>(input);
+  SpaceAdaptation adaptation(input, solver);
+  const double middle = 1e-3;
+  const auto count = [&](double from, double to, bool surface) {
+    const auto& x = solver.state().node.position;
+    int nodes = 0;
+    for (std::size_t i = 0; i < x[0].size(); ++i)
+      nodes += std::abs(x[0][i] - middle) >= from && std::abs(x[0][i] - middle) < to &&
+               (!surface || x[2][i] < 1e-9);
+    return nodes;
+  };
+  const int whole = count(0.0, 0.15e-3, false), base = count(0.0, 0.15e-3, true),
+            far = count(0.7e-3, 1.1e-3, false);
+  const double step = solver.stable_step();
+  for (int pass = 0; pass < 5; ++pass) {
+    auto& strain = solver.state().point.plastic_strain; // a front, as a band makes it
+    for (std::size_t i = 0; i < strain.size(); ++i)
+      strain[i] = 0.5 * std::tanh((solver.state().node.position[0][i] - middle) / 0.1e-3) + 0.5;
+    adaptation.renew(solver, nothing);
+  }
+  EXPECT_GT(count(0.0, 0.15e-3, false), 6 * whole); // 2.5³ = 16 of a lattice, less on planes
+  EXPECT_GT(count(0.0, 0.15e-3, true), 3 * base);   // 2.5² = 6
+  EXPECT_LE(count(0.7e-3, 1.1e-3, false), 1.1 * far);
+  EXPECT_GT(solver.stable_step(), 0.15 * step); // 1/2.5, and what bad tetrahedra take
+}
+
 } // namespace
 } // namespace cnem::app
