@@ -5,9 +5,10 @@
 #include "clouds/space/domain.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "voronoi/space/triangulate.hpp"
+#include "voronoi/space/tetrahedra.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
@@ -51,6 +52,15 @@ constexpr std::pair<const char*, int Report::*> counts[] = {
     {"flipped", &Report::flipped},   {"balanced", &Report::balanced},
     {"undone", &Report::undone},     {"crossings", &Report::crossings}};
 
+/// Those of the reference, which nodes that have moved by less than its strain have left sound: new ones
+/// would need a boundary that is recovered.
+std::vector<std::array<NodeIndex, 4>> tetrahedra(const Approximation<3>& approximation) {
+  const std::vector<std::int32_t>& index = approximation.cells.index;
+  std::vector<std::array<NodeIndex, 4>> list(index.size() / 4);
+  for (std::size_t k = 0; k < index.size(); ++k) list[k / 4][k % 4] = as<NodeIndex>(index[k]);
+  return list;
+}
+
 /// Marks the nodes that supports hold for their own sake, and not for the boundary that they are on.
 void hold_points(const Cloud<3>& cloud, const Supports<3>& supports, IndexedVector<NodeIndex, char>& held) {
   for (const Support<3>& support : supports.list()) {
@@ -85,7 +95,8 @@ Field SpaceAdaptation::refined_spacing(const ExplicitSolver<3>& solver, const Cl
   const scni::CellKind cells = input_->method.options.cells;
   adapt::SpaceStructure structure;
   try {
-    structure = adapt::structure_of(cloud, voronoi::triangulate(cloud), cells);
+    structure =
+        adapt::structure_of(cloud, voronoi::connected(cloud, tetrahedra(solver.approximation())), cells);
   } catch (const GeometryError&) { // where nodes have passed each other there is nothing to estimate on
     return wanted_;
   }

@@ -3,7 +3,6 @@
 #include "adapt/space/indicator.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "voronoi/space/median_cells.hpp"
-#include "voronoi/space/triangulate.hpp"
 #include "voronoi/space/voronoi_cells.hpp"
 
 #include <cmath>
@@ -14,15 +13,15 @@ namespace {
 
 /// A bent block whose nodes stand on no lattice.
 struct Body {
-  Cloud<3> cloud =
-      clouds::tetrahedral_block({1, 1, 1}, {5, 5, 5}, [](const Vec3& x) -> Vec3 {
-        return {x.x() + 0.2 * x.y() * x.z(), x.y() + 0.1 * x.x() * x.x(), x.z() * (1.0 + 0.3 * x.x())};
-      }).cloud;
+  clouds::TetrahedralBlock block = clouds::tetrahedral_block({1, 1, 1}, {5, 5, 5}, [](const Vec3& x) -> Vec3 {
+    return {x.x() + 0.2 * x.y() * x.z(), x.y() + 0.1 * x.x() * x.x(), x.z() * (1.0 + 0.3 * x.x())};
+  });
+  const Cloud<3>& cloud = block.cloud;
   scni::CellKind kind;
   SpaceStructure structure;
 
   explicit Body(scni::CellKind cells)
-      : kind(cells), structure(structure_of(cloud, voronoi::triangulate(cloud), cells)) {}
+      : kind(cells), structure(structure_of(cloud, voronoi::connected(cloud, block.tetrahedra), cells)) {}
 
   template<class Function> Field values(const Function& function) const {
     Field value;
