@@ -110,9 +110,9 @@ h_min = "0.12 mm"
   }
   EXPECT_GT(refined(), 50.0);
   EXPECT_GT(count(-1e-6, 0.4e-3, false), 3 * foot);  // 2.1³ = 9 of a lattice, less on planes and beyond
-  EXPECT_GT(count(-1e-6, 0.4e-3, true), 1.5 * base); // 2.1² = 4.3
-  EXPECT_LE(count(1.5e-3, 3e-3, false), 1.5 * far);
-  EXPECT_GT(solver.stable_step().dt, 0.2 * step); // 1/2.1, and what small tetrahedra take
+  EXPECT_GT(count(-1e-6, 0.4e-3, true), 2.5 * base); // 2.1² = 4.3
+  EXPECT_LE(count(1.5e-3, 3e-3, false), 1.2 * far);
+  EXPECT_GT(solver.stable_step().dt, 0.25 * step); // 1/2.1, and what small tetrahedra take
 }
 
 } // namespace
