@@ -8,21 +8,18 @@ namespace cnem::adapt {
 namespace {
 
 using Needs = IndicatedField::Needs;
-using Points = PointState<2>;
 
 constexpr std::array list{
     IndicatedField{"plastic_strain", Needs::nothing,
-                   [](const Points& point, std::size_t p) { return point.plastic_strain[p]; }},
-    IndicatedField{"plastic_power", Needs::nothing,
-                   [](const Points& point, std::size_t p) {
-                     return point.equivalent_stress[p] * point.plastic_rate[p];
-                   }},
+                   [](const auto& point, std::size_t p) { return point.plastic_strain[p]; }},
+    IndicatedField{
+        "plastic_power", Needs::nothing,
+        [](const auto& point, std::size_t p) { return point.equivalent_stress[p] * point.plastic_rate[p]; }},
     IndicatedField{"plastic_work", Needs::nothing,
-                   [](const Points& point, std::size_t p) { return point.plastic_work[p]; }},
+                   [](const auto& point, std::size_t p) { return point.plastic_work[p]; }},
     IndicatedField{"temperature", Needs::heat,
-                   [](const Points& point, std::size_t p) { return point.temperature[p]; }},
-    IndicatedField{"damage", Needs::damage,
-                   [](const Points& point, std::size_t p) { return point.damage[p]; }},
+                   [](const auto& point, std::size_t p) { return point.temperature[p]; }},
+    IndicatedField{"damage", Needs::damage, [](const auto& point, std::size_t p) { return point.damage[p]; }},
 };
 
 } // namespace

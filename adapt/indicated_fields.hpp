@@ -14,7 +14,23 @@ struct IndicatedField {
 
   const char* name; ///< as in `adapt.indicator.field`
   Needs needs;
-  double (*at)(const PointState<2>& point, std::size_t p); ///< its value at a point, in SI units
+  double (*in_plane)(const PointState<2>& point, std::size_t p);
+  double (*in_space)(const PointState<3>& point, std::size_t p);
+
+  template<class Function>
+  constexpr IndicatedField(const char* its_name, Needs what, const Function& at)
+      : name(its_name), needs(what), in_plane(at), in_space(at) {}
+
+  /// Its values at all points, in SI units.
+  template<int dim> Field values(const PointState<dim>& point) const {
+    Field value(point.size());
+    for (std::size_t p = 0; p < value.size(); ++p)
+      if constexpr (dim == 2)
+        value[p] = in_plane(point, p);
+      else
+        value[p] = in_space(point, p);
+    return value;
+  }
 };
 
 std::span<const IndicatedField> indicated_fields();

@@ -36,14 +36,27 @@ Field marked(const Field& spacing, const Indicator& indicator, const MarkingRule
 
 } // namespace
 
-double nodes_wanted(const Structure& structure, const Field& size) {
+namespace {
+
+template<int dim> double sum_over_cells(const Field& volume, const Field& size) {
   double nodes = 0.0;
   for (std::size_t i = 0; i < size.size(); ++i)
-    nodes += structure.cells.volume[i] / (hexagon * size[i] * size[i]);
+    nodes += volume[i] / (cell_of_spacing<dim> * (dim == 2 ? 1.0 : size[i]) * size[i] * size[i]);
   return nodes;
 }
 
-Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator& indicator,
+} // namespace
+
+double nodes_wanted(const Structure& structure, const Field& size) {
+  return sum_over_cells<2>(structure.cells.volume, size);
+}
+
+double nodes_wanted(const SpaceStructure& structure, const Field& size) {
+  return sum_over_cells<3>(structure.cell, size);
+}
+
+template<int dim>
+Marking mark(const Cloud<dim>& cloud, const StructureOf<dim>& structure, const Indicator& indicator,
              const MarkingRules& rules, Field& size) {
   Marking count;
   if (!(indicator.norm > 0.0)) return count;
@@ -54,7 +67,7 @@ Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator&
   Field wanted = marked(spacing, indicator, rules, tolerance, size, count);
   const auto too_many = [&] {
     Field grown = wanted;
-    limit_growth(cloud, structure, rules.growth, grown);
+    limit_growth<dim>(cloud, structure, rules.growth, grown);
     return nodes_wanted(structure, grown) > static_cast<double>(rules.max_nodes);
   };
   for (int k = 0; k < most && count.refined > 0 && too_many(); ++k)
@@ -63,8 +76,10 @@ Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator&
   return count;
 }
 
-void limit_growth(const Cloud<2>& cloud, const Structure& structure, double growth, Field& size) {
-  std::vector<std::array<NodeIndex, 2>> mates = mated_nodes(cloud);
+template<int dim>
+void limit_growth(const Cloud<dim>& cloud, const StructureOf<dim>& structure, double growth, Field& size) {
+  std::vector<std::array<NodeIndex, 2>> mates;
+  if constexpr (dim == 2) mates = mated_nodes(cloud); // space has none
   for (std::size_t k = mates.size(); k-- > 0;) mates.push_back({mates[k][1], mates[k][0]});
   std::sort(mates.begin(), mates.end());
   /// visit(k, limit) for all that a node of spacing h keeps to a limit it is above.
@@ -95,5 +110,12 @@ void limit_growth(const Cloud<2>& cloud, const Structure& structure, double grow
     });
   }
 }
+
+template Marking mark<2>(const Cloud<2>&, const StructureOf<2>&, const Indicator&, const MarkingRules&,
+                         Field&);
+template void limit_growth<2>(const Cloud<2>&, const StructureOf<2>&, double, Field&);
+template Marking mark<3>(const Cloud<3>&, const StructureOf<3>&, const Indicator&, const MarkingRules&,
+                         Field&);
+template void limit_growth<3>(const Cloud<3>&, const StructureOf<3>&, double, Field&);
 
 } // namespace cnem::adapt

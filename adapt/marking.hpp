@@ -1,14 +1,20 @@
 #pragma once
 // From an indicator to the wanted spacing.
 #include "adapt/indicator.hpp"
+#include "adapt/space/structure.hpp"
 
 #include <cstdint>
 #include <numbers>
+#include <type_traits>
 
 namespace cnem::adapt {
 
 /// Area of a hexagonal cell over the square of the spacing.
 inline constexpr double hexagon = 0.5 * std::numbers::sqrt3;
+/// Measure of a cell over that power of the spacing: of a hexagon, or of a cube.
+template<int dim> inline constexpr double cell_of_spacing = dim == 2 ? hexagon : 1.0;
+
+template<int dim> using StructureOf = std::conditional_t<dim == 2, Structure, SpaceStructure>;
 
 struct MarkingRules {
   double tolerance = 0.1; ///< – cells with |e|_i > tolerance ‖f‖/√N are refined
@@ -26,14 +32,17 @@ struct Marking {
 
 /// Halves or doubles the wanted spacing `size` (m, [node]) of marked cells, unless the cloud has not yet
 /// followed an earlier mark. Cells that the budget cannot afford are not refined: the tolerance rises.
-Marking mark(const Cloud<2>& cloud, const Structure& structure, const Indicator& indicator,
+template<int dim>
+Marking mark(const Cloud<dim>& cloud, const StructureOf<dim>& structure, const Indicator& indicator,
              const MarkingRules& rules, Field& size);
 
 /// Lowers the spacing where it grows faster than `growth` per distance from a finer neighbour; mates have
 /// the same.
-void limit_growth(const Cloud<2>& cloud, const Structure& structure, double growth, Field& size);
+template<int dim>
+void limit_growth(const Cloud<dim>& cloud, const StructureOf<dim>& structure, double growth, Field& size);
 
-/// Nodes that a cloud of the given spacing would have: Σ V_i/(½√3 h_i²).
+/// Nodes that a cloud of the given spacing would have: Σ V_i/(½√3 h_i²), in space Σ V_i/h_i³.
 double nodes_wanted(const Structure& structure, const Field& size);
+double nodes_wanted(const SpaceStructure& structure, const Field& size);
 
 } // namespace cnem::adapt

@@ -107,24 +107,9 @@ double Adaptation::tool_limit(const ExplicitSolver<2>& solver, const Vec2& x) co
 
 void Adaptation::estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
                                    const adapt::Structure& structure) {
-  const input::Adaptation& rules = input_->adapt;
-  const PointState<2>& point = solver.state().point;
-  Field indicated(point.size());
-  for (std::size_t p = 0; p < indicated.size(); ++p) indicated[p] = rules.indicator->at(point, p);
-  const adapt::Indicator estimate = adapt::indicator(cloud, structure, indicated);
-  const adapt::Marking marking = adapt::mark(cloud, structure, estimate,
-                                             {.tolerance = rules.tolerance,
-                                              .coarsen = rules.coarsen,
-                                              .h_min = rules.h_min,
-                                              .h_max = rules.h_max,
-                                              .growth = rules.growth,
-                                              .max_nodes = rules.max_nodes},
-                                             size_);
-  refined_ += marking.refined;
-  coarsened_ += marking.coarsened;
-  error_ = estimate.error;
-  error_total_ = estimate.total;
-  error_norm_ = estimate.norm;
+  estimate_.mark<2>(input_->adapt, cloud, structure,
+                    adapt::indicator(cloud, structure, input_->adapt.indicator->values(solver.state().point)),
+                    size_);
 }
 
 Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
@@ -153,7 +138,7 @@ Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>
   if (!tips_.empty())
     for (std::size_t i = 0; i < wanted.size(); ++i)
       wanted[i] = std::min(wanted[i], tool_limit(solver, cloud.position[i]));
-  adapt::limit_growth(cloud, structure, rules.growth, wanted);
+  adapt::limit_growth<2>(cloud, structure, rules.growth, wanted);
   return wanted;
 }
 
@@ -232,7 +217,7 @@ void Adaptation::balance(ExplicitSolver<2>& solver) {
 }
 
 void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
-  for (Field* label : {&error_, &size_, &first_, &wanted_, &birth_})
+  for (Field* label : {&estimate_.error(), &size_, &first_, &wanted_, &birth_})
     if (!label->empty()) carry_label(change.labels, *label);
   if (follows_flow()) flow_.resample(change);
   // a body that was cut has new corners
@@ -264,7 +249,7 @@ AdaptationFields Adaptation::fields(double time) const {
     fields.level[i] = std::log2(coarsest_ / wanted_[i]);
     fields.age[i] = time - birth_[i];
   }
-  fields.indicator = error_.empty() ? Field(size_.size(), 0.0) : error_;
+  fields.indicator = estimate_.error_at(size_.size());
   return fields;
 }
 
@@ -288,11 +273,9 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
            {"adapt.balanced", total_.balanced},
            {"adapt.undone", total_.undone},
            {fmt::format("adapt.{}_change", results::history_units(input_->analysis).enclosed),
-            total_.volume_change},
-           {"adapt.refined", static_cast<double>(refined_)},
-           {"adapt.coarsened", static_cast<double>(coarsened_)},
-           {"adapt.error", error_norm_ > 0.0 ? error_total_ / error_norm_ : 0.0}})
+            total_.volume_change}})
     list.emplace_back(name, value);
+  estimate_.add_metrics(list);
   if (window_)
     for (auto& metric : window_->metrics()) list.push_back(std::move(metric));
   return list;
@@ -306,14 +289,7 @@ void Adaptation::archive(Archive& archive) {
     wanted_.resize(corner_.size());
     birth_.resize(corner_.size());
   }
-  if (input_->adapt.indicator) {
-    archive.integer("run/adapt/refined", refined_);
-    archive.integer("run/adapt/coarsened", coarsened_);
-    archive.number("run/adapt/error_total", "m", error_total_);
-    archive.number("run/adapt/error_norm", "m", error_norm_);
-    error_.resize(corner_.size());
-    archive.field("run/adapt/error", "m", error_);
-  }
+  if (input_->adapt.indicator) estimate_.archive(archive, corner_.size());
   if (follows_flow()) flow_.archive(archive, corner_.size());
   if (input_->adapt.rest_factor > 0.0) {
     if (archive.loading()) first_.resize(corner_.size());

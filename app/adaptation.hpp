@@ -3,6 +3,7 @@
 #include "adapt/flow.hpp"
 #include "adapt/marking.hpp"
 #include "adapt/resample.hpp"
+#include "app/estimate.hpp"
 #include "app/moving_window.hpp"
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
@@ -67,13 +68,11 @@ private:
   const input::Case* input_;
   Field size_, birth_;    ///< [node] m, wanted spacing before tools and growth; s, when it was inserted
   Field wanted_;          ///< [node] m, wanted spacing of the last pass
-  Field error_;           ///< [node] indicator at the last new reference; empty before the first estimate
   adapt::Flow flow_;      ///< where surface_spacing or rest_factor ask for it
   Field first_;           ///< [node] m, spacing at the start; with rest_factor
   double coarsest_ = 0.0; ///< m, the spacing of level 0
-  std::vector<std::vector<Vec2>> tips_;           ///< [tool] m, points of its corners and arcs at time 0
-  double error_total_ = 0.0, error_norm_ = 0.0;   ///< of the last estimate
-  std::int64_t refined_ = 0, coarsened_ = 0;      ///< cells marked so far
+  std::vector<std::vector<Vec2>> tips_; ///< [tool] m, points of its corners and arcs at time 0
+  Estimate estimate_;
   IndexedVector<NodeIndex, std::int32_t> corner_; ///< 1: stays
   std::optional<MovingWindow> window_;
   adapt::PassReport total_;

@@ -1,11 +1,14 @@
 #include "app/space_adaptation.hpp"
 
+#include "adapt/space/indicator.hpp"
 #include "app/adaptation_parts.hpp"
 #include "clouds/space/domain.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "voronoi/space/tetrahedra.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
@@ -49,6 +52,15 @@ constexpr std::pair<const char*, int Report::*> counts[] = {
     {"flipped", &Report::flipped},   {"balanced", &Report::balanced},
     {"undone", &Report::undone},     {"crossings", &Report::crossings}};
 
+/// Those of the reference, which nodes that have moved by less than its strain have left sound: new ones
+/// would need a boundary that is recovered.
+std::vector<std::array<NodeIndex, 4>> tetrahedra(const Approximation<3>& approximation) {
+  const std::vector<std::int32_t>& index = approximation.cells.index;
+  std::vector<std::array<NodeIndex, 4>> list(index.size() / 4);
+  for (std::size_t k = 0; k < index.size(); ++k) list[k / 4][k % 4] = as<NodeIndex>(index[k]);
+  return list;
+}
+
 /// Marks the nodes that supports hold for their own sake, and not for the boundary that they are on.
 void hold_points(const Cloud<3>& cloud, const Supports<3>& supports, IndexedVector<NodeIndex, char>& held) {
   for (const Support<3>& support : supports.list()) {
@@ -67,6 +79,7 @@ SpaceAdaptation::SpaceAdaptation(const input::Case& input, const ExplicitSolver<
   if (!active()) return;
   const clouds::SpaceSpacing spacing{input.cloud.spacing, input.cloud.space_refinements};
   for (const Vec3& x : solver.conditions().cloud.position) size_.push_back(spacing.at(x));
+  if (input.adapt.indicator) wanted_ = size_;
 }
 
 void SpaceAdaptation::start_log(const std::filesystem::path& folder) {
@@ -77,6 +90,24 @@ void SpaceAdaptation::resume_log(const std::filesystem::path& folder) {
   if (active()) log_.resume(folder, results::history_units(input_->analysis), 3);
 }
 
+Field SpaceAdaptation::refined_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud) {
+  const input::Adaptation& rules = input_->adapt;
+  const scni::CellKind cells = input_->method.options.cells;
+  adapt::SpaceStructure structure;
+  try {
+    structure =
+        adapt::structure_of(cloud, voronoi::connected(cloud, tetrahedra(solver.approximation())), cells);
+  } catch (const GeometryError&) { // where nodes have passed each other there is nothing to estimate on
+    return wanted_;
+  }
+  estimate_.mark<3>(rules, cloud, structure,
+                    adapt::indicator(cloud, structure, cells, rules.indicator->values(solver.state().point)),
+                    size_);
+  Field wanted = size_;
+  adapt::limit_growth<3>(cloud, structure, rules.growth, wanted);
+  return wanted;
+}
+
 double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   const results::Audit<3> before = results::audit(solver);
   adapt::PassReport report;
@@ -84,12 +115,19 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   adapt::SpaceRules rules;
   rules.cells = input_->method.options.cells;
   if (input_->adapt.separate) rules.separation.piece = fracture_piece(cloud);
-  adapt::NodeProperties properties = node_properties(*input_, solver, size_);
-  hold_points(cloud, solver.conditions().supports, properties.held);
-  keep_bodies_apart(solver.approximation().links, properties);
+  const Field size_before = size_;
   try {
+    const Field wanted = input_->adapt.indicator ? refined_spacing(solver, cloud) : size_;
+    adapt::NodeProperties properties = node_properties(*input_, solver, wanted);
+    hold_points(cloud, solver.conditions().supports, properties.held);
+    keep_bodies_apart(solver.approximation().links, properties);
     const Resampling<3> change = adapt::resample(cloud, std::move(properties), rules, report);
     solver.prepare(change);
+    if (input_->adapt.indicator) {
+      wanted_ = wanted;
+      for (Field* label : {&wanted_, &estimate_.error()})
+        if (!label->empty()) carry_label(change.labels, *label);
+    }
     carry_label(change.labels, size_);
     follow(change);
     ++passes_;
@@ -98,6 +136,7 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
     return share_changed(change);
   } catch (const GeometryError&) { // the surface that crosses itself is why most fail
     total_.crossings += report.crossings;
+    size_ = size_before;
     throw;
   }
 }
@@ -108,6 +147,7 @@ std::vector<std::pair<std::string, double>> SpaceAdaptation::metrics() const {
   list.emplace_back("adapt.passes", static_cast<double>(passes_));
   for (const auto& [name, count] : counts) list.emplace_back(fmt::format("adapt.{}", name), total_.*count);
   list.emplace_back("adapt.volume_change", total_.volume_change);
+  if (input_->adapt.indicator) estimate_.add_metrics(list);
   return list;
 }
 
@@ -117,6 +157,11 @@ void SpaceAdaptation::archive(Archive& archive) {
   archive.integer("run/adapt/nodes", nodes);
   size_.resize(nodes);
   archive.field("run/adapt/size", "m", size_);
+  if (input_->adapt.indicator) {
+    wanted_.resize(nodes);
+    archive.field("run/adapt/wanted", "m", wanted_);
+    estimate_.archive(archive, nodes);
+  }
   archive.integer("run/adapt/passes", passes_);
   log_.archive(archive);
   for (const auto& [name, count] : counts)

@@ -2,6 +2,7 @@
 // What happens to a cloud in space at a new reference: its surface is kept sound, broken matter parts, nodes
 // come and go.
 #include "adapt/space/resample.hpp"
+#include "app/estimate.hpp"
 #include "input/case.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "results/adaptation_log.hpp"
@@ -27,8 +28,8 @@ public:
   /// Told how nodes went over, after each change of the cloud.
   using Follow = std::function<void(const Resampling<3>&)>;
 
-  /// Resamples the cloud and makes it the reference. Returns the share of the nodes that came or went. Throws
-  /// GeometryError with the solver left as it was, IoError.
+  /// Estimates and marks if the case says so, resamples the cloud and makes it the reference. Returns the
+  /// share of the nodes that came or went. Throws GeometryError with the solver left as it was, IoError.
   double renew(ExplicitSolver<3>& solver, const Follow& follow);
 
   /// Sums over the run, for status.json.
@@ -36,8 +37,13 @@ public:
   void archive(Archive& archive);
 
 private:
+  /// Wanted spacing after an estimate on a cloud, m, [node]: with growth limited.
+  Field refined_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud);
+
   const input::Case* input_;
-  Field size_; ///< [node] m, wanted spacing
+  Field size_;   ///< [node] m, wanted spacing before growth
+  Field wanted_; ///< [node] m, of the last pass; with an indicator
+  Estimate estimate_;
   adapt::PassReport total_;
   std::int64_t passes_ = 0;
   results::AdaptationLog log_;

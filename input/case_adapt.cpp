@@ -10,13 +10,16 @@ namespace cnem::input {
 namespace {
 
 /// What the plane alone has.
-void read_spacing(const Setting& table, Adaptation& rules) {
+void read_plane(const Setting& table, Adaptation& rules) {
   rules.cracks = table.get<bool>("cracks");
   rules.placement = table.choice<adapt::Placement>("placement");
-  rules.growth = table.get<double>("growth");
   rules.tool_spacing = table.maybe<double>("tool_spacing");
   rules.surface_spacing = table.maybe<double>("surface_spacing");
   rules.rest_factor = table.get<double>("rest_factor");
+}
+
+void read_indicator(const Setting& table, Adaptation& rules) {
+  rules.growth = table.get<double>("growth");
   rules.indicator = adapt::indicated_field(table.get<std::string>("indicator.field"));
   rules.tolerance = table.get<double>("indicator.tolerance");
   rules.coarsen = table.get<double>("indicator.coarsen");
@@ -28,7 +31,7 @@ void read_spacing(const Setting& table, Adaptation& rules) {
 } // namespace
 
 void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
-  if (result.analysis.dimensions() == 2 && result.cloud.spacing > 0.0) {
+  if (result.cloud.spacing > 0.0) {
     root.set_default("adapt.indicator.h_min", 0.25 * result.cloud.spacing);
     root.set_default("adapt.indicator.h_max", result.cloud.spacing);
   }
@@ -37,8 +40,8 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   rules.resample = table.get<bool>("resample");
   rules.separate = table.get<bool>("separate");
   rules.quiet_every = static_cast<int>(table.get<std::int64_t>("quiet_every"));
-  const bool plane = result.analysis.dimensions() == 2;
-  if (plane) read_spacing(table, rules);
+  if (result.analysis.dimensions() == 2) read_plane(table, rules);
+  read_indicator(table, rules);
 
   using Needs = adapt::IndicatedField::Needs;
   const bool refines = rules.indicator != nullptr;

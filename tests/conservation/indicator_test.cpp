@@ -137,7 +137,7 @@ struct Marked {
     for (const Vec2& x : cloud.position) value.push_back(std::tanh((x.x() - 0.2) / 0.05));
     size.assign(value.size(), 0.08);
   }
-  Marking mark_now() { return mark(cloud, structure, indicator(cloud, structure, value), rules, size); }
+  Marking mark_now() { return mark<2>(cloud, structure, indicator(cloud, structure, value), rules, size); }
 };
 
 TEST(Marking, refines_at_the_front_and_coarsens_where_nothing_happens) {
@@ -183,7 +183,7 @@ TEST(Marking, keeps_to_the_range_and_the_budget) {
 TEST(Marking, spacing_grows_no_faster_than_asked) {
   Marked m;
   m.size[10] = 0.005;
-  limit_growth(m.cloud, m.structure, 0.3, m.size);
+  limit_growth<2>(m.cloud, m.structure, 0.3, m.size);
   for (const NodeIndex i : m.cloud.position.indices())
     for (const NodeIndex k : m.structure.neighbours(i)) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);

@@ -218,7 +218,7 @@ TEST(Mates, finest_of_both_sides_is_wanted) {
   Blank b = bonded();
   for (std::size_t i = 0; i < b.node.size.size(); ++i)
     if (b.node.part[i] == 1) b.node.size[i] = 0.04;
-  limit_growth(b.cloud, build_structure(b.cloud), 0.3, b.node.size);
+  limit_growth<2>(b.cloud, build_structure(b.cloud), 0.3, b.node.size);
   for (const auto& [one, other] : mated_nodes(b.cloud))
     EXPECT_EQ(b.node.size[index_of(one)], b.node.size[index_of(other)]);
   for (std::size_t i = 0; i < b.node.size.size(); ++i)

@@ -61,6 +61,7 @@ rereference = { every = 60, strain = 0.2 }
 [adapt]
 resample = true
 separate = true
+indicator = { field = "plastic_strain", tolerance = 0.5, h_min = "0.2 mm", max_nodes = 900 }
 [contact]
 deformable = true
 friction = { law = "coulomb", coefficient = 0.1 }

@@ -19,13 +19,21 @@ TEST(IndicatedFields, give_what_their_names_say) {
   point.plastic_work[1] = 3e8;
   point.temperature[1] = 700.0;
   point.damage[1] = 0.5;
-  EXPECT_EQ(adapt::indicated_field("plastic_strain")->at(point, 1), 0.25);
-  EXPECT_EQ(adapt::indicated_field("plastic_power")->at(point, 1), 5e12);
-  EXPECT_EQ(adapt::indicated_field("plastic_work")->at(point, 1), 3e8);
-  EXPECT_EQ(adapt::indicated_field("temperature")->at(point, 1), 700.0);
-  EXPECT_EQ(adapt::indicated_field("damage")->at(point, 1), 0.5);
-  for (const IndicatedField& field : adapt::indicated_fields()) EXPECT_EQ(field.at(point, 0), 0.0);
+  EXPECT_EQ(adapt::indicated_field("plastic_strain")->in_plane(point, 1), 0.25);
+  EXPECT_EQ(adapt::indicated_field("plastic_power")->in_plane(point, 1), 5e12);
+  EXPECT_EQ(adapt::indicated_field("plastic_work")->in_plane(point, 1), 3e8);
+  EXPECT_EQ(adapt::indicated_field("temperature")->in_plane(point, 1), 700.0);
+  EXPECT_EQ(adapt::indicated_field("damage")->in_plane(point, 1), 0.5);
+  for (const IndicatedField& field : adapt::indicated_fields()) EXPECT_EQ(field.in_plane(point, 0), 0.0);
   EXPECT_EQ(adapt::indicated_field("none"), nullptr);
+}
+
+TEST(IndicatedFields, are_the_same_in_space) {
+  PointState<3> point;
+  point.table.rest(2);
+  point.plastic_rate[1] = 1e4;
+  point.equivalent_stress[1] = 5e8;
+  EXPECT_EQ(adapt::indicated_field("plastic_power")->values(point), (Field{0.0, 5e12}));
 }
 
 TEST(IndicatedFields, are_the_choices_of_the_case) {

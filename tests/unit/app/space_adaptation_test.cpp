@@ -74,5 +74,46 @@ symmetry = true
   EXPECT_EQ(pinned(), 1U);
 }
 
+TEST(SpaceAdaptation, an_indicator_refines_surface_and_inside_down_to_h_min) {
+  const input::Case input = block(R"toml(
+[cloud]
+spacing = "0.25 mm"
+[initial]
+velocity = "-200 0 0 m/s"
+[tools.wall]
+plane = { at = "0 0 0 mm", normal = "1 0 0" }
+friction = { law = "none" }
+[adapt.indicator]
+field = "plastic_strain"
+h_min = "0.12 mm"
+)toml");
+  ExplicitSolver<3> solver = testing::solver_of<3>(input);
+  SpaceAdaptation adaptation(input, solver);
+  const auto count = [&](double from, double to, bool base) {
+    const auto& x = solver.state().node.position;
+    int nodes = 0;
+    for (std::size_t i = 0; i < x[0].size(); ++i)
+      nodes += x[0][i] >= from && x[0][i] < to && (!base || x[0][i] < 1e-6);
+    return nodes;
+  };
+  const auto refined = [&] {
+    for (const auto& [name, value] : adaptation.metrics())
+      if (name == "adapt.refined") return value;
+    return 0.0;
+  };
+  const int foot = count(-1e-6, 0.4e-3, false), base = count(-1e-6, 0.4e-3, true),
+            far = count(1.5e-3, 3e-3, false);
+  const double step = solver.stable_step().dt;
+  for (int pass = 0; pass < 5; ++pass) {
+    for (int n = 0; n < 8; ++n) solver.advance(solver.stable_step().dt);
+    adaptation.renew(solver, nothing);
+  }
+  EXPECT_GT(refined(), 50.0);
+  EXPECT_GT(count(-1e-6, 0.4e-3, false), 3 * foot);  // 2.1³ = 9 of a lattice, less on planes and beyond
+  EXPECT_GT(count(-1e-6, 0.4e-3, true), 2.5 * base); // 2.1² = 4.3
+  EXPECT_LE(count(1.5e-3, 3e-3, false), 1.2 * far);
+  EXPECT_GT(solver.stable_step().dt, 0.25 * step); // 1/2.1, and what small tetrahedra take
+}
+
 } // namespace
 } // namespace cnem::app
