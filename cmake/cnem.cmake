@@ -61,7 +61,12 @@ function(cnem_kernel target file)
     add_library(${object} OBJECT ${file})
     target_include_directories(${object} PRIVATE ${PROJECT_SOURCE_DIR})
     target_compile_definitions(${object} PRIVATE CNEM_ISA=${isa} CNEM_ISA_${isa}=1)
-    target_compile_options(${object} PRIVATE $<IF:$<BOOL:${CNEM_SANITIZE}>,-O1,-O3> -fno-math-errno -fno-trapping-math
+    if(CNEM_SANITIZE) # a list with commas, which generator expressions do not take
+      set(optimised -O1)
+    else()
+      set(optimised -O3)
+    endif()
+    target_compile_options(${object} PRIVATE ${optimised} -fno-math-errno -fno-trapping-math
                            -Wno-psabi ${flags_${isa}})
     cnem_warnings(${object})
     if(CNEM_SANITIZE MATCHES address AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -192,6 +192,10 @@ template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const st
       static_cast<int>(node), field);
 }
 
+template<int dim> void ExplicitSolver<dim>::hold(std::vector<Support<dim>> supports) {
+  conditions_.supports.replace(std::move(supports), state_.node.size());
+}
+
 template class ExplicitSolver<2>;
 template class ExplicitSolver<3>;
 

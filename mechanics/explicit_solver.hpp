@@ -50,6 +50,11 @@ public:
   /// node.
   void prepare(const Resampling<dim>& change);
 
+  /// Replaces the supports from the next step on; the work of those before stays in the ledger. For motion
+  /// that differs from node to node, which a change of the cloud does not carry. Throws InputError as
+  /// Supports.
+  void hold(std::vector<Support<dim>> supports);
+
   /// Stable step for the present configuration with the safety factor, and what limits it. With local time
   /// steps it chooses the levels of the next macro steps, and this is the stable macro step.
   struct Step {

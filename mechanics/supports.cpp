@@ -14,6 +14,12 @@ Supports<dim>::Supports(std::vector<Support<dim>> supports, std::size_t nodes)
   resolve(nodes);
 }
 
+template<int dim> void Supports<dim>::replace(std::vector<Support<dim>> supports, std::size_t nodes) {
+  Supports<dim> others(std::move(supports), nodes);
+  others.work_ = work_;
+  *this = std::move(others);
+}
+
 template<int dim> void Supports<dim>::resample(const Resampling<dim>& change, const Ties<dim>& ties) {
   for (Support<dim>& support : support_)
     support.nodes = ties.with_partners(renumbered(change, std::span<const NodeIndex>(support.nodes),

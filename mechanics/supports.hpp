@@ -36,6 +36,9 @@ public:
   /// support is oblique to another one of the same node.
   Supports(std::vector<Support<dim>> supports, std::size_t nodes);
 
+  /// Others, with the work that has been done so far.
+  void replace(std::vector<Support<dim>> supports, std::size_t nodes);
+
   /// Holds the nodes of a changed cloud, with those that are tied to them.
   void resample(const Resampling<dim>& change, const Ties<dim>& ties);
 

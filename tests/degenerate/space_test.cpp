@@ -1,17 +1,15 @@
 // Cells and operators in space on a thousand random clouds: all shapes, shaken, sheared, turned.
-#include "cnem/space.hpp"
 #include "core/error.hpp"
-#include "core/operators/operator_checks.hpp"
+#include "tests/space_checks.hpp"
 #include "tests/space_clouds.hpp"
 
 #include <gtest/gtest.h>
-#include <numeric>
 #include <omp.h>
+
+#include <cstdlib>
 
 namespace cnem::testing {
 namespace {
-
-constexpr int clouds = 1000;
 
 SpaceCloud random_body(int seed) {
   Random random(static_cast<std::uint64_t>(seed) + 100);
@@ -26,49 +24,33 @@ SpaceCloud random_body(int seed) {
   return how;
 }
 
+// With CNEM_ALL_CLOUDS each cloud has all cells and functions, else one after another.
 TEST(RandomBodies, fill_their_volume_and_reproduce_linear_fields) {
+  constexpr int clouds = 1000;
+  const bool all = std::getenv("CNEM_ALL_CLOUDS") != nullptr;
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1); // bodies are too small to share
   int built = 0;
   for (int seed = 0; seed < clouds; ++seed) {
     const SpaceCloud how = random_body(seed);
-    SCOPED_TRACE(std::string(name_of(how.shape)) + " of seed " + std::to_string(seed));
+    SCOPED_TRACE(fmt::format("{} of seed {}, sheared by {}", name_of(how.shape), seed, how.shear));
     Cloud<3> cloud;
     try {
       cloud = recovered(how).cloud;
-    } catch (const GeometryError&) { continue; } // how many is asked where boundaries are recovered
-    ++built;
-    scni::SpaceOptions options;
-    options.cells = seed % 4 == 0 ? scni::CellKind::median : scni::CellKind::voronoi;
-    options.functions = seed % 3 == 0 ? voronoi::Functions::sibson : voronoi::Functions::laplace;
-    options.gauss_points = seed % 7 == 0 ? 3 : 1;
-    const auto approximation = scni::CnemInSpace(options).rebuild(cloud);
-    const auto& op = approximation.mechanics;
-    EXPECT_TRUE(rows_are_complete(op));
-    EXPECT_NEAR(std::accumulate(op.volume.begin(), op.volume.end(), 0.0) / enclosed_measure(cloud), 1.0,
-                1e-12);
-    std::vector<Vec3> force(cloud.position.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < op.volume.size(); ++i) {
-      Vec3 sum = Vec3::Zero();
-      Mat<3> positions = Mat<3>::Zero();
-      for (auto e = index_of(op.row_begin[i]); e < index_of(op.row_begin[i + 1]); ++e) {
-        const Vec3 b(op.gradient[0][e], op.gradient[1][e], op.gradient[2][e]);
-        sum += b;
-        positions += cloud.position[op.node[e]] * b.transpose();
-        force[index_of(op.node[e])] += op.volume[i] * b;
-      }
-      EXPECT_GT(op.volume[i], 0.0);
-      EXPECT_LT(sum.norm() / how.cells, 1e-11);
-      EXPECT_LT((positions - Mat<3>::Identity()).norm(), 1e-11);
+    } catch (const GeometryError& error) {
+      EXPECT_GT(how.shear, 1.0) << error.what(); // beside holes one cell wide: no flips hold the facets
+      continue;
     }
-    for (const auto& facet : cloud.facets)
-      for (const NodeIndex i : facet.node)
-        force[index_of(i)] -= area_normal<3>(corners_of<3>(facet, cloud.position)) / 3.0;
-    for (const Vec3& f : force) EXPECT_LT(f.norm() * how.cells * how.cells, 1e-11);
-    if (HasFailure()) break;
+    ++built;
+    const std::vector<scni::SpaceOptions>& options = space_options();
+    for (std::size_t k = 0; k < options.size(); ++k)
+      if (all || k == index_of(seed / 9) % options.size()) {
+        const auto approximation = scni::CnemInSpace(options[k]).rebuild(cloud);
+        EXPECT_EQ(broken_promise(cloud, approximation.mechanics, 1.0 / how.cells), "") << "choice " << k;
+      }
   }
   omp_set_num_threads(threads);
-  if (!HasFailure()) { EXPECT_GT(built, clouds / 2); }
+  EXPECT_GE(built, 995);
 }
 
 } // namespace

@@ -20,3 +20,4 @@ endfunction()
 
 cnem_fuzz(case cnem_input)
 cnem_fuzz(geometry cnem_app)
+cnem_fuzz(space cnem_cnem)

@@ -51,7 +51,8 @@ public:
       if (round == most_rounds)
         throw GeometryError(fmt::format("{} is lost, and {} rounds of recovery did not bring it back",
                                         describe_facet(cloud, walls.lost.front()), most_rounds));
-      if (!walls.lost.empty()) {
+      const bool flips_help = round < most_flipping; // else they go round in a circle
+      if (!walls.lost.empty() && flips_help) {
         counts.flipped += fit(mesh, rules_.flat_angle);
         walls = find_walls(cloud, mesh);
       }
@@ -69,7 +70,7 @@ public:
         walls = find_walls(cloud, mesh);
         continue;
       }
-      if (const int flips = fit(flipped, rules_.smooth_angle)) {
+      if (const int flips = flips_help ? fit(flipped, rules_.smooth_angle) : 0) {
         counts.flipped += flips;
       } else if (remove_near(walls.lost)) {
         mesh = delaunay(cloud);
@@ -187,7 +188,8 @@ private:
   }
 
   static constexpr int most_rounds = 30;
-  static constexpr int most_layers = 10; ///< of flat tetrahedra on each other
+  static constexpr int most_flipping = 15; ///< of these rounds
+  static constexpr int most_layers = 10;   ///< of flat tetrahedra on each other
 
   RecoveryRules rules_;
   FixedNodes fixed_; ///< [node of the cloud now]
