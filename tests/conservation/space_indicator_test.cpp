@@ -58,7 +58,7 @@ Field second_moments(const Body& body, const CellComplex<3>& cells, const Vec3& 
   return moment;
 }
 
-class SpaceIndicator : public testing::TestWithParam<scni::CellKind> {};
+class SpaceIndicator : public ::testing::TestWithParam<scni::CellKind> {};
 
 TEST_P(SpaceIndicator, is_zero_for_a_constant) {
   const Body body(GetParam());
@@ -75,7 +75,7 @@ TEST_P(SpaceIndicator, of_a_linear_field_is_the_second_moment_of_the_cell) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, SpaceIndicator,
-                         testing::Values(scni::CellKind::median, scni::CellKind::voronoi));
+                         ::testing::Values(scni::CellKind::median, scni::CellKind::voronoi));
 
 struct Front {
   Body body{scni::CellKind::median};

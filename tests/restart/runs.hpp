@@ -15,8 +15,10 @@ struct SmallCase {
 /// revolution, finite elements, particles, damage, parts that touch or are bonded and adapt, a failure that
 /// is gone back from, a window that moves, space.
 const std::vector<SmallCase>& small_cases();
-/// Those of them that are three-dimensional: a block that is hit, and a strip that is sheared until it parts.
+/// Those of them that are three-dimensional: a block that is hit, one that is refined, and a strip that is
+/// sheared until it parts.
 std::string space_case();
+std::string space_refined();
 std::string space_sheared();
 /// Bonded, periodic and cracked.
 std::string parts_case();

@@ -369,6 +369,7 @@ const std::vector<SmallCase>& small_cases() {
       {"set_back_triangles", set_back_in_triangles(set_back)},
       {"touching_triangles", with_method(touching, "name = \"fe-triangles\"\n")},
       {"space", space_case()},
+      {"space_refined", space_refined()},
       {"space_sheared", space_sheared()},
       {"rolled", adapted + rolled},
       {"compressible", adapted + compressible},

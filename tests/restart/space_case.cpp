@@ -43,6 +43,40 @@ keep = 3
 )toml" + testing::steel_304l;
 }
 
+// A bar in flight that hits a wall: the foot is refined as it spreads.
+std::string space_refined() {
+  return R"toml(
+[analysis]
+kinematics = "three-dimensional"
+[time]
+end = "4 us"
+[domain]
+material = "steel"
+block = { shape = "cylinder", part = "quarter", radius = "1 mm", length = "2 mm" }
+[cloud]
+spacing = "0.4 mm"
+[method]
+rereference = { every = 20, strain = 0.25 }
+[adapt]
+resample = true
+indicator = { field = "plastic_strain", h_min = "0.2 mm", max_nodes = 600 }
+[initial]
+velocity = "0 0 -300 m/s"
+[boundary.symmetry]
+pieces = ["x-", "y-"]
+symmetry = true
+[tools.wall]
+plane = { at = "0 0 0 mm", normal = "0 0 1" }
+[output]
+history_every = "0.1 us"
+fields_every = "2 us"
+[output.checkpoint]
+every_steps = 15
+every_wall = "0 s"
+keep = 3
+)toml" + testing::steel_304l;
+}
+
 // A strip that a punch with a mass shears off over a die: the cloud follows, breaks and parts; its parts
 // touch.
 std::string space_sheared() {
@@ -61,7 +95,6 @@ rereference = { every = 60, strain = 0.2 }
 [adapt]
 resample = true
 separate = true
-indicator = { field = "plastic_strain", tolerance = 0.5, h_min = "0.2 mm", max_nodes = 900 }
 [contact]
 deformable = true
 friction = { law = "coulomb", coefficient = 0.1 }

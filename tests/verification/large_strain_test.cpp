@@ -18,7 +18,7 @@ namespace {
 using plasticity::test::Mat3;
 using Motion = std::function<Mat3(double time)>; ///< F
 
-const std::string block = "block = { from = \"0 0 0 mm\", to = \"1 1 1 mm\", grid = false }\n";
+const std::string strained_cube = "block = { from = \"0 0 0 mm\", to = \"1 1 1 mm\", grid = false }\n";
 
 /// The 304L of paper 004 in a domain, on a method.
 input::Case case_of(const std::string& domain, const std::string& method, const std::string& more = "") {
@@ -199,7 +199,7 @@ TEST_P(LargeStrain, simple_shear_to_four) {
   Mat3 gradient = Mat3::Zero();
   gradient(0, 1) = rate;
   const Motion motion = [&](double t) -> Mat3 { return Mat3::Identity() + t * gradient; };
-  Driven body(case_of(block, GetParam().method), gradient);
+  Driven body(case_of(strained_cube, GetParam().method), gradient);
   body.lead(motion, end);
   body.expect_sound_passes(10);
   body.expect_stress(exact_stress(body.material(), motion, end), 0.001, 0.01);
@@ -232,7 +232,7 @@ TEST_P(LargeStrain, pure_shear_to_four) {
 // Between planes and frictionless platens; the sides are free.
 TEST_P(LargeStrain, upsetting_to_three_tenths) {
   constexpr double velocity = 1e4, end = 0.7 / velocity;
-  Driven body(case_of(block, GetParam().method, R"toml(
+  Driven body(case_of(strained_cube, GetParam().method, R"toml(
 [boundary]
 x = { pieces = ["x-"], symmetry = true }
 y = { pieces = ["y-"], symmetry = true }
