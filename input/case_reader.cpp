@@ -1,5 +1,6 @@
 #include "input/case_reader.hpp"
 
+#include "core/fnv.hpp"
 #include "input/case_parts.hpp"
 #include "input/cutting.hpp"
 #include "input/drawings/outlines.hpp"
@@ -13,6 +14,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 
 namespace cnem::input {
 
@@ -29,16 +32,30 @@ std::string name_after(const std::string& path, const std::string& generic) {
 
 namespace {
 
-/// Files of surfaces are named from the root: the resolved case stands elsewhere.
-void place_files(Setting& root, const std::string& path) {
+/// Files of surfaces are named from the root, as the resolved case stands elsewhere, and known by their
+/// content.
+void place_files(Setting& root, const std::string& path, Diagnostics& diagnostics) {
   namespace fs = std::filesystem;
-  const auto place = [&](Setting* file) {
+  const auto place = [&](const std::string& at) {
+    Setting* file = root.find(at + ".file");
     if (!file) return;
-    const fs::path there = fs::path(path).parent_path() / std::get<std::string>(file->value);
-    file->value = fs::absolute(there).lexically_normal().string();
+    const fs::path there =
+        fs::absolute(fs::path(path).parent_path() / std::get<std::string>(file->value)).lexically_normal();
+    file->value = there.string();
+    std::ifstream in(there, std::ios::binary);
+    if (!in) return; // said where it is read
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::string now = fmt::format("{:016x}", fnv(bytes));
+    if (const Setting* then = root.find(at + ".content"); then && std::get<std::string>(then->value) != now)
+      diagnostics.add(
+          Mistake::reference, file->where, file->path,
+          fmt::format("found {} with checksum {}, expected {}: it has changed since this case was "
+                      "resolved (without '{}' the file is taken as it is)",
+                      there.string(), now, std::get<std::string>(then->value), then->path));
+    root.set_default(at + ".content", now);
   };
-  place(root.find("domain.stl.file"));
-  for (const Setting& tool : root.entries("tools")) place(root.find(tool.path + ".stl.file"));
+  place("domain.stl");
+  for (const Setting& tool : root.entries("tools")) place(tool.path + ".stl");
 }
 
 /// Defaults that depend on other keys.
@@ -239,7 +256,7 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   read_domain(root, result, diagnostics);
   read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
-  place_files(root, result.path);
+  place_files(root, result.path, diagnostics);
   if (Setting* cutting = root.find("cutting")) result.cutting = read_cutting(*cutting, diagnostics);
   const bool plane = result.analysis.dimensions() == 2;
   if (plane) {

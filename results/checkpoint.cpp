@@ -1,6 +1,7 @@
 #include "results/checkpoint.hpp"
 
 #include "core/error.hpp"
+#include "core/fnv.hpp"
 #include "core/index.hpp"
 #include "core/machine/memory.hpp"
 
@@ -20,13 +21,6 @@ namespace {
 constexpr std::size_t head_size = 512; // where HDF5 looks for its signature next after the first byte
 constexpr std::string_view signature = "cnem checkpoint, format ";
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
-
-/// FNV-1a, 64 bits.
-std::uint64_t fnv(std::string_view bytes) {
-  std::uint64_t h = 0xcbf29ce484222325U;
-  for (const char c : bytes) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return h;
-}
 
 std::string head_of(std::string_view body) {
   std::string head = fmt::format("{}{}\n{} bytes of HDF5 follow these {}\nchecksum fnv-1a {:016x}\n",

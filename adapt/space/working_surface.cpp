@@ -32,28 +32,6 @@ double shape_of(const std::array<Vec3, 3>& x) {
 
 } // namespace
 
-const char* text_of(Refusal refusal) {
-  switch (refusal) {
-  case Refusal::none:
-    return "done";
-  case Refusal::absent:
-    return "there is no such edge any more";
-  case Refusal::held:
-    return "the node has to stay";
-  case Refusal::corner:
-    return "creases or pieces meet at the node";
-  case Refusal::crease:
-    return "the way leads off a crease";
-  case Refusal::link:
-    return "other facets would meet in one edge";
-  case Refusal::normals:
-    return "a facet would turn too far";
-  case Refusal::volume:
-    return "the shape would change too much";
-  }
-  return "";
-}
-
 WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held,
                                const SurfaceRules& rules)
     : rules_(rules), least_crease_(cosine(rules.crease)), least_corner_(cosine(rules.corner)),
@@ -66,7 +44,6 @@ WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIn
   for (const auto& of_facet : across) across_.insert(across_.end(), of_facet.begin(), of_facet.end());
   for (Edge e = 0; e < edges(); ++e)
     if (leaving_[start(e)] == no_edge) leaving_[start(e)] = e;
-  for (const CloudFacetIndex f : cloud.facets.indices()) origin_.push_back(f);
   if (cloud.twins.empty()) return;
   const auto behind = voronoi::facets_behind(cloud);
   for (const CloudFacetIndex f : behind.indices()) {
@@ -156,10 +133,9 @@ void WorkingSurface::join(Edge a, Edge b) {
   across_[index_of(b)] = a;
 }
 
-WorkingSurface::Edge WorkingSurface::add_facet(const Facet<3>& facet, std::size_t parent) {
+WorkingSurface::Edge WorkingSurface::add_facet(const Facet<3>& facet) {
   const Edge first = edges();
   facet_.push_back(facet);
-  origin_.push_back(origin_[parent]);
   closed_.push_back(0);
   across_.resize(across_.size() + 3, no_edge);
   return first;
@@ -174,8 +150,8 @@ SurfaceChange WorkingSurface::split(Edge e, const Vec3& x) {
   position_.push_back(x);
   held_.push_back(0);
   const Edge after = across(next_edge(e)), before = across(last_edge(back));
-  const Edge one = add_facet({{made, b, c}, facet_[f].piece}, f);
-  const Edge other = add_facet({{b, made, d}, facet_[g].piece}, g);
+  const Edge one = add_facet({{made, b, c}, facet_[f].piece});
+  const Edge other = add_facet({{b, made, d}, facet_[g].piece});
   facet_[f].node[index_of(next_edge(e) % 3)] = made;
   facet_[g].node[index_of(back % 3)] = made;
   join(one, other);
@@ -350,13 +326,6 @@ IndexedVector<CloudFacetIndex, Facet<3>> WorkingSurface::facets() const {
   IndexedVector<CloudFacetIndex, Facet<3>> list;
   for (const Facet<3>& facet : facet_)
     if (exists(facet.node[0])) list.push_back(facet);
-  return list;
-}
-
-std::vector<CloudFacetIndex> WorkingSurface::origins() const {
-  std::vector<CloudFacetIndex> list;
-  for (std::size_t f = 0; f < facet_.size(); ++f)
-    if (exists(facet_[f].node[0])) list.push_back(origin_[f]);
   return list;
 }
 

@@ -30,7 +30,6 @@ enum class Refusal {
   normals, ///< a facet would turn too far, or lose its height
   volume,  ///< the shape would change too much
 };
-const char* text_of(Refusal refusal);
 
 struct SurfaceChange {
   Refusal refusal = Refusal::none;
@@ -103,9 +102,8 @@ public:
   /// where it would have to move by more than `most` (m) or facets turn too far. Whether it did.
   bool swell(NodeIndex i, double volume, double most);
 
-  /// The facets there are; origin: [facet] the one of the cloud that it is or is a part of.
+  /// The facets there are.
   IndexedVector<CloudFacetIndex, Facet<3>> facets() const;
-  std::vector<CloudFacetIndex> origins() const;
 
 private:
   static Edge last_edge(Edge e) { return e % 3 == 0 ? e + 2 : e - 1; }
@@ -117,17 +115,16 @@ private:
   bool may_become(const Corners& before, const Corners& after) const;
   void keep_on_planes(NodeIndex i, Vec3& way) const;
   Refusal may_collapse(Edge e) const;
-  Edge add_facet(const Facet<3>& facet, std::size_t parent);
+  Edge add_facet(const Facet<3>& facet);
 
   SurfaceRules rules_;
   double least_crease_, least_corner_, least_turn_, least_flat_; ///< cosines
   IndexedVector<NodeIndex, Vec3> position_;
   IndexedVector<NodeIndex, char> held_;
   IndexedVector<NodeIndex, Edge> leaving_;
-  std::vector<Facet<3>> facet_;         ///< node none: gone
-  std::vector<CloudFacetIndex> origin_; ///< [facet]
-  std::vector<char> closed_;            ///< [facet] the other face of its slit lies on it
-  std::vector<Edge> across_;            ///< [edge]
+  std::vector<Facet<3>> facet_; ///< node none: gone
+  std::vector<char> closed_;    ///< [facet] the other face of its slit lies on it
+  std::vector<Edge> across_;    ///< [edge]
 };
 
 } // namespace cnem::adapt

@@ -7,6 +7,10 @@
 
 namespace cnem::input {
 
+/// What `content` of a file of triangles is.
+inline constexpr const char* stl_content =
+    "Written into resolved cases: a checksum of the file. One with another is refused, as by a restart.";
+
 /// The key just added, to be completed in a chain of calls.
 class KeyDraft {
 public:

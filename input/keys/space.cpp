@@ -118,6 +118,7 @@ void add_sweeps(Keys& k) {
   k.add("domain.stl.file", text, "In text or binary, relative to the case file.")
       .required()
       .example("\"part.stl\"");
+  k.add("domain.stl.content", text, stl_content);
   k.add("domain.stl.unit", quantity, "Length of the file's unit.")
       .unit(d::length)
       .in(positive)

@@ -91,6 +91,7 @@ void add_solid(Keys& k, const std::string& at) {
       .required()
       .when("shape", {"stl"});
   k.add(at + "stl.file", text, "Relative to the file of the case.").required().example("\"punch.stl\"");
+  k.add(at + "stl.content", text, stl_content);
   k.add(at + "stl.unit", quantity, "Length of the file's unit.")
       .unit(d::length)
       .in(positive)

@@ -88,7 +88,7 @@ TEST(WorkingSurface, keeps_its_genus_and_books_the_volume_under_random_changes) 
       EXPECT_TRUE(voronoi::crossings(changed).empty()) << name_of(shape);
       EXPECT_GT(std::min({made.split, made.collapsed, made.flipped}), 150) << name_of(shape);
       for (const Refusal reason : {Refusal::link, Refusal::normals, Refusal::corner, Refusal::crease})
-        EXPECT_GT(made.refused.at(reason), 0) << name_of(shape) << ": " << text_of(reason);
+        EXPECT_GT(made.refused.at(reason), 0) << name_of(shape) << ": " << static_cast<int>(reason);
     }
   }
 }
@@ -107,10 +107,6 @@ TEST(WorkingSurface, leaves_faces_creases_and_corners_of_a_cube_to_the_bit) {
       EXPECT_EQ(changed.position[i][plane[0] - 'x'], plane[1] == '+' ? 1.0 : 0.0);
   }
   EXPECT_NEAR(enclosed_measure(changed), 1.0, 1e-14);
-  const auto origins = surface.origins();
-  ASSERT_EQ(origins.size(), changed.facets.size());
-  for (const CloudFacetIndex f : changed.facets.indices())
-    EXPECT_EQ(cloud.facets[origins[index_of(f)]].piece, changed.facets[f].piece);
 }
 
 TEST(WorkingSurface, leaves_held_nodes_and_closed_slits_alone) {
