@@ -20,6 +20,18 @@ struct FinishedRun {
   /// A column of the history or of the changes, by its name with or without the unit.
   const std::vector<double>& of(const std::string& name) const { return find(history, name); }
   const std::vector<double>& of_changes(const std::string& name) const { return find(events, name); }
+  /// Mean of a column of the history over the rows with from < t <= to, s; NaN without any.
+  double mean(const std::string& name, double from, double to) const {
+    const std::vector<double>&time = of("time"), &value = of(name);
+    double sum = 0.0;
+    int rows = 0;
+    for (std::size_t r = 0; r < time.size(); ++r)
+      if (time[r] > from && time[r] <= to) {
+        sum += value[r];
+        ++rows;
+      }
+    return sum / rows;
+  }
   double metric(const std::string& name) const {
     for (const auto& [key, value] : status.metrics)
       if (key == name) return value;

@@ -2,20 +2,33 @@
 #include "tests/restart/runs.hpp"
 #include "tests/steel.hpp"
 
-namespace cnem::app {
+#include <fmt/format.h>
 
-// A bar of tetrahedra in flight that hits a warm wall with friction and is pressed from above.
-std::string space_case() {
-  return R"toml(
+namespace cnem::app {
+namespace {
+
+std::string in_space(const std::string& end, const std::string& block, const std::string& spacing) {
+  return fmt::format(R"toml(
 [analysis]
 kinematics = "three-dimensional"
 [time]
-end = "12 us"
+end = "{}"
 [domain]
 material = "steel"
-block = { shape = "cylinder", part = "half", radius = "1 mm", length = "4 mm" }
+block = {{ {} }}
 [cloud]
-spacing = "0.4 mm"
+spacing = "{}"
+)toml",
+                     end, block, spacing);
+}
+
+} // namespace
+
+// A bar of tetrahedra in flight that hits a warm wall with friction and is pressed from above.
+std::string space_case() {
+  return in_space("12 us", R"(shape = "cylinder", part = "half", radius = "1 mm", length = "4 mm")",
+                  "0.4 mm") +
+         R"toml(
 [method]
 lagrangian = "total"
 [initial]
@@ -45,16 +58,9 @@ keep = 3
 
 // A bar in flight that hits a wall: the foot is refined as it spreads.
 std::string space_refined() {
-  return R"toml(
-[analysis]
-kinematics = "three-dimensional"
-[time]
-end = "4 us"
-[domain]
-material = "steel"
-block = { shape = "cylinder", part = "quarter", radius = "1 mm", length = "2 mm" }
-[cloud]
-spacing = "0.4 mm"
+  return in_space("4 us", R"(shape = "cylinder", part = "quarter", radius = "1 mm", length = "2 mm")",
+                  "0.4 mm") +
+         R"toml(
 [method]
 rereference = { every = 20, strain = 0.25 }
 [adapt]
@@ -80,16 +86,7 @@ keep = 3
 // A strip that a punch with a mass shears off over a die: the cloud follows, breaks and parts; its parts
 // touch.
 std::string space_sheared() {
-  return R"toml(
-[analysis]
-kinematics = "three-dimensional"
-[time]
-end = "12.5 us"
-[domain]
-material = "steel"
-block = { from = "0 0 0 mm", to = "4 0.8 1 mm" }
-[cloud]
-spacing = "0.25 mm"
+  return in_space("12.5 us", R"(from = "0 0 0 mm", to = "4 0.8 1 mm")", "0.25 mm") + R"toml(
 [method]
 rereference = { every = 60, strain = 0.2 }
 [adapt]

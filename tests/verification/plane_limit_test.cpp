@@ -69,15 +69,7 @@ FinishedRun in_space(int cells, const std::string& planes) {
 
 /// Mean force in y over a part of the time, us, on a tool.
 double mean_force(const FinishedRun& done, const std::string& tool, double from, double to) {
-  const std::vector<double>&time = done.of("time"), &force = done.of(tool + ".force_y");
-  double sum = 0.0;
-  int rows = 0;
-  for (std::size_t r = 0; r < time.size(); ++r)
-    if (time[r] > from * 1e-6 && time[r] <= to * 1e-6) {
-      sum += force[r];
-      ++rows;
-    }
-  return sum / rows;
+  return done.mean(tool + ".force_y", from * 1e-6, to * 1e-6);
 }
 
 /// Force on both tools over time, averaged over 2 us (the plates ring), within 3% of the plane's.

@@ -1,6 +1,5 @@
 // What a run in space leaves to be read: a cut round the punch, pictures with tools on one scale, cells in
 // files.
-#include "app/command_line.hpp"
 #include "core/index.hpp"
 #include "evaluate/blanking_result.hpp"
 #include "report/picture_album.hpp"
@@ -8,7 +7,7 @@
 #include "results/output_folder.hpp"
 #include "results/status.hpp"
 #include "results/vtk_reader.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/unit/app/command_line_fixture.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -63,21 +62,7 @@ sections.symmetry = { at = "0 0.01 0 mm", normal = "0 -1 0" }
 )toml";
 
 using Path = std::filesystem::path;
-
-void run(const Path& folder) {
-  std::ofstream(folder / "case.toml") << round_blank;
-  std::vector<std::string> words{
-      "cnem",      "run", (folder / "case.toml").string(), "--output", (folder / "results").string(),
-      "--threads", "1"};
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  ::testing::internal::CaptureStdout();
-  ::testing::internal::CaptureStderr();
-  const int code = app::command_line(static_cast<int>(argv.size()), argv.data());
-  ::testing::internal::GetCapturedStdout();
-  const std::string message = ::testing::internal::GetCapturedStderr();
-  ASSERT_EQ(code, 0) << message;
-}
+using SpaceReport = app::CommandLine;
 
 double metric(const results::RunStatus& status, const std::string& name) {
   for (const auto& [known, value] : status.metrics)
@@ -130,17 +115,19 @@ void expect_pictures(const Path& folder) {
 
 // A cut that is followed round the punch, pictures with tools on one scale, surface and cells beside the
 // nodes.
-TEST(SpaceReport, of_a_quarter_of_a_round_blank) {
-  const testing::TemporaryFolder temporary("space_report");
-  ASSERT_NO_FATAL_FAILURE(run(temporary.path()));
-  const Path folder = temporary.path() / "results";
+TEST_F(SpaceReport, of_a_quarter_of_a_round_blank) {
+  std::ofstream(temporary.path() / "case.toml") << round_blank;
+  ASSERT_EQ(call({"run", (temporary.path() / "case.toml").string(), "--output", results(), "--threads", "1"}),
+            0)
+      << message;
+  const Path folder = results();
   ASSERT_NO_FATAL_FAILURE(expect_cut(folder));
   ASSERT_NO_FATAL_FAILURE(expect_pictures(folder));
-  for (const results::FieldFiles& frame : results::read_field_series(folder)) {
+  for (const cnem::results::FieldFiles& frame : cnem::results::read_field_series(folder)) {
     ASSERT_EQ(frame.tools.size(), 2U);
     EXPECT_EQ(frame.tools[0].tool, "surface");
     EXPECT_EQ(frame.tools[1].tool, "polyhedra");
-    for (const results::ToolFile& part : frame.tools)
+    for (const cnem::results::ToolFile& part : frame.tools)
       EXPECT_TRUE(std::filesystem::exists(folder / part.file));
   }
 }
