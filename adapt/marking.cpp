@@ -34,14 +34,13 @@ Field marked(const Field& spacing, const Indicator& indicator, const MarkingRule
   return wanted;
 }
 
-} // namespace
-
-namespace {
-
 template<int dim> double sum_over_cells(const Field& volume, const Field& size) {
   double nodes = 0.0;
-  for (std::size_t i = 0; i < size.size(); ++i)
-    nodes += volume[i] / (cell_of_spacing<dim> * (dim == 2 ? 1.0 : size[i]) * size[i] * size[i]);
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    double cell = cell_of_spacing<dim>;
+    for (int k = 0; k < dim; ++k) cell *= size[i];
+    nodes += volume[i] / cell;
+  }
   return nodes;
 }
 
@@ -78,8 +77,7 @@ Marking mark(const Cloud<dim>& cloud, const StructureOf<dim>& structure, const I
 
 template<int dim>
 void limit_growth(const Cloud<dim>& cloud, const StructureOf<dim>& structure, double growth, Field& size) {
-  std::vector<std::array<NodeIndex, 2>> mates;
-  if constexpr (dim == 2) mates = mated_nodes(cloud); // space has none
+  std::vector<std::array<NodeIndex, 2>> mates = mated_nodes(cloud);
   for (std::size_t k = mates.size(); k-- > 0;) mates.push_back({mates[k][1], mates[k][0]});
   std::sort(mates.begin(), mates.end());
   /// visit(k, limit) for all that a node of spacing h keeps to a limit it is above.

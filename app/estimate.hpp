@@ -32,6 +32,9 @@ public:
     norm_ = indicator.norm;
   }
 
+  /// A pass that found nothing to estimate on.
+  void skip() { ++skipped_; }
+
   Field& error() { return error_; } ///< [node], to be carried over; empty before the first estimate
   Field error_at(std::size_t nodes) const { return error_.empty() ? Field(nodes, 0.0) : error_; }
   void add_metrics(std::vector<std::pair<std::string, double>>& list) const;
@@ -41,6 +44,7 @@ private:
   Field error_;
   double total_ = 0.0, norm_ = 0.0;          ///< of the last estimate
   std::int64_t refined_ = 0, coarsened_ = 0; ///< cells
+  std::int64_t skipped_ = 0;                 ///< passes
 };
 
 } // namespace cnem::app

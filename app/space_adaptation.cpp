@@ -94,15 +94,16 @@ Field SpaceAdaptation::refined_spacing(const ExplicitSolver<3>& solver, const Cl
   const input::Adaptation& rules = input_->adapt;
   const scni::CellKind cells = input_->method.options.cells;
   adapt::SpaceStructure structure;
+  adapt::Indicator indicator;
   try {
     structure =
         adapt::structure_of(cloud, voronoi::connected(cloud, tetrahedra(solver.approximation())), cells);
+    indicator = adapt::indicator(cloud, structure, cells, rules.indicator->values(solver.state().point));
   } catch (const GeometryError&) { // where nodes have passed each other there is nothing to estimate on
+    estimate_.skip();
     return wanted_;
   }
-  estimate_.mark<3>(rules, cloud, structure,
-                    adapt::indicator(cloud, structure, cells, rules.indicator->values(solver.state().point)),
-                    size_);
+  estimate_.mark<3>(rules, cloud, structure, std::move(indicator), size_);
   Field wanted = size_;
   adapt::limit_growth<3>(cloud, structure, rules.growth, wanted);
   return wanted;
@@ -116,6 +117,7 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   rules.cells = input_->method.options.cells;
   if (input_->adapt.separate) rules.separation.piece = fracture_piece(cloud);
   const Field size_before = size_;
+  const Estimate estimate_before = estimate_;
   try {
     const Field wanted = input_->adapt.indicator ? refined_spacing(solver, cloud) : size_;
     adapt::NodeProperties properties = node_properties(*input_, solver, wanted);
@@ -137,6 +139,7 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   } catch (const GeometryError&) { // the surface that crosses itself is why most fail
     total_.crossings += report.crossings;
     size_ = size_before;
+    estimate_ = estimate_before;
     throw;
   }
 }

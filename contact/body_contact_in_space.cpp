@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <ranges>
 
 namespace cnem::contact {
 namespace {
@@ -71,15 +72,19 @@ bool faces(const Surface<3>& surface, BoundaryNodeIndex node, const Vec3& normal
 }
 
 /// How often the boundary encloses x: the facets through which a ray upwards goes out, less those through
-/// which it comes in. facets: tree of their boxes. O(log F) and what is above.
+/// which it comes in. Of a ray through an edge or a node the neighbour at (ε, ε²) decides. facets: tree of
+/// their boxes. O(log F) and what is above.
 int winding_number(const Surface<3>& surface, PlacesOnBoundary<3> position, const BoxTree& facets,
                    const Vec3& x) {
-  // of the line through two nodes as seen from above; what is on it counts alike for both facets there
+  // of the line through two nodes as seen from above, from the lower to the higher one: to rounding the same
+  // for both facets there
   const auto side = [&](BoundaryNodeIndex p, BoundaryNodeIndex q) {
     const bool turned = q < p;
     if (turned) std::swap(p, q);
     const Vec3 to = position[q] - position[p], at = x - position[p];
-    return (to.x() * at.y() - to.y() * at.x() >= 0.0) != turned ? 1 : -1;
+    double left = to.x() * at.y() - to.y() * at.x();
+    if (left == 0.0) left = to.y() != 0.0 ? -to.y() : to.x();
+    return (left > 0.0) != turned ? 1 : -1;
   };
   Box<3> ray{x, x};
   ray.high.z() = std::numeric_limits<double>::infinity();
@@ -95,11 +100,8 @@ int winding_number(const Surface<3>& surface, PlacesOnBoundary<3> position, cons
 }
 
 Box<3> box_of(PlacesOnBoundary<3> position, std::span<const BoundaryNodeIndex> nodes, double margin) {
-  Box<3> box{position[nodes[0]], position[nodes[0]]};
-  for (const BoundaryNodeIndex b : nodes) {
-    box.low = box.low.cwiseMin(position[b]);
-    box.high = box.high.cwiseMax(position[b]);
-  }
+  Box<3> box = cnem::box_of<3>(
+      nodes | std::views::transform([&](BoundaryNodeIndex b) -> const Vec3& { return position[b]; }));
   box.low.array() -= margin;
   box.high.array() += margin;
   return box;
@@ -220,8 +222,9 @@ template<> void BodyContact<3>::list(const Surface<3>& surface) {
       const FacetView facet(surface, f, listed_);
       const Vec3 foot = facet.nearest(listed_[b]);
       if ((foot - listed_[b]).norm() > skin_) continue;
-      if (may_meet(facet.gap(listed_[b]), facet.size, 0.5 * (foot + listed_[b]),
-                   !inside(facet.weights(listed_[b]), 0.0)))
+      constexpr double inwards = 1e-6; // off planes of symmetry, which bound the bodies
+      const Vec3 middle = 0.5 * (foot + listed_[b]) + inwards * (facet.middle() - foot);
+      if (may_meet(facet.gap(listed_[b]), facet.size, middle, !inside(facet.weights(listed_[b]), 0.0)))
         pairs_.push_back({b, f});
     }
   }

@@ -43,7 +43,7 @@ namespace {
 Mat<3> shortest_rotation(const Vec3& from, const Vec3& to) {
   const double s = std::sqrt(2.0 * (1.0 + to.dot(from)));
   const Vec3 axis = from.cross(to) / s;
-  return Eigen::Quaterniond(0.5 * s, axis.x(), axis.y(), axis.z()).toRotationMatrix();
+  return Eigen::Quaterniond(0.5 * s, axis.x(), axis.y(), axis.z()).normalized().toRotationMatrix();
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 // Boxes along the axes.
 #include "core/vec.hpp"
 
+#include <iterator>
+
 namespace cnem {
 
 template<int dim> struct Box {
@@ -10,6 +12,16 @@ template<int dim> struct Box {
     return (x.array() >= low.array()).all() && (x.array() <= high.array()).all();
   }
 };
+
+/// Round points, of which there is at least one.
+template<int dim, class Points> Box<dim> box_of(const Points& points) {
+  Box<dim> box{*std::begin(points), *std::begin(points)};
+  for (const Vec<dim>& x : points) {
+    box.low = box.low.cwiseMin(x);
+    box.high = box.high.cwiseMax(x);
+  }
+  return box;
+}
 
 /// Whether they have a point in common.
 template<int dim> bool overlap(const Box<dim>& a, const Box<dim>& b) {

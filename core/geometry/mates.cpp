@@ -59,14 +59,17 @@ std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<dim>& cloud,
   return pairs;
 }
 
-std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<2>& cloud) {
+template<int dim> std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<dim>& cloud) {
   std::vector<std::array<NodeIndex, 2>> pairs;
-  for (const CloudFacetIndex f : cloud.mates.indices())
-    if (exists(cloud.mates[f])) add_ends(cloud, f, pairs);
+  if constexpr (dim == 2)
+    for (const CloudFacetIndex f : cloud.mates.indices())
+      if (exists(cloud.mates[f])) add_ends(cloud, f, pairs);
   return pairs;
 }
 
 template std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<2>&, std::span<const PieceIndex>);
 template std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<3>&, std::span<const PieceIndex>);
+template std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<2>&);
+template std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<3>&);
 
 } // namespace cnem

@@ -20,6 +20,6 @@ template<int dim>
 std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<dim>& cloud,
                                                   std::span<const PieceIndex> pieces);
 /// All of them.
-std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<2>& cloud);
+template<int dim> std::vector<std::array<NodeIndex, 2>> mated_nodes(const Cloud<dim>& cloud);
 
 } // namespace cnem

@@ -98,24 +98,24 @@ std::array<double, DamageAverage<dim>::rows> DamageAverage<dim>::sums(std::size_
 }
 
 template<int dim> void DamageAverage<dim>::share(PointState<dim>& point) {
+  static_assert(block_size % group_size == 0 && block_size % rows == 0, "a group is of one block");
   const std::size_t n = point.size();
   growth_.resize(n);
   total_.resize(n);
   group_grows_.assign(n / group_size + 1, 0);
-  bool stale = counts_.size() != n;
+  std::atomic<bool> changed = counts_.size() != n;
   counts_.resize(n);
-  std::atomic_ref<bool> changed(stale);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       const char counts = before_[p] < 1.0;
       growth_[p] = counts ? point.damage[p] - before_[p] : 0.0;
-      if (growth_[p] != 0.0)
-        std::atomic_ref(group_grows_[p / group_size]).store(1, std::memory_order_relaxed);
+      if (growth_[p] != 0.0) group_grows_[p / group_size] = 1;
       if (counts == counts_[p]) continue;
       counts_[p] = counts;
       changed.store(true, std::memory_order_relaxed);
     }
   });
+  const bool stale = changed;
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; stale && p < end; ++p) {
       total_[p] = 0.0;

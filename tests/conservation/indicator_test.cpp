@@ -1,5 +1,5 @@
-// The indicator (80)-(82) on fields it is exact for, and the marks that follow from it.
-#include "adapt/marking.hpp"
+// The indicator (80)-(82) on fields it is exact for.
+#include "adapt/indicator.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "tests/clouds.hpp"
 #include "tests/linear_functions.hpp"
@@ -84,112 +84,9 @@ struct Solid {
   CellComplex<3> cells;
 };
 
-TEST(Indicator, in_space_is_zero_for_a_constant) {
-  const Solid solid(3);
-  const Indicator found = solid.of([](const Vec<3>&) { return 0.7; });
-  double volume = 0.0;
-  for (const double v : solid.cells.volume) volume += v;
-  EXPECT_EQ(found.total, 0.0);
-  EXPECT_NEAR(found.norm, 0.7 * std::sqrt(volume), 1e-14);
-}
-
-TEST(Indicator, in_space_of_a_linear_field_is_the_second_moment_of_the_cell) {
-  const Solid solid(3);
-  const Vec<3> g(2.0, -1.5, 0.5);
-  const Indicator found = solid.of([&](const Vec<3>& x) { return 5.0 + g.dot(x); });
-  std::vector<double> exact(found.error.size(), 0.0);
-  for (const auto& corner : solid.block.tetrahedra) {
-    std::array<Vec<3>, 4> x;
-    for (std::size_t k = 0; k < 4; ++k)
-      x[k] = solid.block.cloud.position[static_cast<std::size_t>(corner[k])];
-    for (std::size_t a = 0; a < 4; ++a) {
-      // the hexahedron of corner a, as six pieces: corner, middle of an edge, centroid of a face, of all
-      for (std::size_t b = 0; b < 4; ++b)
-        for (std::size_t c = 0; c < 4; ++c) {
-          if (a == b || b == c || a == c) continue;
-          const Vec<3> middle = 0.5 * (x[a] + x[b]), face = (x[a] + x[b] + x[c]) / 3.0,
-                       centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
-          const double l[3] = {g.dot(middle - x[a]), g.dot(face - x[a]), g.dot(centre - x[a])};
-          const double volume = std::abs(measure<3>({x[a], middle, face, centre}));
-          // ∫ λ_k² = V/10, ∫ λ_k λ_l = V/20
-          exact[static_cast<std::size_t>(corner[a])] +=
-              volume / 10.0 *
-              (l[0] * l[0] + l[1] * l[1] + l[2] * l[2] + l[0] * l[1] + l[1] * l[2] + l[2] * l[0]);
-        }
-    }
-  }
-  for (std::size_t i = 0; i < exact.size(); ++i)
-    EXPECT_NEAR(found.error[i] * found.error[i], exact[i], 1e-12 * exact[i]) << i;
-}
-
 TEST(Indicator, in_space_falls_with_the_spacing) {
   const auto quadratic = [](const Vec<3>& x) { return x.squaredNorm() + x.y(); };
   EXPECT_NEAR(Solid(4).of(quadratic).total / Solid(8).of(quadratic).total, 2.0, 0.1);
-}
-
-struct Marked {
-  Cloud<2> cloud = notched(0.08);
-  Structure structure = build_structure(cloud);
-  Field value, size;
-  MarkingRules rules{.tolerance = 0.2, .coarsen = 0.05, .h_min = 0.02, .h_max = 0.16};
-
-  Marked() {
-    for (const Vec2& x : cloud.position) value.push_back(std::tanh((x.x() - 0.2) / 0.05));
-    size.assign(value.size(), 0.08);
-  }
-  Marking mark_now() { return mark<2>(cloud, structure, indicator(cloud, structure, value), rules, size); }
-};
-
-TEST(Marking, refines_at_the_front_and_coarsens_where_nothing_happens) {
-  Marked m;
-  const Marking marking = m.mark_now();
-  EXPECT_GT(marking.refined, 5);
-  EXPECT_GT(marking.coarsened, 5);
-  for (std::size_t i = 0; i < m.size.size(); ++i) {
-    const double x = m.cloud.position[i].x();
-    if (std::abs(x - 0.2) < 0.02) {
-      EXPECT_EQ(m.size[i], 0.04) << x;
-    } else if (x > 0.6) {
-      EXPECT_EQ(m.size[i], 0.16) << x;
-    }
-  }
-}
-
-TEST(Marking, waits_until_the_cloud_has_followed) {
-  Marked m;
-  m.mark_now();
-  const Field once = m.size;
-  m.mark_now();
-  EXPECT_EQ(m.size, once);
-}
-
-TEST(Marking, keeps_to_the_range_and_the_budget) {
-  Marked m;
-  m.rules.h_min = 0.06;
-  m.rules.h_max = 0.1;
-  m.mark_now();
-  for (const double h : m.size) {
-    EXPECT_GE(h, 0.06);
-    EXPECT_LE(h, 0.1);
-  }
-  Marked poor;
-  poor.rules.max_nodes = 180;
-  poor.rules.coarsen = 0.0;
-  const Marking marking = poor.mark_now();
-  EXPECT_GT(marking.tolerance, 0.2);
-  EXPECT_LE(nodes_wanted(poor.structure, poor.size), 180.0);
-}
-
-TEST(Marking, spacing_grows_no_faster_than_asked) {
-  Marked m;
-  m.size[10] = 0.005;
-  limit_growth<2>(m.cloud, m.structure, 0.3, m.size);
-  for (const NodeIndex i : m.cloud.position.indices())
-    for (const NodeIndex k : m.structure.neighbours(i)) {
-      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
-      EXPECT_LE(m.size[b], m.size[a] + 0.3 * (m.cloud.position[b] - m.cloud.position[a]).norm() + 1e-12);
-    }
-  EXPECT_EQ(m.size[10], 0.005);
 }
 
 } // namespace

@@ -1,5 +1,4 @@
-// The indicator on the cells of clouds in space, and the marks that follow from it.
-#include "adapt/marking.hpp"
+// The indicator on the cells of clouds in space.
 #include "adapt/space/indicator.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "voronoi/space/median_cells.hpp"
@@ -76,54 +75,6 @@ TEST_P(SpaceIndicator, of_a_linear_field_is_the_second_moment_of_the_cell) {
 
 INSTANTIATE_TEST_SUITE_P(Cells, SpaceIndicator,
                          ::testing::Values(scni::CellKind::median, scni::CellKind::voronoi));
-
-struct Front {
-  Body body{scni::CellKind::median};
-  MarkingRules rules{.tolerance = 0.1, .coarsen = 0.05, .h_min = 0.05, .h_max = 0.4};
-  Field size = Field(body.cloud.position.size(), 0.2);
-
-  Marking mark_now() {
-    const Field value = body.values([](const Vec3& x) { return std::tanh((x.x() - 0.2) / 0.05); });
-    return mark<3>(body.cloud, body.structure, body.of(value), rules, size);
-  }
-};
-
-TEST(SpaceMarking, refines_at_the_front_and_coarsens_where_nothing_happens) {
-  Front front;
-  const Marking marking = front.mark_now();
-  EXPECT_GT(marking.refined, 10);
-  EXPECT_GT(marking.coarsened, 10);
-  for (std::size_t i = 0; i < front.size.size(); ++i) {
-    const double x = front.body.cloud.position[i].x();
-    if (std::abs(x - 0.2) < 0.02) {
-      EXPECT_EQ(front.size[i], 0.1) << x;
-    } else if (x > 0.7) {
-      EXPECT_EQ(front.size[i], 0.4) << x;
-    }
-  }
-}
-
-TEST(SpaceMarking, keeps_to_the_budget) {
-  Front front;
-  front.rules.max_nodes = 350;
-  front.rules.coarsen = 0.0;
-  const Marking marking = front.mark_now();
-  EXPECT_GT(marking.tolerance, front.rules.tolerance);
-  limit_growth<3>(front.body.cloud, front.body.structure, front.rules.growth, front.size);
-  EXPECT_LE(nodes_wanted(front.body.structure, front.size), 350.0);
-}
-
-TEST(SpaceMarking, spacing_grows_no_faster_than_asked) {
-  Front front;
-  front.size[10] = 0.02;
-  limit_growth<3>(front.body.cloud, front.body.structure, 0.3, front.size);
-  for (const NodeIndex i : front.body.cloud.position.indices())
-    for (const NodeIndex k : front.body.structure.neighbours(i)) {
-      const double distance = (front.body.cloud.position[k] - front.body.cloud.position[i]).norm();
-      EXPECT_LE(front.size[index_of(k)], front.size[index_of(i)] + 0.3 * distance + 1e-12);
-    }
-  EXPECT_EQ(front.size[10], 0.02);
-}
 
 } // namespace
 } // namespace cnem::adapt

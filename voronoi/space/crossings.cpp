@@ -1,5 +1,7 @@
 #include "voronoi/space/crossings.hpp"
 
+#include "core/geometry/box.hpp"
+#include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/exact.hpp"
 #include "voronoi/space/surface.hpp"
@@ -114,13 +116,8 @@ std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud) {
   std::vector<NumberedBox> boxes;
   boxes.reserve(cloud.facets.size());
   for (const CloudFacetIndex f : cloud.facets.indices()) {
-    const auto& node = cloud.facets[f].node;
-    Vec3 low = cloud.position[node[0]], high = low;
-    for (const NodeIndex i : node) {
-      low = low.cwiseMin(cloud.position[i]);
-      high = high.cwiseMax(cloud.position[i]);
-    }
-    boxes.emplace_back(low.data(), high.data(), static_cast<std::int32_t>(f));
+    Box<3> box = box_of<3>(corners_of<3>(cloud.facets[f], cloud.position));
+    boxes.emplace_back(box.low.data(), box.high.data(), static_cast<std::int32_t>(f));
   }
   const Pairs pairs(cloud);
   std::vector<std::array<CloudFacetIndex, 2>> found;

@@ -90,8 +90,10 @@ private:
   template<class Flips> void without_crossings(const Flips& flips_that_may_cross) {
     constexpr int most = 4;
     const auto before = result_.cloud.facets;
-    for (int n = 1; flips_that_may_cross() && n < most && mark_crossings(); ++n)
+    for (int n = 1; flips_that_may_cross() && mark_crossings(); ++n) {
+      if (n == most) std::fill(fixed_.begin(), fixed_.end(), 1); // on planes alone, everywhere
       result_.cloud.facets = before;
+    }
   }
 
   int fit(const Delaunay& mesh, double angle) {

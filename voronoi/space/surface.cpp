@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/box_tree.hpp"
+#include "core/geometry/facets.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/exact.hpp"
@@ -116,16 +117,6 @@ bool pierces(const Cloud<3>& cloud, NodeIndex p, NodeIndex q, const std::array<N
   return low * high >= 0 && (turns[0] != 0) + (turns[1] != 0) + (turns[2] != 0) > 1;
 }
 
-Box<3> box_of(const Cloud<3>& cloud, CloudFacetIndex f) {
-  const auto& node = cloud.facets[f].node;
-  Box<3> box{cloud.position[node[0]], cloud.position[node[0]]};
-  for (const NodeIndex i : node) {
-    box.low = box.low.cwiseMin(cloud.position[i]);
-    box.high = box.high.cwiseMax(cloud.position[i]);
-  }
-  return box;
-}
-
 bool cross(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& f, const std::array<NodeIndex, 3>& g) {
   for (std::size_t k = 0; k < 3; ++k)
     if (pierces(cloud, f[k], f[(k + 1) % 3], g) || pierces(cloud, g[k], g[(k + 1) % 3], f)) return true;
@@ -177,12 +168,15 @@ IndexedVector<CloudFacetIndex, CloudFacetIndex> facets_behind(const Cloud<3>& cl
 }
 
 void refuse_crossings(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& suspects) {
+  const auto box = [&](CloudFacetIndex f) {
+    return box_of<3>(corners_of<3>(cloud.facets[f], cloud.position));
+  };
   std::vector<Box<3>> boxes;
-  for (const CloudFacetIndex f : cloud.facets.indices()) boxes.push_back(box_of(cloud, f));
+  for (const CloudFacetIndex f : cloud.facets.indices()) boxes.push_back(box(f));
   const BoxTree tree(std::move(boxes));
   for (const CloudFacetIndex f : suspects) {
     CloudFacetIndex crossed = CloudFacetIndex::none;
-    tree.overlapping(box_of(cloud, f), [&](std::int32_t number) {
+    tree.overlapping(box(f), [&](std::int32_t number) {
       const auto g = as<CloudFacetIndex>(number);
       if (f != g && (!exists(crossed) || g < crossed) &&
           cross(cloud, cloud.facets[f].node, cloud.facets[g].node))

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <random>
+
 using namespace cnem;
 using namespace cnem::contact;
 using namespace cnem::contact::testing;
@@ -41,6 +45,21 @@ bool encloses(const SpaceMasses& scene, std::size_t first, std::size_t last, con
                                                b.dot(c) * a.norm() + c.dot(a) * b.norm());
   }
   return angle > std::numbers::pi;
+}
+
+/// The same masses in another order.
+SpaceMasses renumbered(const SpaceMasses& scene, unsigned seed) {
+  std::vector<int> order(std::size_t(scene.nodes())), now(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+  SpaceMasses made;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    made.add(scene.position(order[n]), scene.mass[std::size_t(order[n])], scene.velocity(order[n]));
+    now[std::size_t(order[n])] = static_cast<int>(n);
+  }
+  const auto at = [&](NodeIndex i) { return now[index_of(i)]; };
+  for (const Facet<3>& f : scene.facets) made.facet(at(f.node[0]), at(f.node[1]), at(f.node[2]));
+  return made;
 }
 
 } // namespace
@@ -97,6 +116,33 @@ TEST(SpaceBodies, edges_that_cross_stop_each_other) {
   EXPECT_LT(low - high, 1e-5);
   EXPECT_LT((scene.momentum() - momentum).norm(), 1e-13);
   EXPECT_LT(scene.velocity(0).z(), -0.1) << "the ridge below has taken its share";
+}
+
+// Nodes of a lattice stand above each other, where a ray upwards meets nodes and edges.
+TEST(SpaceBodies, sides_of_a_thin_lattice_pass_each_other_however_it_is_numbered) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SpaceMasses sheet = space_block({6, 6, 2}, 0.1, {0, 0, 0}, 1.0, 0.0);
+    for (double& z : sheet.x[2]) z *= 0.2;
+    for (std::size_t i = 0; i < sheet.x[2].size(); ++i) sheet.v[2][i] = -2.0 * sheet.x[2][i]; // thinner
+    SpaceMasses scene = renumbered(sheet, seed);
+    scene.start({}, BodyContactLaw{true, Coulomb{0.0}});
+    for (int i = 0; i < 20; ++i) scene.step(1e-2);
+    EXPECT_EQ(scene.contact->body_result().total.workpiece, 0.0) << seed;
+  }
+}
+
+TEST(SpaceBodies, lattices_that_overlap_come_no_nearer_however_they_are_numbered) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SpaceMasses blocks = space_block({4, 4, 4}, 0.25, {0, 0, 0}, 1.0, 0.0);
+    append(blocks, space_block({4, 4, 4}, 0.25, {0, 0, 0}, 1.0, 0.0), Mat<3>::Identity(), {0, 0, 0.72},
+           {0, 0, -1.0});
+    SpaceMasses scene = renumbered(blocks, seed);
+    scene.start({}, BodyContactLaw{true, Coulomb{0.0}});
+    for (int i = 0; i < 5; ++i) scene.step(1e-4);
+    int slowed = 0; // of 16 nodes above and as many below, that meet at nodes
+    for (int n = 0; n < scene.nodes(); ++n) slowed += std::abs(scene.velocity(n).z() + 0.5) < 0.4;
+    EXPECT_EQ(slowed, 28) << seed;
+  }
 }
 
 TEST(SpaceBodies, a_thin_body_does_not_touch_its_own_far_side) {

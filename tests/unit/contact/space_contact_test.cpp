@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <numbers>
 #include <random>
 
 using namespace cnem;
@@ -59,6 +60,17 @@ SpaceMasses one_facet() {
 }
 
 } // namespace
+
+TEST(SpaceContact, turning_z_to_any_direction_changes_no_length) {
+  for (const double angle : {0.0, 1.0, 3.0, 1e-3, 1e-5, 1e-6, 1e-7, 1e-9})
+    for (const bool nearly_opposite : {false, true}) {
+      const double to = nearly_opposite ? std::numbers::pi - angle : angle;
+      const Vec3 end(std::sin(to) * 0.6, std::sin(to) * 0.8, std::cos(to));
+      const Mat<3> turn = rotation_of_z(end);
+      EXPECT_LT((turn.transpose() * turn - Mat<3>::Identity()).norm(), 1e-14) << to;
+      EXPECT_LT((turn * Vec3::UnitZ() - end.normalized()).norm(), 1e-9) << to;
+    }
+}
 
 TEST(SpaceContact, a_corner_presses_on_a_facet_by_its_weights) {
   SpaceMasses scene = one_facet();
