@@ -93,6 +93,8 @@ public:
     for (const char* kept : {"mass_error", "momentum_error"}) EXPECT_LT(counted(kept), 1e-12) << kept;
     for (const char* none : {"crossings", "undone", "outside", "folded"}) EXPECT_EQ(counted(none), 0) << none;
     EXPECT_LT(std::abs(counted("volume_change")), 1e-12 * 1e-9);
+    const EnergyLedger ledger = solver_.ledger(); // over all supports that have led the boundary
+    EXPECT_LT(std::abs(ledger.residual()), 3e-3 * ledger["plastic"]);
   }
   const plasticity::Material& material() const { return solver_.model().materials.front(); }
   std::size_t nodes() const { return solver_.state().node.size(); }
