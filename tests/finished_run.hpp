@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cnem::testing {
@@ -20,17 +21,18 @@ struct FinishedRun {
   /// A column of the history or of the changes, by its name with or without the unit.
   const std::vector<double>& of(const std::string& name) const { return find(history, name); }
   const std::vector<double>& of_changes(const std::string& name) const { return find(events, name); }
-  /// Mean of a column of the history over the rows with from < t <= to, s; NaN without any.
+  /// Mean of a column of the history over time, s: by trapezoids between its rows, of which there are some
+  /// before and after.
   double mean(const std::string& name, double from, double to) const {
     const std::vector<double>&time = of("time"), &value = of(name);
-    double sum = 0.0;
-    int rows = 0;
-    for (std::size_t r = 0; r < time.size(); ++r)
-      if (time[r] > from && time[r] <= to) {
-        sum += value[r];
-        ++rows;
-      }
-    return sum / rows;
+    double integral = 0.0;
+    for (std::size_t r = 1; r < time.size(); ++r) {
+      const double begin = std::max(time[r - 1], from), end = std::min(time[r], to);
+      if (!(begin < end)) continue;
+      const double slope = (value[r] - value[r - 1]) / (time[r] - time[r - 1]);
+      integral += (end - begin) * (value[r - 1] + slope * (0.5 * (begin + end) - time[r - 1]));
+    }
+    return integral / (to - from);
   }
   double metric(const std::string& name) const {
     for (const auto& [key, value] : status.metrics)
