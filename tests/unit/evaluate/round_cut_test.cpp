@@ -3,6 +3,7 @@
 
 #include "contact/placed_shape.hpp"
 #include "core/index.hpp"
+#include "evaluate/blanking_parts.hpp"
 #include "input/tool_surface.hpp"
 #include "tests/index_literals.hpp"
 #include "tests/unit/evaluate/degree.hpp"
@@ -99,6 +100,12 @@ struct RoundBlank {
       for (Vec3& x : *list) moved(x);
     moved(axis.centre);
     axis.direction = rotation * axis.direction;
+  }
+  /// About y.
+  void tilt_slug(double angle) {
+    const Mat<3> tilt = contact::rotation_about({0, 1, 0}, angle);
+    for (Vec3& x : sheet.now.points)
+      if (x.z() < -0.2) x = Vec3(0, 0, drop) + tilt * (x - Vec3(0, 0, drop));
   }
   BlankingResult evaluated(int sections) const {
     BlankingResult result;
@@ -217,8 +224,8 @@ TEST(RoundCut, what_stands_inside_the_punch_cuts_nothing) {
   }
 }
 
-// Edges that end at a node are cut in one place; a pyramid whose tip alone touches the plane from below is no
-// body.
+// Edges that end at a node are cut in one place; a pyramid whose tip alone touches the plane is no part of
+// the slug there, though a plane of symmetry holds it.
 TEST(RoundCut, planes_may_go_through_nodes) {
   RoundBlank blank;
   const auto tip = as<std::int32_t>(blank.sheet.now.points.size());
@@ -230,7 +237,7 @@ TEST(RoundCut, planes_may_go_through_nodes) {
   for (const std::array<std::int32_t, 3>& t : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}) {
     blank.sheet.now.triangles.push_back({tip + t[0], tip + t[1], tip + t[2]});
     blank.sheet.piece.push_back(0_piece);
-    blank.sheet.on_plane.push_back(0);
+    blank.sheet.on_plane.push_back(1);
   }
   blank.sheet.before.triangles = blank.sheet.now.triangles;
   BlankingResult result;
@@ -243,6 +250,10 @@ TEST(RoundCut, planes_may_go_through_nodes) {
     EXPECT_NEAR(face.burnish, face.body == "slug" ? 0.28 + 0.1 * std::cos(face.angle) : 0.3, 0.006)
         << face.angle / degree;
   }
+  blank.tilt_slug(0.05);
+  BlankingResult tilted;
+  blank.measure(tilted, {0.0});
+  EXPECT_NEAR(std::abs(tilted.faces.at(0).tilt), 0.05, 0.005);
 }
 
 TEST(RoundCut, along_x_angles_count_from_y) {
@@ -299,12 +310,22 @@ TEST(RoundCut, pieces_and_broken_nodes_are_those_of_the_plane) {
   EXPECT_EQ(broken.faces[1].broken, 0.0);
 }
 
+TEST(RoundCut, holes_are_known_of_bodies_that_are_drawn_out) {
+  IndexedVector<PieceIndex, std::string> names;
+  for (const char* name : {"rim", "bore", "z-", "z+", "fracture"}) names.push_back(name);
+  input::Domain domain;
+  domain.outer.pieces.push_back({{0, 0}, {1, 0}, {0, 0}, 0.0, false, "rim"});
+  domain.sweep.emplace().ends = {"z-", "z+"};
+  EXPECT_EQ(other_pieces(domain, names), std::vector{1_piece});
+  domain.sweep.reset();
+  domain.block.emplace(); // a tube: what is inside cannot be told from the outline
+  EXPECT_TRUE(other_pieces(domain, names).empty());
+}
+
 // A tilted slug is measured in its own frame, unless a plane of symmetry holds it.
 TEST(RoundCut, bodies_that_a_plane_holds_are_not_turned) {
   RoundBlank blank;
-  const Mat<3> tilt = contact::rotation_about({0, 1, 0}, 0.05);
-  for (Vec3& x : blank.sheet.now.points)
-    if (x.z() < -0.2) x = Vec3(0, 0, drop) + tilt * (x - Vec3(0, 0, drop));
+  blank.tilt_slug(0.05);
   const double before = blank.evaluated(2).faces[0].tilt;
   BlankingResult turned, held;
   blank.measure(turned, {0.001});
