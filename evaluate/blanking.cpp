@@ -18,21 +18,6 @@ namespace cnem::evaluate {
 
 namespace {
 
-/// How much of the line at t lies inside a polygon, m.
-double thickness_at(const CutTools& tools, const std::vector<Vec2>& polygon, double t) {
-  std::vector<double> crossing;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    const double ta = tools.across(a) - t, tb = tools.across(b) - t;
-    if ((ta < 0.0) == (tb < 0.0)) continue;
-    const double share = ta / (ta - tb);
-    crossing.push_back((1.0 - share) * tools.along(a) + share * tools.along(b));
-  }
-  if (crossing.empty()) return 0.0;
-  const auto [low, high] = std::minmax_element(crossing.begin(), crossing.end());
-  return *high - *low;
-}
-
 /// The part with the most volume where t is in a band; −1 when there is none.
 std::int32_t part_in(const CutTools& tools, const CutSheet& sheet, double from, double to) {
   std::map<std::int32_t, double> volume;
@@ -82,31 +67,12 @@ Shape shape_of(const std::vector<Sample>& samples, bool arc, std::optional<doubl
   return shape;
 }
 
-std::vector<Vec2> positions(const Fields<2>& field) {
-  std::vector<Vec2> list(field[0].size());
-  for (std::size_t i = 0; i < list.size(); ++i) list[i] = {field[0][i], field[1][i]};
-  return list;
-}
-
 std::vector<char> nodes_on_planes(const Supports<2>& supports, const Vec2& direction, std::size_t nodes) {
   std::vector<char> on(nodes, 0);
   for (const Support<2>& support : supports.list())
-    if (support.kind == Support<2>::Kind::symmetry && std::abs(support.direction.dot(direction)) < 1e-6)
+    if (along_the_cut(support, direction))
       for (const NodeIndex i : support.nodes) on[index_of(i)] = 1;
   return on;
-}
-
-/// Pieces of the boundary that neither the outline of the sheet nor fracture made: holes and cracks.
-std::vector<PieceIndex> other_pieces(const input::Domain& domain,
-                                     const IndexedVector<PieceIndex, std::string>& names) {
-  std::vector<PieceIndex> others;
-  for (const PieceIndex piece : names.indices()) {
-    const auto is_this = [&](const CurvePiece& part) { return part.name == names[piece]; };
-    if (names[piece] != input::Adaptation::fracture_piece &&
-        std::none_of(domain.outer.pieces.begin(), domain.outer.pieces.end(), is_this))
-      others.push_back(piece);
-  }
-  return others;
 }
 
 double largest_of(const Fields<2>& displacement, const std::vector<std::int32_t>& part, std::int32_t wanted) {
@@ -118,6 +84,20 @@ double largest_of(const Fields<2>& displacement, const std::vector<std::int32_t>
 
 } // namespace
 
+std::vector<PieceIndex> other_pieces(const input::Domain& domain,
+                                     const IndexedVector<PieceIndex, std::string>& names) {
+  std::vector<PieceIndex> others;
+  if (domain.block || domain.faceted) return others;
+  for (const PieceIndex piece : names.indices()) {
+    const std::string& name = names[piece];
+    const bool end = domain.sweep && std::ranges::count(domain.sweep->ends, name) > 0;
+    if (name != input::Adaptation::fracture_piece && !end &&
+        std::ranges::none_of(domain.outer.pieces, [&](const CurvePiece& part) { return part.name == name; }))
+      others.push_back(piece);
+  }
+  return others;
+}
+
 std::vector<Vec2> points_of(const Curve& curve, const Vec2& shift) {
   constexpr int divisions = 32;
   std::vector<Vec2> points;
@@ -125,6 +105,20 @@ std::vector<Vec2> points_of(const Curve& curve, const Vec2& shift) {
     for (int k = 0; k < (piece.is_arc() ? divisions : 1); ++k)
       points.push_back(piece.point(k / double(divisions)) + shift);
   return points;
+}
+
+double thickness_at(const CutTools& tools, std::span<const std::vector<Vec2>> outlines, double t) {
+  double low = INFINITY, high = -INFINITY;
+  for (const std::vector<Vec2>& polygon : outlines)
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+      const double ta = tools.across(a) - t, tb = tools.across(b) - t;
+      if ((ta < 0.0) == (tb < 0.0)) continue;
+      const double share = ta / (ta - tb), s = (1.0 - share) * tools.along(a) + share * tools.along(b);
+      low = std::min(low, s);
+      high = std::max(high, s);
+    }
+  return high > low ? high - low : 0.0;
 }
 
 std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<Vec2>& outline) {
@@ -147,7 +141,7 @@ std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<
       if (const double t = side * tools.across(x); t > middle && tools.along(x) < deepest)
         edge = std::min(edge, t);
     if (!std::isfinite(edge)) continue; // no die on this side
-    const double gap = side * 0.5 * (reach + edge), thickness = thickness_at(tools, outline, gap);
+    const double gap = side * 0.5 * (reach + edge), thickness = thickness_at(tools, {&outline, 1}, gap);
     if (thickness > 0.0)
       list.push_back({side < 0.0 ? "left" : "right", edge - reach, thickness,
                       tools.place(gap, 0.5 * (top + bottom)), tools.place(side, 0.0)});
@@ -156,25 +150,33 @@ std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<
   return list;
 }
 
+std::optional<CutEdges> edges_on(const CutTools& tools, double side) {
+  double reach = -INFINITY, edge = INFINITY;
+  for (const Vec2& x : tools.punch) reach = std::max(reach, side * tools.across(x));
+  for (const Vec2& x : tools.die)
+    if (const double t = side * tools.across(x); t >= reach - 1e-9 * std::abs(reach))
+      edge = std::min(edge, t);
+  if (!std::isfinite(reach) || !std::isfinite(edge)) return std::nullopt;
+  return CutEdges{side, side * reach, side * edge};
+}
+
+Cut cut_between(const CutTools& tools, const CutSheet& sheet, const CutEdges& edges, double thickness) {
+  Cut cut;
+  static_cast<CutEdges&>(cut) = edges;
+  cut.thickness = thickness;
+  const double inner = cut.punch - cut.side * thickness, outer = cut.die + cut.side * thickness;
+  cut.slug = part_in(tools, sheet, std::min(inner, cut.punch), std::max(inner, cut.punch));
+  cut.skeleton = part_in(tools, sheet, std::min(outer, cut.die), std::max(outer, cut.die));
+  return cut;
+}
+
 std::vector<Cut> find_cuts(const CutTools& tools, const CutSheet& sheet) {
   std::vector<Cut> cuts;
   for (const double side : {-1.0, 1.0}) {
-    Cut cut;
-    cut.side = side;
-    double reach = -INFINITY, edge = INFINITY;
-    for (const Vec2& x : tools.punch) reach = std::max(reach, side * tools.across(x));
-    for (const Vec2& x : tools.die)
-      if (const double t = side * tools.across(x); t >= reach - 1e-9 * std::abs(reach))
-        edge = std::min(edge, t);
-    if (!std::isfinite(edge)) continue; // no die on this side
-    cut.punch = side * reach;
-    cut.die = side * edge;
-    cut.thickness = thickness_at(tools, sheet.initial_outline, 0.5 * (cut.punch + cut.die));
-    if (!(cut.thickness > 0.0)) continue;
-    const double inner = cut.punch - side * cut.thickness, outer = cut.die + side * cut.thickness;
-    cut.slug = part_in(tools, sheet, std::min(inner, cut.punch), std::max(inner, cut.punch));
-    cut.skeleton = part_in(tools, sheet, std::min(outer, cut.die), std::max(outer, cut.die));
-    cuts.push_back(cut);
+    const auto edges = edges_on(tools, side);
+    if (!edges) continue;
+    const double thickness = thickness_at(tools, {&sheet.initial_outline, 1}, edges->middle());
+    if (thickness > 0.0) cuts.push_back(cut_between(tools, sheet, *edges, thickness));
   }
   if (cuts.size() == 2) {
     cuts[0].name = "left";
@@ -293,7 +295,7 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
 
   const auto& pieces = shot.cloud.piece_names;
   const auto piece = std::find(pieces.begin(), pieces.end(), input::Adaptation::fracture_piece);
-  CutSheet sheet{positions(shot.state.node.position),
+  CutSheet sheet{places<2>(shot.state.node.position),
                  shot.cloud.facets,
                  piece == pieces.end() ? PieceIndex::none : as<PieceIndex>(piece - pieces.begin()),
                  {},
@@ -301,7 +303,7 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
                  nodes_on_planes(supports, tools.direction, shot.state.node.size()),
                  points_of(input.domain.outer, Vec2::Zero()),
                  other_pieces(input.domain, pieces),
-                 positions(shot.state.node.initial_position),
+                 places<2>(shot.state.node.initial_position),
                  broken_nodes(shot)};
   for (const std::size_t root : parts_of(shot.approximation.mechanics, sheet.position.size()))
     sheet.part.push_back(static_cast<std::int32_t>(root));

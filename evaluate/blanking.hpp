@@ -6,6 +6,7 @@
 #include "results/history_writer.hpp"
 #include "results/snapshot.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,12 +41,18 @@ struct CutTools {
   }
 };
 
-/// One cut: the gap between a side of the punch and the edge of the die that it passes. t counts across the
-/// cutting direction, to the right when the punch goes down.
-struct Cut {
+/// The gap between a side of the punch and the edge of the die beyond it. t counts across the cutting
+/// direction, to the right when the punch goes down.
+struct CutEdges {
+  double side = 1.0;             ///< +1: the die lies at larger t than the punch
+  double punch = 0.0, die = 0.0; ///< m, t
+
+  double middle() const { return 0.5 * (punch + die); }
+};
+
+/// One cut: such a gap where there was sheet.
+struct Cut : CutEdges {
   std::string name;                      ///< "left" or "right"; empty when there is one
-  double side = 1.0;                     ///< +1: the die lies at larger t than the punch
-  double punch = 0.0, die = 0.0;         ///< m, t
   double thickness = 0.0;                ///< m, of the sheet before, half-way
   std::int32_t slug = -1, skeleton = -1; ///< parts on the two sides: equal until they have come apart
 };
@@ -63,6 +70,17 @@ struct Clearance {
 };
 /// Of both sides of the punch, where a die stands under sheet. outline: m, of the sheet.
 std::vector<Clearance> find_clearances(const CutTools& tools, const std::vector<Vec2>& outline);
+
+/// How much of the line at t lies between the outermost crossings of closed polygons (m), m; 0 where there is
+/// none.
+double thickness_at(const CutTools& tools, std::span<const std::vector<Vec2>> outlines, double t);
+
+/// On a side of the punch; none without a die beyond it.
+std::optional<CutEdges> edges_on(const CutTools& tools, double side);
+
+/// The cut there, of a sheet of that thickness (m), with the bodies beside it. Does without the initial
+/// outline.
+Cut cut_between(const CutTools& tools, const CutSheet& sheet, const CutEdges& edges, double thickness);
 
 /// All cuts where there was sheet.
 std::vector<Cut> find_cuts(const CutTools& tools, const CutSheet& sheet);

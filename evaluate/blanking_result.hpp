@@ -77,7 +77,7 @@ struct BlankingResult {
   double stroke = 0.0;                    ///< m, of the punch against the die
   double time = 0.0;                      ///< s
   double smoothing = 0.0, parallel = 0.0; ///< m, rad, with which faces were measured
-  std::string note;                       ///< why there are no faces; empty otherwise
+  std::string note;                       ///< why there are no faces, or not all; empty otherwise
   std::string force_unit = "N/m", work_unit = "J/m"; ///< of revolution and in space: N, J
   double cut_length =
       0.0; ///< that forces are of: number of cuts, per depth; of revolution and in space m, round the punch

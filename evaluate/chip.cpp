@@ -269,17 +269,6 @@ std::vector<Vec2> fresh_chip(const Chip& chip, double feed) {
   return polygon.size() < 3 ? std::vector<Vec2>{} : polygon;
 }
 
-bool inside_polygon(std::span<const Vec2> polygon, const Vec2& x) {
-  bool inside = false;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    if ((a.y() > x.y()) != (b.y() > x.y()) &&
-        x.x() < a.x() + (x.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      inside = !inside;
-  }
-  return inside;
-}
-
 double shear_angle(double feed, double thickness, double rake) {
   const double ratio = feed / thickness;
   return std::atan2(ratio * std::cos(rake), 1.0 - ratio * std::sin(rake));

@@ -81,9 +81,6 @@ Section section_across(const Chip& chip, double at);
 /// end. A closed polygon, m; empty without a chip.
 std::vector<Vec2> fresh_chip(const Chip& chip, double feed);
 
-/// Whether x lies inside a closed polygon.
-bool inside_polygon(std::span<const Vec2> polygon, const Vec2& x);
-
 /// φ of tan φ = r cos γ/(1 − r sin γ), r = feed/thickness (Merchant 1945), rad.
 double shear_angle(double feed, double thickness, double rake);
 

@@ -1,6 +1,7 @@
 #include "evaluate/cut_flow.hpp"
 
 #include "core/fields/vector_at.hpp"
+#include "core/geometry/plane_section.hpp"
 
 #include <cmath>
 
@@ -24,7 +25,7 @@ Vec2 mean_velocity(std::span<const Vec2> polygon, const input::CuttingTool& cut,
     }
     for (std::size_t i = 0; i < place.size(); ++i) {
       const Vec2& x = place[i];
-      if ((x.array() < low.array()).any() || (x.array() > high.array()).any() || !inside_polygon(polygon, x))
+      if ((x.array() < low.array()).any() || (x.array() > high.array()).any() || !inside(polygon, x))
         continue;
       momentum += node.mass[i] * cut.turned(vector_at<2>(node.velocity, i));
       mass += node.mass[i];

@@ -55,7 +55,8 @@ std::size_t cuts_of(const BlankingResult* blanking) {
 /// The cut, or what else moves: its direction, and over whose stroke.
 LeadingForce motion_of(const std::string& tool, const results::HistoryTable& history,
                        const BlankingResult* blanking) {
-  if (blanking && (blanking->direction_x != 0.0 || blanking->direction_y != 0.0))
+  if (blanking &&
+      (blanking->direction_x != 0.0 || blanking->direction_y != 0.0 || blanking->direction_z != 0.0))
     return leading_force(*blanking);
   const std::optional<LeadingForce> leading = leading_force(history);
   if (leading && leading->over_stroke) return *leading;

@@ -13,12 +13,6 @@
 namespace cnem::evaluate {
 namespace {
 
-std::vector<Vec3> places(const Fields<3>& field) {
-  std::vector<Vec3> list(field[0].size());
-  for (std::size_t i = 0; i < list.size(); ++i) list[i] = {field[0][i], field[1][i], field[2][i]};
-  return list;
-}
-
 Box<3> box_of(const std::vector<Vec3>& points) {
   Box<3> box{points.front(), points.front()};
   for (const Vec3& x : points) {
@@ -33,8 +27,7 @@ std::vector<char> held_triangles(const Supports<3>& supports, const Vec3& direct
                                  const TriangleSurface& surface) {
   std::vector<char> held(surface.triangles.size(), 0);
   for (const Support<3>& support : supports.list()) {
-    if (support.kind != Support<3>::Kind::symmetry || std::abs(support.direction.dot(direction)) > 1e-6)
-      continue;
+    if (!along_the_cut(support, direction)) continue;
     std::vector<char> on(surface.points.size(), 0);
     for (const NodeIndex i : support.nodes) on[index_of(i)] = 1;
     for (std::size_t t = 0; t < held.size(); ++t)
@@ -47,21 +40,17 @@ std::vector<char> held_triangles(const Supports<3>& supports, const Vec3& direct
 RoundSheet sheet_of(const input::Case& input, const results::Snapshot<3>& shot, const Supports<3>& supports,
                     const Vec3& direction) {
   RoundSheet sheet;
-  sheet.now.points = places(shot.state.node.position);
-  sheet.before = places(shot.state.node.initial_position);
+  sheet.now.points = places<3>(shot.state.node.position);
   for (const Facet<3>& facet : shot.cloud.facets) {
     const auto corner = [&](std::size_t a) { return as<std::int32_t>(index_of(facet.node[a])); };
     sheet.now.triangles.push_back({corner(0), corner(1), corner(2)});
     sheet.piece.push_back(facet.piece);
   }
+  sheet.before = {places<3>(shot.state.node.initial_position), sheet.now.triangles};
   const auto& names = shot.cloud.piece_names;
-  for (const PieceIndex piece : names.indices()) {
+  for (const PieceIndex piece : names.indices())
     if (names[piece] == input::Adaptation::fracture_piece) sheet.fracture_piece = piece;
-    for (const input::Hole& hole : input.domain.holes)
-      if (std::ranges::any_of(hole.outline.pieces,
-                              [&](const CurvePiece& part) { return part.name == names[piece]; }))
-        sheet.other_pieces.push_back(piece);
-  }
+  sheet.other_pieces = other_pieces(input.domain, names);
   sheet.on_plane = held_triangles(supports, direction, sheet.now);
   sheet.broken = broken_nodes(shot);
   sheet.volume = shot.approximation.node_volume;
@@ -102,7 +91,7 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
 
   const RoundSheet sheet = sheet_of(input, shot, supports, axis.direction);
   const auto surface = [&](std::size_t tool) {
-    TriangleSurface made = input::tool_surface(*input.tools[tool].solid, box_of(sheet.before));
+    TriangleSurface made = input::tool_surface(*input.tools[tool].solid, box_of(sheet.before.points));
     for (Vec3& x : made.points) x += shot.contact.displacement(tool, now);
     return made;
   };
@@ -110,20 +99,14 @@ BlankingResult evaluate_blanking(const input::Case& input, const results::Snapsh
   for (const std::size_t die : asked.dies) tools.dies.push_back(surface(die));
   const Box<3> punch = box_of(tools.punch.points);
   axis.centre = asked.centre.value_or(0.5 * (punch.low + punch.high));
-  const std::optional<CutArc> arc = find_arc(axis, tools, sheet);
-  if (!arc) {
+  const std::vector<CutArc> arcs = find_arcs(axis, tools, sheet);
+  if (arcs.empty()) {
     result.note = fmt::format("{} passes no edge of {} where there was sheet, at no angle", result.punch,
                               fmt::join(result.dies, ", "));
     return result;
   }
-  result.cut_length = arc->length;
-  for (const double angle : arc->angles(asked.sections)) {
-    const auto gap = gap_at(axis, angle, tools, sheet);
-    if (!gap) continue;
-    result.smoothing = asked.smoothing.value_or(gap->thickness / 50.0);
-    for (ShearedFace& face : measure_section(axis, *gap, sheet, asked.parallel, asked.smoothing))
-      result.faces.push_back(std::move(face));
-  }
+  for (const CutArc& arc : arcs) result.cut_length += arc.length;
+  measure_round(result, axis, section_angles(arcs, asked.sections), tools, sheet, asked.smoothing);
   result.measured = measured_beside(result.faces, asked.measured);
   return result;
 }

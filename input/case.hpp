@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/geometry/curve.hpp"
 #include "core/geometry/revolution.hpp"
+#include "core/geometry/stl.hpp"
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
 #include "input/case_cutting.hpp"
@@ -215,8 +216,8 @@ struct ToolSolid {
   Curve outline, profile;                                ///< m
   std::optional<double> low, high;                       ///< m, ends of what is extruded; none: without end
   double radius_low = 0.0, radius_high = 0.0;            ///< m, of the edges there
-  std::string file;                                      ///< of triangles
-  double file_unit = 1e-3;                               ///< m
+  FacetSoup soup;                                        ///< of a file of triangles
+  std::string file;                                      ///< its name, for messages
   Vec3 at{0, 0, 0}, axis{0, 0, 1};                       ///< m; –, of any length: of its axes
   double turn = 0.0;                                     ///< rad, about its z axis
 };

@@ -159,11 +159,12 @@ bool one_body(const Setting& table, Diagnostics& diagnostics) {
 
 } // namespace
 
-void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics) {
-  const Setting& table = *root.find("domain");
+void read_domain(Setting& root, Case& result, Diagnostics& diagnostics) {
+  Setting& table = *root.find("domain");
   Domain& domain = result.domain;
   domain.material = table.get<std::string>("material");
-  const Setting *block = table.find("block"), *file = table.find("stl");
+  const Setting* block = table.find("block");
+  Setting* file = table.find("stl");
   const Setting *extrude = table.find("extrude"), *revolve = table.find("revolve");
   if (result.analysis.dimensions() == 3 && !one_body(table, diagnostics)) return;
   if (block) domain.block = read_block(*block, diagnostics);
@@ -221,8 +222,10 @@ void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
                     "contact.deformable = true only");
 }
 
-void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics) {
-  for (const Setting& table : root.entries("tools")) {
+void read_tools(Setting& root, Case& result, Diagnostics& diagnostics) {
+  Setting* tools = root.find("tools");
+  if (!tools) return;
+  for (Setting& table : tools->members) {
     Tool tool;
     tool.name = table.name;
     if (result.analysis.dimensions() == 3)

@@ -11,15 +11,15 @@
 namespace cnem::input {
 
 /// Domain and tools: outlines, holes and cracks, and whether they fit into one another.
-void read_domain(const Setting& root, Case& result, Diagnostics& diagnostics);
+void read_domain(Setting& root, Case& result, Diagnostics& diagnostics);
 /// The workpiece of a three-dimensional analysis, and the solid of a tool of one.
 Block read_block(const Setting& table, Diagnostics& diagnostics);
 /// What draws or turns outlines into a body in space, and a body from an STL file (into Case::domain; nothing
 /// where the file is at fault).
 Sweep read_extrusion(const Setting& table, Diagnostics& diagnostics);
 Sweep read_revolution(const Setting& table);
-void read_faceted(const Setting& table, Case& result, Diagnostics& diagnostics);
-ToolSolid read_solid(const Setting& table, const Case& input, Diagnostics& diagnostics);
+void read_faceted(Setting& table, Case& result, Diagnostics& diagnostics);
+ToolSolid read_solid(Setting& table, const Case& input, Diagnostics& diagnostics);
 /// The curve of a table with an outline; a wrong one is a mistake: then none.
 std::optional<Curve> read_outline(const Setting& table, const OutlineNames& names, Diagnostics& diagnostics);
 /// Why a point (m) is not in the block; "" when it is.
@@ -35,7 +35,7 @@ void read_tool_heat(const Setting& table, const Setting& root, const Case& input
 std::vector<clouds::Refinement> read_refinement(const Setting& root, const Setting& table,
                                                 double cloud_spacing, Diagnostics& diagnostics);
 
-void read_tools(const Setting& root, Case& result, Diagnostics& diagnostics);
+void read_tools(Setting& root, Case& result, Diagnostics& diagnostics);
 
 /// The mass of a tool and what moves it. Expects the kinematics.
 void read_drive(const Setting& table, const Case& input, Tool& tool, Diagnostics& diagnostics);

@@ -1,6 +1,5 @@
 #include "input/case_reader.hpp"
 
-#include "core/fnv.hpp"
 #include "input/case_parts.hpp"
 #include "input/cutting.hpp"
 #include "input/drawings/outlines.hpp"
@@ -14,8 +13,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 namespace cnem::input {
 
@@ -31,32 +28,6 @@ std::string name_after(const std::string& path, const std::string& generic) {
 }
 
 namespace {
-
-/// Files of surfaces are named from the root, as the resolved case stands elsewhere, and known by their
-/// content.
-void place_files(Setting& root, const std::string& path, Diagnostics& diagnostics) {
-  namespace fs = std::filesystem;
-  const auto place = [&](const std::string& at) {
-    Setting* file = root.find(at + ".file");
-    if (!file) return;
-    const fs::path there =
-        fs::absolute(fs::path(path).parent_path() / std::get<std::string>(file->value)).lexically_normal();
-    file->value = there.string();
-    std::ifstream in(there, std::ios::binary);
-    if (!in) return; // said where it is read
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    const std::string now = fmt::format("{:016x}", fnv(bytes));
-    if (const Setting* then = root.find(at + ".content"); then && std::get<std::string>(then->value) != now)
-      diagnostics.add(
-          Mistake::reference, file->where, file->path,
-          fmt::format("found {} with checksum {}, expected {}: it has changed since this case was "
-                      "resolved (without '{}' the file is taken as it is)",
-                      there.string(), now, std::get<std::string>(then->value), then->path));
-    root.set_default(at + ".content", now);
-  };
-  place("domain.stl");
-  for (const Setting& tool : root.entries("tools")) place(tool.path + ".stl");
-}
 
 /// Defaults that depend on other keys.
 void compute_defaults(Setting& root) {
@@ -256,7 +227,6 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   read_domain(root, result, diagnostics);
   read_cloud(root, result, diagnostics);
   read_tools(root, result, diagnostics);
-  place_files(root, result.path, diagnostics);
   if (Setting* cutting = root.find("cutting")) result.cutting = read_cutting(*cutting, diagnostics);
   const bool plane = result.analysis.dimensions() == 2;
   if (plane) {

@@ -4,12 +4,14 @@
 #include "input/case_parts.hpp"
 #include "input/curve_checks.hpp"
 #include "input/space_domain.hpp"
+#include "input/triangle_file.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
+#include <utility>
 
 namespace cnem::input {
 
@@ -59,15 +61,16 @@ Sweep read_revolution(const Setting& table) {
   return sweep;
 }
 
-void read_faceted(const Setting& table, Case& result, Diagnostics& diagnostics) {
+void read_faceted(Setting& table, Case& result, Diagnostics& diagnostics) {
+  std::optional<FacetSoup> soup = read_triangles(table, result.path, diagnostics);
+  if (!soup) return;
   const Setting& file = *table.find("file");
   clouds::Faceted faceted;
   faceted.crease_angle = table.get<double>("crease_angle");
   for (const Setting& entry : table.find("names") ? table.find("names")->members : std::vector<Setting>{})
     faceted.names.push_back({entry.vector("at"), entry.get<std::string>("name")});
   try {
-    const std::filesystem::path folder = std::filesystem::path(result.path).parent_path();
-    faceted.soup = read_stl((folder / std::get<std::string>(file.value)).string(), table.get<double>("unit"));
+    faceted.soup = std::move(*soup);
     const Vec3 shift = table.vector("shift");
     for (auto& triangle : faceted.soup.triangles)
       for (Vec3& x : triangle.corner) x += shift;
@@ -76,8 +79,6 @@ void read_faceted(const Setting& table, Case& result, Diagnostics& diagnostics) 
     result.domain.faceted = std::move(faceted);
   } catch (const GeometryError& error) {
     diagnostics.add(Mistake::geometry, file.where, file.path, error.what());
-  } catch (const InputError& error) {
-    diagnostics.add(Mistake::reference, file.where, file.path, error.what());
   }
 }
 

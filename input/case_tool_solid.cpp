@@ -1,9 +1,9 @@
 // What bounds a tool in space, of the case reader.
 #include "input/case_parts.hpp"
 #include "input/curve_checks.hpp"
+#include "input/triangle_file.hpp"
 
 #include <array>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace cnem::input {
@@ -71,7 +71,7 @@ void read_place(const Setting& table, ToolSolid& solid, Diagnostics& diagnostics
 
 } // namespace
 
-ToolSolid read_solid(const Setting& table, const Case& input, Diagnostics& diagnostics) {
+ToolSolid read_solid(Setting& table, const Case& input, Diagnostics& diagnostics) {
   ToolSolid solid;
   solid.shape = table.choice<Shape>("shape");
   const bool outlined =
@@ -91,9 +91,9 @@ ToolSolid read_solid(const Setting& table, const Case& input, Diagnostics& diagn
   read_ends(table, solid, diagnostics);
   if (const Setting* profile = table.find("profile"))
     solid.profile = read_outline(*profile, {table.name, false}, diagnostics).value_or(Curve{});
-  if (const Setting* stl = table.find("stl")) {
-    solid.file = (std::filesystem::path(input.path).parent_path() / stl->get<std::string>("file")).string();
-    solid.file_unit = stl->get<double>("unit");
+  if (Setting* stl = table.find("stl")) {
+    solid.soup = read_triangles(*stl, input.path, diagnostics).value_or(FacetSoup{});
+    solid.file = stl->get<std::string>("file");
   }
   read_place(table, solid, diagnostics);
   return solid;

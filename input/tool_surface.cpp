@@ -174,7 +174,7 @@ TriangleSurface tool_surface(const ToolSolid& solid, const Box<3>& around) {
     surface = swept(solid.outline, solid.profile);
     break;
   case Shape::stl:
-    surface = joined(read_stl(solid.file, solid.file_unit));
+    surface = joined(solid.soup);
     break;
   }
   const Vec3 axis = solid.axis.normalized();

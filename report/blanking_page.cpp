@@ -1,6 +1,7 @@
 #include "report/blanking_page.hpp"
 
 #include "evaluate/force_stroke.hpp"
+#include "evaluate/round_cut.hpp"
 #include "report/html.hpp"
 
 #include <algorithm>
@@ -113,7 +114,7 @@ std::string table_of(const ShearedFace& face, const evaluate::MeasuredHeights* m
 }
 
 std::string drawn_face(const BlankingResult& result, const ShearedFace& face, const ShownUnits& units) {
-  const std::string where = std::isfinite(face.angle) ? fmt::format(" at {:.0f}°", face.angle / degree) : "";
+  const std::string where = std::isfinite(face.angle) ? fmt::format(" at {:.1f}°", face.angle / degree) : "";
   std::string html =
       fmt::format("<figure class=\"face\"><h3>Face of the {}{}</h3>\n<div>{}{}</div>",
                   html_escape(title_of(face)), where, face.profile.size() > 1 ? face_drawing(face) : "",
@@ -211,6 +212,7 @@ std::optional<Chart> force_stroke_chart(const evaluate::BlankingResult& result,
 
 std::vector<Chart> round_charts(const BlankingResult& result, const ShownUnits& units) {
   std::vector<Chart> charts;
+  const evaluate::CutAxis axis{.direction = {result.direction_x, result.direction_y, result.direction_z}};
   for (const auto& faces : evaluate::faces_of_bodies(result)) {
     if (!std::isfinite(faces.front()->angle)) continue;
     Chart chart;
@@ -237,8 +239,10 @@ std::vector<Chart> round_charts(const BlankingResult& result, const ShownUnits& 
                                 units.format(mean, "m", 3), units.format(spread, "m", 2));
       chart.series.insert(chart.series.end(), {line, level});
     }
-    chart.note += ". Dashed: the means. Angles count from x, counter-clockwise as seen from where the punch "
-                  "comes from.";
+    chart.note +=
+        fmt::format(". Dashed: the means. Angles count from {}, counter-clockwise as seen from where "
+                    "the punch comes from.",
+                    axis.counts_from());
     if (faces.size() > 1 && !chart.series.empty()) charts.push_back(std::move(chart));
   }
   return charts;

@@ -1,6 +1,7 @@
 #include "report/body_view.hpp"
 
 #include "core/fields/vector_at.hpp"
+#include "core/geometry/clip_polygon.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/geometry/plane_section.hpp"
 #include "core/index.hpp"
@@ -99,16 +100,8 @@ float darkness_of(const Vec3& normal) {
   return static_cast<float>(1.0 - std::max(0.0, light().dot(normal.normalized())));
 }
 
-/// What of a convex polygon is on the side that the normal comes from.
 void keep(std::vector<Vec3>& polygon, std::vector<Vec3>& scratch, const KeptSide& side) {
-  scratch.clear();
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec3 &a = polygon[k], &b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
-    const double at_a = side.normal.dot(a - side.at), at_b = side.normal.dot(b - side.at);
-    if (at_a <= 0.0) scratch.push_back(a);
-    if ((at_a <= 0.0) != (at_b <= 0.0)) scratch.push_back(a + at_a / (at_a - at_b) * (b - a));
-  }
-  polygon.swap(scratch);
+  clip_polygon(polygon, scratch, [&](const Vec3& x) { return side.normal.dot(x - side.at); });
 }
 
 /// Where planes that face the eye have cut a solid open.
@@ -184,25 +177,43 @@ void add_solid(SolidFaces& faces, const TriangleSurface& surface, std::span<cons
   fill_openings(faces, surface, sides, axes);
 }
 
-std::vector<std::array<NodeIndex, 3>> boundary_of(std::span<const std::array<NodeIndex, 4>> tetrahedra) {
-  struct Face {
-    std::array<NodeIndex, 3> key, corner;
-  };
-  constexpr std::array<std::array<std::size_t, 3>, 4> outwards{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+namespace {
+
+using Tetrahedron = std::array<NodeIndex, 4>;
+
+struct Face {
+  std::array<NodeIndex, 3> key; ///< its nodes, the lowest first
+  std::size_t tetrahedron, opposite;
+};
+
+/// The faces of all tetrahedra, those with the same nodes one after the other.
+std::vector<Face> sorted_faces(std::span<const Tetrahedron> tetrahedra) {
   std::vector<Face> faces;
-  for (const auto& tetrahedron : tetrahedra)
-    for (const auto& [a, b, c] : outwards) {
-      Face face{{}, {tetrahedron[a], tetrahedron[b], tetrahedron[c]}};
-      face.key = face.corner;
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t)
+    for (std::size_t k = 0; k < 4; ++k) {
+      Face face{{tetrahedra[t][(k + 1) % 4], tetrahedra[t][(k + 2) % 4], tetrahedra[t][(k + 3) % 4]}, t, k};
       std::sort(face.key.begin(), face.key.end());
       faces.push_back(face);
     }
-  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    return a.key != b.key ? a.key < b.key : a.tetrahedron < b.tetrahedron;
+  });
+  return faces;
+}
+
+} // namespace
+
+std::vector<std::array<NodeIndex, 3>> boundary_of(std::span<const Tetrahedron> tetrahedra) {
+  constexpr std::array<std::array<std::size_t, 3>, 4> outwards{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  const std::vector<Face> faces = sorted_faces(tetrahedra);
   std::vector<std::array<NodeIndex, 3>> boundary;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const bool shared = (f > 0 && faces[f - 1].key == faces[f].key) ||
                         (f + 1 < faces.size() && faces[f + 1].key == faces[f].key);
-    if (!shared) boundary.push_back(faces[f].corner);
+    if (shared) continue;
+    const Tetrahedron& corner = tetrahedra[faces[f].tetrahedron];
+    const auto& [a, b, c] = outwards[faces[f].opposite];
+    boundary.push_back({corner[a], corner[b], corner[c]});
   }
   return boundary;
 }
@@ -220,18 +231,6 @@ Corner between(const Corner& a, const Corner& b, double t) {
   Corner c{a.x + t * (b.x - a.x), {}};
   for (std::size_t k = 0; k < 4; ++k) c.share[k] = a.share[k] + t * (b.share[k] - a.share[k]);
   return c;
-}
-
-/// What is left where `inside`, linear over the polygon, is not negative.
-template<class Inside> void clip(Polygon& polygon, Polygon& scratch, Inside&& inside) {
-  scratch.clear();
-  for (std::size_t n = 0; n < polygon.size(); ++n) {
-    const Corner &a = polygon[n], &b = polygon[(n + 1) % polygon.size()];
-    const double at_a = inside(a), at_b = inside(b);
-    if (at_a >= 0.0) scratch.push_back(a);
-    if ((at_a >= 0.0) != (at_b >= 0.0)) scratch.push_back(between(a, b, at_a / (at_a - at_b)));
-  }
-  polygon.swap(scratch);
 }
 
 /// Where a plane cuts a tetrahedron, height: [corner] over the plane. In order around.
@@ -259,25 +258,10 @@ Polygon section_of(const std::array<Vec3, 4>& corner, const std::array<double, 4
   return polygon;
 }
 
-using Tetrahedron = std::array<NodeIndex, 4>;
-
 /// The nodes of those that share a face with each tetrahedron, beside its own; [tetrahedron][4], none: there
 /// is no neighbour.
 std::vector<Tetrahedron> nodes_across(std::span<const Tetrahedron> tetrahedra) {
-  struct Face {
-    std::array<NodeIndex, 3> key;
-    std::size_t tetrahedron, opposite;
-  };
-  std::vector<Face> faces;
-  for (std::size_t t = 0; t < tetrahedra.size(); ++t)
-    for (std::size_t k = 0; k < 4; ++k) {
-      Face face{{tetrahedra[t][(k + 1) % 4], tetrahedra[t][(k + 2) % 4], tetrahedra[t][(k + 3) % 4]}, t, k};
-      std::sort(face.key.begin(), face.key.end());
-      faces.push_back(face);
-    }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
-    return a.key != b.key ? a.key < b.key : a.tetrahedron < b.tetrahedron;
-  });
+  const std::vector<Face> faces = sorted_faces(tetrahedra);
   constexpr NodeIndex none = NodeIndex::none;
   std::vector<Tetrahedron> across(tetrahedra.size(), {none, none, none, none});
   for (std::size_t f = 0; f + 1 < faces.size(); ++f)
@@ -318,15 +302,19 @@ Scene section_scene(std::span<const Tetrahedron> tetrahedra, const Fields<3>& po
       for (std::size_t b = 0; b < candidates.size() && !part.empty(); ++b) {
         if (a == b) continue;
         if (cells == SectionCells::median) {
-          clip(part, scratch, [&](const Corner& c) { return c.share[a] - c.share[b]; });
+          clip_polygon(
+              part, scratch, [&](const Corner& c) { return c.share[b] - c.share[a]; }, between);
         } else {
           const Vec3 own = vector_at<3>(position, index_of(candidates[a])),
                      other = vector_at<3>(position, index_of(candidates[b]));
-          clip(part, scratch, [&](const Corner& c) {
-            Vec3 x = Vec3::Zero();
-            for (std::size_t k = 0; k < 4; ++k) x += c.share[k] * corner[k];
-            return (other - x).squaredNorm() - (own - x).squaredNorm();
-          });
+          clip_polygon(
+              part, scratch,
+              [&](const Corner& c) {
+                Vec3 x = Vec3::Zero();
+                for (std::size_t k = 0; k < 4; ++k) x += c.share[k] * corner[k];
+                return (own - x).squaredNorm() - (other - x).squaredNorm();
+              },
+              between);
         }
       }
       if (part.size() < 3) continue;

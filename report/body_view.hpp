@@ -37,9 +37,6 @@ Scene surface_scene(std::span<const std::array<NodeIndex, 3>> facets, const Fiel
 
 /// What of a closed surface is on the side of planes that their normals come from, as the same eye sees it;
 /// where a plane has cut it open it is filled.
-struct KeptSide {
-  Vec3 at{0, 0, 0}, normal{1, 0, 0}; ///< m; –, out of the body
-};
 void add_solid(SolidFaces& faces, const TriangleSurface& surface, std::span<const KeptSide> sides,
                const BodyView& view);
 

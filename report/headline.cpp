@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <optional>
 
@@ -16,44 +17,64 @@ namespace {
 using evaluate::ShearedFace;
 using results::number_format;
 
-/// "29–33 %" of the thickness, over all faces that were measured.
-Figure zone_figure(const char* name, const std::vector<const ShearedFace*>& faces,
+/// The faces of one body that were found, at all angles.
+using Faces = std::vector<const ShearedFace*>;
+
+/// "29–33 %" of the thickness, over the bodies; in space their means round the punch.
+Figure zone_figure(const char* name, const std::vector<Faces>& bodies, bool round,
                    double ShearedFace::*size) {
   double low = INFINITY, high = 0.0;
-  for (const ShearedFace* face : faces) {
-    const double share = 100.0 * face->*size / face->thickness;
+  for (const Faces& faces : bodies) {
+    const double share = 100.0 * evaluate::round_height(faces, size).mean /
+                         evaluate::round_height(faces, &ShearedFace::thickness).mean;
     low = std::min(low, share);
     high = std::max(high, share);
   }
   const std::string least = fmt::format("{:.0f}", low), most = fmt::format("{:.0f}", high);
   return {name, (least == most ? most : least + "–" + most) + " %",
-          faces.size() > 1 ? fmt::format("of the thickness, {} faces", faces.size()) : "of the thickness"};
+          fmt::format("of the thickness{}{}",
+                      bodies.size() > 1 ? fmt::format(", {} faces", bodies.size()) : "",
+                      round ? ", means round the punch" : "")};
+}
+
+/// Whether the bodies have not come off everywhere; in space at how many angles.
+std::optional<Figure> not_through(const std::vector<Faces>& bodies) {
+  const char* note = "heights are those so far";
+  std::size_t parted = SIZE_MAX, angles = 0;
+  for (const Faces& faces : bodies) {
+    angles = std::max(angles, faces.size());
+    parted = std::min(
+        parted, index_of(std::ranges::count_if(faces, [](const ShearedFace* face) { return face->parted; })));
+  }
+  if (bodies.empty() || parted >= angles) return std::nullopt;
+  return Figure{"Cut through", parted > 0 ? fmt::format("at {} of {} angles", parted, angles) : "no", note};
 }
 
 std::vector<Figure> of_faces(const evaluate::BlankingResult& result, const results::ShownUnits& units) {
-  std::vector<const ShearedFace*> faces;
-  bool parted = !result.faces.empty();
-  for (const ShearedFace& face : result.faces) {
-    parted = parted && face.parted;
-    if (face.found()) faces.push_back(&face);
-  }
   std::vector<Figure> figures;
-  if (!result.faces.empty() && !parted) figures.push_back({"Cut through", "no", "heights are those so far"});
-  if (faces.empty()) return figures;
-  figures.push_back(zone_figure("Rollover", faces, &ShearedFace::rollover));
-  figures.push_back(zone_figure("Burnish", faces, &ShearedFace::burnish));
-  const auto any = [&](double ShearedFace::*size) {
-    return std::any_of(faces.begin(), faces.end(),
-                       [&](const ShearedFace* face) { return face->*size > 0.0; });
+  std::vector<Faces> bodies = evaluate::faces_of_bodies(result);
+  if (auto figure = not_through(bodies)) figures.push_back(std::move(*figure));
+  for (Faces& faces : bodies)
+    std::erase_if(faces, [](const ShearedFace* face) { return !face->measured || !face->found(); });
+  std::erase_if(bodies, [](const Faces& faces) { return faces.empty(); });
+  if (bodies.empty()) return figures;
+  const bool round = std::isfinite(bodies.front().front()->angle);
+  const auto largest = [&](double ShearedFace::*size) {
+    double most = 0.0;
+    for (const Faces& faces : bodies)
+      for (const ShearedFace* face : faces) most = std::max(most, face->*size);
+    return most;
   };
-  if (any(&ShearedFace::broken))
-    figures.push_back(zone_figure("Broken, not open", faces, &ShearedFace::broken));
-  figures.push_back(zone_figure("Fracture", faces, &ShearedFace::fracture));
-  if (any(&ShearedFace::second_burnish))
-    figures.push_back(zone_figure("Second burnish", faces, &ShearedFace::second_burnish));
-  double burr = 0.0;
-  for (const ShearedFace* face : faces) burr = std::max(burr, face->burr);
-  figures.push_back({"Burr", units.format(burr, "m", 3), faces.size() > 1 ? "the largest" : ""});
+  const auto add = [&](const char* name, double ShearedFace::*size) {
+    figures.push_back(zone_figure(name, bodies, round, size));
+  };
+  add("Rollover", &ShearedFace::rollover);
+  add("Burnish", &ShearedFace::burnish);
+  if (largest(&ShearedFace::broken) > 0.0) add("Broken, not open", &ShearedFace::broken);
+  add("Fracture", &ShearedFace::fracture);
+  if (largest(&ShearedFace::second_burnish) > 0.0) add("Second burnish", &ShearedFace::second_burnish);
+  figures.push_back({"Burr", units.format(largest(&ShearedFace::burr), "m", 3),
+                     round || bodies.size() > 1 ? "the largest" : ""});
   return figures;
 }
 

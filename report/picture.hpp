@@ -36,6 +36,11 @@ struct PictureTool {
   std::vector<SymmetryLine> kept{}; ///< drawn on that side of these lines which normals come from
 };
 
+/// What is on the side of a plane that its normal comes from is drawn.
+struct KeptSide {
+  Vec3 at{0, 0, 0}, normal{1, 0, 0}; ///< m; –, out of the body
+};
+
 /// Faces in space that no field colours: tools.
 struct SolidFaces {
   std::vector<std::array<Vec3, 3>> corner; ///< m: to the right, upwards, towards the eye

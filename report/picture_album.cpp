@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <map>
 #include <system_error>
+#include <utility>
 
 namespace cnem::report {
 namespace fs = std::filesystem;
@@ -82,11 +84,44 @@ std::string PictureAlbum::add(results::FileQueue& queue, const std::string& key,
   return entries_.back().file;
 }
 
-void PictureAlbum::replace(results::FileQueue& queue, std::size_t entry, const PictureScale& drawn,
-                           results::FileQueue::Maker png, std::size_t bytes) {
-  entries_[entry].drawn = drawn;
-  queue.put(path(entries_[entry]), std::move(png), bytes);
-  queue.put(folder_ / index_name, index());
+std::vector<PictureScale>
+PictureAlbum::common_scales(const std::function<ColourMap(const std::string&)>& map,
+                            const std::function<bool(const AlbumEntry&)>& shares_view) const {
+  std::map<std::string, ColourRange> range;
+  std::map<std::string, PictureWindow> view;
+  for (const AlbumEntry& entry : entries_) {
+    if (entry.series.empty()) continue;
+    const auto [at, fresh] = range.emplace(entry.series, entry.own.range);
+    if (!fresh) at->second = joined(at->second, entry.own.range);
+    const auto [place, first] = view.emplace(entry.caption, entry.own.view);
+    if (!first) place->second = joined(place->second, entry.own.view);
+  }
+  std::vector<PictureScale> common;
+  for (const AlbumEntry& entry : entries_) {
+    PictureScale& scale = common.emplace_back(entry.drawn);
+    if (entry.series.empty()) continue;
+    scale.range = widened(map(entry.series), range[entry.series]);
+    if (shares_view(entry)) scale.view = view[entry.caption];
+  }
+  return common;
+}
+
+void PictureAlbum::redraw(results::FileQueue& queue, const std::vector<PictureScale>& wanted,
+                          const std::vector<results::FieldFiles>& frames,
+                          const std::function<Drawer(const results::FieldFiles&, const AlbumEntry&)>& open) {
+  for (const results::FieldFiles& frame : frames) {
+    std::optional<Drawer> drawer;
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      if (entries_[k].time != frame.time || wanted[k] == entries_[k].drawn) continue;
+      if (!drawer) drawer = open(frame, entries_[k]);
+      if (!*drawer) break;
+      auto drawing = (*drawer)(entries_[k], wanted[k]);
+      if (!drawing) continue;
+      entries_[k].drawn = wanted[k];
+      queue.put(path(entries_[k]), std::move(drawing->png), drawing->bytes);
+      queue.put(folder_ / index_name, index());
+    }
+  }
 }
 
 void PictureAlbum::truncate(double time) {

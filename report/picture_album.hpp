@@ -2,9 +2,11 @@
 // Pictures of a run in its folder: PNG files and an index that says what each shows.
 #include "report/picture.hpp"
 #include "results/file_queue.hpp"
+#include "results/vtk_reader.hpp"
 
-#include <array>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +30,8 @@ struct AlbumEntry {
   PictureScale own{};   ///< that of its values and its body alone
   PictureScale drawn{}; ///< as it is on the disk
   // in space, where files of fields do not tell them
-  std::vector<Vec3> tools{}; ///< [tool] m, how far each has moved
-  std::vector<std::array<Vec3, 2>>
-      sides{}; ///< planes that tools are drawn to: m, a place; normal out of the body
+  std::vector<Vec3> tools{};     ///< [tool] m, how far each has moved
+  std::vector<KeptSide> sides{}; ///< that tools are drawn to
 };
 
 /// pictures/ of an output folder.
@@ -45,9 +46,23 @@ public:
   std::string add(results::FileQueue& queue, const std::string& key, AlbumEntry entry,
                   results::FileQueue::Maker png, std::size_t bytes);
 
-  /// Hands another drawing of an entry to `queue`, then the index. Throws IoError.
-  void replace(results::FileQueue& queue, std::size_t entry, const PictureScale& drawn,
-               results::FileQueue::Maker png, std::size_t bytes);
+  /// What pictures of a series share, [entry]: the range of a field, with the colours that `map` tells, and
+  /// one view where `shares_view`, of all with its caption. Those of no series stay as they are.
+  std::vector<PictureScale> common_scales(const std::function<ColourMap(const std::string& series)>& map,
+                                          const std::function<bool(const AlbumEntry&)>& shares_view) const;
+
+  /// A drawing of an entry with another scale: its maker, which holds about `bytes`.
+  struct Drawing {
+    results::FileQueue::Maker png;
+    std::size_t bytes;
+  };
+  /// None where it stays as it is.
+  using Drawer = std::function<std::optional<Drawing>(const AlbumEntry&, const PictureScale&)>;
+  /// Draws anew what has another scale than the wanted one. `open` reads a time of the series of files, once
+  /// and only where an entry needs it; an empty drawer leaves its pictures as they are. Throws IoError.
+  void redraw(results::FileQueue& queue, const std::vector<PictureScale>& wanted,
+              const std::vector<results::FieldFiles>& frames,
+              const std::function<Drawer(const results::FieldFiles&, const AlbumEntry&)>& open);
 
   /// Drops the pictures later than `time` (s), for a restart.
   void truncate(double time);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -57,26 +56,6 @@ void PictureRecorder::record(results::FileQueue& files, const results::Snapshot<
   }
 }
 
-/// Of all entries: the common one, of windows with their own place.
-std::vector<PictureScale> PictureRecorder::wanted_scales() const {
-  std::map<std::string, ColourRange> range;
-  std::optional<PictureWindow> view;
-  for (const AlbumEntry& entry : album_.entries()) {
-    if (entry.series.empty()) continue;
-    const auto [at, fresh] = range.emplace(entry.series, entry.own.range);
-    if (!fresh) at->second = joined(at->second, entry.own.range);
-    if (entry.caption.empty()) view = view ? joined(*view, entry.own.view) : entry.own.view;
-  }
-  std::vector<PictureScale> wanted;
-  for (const AlbumEntry& entry : album_.entries()) {
-    wanted.push_back(entry.drawn);
-    if (entry.series.empty()) continue;
-    wanted.back().range = widened(field_info<2>(entry.series).shown.map, range[entry.series]);
-    if (entry.caption.empty()) wanted.back().view = *view;
-  }
-  return wanted;
-}
-
 namespace {
 
 /// Those of the fields that a file has: others are of laws that no material of the case follows.
@@ -91,25 +70,24 @@ std::vector<std::string> names_in(const std::filesystem::path& cells, const std:
 
 void PictureRecorder::finish(results::FileQueue& files) {
   if (!case_->output.drawing.common || album_.entries().empty()) return;
-  const std::vector<PictureScale> wanted = wanted_scales();
-  const std::vector<std::string>& names = case_->output.picture_fields;
-  for (const results::FieldFiles& frame : results::read_field_series(folder_)) {
-    if (!std::filesystem::exists(folder_ / frame.cells)) continue; // taken away: pictures stay as they are
-    Source source;                                                 // read where it is needed
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      const AlbumEntry& entry = album_.entries()[k];
-      if (entry.time != frame.time || wanted[k] == entry.drawn) continue;
-      if (!source) source = picture_source(*case_, folder_, frame, names_in(folder_ / frame.cells, names));
-      const auto field =
-          std::find(source->names.begin(), source->names.end(), entry.series) - source->names.begin();
-      if (index_of(field) == source->names.size()) continue; // zero everywhere, and in no file
+  const auto wanted =
+      album_.common_scales([](const std::string& series) { return field_info<2>(series).shown.map; },
+                           [](const AlbumEntry& entry) { return entry.caption.empty(); });
+  const auto open = [&](const results::FieldFiles& frame, const AlbumEntry&) -> PictureAlbum::Drawer {
+    if (!std::filesystem::exists(folder_ / frame.cells)) return {}; // taken away
+    const Source source =
+        picture_source(*case_, folder_, frame, names_in(folder_ / frame.cells, case_->output.picture_fields));
+    return [this, source](const AlbumEntry& entry,
+                          const PictureScale& scale) -> std::optional<PictureAlbum::Drawing> {
+      const auto field = std::ranges::find(source->names, entry.series) - source->names.begin();
+      if (index_of(field) == source->names.size()) return std::nullopt; // zero everywhere, and in no file
       Picture picture = picture_of(*case_, *source, index_of(field));
-      picture.range = wanted[k].range;
-      picture.window = wanted[k].view;
-      album_.replace(
-          files, k, wanted[k], [source, picture] { return draw_png(picture); }, source->bytes() / 2);
-    }
-  }
+      picture.range = scale.range;
+      picture.window = scale.view;
+      return PictureAlbum::Drawing{[source, picture] { return draw_png(picture); }, source->bytes() / 2};
+    };
+  };
+  album_.redraw(files, wanted, results::read_field_series(folder_), open);
 }
 
 std::string PictureRecorder::record_place(results::FileQueue& files, const results::Snapshot<2>& shot,

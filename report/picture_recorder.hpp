@@ -36,7 +36,6 @@ private:
   using Source = std::shared_ptr<PictureSource>;
   std::string draw(results::FileQueue& files, const Source& source, Picture picture, const std::string& key,
                    AlbumEntry entry);
-  std::vector<PictureScale> wanted_scales() const;
   std::string note_of(double time, const std::string& field) const;
   const input::Case* case_;
   std::filesystem::path folder_;

@@ -133,7 +133,7 @@ std::shared_ptr<PictureSource> picture_source(const input::Case& input, const fs
   for (std::size_t t = 0; t < input.tools.size(); ++t)
     source->tools.push_back({&input.tools[t].outline,
                              results::read_tool_displacement(folder / files.tools[t].file),
-                             files.tools[t].tool});
+                             files.tools[t].name});
   add_symmetry(input, *source);
   return source;
 }

@@ -5,19 +5,12 @@
 #include "results/fields.hpp"
 
 #include <algorithm>
-#include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
 namespace cnem::report {
 namespace {
-
-ColourRange range_of(const input::Case& input, const std::string& field, const Picture& picture) {
-  const input::Drawing& drawing = input.output.drawing;
-  if (const auto given = drawing.ranges.find(field); given != drawing.ranges.end())
-    return {given->second[0], given->second[1]};
-  return value_span(picture.map, picture.value, drawing.percentile.value_or(usual_percentile(picture.map)));
-}
 
 std::size_t bytes_of(const SpaceView& view) {
   return sizeof(double) * (6 * view.scene.cells.vertex.size() + 9 * view.solids.corner.size() +
@@ -44,7 +37,7 @@ void SpaceRecorder::record(results::FileQueue& files, const results::Snapshot<3>
         entry.note = note_of_scale(shot.displacement_scale);
         entry.series.clear();
       }
-      entry.own = {range_of(*case_, name, picture), whole_window(picture)};
+      entry.own = {own_span(*case_, name, picture), whole_window(picture)};
       entry.drawn = {widened(picture.map, entry.own.range), entry.own.view};
       entry.tools = source.tools;
       entry.sides = source.sides;
@@ -56,56 +49,33 @@ void SpaceRecorder::record(results::FileQueue& files, const results::Snapshot<3>
     }
 }
 
-/// One range for a field, one view for a section.
-std::vector<PictureScale> SpaceRecorder::wanted_scales() const {
-  std::map<std::string, ColourRange> range;
-  std::map<std::string, PictureWindow> window;
-  for (const AlbumEntry& entry : album_.entries()) {
-    if (entry.series.empty()) continue;
-    const auto [at, fresh] = range.emplace(entry.series, entry.own.range);
-    if (!fresh) at->second = joined(at->second, entry.own.range);
-    const auto [place, first] = window.emplace(entry.caption, entry.own.view);
-    if (!first) place->second = joined(place->second, entry.own.view);
-  }
-  std::vector<PictureScale> wanted;
-  for (const AlbumEntry& entry : album_.entries())
-    wanted.push_back(entry.series.empty()
-                         ? entry.drawn
-                         : PictureScale{widened(field_info<3>(entry.series).shown.map, range[entry.series]),
-                                        window[entry.caption]});
-  return wanted;
-}
-
 void SpaceRecorder::finish(results::FileQueue& files) {
   if (!case_->output.drawing.common || album_.entries().empty()) return;
-  const std::vector<PictureScale> wanted = wanted_scales();
-  for (const results::FieldFiles& frame : results::read_field_series(folder_)) {
-    if (!std::filesystem::exists(folder_ / frame.nodes)) continue; // taken away: pictures stay as they are
-    std::optional<SpaceSource> source;                             // read where it is needed
-    std::vector<std::shared_ptr<SpaceView>> views;
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      const AlbumEntry entry = album_.entries()[k];
-      if (entry.time != frame.time || wanted[k] == entry.drawn || entry.tools.size() != case_->tools.size())
-        continue; // of an older version: it stays as it is
-      if (!source) {
-        std::vector<std::string> names;
-        for (const std::string& name : case_->output.picture_fields)
-          if (results::has_node_field(folder_ / frame.nodes, results::array_in_files(field_info<3>(name))))
-            names.push_back(name);
-        source = space_source(*case_, folder_, frame, names, entry);
-        views = space_views(*case_, *source, tools());
-      }
+  const auto wanted =
+      album_.common_scales([](const std::string& series) { return field_info<3>(series).shown.map; },
+                           [](const AlbumEntry&) { return true; });
+  const auto open = [&](const results::FieldFiles& frame, const AlbumEntry& first) -> PictureAlbum::Drawer {
+    if (!std::filesystem::exists(folder_ / frame.nodes)) return {}; // taken away
+    if (first.tools.size() != case_->tools.size()) return {};       // of an older version
+    std::vector<std::string> names;
+    for (const std::string& name : case_->output.picture_fields)
+      if (results::has_node_field(folder_ / frame.nodes, results::array_in_files(field_info<3>(name))))
+        names.push_back(name);
+    const auto source =
+        std::make_shared<const SpaceSource>(space_source(*case_, folder_, frame, names, first));
+    return [this, source, views = space_views(*case_, *source, tools())](
+               const AlbumEntry& entry, const PictureScale& scale) -> std::optional<PictureAlbum::Drawing> {
       const auto field = std::ranges::find(source->names, entry.series) - source->names.begin();
       const auto view = std::ranges::find(views, entry.caption, [](const auto& one) { return one->section; });
-      if (index_of(field) == source->names.size() || view == views.end()) continue;
+      if (index_of(field) == source->names.size() || view == views.end()) return std::nullopt;
       Picture picture = picture_of(*case_, *source, **view, index_of(field));
-      picture.range = wanted[k].range;
-      picture.window = wanted[k].view;
-      album_.replace(
-          files, k, wanted[k], [kept = *view, picture] { return draw_png(picture); },
-          bytes_of(**view) / source->names.size());
-    }
-  }
+      picture.range = scale.range;
+      picture.window = scale.view;
+      return PictureAlbum::Drawing{[kept = *view, picture] { return draw_png(picture); },
+                                   bytes_of(**view) / source->names.size()};
+    };
+  };
+  album_.redraw(files, wanted, results::read_field_series(folder_), open);
 }
 
 } // namespace cnem::report

@@ -25,7 +25,6 @@ public:
 
 private:
   const std::vector<TriangleSurface>& tools();
-  std::vector<PictureScale> wanted_scales() const;
 
   const input::Case* case_;
   std::filesystem::path folder_;

@@ -1,6 +1,7 @@
 #include "report/space_source.hpp"
 
 #include "core/error.hpp"
+#include "core/geometry/clip_polygon.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/geometry/plane_section.hpp"
 #include "core/index.hpp"
@@ -17,8 +18,8 @@ namespace cnem::report {
 namespace {
 
 /// Planes of symmetry that the body ends at, each by the mean of its facets.
-std::vector<std::array<Vec3, 2>> symmetry_sides(const input::Case& input, const results::Snapshot<3>& shot) {
-  std::vector<std::array<Vec3, 2>> sides;
+std::vector<KeptSide> symmetry_sides(const input::Case& input, const results::Snapshot<3>& shot) {
+  std::vector<KeptSide> sides;
   for (const input::BoundaryCondition& condition : input.boundary) {
     if (!condition.symmetry) continue;
     for (const std::string& piece : condition.pieces) {
@@ -45,32 +46,21 @@ CutPlane plane_of(const input::Section& section) {
   return {towards.dot(section.at) * towards, axes.row(0), axes.row(1)};
 }
 
-/// What of a polygon is on the side of a plane that its normal comes from; convex or not.
-std::vector<Vec2> kept(const std::vector<Vec2>& polygon, const CutPlane& plane,
-                       const std::array<Vec3, 2>& side) {
-  const auto& [at, normal] = side;
-  const Vec2 along(normal.dot(plane.right), normal.dot(plane.up));
-  const double level = normal.dot(at - plane.at);
-  std::vector<Vec2> left;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vec2 &a = polygon[k], &b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
-    const double at_a = along.dot(a) - level, at_b = along.dot(b) - level;
-    if (at_a <= 0.0) left.push_back(a);
-    if ((at_a <= 0.0) != (at_b <= 0.0)) left.emplace_back(a + at_a / (at_a - at_b) * (b - a));
-  }
-  return left;
-}
-
 void add_outlines(const input::Case& input, const SpaceSource& source,
                   const std::vector<TriangleSurface>& tools, const input::Section& section, SpaceView& view) {
   const CutPlane plane = plane_of(section);
+  std::vector<Vec2> scratch;
   for (std::size_t t = 0; t < tools.size(); ++t) {
     CutPlane before = plane; // as the tool has it at t = 0
     before.at -= source.tools[t];
     bool named = false;
     for (const SectionLoop& loop : cut(tools[t], before)) {
       std::vector<Vec2> polygon = loop.point;
-      for (const auto& side : source.sides) polygon = kept(polygon, plane, side);
+      for (const KeptSide& side : source.sides) {
+        const Vec2 along(side.normal.dot(plane.right), side.normal.dot(plane.up));
+        const double level = side.normal.dot(side.at - plane.at);
+        clip_polygon(polygon, scratch, [&](const Vec2& x) { return along.dot(x) - level; });
+      }
       if (polygon.size() < 3) continue;
       Curve& curve = view.outlines.emplace_back();
       for (std::size_t k = 0; k < polygon.size(); ++k)
@@ -137,12 +127,10 @@ std::vector<std::shared_ptr<SpaceView>> space_views(const input::Case& input, co
   const BodyView eye{input.output.drawing.eye};
   auto whole = std::make_shared<SpaceView>();
   whole->scene = surface_scene(boundary_of(source.tetrahedra), source.position, eye);
-  std::vector<KeptSide> sides;
-  for (const auto& [at, normal] : source.sides) sides.push_back({at, normal});
   for (std::size_t t = 0; t < tools.size(); ++t) {
     TriangleSurface moved = tools[t];
     for (Vec3& x : moved.points) x += source.tools[t];
-    add_solid(whole->solids, moved, sides, eye);
+    add_solid(whole->solids, moved, source.sides, eye);
   }
   add(std::move(whole));
   const SectionCells cells =

@@ -23,7 +23,7 @@ struct SpaceSource {
   std::vector<std::string> names{};                   ///< of the fields
   std::vector<Field> values{};                        ///< [name][node]
   std::vector<Vec3> tools{};                          ///< [tool] m, how far each has moved
-  std::vector<std::array<Vec3, 2>> sides{};           ///< as AlbumEntry has them
+  std::vector<KeptSide> sides{};                      ///< as AlbumEntry has them
 };
 SpaceSource space_source(const input::Case& input, const results::Snapshot<3>& shot,
                          const std::vector<std::string>& names);

@@ -10,9 +10,9 @@
 
 namespace cnem::results {
 
-/// The file of a tool at one time.
-struct ToolFile {
-  std::string tool; ///< its name
+/// A further file of one time.
+struct PartFile {
+  std::string name; ///< of the tool whose outline it is; "surface", "polyhedra"
   std::string file; ///< path relative to the folder of results
 };
 
@@ -20,7 +20,7 @@ struct ToolFile {
 struct FieldFiles {
   double time = 0.0;           ///< s
   std::string cells, nodes;    ///< paths relative to the folder of results
-  std::vector<ToolFile> tools; ///< rigid outlines
+  std::vector<PartFile> tools; ///< in the plane their outlines, in space the parts that the case asks for
 };
 
 /// An array of a file, and the component of it that is meant.

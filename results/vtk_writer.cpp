@@ -296,7 +296,7 @@ FieldWriter FieldWriter::resume(fs::path folder, double time, Series series) {
       writer.entries_.push_back(std::move(frame));
     else {
       for (const std::string& file : {frame.cells, frame.nodes}) fs::remove(folder / file);
-      for (const ToolFile& tool : frame.tools) fs::remove(folder / tool.file);
+      for (const PartFile& part : frame.tools) fs::remove(folder / part.file);
     }
   }
   writer.folder_ = std::move(folder);
@@ -349,11 +349,11 @@ std::string FieldWriter::collection() const {
                     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
                     "  <Collection>\n";
   for (const FieldFiles& entry : entries_) {
-    std::vector<ToolFile> parts{{"cells", entry.cells}, {"nodes", entry.nodes}};
+    std::vector<PartFile> parts{{"cells", entry.cells}, {"nodes", entry.nodes}};
     parts.insert(parts.end(), entry.tools.begin(), entry.tools.end());
     for (std::size_t part = 0; part < parts.size(); ++part)
       xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
-                         entry.time, part, parts[part].tool, parts[part].file);
+                         entry.time, part, parts[part].name, parts[part].file);
   }
   return xml + "  </Collection>\n</VTKFile>\n";
 }

@@ -1,6 +1,7 @@
 #include "study/batch.hpp"
 
 #include "core/error.hpp"
+#include "core/fnv.hpp"
 #include "core/index.hpp"
 #include "results/checkpoint_folder.hpp"
 #include "results/folder_lock.hpp"
@@ -26,12 +27,7 @@ using State = RunRecord::State;
 constexpr const char* manifest_file = "manifest.json";
 constexpr const char* another_folder = "choose another with --output";
 
-/// FNV-1a, 64 bits.
-std::string hash(std::string_view text) {
-  std::uint64_t h = 0xcbf29ce484222325U;
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return fmt::format("{:016x}", h);
-}
+std::string hash(std::string_view text) { return fmt::format("{:016x}", fnv(text)); }
 
 /// The manifest of an earlier call; none when there is none. Throws Json::exception for what is none.
 std::optional<Json> read_manifest(const fs::path& folder) {

@@ -46,7 +46,7 @@ std::shared_ptr<const contact::ToolShape<3>> own_shape(const input::ToolSolid& s
     return std::make_shared<SweptShape>(SweptShape::along(solid.outline, solid.profile));
   case stl:
     try {
-      return std::make_shared<contact::TriangleShape>(joined(read_stl(solid.file, solid.file_unit)));
+      return std::make_shared<contact::TriangleShape>(joined(solid.soup));
     } catch (const GeometryError& error) {
       throw InputError(solid.file + ": " + error.what() + ", expected triangles that close around the solid");
     }

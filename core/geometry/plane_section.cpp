@@ -66,7 +66,7 @@ std::vector<SectionLoop> cut(const TriangleSurface& surface, const CutPlane& pla
   return loops;
 }
 
-bool inside(const std::vector<Vec2>& polygon, const Vec2& x) {
+bool inside(std::span<const Vec2> polygon, const Vec2& x) {
   bool odd = false;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vec2 &a = polygon[k], &b = polygon[k + 1 < polygon.size() ? k + 1 : 0];

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cnem {
@@ -38,7 +39,7 @@ struct SectionLoop {
 std::vector<SectionLoop> cut(const TriangleSurface& surface, const CutPlane& plane);
 
 /// Whether a place in the plane is inside a polygon.
-bool inside(const std::vector<Vec2>& polygon, const Vec2& x);
+bool inside(std::span<const Vec2> polygon, const Vec2& x);
 
 /// Triangles that fill a simple counter-clockwise polygon, on its corners: ears are cut off. O(n²).
 std::vector<std::array<std::size_t, 3>> ear_triangles(const std::vector<Vec2>& polygon);

@@ -7,8 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 namespace cnem {
 
@@ -140,13 +138,6 @@ FacetSoup parse_stl(std::string_view bytes, double scale) {
                     bytes.size(), told == 0 ? "" : fmt::format(", {} for what it says it has", told)));
   if (soup.triangles.empty()) throw InputError("found no triangle in the STL file, expected some");
   return soup;
-}
-
-FacetSoup read_stl(const std::string& path, double scale) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("cannot read '{}', expected an STL file", path));
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  return parse_stl(bytes, scale);
 }
 
 } // namespace cnem

@@ -26,7 +26,4 @@ struct FacetSoup {
 /// or numbers that are not finite.
 FacetSoup parse_stl(std::string_view bytes, double scale);
 
-/// The same from a file. Throws InputError, with its name, where it cannot be read.
-FacetSoup read_stl(const std::string& path, double scale);
-
 } // namespace cnem

@@ -269,7 +269,7 @@ TEST_F(BlankingFile, round_the_punch_there_are_means_and_spreads) {
   EXPECT_TRUE(std::isnan(charts[0].series[2].y[3]));
   input::expect_parts(
       report::render_blanking(*back, std::nullopt),
-      {"Face of the slug at 0°", "Heights of the slug round the punch", "Burnish 0.233 mm ± 0.047 mm"});
+      {"Face of the slug at 0.0°", "Heights of the slug round the punch", "Burnish 0.233 mm ± 0.047 mm"});
   EXPECT_TRUE(report::round_charts(example()).empty());
 }
 

@@ -1,5 +1,7 @@
 // Chips of known thickness, curl and teeth, as outlines made by hand; the surface behind the tool.
 #include "evaluate/chip.hpp"
+
+#include "core/geometry/plane_section.hpp"
 #include "evaluate/machined_surface.hpp"
 #include "tests/clouds.hpp"
 #include "tests/unit/evaluate/degree.hpp"
@@ -148,9 +150,9 @@ TEST(Chip, fresh_part_lies_between_shear_plane_and_half_a_feed_beyond) {
   const Chip chip = measure_chip(cut.loop(), feed, rake);
   const std::vector<Vec2> fresh = fresh_chip(chip, feed);
   const Vec2 foot(feed / std::tan(cut.phi), feed), face(-std::sin(rake), std::cos(rake));
-  EXPECT_TRUE(inside_polygon(fresh, 0.8 * foot + 0.3 * feed * face));
-  EXPECT_FALSE(inside_polygon(fresh, 0.5 * foot)) << "in the shear plane";
-  EXPECT_FALSE(inside_polygon(fresh, foot + 0.7 * feed * face)) << "beyond";
+  EXPECT_TRUE(inside(fresh, 0.8 * foot + 0.3 * feed * face));
+  EXPECT_FALSE(inside(fresh, 0.5 * foot)) << "in the shear plane";
+  EXPECT_FALSE(inside(fresh, foot + 0.7 * feed * face)) << "beyond";
 }
 
 TEST(Surface, has_its_height_roughness_and_layers) {

@@ -82,6 +82,30 @@ TEST(Experiment, forces_of_the_model_become_those_of_the_part) {
   EXPECT_NEAR(computed_at_half(pressed(in_newtons), &whole), 12.5e3, 50.0) << "two cuts carry the force";
 }
 
+// Else the stroke would be that of the punch alone.
+TEST(Experiment, cuts_along_z_are_cuts) {
+  results::HistoryTable history;
+  history.names = {"time[s]"};
+  for (const char* tool : {"punch", "die"})
+    for (const char* column : {"force_x[N]", "force_y[N]", "force_z[N]", "displacement_x[m]",
+                               "displacement_y[m]", "displacement_z[m]", "work[J]", "stroke[m]"})
+      history.names.push_back(std::string(tool) + "." + column);
+  history.column.resize(history.names.size());
+  for (int k = 0; k <= 1000; ++k) {
+    const double s = k / 1000.0;
+    const double row[] = {1e-3 * s, 0, 0, -1e3 * s, 0, 0,        -1e-3 * s, 0.5 * s * s, 1e-3 * s,
+                          0.0,      0, 0, 0.0,      0, 1e-3 * s, 0.0,       1e-3 * s};
+    for (std::size_t c = 0; c < history.column.size(); ++c) history.column[c].push_back(row[c]);
+  }
+  BlankingResult cut;
+  cut.punch = "punch";
+  cut.dies = {"die"};
+  cut.direction_z = -1.0;
+  const auto results =
+      evaluate_experiments(pressed("force = \"0 10 20 kN\"\ncut_length = \"50 mm\"\n"), history, &cut);
+  EXPECT_NEAR(results.at(0).computed.x.back(), 2e-3, 1e-6) << "against the die";
+}
+
 TEST(Experiment, file_metrics_and_page_tell_the_difference) {
   const testing::TemporaryFolder folder("experiment");
   EXPECT_TRUE(read_experiments(folder.path()).empty());

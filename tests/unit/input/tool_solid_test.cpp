@@ -59,12 +59,6 @@ profile = { start = "0 -3 mm", path = [{ to = "4 -3 mm" }, { to = "4 0 mm" }, { 
   EXPECT_EQ(round.tools.at(0).solid->outline.pieces.size(), 4U);
 }
 
-TEST(ToolSolid, triangles_are_seen_from_the_folder_of_the_case) {
-  const Case c = with_tool("shape = \"stl\"\nstl = { file = \"punch.stl\", unit = \"1 um\" }\n");
-  EXPECT_EQ(c.tools.at(0).solid->file, "folder/punch.stl");
-  EXPECT_EQ(c.tools[0].solid->file_unit, 1e-6);
-}
-
 TEST(ToolSolid, a_half_space_is_what_no_shape_means) {
   const Case c = with_tool("plane = { at = \"0 0 0 mm\", normal = \"0 0 2\" }\n");
   EXPECT_EQ(c.tools.at(0).solid->shape, ToolSolid::Shape::half_space);

@@ -1,6 +1,7 @@
 // What a page says: the first numbers of each kind of run, its heading, curves worth a look, units.
 #include "core/error.hpp"
 #include "input/case_reader.hpp"
+#include "report/blanking_page.hpp"
 #include "report/html.hpp"
 #include "report/report.hpp"
 #include "results/output_folder.hpp"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace cnem::report {
 namespace {
@@ -51,6 +53,8 @@ BlankingResult cut_sheet() {
   face.fracture = 1.1e-3;
   face.burr = 1e-5;
   result.faces = {face, face};
+  result.faces[0].body = "slug";
+  result.faces[1].body = "skeleton";
   result.faces[1].burnish = 0.64e-3;
   result.faces[1].fracture = 1.06e-3;
   return result;
@@ -85,6 +89,29 @@ TEST(Headline, of_a_round_blank_is_in_newtons) {
   EXPECT_EQ(figures[0].note, "486.7 N/mm of cut length");
   EXPECT_EQ(figure(figures, "Work of punch").value, "6 J");
   EXPECT_EQ(figure(figures, "Cut through").value, "no");
+}
+
+// Four sections: the slug's burnish scatters round the punch, the skeleton's does not.
+TEST(Headline, of_a_cut_in_space_has_means_round_the_punch) {
+  BlankingResult result = cut_sheet();
+  result.force_unit = "N";
+  result.direction_x = 1.0;
+  const std::vector<ShearedFace> both = result.faces;
+  result.faces.clear();
+  for (int k = 0; k < 4; ++k)
+    for (ShearedFace face : both) {
+      face.angle = (45.0 * k + 22.5) / 180.0 * std::numbers::pi;
+      if (face.body == "slug") face.burnish += (k % 2 ? 1.0 : -1.0) * 0.2e-3;
+      face.parted = k > 0;
+      result.faces.push_back(face);
+    }
+  const auto figures = of({}, nullptr, &result);
+  EXPECT_EQ(figure(figures, "Burnish").value, "30–32 %") << "not 20–40 %";
+  EXPECT_EQ(figure(figures, "Burnish").note, "of the thickness, 2 faces, means round the punch");
+  EXPECT_EQ(figure(figures, "Cut through").value, "at 3 of 4 angles");
+  const std::string page = render_blanking(result, std::nullopt);
+  EXPECT_NE(page.find("Face of the slug at 22.5°"), std::string::npos);
+  EXPECT_NE(page.find("Angles count from y, counter-clockwise"), std::string::npos) << "the cut is along x";
 }
 
 TEST(Headline, of_a_machined_surface_is_forces_chip_and_temperature) {

@@ -1,0 +1,99 @@
+// Files of triangles: read once, known by their content.
+#include "core/error.hpp"
+#include "input/case_reader.hpp"
+#include "input/space_domain.hpp"
+#include "input/tool_surface.hpp"
+#include "tests/stl_text.hpp"
+#include "tests/temporary_folder.hpp"
+
+#include <fstream>
+#include <gtest/gtest.h>
+
+namespace cnem::input {
+namespace {
+
+constexpr const char* head = R"([analysis]
+kinematics = "three-dimensional"
+[time]
+end = "10 us"
+[cloud]
+spacing = "1 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+[method]
+lagrangian = "total"
+)";
+constexpr const char* tool = R"([domain]
+material = "steel"
+block = { from = "0 0 0 mm", to = "4 2 2 mm" }
+[tools.punch]
+shape = "stl"
+stl = { file = "box.stl", unit = "1 um" }
+)";
+constexpr const char* workpiece = R"([domain]
+material = "steel"
+stl = { file = "box.stl" }
+)";
+
+class TriangleFile : public ::testing::Test {
+protected:
+  void SetUp() override { write(2.0); }
+  void write(double height) const { std::ofstream(file) << testing::stl_box({0, 0, 0}, {4, 2, height}); }
+  Case read(const std::string& body) const {
+    return read_case_text(head + body, (temporary.path() / "case.toml").string());
+  }
+  std::string refusal_of(const std::string& text) const {
+    try {
+      read_case_text(text, "elsewhere/case.resolved.toml");
+    } catch (const InputError& error) { return error.what(); }
+    return "";
+  }
+
+  const cnem::testing::TemporaryFolder temporary{"triangle_file"};
+  const std::filesystem::path file = temporary.path() / "box.stl";
+};
+
+// Contact, pictures and evaluation have the solid that the checksum is of, whatever becomes of the file.
+TEST_F(TriangleFile, of_a_tool_is_read_once) {
+  const Case c = read(tool);
+  std::filesystem::remove(file);
+  const ToolSolid& solid = *c.tools.at(0).solid;
+  EXPECT_EQ(solid.file, file.string());
+  EXPECT_EQ(solid.soup.triangles.size(), 12U);
+  EXPECT_NEAR(tool_surface(solid, {{0, 0, 0}, {1, 1, 1}}).volume(), 16e-18, 1e-24);
+}
+
+TEST_F(TriangleFile, is_known_by_its_content_in_resolved_cases) {
+  for (const auto& [body, key] : {std::pair{tool, "tools.punch.stl"}, {workpiece, "domain.stl"}}) {
+    write(2.0);
+    const std::string resolved = read(body).resolved;
+    EXPECT_NE(resolved.find("content = \""), std::string::npos) << resolved;
+    const auto below_head = [](const std::string& text) { return text.substr(text.find('\n')); };
+    EXPECT_EQ(below_head(read_case_text(resolved, "elsewhere/case.resolved.toml").resolved),
+              below_head(resolved));
+    write(2.5);
+    const std::string refusal = refusal_of(resolved);
+    EXPECT_NE(refusal.find(std::string("key '") + key + ".file': found " + file.string() + " with checksum"),
+              std::string::npos)
+        << refusal;
+    EXPECT_NE(refusal.find(std::string("(without '") + key + ".content' the file"), std::string::npos)
+        << refusal;
+  }
+}
+
+TEST_F(TriangleFile, that_is_none_is_told_with_its_name_and_line) {
+  std::ofstream(file) << "solid a\nfacet norm";
+  for (const char* body : {tool, workpiece}) {
+    try {
+      read(body);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("box.stl: line 2 of the STL file: found"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+} // namespace
+} // namespace cnem::input
