@@ -125,15 +125,15 @@ std::shared_ptr<PictureSource> picture_source(const input::Case& input, const fs
     for (const results::FieldFiles& of_time : results::read_field_series(folder, results::files::tool_fields))
       if (of_time.time == files.time)
         source->warm_tools = results::read_cell_fields(folder / of_time.cells, {{of_tools}}, origin);
-  if (files.tools.size() < input.tools.size())
+  if (files.parts.size() < input.tools.size())
     throw IoError(fmt::format(
         "{} has the outlines of {} tools at t = {:g} s, expected {}: it was written by an older "
         "version, run the case again",
-        (folder / results::files::fields).string(), files.tools.size(), files.time, input.tools.size()));
+        (folder / results::files::fields).string(), files.parts.size(), files.time, input.tools.size()));
   for (std::size_t t = 0; t < input.tools.size(); ++t)
     source->tools.push_back({&input.tools[t].outline,
-                             results::read_tool_displacement(folder / files.tools[t].file),
-                             files.tools[t].name});
+                             results::read_tool_displacement(folder / files.parts[t].file),
+                             files.parts[t].name});
   add_symmetry(input, *source);
   return source;
 }

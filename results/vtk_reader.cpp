@@ -50,7 +50,7 @@ std::vector<FieldFiles> read_field_series(const fs::path& folder, const char* li
     } else if (part == "1") {
       series.back().nodes = attribute(k, "file");
     } else {
-      series.back().tools.push_back({attribute(k, "name"), attribute(k, "file")});
+      series.back().parts.push_back({attribute(k, "name"), attribute(k, "file")});
     }
   }
   return series;

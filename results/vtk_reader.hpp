@@ -20,7 +20,7 @@ struct PartFile {
 struct FieldFiles {
   double time = 0.0;           ///< s
   std::string cells, nodes;    ///< paths relative to the folder of results
-  std::vector<PartFile> tools; ///< in the plane their outlines, in space the parts that the case asks for
+  std::vector<PartFile> parts; ///< in the plane their outlines, in space the parts that the case asks for
 };
 
 /// An array of a file, and the component of it that is meant.

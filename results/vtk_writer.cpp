@@ -296,7 +296,7 @@ FieldWriter FieldWriter::resume(fs::path folder, double time, Series series) {
       writer.entries_.push_back(std::move(frame));
     else {
       for (const std::string& file : {frame.cells, frame.nodes}) fs::remove(folder / file);
-      for (const PartFile& part : frame.tools) fs::remove(folder / part.file);
+      for (const PartFile& part : frame.parts) fs::remove(folder / part.file);
     }
   }
   writer.folder_ = std::move(folder);
@@ -320,17 +320,17 @@ template<int dim> void FieldWriter::write(FileQueue& queue, std::shared_ptr<cons
       folder_ / entry.nodes, [frame] { return nodes_text(*frame); }, bytes);
   if constexpr (dim == 2)
     for (const ToolOutline& tool : frame->tools) {
-      entry.tools.push_back({tool.name, name("outline_" + tool.name)});
+      entry.parts.push_back({tool.name, name("outline_" + tool.name)});
       queue.put(
-          folder_ / entry.tools.back().file,
+          folder_ / entry.parts.back().file,
           [tool, origin = frame->origin, time = frame->time] { return outline_text(tool, origin, time); },
           sizeof(Vec2) * tool.corners.size());
     }
   if constexpr (dim == 3) {
     const auto add = [&](const char* part, std::string (*text)(const FieldFrame<3>&), std::size_t size) {
-      entry.tools.push_back({part, name(part)});
+      entry.parts.push_back({part, name(part)});
       queue.put(
-          folder_ / entry.tools.back().file, [frame, text] { return text(*frame); }, size);
+          folder_ / entry.parts.back().file, [frame, text] { return text(*frame); }, size);
     };
     if (!frame->surface.empty()) add("surface", surface_text, bytes);
     if (frame->polyhedra)
@@ -350,7 +350,7 @@ std::string FieldWriter::collection() const {
                     "  <Collection>\n";
   for (const FieldFiles& entry : entries_) {
     std::vector<PartFile> parts{{"cells", entry.cells}, {"nodes", entry.nodes}};
-    parts.insert(parts.end(), entry.tools.begin(), entry.tools.end());
+    parts.insert(parts.end(), entry.parts.begin(), entry.parts.end());
     for (std::size_t part = 0; part < parts.size(); ++part)
       xml += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
                          entry.time, part, parts[part].name, parts[part].file);

@@ -111,11 +111,11 @@ picture_fields = ["stress_xy"]
   const auto series = results::read_field_series(folder);
   ASSERT_EQ(series.size(), 4U) << "0, 1 and 2 us, and the time of the picture";
   EXPECT_EQ(series[2].time, 1.5e-6);
-  ASSERT_EQ(series[3].tools.size(), 2U);
-  EXPECT_EQ(series[3].tools[0].tool, "punch");
-  EXPECT_NEAR(results::read_tool_displacement(folder / series[3].tools[0].file).y(), -60e-6, 1e-9)
+  ASSERT_EQ(series[3].parts.size(), 2U);
+  EXPECT_EQ(series[3].parts[0].name, "punch");
+  EXPECT_NEAR(results::read_tool_displacement(folder / series[3].parts[0].file).y(), -60e-6, 1e-9)
       << "led up to 60 m/s in 2 us";
-  EXPECT_EQ(results::read_tool_displacement(folder / series[3].tools[1].file), Vec2(0, 0));
+  EXPECT_EQ(results::read_tool_displacement(folder / series[3].parts[1].file), Vec2(0, 0));
 }
 
 TEST(FieldFiles, of_space_are_read_by_vtk_and_by_python) {

@@ -127,10 +127,10 @@ TEST_F(SpaceReport, of_a_quarter_of_a_round_blank) {
   ASSERT_NO_FATAL_FAILURE(expect_cut(folder));
   ASSERT_NO_FATAL_FAILURE(expect_pictures(folder));
   for (const cnem::results::FieldFiles& frame : cnem::results::read_field_series(folder)) {
-    ASSERT_EQ(frame.tools.size(), 2U);
-    EXPECT_EQ(frame.tools[0].name, "surface");
-    EXPECT_EQ(frame.tools[1].name, "polyhedra");
-    for (const cnem::results::PartFile& part : frame.tools)
+    ASSERT_EQ(frame.parts.size(), 2U);
+    EXPECT_EQ(frame.parts[0].name, "surface");
+    EXPECT_EQ(frame.parts[1].name, "polyhedra");
+    for (const cnem::results::PartFile& part : frame.parts)
       EXPECT_TRUE(std::filesystem::exists(folder / part.file));
   }
 }

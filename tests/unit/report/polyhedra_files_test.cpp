@@ -74,9 +74,9 @@ TEST(PolyhedraFiles, enclose_the_body_and_carry_the_values_of_nodes) {
   const auto series = read_field_series(folder.path());
   ASSERT_EQ(series.size(), 2U);
   for (const FieldFiles& files : series) {
-    ASSERT_EQ(files.tools.size(), 2U);
-    const Grid surface = read(folder.path() / files.tools[0].file),
-               cells = read(folder.path() / files.tools[1].file);
+    ASSERT_EQ(files.parts.size(), 2U);
+    const Grid surface = read(folder.path() / files.parts[0].file),
+               cells = read(folder.path() / files.parts[1].file);
     ASSERT_EQ(cells->GetNumberOfCells(), static_cast<vtkIdType>(block.cloud.position.size()));
     EXPECT_NEAR(volume_of(*cells), 2.0, 1e-12);
     EXPECT_EQ(cells->GetCellData()->GetArray("x [m]")->GetComponent(7, 0), position[0][7]);
