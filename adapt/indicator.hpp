@@ -1,8 +1,8 @@
 #pragma once
 // Where the cloud is too coarse for a field: the indicator of Zienkiewicz and Zhu on the cells (paper 004,
 // (80)-(82)).
-#include "adapt/structure.hpp"
 #include "core/geometry/cell_complex.hpp"
+#include "core/geometry/cloud.hpp"
 #include "core/machine/parallel.hpp"
 
 #include <algorithm>
@@ -106,8 +106,5 @@ Indicator indicator(const Cloud<dim>& cloud, const CellComplex<dim>& cells, cons
   result.norm = std::sqrt(result.norm);
   return result;
 }
-
-/// With Sibson interpolation on Voronoi cells.
-Indicator indicator(const Cloud<2>& cloud, const Structure& structure, const Field& value);
 
 } // namespace cnem::adapt

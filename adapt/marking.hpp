@@ -1,6 +1,7 @@
 #pragma once
 // From an indicator to the wanted spacing.
 #include "adapt/indicator.hpp"
+#include "adapt/plane/structure.hpp"
 #include "adapt/space/structure.hpp"
 
 #include <cstdint>

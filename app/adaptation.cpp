@@ -1,5 +1,6 @@
 #include "app/adaptation.hpp"
 
+#include "adapt/plane/indicator.hpp"
 #include "app/adaptation_parts.hpp"
 #include "app/tool_tips.hpp"
 #include "core/error.hpp"

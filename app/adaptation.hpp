@@ -1,8 +1,8 @@
 #pragma once
 // Estimate, mark, resample, transfer: what happens to the cloud at a new reference.
-#include "adapt/flow.hpp"
 #include "adapt/marking.hpp"
-#include "adapt/resample.hpp"
+#include "adapt/plane/flow.hpp"
+#include "adapt/plane/resample.hpp"
 #include "app/estimate.hpp"
 #include "app/moving_window.hpp"
 #include "input/case.hpp"

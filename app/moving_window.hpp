@@ -1,7 +1,7 @@
 #pragma once
 // A window on a longer workpiece, which goes with a tool: where it is to move, and by what change of the
 // cloud.
-#include "adapt/window.hpp"
+#include "adapt/plane/window.hpp"
 #include "input/case.hpp"
 #include "input/cutting_tool.hpp"
 #include "mechanics/explicit_solver.hpp"

@@ -95,6 +95,7 @@ ShearedFace measure_side(const Cut& cut, const CutTools& tools, const CutSheet& 
   const std::int32_t part = slug ? cut.slug : cut.skeleton;
   ShearedFace face;
   if (part < 0) {
+    face.measured = false;
     face.note = "nothing is left there";
   } else {
     // The die draws the slug in, the punch the skeleton.

@@ -4,7 +4,7 @@
 // makes solver objects of them. The meaning of each key is in docs/case_reference.md, which is generated from
 // input/schema/schema.cpp.
 #include "adapt/indicated_fields.hpp"
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "clouds/generate.hpp"
 #include "clouds/space/domain.hpp"
 #include "contact/body_contact.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // A rectangle to resample: 1 m by 0.6 m, a density of 1.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "cnem/scni.hpp"
 #include "core/index.hpp"
 #include "tests/clouds.hpp"

@@ -1,5 +1,5 @@
 // Opening a cloud from its boundary to a tip inside: topology, matter, and what does not open.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 #include "tests/conservation/blank.hpp"
 #include "tests/index_literals.hpp"

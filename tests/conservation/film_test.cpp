@@ -1,5 +1,5 @@
 // Films, thinner than a cell: long edges of theirs are split, broken ones are cut at the waist.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 #include "tests/conservation/blank.hpp"
 #include "tests/index_literals.hpp"

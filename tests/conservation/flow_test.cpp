@@ -1,5 +1,5 @@
 // Which nodes flow, and for how long others have not.
-#include "adapt/flow.hpp"
+#include "adapt/plane/flow.hpp"
 #include "tests/clouds.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The indicator (80)-(82) on fields it is exact for.
-#include "adapt/indicator.hpp"
+#include "adapt/plane/indicator.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "tests/clouds.hpp"
 #include "tests/linear_functions.hpp"

@@ -1,7 +1,7 @@
 // Faces that belong together: interfaces, closed cracks and periodic sides stay matched, node on node,
 // through sequences of deformation and resampling, and nothing goes through them.
 #include "adapt/marking.hpp"
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "core/geometry/mates.hpp"
 #include "tests/conservation/blank.hpp"
 #include "tests/index_literals.hpp"

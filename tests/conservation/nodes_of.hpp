@@ -1,6 +1,6 @@
 #pragma once
 // What resampling has to know of the nodes of a solver.
-#include "adapt/working_cloud.hpp"
+#include "adapt/plane/working_cloud.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "mechanics/kinematics.hpp"
 

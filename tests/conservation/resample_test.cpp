@@ -1,6 +1,6 @@
 // Sequences of insertion, removal and new references on random deforming clouds: nothing fails, parcels add
 // up, and the patch test stays exact after each.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "tests/clouds.hpp"

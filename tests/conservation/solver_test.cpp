@@ -1,5 +1,5 @@
 // The audit of every change of a cloud: what the solver has before and after.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "mechanics/kinematics.hpp"
 #include "tests/conservation/nodes_of.hpp"
 #include "tests/unit/mechanics/models.hpp"

@@ -1,5 +1,5 @@
 // Cutting a cloud along edges: topology, matter, cells.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "cnem/scni.hpp"
 #include "core/index.hpp"
 #include "tests/conservation/blank.hpp"

@@ -1,6 +1,6 @@
 // Matter that is fed in at one end of a body and taken off at the other: no state changes, and what comes and
 // goes is all that is missing.
-#include "adapt/window.hpp"
+#include "adapt/plane/window.hpp"
 #include "core/fields/vector_at.hpp"
 #include "tests/conservation/blank.hpp"
 #include "tests/conservation/nodes_of.hpp"

@@ -1,7 +1,7 @@
 // Any outline, holes, cracks, interfaces, regions and spacings or nodes: a cloud whose cells and operators
 // keep their promises, whose parts are told apart and whose bonded faces match, and which can be deformed and
 // resampled, its faces matched; or a GeometryError.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "app/problem/bodies.hpp"
 #include "cnem/scni.hpp"
 #include "core/error.hpp"

@@ -1,5 +1,5 @@
 // A slug comes off: what is left of it are two bodies, with nothing lost, that do not go through each other.
-#include "adapt/structure.hpp"
+#include "adapt/plane/structure.hpp"
 #include "app/adaptation.hpp"
 #include "app/simulation.hpp"
 #include "tests/clouds.hpp"

@@ -3,7 +3,7 @@
 // volume are brought together again (docs/theory.md, "Resampling").
 #include "adapt/balance.hpp"
 #include "adapt/pass_report.hpp"
-#include "adapt/working_cloud.hpp"
+#include "adapt/plane/working_cloud.hpp"
 
 #include <cstdint>
 #include <optional>

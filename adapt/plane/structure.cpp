@@ -1,4 +1,4 @@
-#include "adapt/structure.hpp"
+#include "adapt/plane/structure.hpp"
 
 #include "core/error.hpp"
 #include "core/index.hpp"

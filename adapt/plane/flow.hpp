@@ -1,6 +1,6 @@
 #pragma once
 // Which matter flows, and which has ceased to.
-#include "adapt/structure.hpp"
+#include "adapt/plane/structure.hpp"
 #include "core/fields/archive.hpp"
 #include "core/fields/state.hpp"
 #include "core/operators/resampling.hpp"

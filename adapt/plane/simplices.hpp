@@ -1,7 +1,7 @@
 #pragma once
 // The triangles of a cloud that nodes leave and join: some that fill it again, from which it is triangulated.
-#include "adapt/structure.hpp"
-#include "adapt/working_cloud.hpp"
+#include "adapt/plane/structure.hpp"
+#include "adapt/plane/working_cloud.hpp"
 
 namespace cnem::adapt {
 

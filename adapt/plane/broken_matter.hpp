@@ -1,7 +1,7 @@
 #pragma once
 // What ways through broken matter are made of, whether they go through the body (split) or end inside
 // (crack).
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 
 namespace cnem::adapt {

@@ -1,4 +1,4 @@
-#include "adapt/indicator.hpp"
+#include "adapt/plane/indicator.hpp"
 
 #include "core/error.hpp"
 #include "voronoi/plane/natural_neighbours.hpp"

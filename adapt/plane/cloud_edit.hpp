@@ -1,6 +1,6 @@
 #pragma once
-// A cloud of which some nodes go and others come at once, and with them matter (adapt/window.hpp).
-#include "adapt/working_cloud.hpp"
+// A cloud of which some nodes go and others come at once, and with them matter (adapt/plane/window.hpp).
+#include "adapt/plane/working_cloud.hpp"
 
 #include <optional>
 #include <vector>

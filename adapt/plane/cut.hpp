@@ -1,6 +1,6 @@
 #pragma once
 // What cuts through broken matter have in common, whoever finds them: split, open_cracks, cut_films.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 
 #include <span>
 #include <vector>

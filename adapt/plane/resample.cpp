@@ -1,4 +1,4 @@
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 
 #include "core/index.hpp"
 

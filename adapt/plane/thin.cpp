@@ -1,6 +1,6 @@
 // Removal: nodes that crowd at the boundary or each other.
-#include "adapt/resample.hpp"
-#include "adapt/simplices.hpp"
+#include "adapt/plane/resample.hpp"
+#include "adapt/plane/simplices.hpp"
 
 #include "core/index.hpp"
 

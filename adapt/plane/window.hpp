@@ -1,7 +1,7 @@
 #pragma once
 // The ends of a window that moves with a tool: matter is fed in ahead and taken off behind
 // (docs/theory.md, "Resampling").
-#include "adapt/working_cloud.hpp"
+#include "adapt/plane/working_cloud.hpp"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "adapt/working_cloud.hpp"
+#include "adapt/plane/working_cloud.hpp"
 
 #include "core/error.hpp"
 #include "voronoi/order.hpp"

@@ -1,4 +1,4 @@
-#include "adapt/cloud_edit.hpp"
+#include "adapt/plane/cloud_edit.hpp"
 
 #include "core/index.hpp"
 #include "voronoi/order.hpp"

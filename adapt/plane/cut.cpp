@@ -1,4 +1,4 @@
-#include "adapt/cut.hpp"
+#include "adapt/plane/cut.hpp"
 
 #include "core/index.hpp"
 

@@ -1,4 +1,4 @@
-#include "adapt/simplices.hpp"
+#include "adapt/plane/simplices.hpp"
 
 #include "core/index.hpp"
 

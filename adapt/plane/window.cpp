@@ -1,6 +1,6 @@
-#include "adapt/window.hpp"
+#include "adapt/plane/window.hpp"
 
-#include "adapt/cloud_edit.hpp"
+#include "adapt/plane/cloud_edit.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // What has to be put right before a cloud can be triangulated at all.
-#include "adapt/resample.hpp"
+#include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 #include "core/machine/parallel.hpp"
 #include "voronoi/plane/edge_tree.hpp"

@@ -1,6 +1,6 @@
 // Insertion: nodes where the cloud has become too coarse.
-#include "adapt/resample.hpp"
-#include "adapt/simplices.hpp"
+#include "adapt/plane/resample.hpp"
+#include "adapt/plane/simplices.hpp"
 #include "core/index.hpp"
 #include "voronoi/plane/locate.hpp"
 

@@ -1,4 +1,4 @@
-#include "adapt/flow.hpp"
+#include "adapt/plane/flow.hpp"
 
 #include "core/index.hpp"
 

@@ -1,6 +1,6 @@
 // Films of broken matter, thinner than a cell: cut where they are thinnest, before their faces pass each
 // other.
-#include "adapt/cut.hpp"
+#include "adapt/plane/cut.hpp"
 
 #include "core/index.hpp"
 

@@ -1,7 +1,7 @@
 // Cracks: where matter is broken but not through the body, the cloud is opened from the boundary to a tip.
-#include "adapt/broken_matter.hpp"
-#include "adapt/cut.hpp"
-#include "adapt/resample.hpp"
+#include "adapt/plane/broken_matter.hpp"
+#include "adapt/plane/cut.hpp"
+#include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>

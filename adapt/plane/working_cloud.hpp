@@ -1,7 +1,7 @@
 #pragma once
 // A cloud while it is being resampled: nodes come and go, and mass goes with them in parcels.
 #include "adapt/matter.hpp"
-#include "adapt/structure.hpp"
+#include "adapt/plane/structure.hpp"
 
 #include <span>
 #include <utility>
