@@ -48,31 +48,37 @@ template<int dim, class Visit> void for_each_output(StressPoints<dim>& points, V
   for (double** field : scalars) visit(*field);
 }
 
-/// Fewer than `width` points, through buffers padded with the last of them.
-template<int dim, class Parameters, class Kernel>
-Mask<Points<dim>> tail_step(const Parameters& parameters, const Kernel& kernel,
-                            const StressPoints<dim>& points, std::ptrdiff_t begin, int count) {
-  constexpr int fields = StressPoints<dim>::general * 3 + StressPoints<dim>::symmetric + 10;
-  double buffer[fields][width<dim>];
-  StressPoints<dim> local = points, target = points;
-  int used = 0;
-  const auto copy = [&](auto& field) {
-    for (int k = 0; k < width<dim>; ++k) buffer[used][k] = field[begin + (k < count ? k : count - 1)];
-    field = buffer[used++];
-  };
-  for_each_input(local, copy);
-  const int first_output = used;
-  for_each_output(local, copy);
+/// Fewer than `width` points, in buffers padded with the last of them. One copy for all laws: it takes longer
+/// to compile than to run.
+template<int dim> class PaddedPoints {
+public:
+  CNEM_ONE_COPY PaddedPoints(const StressPoints<dim>& points, std::ptrdiff_t begin, int count)
+      : local_(points) {
+    const auto copy = [&](auto& field) {
+      for (int k = 0; k < width<dim>; ++k) buffer_[used_][k] = field[begin + (k < count ? k : count - 1)];
+      field = buffer_[used_++];
+    };
+    for_each_input(local_, copy);
+    first_output_ = used_;
+    for_each_output(local_, copy);
+  }
 
-  const auto bad = pack_step(parameters, kernel, local, 0);
+  const StressPoints<dim>& padded() const { return local_; }
 
-  used = first_output;
-  for_each_output(target, [&](double* field) {
-    for (int k = 0; k < count; ++k) field[begin + k] = buffer[used][k];
-    ++used;
-  });
-  return bad;
-}
+  CNEM_ONE_COPY void write(StressPoints<dim> target, std::ptrdiff_t begin, int count) const {
+    int used = first_output_;
+    for_each_output(target, [&](double* field) {
+      for (int k = 0; k < count; ++k) field[begin + k] = buffer_[used][k];
+      ++used;
+    });
+  }
+
+private:
+  static constexpr int fields = StressPoints<dim>::general * 3 + StressPoints<dim>::symmetric + 10;
+  double buffer_[fields][width<dim>];
+  StressPoints<dim> local_;
+  int used_ = 0, first_output_ = 0;
+};
 
 /// return_map_step(parameters, kernel, points, i) for all points of a range: whichever belongs to the type of
 /// the parameters. Returns the first point that means nothing, or −1.
@@ -82,8 +88,14 @@ std::ptrdiff_t update(const Parameters& parameters, const Kernel& kernel, const 
   std::ptrdiff_t first_bad = -1;
   for (std::ptrdiff_t i = begin; i < end; i += width<dim>) {
     const int count = end - i < width<dim> ? static_cast<int>(end - i) : width<dim>;
-    const auto bad = count == width<dim> ? pack_step(parameters, kernel, points, i)
-                                         : tail_step(parameters, kernel, points, i, count);
+    Mask<Points<dim>> bad;
+    if (count == width<dim>) {
+      bad = pack_step(parameters, kernel, points, i);
+    } else {
+      const PaddedPoints<dim> tail(points, i, count);
+      bad = pack_step(parameters, kernel, tail.padded(), 0);
+      tail.write(points, i, count);
+    }
     if (any(bad) && first_bad < 0 && first_lane(bad, count) < count) first_bad = i + first_lane(bad, count);
   }
   return first_bad;

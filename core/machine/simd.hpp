@@ -142,8 +142,18 @@ CNEM_INLINE void store_fours(DoubleVector a, DoubleVector b, DoubleVector c, Dou
 #endif
 }
 
+// Written out, not as a loop: the compiler takes packs apart into registers before it unrolls, and code that
+// waits for that may stay in memory.
 #define CNEM_EACH(...)                                                                                       \
-  for (int k = 0; k < n; ++k) __VA_ARGS__
+  static_assert(n == 1 || n == 2);                                                                           \
+  {                                                                                                          \
+    constexpr int k = 0;                                                                                     \
+    __VA_ARGS__;                                                                                             \
+  }                                                                                                          \
+  if constexpr (n == 2) {                                                                                    \
+    constexpr int k = 1;                                                                                     \
+    __VA_ARGS__;                                                                                             \
+  }
 // NOLINTBEGIN(bugprone-macro-parentheses): types cannot stand in parentheses
 #define CNEM_OPERATOR(Result, A, B, op, right)                                                               \
   CNEM_INLINE friend Result operator op(A a, B b) {                                                          \
@@ -224,9 +234,10 @@ template<int n> CNEM_INLINE void store(double* p, Pack<n> x) {
 }
 
 template<int n> CNEM_INLINE bool any(PackMask<n> mask) {
-  MaskVector m = mask.v[0];
-  for (int k = 1; k < n; ++k) m |= mask.v[k];
-  return any_negative(m);
+  if constexpr (n == 1)
+    return any_negative(mask.v[0]);
+  else
+    return any_negative(mask.v[0] | mask.v[1]);
 }
 
 template<int n> CNEM_INLINE Pack<n> max(Pack<n> a, Pack<n> b) {
