@@ -39,6 +39,25 @@ void PeriodImages::pair(NodeIndex on_piece, PieceIndex piece, NodeIndex other) {
   }
 }
 
+std::vector<std::vector<NodeIndex>> PeriodImages::groups() const {
+  std::vector<std::vector<NodeIndex>> list;
+  if (empty()) return list;
+  IndexedVector<NodeIndex, char> listed(other_.front().size(), 0);
+  for (const NodeIndex first : listed.indices()) {
+    std::vector<NodeIndex> group{first};
+    for (std::size_t n = 0; n < group.size() && !listed[first]; ++n)
+      for (const auto& other : other_)
+        if (const NodeIndex k = other[group[n]];
+            exists(k) && std::find(group.begin(), group.end(), k) == group.end())
+          group.push_back(k);
+    if (group.size() < 2) continue;
+    for (const NodeIndex i : group) listed[i] = 1;
+    std::sort(group.begin(), group.end());
+    list.push_back(std::move(group));
+  }
+  return list;
+}
+
 /// visit(piece, image) for the pieces on both sides of an edge that are of a period; no_edge where the image
 /// is not there.
 template<class Visit> void AlikeEdits::each_image(Edge e, Visit&& visit) const {

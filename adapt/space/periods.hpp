@@ -22,6 +22,8 @@ public:
   /// The image of a node of a piece; none where the piece is of no period.
   NodeIndex image(NodeIndex i, PieceIndex piece) const;
   void pair(NodeIndex on_piece, PieceIndex piece, NodeIndex other);
+  /// Nodes that are images of each other, in increasing order.
+  std::vector<std::vector<NodeIndex>> groups() const;
 
 private:
   std::vector<Period> periods_;

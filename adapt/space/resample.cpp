@@ -330,14 +330,11 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
   return change;
 }
 
-/// Both sides of each period want the same spacing and have the same facets; their nodes count as held.
-void align_periods(Cloud<3>& cloud, std::span<const Period> periods, Field& size,
-                   IndexedVector<NodeIndex, char>& held) {
+/// Both sides of each period want the same spacing and have the same facets.
+void align_periods(Cloud<3>& cloud, std::span<const Period> periods, Field& size) {
   for (const Period& period : periods)
-    for (const auto& [a, b] : shifted_nodes(cloud, period)) {
+    for (const auto& [a, b] : shifted_nodes(cloud, period))
       size[index_of(a)] = size[index_of(b)] = std::min(size[index_of(a)], size[index_of(b)]);
-      held[a] = held[b] = 1;
-    }
   repeat_facets(cloud, periods);
 }
 
@@ -350,11 +347,11 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
   SpaceRules rules = given;
   for (const Period& period : rules.periods)
     rules.surface.still.insert(rules.surface.still.end(), period.begin(), period.end());
-  IndexedVector<NodeIndex, char> stays = properties.held;
-  align_periods(cloud, rules.periods, properties.size, stays);
+  align_periods(cloud, rules.periods, properties.size);
   if (const auto pairs = voronoi::crossings(cloud); !pairs.empty()) {
     report.crossings += static_cast<int>(pairs.size());
-    unfold(cloud, stays, properties.size, report);
+    unfold(cloud, properties.held, properties.size, PeriodImages(cloud, rules.periods), rules.surface,
+           report);
   }
   // Where facets are lost the other side of the body is nearer than they are long: they become shorter there,
   // once. More would not end beside crowded creases.
