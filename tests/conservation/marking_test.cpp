@@ -1,5 +1,6 @@
 // The marks that follow from an indicator of a front at x = 0.2, in the plane and in space.
 #include "adapt/marking.hpp"
+#include "adapt/plane/indicator.hpp"
 #include "adapt/space/indicator.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "tests/clouds.hpp"

@@ -52,12 +52,14 @@ std::map<std::size_t, int> sizes_of_groups(const Ties<3>& ties) {
 }
 
 TEST(SpacePeriods, edges_and_corners_of_a_box_are_groups_of_four_and_eight) {
-  for (const std::string grid : {"false", "true"}) {
+  for (const std::string& grid : {std::string("false"), std::string("true")}) {
     const app::Setup<3> setup = app::build<3>(block(std::string(x_period) + y_period + z_period, grid));
     const auto count = sizes_of_groups(setup.problem.ties);
     EXPECT_EQ(count.at(8), 1);
-    EXPECT_EQ(count.at(4), 4 + 3 + 2);                      // inner nodes of edges of 5, 4 and 3 spacings
-    if (grid == "true") EXPECT_EQ(count.at(2), 12 + 8 + 6); // inner nodes of faces
+    EXPECT_EQ(count.at(4), 4 + 3 + 2); // inner nodes of edges of 5, 4 and 3 spacings
+    if (grid == "true") {
+      EXPECT_EQ(count.at(2), 12 + 8 + 6); // inner nodes of faces
+    }
   }
 }
 
@@ -91,9 +93,9 @@ velocity = "0 0 0 m/s"
 pieces = ["z+"]
 velocity = "60 30 0 m/s"
 )toml";
-  for (const std::string period :
+  for (const std::string& period :
        {std::string(x_period) + y_period + "[time.step]\nlocal = true\n", std::string(x_period) + y_period})
-    for (const std::string grid : {"false", "true"}) {
+    for (const std::string& grid : {std::string("false"), std::string("true")}) {
       ExplicitSolver<3> solver = start(block(period + held, grid), [](const Vec3& x) -> Vec3 {
         return {1e5 * x.z(), 5e4 * x.z(), 0.0};
       });
@@ -115,8 +117,8 @@ velocity = "60 30 0 m/s"
 /// One equation for all images: what a random start has of momentum and energy stays, and images share
 /// velocities and temperatures.
 TEST(SpacePeriods, momentum_and_energy_of_a_shaken_block_are_kept) {
-  for (const std::string periods : {std::string(x_period), std::string(x_period) + y_period,
-                                    std::string(x_period) + y_period + z_period}) {
+  for (const std::string& periods : {std::string(x_period), std::string(x_period) + y_period,
+                                     std::string(x_period) + y_period + z_period}) {
     Random random(3);
     ExplicitSolver<3> solver = start(block(periods), [&](const Vec3&) -> Vec3 {
       return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0, 2)};
