@@ -2,6 +2,7 @@
 
 #include "adapt/space/indicator.hpp"
 #include "app/adaptation_parts.hpp"
+#include "app/problem/bodies.hpp"
 #include "clouds/space/domain.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
@@ -61,6 +62,13 @@ std::vector<std::array<NodeIndex, 4>> tetrahedra(const Approximation<3>& approxi
   return list;
 }
 
+/// The pieces of the periods of a case.
+std::vector<adapt::Period> periods_of(const input::Case& input, const Cloud<3>& cloud) {
+  std::vector<adapt::Period> periods;
+  for (const input::Periodicity& periodic : input.periodic) periods.push_back(sides_of(periodic, cloud));
+  return periods;
+}
+
 /// Marks the nodes that supports hold for their own sake, and not for the boundary that they are on.
 void hold_points(const Cloud<3>& cloud, const Supports<3>& supports, IndexedVector<NodeIndex, char>& held) {
   for (const Support<3>& support : supports.list()) {
@@ -115,6 +123,7 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   Cloud<3> cloud = solver.present_cloud();
   adapt::SpaceRules rules;
   rules.cells = input_->method.options.cells;
+  rules.periods = periods_of(*input_, cloud);
   if (input_->adapt.separate) rules.separation.piece = fracture_piece(cloud);
   const Field size_before = size_;
   const Estimate estimate_before = estimate_;

@@ -3,6 +3,7 @@
 #include "input/case_walls.hpp"
 #include "input/curve_checks.hpp"
 #include "input/schema/nearest.hpp"
+#include "input/space_domain.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -59,6 +60,20 @@ void read_periodic(const Setting& root, Case& result, Diagnostics& diagnostics) 
         diagnostics.add(Mistake::reference, pieces.where, pieces.path,
                         fmt::format("found \"{}\", expected a boundary piece: {}{}", name,
                                     fmt::join(known, ", "), did_you_mean(name, known)));
+    if (result.analysis.dimensions() == 3)
+      for (const std::string& name : names)
+        if (std::find(known.begin(), known.end(), name) != known.end() && !is_plane(result.domain, name))
+          diagnostics.add(
+              Mistake::geometry, pieces.where, pieces.path,
+              fmt::format("found \"{}\", which is not plane, expected two parallel planes", name));
+    for (const Periodicity& other : result.periodic)
+      for (const std::string& name : names)
+        if (std::find(other.pieces.begin(), other.pieces.end(), name) != other.pieces.end())
+          diagnostics.add(
+              Mistake::conflict, pieces.where, pieces.path,
+              fmt::format("found \"{}\", which is of periodic.{} too, expected a piece to continue "
+                          "at one other",
+                          name, other.name));
     if (names.size() != 2 || names[0] == names[1])
       diagnostics.add(Mistake::type, pieces.where, pieces.path,
                       "expected two different boundary pieces such as [\"left\", \"right\"]");

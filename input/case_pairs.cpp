@@ -204,6 +204,12 @@ const std::vector<Pair>& pairs() {
        [](const Case& c) {
          return c.analysis.dimensions() == 3 && c.method.options.cells == scni::CellKind::voronoi;
        }},
+      {"adapt.separate", "true", "`periodic` in space",
+       [](const Case& c) {
+         return when(c.analysis.dimensions() == 3 && !c.periodic.empty(), "with periodic in space");
+       },
+       one_of_them, "a cut would have to meet both sides of a period alike",
+       [](const Case& c) { return c.adapt.separate; }},
       {"adapt.window", "", "axisymmetric analyses",
        [](const Case& c) { return when(is_round(c), "in an axisymmetric analysis"); },
        "it with analysis.kinematics = \"plane strain\"",

@@ -15,9 +15,10 @@ namespace {
 
 class Refinement {
 public:
-  Refinement(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits, PassReport& report)
-      : surface_(surface), size_(size), limit_(limits), report_(report), old_nodes_(size.size()),
-        debt_(size.size(), 0.0) {
+  Refinement(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits, PassReport& report,
+             const PeriodImages& images)
+      : surface_(surface), alike_(surface, images), size_(size), limit_(limits), report_(report),
+        old_nodes_(size.size()), debt_(size.size(), 0.0) {
     result_.into.assign(size.size(), NodeIndex::none);
   }
 
@@ -72,14 +73,14 @@ private:
           candidates([&](Edge e) { return limit_.split_edge - surface_.length(e) / spacing(e); });
       int done = 0;
       for (const Candidate& c : list) {
-        const SurfaceChange change = surface_.split(surface_.between(c.start, c.end));
-        if (!change.done()) continue;
-        result_.made.push_back({c.start, c.end});
-        result_.into.push_back(NodeIndex::none);
-        size_.push_back(0.5 * (spacing(c.start) + spacing(c.end)));
-        debt_.push_back(0.0);
-        ++report_.inserted_boundary;
-        ++done;
+        for (const auto& [start, end, made] : alike_.split(surface_.between(c.start, c.end))) {
+          result_.made.push_back({start, end});
+          result_.into.push_back(NodeIndex::none);
+          size_.push_back(0.5 * (spacing(start) + spacing(end)));
+          debt_.push_back(0.0);
+          ++report_.inserted_boundary;
+          ++done;
+        }
       }
       changes_ += done;
       if (done == 0) return;
@@ -98,15 +99,22 @@ private:
       queue.pop_front();
       const Edge e = surface_.on_surface(a) ? surface_.between(a, b) : WorkingSurface::no_edge;
       if (e == WorkingSurface::no_edge || !surface_.wants_flip(e)) continue;
-      const NodeIndex c = surface_.apex(e), d = surface_.apex(surface_.across(e));
-      const SurfaceChange change = surface_.flip(e, spacing(e));
-      if (!change.done()) continue;
-      owe(-change.volume, {a, b, c, d});
-      ++report_.flipped;
-      ++changes_;
-      for (const auto& [from, to] : {std::array{a, c}, {c, b}, {b, d}, {d, a}})
-        push(surface_.between(from, to));
+      const std::vector<Edge> all = alike_.edges(e);
+      if (!alike_.may_flip(all, spacing(e))) continue;
+      for (const Edge k : all) flip(k, push);
     }
+  }
+
+  template<class Push> void flip(Edge e, const Push& push) {
+    const NodeIndex a = surface_.start(e), b = surface_.end(e), c = surface_.apex(e),
+                    d = surface_.apex(surface_.across(e));
+    const SurfaceChange change = surface_.flip(e, spacing(e));
+    if (!change.done()) return;
+    owe(-change.volume, {a, b, c, d});
+    ++report_.flipped;
+    ++changes_;
+    for (const auto& [from, to] : {std::array{a, c}, {c, b}, {b, d}, {d, a}})
+      push(surface_.between(from, to));
   }
 
   /// The less there is to lose with a node, the sooner it goes: new nodes, those inside of faces, on creases.
@@ -151,7 +159,16 @@ private:
                   limit_.split_edge * 0.5 * (spacing(i) + spacing(stays));
     });
     if (too_long && surface_.length(e) > at_once * spacing(e)) return false;
-    const NodeIndex c = surface_.apex(e), d = surface_.apex(surface_.across(e));
+    const std::vector<Edge> all = alike_.edges(e);
+    if (!alike_.may_collapse(all, spacing(e))) return false;
+    bool done = false;
+    for (const Edge k : all) done |= collapse(k);
+    return done;
+  }
+
+  bool collapse(Edge e) {
+    const NodeIndex gone = surface_.start(e), stays = surface_.end(e), c = surface_.apex(e),
+                    d = surface_.apex(surface_.across(e));
     const SurfaceChange change = surface_.collapse(e, spacing(e));
     if (!change.done()) return false;
     owe(debt_[index_of(gone)] - change.volume, {stays, c, d});
@@ -163,6 +180,7 @@ private:
   }
 
   WorkingSurface& surface_;
+  AlikeEdits alike_;
   Field& size_;
   const SurfaceThresholds& limit_;
   PassReport& report_;
@@ -193,8 +211,8 @@ void give_back(WorkingSurface& surface, Field debt, const Field& size, double mo
 }
 
 RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits,
-                              PassReport& report) {
-  return Refinement(surface, size, limits, report).run();
+                              PassReport& report, const PeriodImages& images) {
+  return Refinement(surface, size, limits, report, images).run();
 }
 
 } // namespace cnem::adapt

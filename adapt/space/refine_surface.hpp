@@ -2,6 +2,7 @@
 // The surface of a body keeps its resolution: long edges are split, short ones collapsed, and facets made
 // Delaunay by flips.
 #include "adapt/pass_report.hpp"
+#include "adapt/space/periods.hpp"
 #include "adapt/space/working_surface.hpp"
 #include "core/fields/aligned.hpp"
 
@@ -27,9 +28,10 @@ struct RefinedSurface {
 
 /// size: m, [node] wanted spacing, of new nodes too afterwards. Volume that collapses and flips change is
 /// given back by moving nodes near them along the gradient of the volume, not out of plane faces: only what
-/// creases and corners cannot give back is left. O(F log F). The result depends on the arguments alone.
+/// creases and corners cannot give back is left. Images across periods change together. O(F log F). The
+/// result depends on the arguments alone.
 RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits,
-                              PassReport& report);
+                              PassReport& report, const PeriodImages& images);
 
 /// Moves nodes along the gradient of the volume by `most` h at most, so that each wins the volume that it
 /// owes, debt[node] in m³; who cannot leaves it to nodes beside.

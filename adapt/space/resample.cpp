@@ -3,6 +3,7 @@
 #include "adapt/space/unfold.hpp"
 #include "core/error.hpp"
 #include "core/geometry/facets.hpp"
+#include "core/geometry/mates.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
@@ -12,7 +13,9 @@
 #include "voronoi/space/walls.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <span>
 
 namespace cnem::adapt {
 
@@ -248,6 +251,7 @@ struct Refined {
 Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const Field& size,
                 const SpaceRules& rules) {
   IndexedVector<NodeIndex, char> held = properties.held;
+  const PeriodImages images(cloud, rules.periods);
   constexpr int most = 4;
   for (int n = 0;; ++n) {
     Refined result{WorkingSurface(cloud, held, rules.surface), {}, size, {}};
@@ -256,7 +260,8 @@ Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const F
       ++result.report.undone;
       return result;
     }
-    result.changes = refine_surface(result.surface, result.size, rules.thresholds.surface, result.report);
+    result.changes =
+        refine_surface(result.surface, result.size, rules.thresholds.surface, result.report, images);
     Cloud<3> after;
     after.position = result.surface.position();
     after.facets = result.surface.facets();
@@ -321,17 +326,32 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
       voronoi::triangulate(change.cloud);
     } catch (const GeometryError& error) { tell_places(change.cloud, error); }
   }
+  for (const Period& period : rules.periods) shifted_nodes(change.cloud, period); // throws where they are not
   return change;
+}
+
+/// Both sides of each period want the same spacing and have the same facets.
+void align_periods(Cloud<3>& cloud, std::span<const Period> periods, Field& size) {
+  for (const Period& period : periods)
+    for (const auto& [a, b] : shifted_nodes(cloud, period))
+      size[index_of(a)] = size[index_of(b)] = std::min(size[index_of(a)], size[index_of(b)]);
+  repeat_facets(cloud, periods);
 }
 
 } // namespace
 
-Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const SpaceRules& rules,
+Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const SpaceRules& given,
                        PassReport& report) {
+  assert(given.periods.empty() || properties.broken.empty());
   Cloud<3> cloud = present;
+  SpaceRules rules = given;
+  for (const Period& period : rules.periods)
+    rules.surface.still.insert(rules.surface.still.end(), period.begin(), period.end());
+  align_periods(cloud, rules.periods, properties.size);
   if (const auto pairs = voronoi::crossings(cloud); !pairs.empty()) {
     report.crossings += static_cast<int>(pairs.size());
-    unfold(cloud, properties.held, properties.size, report);
+    unfold(cloud, properties.held, properties.size, PeriodImages(cloud, rules.periods), rules.surface,
+           report);
   }
   // Where facets are lost the other side of the body is nearer than they are long: they become shorter there,
   // once. More would not end beside crowded creases.

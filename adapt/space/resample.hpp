@@ -32,6 +32,9 @@ struct SpaceRules {
   SurfaceRules surface{};
   SpaceThresholds thresholds{};
   SeparationRules separation{}; ///< where NodeProperties::broken is given
+  /// Pieces of which the second is a shifted copy of the first: they stay so, node by node. Nodes on them
+  /// come and go together and never move. Nothing may be broken then.
+  std::vector<Period> periods{};
 };
 
 /// Resamples a cloud. Conserves Σ of every quantity carried in parcels to rounding; a node that nothing

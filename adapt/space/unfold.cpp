@@ -17,9 +17,10 @@ using Pair = std::array<CloudFacetIndex, 2>;
 
 class Unfolding {
 public:
-  Unfolding(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size)
+  Unfolding(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
+            const PeriodImages& images)
       : cloud_(cloud), before_(cloud.position), held_(held), size_(size), planes_(cloud),
-        active_(cloud.position.size(), 0) {}
+        groups_(images.groups()), active_(cloud.position.size(), 0) {}
 
   /// The number of nodes that have moved.
   int run() {
@@ -33,7 +34,9 @@ public:
       constexpr int widen_every = 3;
       if (n % widen_every == widen_every - 1) widen();
       push_apart(pairs);
+      align();
       smooth();
+      align();
     }
     int moved = 0;
     for (const NodeIndex i : cloud_.position.indices()) moved += cloud_.position[i] != before_[i];
@@ -64,6 +67,19 @@ private:
     const double most = farthest * size_[index_of(i)];
     if (from_start.norm() > most) from_start *= most / from_start.norm();
     cloud_.position[i] = before_[i] + from_start;
+  }
+
+  /// Images take the mean of their ways.
+  void align() {
+    for (const std::vector<NodeIndex>& group : groups_) {
+      Vec3 way = Vec3::Zero();
+      bool held = false;
+      for (const NodeIndex i : group) {
+        way += (cloud_.position[i] - before_[i]) / static_cast<double>(group.size());
+        held = held || held_[i];
+      }
+      for (const NodeIndex i : group) cloud_.position[i] = held ? before_[i] : Vec3(before_[i] + way);
+    }
   }
 
   bool share_a_node(const Pair& pair) const {
@@ -125,15 +141,16 @@ private:
   const IndexedVector<NodeIndex, char>& held_;
   const Field& size_;
   BoundaryPlanes planes_;
-  IndexedVector<NodeIndex, char> active_; ///< nodes that are smoothed
+  std::vector<std::vector<NodeIndex>> groups_; ///< of images
+  IndexedVector<NodeIndex, char> active_;      ///< nodes that are smoothed
 };
 
 } // namespace
 
 void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
-            PassReport& report) {
+            const PeriodImages& images, const SurfaceRules& rules, PassReport& report) {
   const double volume = enclosed_measure(cloud);
-  Unfolding unfolding(cloud, held, size);
+  Unfolding unfolding(cloud, held, size, images);
   report.folded += unfolding.run();
   std::vector<NodeIndex> owing;
   for (const NodeIndex i : cloud.position.indices())
@@ -142,7 +159,7 @@ void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const F
   Field debt(cloud.position.size(), 0.0);
   for (const NodeIndex i : owing)
     debt[index_of(i)] = (volume - enclosed_measure(cloud)) / static_cast<double>(owing.size());
-  WorkingSurface surface(cloud, held, {});
+  WorkingSurface surface(cloud, held, rules);
   give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
   Cloud<3> swollen = cloud;
   for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);

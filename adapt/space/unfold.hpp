@@ -1,6 +1,7 @@
 #pragma once
 // Takes folds out of a surface in space before it is resampled.
 #include "adapt/pass_report.hpp"
+#include "adapt/space/periods.hpp"
 #include "core/fields/aligned.hpp"
 #include "core/geometry/cloud.hpp"
 
@@ -10,9 +11,10 @@ namespace cnem::adapt {
 /// wanted spacing and some rounds: towards the mean of their neighbours on the surface, which takes ridges
 /// down that have fallen over, and where two faces have run into each other out of the other one. Nodes stay
 /// on the planes that boundaries have there. What that encloses more or less is given back by nodes around.
-/// Counts the moved nodes as folded. held: [node] those that stay; size: [node] m, wanted spacing.
-/// O(F log² F) a round. Throws GeometryError as voronoi::surface_edges() does.
+/// Counts the moved nodes as folded. held: [node] those that stay; size: [node] m, wanted spacing; images:
+/// nodes that continue each other a period away, which move alike. O(F log² F) a round. Throws GeometryError
+/// as voronoi::surface_edges() does.
 void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
-            PassReport& report);
+            const PeriodImages& images, const SurfaceRules& rules, PassReport& report);
 
 } // namespace cnem::adapt

@@ -36,14 +36,17 @@ WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIn
                                const SurfaceRules& rules)
     : rules_(rules), least_crease_(cosine(rules.crease)), least_corner_(cosine(rules.corner)),
       least_turn_(cosine(rules.turn)), least_flat_(cosine(rules.flat)), position_(cloud.position),
-      held_(held), leaving_(cloud.position.size(), no_edge), facet_(cloud.facets.begin(), cloud.facets.end()),
-      closed_(cloud.facets.size(), 0) {
+      held_(held), still_(cloud.position.size(), 0), leaving_(cloud.position.size(), no_edge),
+      facet_(cloud.facets.begin(), cloud.facets.end()), closed_(cloud.facets.size(), 0) {
   assert(held.size() == cloud.position.size());
   const voronoi::SurfaceEdges across = voronoi::surface_edges(cloud);
   across_.reserve(3 * across.size());
   for (const auto& of_facet : across) across_.insert(across_.end(), of_facet.begin(), of_facet.end());
   for (Edge e = 0; e < edges(); ++e)
     if (leaving_[start(e)] == no_edge) leaving_[start(e)] = e;
+  for (const Facet<3>& facet : cloud.facets)
+    if (is_still(facet.piece))
+      for (const NodeIndex i : facet.node) still_[i] = 1;
   if (cloud.twins.empty()) return;
   const auto behind = voronoi::facets_behind(cloud);
   for (const CloudFacetIndex f : behind.indices()) {
@@ -51,6 +54,10 @@ WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIn
     closed_[index_of(f)] = 1;
     for (const NodeIndex i : cloud.facets[f].node) held_[i] = 1;
   }
+}
+
+bool WorkingSurface::is_still(PieceIndex piece) const {
+  return std::find(rules_.still.begin(), rules_.still.end(), piece) != rules_.still.end();
 }
 
 WorkingSurface::Corners WorkingSurface::corners(std::size_t facet) const {
@@ -115,7 +122,7 @@ void WorkingSurface::keep_on_planes(NodeIndex i, Vec3& way) const {
 }
 
 Vec3 WorkingSurface::way_of_volume(NodeIndex i) const {
-  if (!on_surface(i) || held(i) || corner(i)) return Vec3::Zero();
+  if (!on_surface(i) || held(i) || still(i) || corner(i)) return Vec3::Zero();
   Vec3 gradient = Vec3::Zero();
   double area = 0.0;
   around(i, [&](Edge e) {
@@ -149,6 +156,7 @@ SurfaceChange WorkingSurface::split(Edge e, const Vec3& x) {
   const NodeIndex b = end(e), c = apex(e), d = apex(back), made = position_.next();
   position_.push_back(x);
   held_.push_back(0);
+  still_.push_back(is_still(facet_[f].piece) || is_still(facet_[g].piece));
   const Edge after = across(next_edge(e)), before = across(last_edge(back));
   const Edge one = add_facet({{made, b, c}, facet_[f].piece});
   const Edge other = add_facet({{b, made, d}, facet_[g].piece});
@@ -194,7 +202,7 @@ Refusal WorkingSurface::may_collapse(Edge e) const {
   return Refusal::none;
 }
 
-SurfaceChange WorkingSurface::collapse(Edge e, double spacing) {
+SurfaceChange WorkingSurface::try_collapse(Edge e, double spacing, Vec3& to) const {
   if (const Refusal refusal = may_collapse(e); refusal != Refusal::none) return {refusal};
   const Edge back = across(e);
   const NodeIndex gone = start(e), stays = end(e);
@@ -218,8 +226,8 @@ SurfaceChange WorkingSurface::collapse(Edge e, double spacing) {
   const double limit = rules_.volume * spacing * spacing * spacing;
   if (std::abs(lost) > limit) return {Refusal::volume};
   constexpr double rounding = 1e-9, farthest = 0.1;
-  Vec3 to = from;
-  if (std::abs(lost) > rounding * limit && !held(stays) && !corner(stays)) {
+  to = from;
+  if (std::abs(lost) > rounding * limit && !held(stays) && !still(stays) && !corner(stays)) {
     Vec3 way = gradient;
     keep_on_planes(stays, way);
     const double step = lost / way.squaredNorm();
@@ -240,8 +248,16 @@ SurfaceChange WorkingSurface::collapse(Edge e, double spacing) {
     if (to == from || !fits(from)) return {Refusal::normals};
     to = from;
   }
-  const double volume = to == from ? -lost : gradient.dot(to - from) - lost;
+  return {Refusal::none, to == from ? -lost : gradient.dot(to - from) - lost};
+}
 
+SurfaceChange WorkingSurface::collapse(Edge e, double spacing) {
+  Vec3 to;
+  const SurfaceChange change = try_collapse(e, spacing, to);
+  if (!change.done()) return change;
+  const Edge back = across(e);
+  const NodeIndex gone = start(e), stays = end(e);
+  const std::size_t f = index_of(e / 3), g = index_of(back / 3);
   std::vector<Edge> fan;
   around(gone, [&](Edge k) { fan.push_back(k); });
   const Edge to_apex = across(last_edge(e)), at_apex = across(next_edge(e));
@@ -257,7 +273,7 @@ SurfaceChange WorkingSurface::collapse(Edge e, double spacing) {
   leaving_[c] = at_apex;
   leaving_[d] = at_other;
   position_[stays] = to;
-  return {Refusal::none, volume};
+  return change;
 }
 
 bool WorkingSurface::wants_flip(Edge e) const {
@@ -269,7 +285,7 @@ bool WorkingSurface::wants_flip(Edge e) const {
   return cotangent(e) + cotangent(across(e)) < least;
 }
 
-SurfaceChange WorkingSurface::flip(Edge e, double spacing) {
+SurfaceChange WorkingSurface::try_flip(Edge e, double spacing) const {
   if (!alive(e)) return {Refusal::absent};
   const Edge back = across(e);
   const std::size_t f = index_of(e / 3), g = index_of(back / 3);
@@ -288,7 +304,15 @@ SurfaceChange WorkingSurface::flip(Edge e, double spacing) {
   if (std::abs(volume) > rules_.volume * cube) return {Refusal::volume};
   constexpr double plane = 1e-9;
   if (held(a) && held(b) && held(c) && held(d) && std::abs(volume) > plane * cube) return {Refusal::held};
+  return {Refusal::none, volume};
+}
 
+SurfaceChange WorkingSurface::flip(Edge e, double spacing) {
+  const SurfaceChange change = try_flip(e, spacing);
+  if (!change.done()) return change;
+  const Edge back = across(e);
+  const std::size_t f = index_of(e / 3), g = index_of(back / 3);
+  const NodeIndex a = start(e), b = end(e), c = apex(e), d = apex(back);
   const Edge c_to_a = across(last_edge(e)), b_to_c = across(next_edge(e));
   const Edge a_to_d = across(next_edge(back)), d_to_b = across(last_edge(back));
   const Edge first = 3 * (e / 3), second = 3 * (back / 3);
@@ -303,7 +327,7 @@ SurfaceChange WorkingSurface::flip(Edge e, double spacing) {
   leaving_[a] = first + 1;
   leaving_[d] = second;
   leaving_[b] = second + 1;
-  return {Refusal::none, volume};
+  return change;
 }
 
 bool WorkingSurface::swell(NodeIndex i, double volume, double most) {

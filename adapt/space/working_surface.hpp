@@ -17,6 +17,7 @@ struct SurfaceRules {
   double flat = 14.0;   ///< facets that turn by less may exchange their diagonal
   double volume = 0.02; ///< how much volume a change may add or take (in h³) before it is given back
   double shape = 0.05;  ///< least height of a facet over its longest side, unless it was less before
+  std::vector<PieceIndex> still{}; ///< nodes on these come and go, but none moves
 };
 
 /// Why the surface was left as it was.
@@ -67,6 +68,9 @@ public:
   Edge across(Edge e) const { return across_[index_of(e)]; }
   double length(Edge e) const { return (at(end(e)) - at(start(e))).norm(); }
   bool held(NodeIndex i) const { return held_[i] != 0; }
+  bool still(NodeIndex i) const { return still_[i] != 0; }
+  bool is_still(PieceIndex piece) const;
+  PieceIndex piece(Edge e) const { return facet_[index_of(e / 3)].piece; }
 
   /// Calls visit(edge) for the edges that leave a node, turning clockwise as seen from outside.
   template<class Visit> void around(NodeIndex i, Visit&& visit) const {
@@ -94,8 +98,12 @@ public:
   /// The node that an edge leaves goes into its end, which moves to where the volume is what it was
   /// (Lindstrom and Turk 1998), unless it cannot. spacing: h, m.
   SurfaceChange collapse(Edge e, double spacing);
+  /// What collapse() would do, and where the node that stays would be.
+  SurfaceChange try_collapse(Edge e, double spacing, Vec3& to) const;
   /// The edge becomes the other diagonal of its two facets.
   SurfaceChange flip(Edge e, double spacing);
+  /// What flip() would do.
+  SurfaceChange try_flip(Edge e, double spacing) const;
   /// Whether the angles across from an edge are more than π together.
   bool wants_flip(Edge e) const;
   /// Moves a node along its way_of_volume() so that the volume grows by `volume` (m³), to first order; not
@@ -120,7 +128,7 @@ private:
   SurfaceRules rules_;
   double least_crease_, least_corner_, least_turn_, least_flat_; ///< cosines
   IndexedVector<NodeIndex, Vec3> position_;
-  IndexedVector<NodeIndex, char> held_;
+  IndexedVector<NodeIndex, char> held_, still_;
   IndexedVector<NodeIndex, Edge> leaving_;
   std::vector<Facet<3>> facet_; ///< node none: gone
   std::vector<char> closed_;    ///< [facet] the other face of its slit lies on it

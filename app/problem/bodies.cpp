@@ -1,4 +1,5 @@
 #include "app/problem/bodies.hpp"
+#include "core/error.hpp"
 #include "core/geometry/mates.hpp"
 #include "core/index.hpp"
 #include "core/operators/resampling.hpp"
@@ -71,41 +72,16 @@ std::vector<std::array<NodeIndex, 2>> face_pairs(const Cloud<2>& cloud, const st
   return pairs;
 }
 
+template<int dim>
 std::vector<std::array<NodeIndex, 2>> matching_nodes(const input::Case& input, const input::Periodicity& spec,
-                                                     const Cloud<2>& cloud) {
-  const std::vector<NodeIndex> first = nodes_of<2>(facets_of<2>(cloud, {spec.pieces[0]}));
-  std::vector<NodeIndex> second = nodes_of<2>(facets_of<2>(cloud, {spec.pieces[1]}));
-  const auto fail = [&](const std::string& what) {
-    return input.error(fmt::format("periodic.{}.pieces", spec.name),
-                       fmt::format("{}, expected '{}' to be a shifted copy of '{}' with the same nodes", what,
-                                   spec.pieces[1], spec.pieces[0]));
-  };
-  if (first.size() != second.size())
-    throw fail(fmt::format("found {} nodes on '{}' and {} on '{}'", first.size(), spec.pieces[0],
-                           second.size(), spec.pieces[1]));
-  const auto mean = [&](const std::vector<NodeIndex>& nodes) {
-    Vec2 sum = Vec2::Zero();
-    for (const NodeIndex i : nodes) sum += cloud.position[i];
-    return Vec2(sum / static_cast<double>(nodes.size()));
-  };
-  const Vec2 shift = mean(second) - mean(first);
-  double spacing = std::numeric_limits<double>::infinity();
-  for (const Facet<2>& facet : facets_of<2>(cloud, {spec.pieces[0]}))
-    spacing = std::min(spacing, (cloud.position[facet.node[1]] - cloud.position[facet.node[0]]).norm());
-  std::vector<std::array<NodeIndex, 2>> pairs;
-  for (const NodeIndex i : first) {
-    const Vec2 wanted = cloud.position[i] + shift;
-    const auto nearest = std::min_element(second.begin(), second.end(), [&](NodeIndex a, NodeIndex b) {
-      return (cloud.position[a] - wanted).norm() < (cloud.position[b] - wanted).norm();
-    });
-    const double gap = (cloud.position[*nearest] - wanted).norm();
-    if (gap > 1e-3 * spacing || *nearest == i)
-      throw fail(fmt::format("found no partner of the node at ({:g}, {:g}) m", cloud.position[i].x(),
-                             cloud.position[i].y()));
-    pairs.push_back({i, *nearest});
-    second.erase(nearest);
+                                                     const Cloud<dim>& cloud) {
+  try {
+    return shifted_nodes(cloud, sides_of(spec, cloud));
+  } catch (const GeometryError& error) {
+    throw input.error(fmt::format("periodic.{}.pieces", spec.name),
+                      fmt::format("{}, expected '{}' to be a shifted copy of '{}' with the same nodes",
+                                  error.what(), spec.pieces[1], spec.pieces[0]));
   }
-  return pairs;
 }
 
 } // namespace
@@ -154,22 +130,31 @@ IndexedVector<NodeIndex, std::int32_t> region_of_nodes(const input::Case& input,
   return region;
 }
 
-Pairs tied_pairs(const input::Case& input, const Cloud<2>& cloud) {
+template<int dim>
+std::array<PieceIndex, 2> sides_of(const input::Periodicity& spec, const Cloud<dim>& cloud) {
+  std::array<PieceIndex, 2> sides{};
+  for (std::size_t k = 0; k < 2; ++k)
+    sides[k] = pieces_of(std::span<const Facet<dim>>(facets_of<dim>(cloud, {spec.pieces[k]}))).front();
+  return sides;
+}
+
+template<int dim> Pairs tied_pairs(const input::Case& input, const Cloud<dim>& cloud) {
   Pairs pairs;
-  for (const input::Interface& interface : input.domain.interfaces) {
-    const auto faces = face_pairs(cloud, interface.name);
-    const auto pieces = pieces_of<2>(facets_of<2>(cloud, {interface.name}));
-    pairs.motion.insert(pairs.motion.end(), faces.begin(), faces.end());
-    pairs.motion_pieces.insert(pairs.motion_pieces.end(), pieces.begin(), pieces.end());
-    if (interface.conductance) continue;
-    pairs.heat.insert(pairs.heat.end(), faces.begin(), faces.end());
-    pairs.heat_pieces.insert(pairs.heat_pieces.end(), pieces.begin(), pieces.end());
-  }
+  if constexpr (dim == 2)
+    for (const input::Interface& interface : input.domain.interfaces) {
+      const auto faces = face_pairs(cloud, interface.name);
+      const auto pieces = pieces_of<2>(facets_of<2>(cloud, {interface.name}));
+      pairs.motion.insert(pairs.motion.end(), faces.begin(), faces.end());
+      pairs.motion_pieces.insert(pairs.motion_pieces.end(), pieces.begin(), pieces.end());
+      if (interface.conductance) continue;
+      pairs.heat.insert(pairs.heat.end(), faces.begin(), faces.end());
+      pairs.heat_pieces.insert(pairs.heat_pieces.end(), pieces.begin(), pieces.end());
+    }
   for (const input::Periodicity& periodic : input.periodic) {
     const auto sides = matching_nodes(input, periodic, cloud);
     pairs.motion.insert(pairs.motion.end(), sides.begin(), sides.end());
     pairs.heat.insert(pairs.heat.end(), sides.begin(), sides.end());
-    const auto pieces = pieces_of<2>(facets_of<2>(cloud, {periodic.pieces[0], periodic.pieces[1]}));
+    const auto pieces = sides_of(periodic, cloud);
     pairs.motion_pieces.insert(pairs.motion_pieces.end(), pieces.begin(), pieces.end());
     pairs.heat_pieces.insert(pairs.heat_pieces.end(), pieces.begin(), pieces.end());
   }
@@ -233,6 +218,10 @@ template std::vector<Facet<2>> facets_of(const Cloud<2>&, const std::vector<std:
 template std::vector<Facet<3>> facets_of(const Cloud<3>&, const std::vector<std::string>&);
 template std::vector<NodeIndex> nodes_of(const std::vector<Facet<2>>&);
 template std::vector<NodeIndex> nodes_of(const std::vector<Facet<3>>&);
+template std::array<PieceIndex, 2> sides_of(const input::Periodicity&, const Cloud<2>&);
+template std::array<PieceIndex, 2> sides_of(const input::Periodicity&, const Cloud<3>&);
+template Pairs tied_pairs(const input::Case&, const Cloud<2>&);
+template Pairs tied_pairs(const input::Case&, const Cloud<3>&);
 template void set_initial_state<2>(const input::Case&, const Cloud<2>&,
                                    const IndexedVector<NodeIndex, std::int32_t>&, Fields<2>&, Field&);
 template void set_initial_state<3>(const input::Case&, const Cloud<3>&,

@@ -28,9 +28,12 @@ struct Pairs {
   std::vector<PieceIndex> motion_pieces, heat_pieces;
 };
 
-/// Faces of interfaces and periodic pieces. Throws InputError when the nodes of two periodic pieces do not
-/// match.
-Pairs tied_pairs(const input::Case& input, const Cloud<2>& cloud);
+/// The pieces of the two sides of a period.
+template<int dim> std::array<PieceIndex, 2> sides_of(const input::Periodicity& spec, const Cloud<dim>& cloud);
+
+/// Faces of interfaces and periodic pieces; of a period the pieces of its two sides stand one after the
+/// other. Throws InputError when the nodes of two periodic pieces do not match.
+template<int dim> Pairs tied_pairs(const input::Case& input, const Cloud<dim>& cloud);
 /// Makes mates of their facets and of those of cracks. Throws as tied_pairs does.
 void pair_facets(const input::Case& input, Cloud<2>& cloud);
 

@@ -213,13 +213,16 @@ std::vector<Coolant<2>> coolants(const input::Case& input) {
   return list;
 }
 
-/// What only workpieces of the plane have: regions, imperfections, ties.
+template<int dim> void set_ties(const input::Case& input, Problem<dim>& model) {
+  const Pairs pairs = tied_pairs(input, model.cloud);
+  model.ties = Ties<dim>(pairs.motion, model.cloud.position, pairs.motion_pieces);
+  model.heat_ties = Ties<dim>(pairs.heat, model.cloud.position, pairs.heat_pieces);
+}
+
+/// What only workpieces of the plane have: regions, imperfections, facets that belong together.
 void set_parts(const input::Case& input, Problem<2>& model, IndexedVector<NodeIndex, std::int32_t>& region) {
   region = region_of_nodes(input, model.cloud);
   model.strength = strength(input, model.cloud);
-  const Pairs pairs = tied_pairs(input, model.cloud);
-  model.ties = Ties<2>(pairs.motion, model.cloud.position, pairs.motion_pieces);
-  model.heat_ties = Ties<2>(pairs.heat, model.cloud.position, pairs.heat_pieces);
   pair_facets(input, model.cloud);
 }
 
@@ -242,6 +245,7 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   model.cloud = std::move(workpiece.cloud);
   model.method = methods::make<dim>(input.method.name, workpiece.options);
   IndexedVector<NodeIndex, std::int32_t> region;
+  set_ties(input, model);
   if constexpr (dim == 2) {
     set_parts(input, model, region);
     model.tool_sections = tool_sections(input, setup.warnings);

@@ -2,11 +2,13 @@
 
 #include "clouds/generate.hpp"
 #include "clouds/space/generate.hpp"
+#include "clouds/space/repeat.hpp"
 #include "clouds/tetrahedral_block.hpp"
 #include "core/error.hpp"
 #include "input/space_domain.hpp"
 #include "voronoi/space/recovery.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -86,8 +88,10 @@ Workpiece<3> make_grid(const input::Case& input) {
 
 Workpiece<3> make_body(const input::Case& input) {
   const clouds::SpaceSpacing spacing{input.cloud.spacing, input.cloud.space_refinements};
+  std::vector<std::array<std::string, 2>> periods;
+  for (const input::Periodicity& periodic : input.periodic) periods.push_back(periodic.pieces);
   clouds::GeneratedSpaceCloud generated =
-      clouds::generate_cloud(input::space_domain(input.domain), spacing, input.cloud.nodes_limit);
+      clouds::generate_cloud(input::space_domain(input.domain), spacing, input.cloud.nodes_limit, periods);
   voronoi::RecoveredBoundary recovered = voronoi::recover_boundary(generated.cloud);
   Workpiece<3> workpiece{std::move(recovered.cloud), input.method.options, std::move(generated.warnings)};
   if (keeps_mesh(input))
@@ -107,6 +111,9 @@ template<> Workpiece<3> make_workpiece(const input::Case& input) {
     return domain.block && domain.block->grid ? make_grid(input) : make_body(input);
   } catch (const clouds::SpacingError& error) {
     throw input.error("cloud.spacing", error.what());
+  } catch (const clouds::RepeatError& error) {
+    const auto period = std::ranges::find(input.periodic, error.pieces, &input::Periodicity::pieces);
+    throw input.error(fmt::format("periodic.{}.pieces", period->name), error.what());
   } catch (const GeometryError& error) { throw input.error(key, error.what()); }
 }
 

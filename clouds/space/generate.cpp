@@ -2,6 +2,7 @@
 
 #include "clouds/space/facet_tree.hpp"
 #include "clouds/space/interior.hpp"
+#include "clouds/space/repeat.hpp"
 #include "clouds/space/surface.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/geometry/place_text.hpp"
@@ -70,12 +71,13 @@ void warn_of_thin_bodies(const Cloud<3>& surface, std::size_t inner, std::vector
 
 } // namespace
 
-GeneratedSpaceCloud generate_cloud(const SpaceDomain& domain, const SpaceSpacing& spacing,
-                                   double nodes_limit) {
+GeneratedSpaceCloud generate_cloud(const SpaceDomain& domain, const SpaceSpacing& spacing, double nodes_limit,
+                                   std::span<const std::array<std::string, 2>> periods) {
   check_count(domain, spacing, nodes_limit);
   GeneratedSpaceCloud result;
   Cloud<3> cloud = surface_of(domain, spacing);
   voronoi::flip_surface(cloud, flat_angle);
+  for (const auto& pieces : periods) repeat_piece(cloud, pieces, spacing);
   warn_of_short_edges(cloud, spacing, result.warnings);
   warn_of_coarse_faces(domain, cloud, result.warnings);
   const FacetTree tree(cloud);

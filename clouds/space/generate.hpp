@@ -2,7 +2,9 @@
 // Clouds in space from a described body: the surface at the wanted spacing, and nodes inside.
 #include "clouds/space/domain.hpp"
 
+#include <array>
 #include <span>
+#include <string>
 
 namespace cnem::clouds {
 
@@ -14,11 +16,13 @@ struct GeneratedSpaceCloud {
 /// Nodes and surface for a body: distances of neighbours are about h(x), also on the surface, and no node
 /// inside stands in the diametral ball of a facet. Inside, a body-centred lattice (uniform spacing) or a
 /// front that grows from the surface (graded), smoothed; nodes are in space-filling order. A function of its
-/// arguments alone. Throws GeometryError, with positions, as extruded_surface, revolved_surface and
-/// remeshed_surface, and a SpacingError with the estimate for more than `nodes_limit` nodes. About 40 µs a
-/// node with a uniform spacing, 90 µs graded.
+/// arguments alone. periods: names of pieces of which the second becomes a shifted copy of the first, node by
+/// node. Throws GeometryError, with positions, as extruded_surface, revolved_surface, remeshed_surface and
+/// repeat_piece, and a SpacingError with the estimate for more than `nodes_limit` nodes. About 40 µs a node
+/// with a uniform spacing, 90 µs graded.
 GeneratedSpaceCloud generate_cloud(const SpaceDomain& domain, const SpaceSpacing& spacing,
-                                   double nodes_limit = 5.0e6);
+                                   double nodes_limit = 5.0e6,
+                                   std::span<const std::array<std::string, 2>> periods = {});
 
 /// Number of nodes that generate_cloud would make, within about 15%, in milliseconds to a second; counting
 /// stops above `limit`.

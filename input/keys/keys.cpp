@@ -176,7 +176,9 @@ void add_conditions(Keys& k) {
       .example("0.02");
   k.add("periodic", named_tables, "Pairs of boundary pieces of which one continues at the other.");
   k.add("periodic.*", table, "Nodes of both pieces move alike and have the same temperature.");
-  k.add("periodic.*.pieces", texts, "Two boundary pieces, one a shifted copy of the other.")
+  k.add("periodic.*.pieces", texts,
+        "Two boundary pieces, one a shifted copy of the other; in space two parallel planes. Each piece "
+        "continues at one other.")
       .required()
       .example("[\"left\", \"right\"]");
   k.add("loads", table, "Loads on the whole body.").always();

@@ -35,7 +35,6 @@ constexpr std::array scopes{
     Scoped{"initial.spin", Scope::plane, "a rotation in space needs an axis"},
     Scoped{"initial.velocity_gradient", Scope::plane, "its components are those of the plane"},
     Scoped{"initial.imperfections", Scope::plane, "they lie along polylines of the plane"},
-    Scoped{"periodic", Scope::plane, "sides are matched along lines"},
     Scoped{"tools.*.shape", Scope::space, "a tool in the plane has an outline, such as a rectangle"},
     Scoped{"tools.*.plane", Scope::space, "a tool in the plane has an outline, such as a rectangle"},
     Scoped{"tools.*.box", Scope::space, "a tool in the plane has an outline, such as a rectangle"},

@@ -15,11 +15,12 @@ struct SmallCase {
 /// revolution, finite elements, particles, damage, parts that touch or are bonded and adapt, a failure that
 /// is gone back from, a window that moves, space.
 const std::vector<SmallCase>& small_cases();
-/// Those of them that are three-dimensional: a block that is hit, one that is refined, and a strip that is
-/// sheared until it parts.
+/// Those of them that are three-dimensional: a block that is hit, one that is refined, a strip that is sheared
+/// until it parts, and a slab between periodic planes.
 std::string space_case();
 std::string space_refined();
 std::string space_sheared();
+std::string space_periodic();
 /// Bonded, periodic and cracked.
 std::string parts_case();
 /// A crack that runs, with damage averaged over a length.

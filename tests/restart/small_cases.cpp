@@ -371,6 +371,7 @@ const std::vector<SmallCase>& small_cases() {
       {"space", space_case()},
       {"space_refined", space_refined()},
       {"space_sheared", space_sheared()},
+      {"space_periodic", space_periodic()},
       {"rolled", adapted + rolled},
       {"compressible", adapted + compressible},
       {"adapted_particles", with_method(adapted, "name = \"sph\"\n")},

@@ -133,4 +133,31 @@ fracture_energy = "10 kJ/m2"
 )toml";
 }
 
+// A slab between periodic planes that a punch dents and drags along: passes add and take out nodes on both.
+std::string space_periodic() {
+  return in_space("4 us", R"(from = "0 0 0 mm", to = "2 0.6 1 mm", grid = false)", "0.2 mm") + R"toml(
+[method]
+rereference = { every = 20, strain = 0.1 }
+[adapt]
+resample = true
+[periodic.slab]
+pieces = ["y-", "y+"]
+[boundary.base]
+pieces = ["z-"]
+velocity = "0 0 0 m/s"
+[tools.punch]
+shape = "box"
+box = { from = "0.5 -1 1 mm", to = "1.5 2 2 mm" }
+velocity = "0 60 -100 m/s"
+friction = { law = "coulomb", coefficient = 0.3 }
+[output]
+history_every = "0.1 us"
+fields_every = "2 us"
+[output.checkpoint]
+every_steps = 15
+every_wall = "0 s"
+keep = 3
+)toml" + testing::steel_304l;
+}
+
 } // namespace cnem::app

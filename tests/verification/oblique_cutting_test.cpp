@@ -18,7 +18,7 @@ struct Force {
 Force cut_at(const std::string& inclination, const std::string& friction = "0.17") {
   const FinishedRun done = finish(
       input::read_case(CNEM_SOURCE_DIR "/cases/three_dimensions/oblique_cutting/case.toml",
-                       {"let.inclination=" + inclination, "let.width=0.4 mm", "let.length=0.04 mm",
+                       {"let.inclination=" + inclination, "let.length=0.04 mm",
                         "tools.cutter.friction.coefficient=" + friction, "cloud.refine.layer.spacing=60 um",
                         "output.pictures=[]", "output.fields_every=1 s"}));
   expect_nothing_lost(done);

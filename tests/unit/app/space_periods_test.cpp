@@ -1,0 +1,172 @@
+// Periodic planes in space, in one to three directions: a strain that the periods allow stays uniform, and
+// mass, momentum and energy are kept; pairs stay pairs.
+#include "app/problem/bodies.hpp"
+#include "app/problem/registry.hpp"
+#include "input/case_reader.hpp"
+#include "tests/clouds.hpp"
+#include "tests/steel.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace cnem::testing {
+namespace {
+
+constexpr const char* x_period = "[periodic.x]\npieces = [\"x-\", \"x+\"]\n";
+constexpr const char* y_period = "[periodic.y]\npieces = [\"y-\", \"y+\"]\n";
+constexpr const char* z_period = "[periodic.z]\npieces = [\"z-\", \"z+\"]\n";
+
+input::Case block(const std::string& more, const std::string& grid = "false") {
+  return input::read_case_text(fmt::format(R"toml(
+[analysis]
+kinematics = "three-dimensional"
+[time]
+end = "1 us"
+[domain]
+material = "steel"
+block = {{ from = "0 0 0 mm", to = "1 0.8 0.6 mm", grid = {} }}
+[cloud]
+spacing = "0.2 mm"
+{})toml",
+                                           grid, more) +
+                                   steel_304l,
+                               "case.toml");
+}
+
+ExplicitSolver<3> start(const input::Case& input, const std::function<Vec3(const Vec3&)>& velocity) {
+  app::Setup<3> setup = app::build<3>(input);
+  for (const NodeIndex i : setup.problem.cloud.position.indices()) {
+    const Vec3 v = velocity(setup.problem.cloud.position[i]);
+    for (int k = 0; k < 3; ++k) setup.velocity[index_of(k)][index_of(i)] = v[k];
+  }
+  return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
+}
+
+std::map<std::size_t, int> sizes_of_groups(const Ties<3>& ties) {
+  std::map<std::size_t, int> count;
+  ties.each_group([&](std::span<const NodeIndex> group) { ++count[group.size()]; });
+  return count;
+}
+
+TEST(SpacePeriods, edges_and_corners_of_a_box_are_groups_of_four_and_eight) {
+  for (const std::string& grid : {std::string("false"), std::string("true")}) {
+    const app::Setup<3> setup = app::build<3>(block(std::string(x_period) + y_period + z_period, grid));
+    const auto count = sizes_of_groups(setup.problem.ties);
+    EXPECT_EQ(count.at(8), 1);
+    EXPECT_EQ(count.at(4), 4 + 3 + 2); // inner nodes of edges of 5, 4 and 3 spacings
+    if (grid == "true") {
+      EXPECT_EQ(count.at(2), 12 + 8 + 6); // inner nodes of faces
+    }
+  }
+}
+
+/// Both sides have the same nodes though what lies beside them is laid out otherwise.
+TEST(SpacePeriods, generated_sides_are_copies) {
+  const app::Setup<3> setup = app::build<3>(
+      block(std::string(x_period) + y_period +
+            "[cloud.refine.edge]\nbox = [\"0 0 0 mm\", \"1 0.8 0.1 mm\"]\nspacing = \"0.1 mm\"\n"));
+  const Cloud<3>& cloud = setup.problem.cloud;
+  int pairs = 0;
+  setup.problem.ties.each_group([&](std::span<const NodeIndex> group) {
+    const Vec3& x = cloud.position[group[0]];
+    for (const NodeIndex i : group.subspan(1)) {
+      const Vec3 shift = cloud.position[i] - x;
+      EXPECT_NEAR(std::abs(shift.x()), shift.x() == 0.0 ? 0.0 : 1e-3, 1e-17);
+      EXPECT_NEAR(shift.y() * (0.8e-3 - std::abs(shift.y())), 0.0, 1e-20);
+      EXPECT_NEAR(shift.z(), 0.0, 1e-17);
+    }
+    ++pairs;
+  });
+  EXPECT_GT(pairs, 60);
+}
+
+/// Velocities (0.5 mm/us)·z along x and y between planes that move so: no node feels a force but those held.
+TEST(SpacePeriods, a_sheared_block_is_sheared_evenly) {
+  const std::string held = R"toml(
+[boundary.low]
+pieces = ["z-"]
+velocity = "0 0 0 m/s"
+[boundary.high]
+pieces = ["z+"]
+velocity = "60 30 0 m/s"
+)toml";
+  for (const std::string& period :
+       {std::string(x_period) + y_period + "[time.step]\nlocal = true\n", std::string(x_period) + y_period})
+    for (const std::string& grid : {std::string("false"), std::string("true")}) {
+      ExplicitSolver<3> solver = start(block(period + held, grid), [](const Vec3& x) -> Vec3 {
+        return {1e5 * x.z(), 5e4 * x.z(), 0.0};
+      });
+      for (int n = 0; n < 40; ++n) solver.advance(solver.stable_step().dt);
+      const auto& node = solver.state().node;
+      const auto& point = solver.state().point;
+      EXPECT_GT(point.plastic_strain[0], 0.01);
+      for (std::size_t i = 0; i < node.size(); ++i) {
+        const double z = node.position[2][i];
+        EXPECT_NEAR(node.velocity[0][i], 1e5 * z, 1e-10 * 60.0) << i;
+        EXPECT_NEAR(node.velocity[1][i], 5e4 * z, 1e-10 * 60.0) << i;
+        EXPECT_NEAR(node.velocity[2][i], 0.0, 1e-10 * 60.0) << i;
+        EXPECT_NEAR(point.plastic_strain[i], point.plastic_strain[0], 1e-10) << i;
+        EXPECT_NEAR(node.temperature[i], node.temperature[0], 1e-9) << i;
+      }
+    }
+}
+
+/// One equation for all images: what a random start has of momentum and energy stays, and images share
+/// velocities and temperatures.
+TEST(SpacePeriods, momentum_and_energy_of_a_shaken_block_are_kept) {
+  for (const std::string& periods : {std::string(x_period), std::string(x_period) + y_period,
+                                     std::string(x_period) + y_period + z_period}) {
+    Random random(3);
+    ExplicitSolver<3> solver = start(block(periods), [&](const Vec3&) -> Vec3 {
+      return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0, 2)};
+    });
+    const auto& node = solver.state().node;
+    const auto momentum = [&] {
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t i = 0; i < node.size(); ++i)
+        for (int k = 0; k < 3; ++k) sum[k] += node.mass[i] * node.velocity[index_of(k)][i];
+      return sum;
+    };
+    const Vec3 before = momentum();
+    double mass = 0.0;
+    for (const double m : node.mass) mass += m;
+    EXPECT_NEAR(mass, 7850.0 * 0.48e-9, 1e-12 * mass);
+    for (int n = 0; n < 60; ++n) solver.advance(solver.stable_step().dt);
+    EXPECT_LT((momentum() - before).norm(), 1e-12 * mass);
+    solver.conditions().ties.each_group([&](std::span<const NodeIndex> group) {
+      for (const NodeIndex i : group) {
+        for (std::size_t k = 0; k < 3; ++k)
+          EXPECT_EQ(node.velocity[k][index_of(i)], node.velocity[k][index_of(group[0])]);
+        EXPECT_EQ(node.temperature[index_of(i)], node.temperature[index_of(group[0])]);
+      }
+    });
+    EXPECT_LT(std::abs(solver.ledger().residual()), 1e-3 * solver.ledger().initial());
+  }
+}
+
+/// A node on a symmetry plane and a periodic one slides along the line of both.
+TEST(SpacePeriods, nodes_on_a_symmetry_plane_too_stay_on_it) {
+  ExplicitSolver<3> solver =
+      start(block(std::string(x_period) + "[boundary.base]\npieces = [\"z-\"]\nsymmetry = true\n"),
+            [](const Vec3& x) -> Vec3 {
+              return {3.0, 5.0 * std::sin(8e3 * x.x()), -20.0 * x.z() / 6e-4};
+            });
+  for (int n = 0; n < 60; ++n) solver.advance(solver.stable_step().dt);
+  const auto& node = solver.state().node;
+  int both = 0;
+  solver.conditions().ties.each_group([&](std::span<const NodeIndex> group) {
+    for (const NodeIndex i : group) {
+      if (std::abs(solver.conditions().cloud.position[i].z()) > 1e-12) continue;
+      ++both;
+      EXPECT_EQ(node.velocity[2][index_of(i)], 0.0);
+      EXPECT_GT(node.velocity[0][index_of(i)], 1.0);
+    }
+  });
+  EXPECT_EQ(both, 10);
+}
+
+} // namespace
+} // namespace cnem::testing
