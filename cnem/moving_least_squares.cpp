@@ -135,18 +135,29 @@ Supports supports(const Cloud<2>& cloud, const CellLists<NodeIndex>& edges, cons
       reach.size(), reach.size(), [&](std::size_t j) { return of_each.of(j); },
       [](std::size_t j, NodeIndex) { return as<NodeIndex>(j); });
   result.walls = walls_near(cloud, result.around, reach);
+  result.beside.assign(reach.size(), {NodeIndex::none, NodeIndex::none});
+  for (const Facet<2>& facet : cloud.facets) {
+    result.beside[facet.node[0]][1] = facet.node[1];
+    result.beside[facet.node[1]][0] = facet.node[0];
+  }
   return result;
 }
 
 MovingLeastSquares::MovingLeastSquares(const Cloud<2>& cloud, const Supports& supports)
     : cloud_(cloud), supports_(supports) {}
 
-/// Closed at the ends of the facet, which the other face of a crack meets in its own nodes alone.
+/// Facets that end where the node is do not stand between; whether they leave room for the way is seen from
+/// what is beside the node on the boundary, as two faces of a crack may have nodes there.
 bool MovingLeastSquares::hidden(NodeIndex node, const Vec2& way) const {
+  if (const auto& [before, after] = supports_.beside[node]; exists(before)) {
+    const Vec2& x = cloud_.position[node];
+    const Vec2 in = cloud_.position[before] - x, out = cloud_.position[after] - x;
+    const double from_out = -cross(out, way), to_in = cross(in, way); // of −way, which leads to the point
+    if (cross(out, in) > 0.0 ? from_out < 0.0 || to_in < 0.0 : from_out < 0.0 && to_in < 0.0) return true;
+  }
   return std::any_of(wall_.begin(), wall_.end(), [&](const Wall& wall) {
-    if (wall.end[0] == node || wall.end[1] == node) return false;
-    if (cross(way, wall.a) * cross(way, wall.b) > 0.0) return false;
-    return cross(wall.b - wall.a, way - wall.a) <= 0.0;
+    if (cross(way, wall.a) * cross(way, wall.b) > 0.0 || wall.a == way || wall.b == way) return false;
+    return cross(wall.b - wall.a, way - wall.a) < 0.0;
   });
 }
 
@@ -155,7 +166,7 @@ void MovingLeastSquares::collect(const Vec2& x, NodeIndex near) {
   for (const CloudFacetIndex f : supports_.walls.of(near)) {
     const Facet<2>& facet = cloud_.facets[f];
     const Vec2 a = cloud_.position[facet.node[0]] - x, b = cloud_.position[facet.node[1]] - x;
-    if (cross(a, b) > 0.0) wall_.push_back({facet.node, a, b}); // the domain is on its left, and so is x
+    if (cross(a, b) > 0.0) wall_.push_back({a, b}); // the domain is on its left, and so is x
   }
   node_.clear(), weight_.clear(), weight_gradient_.clear(), place_.clear();
   double least = std::numeric_limits<double>::infinity();

@@ -26,6 +26,8 @@ struct Supports {
   /// [node] D_J = `size` × mean distance to the ends of its edges, m, and at least 1.1 of the longest of
   /// these, so that each point of a triangle has its corners.
   Field radius;
+  IndexedVector<NodeIndex, std::array<NodeIndex, 2>>
+      beside;                       ///< along the boundary, before and after; none: inside
   CellLists<NodeIndex> around;      ///< of node i, those that reach a point within reach of i
   CellLists<CloudFacetIndex> walls; ///< of node i, facets that may stand between the one and the other
 };
@@ -43,8 +45,8 @@ void check_support(double size);
 ///
 /// With p = (1, x, y) and A = Σ_J w_J p_J p_Jᵀ of the nodes that see x
 ///   φ_J = pᵀA⁻¹ w_J p_J,  ∂_i φ_J = [p_,iᵀA⁻¹ − pᵀA⁻¹A_,iA⁻¹] w_J p_J + pᵀA⁻¹ w_J,i p_J
-/// (paper 000, (17); (18) as corrected). A node sees x unless a facet of the boundary that does not end in it
-/// crosses or touches the way (visibility criterion; Belytschko, Lu, Gu 1994).
+/// (paper 000, (17); (18) as corrected). A node sees x unless the way between them leaves the domain
+/// (visibility criterion; Belytschko, Lu, Gu 1994).
 ///
 /// As weights span eight decades p is counted from the nearest node, and A taken apart into W = Σ w_J, the
 /// mean place μ, and the moments S about it: with ξ from that node
@@ -71,7 +73,6 @@ public:
 private:
   /// A facet that faces x, from there.
   struct Wall {
-    std::array<NodeIndex, 2> end;
     Vec2 a, b;
   };
   struct Moments {
