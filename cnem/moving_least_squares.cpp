@@ -174,8 +174,9 @@ void MovingLeastSquares::collect(const Vec2& x, NodeIndex near) {
   for (const NodeIndex j : supports_.around.of(near)) {
     const Vec2 way = cloud_.position[j] - x;
     const double distance2 = way.squaredNorm();
-    const auto [weight, slope] = regularised_weight(distance2, supports_.radius[index_of(j)]);
-    if (weight == 0.0 || hidden(j, way)) continue;
+    const double radius = supports_.radius[index_of(j)];
+    if (distance2 >= radius * radius || hidden(j, way)) continue;
+    const auto [weight, slope] = regularised_weight(distance2, radius);
     node_.push_back(j);
     weight_.push_back(weight);
     weight_gradient_.push_back(-2.0 * slope * way);

@@ -54,7 +54,7 @@ void check_support(double size);
 /// What rounding leaves of 1 − Σφ_J and x − Σφ_J x_J is put back once, likewise for gradients.
 ///
 /// Properties: Σφ = 1, Σφ x_J = x to rounding; φ_J(x_I) = δ_IJ to 1e-7 where no two nodes are nearer than
-/// 0.18 D. φ may be negative.
+/// 0.2 D. φ may be negative.
 class MovingLeastSquares {
 public:
   MovingLeastSquares(const Cloud<2>& cloud, const Supports& supports);
