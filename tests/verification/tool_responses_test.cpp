@@ -25,6 +25,19 @@ TEST(ToolResponse, a_penalty_spring_cuts_with_nearly_the_force_of_exact_contact)
   EXPECT_NE(force(spring), force(exact));
 }
 
+TEST(ToolResponse, the_scheme_of_contact_is_that_of_all_tools_without_a_response) {
+  const Adapted exact = testing::run(answered_cut),
+                scheme = testing::run(answered_cut, {"contact.scheme=central-difference"}, 5e-3),
+                law = testing::run(answered_cut,
+                                   {"tools.cutter.response.law=penalty", "tools.cutter.response.scale=2.0"},
+                                   5e-3),
+                own = testing::run(answered_cut,
+                                   {"contact.scheme=central-difference", "tools.cutter.response.law=exact"});
+  EXPECT_EQ(force(scheme), force(law));
+  EXPECT_EQ(force(own), force(exact));
+  EXPECT_NEAR(force(scheme), force(exact), 0.1 * force(exact));
+}
+
 TEST(ToolResponse, a_kinematic_tool_has_no_force_across_its_motion) {
   const Adapted run = testing::run(answered_cut, {"tools.cutter.response.law=kinematic"});
   EXPECT_GT(force(run), 0.0);
