@@ -66,8 +66,8 @@ void add_point(FaceMeans::Block& block, std::size_t start, const Functions& func
   }
 }
 
-/// Integrates with `face_rule(points)`. make() gives the functions, one object a thread: evaluate(x, simplex)
-/// at a point of a face with InnerFace::simplex, then nodes() and values(). Faces whose area is less than
+/// Integrates with `face_rule(points)`. make() gives the functions, one object a thread: evaluate(x, face)
+/// at a point of an inner face, then nodes() and values(). Faces whose area is less than
 /// 1e-14 of the distance between their nodes (to the power dim − 1) are skipped: they carry rounding only. Of
 /// revolution at least 2 points are taken, without which r φ of linear fields would not be exact.
 template<int dim, class MakeFunctions>
@@ -96,7 +96,7 @@ FaceMeans face_means(const Cloud<dim>& cloud, const CellComplex<dim>& cells, int
       for (const FacePoint<dim>& point : is_skipped(face) ? std::span<const FacePoint<dim>>() : rule) {
         const Vec<dim> at = point_on<dim>(face.corner, point.place);
         const double weight = space == Space::revolution ? point.weight * at.x() : point.weight;
-        functions.evaluate(at, face.simplex);
+        functions.evaluate(at, face);
         add_point(block, start, functions, weight);
       }
       block.begin.push_back(static_cast<std::int32_t>(block.node.size()));
@@ -123,5 +123,10 @@ FaceMeans face_means(const Cloud<dim>& cloud, const CellComplex<dim>& cells, int
 FaceMeans face_means(const Cloud<2>& cloud, const voronoi::Triangulation& triangulation,
                      const voronoi::Circumcircles& circles, const voronoi::Cells& cells,
                      voronoi::Functions functions, int gauss_points, Space space = Space::plane);
+
+/// Moving least squares with supports of `support` spacings (cnem/moving_least_squares.hpp), likewise. Throws
+/// InputError for supports out of range, GeometryError as MovingLeastSquares does.
+FaceMeans face_means(const Cloud<2>& cloud, const voronoi::Cells& cells, double support, int gauss_points,
+                     Space space = Space::plane);
 
 } // namespace cnem::scni

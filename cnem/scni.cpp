@@ -1,5 +1,6 @@
 #include "cnem/scni.hpp"
 
+#include "cnem/moving_least_squares.hpp"
 #include "cnem/quadrature.hpp"
 #include "cnem/revolution.hpp"
 #include "cnem/smoothing.hpp"
@@ -16,14 +17,23 @@ void check_gauss_points(int gauss_points) {
     throw InputError(fmt::format("{} Gauss points per Voronoi edge: expected 1, 2 or 3", gauss_points));
 }
 
-Cnem::Cnem(Options options) : options_(options) { check_gauss_points(options.gauss_points); }
+Cnem::Cnem(Options options) : options_(options) {
+  check_gauss_points(options.gauss_points);
+  if (options.support) check_support(*options.support);
+}
 
 std::string Cnem::name() const {
+  if (options_.support) return "cnem_mls";
   return options_.functions == Functions::sibson ? "cnem_sibson" : "cnem_laplace";
 }
 
 Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
   const Diagram diagram(cloud);
+  if (options_.support)
+    return integrate_at_nodes(
+        cloud, diagram,
+        face_means(cloud, diagram.cells, *options_.support, options_.gauss_points, options_.space),
+        Functions::sibson, options_.space);
   const FaceMeans means = face_means(cloud, diagram.triangulation, diagram.circles, diagram.cells,
                                      options_.functions, options_.gauss_points, options_.space);
   return integrate_at_nodes(cloud, diagram, means, options_.functions, options_.space);

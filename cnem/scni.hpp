@@ -6,6 +6,9 @@
 #include "core/operators/discretisation.hpp"
 #include "voronoi/plane/natural_neighbours.hpp"
 
+#include <optional>
+#include <string>
+
 namespace cnem::scni {
 
 using voronoi::Functions;
@@ -16,6 +19,9 @@ struct Options {
   /// accurate in elasticity (cases/verification/convergence).
   int gauss_points = 2;
   Space space = Space::plane; ///< of revolution at least 2 Gauss points are taken
+  /// Moving least squares in the place of `functions`, with supports of so many spacings, 1.5 to 5
+  /// (cnem/moving_least_squares.hpp).
+  std::optional<double> support{};
 };
 
 /// Throws InputError unless there are 1, 2 or 3.
@@ -39,15 +45,16 @@ Approximation<2> integrate_at_nodes(const Cloud<2>& cloud, const Diagram& diagra
 ///   b_iJ = 1/V_i ∮ φ_J n dΓ
 /// over the boundary of cell i. Every Voronoi edge is integrated once and serves its two cells with either
 /// sign; on the boundary of the domain φ is linear between the ends of each facet and integrated exactly.
-/// Of revolution integrals are weighted with the radius (core/operators/operators.hpp).
-/// Links are the Delaunay edges; heat conducts with the linear operators of the Delaunay triangles.
+/// Of revolution integrals are weighted with the radius (core/operators/operators.hpp), and values at
+/// centroids are those of natural neighbours with moving least squares too: none is negative. Links are the
+/// Delaunay edges; heat conducts with the linear operators of the Delaunay triangles.
 class Cnem final : public Discretisation<2> {
 public:
   static constexpr Promises promised{Promise::identity_values, Promise::non_negative_values,
                                      Promise::tiling_cells, Promise::balanced_constant_stress,
                                      Promise::hoop_rows};
 
-  /// Throws InputError when gauss_points is not 1, 2 or 3.
+  /// Throws InputError when gauss_points is not 1, 2 or 3, or a support out of range.
   explicit Cnem(Options options = {});
 
   /// Throws GeometryError as voronoi::triangulate, voronoi::linear_simplices and face_means do. Cost O(N log

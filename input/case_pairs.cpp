@@ -21,6 +21,7 @@ bool is_static(const Case& c) { return c.analysis.type == Analysis::Type::static
 bool is_round(const Case& c) { return c.analysis.space() == Space::revolution; }
 bool local(const Case& c) { return !is_static(c) && c.time.local.on; }
 bool resampled(const Case& c) { return c.adapt.resample; }
+bool least_squares(const Case& c) { return c.method.options.least_squares; }
 
 Text when(bool holds, const char* words) { return holds ? words : ""; }
 
@@ -28,6 +29,9 @@ Text in_statics(const Case& c) { return when(is_static(c), "in a static analysis
 Text in_dynamics(const Case& c) { return when(!is_static(c), "in an explicit analysis"); }
 Text without_motion(const Case& c) {
   return when(!is_static(c) && c.analysis.thermal && !c.analysis.mechanical, "in an analysis without motion");
+}
+Text without_cells(const Case& c) {
+  return when(c.method.name != "cnem", ("with method.name = \"" + c.method.name + "\"").c_str());
 }
 /// More of [report] than its units, or nothing at all.
 bool evaluates(const Case& c) {
@@ -94,6 +98,21 @@ struct Pair {
 
 const std::vector<Pair>& pairs() {
   static const std::vector<Pair> table{
+      {"method.functions", "\"mls\"", "`method.name` other than `cnem`", without_cells,
+       "it with method.name = \"cnem\", or method.name = \"efg\", whose functions they are",
+       "natural elements alone have functions to choose", least_squares},
+      {"method.functions", "\"mls\"", "`domain.cracks` in static analyses",
+       [](const Case& c) {
+         return when(is_static(c) && !c.domain.cracks.empty(), "with domain.cracks in a static analysis");
+       },
+       "\"sibson\" or \"laplace\"",
+       "what enriches crack tips is multiplied with functions of natural neighbours", least_squares},
+      {"method.support", "", "functions of natural neighbours, triangles or kernels",
+       [](const Case& c) {
+         return when(!least_squares(c) && c.method.name != "efg", "without moving least squares");
+       },
+       "it with method.functions = \"mls\" or method.name = \"efg\"", "nothing has supports"},
+
       {"time.step.local", "local steps", "`time.step.fixed`",
        [](const Case& c) { return when(c.time.fixed.has_value(), "and a fixed one"); }, one_of_them,
        "levels follow from the stable steps", local},

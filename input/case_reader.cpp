@@ -66,7 +66,10 @@ void compute_defaults(Setting& root) {
     root.set_default(entry.path + ".temperature", temperature);
     root.set_default(entry.path + ".velocity", root.get<Vec2>("initial.velocity"));
   }
+  const bool springs = root.get<std::string>("contact.scheme") == "central-difference";
   for (const Setting& entry : root.entries("tools")) {
+    if (springs && !entry.find("response.law")) root.set_default(entry.path + ".response.scale", 2.0);
+    root.set_default(entry.path + ".response.law", std::string(springs ? "penalty" : "exact"));
     if (entry.find("heat")) root.set_default(entry.path + ".heat.temperature", temperature);
     if (!entry.find("mass")) {
       VectorFunction rest{TimeTable(0.0), TimeTable(0.0)};
@@ -115,7 +118,9 @@ void read_method(Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("method");
   Method& method = result.method;
   method.name = table.get<std::string>("name");
-  method.options.functions = table.choice<scni::Functions>("functions");
+  method.options.least_squares = table.get<std::string>("functions") == "mls";
+  if (!method.options.least_squares) method.options.functions = table.choice<scni::Functions>("functions");
+  method.options.support = table.get<double>("support");
   method.options.gauss_points = static_cast<int>(table.get<std::int64_t>("gauss_points"));
   if (table.find("cells")) {
     method.options.cells = table.choice<scni::CellKind>("cells");

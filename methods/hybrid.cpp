@@ -10,11 +10,11 @@ struct OnFaces {
   voronoi::NaturalNeighbours functions;
   const IndexedVector<SimplexIndex, bool>& zone;
 
-  void evaluate(const Vec2& x, const std::array<SimplexIndex, 2>& simplex) {
-    const bool natural =
-        std::any_of(simplex.begin(), simplex.end(), [&](SimplexIndex t) { return exists(t) && zone[t]; });
+  void evaluate(const Vec2& x, const InnerFace<2>& face) {
+    const bool natural = std::any_of(face.simplex.begin(), face.simplex.end(),
+                                     [&](SimplexIndex t) { return exists(t) && zone[t]; });
     functions.evaluate_on_facet(natural ? voronoi::Functions::sibson : voronoi::Functions::linear, x,
-                                simplex);
+                                face.simplex);
   }
   auto nodes() const { return functions.nodes(); }
   auto values() const { return functions.values(); }

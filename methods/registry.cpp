@@ -1,6 +1,7 @@
 #include "methods/registry.hpp"
 
 #include "core/error.hpp"
+#include "methods/efg.hpp"
 #include "methods/fe_simplices.hpp"
 #include "methods/hybrid.hpp"
 #include "methods/sph_consistent.hpp"
@@ -15,7 +16,9 @@ namespace {
 constexpr std::array list{
     Entry{"cnem", scni::Cnem::promised,
           [](const Options& o) -> Made<2> {
-            return std::make_unique<scni::Cnem>(scni::Options{o.functions, o.gauss_points, o.space});
+            return std::make_unique<scni::Cnem>(
+                scni::Options{o.functions, o.gauss_points, o.space,
+                              o.least_squares ? std::optional(o.support) : std::nullopt});
           },
           [](const Options& o) -> Made<3> {
             return std::make_unique<scni::CnemInSpace>(
@@ -34,6 +37,8 @@ constexpr std::array list{
           [](const Options& o) -> Made<2> {
             return std::make_unique<Hybrid>(o.zone_spacing, o.gauss_points, o.space);
           },
+          nullptr},
+    Entry{"efg", Efg::promised, [](const Options& o) -> Made<2> { return std::make_unique<Efg>(o.support); },
           nullptr},
 };
 

@@ -18,7 +18,9 @@ namespace cnem::methods {
 /// What a case may choose of its method; each discretisation takes what concerns it.
 struct Options {
   scni::Functions functions = scni::Functions::sibson;
-  int gauss_points = 2;                          ///< in the plane, per edge of a Voronoi cell, 1 to 3
+  bool least_squares = false; ///< in the plane: moving least squares in the place of `functions`
+  double support = 2.5;       ///< – supports of moving least squares in spacings, 1.5 to 5
+  int gauss_points = 2;       ///< in the plane, per edge of a Voronoi cell, 1 to 3
   scni::CellKind cells = scni::CellKind::median; ///< in space
   int points_on_facets = 1;                      ///< in space, of Voronoi cells, 1 or 3
   Kernel kernel = Kernel::cubic_spline;

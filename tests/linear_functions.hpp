@@ -19,8 +19,8 @@ public:
             cloud.position.size(),
             tetrahedra.size(), [&](std::size_t t) -> const auto& { return tetrahedra[t]; })) {}
 
-  bool evaluate(const Vec<3>& x, const std::array<SimplexIndex, 2>& simplex) {
-    node_ = tetrahedra_[index_of(simplex[0])];
+  bool evaluate(const Vec<3>& x, const InnerFace<3>& face) {
+    node_ = tetrahedra_[index_of(face.simplex[0])];
     value_ = barycentric(x, node_);
     return true;
   }

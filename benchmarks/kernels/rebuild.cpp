@@ -3,6 +3,7 @@
 #include "cnem/quadrature.hpp"
 #include "cnem/scni.hpp"
 #include "cnem/smoothing.hpp"
+#include "methods/efg.hpp"
 #include "methods/fe_simplices.hpp"
 #include "methods/sph.hpp"
 #include "tests/clouds.hpp"
@@ -55,11 +56,14 @@ struct Geometry {
 };
 
 scni::Options options(const benchmark::State& state) {
-  return {state.range(2) == 0 ? scni::Functions::sibson : scni::Functions::laplace,
-          static_cast<int>(state.range(1))};
+  scni::Options options{state.range(2) == 1 ? scni::Functions::laplace : scni::Functions::sibson,
+                        static_cast<int>(state.range(1))};
+  if (state.range(2) == 2) options.support = 2.5;
+  return options;
 }
 
 scni::FaceMeans face_means(const Geometry& g, const scni::Options& o) {
+  if (o.support) return scni::face_means(g.cloud, g.cells, *o.support, o.gauss_points);
   return scni::face_means(g.cloud, g.triangulation, g.circles, g.cells, o.functions, o.gauss_points);
 }
 
@@ -113,6 +117,12 @@ void whole_triangles(benchmark::State& state) {
   per_node(state, cloud, [&] { return method.rebuild(cloud); });
 }
 
+void whole_efg(benchmark::State& state) {
+  const auto cloud = benchmark_cloud(state.range(0));
+  methods::Efg method;
+  per_node(state, cloud, [&] { return method.rebuild(cloud); });
+}
+
 void whole_particles(benchmark::State& state) {
   const auto cloud = benchmark_cloud(state.range(0));
   methods::Sph method;
@@ -124,8 +134,9 @@ void by_nodes(benchmark::internal::Benchmark* b) {
 }
 
 void by_nodes_and_rule(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"nodes", "points", "laplace"})->Unit(benchmark::kMillisecond);
-  b->ArgsProduct({{20'000, 200'000}, {1, 2, 3}, {0}})->Args({20'000, 2, 1});
+  // functions: 0 Sibson's, 1 Laplace's, 2 moving least squares
+  b->ArgNames({"nodes", "points", "functions"})->Unit(benchmark::kMillisecond);
+  b->ArgsProduct({{20'000, 200'000}, {1, 2, 3}, {0}})->ArgsProduct({{20'000}, {2}, {1, 2}});
 }
 
 } // namespace
@@ -140,4 +151,5 @@ BENCHMARK(smoothing)->Apply(by_nodes_and_rule);
 BENCHMARK(whole_cnem)->Apply(by_nodes_and_rule);
 BENCHMARK(whole_triangles)->Apply(by_nodes);
 BENCHMARK(whole_particles)->Apply(by_nodes);
+BENCHMARK(whole_efg)->Apply(by_nodes);
 BENCHMARK_MAIN();

@@ -8,19 +8,29 @@ namespace cnem::input {
 void add_method(Keys& k) {
   using enum Type;
   k.add("method", table, "How it is solved.").always();
-  k.add(
-       "method.name", choice,
-       "Constrained natural elements, linear triangles, corrected particles (SPH), particles that have "
-       "constant "
-       "stress in balance (sph-consistent), or natural elements where the cloud is fine and triangles beyond "
-       "(hybrid): docs/methods.md.")
+  k.add("method.name", choice,
+        "Constrained natural elements, linear triangles, corrected particles (SPH), particles that have "
+        "constant "
+        "stress in balance (sph-consistent), natural elements where the cloud is fine and triangles beyond "
+        "(hybrid), or Gauss points with moving least squares (efg): docs/methods.md.")
       .one_of(methods::names_in(2))
       .in_space_one_of(methods::names_in(3))
       .fallback("\"cnem\"");
   k.add("method.functions", choice,
-        "Natural neighbour functions (cnem; in space with `method.cells = \"voronoi\"`).")
-      .one_of({"sibson", "laplace"})
+        "Natural neighbour functions (cnem; in space with `method.cells = \"voronoi\"`), or in the plane "
+        "moving "
+        "least "
+        "squares, `mls`.")
+      .one_of({"sibson", "laplace", "mls"})
+      .in_space_one_of({"sibson", "laplace"})
       .fallback("\"sibson\"");
+  k.add("method.support", quantity,
+        "Supports of moving least squares in spacings (efg; cnem with `method.functions = \"mls\"`); each "
+        "node "
+        "counts "
+        "the mean distance to its Delaunay neighbours as its spacing.")
+      .in({.low = 1.5, .high = 5.0})
+      .fallback("2.5");
   k.add("method.gauss_points", integer,
         "Per edge of a Voronoi cell (cnem, hybrid); axisymmetric analyses take at least 2. In space per "
         "facet of "

@@ -138,7 +138,10 @@ void add_tools(Keys& k) {
         "between "
         "nodes: they are there to compare with what others compute.")
       .always();
-  add_law_choice(k, at + "response", responses).fallback("\"exact\"");
+  add_law_choice(k, at + "response", responses)
+      .example("\"exact\"")
+      .computed(
+          "`\"exact\"`; with `contact.scheme = \"central-difference\"` `\"penalty\"` with a `scale` of 2");
   add_law_constants(k, at + "response", responses);
   k.add(at + "heat", table, "Thermal side of the tool; without it the contact is insulated.");
   add_constants(k, at + "heat", constant_texts<contact::ToolThermal>(contact::ToolThermal::parameters));
@@ -149,6 +152,16 @@ void add_tools(Keys& k) {
 
 void add_contact(Keys& k) {
   k.add("contact", table, "Contact of parts of the workpiece with each other.").always();
+  k.add(
+       "contact.scheme", choice,
+       "What keeps the workpiece out of tools without a `response` of their own. `kinematic`: exact, "
+       "positions "
+       "and speeds are corrected so that nothing enters. `central-difference`: paper 000's, f_n = 2 m g/Δt² "
+       "on "
+       "nodes of mass m at a depth g, and along the face m v/Δt, at most the bound of friction. Parts of the "
+       "workpiece meet each other by the first in any case.")
+      .one_of({"kinematic", "central-difference"})
+      .fallback("\"kinematic\"");
   k.add("contact.deformable", boolean,
         "Faces of the workpiece do not pass through each other: parts that cracks divide, and one part with "
         "itself. Bonded interfaces and periodic sides are no such faces.")

@@ -47,6 +47,10 @@ inline std::vector<Method> methods(Space space = Space::plane) {
           const std::string name = functions == scni::Functions::sibson ? "sibson_" : "laplace_";
           list.push_back({name + std::to_string(points), &entry, options});
         }
+      for (int points = 1; points <= 3; ++points)
+        list.push_back({"mls_" + std::to_string(points),
+                        &entry,
+                        {.least_squares = true, .gauss_points = points, .space = space}});
       if (space == Space::plane) {
         list.push_back({"median", &entry, {}, 3});
         for (const auto& [functions, name] :

@@ -25,6 +25,21 @@ TEST(ToolResponse, a_penalty_spring_cuts_with_nearly_the_force_of_exact_contact)
   EXPECT_NE(force(spring), force(exact));
 }
 
+TEST(ToolResponse, the_scheme_of_contact_is_that_of_all_tools_without_a_response) {
+  const std::string scheme = "contact.scheme=central-difference";
+  const auto tool = [](const Texts& overrides) {
+    return input::read_case_text(answered_cut, "case.toml", overrides).tools.front().response;
+  };
+  EXPECT_TRUE(tool({}).exact());
+  EXPECT_TRUE(tool({scheme}).is<contact::Penalty>());
+  EXPECT_EQ(tool({scheme}).step_share(), contact::Penalty{2.0}.step_share());
+  EXPECT_TRUE(tool({scheme, "tools.cutter.response.law=exact"}).exact());
+  const double exact = force(testing::run(answered_cut)),
+               springs = force(testing::run(answered_cut, {scheme}, 5e-3));
+  EXPECT_NEAR(springs, exact, 0.1 * exact);
+  EXPECT_NE(springs, exact);
+}
+
 TEST(ToolResponse, a_kinematic_tool_has_no_force_across_its_motion) {
   const Adapted run = testing::run(answered_cut, {"tools.cutter.response.law=kinematic"});
   EXPECT_GT(force(run), 0.0);

@@ -79,6 +79,51 @@ TEST(PenaltyResponse, SharesMomentumWithAFreeTool) {
   EXPECT_NEAR(speed, 0.75 * 1e-4 / step_length, 1e-12); // the reduced mass
 }
 
+// contact.scheme = "central-difference" of paper 000: springs of 2 m/Δt².
+namespace {
+constexpr double steep = 2.0;
+}
+
+/// Written out step by step for a node at rest: f_n = 2 m g/Δt² (39) of the depth g that it has when a step
+/// begins.
+TEST(CentralDifference, ANodeBeforeAMovingWallIsAsDeepInAsTheRecurrenceSays) {
+  const double speed = 0.5, mass = 1.0;
+  Masses scene = inside_wall(-0.2 * speed * step_length, {0, 0}, Penalty{steep}, {0, speed});
+  double place = 0.2 * speed * step_length, velocity = 0.0, wall = 0.0, pushed = 0.0, deepest = 0.0;
+  for (int n = 0; n < 12; ++n) {
+    const double depth = std::max(0.0, wall - place); // at t_n
+    const double force = 2.0 * mass * depth / (step_length * step_length);
+    velocity += force / mass * step_length;
+    place += velocity * step_length;
+    wall += speed * step_length;
+    pushed += force * step_length;
+    deepest = std::max(deepest, depth);
+    scene.step(step_length);
+    EXPECT_NEAR(scene.position(0).y(), place, 1e-15);
+    EXPECT_NEAR(scene.velocity(0).y(), velocity, 1e-12);
+    EXPECT_NEAR(scene.contact->results()[0].force.y(), force, 1e-9);
+    EXPECT_NEAR(scene.contact->results()[0].impulse.y(), pushed, 1e-12);
+    EXPECT_NEAR(mass * scene.velocity(0).y(), pushed, 1e-12) << "momentum";
+  }
+  EXPECT_NEAR(deepest, 0.8 * speed * step_length, 1e-15) << "the path of a step less the gap there was";
+  EXPECT_NEAR(velocity, 2.0 * speed, 1e-12) << "thrown off as fast as it was met";
+  expect_balanced(scene.contact->results()[0].total);
+}
+
+/// (40), m v/Δt, against (41), μ f_n: the smaller, along the face (43).
+TEST(CentralDifference, RubsWithTheSmallerOfStickAndSlip) {
+  const double depth = 1e-4, press = 2.0 * depth / step_length, friction = 0.3;
+  for (const double sliding : {0.2 * friction * press, 5.0 * friction * press}) {
+    Masses scene = inside_wall(depth, {sliding, 0}, Penalty{steep}, {0, 0}, friction);
+    scene.step(step_length);
+    const Vec2 force = scene.contact->results()[0].force;
+    EXPECT_NEAR(force.y(), press / step_length, 1e-9);
+    EXPECT_NEAR(-force.x(), std::min(sliding, friction * press) / step_length, 1e-9);
+    EXPECT_NEAR(scene.velocity(0).x(), sliding - std::min(sliding, friction * press), 1e-12);
+    expect_balanced(scene.contact->results()[0].step);
+  }
+}
+
 TEST(PenaltyResponse, TheStepItBearsIsThatOfBothSprings) {
   for (const double share : {0.95, 1.05}) {
     const Penalty law{2.0};

@@ -74,9 +74,9 @@ TEST(Promises, identity_holds_one_point_per_node_and_interpolation_in_it) {
 using Names = std::vector<std::string>;
 
 TEST(Registry, names_methods_and_refuses_others) {
-  EXPECT_EQ(methods::names_in(2), (Names{"cnem", "fe-triangles", "sph", "sph-consistent", "hybrid"}));
+  EXPECT_EQ(methods::names_in(2), (Names{"cnem", "fe-triangles", "sph", "sph-consistent", "hybrid", "efg"}));
   EXPECT_EQ(methods::names_in(3), (Names{"cnem", "fe-tetrahedra"}));
-  EXPECT_EQ(methods::names().size(), 6U);
+  EXPECT_EQ(methods::names().size(), 7U);
   EXPECT_EQ(methods::names_that_keep(Promise::balanced_constant_stress, 2),
             (Names{"cnem", "fe-triangles", "sph-consistent", "hybrid"}));
   EXPECT_EQ(methods::names_that_keep(Promise::carried_history, 2),
@@ -97,7 +97,7 @@ TEST(Registry, refuses_methods_that_do_not_exist_in_the_dimension) {
   EXPECT_EQ(refusal<2>("fe-triangles"), "");
   EXPECT_EQ(refusal<3>("sph"), "found method 'sph' in 3 dimensions, expected one of cnem, fe-tetrahedra");
   EXPECT_EQ(refusal<2>("fe-tetrahedra"), "found method 'fe-tetrahedra' in 2 dimensions, expected one of "
-                                         "cnem, fe-triangles, sph, sph-consistent, hybrid");
+                                         "cnem, fe-triangles, sph, sph-consistent, hybrid, efg");
   EXPECT_EQ(refusal<3>("cnem"), "") << "it finds tetrahedra of its own";
   EXPECT_NE(refusal<3>("fe-tetrahedra").find("found no tetrahedra"), std::string::npos);
 }
