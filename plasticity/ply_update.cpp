@@ -138,10 +138,11 @@ private:
       ply.damage[mode][p] = damage[mode];
     }
     double release = 0.0;
+    const auto let_go = [&](const double(&at)[3]) {
+      return damaged_stress(elastic_, at, before).energy - damaged_stress(elastic_, at, damage).energy;
+    };
     if (dt_ != 0.0 && !std::equal(std::begin(damage), std::end(damage), std::begin(before)))
-      for (const auto& at : {last, e})
-        release += 0.5 * (damaged_stress(elastic_, {at[0], at[1], at[2]}, before).energy -
-                          damaged_stress(elastic_, {at[0], at[1], at[2]}, damage).energy);
+      release = 0.5 * (let_go(last) + let_go(e)); // as work is measured, by the trapezoid
     ply.release[p] = release;
     for (int k = 0; k < 3; ++k) ply.strain[k][p] = e[k];
   }

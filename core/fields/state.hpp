@@ -4,6 +4,7 @@
 #include "core/fields/field_table.hpp"
 #include "core/vec.hpp"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -215,6 +216,15 @@ template<int dim> struct PointState {
   PointState& operator=(const PointState&) = default;
 
   std::size_t size() const { return plastic_strain.size(); }
+  /// Damage by modes of plies, as plasticity/ply_points.hpp counts them.
+  std::array<const Field*, 5> mode_damage() const {
+    return {&fibre_tension_damage, &fibre_compression_damage, &matrix_tension_damage,
+            &matrix_compression_damage, &shear_damage};
+  }
+  /// All groups, as checkpoints and changes of the cloud go through them.
+  std::vector<FieldTable*> tables() {
+    return {&table, &damaged, &traded, &oriented, &thin, &fibrous, &failing};
+  }
 };
 
 /// What adaptation says of the nodes; each list is [node].
