@@ -54,7 +54,9 @@ FailureForm::FailureForm(const Failure& law, const PlyConstants& elastic)
 void FailureForm::indices(const double (&strain)[3], const double (&stress)[3],
                           double (&index)[ply_modes]) const {
   std::fill(std::begin(index), std::end(index), 0.0);
-  const double s1 = stress[0], s2 = stress[1], shear = std::abs(stress[2]);
+  constexpr double rounding = 1e-9; // of a strength: what is smaller has no sign
+  const double s1 = std::abs(stress[0]) > rounding * law_.Xc ? stress[0] : 0.0,
+               s2 = std::abs(stress[1]) > rounding * law_.Yc ? stress[1] : 0.0, shear = std::abs(stress[2]);
   if (law_.criterion == FailureCriterion::larc02) return larc(strain, s1, s2, shear, index);
   const double sheared = square(shear / law_.S);
   const bool alone = law_.criterion == FailureCriterion::max_stress;
