@@ -117,7 +117,7 @@ private:
     const PlyPoints& ply = points_.ply;
     double stress[3], index[ply_modes], before[ply_modes], last[3];
     intact_.stress(e, stress);
-    form_->indices(e, stress, index);
+    indices(p, e, index);
     for (int k = 0; k < 3; ++k) last[k] = ply.strain[k][p];
     for (int mode = 0; mode < ply_modes; ++mode) {
       before[mode] = damage[mode] = ply.damage[mode][p];
@@ -125,7 +125,7 @@ private:
       if (dt_ == 0.0) continue;
       double& begun = ply.begun[mode][p];
       if (begun == 0.0 && index[mode] >= 1.0) {
-        const FailureForm::Opening onset = at_onset(mode, last, e);
+        const FailureForm::Opening onset = at_onset(p, mode, last, e);
         ply.onset_strain[mode][p] = ply.length[p] * onset.strain;
         ply.onset_stress[mode][p] = onset.stress;
         begun = 1.0;
@@ -155,21 +155,31 @@ private:
     return last > first ? last * (delta - first) / (delta * (last - first)) : Failure::broken;
   }
 
+  /// Of the effective stress, where matter is weaker over its strength.
+  void indices(std::ptrdiff_t p, const double (&e)[3], double (&index)[ply_modes]) const {
+    const double by = 1.0 / points_.strength[p];
+    const double strain[3] = {by * e[0], by * e[1], by * e[2]};
+    double stress[3];
+    intact_.stress(strain, stress);
+    form_->indices(strain, stress, index);
+  }
+
   /// Where the index of a mode is 1 on the way from one strain to another.
-  FailureForm::Opening at_onset(int mode, const double (&from)[3], const double (&to)[3]) const {
+  FailureForm::Opening at_onset(std::ptrdiff_t p, int mode, const double (&from)[3],
+                                const double (&to)[3]) const {
     double low = 0.0, high = 1.0, strain[3], stress[3];
     const auto place = [&](double t) {
       for (int k = 0; k < 3; ++k) strain[k] = from[k] + t * (to[k] - from[k]);
-      intact_.stress(strain, stress);
     };
     for (int halving = 0; halving < 40; ++halving) {
       const double middle = 0.5 * (low + high);
       place(middle);
       double index[ply_modes];
-      form_->indices(strain, stress, index);
+      indices(p, strain, index);
       (index[mode] >= 1.0 ? high : low) = middle;
     }
     place(high);
+    intact_.stress(strain, stress);
     return form_->opening(mode, strain, stress);
   }
 
