@@ -61,8 +61,11 @@ PlyDeformation<dim> mixed_plies(const PointRows& parcels, const Field& mass,
   return plies;
 }
 
-template<int dim> void set_plies(const PlyDeformation<dim>& plies, PointState<dim>& point) {
-  for (const auto& [p, F] : plies) {
+template<int dim>
+void set_plies(const PlyDeformation<dim>& plies, const Field& elastic_volume, PointState<dim>& point) {
+  for (const auto& [p, mean] : plies) {
+    const double scale = elastic_volume.empty() ? 1.0 : std::sqrt(elastic_volume[p] / mean.determinant());
+    const Mat<2> F = scale * mean;
     const Mat<2> b = F * F.transpose();
     const double whole[] = {F(0, 0), F(0, 1), F(1, 0), F(1, 1), 1.0};
     const double elastic[] = {b(0, 0), b(1, 1), 1.0, b(0, 1)};
@@ -84,7 +87,7 @@ template<int dim> void to_initial_thickness(PointState<dim>& point) {
 #define CNEM_INSTANTIATE(dim)                                                                                \
   template PlyDeformation<dim> mixed_plies<dim>(                                                             \
       const PointRows&, const Field&, const std::vector<plasticity::Material>&, const PointState<dim>&);     \
-  template void set_plies<dim>(const PlyDeformation<dim>&, PointState<dim>&);                                \
+  template void set_plies<dim>(const PlyDeformation<dim>&, const Field&, PointState<dim>&);                  \
   template void to_present_thickness<dim>(PointState<dim>&);                                                 \
   template void to_initial_thickness<dim>(PointState<dim>&);
 CNEM_INSTANTIATE(2)

@@ -19,8 +19,10 @@ template<int dim>
 PlyDeformation<dim> mixed_plies(const PointRows& parcels, const Field& mass,
                                 const std::vector<plasticity::Material>& materials,
                                 const PointState<dim>& point);
-/// Gives points their F₀, and the C_p⁻¹ = F₀ F₀ᵀ that belongs to it.
-template<int dim> void set_plies(const PlyDeformation<dim>& plies, PointState<dim>& point);
+/// Gives points their F₀, and the C_p⁻¹ = F₀ F₀ᵀ that belongs to it. elastic_volume: as mix_elastic takes it,
+/// det F₀ where cells tile the matter.
+template<int dim>
+void set_plies(const PlyDeformation<dim>& plies, const Field& elastic_volume, PointState<dim>& point);
 
 /// In plane stress C_p⁻¹_zz is counted from the initial thickness: with that of the present one it is b_e, as
 /// mixing takes it, and back.
