@@ -27,7 +27,7 @@ struct Failure {
   double Gft = infinite, Gfc = infinite, Gmt = infinite, Gmc = infinite, Gs = infinite;
   double band = 1.0;
 
-  static constexpr double broken = 0.99; ///< largest d: what is left keeps matter in its place
+  static constexpr double broken = 0.99; ///< largest d that is told of
 
   static constexpr Parameter<Failure> parameters[] = {
       {&Failure::Xt,

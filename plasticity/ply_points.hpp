@@ -11,8 +11,9 @@ inline constexpr int ply_modes = 5;
 struct PlyPoints {
   double* fibre_angle; ///< rad, of the fibres from +x at present; null: no point is of a ply
   // null where no ply fails
-  double* damage[ply_modes];       ///< –      d
-  double* index[ply_modes];        ///< –      f, of the present strain
+  double* damage[ply_modes]; ///< –      d, at most 0.99
+  double* left[ply_modes];   ///< –      of the stiffness, 1 − d and less where it has opened further
+  double* index[ply_modes];  ///< –      f, of the present strain
   double* onset_strain[ply_modes]; ///< m      δ0, of the length ℓ, where f reached 1
   double* onset_stress[ply_modes]; ///< Pa     σ0 there
   double* begun[ply_modes];        ///< –      1 from then on

@@ -115,27 +115,31 @@ private:
   /// Damage at the strain e, and what its growth lets go.
   void fail(std::ptrdiff_t p, const double (&e)[3], double (&damage)[ply_modes]) const {
     const PlyPoints& ply = points_.ply;
-    double stress[3], index[ply_modes], before[ply_modes], last[3];
-    intact_.stress(e, stress);
-    indices(p, e, index);
+    double index[ply_modes], before[ply_modes], last[3];
+    for (int mode = 0; mode < ply_modes; ++mode) before[mode] = damage[mode] = 1.0 - ply.left[mode][p];
     for (int k = 0; k < 3; ++k) last[k] = ply.strain[k][p];
+    double stress[3];
+    effective_stress(e, before, stress);
+    indices(p, e, before, index);
     for (int mode = 0; mode < ply_modes; ++mode) {
-      before[mode] = damage[mode] = ply.damage[mode][p];
       ply.index[mode][p] = index[mode];
       if (dt_ == 0.0) continue;
       double& begun = ply.begun[mode][p];
       if (begun == 0.0 && index[mode] >= 1.0) {
-        const FailureForm::Opening onset = at_onset(p, mode, last, e);
+        const FailureForm::Opening onset = at_onset(p, mode, last, e, before);
         ply.onset_strain[mode][p] = ply.length[p] * onset.strain;
         ply.onset_stress[mode][p] = onset.stress;
         begun = 1.0;
       }
       if (begun == 0.0) continue;
-      const double grown = form_->law().degradation == Degradation::sudden
-                               ? 1.0 - (1.0 - before[mode]) * std::exp(-speed_ * dt_ / ply.length[p])
-                               : spent(p, mode, ply.length[p] * form_->opening(mode, e, stress).strain);
-      damage[mode] = std::clamp(grown, before[mode], Failure::broken);
-      ply.damage[mode][p] = damage[mode];
+      const double grown =
+          form_->law().degradation == Degradation::sudden
+              ? std::min(1.0 - (1.0 - before[mode]) * std::exp(-speed_ * dt_ / ply.length[p]),
+                         Failure::broken)
+              : spent(p, mode, ply.length[p] * form_->opening(mode, e, stress).strain);
+      damage[mode] = std::max(grown, before[mode]);
+      ply.left[mode][p] = 1.0 - damage[mode];
+      ply.damage[mode][p] = std::min(damage[mode], Failure::broken);
     }
     double release = 0.0;
     const auto let_go = [&](const double(&at)[3]) {
@@ -147,26 +151,38 @@ private:
     for (int k = 0; k < 3; ++k) ply.strain[k][p] = e[k];
   }
 
-  /// d of an opening δ that has passed δ0: the stress falls linearly to none at δf = 2G/σ0.
+  /// d of an opening δ that has passed δ0: the stress falls linearly to none at δf = 2G/σ0, but for a
+  /// hundredth of σ0, which keeps matter in its place.
   double spent(std::ptrdiff_t p, int mode, double delta) const {
     const double first = points_.ply.onset_strain[mode][p], stress = points_.ply.onset_stress[mode][p];
     if (!(delta > first)) return 0.0;
     const double last = 2.0 * form_->law().energy(mode) / stress;
-    return last > first ? last * (delta - first) / (delta * (last - first)) : Failure::broken;
+    const double falling = last > first ? last * (delta - first) / (delta * (last - first)) : 1.0;
+    return std::min(falling, 1.0 - (1.0 - Failure::broken) * first / delta);
   }
 
-  /// Of the effective stress, where matter is weaker over its strength.
-  void indices(std::ptrdiff_t p, const double (&e)[3], double (&index)[ply_modes]) const {
+  /// Nominal stress over what is left of the members that bear it: Q ε until something fails. Later Q ε would
+  /// have a matrix that opens break its fibres, by a contraction that it does not hand on any more.
+  void effective_stress(const double (&e)[3], const double (&damage)[ply_modes], double (&stress)[3]) const {
+    const PlyStress nominal = damaged_stress(elastic_, e, damage);
+    stress[0] = nominal.stress[0] / nominal.left.fibre;
+    stress[1] = nominal.stress[1] / nominal.left.matrix;
+    stress[2] = nominal.stress[2] / nominal.left.shear;
+  }
+
+  /// Where matter is weaker of the stress over its strength.
+  void indices(std::ptrdiff_t p, const double (&e)[3], const double (&damage)[ply_modes],
+               double (&index)[ply_modes]) const {
     const double by = 1.0 / points_.strength[p];
     const double strain[3] = {by * e[0], by * e[1], by * e[2]};
     double stress[3];
-    intact_.stress(strain, stress);
+    effective_stress(strain, damage, stress);
     form_->indices(strain, stress, index);
   }
 
   /// Where the index of a mode is 1 on the way from one strain to another.
-  FailureForm::Opening at_onset(std::ptrdiff_t p, int mode, const double (&from)[3],
-                                const double (&to)[3]) const {
+  FailureForm::Opening at_onset(std::ptrdiff_t p, int mode, const double (&from)[3], const double (&to)[3],
+                                const double (&damage)[ply_modes]) const {
     double low = 0.0, high = 1.0, strain[3], stress[3];
     const auto place = [&](double t) {
       for (int k = 0; k < 3; ++k) strain[k] = from[k] + t * (to[k] - from[k]);
@@ -175,11 +191,11 @@ private:
       const double middle = 0.5 * (low + high);
       place(middle);
       double index[ply_modes];
-      indices(p, strain, index);
+      indices(p, strain, damage, index);
       (index[mode] >= 1.0 ? high : low) = middle;
     }
     place(high);
-    intact_.stress(strain, stress);
+    effective_stress(strain, damage, stress);
     return form_->opening(mode, strain, stress);
   }
 
@@ -195,16 +211,23 @@ private:
 
 } // namespace
 
+double shear_left(const double (&damage)[ply_modes]) {
+  double left = 1.0;
+  for (const double d : damage) left *= 1.0 - d;
+  constexpr double least = 1e-4;
+  return std::max(left, least);
+}
+
 PlyStress damaged_stress(const PlyConstants& elastic, const double (&strain)[3],
                          const double (&damage)[ply_modes]) {
   PlyShares left;
-  for (const double d : damage) left.shear *= 1.0 - d;
+  left.shear = shear_left(damage);
   PlyStress best{};
   double least = infinite; // what a stress has of the wrong sign: rounding alone, where one is zero
   for (const int fibre : {fibre_tension, fibre_compression})
     for (const int matrix : {matrix_tension, matrix_compression}) {
       left.fibre = 1.0 - damage[fibre], left.matrix = 1.0 - damage[matrix];
-      PlyStress now{};
+      PlyStress now{.stress = {}, .energy = 0.0, .left = left};
       elastic.stiffness(left).stress(strain, now.stress);
       const double wrong = std::max({0.0, fibre == fibre_tension ? -now.stress[0] : now.stress[0],
                                      matrix == matrix_tension ? -now.stress[1] : now.stress[1]});

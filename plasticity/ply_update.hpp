@@ -10,7 +10,11 @@ namespace cnem::plasticity {
 struct PlyStress {
   double stress[3]; ///< Pa, σ11, σ22, σ12 conjugate to ε11, ε22, γ12
   double energy;    ///< J/m³
+  PlyShares left;   ///< of the members that act
 };
+
+/// Π (1 − d) over the modes, at least 1e-4.
+double shear_left(const double (&damage)[ply_modes]);
 
 /// Of ε11, ε22, γ12 with the damage of all modes. The sign of each nominal stress chooses the mode that acts
 /// on it: the complementary energy of the four sectors of sign is convex and continuous, so that one sector

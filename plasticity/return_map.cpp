@@ -44,6 +44,7 @@ template<int dim> PlyPoints ply_points(PointState<dim>& state) {
     p.onset_strain[k] = state.onset_strain[k].data();
     p.onset_stress[k] = state.onset_stress[k].data();
     p.begun[k] = state.begun[k].data();
+    p.left[k] = state.ply_left[k].data();
   }
   for (std::size_t k = 0; k < 3; ++k) p.strain[k] = state.ply_strain[k].data();
   p.release = state.failure_release.data();

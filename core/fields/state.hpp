@@ -4,7 +4,6 @@
 #include "core/fields/field_table.hpp"
 #include "core/vec.hpp"
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -203,6 +202,9 @@ template<int dim> struct PointState {
   TensorField<5> onset_strain{failing, {"onset_strain", "m", Carry::mass_mean, Checkpoint::holds}};
   TensorField<5> onset_stress{failing, {"onset_stress", "Pa", Carry::mass_mean, Checkpoint::holds}};
   TensorField<5> begun{failing, {"begun", "1", Carry::mass_mean, Checkpoint::holds}};
+  /// of the stiffness of each mode; the damages above end at 0.99, what is left bears on
+  TensorField<5> ply_left{
+      failing, {"ply_left", "1", Carry::mass_mean, Checkpoint::holds, Rest{1.0, 1.0, 1.0, 1.0, 1.0}}};
   /// ε11, ε22, γ12 in the axes of the ply at t_n
   TensorField<3> ply_strain{failing, {"ply_strain", "1", Carry::renewed, Checkpoint::holds}};
   /// ℓ over which the energy of a mode is spread
@@ -216,11 +218,6 @@ template<int dim> struct PointState {
   PointState& operator=(const PointState&) = default;
 
   std::size_t size() const { return plastic_strain.size(); }
-  /// Damage by modes of plies, as plasticity/ply_points.hpp counts them.
-  std::array<const Field*, 5> mode_damage() const {
-    return {&fibre_tension_damage, &fibre_compression_damage, &matrix_tension_damage,
-            &matrix_compression_damage, &shear_damage};
-  }
   /// All groups, as checkpoints and changes of the cloud go through them.
   std::vector<FieldTable*> tables() {
     return {&table, &damaged, &traded, &oriented, &thin, &fibrous, &failing};

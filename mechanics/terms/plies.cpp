@@ -1,6 +1,7 @@
 // Plies in the step: wave moduli, the length that energies of failure are spread over, what damage lets go.
 #include "core/index.hpp"
 #include "mechanics/terms/list.hpp"
+#include "plasticity/ply_update.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,10 +93,11 @@ void Plies<dim>::after_stress(const Body<dim>& body, const DuePoints& due, const
     if (!material.failure) continue;
     sum += volume[p] * point.stress_free[p] * point.failure_release[p];
     if (!body.edge.record) continue;
-    double left = 1.0;
-    for (const Field* damage : point.mode_damage()) left *= 1.0 - (*damage)[p];
+    double damage[plasticity::ply_modes];
+    for (std::size_t mode = 0; mode < plasticity::ply_modes; ++mode)
+      damage[mode] = 1.0 - point.ply_left[mode][p];
     body.edge.record[EdgeRecord<dim>::size * p + EdgeRecord<dim>::modulus] = body.edge.modulus[p] =
-        left * material.shear_modulus();
+        plasticity::shear_left(damage) * material.shear_modulus();
   }
   sums_[due.index(range)] = sum;
 }

@@ -56,7 +56,6 @@ struct PlyPoint {
   }
   /// Per reference volume, J/m³.
   double energy() const { return state.stored_energy[0] * state.stress_free[0]; }
-  const Field& damage(int mode) const { return *state.mode_damage()[static_cast<std::size_t>(mode)]; }
 };
 
 /// F without rotation whose ½ ln C has these components in axes turned by an angle: ε11, ε22, γ12.

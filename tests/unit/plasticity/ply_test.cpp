@@ -95,11 +95,8 @@ TEST(Ply, stress_is_the_derivative_of_the_energy) {
           if (damaged) material.failure = Failure{};
           PlyPoint point(material, stress_free);
           point.set_earlier(random.deformation(0.4));
-          if (damaged) {
-            Field* damage[] = {&point.state.fibre_tension_damage, &point.state.fibre_compression_damage,
-                               &point.state.matrix_tension_damage, &point.state.matrix_compression_damage};
-            for (Field* d : damage) (*d)[0] = random.uniform(0.0, 0.9);
-          }
+          if (damaged)
+            for (Field& left : point.state.ply_left) left[0] = random.uniform(0.1, 1.0);
           const Mat2 F = random.deformation(0.3);
           ASSERT_TRUE(point.set(F, 0.0));
           const Mat2 P = point.piola();
