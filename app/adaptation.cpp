@@ -121,7 +121,8 @@ Field Adaptation::wanted_spacing(const ExplicitSolver<2>& solver, const Cloud<2>
     constexpr double least = 0.01; // what was strained less has not flowed
     const PointState<2>& point = solver.state().point;
     // bands that broke keep their cells: mixed with what is whole beside them they would be smeared
-    const auto whole = [&](std::size_t i) { return !point.damaged.on() || point.softening[i] == 0.0; };
+    const Field lost = lost_share(point);
+    const auto whole = [&](std::size_t i) { return lost.empty() || lost[i] == 0.0; };
     for (std::size_t i = 0; i < wanted.size(); ++i)
       if (flow_.rests(i) && point.plastic_strain[i] > least && whole(i))
         wanted[i] = std::max(wanted[i], rules.rest_factor * first_[i]);
@@ -162,7 +163,7 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   double changed = 0.0;
   Cloud<2> cloud = solver.present_cloud();
   part_faces(cloud, solver.conditions().ties,
-             input_->adapt.separate ? Field(solver.state().point.softening) : Field());
+             input_->adapt.separate ? lost_share(solver.state().point) : Field());
   const Field size_before = size_;
   const adapt::Flow flow_before = flow_;
   try {

@@ -3,6 +3,7 @@
 #include "adapt/matter.hpp"
 #include "core/index.hpp"
 #include "input/case.hpp"
+#include "mechanics/broken.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "mechanics/kinematics.hpp"
 
@@ -39,7 +40,7 @@ adapt::NodeProperties node_properties(const input::Case& input, const ExplicitSo
   if (input.materials.size() > 1)
     properties.part.assign(state.node.material.begin(), state.node.material.end());
   if (input.adapt.separate) { // of what is broken, the most strained is in the middle of the band
-    properties.broken = state.point.softening;
+    properties.broken = lost_share(state.point);
     for (std::size_t i = 0; i < n; ++i)
       if (properties.broken[i] >= 1.0) properties.broken[i] += state.point.plastic_strain[i];
   }

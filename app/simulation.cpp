@@ -27,6 +27,25 @@ Schedule every(double interval, double end, const Schedule& otherwise) {
   return interval > 0.0 ? Schedule::every(interval, end) : otherwise;
 }
 
+/// A cell over which a mode would let go more energy than it takes cannot spend it.
+template<int dim> void refuse_snap_back(const input::Case& input, const ExplicitSolver<dim>& solver) {
+  constexpr const char* modes[] = {"Gft", "Gfc", "Gmt", "Gmc", "Gs"};
+  const PointState<dim>& point = solver.state().point;
+  for (std::size_t p = 0; p < point.failure_length.size(); ++p) {
+    const plasticity::Material& material = solver.model().materials[index_of(point.material[p])];
+    if (!material.failure) continue;
+    const auto elastic = plasticity::ply_constants(*material.ply, solver.model().plane_stress);
+    for (int mode = 0; mode < plasticity::ply_modes; ++mode)
+      if (const double longest = material.failure->longest_length(elastic, mode);
+          point.failure_length[p] >= longest)
+        throw input.error(
+            fmt::format("materials.{}.failure.{}", material.name, modes[mode]),
+            fmt::format("found an energy that cells of a length of {:.4g} m cannot spend, band √area, "
+                        "expected cells below 2 G E/X² = {:.4g} m: a finer cloud or more energy",
+                        point.failure_length[p], longest));
+  }
+}
+
 } // namespace
 
 template<int dim>
@@ -34,7 +53,10 @@ ExplicitSolver<dim> make_solver(const input::Case& input, std::vector<std::strin
   Setup<dim> setup = build<dim>(input);
   warnings = std::move(setup.warnings);
   try {
-    return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
+    ExplicitSolver<dim> solver{std::move(setup.problem), std::move(setup.velocity),
+                               std::move(setup.temperature)};
+    refuse_snap_back(input, solver);
+    return solver;
   } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
 }
 

@@ -21,7 +21,7 @@ void deform(PointState<2>& point, PointTest::Kind kind, double strain) {
 } // namespace
 
 PointCurve point_curve(const plasticity::Material& material, const PointTest& test, int steps) {
-  if (material.anisotropy)
+  if (material.anisotropy || material.ply)
     throw InputError(fmt::format("material '{}' is anisotropic, expected an isotropic one for curves of a "
                                  "single point",
                                  material.name));

@@ -57,10 +57,13 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     conflict("adapt.indicator.field",
              fmt::format("found \"{}\" where no material has a damage law, expected materials.NAME.damage",
                          rules.indicator->name));
-  if (rules.separate && !damage)
+  const bool failure =
+      std::any_of(result.materials.begin(), result.materials.end(),
+                  [](const plasticity::Material& material) { return material.failure.has_value(); });
+  if (rules.separate && !damage && !failure)
     conflict("adapt.separate",
-             "found true where no material has a damage law, expected materials.NAME.damage: nothing "
-             "would ever break");
+             "found true where no material has a damage law, expected materials.NAME.damage, or failure of a "
+             "ply: nothing would ever break");
   if (rules.separate && !result.contact.active)
     conflict("adapt.separate",
              "found true without contact.deformable, expected contact.deformable = true: the new faces would "

@@ -96,6 +96,72 @@ plasticity::Hill48 read_anisotropy(const Setting& table, const Setting& material
   return law;
 }
 
+void require_key(const Setting& table, const char* key, const std::string& because,
+                 Diagnostics& diagnostics) {
+  if (!table.find(key))
+    diagnostics.add(Mistake::missing_key, table.where, fmt::format("{}.{}", table.path, key),
+                    "missing, expected it with " + because);
+}
+
+bool material_expands(const Setting& expansion) { return std::get<double>(expansion.value) != 0.0; }
+
+/// The constants have to leave every strain an energy above zero.
+void read_elasticity(const Setting& table, const Setting& of, plasticity::Material& material,
+                     Diagnostics& diagnostics) {
+  using plasticity::Elasticity, plasticity::Orthotropic;
+  if (table.get<std::string>("law") == Elasticity::name)
+    return read_constants(Elasticity::parameters, table, material.elasticity);
+  Orthotropic ply;
+  read_constants(Orthotropic::parameters, table, ply);
+  ply.measure = table.choice<plasticity::StrainMeasure>("measure");
+  material.ply = ply;
+  if (!ply.sound_in_plane()) {
+    const Setting& key = *table.find("nu12");
+    diagnostics.add(
+        Mistake::range, key.where, key.path,
+        fmt::format("found {:g}, expected less than √(E1/E2) = {:.4g}: pulled plies would release energy",
+                    ply.nu12, std::sqrt(ply.E1 / ply.E2)));
+  } else if (!ply.sound_in_space()) {
+    const Setting& key = *table.find("nu23");
+    diagnostics.add(
+        Mistake::range, key.where, key.path,
+        fmt::format("found nu23 = {:g} beside nu12 = {:g}, nu13 = {:g} and these moduli, expected "
+                    "constants with which every strain stores energy",
+                    ply.nu23, ply.nu12, ply.nu13));
+  }
+  for (const char* other : {"plastic", "anisotropy", "equation_of_state", "damage"})
+    if (const Setting* found = of.find(other))
+      diagnostics.add(Mistake::conflict, found->where, found->path,
+                      "found beside an orthotropic elasticity, expected an isotropic one: plies are elastic "
+                      "until they fail");
+  if (const Setting* expansion = of.find("heat.expansion"); expansion && material_expands(*expansion))
+    diagnostics.add(Mistake::conflict, expansion->where, expansion->path,
+                    "found in an orthotropic material, expected 0: plies expand differently along and across "
+                    "fibres");
+}
+
+std::optional<plasticity::Failure> read_failure(const Setting& table, const plasticity::Material& material,
+                                                Diagnostics& diagnostics) {
+  using plasticity::Failure;
+  Failure law;
+  law.criterion = table.choice<plasticity::FailureCriterion>("law");
+  law.degradation = table.choice<plasticity::Degradation>("degradation");
+  read_constants(Failure::parameters, table, law);
+  if (law.Gs == infinite) law.Gs = law.Gmt;
+  const bool larc02 = law.criterion == plasticity::FailureCriterion::larc02;
+  require_key(table, larc02 ? "eps1t" : "Xt", fmt::format("law = \"{}\"", table.get<std::string>("law")),
+              diagnostics);
+  if (law.degradation == plasticity::Degradation::energy)
+    for (const char* energy : {"Gft", "Gfc", "Gmt", "Gmc"})
+      require_key(table, energy, "degradation = \"energy\"", diagnostics);
+  if (!material.ply)
+    diagnostics.add(
+        Mistake::conflict, table.where, table.path,
+        "found in an isotropic material, expected elastic.law = \"orthotropic\": its modes are those "
+        "of fibres and matrix");
+  return law;
+}
+
 /// It gives a material its bulk modulus and its expansion by heat.
 void read_equation_of_state(const Setting& table, const Setting& of, plasticity::Material& material,
                             Diagnostics& diagnostics) {
@@ -139,6 +205,14 @@ void set_material_defaults(Setting& root, double temperature) {
       for (const char* key : {"r45", "r90"})
         root.set_default(fmt::format("{}.anisotropy.{}", entry.path, key), *along);
   for (const Setting& entry : root.entries("materials")) {
+    if (entry.maybe<std::string>("elastic.law") != plasticity::Orthotropic::name) continue;
+    for (const auto& [key, of] : {std::pair{"E3", "E2"}, {"nu13", "nu12"}})
+      if (const auto value = entry.maybe<double>(fmt::format("elastic.{}", of)))
+        root.set_default(fmt::format("{}.elastic.{}", entry.path, key), *value);
+    if (const auto matrix = entry.maybe<double>("failure.Gmt"))
+      root.set_default(entry.path + ".failure.Gs", *matrix);
+  }
+  for (const Setting& entry : root.entries("materials")) {
     if (entry.maybe<std::string>("damage.law") != plasticity::JohnsonCookDamage::name) continue;
     const auto from_plastic = [&](const char* key) {
       return entry.maybe<double>(fmt::format("plastic.{}", key));
@@ -177,9 +251,11 @@ plasticity::Material read_material(const Setting& table, std::vector<std::string
                                    Diagnostics& diagnostics) {
   plasticity::Material material;
   material.name = table.name;
-  using plasticity::Elasticity, plasticity::Material;
+  using plasticity::Material;
   read_constants(Material::parameters, table, material);
-  read_constants(Elasticity::parameters, *table.find("elastic"), material.elasticity);
+  read_elasticity(*table.find("elastic"), table, material, diagnostics);
+  if (const Setting* failure = table.find("failure"))
+    material.failure = read_failure(*failure, material, diagnostics);
   if (const Setting* anisotropy = table.find("anisotropy"))
     material.anisotropy = read_anisotropy(*anisotropy, table, diagnostics);
   if (const Setting* plastic = table.find("plastic")) {

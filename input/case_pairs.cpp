@@ -65,6 +65,26 @@ const plasticity::Material* planar(const Case& c) {
   });
   return found == c.materials.end() ? nullptr : &*found;
 }
+using Metal = plasticity::Material;
+
+/// The path of what the first material has that something holds for; "": none.
+Text first_path(const Case& c, const char* key, bool (*holds)(const Metal&)) {
+  const auto found = std::find_if(c.materials.begin(), c.materials.end(), holds);
+  return found == c.materials.end() ? "" : "materials." + found->name + key;
+}
+Text fibrous_path(const Case& c) {
+  return first_path(c, ".elastic", [](const Metal& m) { return m.ply.has_value(); });
+}
+bool fibrous(const Case& c) { return !fibrous_path(c).empty(); }
+bool failing(const Case& c) {
+  return !first_path(c, "", [](const Metal& m) { return m.failure.has_value(); }).empty();
+}
+Text with_fibres(const Case& c) { return when(fibrous(c), "with an orthotropic material"); }
+Text in_thin_dynamics(const Case& c) {
+  return when(!is_static(c) && c.analysis.kinematics == Analysis::Kinematics::plane_stress,
+              "in an explicit analysis of plane stress");
+}
+
 const BoundaryCondition* moving(const Case& c) {
   const auto found =
       std::find_if(c.boundary.begin(), c.boundary.end(),
@@ -153,9 +173,53 @@ const std::vector<Pair>& pairs() {
        "it pushes along its motion alone", nullptr,
        [](const Case& c) { return "tools." + kinematic(c, stands)->name + ".response.law"; }},
 
-      {"analysis.kinematics", "\"plane stress\"", "explicit analyses", in_dynamics,
-       "it with analysis.type = \"static\" only", "the return map solves for no strain out of the plane",
-       [](const Case& c) { return c.analysis.kinematics == Analysis::Kinematics::plane_stress; }},
+      {"materials.*.damage", "", "plane stress in explicit analyses", in_thin_dynamics,
+       "analysis.kinematics = \"plane strain\"",
+       "softening takes the mean stress and leaves one out of the plane", nullptr,
+       [](const Case& c) {
+         return first_path(c, ".damage", [](const Metal& m) { return m.damage.has_value(); });
+       }},
+      {"materials.*.equation_of_state", "", "plane stress in explicit analyses", in_thin_dynamics,
+       "analysis.kinematics = \"plane strain\"", "its pressure would act out of the plane", nullptr,
+       [](const Case& c) {
+         return first_path(c, ".equation_of_state",
+                           [](const Metal& m) { return m.equation_of_state.has_value(); });
+       }},
+      {"method.pressure_exchange", "an exchange of volume", "plane stress in explicit analyses",
+       in_thin_dynamics, "0", "sheets flow without constraint of their volume in the plane",
+       [](const Case& c) { return c.method.pressure_exchange > 0.0; }},
+      {"method.stress_annealing", "an annealing", "plane stress in explicit analyses", in_thin_dynamics, "0",
+       "it shares out stresses with that out of the plane",
+       [](const Case& c) { return c.method.stress_annealing > 0.0; }},
+      {"report.springback", "true", "plane stress in explicit analyses", in_thin_dynamics, "false",
+       "its elastic way back is that of plane strain", [](const Case& c) { return c.report.springback; }},
+      {"materials.*.elastic", "an orthotropic elasticity", "axisymmetric analyses",
+       [](const Case& c) { return when(is_round(c) && fibrous(c), "in an axisymmetric analysis"); },
+       "law = \"isotropic\"", "fibres in a plane through the axis are not the same all around", nullptr,
+       fibrous_path},
+      {"materials.*.elastic", "an orthotropic elasticity", "three-dimensional analyses",
+       [](const Case& c) {
+         return when(c.analysis.dimensions() == 3 && fibrous(c), "in a three-dimensional analysis");
+       },
+       "law = \"isotropic\"", "fibres lie in the plane of the model, at one angle", nullptr, fibrous_path},
+      {"materials.*.elastic", "an orthotropic elasticity", "`domain.cracks` in static analyses",
+       [](const Case& c) {
+         return when(is_static(c) && !c.domain.cracks.empty() && fibrous(c), "with domain.cracks");
+       },
+       "law = \"isotropic\"", "tip functions and interaction integrals are those of isotropic plates",
+       nullptr, fibrous_path},
+      {"materials.*.failure", "", "static analyses",
+       [](const Case& c) { return when(is_static(c) && failing(c), "in a static analysis"); }, dynamics,
+       "equilibrium is elastic", nullptr,
+       [](const Case& c) {
+         return first_path(c, ".failure", [](const Metal& m) { return m.failure.has_value(); });
+       }},
+      {"method.pressure_exchange", "an exchange of volume", "an orthotropic material", with_fibres, "0",
+       "plies do not flow", [](const Case& c) { return c.method.pressure_exchange > 0.0; }},
+      {"method.stress_annealing", "an annealing", "an orthotropic material", with_fibres, "0",
+       "plies do not flow", [](const Case& c) { return c.method.stress_annealing > 0.0; }},
+      {"report.springback", "true", "an orthotropic material", with_fibres, "false",
+       "its elastic way back is isotropic", [](const Case& c) { return c.report.springback; }},
       {"fracture", "", "explicit analyses", in_dynamics, "it with analysis.type = \"static\" only",
        "tip functions and interaction integrals are those of equilibrium"},
       {"initial.spin", "a rotation in the meridian plane", "axisymmetric analyses",

@@ -23,8 +23,16 @@ ExplicitSolver<dim>::ExplicitSolver(Problem<dim> problem, Fields<dim> velocity, 
       std::any_of(model_.materials.begin(), model_.materials.end(),
                   [](const plasticity::Material& material) { return material.damage.has_value(); }));
   state_.point.oriented.switch_on(
+      std::any_of(model_.materials.begin(), model_.materials.end(), [](const plasticity::Material& material) {
+        return material.anisotropy.has_value() || material.ply.has_value();
+      }));
+  state_.point.fibrous.switch_on(
       std::any_of(model_.materials.begin(), model_.materials.end(),
-                  [](const plasticity::Material& material) { return material.anisotropy.has_value(); }));
+                  [](const plasticity::Material& material) { return material.ply.has_value(); }));
+  state_.point.failing.switch_on(
+      std::any_of(model_.materials.begin(), model_.materials.end(),
+                  [](const plasticity::Material& material) { return material.failure.has_value(); }));
+  state_.point.thin.switch_on(model_.plane_stress);
   state_.point.traded.switch_on(model_.pressure_exchange > 0.0 || model_.stress_annealing > 0.0);
   for (FieldTable* table : node_tables()) table->rest(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -117,8 +125,7 @@ template<int dim> double ExplicitSolver<dim>::wanted_step() const {
   if (scaling.cell <= 0.0) return scaling.step;
   double fastest = 0.0; // m²/s²
   for (const plasticity::Material& material : model_.materials)
-    fastest =
-        std::max(fastest, (material.elasticity.lambda() + 2.0 * material.elasticity.mu()) / material.density);
+    fastest = std::max(fastest, material.wave_modulus(model_.plane_stress) / material.density);
   return 2.0 * model_.safety * scaling.cell / std::sqrt(fastest);
 }
 
@@ -160,8 +167,7 @@ template<int dim> std::vector<FieldTable*> ExplicitSolver<dim>::node_tables() {
 
 /// Those of the state and of the terms.
 template<int dim> std::vector<FieldTable*> ExplicitSolver<dim>::point_tables() {
-  std::vector<FieldTable*> tables{&state_.point.table, &state_.point.damaged, &state_.point.traded,
-                                  &state_.point.oriented};
+  std::vector<FieldTable*> tables = state_.point.tables();
   each([&](Term<dim>& term) {
     if (FieldTable* table = term.fields()) tables.push_back(table);
   });
@@ -206,9 +212,9 @@ template<int dim> void ExplicitSolver<dim>::start_flow_stress(std::size_t p) {
 template<int dim> void ExplicitSolver<dim>::set_moduli() {
   PointState<dim>& point = state_.point;
   for (std::size_t p = 0; p < point.size(); ++p) {
-    const plasticity::Elasticity& elasticity = body().material_of(p).elasticity;
-    point.shear_modulus[p] = elasticity.mu();
-    point.wave_modulus[p] = elasticity.lambda() + 2.0 * elasticity.mu();
+    const plasticity::Material& material = body().material_of(p);
+    point.shear_modulus[p] = material.shear_modulus();
+    point.wave_modulus[p] = material.wave_modulus(model_.plane_stress);
   }
 }
 

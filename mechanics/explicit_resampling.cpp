@@ -5,6 +5,7 @@
 #include "mechanics/kinematics.hpp"
 #include "mechanics/mixing.hpp"
 #include "mechanics/node_heat.hpp"
+#include "mechanics/ply_mixing.hpp"
 
 #include <cassert>
 
@@ -56,6 +57,9 @@ void ExplicitSolver<dim>::carry_over(const Resampling<dim>* change, const std::o
   Field mass(points ? point.size() : 0);
   for (std::size_t p = 0; p < mass.size(); ++p) mass[p] = point_mass(p);
   Field tension = points ? held_tension(model_.materials, point) : Field();
+  if (points) to_present_thickness(point);
+  const PlyDeformation<dim> plies =
+      points ? mixed_plies(points->parcels, mass, model_.materials, point) : PlyDeformation<dim>();
   if (change) carry_nodes(*change);
   if (points) {
     for (FieldTable* table : point_tables()) {
@@ -75,6 +79,8 @@ void ExplicitSolver<dim>::carry_over(const Resampling<dim>* change, const std::o
         elastic_volume[p] = body().material_of(p).density * now.volume[p] / elastic_volume[p];
     }
     mix_elastic(points->parcels, mass, tension, elastic_volume, model_.materials, point);
+    to_initial_thickness(point);
+    set_plies(plies, elastic_volume, point);
   }
   if (change && change->open()) rest_virgin(*change);
   each([&](Term<dim>& term) { term.carried(body()); });
@@ -85,8 +91,7 @@ template<int dim> void ExplicitSolver<dim>::rest_virgin(const Resampling<dim>& c
   PointState<dim>& point = state_.point;
   for (const NodeIndex node : change.virgin) {
     const auto p = index_of(point_of(node));
-    for (FieldTable* table : {&point.table, &point.damaged, &point.traded, &point.oriented})
-      table->rest_at(p);
+    for (FieldTable* table : point.tables()) table->rest_at(p);
     start_flow_stress(p);
   }
 }

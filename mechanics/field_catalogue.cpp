@@ -201,8 +201,14 @@ template<int dim> const std::vector<FieldInfo<dim>>& field_catalogue() {
     for (FieldInfo<dim>& derived : derived_fields<dim>()) fields.push_back(std::move(derived));
     add_shown(fields, state.point.damaged, false, false,
               [](Source s) -> Table { return s.state.point.damaged; });
-    if constexpr (dim == 2)
+    if constexpr (dim == 2) {
+      add_shown(fields, state.point.thin, false, false, [](Source s) -> Table { return s.state.point.thin; });
+      add_shown(fields, state.point.fibrous, false, false,
+                [](Source s) -> Table { return s.state.point.fibrous; });
+      add_shown(fields, state.point.failing, false, false,
+                [](Source s) -> Table { return s.state.point.failing; });
       add_shown(fields, adaptation.table, true, true, [](Source s) -> Table { return s.adaptation->table; });
+    }
     return fields;
   }();
   return list;

@@ -28,9 +28,10 @@ template<int dim> struct Model {
   double stress_annealing = 0.0;  ///< strength of the annealing of stresses where flow has ceased
   BulkViscosity viscosity;
   bool thermal = true;
-  bool mechanical = true; ///< false: nothing moves, heat alone
-  double safety = 0.9;    ///< factor on the stable step
-  LocalStepControl local; ///< local time steps
+  bool mechanical = true;    ///< false: nothing moves, heat alone
+  bool plane_stress = false; ///< in the plane: no stress out of it; all is per initial thickness
+  double safety = 0.9;       ///< factor on the stable step
+  LocalStepControl local;    ///< local time steps
   MassScaling mass_scaling;
   bool open = false;                           ///< matter comes and goes: a window moves with a tool
   bool sprung_tools = false;                   ///< there are tools on springs or with dampers

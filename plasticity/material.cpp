@@ -16,6 +16,16 @@ Elasticity Elasticity::with_bulk_modulus(double kappa) const {
   return {9.0 * kappa * shear / both, (1.5 * kappa - shear) / both};
 }
 
+double Material::shear_modulus() const { return ply ? ply->G12 : elasticity.mu(); }
+
+double Material::wave_modulus(bool stress_free) const {
+  if (ply) return ply_constants(*ply, stress_free).stiffness().largest_eigenvalue();
+  if (stress_free) return elasticity.young / (1.0 - elasticity.poisson * elasticity.poisson);
+  return elasticity.lambda() + 2.0 * elasticity.mu();
+}
+
+double Material::fastest_wave() const { return std::sqrt(wave_modulus() / density); }
+
 double Material::melting_temperature() const {
   return std::min(hardening ? hardening->melting_temperature() : infinite,
                   damage ? damage->melting_temperature() : infinite);

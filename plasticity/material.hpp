@@ -5,8 +5,10 @@
 #include "core/parameter.hpp"
 #include "plasticity/breaking.hpp"
 #include "plasticity/equation_of_state.hpp"
+#include "plasticity/failure.hpp"
 #include "plasticity/hardening.hpp"
 #include "plasticity/hill48.hpp"
+#include "plasticity/orthotropic.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +22,9 @@ namespace cnem::plasticity {
 struct Elasticity {
   double young = 0.0, poisson = 0.0;
 
+  static constexpr const char* name = "isotropic";
+  static constexpr const char* formula = "Kirchhoff stress linear in logarithmic strain";
+  static constexpr const char* source = "paper 004 (31), (32)";
   static constexpr Parameter<Elasticity> parameters[] = {
       {&Elasticity::young,
        {.name = "young",
@@ -52,10 +57,14 @@ struct MeasuredRange {
   Range strain, rate, temperature;
 };
 
+using ElasticLaws = Laws<Elasticity, Orthotropic>;
+
 struct Material {
   std::string name;
   double density = 0.0;
-  Elasticity elasticity;
+  Elasticity elasticity;                         ///< where it is no ply
+  std::optional<Orthotropic> ply;                ///< none: isotropic
+  std::optional<Failure> failure;                ///< of a ply; none: never fails
   std::optional<Hardening> hardening;            ///< none: elastic
   std::optional<Hill48> anisotropy;              ///< none: von Mises
   std::optional<Damage> damage;                  ///< none: never breaks
@@ -65,6 +74,10 @@ struct Material {
   double expansion_reference = 293.15;
   HeatCurves heat_curves; ///< factors of specific heat and conductivity
 
+  double shear_modulus() const; ///< Pa, μ or G12
+  /// Pa: λ + 2μ, without stress out of the plane E/(1 − ν²), of a ply the largest eigenvalue of its stiffness
+  double wave_modulus(bool stress_free = false) const;
+  double fastest_wave() const; ///< m/s, √(wave modulus/ρ), without strain out of the plane
   double thermal_strain(double temperature) const { return expansion * (temperature - expansion_reference); }
   double melting_temperature() const; ///< K, of hardening or damage, the lower; infinite: neither knows one
 

@@ -2,6 +2,8 @@
 
 #include "core/machine/isa.hpp"
 #include "plasticity/hardening_laws.hpp"
+#include "plasticity/plane_stress.hpp"
+#include "plasticity/ply_update.hpp"
 #include "plasticity/return_map_parameters.hpp"
 
 namespace cnem::plasticity {
@@ -25,6 +27,33 @@ ReturnMapParameters return_map_parameters(const Material& material, double dt) {
   return p;
 }
 
+namespace {
+
+template<int dim> PlyPoints ply_points(PointState<dim>& state) {
+  PlyPoints p{};
+  p.fibre_angle = state.fibre_angle.data();
+  if (!state.failing.on()) return p;
+  Field* const damage[] = {&state.fibre_tension_damage, &state.fibre_compression_damage,
+                           &state.matrix_tension_damage, &state.matrix_compression_damage,
+                           &state.shear_damage};
+  Field* const index[] = {&state.fibre_tension_index, &state.fibre_compression_index,
+                          &state.matrix_tension_index, &state.matrix_compression_index, &state.shear_index};
+  for (std::size_t k = 0; k < ply_modes; ++k) {
+    p.damage[k] = damage[k]->data();
+    p.index[k] = index[k]->data();
+    p.onset_strain[k] = state.onset_strain[k].data();
+    p.onset_stress[k] = state.onset_stress[k].data();
+    p.begun[k] = state.begun[k].data();
+    p.left[k] = state.ply_left[k].data();
+  }
+  for (std::size_t k = 0; k < 3; ++k) p.strain[k] = state.ply_strain[k].data();
+  p.release = state.failure_release.data();
+  p.length = state.failure_length.data();
+  return p;
+}
+
+} // namespace
+
 template<int dim> StressPoints<dim> stress_points(PointState<dim>& state) {
   StressPoints<dim> p{};
   for (std::size_t c = 0; c < state.deformation.size(); ++c) {
@@ -46,18 +75,35 @@ template<int dim> StressPoints<dim> stress_points(PointState<dim>& state) {
   p.stored_energy = state.stored_energy.data();
   p.dissipation = state.dissipation.data();
   p.stress_free = state.stress_free.data();
+  if (state.thin.on()) p.thickness = state.thickness.data();
+  if (state.fibrous.on()) p.ply = ply_points(state);
   return p;
 }
 
+namespace {
+
+/// The return map of the yield function that a material has.
 template<int dim>
-std::ptrdiff_t update_stress(const Material& material, const StressPoints<dim>& points, std::ptrdiff_t begin,
-                             std::ptrdiff_t end, double dt) {
+std::ptrdiff_t return_to_yield(const Material& material, const StressPoints<dim>& points,
+                               std::ptrdiff_t begin, std::ptrdiff_t end, double dt) {
   const ReturnMapParameters parameters = return_map_parameters(material, dt);
   if (material.anisotropy) {
     const HillForm form = material.anisotropy->form();
     CNEM_ON_ACTIVE_ISA(hill_return_map(parameters, form, points, begin, end));
   }
   CNEM_ON_ACTIVE_ISA(return_map(parameters, points, begin, end));
+}
+
+} // namespace
+
+template<int dim>
+std::ptrdiff_t update_stress(const Material& material, const StressPoints<dim>& points, std::ptrdiff_t begin,
+                             std::ptrdiff_t end, double dt) {
+  if constexpr (dim == 2) {
+    if (material.ply) return update_plies(material, points, begin, end, dt);
+    if (points.thickness) return update_plane_stress(return_to_yield<2>, material, points, begin, end, dt);
+  }
+  return return_to_yield(material, points, begin, end, dt);
 }
 
 template<int dim>

@@ -1,6 +1,8 @@
 #pragma once
 // What the return map reads and writes, as plain pointers: this header is also seen by the kernels that are
 // compiled once per instruction set, so it holds no functions and no standard containers.
+#include "plasticity/ply_points.hpp"
+
 #include <cstddef>
 
 namespace cnem::plasticity {
@@ -32,6 +34,9 @@ template<int dim> struct StressPoints {
   double* stored_energy;  ///< J/m³  ψ per unit stress-free volume
   double* dissipation;    ///< J/m³  plastic work of this step per unit stress-free volume; χ of it is heat
   double* stress_free;    ///< –     V_stress-free/V_reference = 1/√det C_p⁻¹
+  // of some analyses and materials alone, which kernels do not see
+  double* thickness; ///< –     of plane stress, present over initial; in: that of t_n; null: no such analysis
+  PlyPoints ply;
 };
 
 } // namespace cnem::plasticity

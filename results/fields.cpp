@@ -4,6 +4,7 @@
 #include "core/fields/vector_at.hpp"
 #include "core/index.hpp"
 #include "core/machine/parallel.hpp"
+#include "mechanics/broken.hpp"
 #include "mechanics/kinematics.hpp"
 
 #include <algorithm>
@@ -91,8 +92,9 @@ template<int dim> double broken_measure(const Snapshot<dim>& shot) {
   const DiscreteOperators<dim>& op = shot.approximation.mechanics;
   const PointState<dim>& point = shot.state.point;
   double volume = 0.0;
-  for (std::size_t p = 0; p < point.softening.size(); ++p)
-    if (point.softening[p] >= 1.0) volume += op.volume[p] * point.stress_free[p];
+  const Field lost = lost_share(point);
+  for (std::size_t p = 0; p < lost.size(); ++p)
+    if (lost[p] >= 1.0) volume += op.volume[p] * point.stress_free[p];
   return volume;
 }
 

@@ -81,7 +81,7 @@ double gained_by_window(const input::Case& input) {
 double usual_step(const Model<2>& model, double spacing, double safety) {
   double fastest = 0.0;
   for (const plasticity::Material& material : model.materials)
-    fastest = std::max(fastest, material.elasticity.dilatational_speed(material.density));
+    fastest = std::max(fastest, material.fastest_wave());
   return safety * 0.73 * spacing / fastest;
 }
 

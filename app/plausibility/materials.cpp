@@ -38,6 +38,7 @@ void doubt_sizes(const input::Case& input, const Material& material, Doubts& dou
 /// Also of what does not flow: solids as dense as metals are stiff.
 void doubt_stiffness(const input::Case& input, const Material& material, Doubts& doubts) {
   constexpr double dense = 2000.0, soft = 1e9, nothing = 1e6; // kg/m³, Pa
+  if (material.ply) return; // constants along and across fibres are not those of metals
   const double young = material.elasticity.young;
   if (material.density < dense || young >= soft || young < nothing) return;
   doubts.push_back(

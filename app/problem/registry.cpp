@@ -255,6 +255,7 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   model.pressure_exchange = input.method.pressure_exchange;
   model.stress_annealing = input.method.stress_annealing;
   model.viscosity = {input.method.viscosity_quadratic, input.method.viscosity_linear};
+  model.plane_stress = input.analysis.kinematics == input::Analysis::Kinematics::plane_stress;
   model.thermal = input.analysis.thermal;
   model.open = input.adapt.window.has_value();
   model.mechanical = input.analysis.mechanical;

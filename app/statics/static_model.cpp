@@ -55,6 +55,12 @@ template<int dim> std::size_t cell_of(const StaticModel<dim>& model, std::size_t
     return p;
 }
 
+std::optional<plasticity::PlaneStiffness> ply_stiffness(const plasticity::Material& material,
+                                                        bool stress_free) {
+  if (!material.ply) return std::nullopt;
+  return plasticity::plane_stiffness(*material.ply, stress_free);
+}
+
 template<int dim> Approximation<dim> approximate(const input::Case& input, const Problem<dim>& model) {
   try {
     return model.method->rebuild(model.cloud);
@@ -112,6 +118,7 @@ template<int dim> StaticProblem<dim> StaticModel<dim>::problem() const {
           .links = links(),
           .link_points = approximation.mechanics,
           .elasticity = setup.problem.materials.front().elasticity,
+          .ply = ply_stiffness(setup.problem.materials.front(), plane_stress(input)),
           .out_of_plane = plane_stress(input) ? OutOfPlane::stress_free : OutOfPlane::strain_free,
           .stabilisation = setup.problem.stabilisation,
           .supports = setup.problem.supports,

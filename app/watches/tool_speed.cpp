@@ -43,7 +43,7 @@ template<int dim>
 double slowest_waves(const input::Case& input, const Model<dim>& model, std::string& material) {
   double slowest = std::numeric_limits<double>::infinity();
   for (const plasticity::Material& own : model.materials)
-    if (const double speed = own.elasticity.dilatational_speed(own.density); speed < slowest) {
+    if (const double speed = own.fastest_wave(); speed < slowest) {
       slowest = speed;
       material = own.name;
     }

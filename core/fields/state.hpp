@@ -17,6 +17,21 @@ template<int dim> inline constexpr int symmetric_size = dim == 2 ? 4 : 6;
 /// Components of a general tensor: 2D keeps the out-of-plane one: xx, xy, yx, yy, zz; 3D row by row.
 template<int dim> inline constexpr int tensor_size = dim == 2 ? 5 : 9;
 
+/// Damage and failure index of a mode of plies.
+constexpr FieldLine ply_damage(const char* name, const char* label, const char* meaning) {
+  return {name,
+          "1",
+          Carry::mass_mean,
+          Checkpoint::holds,
+          rest_zero,
+          Shown{label, meaning, "", 1.0, ColourMap::strain}};
+}
+constexpr FieldLine ply_index(const char* name, const char* label, const char* meaning) {
+  return {name,           "1",
+          Carry::renewed, Checkpoint::holds,
+          rest_zero,      Shown{label, meaning, "", 1.0, ColourMap::heat}};
+}
+
 /// Fields at nodes. Index: [node], vectors [component][node]. Per metre of thickness in the plane, of the
 /// whole body in 3D and of revolution.
 template<int dim> struct NodeState {
@@ -142,12 +157,71 @@ template<int dim> struct PointState {
   TensorField<tensor_size<dim>> earlier_deformation{
       oriented, {"earlier_deformation", "1", Carry::mass_mean, Checkpoint::holds, rest_unit_general<dim>}};
 
+  FieldTable thin{"solver/point",
+                  false}; ///< on in plane stress, where what is per area is of the initial thickness
+  ScalarField thickness{thin,
+                        {"thickness", "1", Carry::mass_mean, Checkpoint::holds, rest_one,
+                         Shown{"thickness", "Thickness of a point in plane stress over the initial one", "",
+                               1.0, ColourMap::diverging}}};
+
+  FieldTable fibrous{"solver/point", false}; ///< on where a material is a ply
+  /// of the fibres from +x, counter-clockwise, at present
+  ScalarField fibre_angle{fibrous,
+                          {"fibre_angle", "rad", Carry::renewed, Checkpoint::holds, rest_zero,
+                           Shown{"fibre angle", "Angle of the fibres of a ply from +x, counter-clockwise",
+                                 "deg", 3.14159265358979324 / 180.0, ColourMap::diverging}}};
+
+  FieldTable failing{"solver/point", false}; ///< on where a ply fails; modes as in plasticity/ply_points.hpp
+  ScalarField fibre_tension_damage{failing,
+                                   ply_damage("fibre_tension_damage", "fibre damage, tension",
+                                              "Damage of fibres that are pulled: share of stiffness lost")};
+  ScalarField fibre_compression_damage{
+      failing, ply_damage("fibre_compression_damage", "fibre damage, compression",
+                          "Damage of fibres that are compressed: share of stiffness lost")};
+  ScalarField matrix_tension_damage{
+      failing, ply_damage("matrix_tension_damage", "matrix damage, tension",
+                          "Damage of matrix that is pulled across the fibres: share of stiffness lost")};
+  ScalarField matrix_compression_damage{
+      failing, ply_damage("matrix_compression_damage", "matrix damage, compression",
+                          "Damage of matrix that is compressed across the fibres: share of stiffness lost")};
+  ScalarField shear_damage{
+      failing, ply_damage("shear_damage", "shear damage", "Damage of a mode of shear alone (`max-stress`)")};
+  ScalarField fibre_tension_index{failing, ply_index("fibre_tension_index", "fibre index, tension",
+                                                     "Failure index of fibres that are pulled")};
+  ScalarField fibre_compression_index{failing,
+                                      ply_index("fibre_compression_index", "fibre index, compression",
+                                                "Failure index of fibres that are compressed")};
+  ScalarField matrix_tension_index{failing, ply_index("matrix_tension_index", "matrix index, tension",
+                                                      "Failure index of matrix that is pulled")};
+  ScalarField matrix_compression_index{failing,
+                                       ply_index("matrix_compression_index", "matrix index, compression",
+                                                 "Failure index of matrix that is compressed")};
+  ScalarField shear_index{
+      failing, ply_index("shear_index", "shear index", "Failure index of shear alone (`max-stress`)")};
+  /// δ0 and σ0 where an index reached 1, and 1 from then on; means over what has begun where matter was mixed
+  TensorField<5> onset_strain{failing, {"onset_strain", "m", Carry::mass_mean, Checkpoint::holds}};
+  TensorField<5> onset_stress{failing, {"onset_stress", "Pa", Carry::mass_mean, Checkpoint::holds}};
+  TensorField<5> begun{failing, {"begun", "1", Carry::mass_mean, Checkpoint::holds}};
+  /// of the stiffness of each mode; the damages above end at 0.99, what is left bears on
+  TensorField<5> ply_left{
+      failing, {"ply_left", "1", Carry::mass_mean, Checkpoint::holds, Rest{1.0, 1.0, 1.0, 1.0, 1.0}}};
+  /// ε11, ε22, γ12 in the axes of the ply at t_n
+  TensorField<3> ply_strain{failing, {"ply_strain", "1", Carry::renewed, Checkpoint::holds}};
+  /// ℓ over which the energy of a mode is spread
+  ScalarField failure_length{failing, {"failure_length", "m", Carry::renewed, Checkpoint::holds}};
+  /// let go by damage in the last step per unit stress-free volume
+  ScalarField failure_release{failing, {"failure_release", "J/m^3"}};
+
   PointState() = default;
   PointState(const PointState& other) : PointState() { *this = other; }
   ~PointState() = default;
   PointState& operator=(const PointState&) = default;
 
   std::size_t size() const { return plastic_strain.size(); }
+  /// All groups, as checkpoints and changes of the cloud go through them.
+  std::vector<FieldTable*> tables() {
+    return {&table, &damaged, &traded, &oriented, &thin, &fibrous, &failing};
+  }
 };
 
 /// What adaptation says of the nodes; each list is [node].

@@ -25,7 +25,7 @@ void add_general(Keys& k) {
       .one_of({"explicit", "static"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
-        "Per unit thickness: no strain out of the plane, or no stress (static only). `axisymmetric`: "
+        "Per unit thickness: no strain out of the plane, or no stress. `axisymmetric`: "
         "a body of revolution about x = 0, x the radius and y the axial coordinate; nodes on the axis stay "
         "on it, "
         "and masses, forces and energies are those of the whole body. `three-dimensional`: whole bodies as "

@@ -74,6 +74,29 @@ void add_anisotropy(Keys& k, const std::string& at) {
       .fallback("\"y\"");
 }
 
+void add_failure(Keys& k, const std::string& at) {
+  using plasticity::Failure;
+  k.add(at, table,
+        "How a ply fails (`elastic.law = \"orthotropic\"`); without it it never does. Modes of fibres and of "
+        "matrix have an index each, of the stress that intact matter would have (docs/theory.md).");
+  k.add(at + ".law", choice,
+        "`max-stress`: each stress over its strength; `hashin`: with the shear in the modes of tension "
+        "(Hashin 1980); `larc02`: planes of fracture and kinks (Davila and Camanho 2003).")
+      .one_of(
+          {std::begin(plasticity::failure_criterion_names), std::end(plasticity::failure_criterion_names)})
+      .required();
+  add_source(k, at);
+  add_constants(k, at, constant_texts<Failure>(Failure::parameters));
+  k.add(
+       at + ".degradation", choice,
+       "What follows when an index is 1: `energy`: the stress of the mode falls linearly with its opening "
+       "until "
+       "its energy is spent; `sudden`: stiffness is lost at the rate (1 − d) c/ℓ, c the speed of the fastest "
+       "wave, whose energy falls with the cells. A share of 0.01 is always left.")
+      .one_of({std::begin(plasticity::degradation_names), std::end(plasticity::degradation_names)})
+      .fallback("\"energy\"");
+}
+
 void add_equation_of_state(Keys& k, const std::string& at) {
   using Law = plasticity::MieGruneisen;
   k.add(at, table,
@@ -100,7 +123,7 @@ void add_materials(Keys& k) {
         "own. A table with a `law` of its own replaces that of the base.")
       .example("\"lib:304L\"");
   k.add(at + ".leave_out", choices, "Tables of the `base` that are not taken.")
-      .one_of({"plastic", "anisotropy", "equation_of_state", "damage", "heat"})
+      .one_of({"plastic", "anisotropy", "equation_of_state", "failure", "damage", "heat"})
       .example("[\"damage\"]");
   k.add(at + ".origin", text,
         "Written into resolved cases: the material of the library, and which of its constants the case has "
@@ -110,10 +133,19 @@ void add_materials(Keys& k) {
   add_source(k, at).example("\"paper 004, 5.4.3\"");
   k.add(at + ".notes", texts, "What a user should know of them: doubts, other values in print.");
   add_constants(k, at, constant_texts<plasticity::Material>(plasticity::Material::parameters));
-  k.add(at + ".elastic", table, "Isotropic elasticity, linear in logarithmic strain.").required();
+  const std::vector<LawText> elastic_laws = law_texts(plasticity::ElasticLaws{});
+  k.add(at + ".elastic", table, "Elasticity, linear in logarithmic strain where nothing else is said.")
+      .required();
+  add_law_choice(k, at + ".elastic", elastic_laws).fallback("\"isotropic\"");
   add_source(k, at + ".elastic");
-  add_constants(k, at + ".elastic",
-                constant_texts<plasticity::Elasticity>(plasticity::Elasticity::parameters));
+  add_law_constants(k, at + ".elastic", elastic_laws);
+  k.add(at + ".elastic.measure", choice,
+        "Strain that the stress of a ply is linear in, of its stress-free state: `log`: ½ ln C, `green`: "
+        "½ (C − 1), which softens in compression and is at rest again below a stretch of 0.58 (paper 000 "
+        "(51)–(53)).")
+      .one_of({std::begin(plasticity::strain_measure_names), std::end(plasticity::strain_measure_names)})
+      .fallback("\"log\"")
+      .when("law", {plasticity::Orthotropic::name});
   k.add(at + ".plastic", table,
         "Plasticity; the flow stress is a Kirchhoff stress, that of tension along the rolling direction "
         "where there "
@@ -124,6 +156,7 @@ void add_materials(Keys& k) {
   add_range(k, at + ".plastic.range");
   add_anisotropy(k, at + ".anisotropy");
   add_equation_of_state(k, at + ".equation_of_state");
+  add_failure(k, at + ".failure");
   add_damage(k, at + ".damage");
   k.add(at + ".heat", table, "Thermal properties.");
   add_source(k, at + ".heat");

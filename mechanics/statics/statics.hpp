@@ -1,11 +1,13 @@
 #pragma once
-// Linear statics: small-strain isotropic thermoelasticity on the same operators as the explicit solver.
+// Linear statics: small-strain isotropic thermoelasticity, or that of a ply in the plane, on the same
+// operators as the explicit solver.
 #include "core/fields/state.hpp"
 #include "core/geometry/cloud.hpp"
 #include "core/operators/discretisation.hpp"
 #include "mechanics/supports.hpp"
 #include "plasticity/material.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,9 +30,10 @@ template<int dim> struct StaticProblem {
   const DiscreteOperators<dim>& link_points; ///< rows of the gradients at the nodes that `links` join
   plasticity::Elasticity elasticity;
   std::span<const plasticity::Elasticity> elasticity_of_point =
-      {}; ///< [point]; empty: `elasticity` everywhere
+      {};                                             ///< [point]; empty: `elasticity` everywhere
+  std::optional<plasticity::PlaneStiffness> ply = {}; ///< in the plane, everywhere, instead of elasticity
   OutOfPlane out_of_plane = OutOfPlane::strain_free;
-  double stabilisation = 0.05; ///< α of the edge defect, on μ (the mean of both ends)
+  double stabilisation = 0.05; ///< α of the edge defect, on μ or G12 (the mean of both ends)
   const Supports<dim>& supports;
   double thermal_strain =
       0.0;           ///< – α ΔT, the strain without stress, the same everywhere and in all directions
@@ -41,6 +44,8 @@ template<int dim> struct StaticProblem {
   const plasticity::Elasticity& at_point(std::size_t p) const {
     return elasticity_of_point.empty() ? elasticity : elasticity_of_point[p];
   }
+  /// Of the edge defect, Pa.
+  double shear_modulus(std::size_t p) const { return ply ? ply->shear : at_point(p).mu(); }
 };
 
 template<int dim> struct StaticSolution {

@@ -58,7 +58,7 @@ template<int dim, class Visit> std::size_t each_defect(const StaticProblem<dim>&
     for (auto l = index_of(problem.links.begin[i]); l < index_of(problem.links.begin[i + 1]); ++l) {
       const auto j = index_of(problem.links.neighbour[l]);
       if (j < i) continue;
-      const double mu = 0.5 * (problem.at_point(i).mu() + problem.at_point(j).mu());
+      const double mu = 0.5 * (problem.shear_modulus(i) + problem.shear_modulus(j));
       const double root = std::sqrt(problem.stabilisation * mu * problem.links.weight[l]);
       const Vec<dim> X = problem.position[j] - problem.position[i];
       visit(row, j, root);
@@ -72,6 +72,20 @@ template<int dim, class Visit> std::size_t each_defect(const StaticProblem<dim>&
       ++row;
     }
   return row;
+}
+
+void ply_stresses(const plasticity::PlaneStiffness& ply, Fields<5>& g, Fields<4>& s) {
+  for (std::size_t p = 0; p < g[0].size(); ++p) {
+    const double strain[3] = {g[0][p], g[3][p], g[1][p] + g[2][p]};
+    const auto over = [&](const double(&row)[3]) {
+      return row[0] * strain[0] + row[1] * strain[1] + row[2] * strain[2];
+    };
+    s[0][p] = over(ply.D[0]);
+    s[1][p] = over(ply.D[1]);
+    s[3][p] = over(ply.D[2]);
+    s[2][p] = over(ply.zz);
+    g[4][p] = over(ply.thickness);
+  }
 }
 
 /// Σ Bᵀ (V D) B over the points [begin, end).
@@ -96,7 +110,10 @@ SparseMatrix elastic_stiffness(const StaticProblem<dim>& problem, const FreeUnkn
           for (int r = 0; r < rows; ++r) {
             const double component = s[index_of(r)];
             if (component != 0.0) strain.emplace_back(row + r, q, c * component);
-            if (!Rows::is_shear(r))
+            if (problem.ply) {
+              const auto& D = problem.ply->D[r];
+              stress.emplace_back(row + r, q, V * c * (D[0] * s[0] + D[1] * s[1] + D[2] * s[2]));
+            } else if (!Rows::is_shear(r))
               stress.emplace_back(row + r, q, V * c * (lambda * trace + 2.0 * mu * component));
             else if (component != 0.0)
               stress.emplace_back(row + r, q, V * c * mu * component);
@@ -190,6 +207,10 @@ Fields<tensor_size<dim>> gradients(const StaticProblem<dim>& problem, const Fiel
 template<> Fields<4> stresses<2>(const StaticProblem<2>& problem, Fields<5>& g) {
   Fields<4> s;
   resize_all(s, g[0].size());
+  if (problem.ply) {
+    ply_stresses(*problem.ply, g, s);
+    return s;
+  }
   for (std::size_t p = 0; p < g[0].size(); ++p) {
     const double lambda = problem.at_point(p).lambda(), mu = problem.at_point(p).mu(),
                  in_plane = lame_lambda(problem, p);

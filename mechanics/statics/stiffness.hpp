@@ -42,6 +42,7 @@ template<int dim> Fields<tensor_size<dim>> gradients(const StaticProblem<dim>& p
 
 /// σ = λ* tr ε 1 + 2μ ε − 3κ* θ 1, θ the thermal strain; in the plane fills the out-of-plane component of ∇u
 /// where no hoop strain is there. Without stress out of the plane λ* and 3κ* are 2μ/(λ + 2μ) of λ and 3κ.
+/// Of a ply σ = D ε.
 template<int dim>
 Fields<symmetric_size<dim>> stresses(const StaticProblem<dim>& problem, Fields<tensor_size<dim>>& gradient);
 

@@ -16,6 +16,8 @@ template<int dim> std::unique_ptr<Term<dim>> equation_of_state(const Model<dim>&
 template<int dim> std::unique_ptr<Term<dim>> point_damage(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> thermal_expansion(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> bulk_viscosity(const Model<dim>& model);
+template<int dim> std::unique_ptr<Term<dim>> plane_stress(const Model<dim>& model);
+template<int dim> std::unique_ptr<Term<dim>> plies(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> reference_energy(const Model<dim>& model);

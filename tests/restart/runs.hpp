@@ -25,6 +25,8 @@ std::string space_periodic();
 std::string parts_case();
 /// A crack that runs, with damage averaged over a length.
 std::string cracked_case();
+/// A ply that fails while the cloud changes.
+std::string ply_case();
 /// A cut through a window that moves.
 std::string window_case();
 /// The case of a sheet that is cut, of two layers, and of a round one.

@@ -380,6 +380,8 @@ const std::vector<SmallCase>& small_cases() {
       {"conducting_tool", with_conducting_punch(punched)},
       {"parts", parts_case()},
       {"window", window_case()},
+      {"ply", ply_case()},
+      {"thin", "[analysis]\nkinematics = \"plane stress\"\n" + punched},
       {"layers", in_layers(separated)},
       {"set_back", set_back},
       {"particles", with_method(punched, "name = \"sph\"\nkernel = \"wendland_c2\"\n")},

@@ -1,0 +1,32 @@
+#pragma once
+// What stress points of plies, and points in plane stress, are where they are made of the matter of several.
+#include "core/fields/state.hpp"
+#include "core/operators/parcels.hpp"
+#include "plasticity/material.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace cnem {
+
+/// F₀ of points; empty where no material is a ply.
+template<int dim> using PlyDeformation = std::vector<std::pair<std::size_t, Mat<2>>>;
+
+/// F₀ = R U of the new points that are plies, averaged over their parcels as ln U and the angle of R, so that
+/// the mean is objective and its change of area additive. Expects F₀ pushed forward and not carried over;
+/// mass [old point] kg/m.
+template<int dim>
+PlyDeformation<dim> mixed_plies(const PointRows& parcels, const Field& mass,
+                                const std::vector<plasticity::Material>& materials,
+                                const PointState<dim>& point);
+/// Gives points their F₀, and the C_p⁻¹ = F₀ F₀ᵀ that belongs to it. elastic_volume: as mix_elastic takes it,
+/// det F₀ where cells tile the matter.
+template<int dim>
+void set_plies(const PlyDeformation<dim>& plies, const Field& elastic_volume, PointState<dim>& point);
+
+/// In plane stress C_p⁻¹_zz is counted from the initial thickness: with that of the present one it is b_e, as
+/// mixing takes it, and back.
+template<int dim> void to_present_thickness(PointState<dim>& point);
+template<int dim> void to_initial_thickness(PointState<dim>& point);
+
+} // namespace cnem

@@ -1,0 +1,161 @@
+// Plies in the explicit step: plane waves, energies of breaking bars, new references and mixed points.
+#include "mechanics/ply_mixing.hpp"
+#include "tests/unit/mechanics/models.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace cnem::testing {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// UD-GFRP of paper 000, Table 2, with energies of Lapczyk and Hurtado (2007).
+plasticity::Material gfrp(double angle) {
+  plasticity::Material m;
+  m.name = "gfrp";
+  m.density = 1580.0;
+  m.ply = plasticity::Orthotropic{.E1 = 34.28e9,
+                                  .E2 = 11.57e9,
+                                  .nu12 = 0.24244,
+                                  .G12 = 2.05e9,
+                                  .angle = angle,
+                                  .E3 = 11.57e9,
+                                  .nu13 = 0.24244};
+  return m;
+}
+
+plasticity::Failure strengths(plasticity::FailureCriterion criterion) {
+  return {.criterion = criterion,
+          .Xt = 697.8e6,
+          .Xc = 443.76e6,
+          .Yt = 89.7216e6,
+          .Yc = 148.33e6,
+          .S = 33.1e6,
+          .eps1t = 0.023,
+          .Gft = 12.5e3,
+          .Gfc = 12.5e3,
+          .Gmt = 1e3,
+          .Gmc = 1e3,
+          .Gs = 1e3};
+}
+
+/// Every node of a regular strip goes as that of the lower side in its column: endless along y.
+Ties<2> columns(const Cloud<2>& cloud) {
+  std::vector<std::array<NodeIndex, 2>> pairs;
+  for (const NodeIndex a : cloud.position.indices())
+    for (const NodeIndex b : cloud.position.indices())
+      if (a < b && std::abs(cloud.position[a].x() - cloud.position[b].x()) < 1e-9) pairs.push_back({a, b});
+  return {pairs, cloud.position, {}};
+}
+
+/// Time of a standing wave's first zero over that of a speed.
+double period(double angle, bool stress_free, int wave) {
+  const double length = 4e-3, h = 5e-5, k = std::numbers::pi / length;
+  const plasticity::Material material = gfrp(angle);
+  // (D_xx D_xs; D_xs D_ss)/ρ of a normal along x (Christoffel)
+  const auto plane = plasticity::plane_stiffness(*material.ply, stress_free);
+  const Mat<2> acoustic = (Mat<2>() << plane.D[0][0], plane.D[0][2], plane.D[2][0], plane.D[2][2]).finished();
+  const Eigen::SelfAdjointEigenSolver<Mat<2>> christoffel(acoustic / material.density);
+  const Vec2 direction = christoffel.eigenvectors().col(wave);
+  const double speed = std::sqrt(christoffel.eigenvalues()[wave]);
+  Problem<2> model = model_of(rectangle(length, 2.0 * h, h, Lattice::square, 0.0), Method::cnem, material);
+  model.plane_stress = stress_free;
+  model.ties = columns(model.cloud);
+  ExplicitSolver<2> solver =
+      start(std::move(model), [&](const Vec2& x) -> Vec2 { return 1e-3 * std::cos(k * x.x()) * direction; });
+  const auto part = [&] { // of the wave in all velocities; it swings without losses
+    double sum = 0.0;
+    const NodeState<2>& node = solver.state().node;
+    for (std::size_t i = 0; i < node.size(); ++i)
+      sum += node.mass[i] * std::cos(k * node.initial_position[0][i]) *
+             (direction.x() * node.velocity[0][i] + direction.y() * node.velocity[1][i]);
+    return sum;
+  };
+  const double dt = solver.stable_step().dt;
+  double before = part(), now = before;
+  double time = 0.0;
+  for (; now > 0.0; time += dt) {
+    solver.advance(dt);
+    before = now, now = part();
+    if (!(time < 10.0 * length / speed)) break;
+  }
+  const double crossed = time - 0.5 * dt - dt * now / (now - before); // velocities live half a step back
+  return crossed * 2.0 * speed / length;
+}
+
+TEST(Plies, plane_waves_run_at_the_speeds_of_christoffel) {
+  for (const bool stress_free : {true, false})
+    for (const double angle : {0.0, 20.0, 45.0, 70.0, 90.0})
+      for (const int wave : {0, 1})
+        EXPECT_NEAR(period(angle * degree, stress_free, wave), 1.0, 0.01)
+            << stress_free << " " << angle << " " << wave;
+}
+
+struct Bar {
+  double angle;  ///< of the fibres, rad
+  double length; ///< m
+  int cells;
+  Lattice lattice = Lattice::square;
+  plasticity::Failure failure;
+  double speed = 1.0;    ///< m/s, of its ends from each other
+  double opening = 3e-5; ///< m, at which it is over
+  double turn = 0.0;     ///< rad, of everything
+  Method method = Method::cnem;
+};
+
+struct Broken {
+  double energy, residual; ///< J/m², of the work
+  int damaged;             ///< points with d > 0.5
+};
+
+/// A bar of which the ends are drawn apart, weaker in the middle, everything in the motion that it goes on
+/// with.
+Broken break_bar(const Bar& bar) {
+  const double h = bar.length / bar.cells, width = 4.0 * h, cut = width;
+  plasticity::Material material = gfrp(bar.angle + bar.turn);
+  material.failure = bar.failure;
+  const Cloud<2> own =
+      rectangle(bar.length, width, h, bar.lattice, bar.lattice == Lattice::square ? 0.0 : 0.1);
+  Cloud<2> cloud = own;
+  const Mat<2> R = Eigen::Rotation2Dd(bar.turn).toRotationMatrix();
+  for (Vec2& x : cloud.position) x = R * x;
+  Problem<2> model = model_of(cloud, bar.method, material);
+  model.plane_stress = true;
+  for (const NodeIndex i : own.position.indices()) {
+    const double from = (own.position[i].x() - 0.5 * bar.length) / (2.0 * h);
+    model.strength.push_back(1.0 - 0.05 * std::exp(-from * from));
+  }
+  model.supports = Supports<2>({{"left",
+                                 Support<2>::Kind::velocity,
+                                 R.col(0),
+                                 TimeTable(-0.5 * bar.speed),
+                                 nodes_on(own, 3_piece),
+                                 {}},
+                                {"right",
+                                 Support<2>::Kind::velocity,
+                                 R.col(0),
+                                 TimeTable(0.5 * bar.speed),
+                                 nodes_on(own, 1_piece),
+                                 {}}},
+                               static_cast<std::size_t>(cloud.nodes()));
+  const double rate = bar.speed / bar.length, across = -0.24244 * (bar.angle == 0.0 ? 1.0 : 11.57 / 34.28);
+  ExplicitSolver<2> solver = start(std::move(model), [&](const Vec2& x) -> Vec2 {
+    const Vec2 X = R.transpose() * x;
+    return R * Vec2(rate * (X.x() - 0.5 * bar.length), across * rate * (X.y() - 0.5 * width));
+  });
+  while (solver.state().time * bar.speed < bar.opening) {
+    const double dt = solver.stable_step().dt;
+    for (int n = 0; n < 10; ++n) solver.advance(dt);
+  }
+  const EnergyLedger ledger = solver.ledger();
+  int damaged = 0;
+  for (std::size_t p = 0; p < solver.state().point.size(); ++p)
+    for (const Field& left : solver.state().point.ply_left) damaged += left[p] < 0.5;
+  return {ledger["failure"] / cut, ledger.residual() / cut, damaged};
+}
+
+} // namespace
+} // namespace cnem::testing
