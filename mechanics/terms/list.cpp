@@ -5,7 +5,7 @@ namespace cnem {
 template<int dim> std::vector<std::unique_ptr<Term<dim>>> make_terms(const Model<dim>& model) {
   std::vector<std::unique_ptr<Term<dim>>> terms;
   for (const auto make : {body_energy<dim>, equation_of_state<dim>, point_damage<dim>, thermal_expansion<dim>,
-                          bulk_viscosity<dim>, contact_and_supports<dim>, edge_defect<dim>,
+                          bulk_viscosity<dim>, contact_and_supports<dim>, cohesive<dim>, edge_defect<dim>,
                           reference_energy<dim>, pressure_exchange<dim>, stress_annealing<dim>,
                           matter_flow<dim>, applied_loads<dim>, heat<dim>, tool_heat<dim>})
     if (auto term = make(model)) terms.push_back(std::move(term));

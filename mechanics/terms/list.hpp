@@ -17,6 +17,9 @@ template<int dim> std::unique_ptr<Term<dim>> point_damage(const Model<dim>& mode
 template<int dim> std::unique_ptr<Term<dim>> thermal_expansion(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> bulk_viscosity(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<dim>& model);
+template<int dim> std::unique_ptr<Term<dim>> cohesive(const Model<dim>& model);
+template<> std::unique_ptr<Term<2>> cohesive(const Model<2>& model);
+template<> std::unique_ptr<Term<3>> cohesive(const Model<3>& model);
 template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> reference_energy(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> pressure_exchange(const Model<dim>& model);

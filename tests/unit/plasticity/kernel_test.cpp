@@ -52,7 +52,7 @@ template<int dim> void expect_same_bits(const PointState<dim>& a, const PointSta
           << "field " << k << ", point " << i;
 }
 
-const Hill48 rolled{.r0 = 1.9, .r45 = 0.7, .r90 = 2.4, .L = 1.2, .M = 1.8};
+const Hill48 rolled_sheet{.r0 = 1.9, .r45 = 0.7, .r90 = 2.4, .L = 1.2, .M = 1.8};
 
 template<int dim> void compare_with_scalar(const Material& m) {
   PointState<dim> vector = points_at_rest<dim>(83, 300.0);
@@ -88,8 +88,8 @@ template<int dim> void compare_with_scalar(const Material& m) {
 
 TEST_P(Kernel, plane_equal_to_scalar) { compare_with_scalar<2>(steel()); }
 TEST_P(Kernel, space_equal_to_scalar) { compare_with_scalar<3>(steel()); }
-TEST_P(Kernel, sheet_in_plane_equal_to_scalar) { compare_with_scalar<2>(sheet(rolled)); }
-TEST_P(Kernel, sheet_in_space_equal_to_scalar) { compare_with_scalar<3>(sheet(rolled)); }
+TEST_P(Kernel, sheet_in_plane_equal_to_scalar) { compare_with_scalar<2>(sheet(rolled_sheet)); }
+TEST_P(Kernel, sheet_in_space_equal_to_scalar) { compare_with_scalar<3>(sheet(rolled_sheet)); }
 
 template<int dim> void compare_ranges(const Material& m) {
   const std::size_t n = 75;
@@ -122,8 +122,8 @@ template<int dim> void compare_ranges(const Material& m) {
 
 TEST_P(Kernel, plane_same_bits_however_ranges_are_cut) { compare_ranges<2>(steel()); }
 TEST_P(Kernel, space_same_bits_however_ranges_are_cut) { compare_ranges<3>(steel()); }
-TEST_P(Kernel, sheet_in_plane_same_bits_however_ranges_are_cut) { compare_ranges<2>(sheet(rolled)); }
-TEST_P(Kernel, sheet_in_space_same_bits_however_ranges_are_cut) { compare_ranges<3>(sheet(rolled)); }
+TEST_P(Kernel, sheet_in_plane_same_bits_however_ranges_are_cut) { compare_ranges<2>(sheet(rolled_sheet)); }
+TEST_P(Kernel, sheet_in_space_same_bits_however_ranges_are_cut) { compare_ranges<3>(sheet(rolled_sheet)); }
 
 TEST_P(Kernel, empty_range_does_nothing) {
   PointState<2> s = points_at_rest<2>(3, 300.0);
@@ -248,7 +248,7 @@ TEST_P(Kernel, extremes) {
   const std::vector<double> temperatures{0.0, 200.0, 296.0, 600.0, 899.9999999, 1698.0, 1e4};
   for (const auto& [law, anisotropy] : [&] {
          std::vector<std::pair<Hardening, std::optional<Hill48>>> pairs;
-         for (const Hardening& law : laws) pairs.insert(pairs.end(), {{law, {}}, {law, rolled}});
+         for (const Hardening& law : laws) pairs.insert(pairs.end(), {{law, {}}, {law, rolled_sheet}});
          return pairs;
        }()) {
     Material m = steel();
