@@ -34,19 +34,6 @@ struct Placed {
   }
 };
 
-/// Linear between the ends of an element.
-CohesiveEnd between(const std::array<CohesiveEnd, 2>& ends, double place) {
-  const auto mean = [&](double a, double b) {
-    return place == 0.0 ? a : place == 1.0 ? b : (1.0 - place) * a + place * b;
-  };
-  CohesiveEnd result;
-  result.damage = mean(ends[0].damage, ends[1].damage);
-  result.offset = mean(ends[0].offset, ends[1].offset);
-  for (Eigen::Index k = 0; k < 2; ++k)
-    result.separation[k] = mean(ends[0].separation[k], ends[1].separation[k]);
-  return result;
-}
-
 } // namespace
 
 CohesiveFaces::CohesiveFaces(std::vector<CohesiveSpec> specs, const Cloud<2>& cloud, bool left_to_contact)
@@ -167,8 +154,8 @@ void CohesiveFaces::part(Fields<2>& position) {
       const Placed now(element, position);
       for (std::size_t end = 0; end < 2; ++end) {
         const Vec2 jump = now.jump(element, end);
-        const double missing = apart * 2.0 * element.weight() - now.normal.dot(jump);
-        if (missing <= 0.0 || jump.isZero(0.0)) continue;
+        const double wide = apart * 2.0 * element.weight(), missing = wide - now.normal.dot(jump);
+        if (missing <= 0.5 * wide || jump.isZero(0.0)) continue; // by less not at each reference
         any = true;
         for (std::size_t s = 0; s < 2; ++s) {
           const auto values = element.values(s, end);

@@ -15,6 +15,19 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Linear between the ends of an element.
+CohesiveEnd between(const std::array<CohesiveEnd, 2>& ends, double place) {
+  const auto mean = [&](double a, double b) {
+    return place == 0.0 ? a : place == 1.0 ? b : (1.0 - place) * a + place * b;
+  };
+  CohesiveEnd result;
+  result.damage = mean(ends[0].damage, ends[1].damage);
+  result.offset = mean(ends[0].offset, ends[1].offset);
+  for (Eigen::Index k = 0; k < 2; ++k)
+    result.separation[k] = mean(ends[0].separation[k], ends[1].separation[k]);
+  return result;
+}
+
 /// [new node] arc length of those that are old nodes of a face, or made of such alone; NaN elsewhere.
 IndexedVector<NodeIndex, double> known_arcs(const std::vector<BondedSegment>& before,
                                             const Resampling<2>& change) {

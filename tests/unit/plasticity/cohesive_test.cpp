@@ -106,8 +106,8 @@ TEST(Cohesive, mixed_modes_follow_benzeggagh_and_kenane) {
     const double t0 = 1.0 / std::sqrt((1.0 - mode) / (30e6 * 30e6) + mode / (50e6 * 50e6)),
                  last = 2.0 * G / t0;
     Point point{law};
-    point.go(0.999999 * t0 / 1e14 * way);
-    EXPECT_EQ(point.damage, 0.0);
+    point.go(t0 / 1e14 * way);
+    EXPECT_NEAR(point.damage, 0.0, 1e-12);
     point.go(0.5 * last * way, 20);
     const double expected = t0 * 0.5 * last / (last - t0 / 1e14);
     EXPECT_NEAR(point.traction().x(), expected * way.x(), 1e-10 * t0);
