@@ -22,6 +22,7 @@ std::string space_refined();
 std::string space_sheared();
 /// Bonded, periodic and cracked.
 std::string parts_case();
+std::string delaminating_case();
 /// A crack that runs, with damage averaged over a length.
 std::string cracked_case();
 /// A cut through a window that moves.

@@ -359,6 +359,7 @@ const std::vector<SmallCase>& small_cases() {
       {"touching", touching},
       {"conducting_tool", with_conducting_punch(punched)},
       {"parts", parts_case()},
+      {"delaminating", delaminating_case()},
       {"window", window_case()},
       {"layers", in_layers(separated)},
       {"set_back", set_back},
