@@ -157,6 +157,7 @@ void Adaptation::move_window(ExplicitSolver<2>& solver, const Follow& follow) {
 }
 
 double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
+  solver.part_faces();
   const results::Audit<2> before = results::audit(solver);
   if (window_) move_window(solver, follow);
   adapt::PassReport report;
@@ -198,6 +199,7 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
 }
 
 void Adaptation::balance(ExplicitSolver<2>& solver) {
+  solver.part_faces();
   const Promises& promises = solver.model().method->promises();
   if (!solver.model().mechanical || !promises.keep(Promise::tiling_cells)) return solver.prepare();
   const bool at_nodes = promises.keep(Promise::identity_values);

@@ -100,17 +100,23 @@ void BodyContact<dim>::set_boundary(const Surface<dim>& surface,
   group_.assign(surface.node.size(), -1);
   if (!group.empty())
     for (const BoundaryNodeIndex b : group_.indices()) group_[b] = group[surface.node[b]];
+  bonds_ = {};
   listed_.clear();
 }
 
 template<int dim> bool BodyContact<dim>::bonded(const Surface<dim>& surface, FacetIndex facet) const {
   if (!exists(facet)) return true;
+  if (!bonds_.empty() && bonds_.covered[as<CloudFacetIndex>(index_of(facet))]) return true;
   const auto& ends = surface.facets[facet];
   return std::all_of(ends.begin(), ends.end(), [&](BoundaryNodeIndex b) { return group_[b] >= 0; });
 }
 
 template<int dim>
 bool BodyContact<dim>::related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet) const {
+  if (!bonds_.empty()) {
+    const std::int32_t face = bonds_.bonded[surface.node[node]];
+    if (face >= 0 && bonds_.face[as<CloudFacetIndex>(index_of(facet))] == (face ^ 1)) return true;
+  }
   return std::any_of(surface.facets[facet].begin(), surface.facets[facet].end(), [&](BoundaryNodeIndex end) {
     return end == node || (group_[node] >= 0 && group_[end] == group_[node]);
   });

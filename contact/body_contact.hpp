@@ -1,5 +1,6 @@
 #pragma once
 // Where the boundary of the workpiece touches itself or another body of the cloud: nodes against facets.
+#include "contact/bonds.hpp"
 #include "contact/surface.hpp"
 #include "contact/tool.hpp"
 #include "core/fields/archive.hpp"
@@ -51,6 +52,13 @@ public:
   /// between tied nodes are no surface. Empty: none is tied.
   void set_boundary(const Surface<dim>& surface, IndexedSpan<NodeIndex, const std::int32_t> group);
 
+  /// Faces that are bonded to each other: facets that the other face covers are no surface, and bonded nodes
+  /// do not meet the other face of their interface. Until the next boundary, or bonds.
+  void set_bonds(const Bonds& bonds) {
+    bonds_ = bonds;
+    listed_.clear();
+  }
+
   /// Lists pairs anew where the list does not cover nodes at `end` any more; start, end [boundary node], m.
   void look(const Surface<dim>& surface, PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end);
 
@@ -80,10 +88,11 @@ private:
   bool bonded(const Surface<dim>& surface, FacetIndex facet) const;
 
   IndexedVector<BoundaryNodeIndex, std::int32_t> group_; ///< −1: free
-  IndexedVector<BoundaryNodeIndex, Vec<dim>> listed_;    ///< m; empty: no list yet
-  std::vector<Pair> pairs_;                              ///< by node, then facet
-  std::vector<EdgePair> edge_pairs_;                     ///< 3D
-  double skin_ = 0.0;                                    ///< m
+  Bonds bonds_;
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> listed_; ///< m; empty: no list yet
+  std::vector<Pair> pairs_;                           ///< by node, then facet
+  std::vector<EdgePair> edge_pairs_;                  ///< 3D
+  double skin_ = 0.0;                                 ///< m
   double size_ = 0.0;
   int listings_ = 0;
 };

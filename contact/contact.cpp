@@ -27,6 +27,8 @@ RigidContact<dim>::RigidContact(std::vector<Tool<dim>> tools, Space space, BodyC
   for (const Tool<dim>& tool : tools_) {
     if (!tool.shape) throw InputError(fmt::format("tool '{}' has no shape", tool.name));
     tool.friction.check(fmt::format("tool '{}'", tool.name));
+    for (const Friction& friction : tool.friction_by_material)
+      friction.check(fmt::format("tool '{}'", tool.name));
     if (tool.drive && !(tool.drive->mass > 0.0))
       throw InputError(
           fmt::format("tool '{}': its mass must be positive, got {}", tool.name, tool.drive->mass));
@@ -70,13 +72,18 @@ template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) 
 template<int dim> bool RigidContact<dim>::flow_stress_needed() const {
   return (law_.active && law_.friction.needs_flow_stress()) ||
          std::any_of(tools_.begin(), tools_.end(),
-                     [](const Tool<dim>& tool) { return tool.friction.needs_flow_stress(); });
+                     [](const Tool<dim>& tool) { return tool.any_friction(&Friction::needs_flow_stress); });
 }
 
 template<int dim> bool RigidContact<dim>::rubs() const {
   return (law_.active && law_.friction.rubs()) ||
          std::any_of(tools_.begin(), tools_.end(),
-                     [](const Tool<dim>& tool) { return tool.friction.rubs(); });
+                     [](const Tool<dim>& tool) { return tool.any_friction(&Friction::rubs); });
+}
+
+template<int dim> bool RigidContact<dim>::by_material() const {
+  return std::any_of(tools_.begin(), tools_.end(),
+                     [](const Tool<dim>& tool) { return !tool.friction_by_material.empty(); });
 }
 
 template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) {

@@ -30,9 +30,11 @@ template<int dim> struct ContactStep {
   double time = 0.0; ///< s, t_n (the start of the step)
   double dt = 0.0;   ///< s, Δt₂ = t_{n+1} − t_n
   double dt_mean = 0.0; ///< s, Δt̄ = (Δt₁ + Δt₂)/2; Δt₁ = 0 in the first step, when v_{n−½} means v_0
-  Fields<dim>& position;           ///< m, [node], at t_{n+1}; corrected in place
-  Fields<dim>& velocity;           ///< m/s, [node], at t_{n+½}; corrected in place
-  const Field& mass;               ///< kg/m^(3−dim), [node]
+  Fields<dim>& position; ///< m, [node], at t_{n+1}; corrected in place
+  Fields<dim>& velocity; ///< m/s, [node], at t_{n+½}; corrected in place
+  const Field& mass;     ///< kg/m^(3−dim), [node]
+  /// Index of the material of each boundary node; needed where by_material().
+  IndexedSpan<BoundaryNodeIndex, const std::int32_t> material = {};
   BoundaryValues flow_stress = {}; ///< Pa; needed where flow_stress_needed()
   BoundaryValues temperature = {}; ///< K; empty: cold
   BoundaryValues melting = {};     ///< K, of the material; empty: never
@@ -126,6 +128,9 @@ public:
                     const std::vector<NodeConstraint<dim>>& constraints,
                     IndexedSpan<NodeIndex, const std::int32_t> group = {});
 
+  /// Faces that cohesive interfaces hold together; none after set_boundary.
+  void set_bonds(const Bonds& bonds) { bodies_.set_bonds(bonds); }
+
   /// Keeps v_{n−½} of the boundary nodes for the work of this step.
   void remember(const Fields<dim>& velocity);
 
@@ -159,7 +164,8 @@ public:
   /// What the springs of tools bear at `time`, s; infinite without any.
   double stable_step(double time) const { return motions_.stable_step(tools_, time); }
   bool flow_stress_needed() const;
-  bool rubs() const; ///< whether there is any friction
+  bool rubs() const;        ///< whether there is any friction
+  bool by_material() const; ///< whether it differs between materials
   /// Nodes of the boundary in increasing order.
   const IndexedVector<BoundaryNodeIndex, NodeIndex>& boundary_nodes() const { return surface_.node; }
 
@@ -206,7 +212,7 @@ private:
   template<class Area>
   void set_friction(Contact<dim>& contact, const ContactStep<dim>& step, Area&& rubbing_area) const;
   double rubbing_area(BoundaryNodeIndex node, BoundaryValues window) const;
-  const Friction& friction_of(const Contact<dim>& contact) const;
+  const Friction& friction_of(const Contact<dim>& contact, const ContactStep<dim>& step) const;
   void share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step);
   void scatter(const ContactStep<dim>& step);
   void book(const Poses<dim>& poses, const ContactStep<dim>& step);

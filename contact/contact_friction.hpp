@@ -9,8 +9,15 @@
 
 namespace cnem::contact {
 
-template<int dim> const Friction& RigidContact<dim>::friction_of(const Contact<dim>& contact) const {
-  return exists(contact.tool) ? tools_[contact.tool].friction : law_.friction;
+/// Of the material of the node that bears the most.
+template<int dim>
+const Friction& RigidContact<dim>::friction_of(const Contact<dim>& contact,
+                                               const ContactStep<dim>& step) const {
+  if (!exists(contact.tool)) return law_.friction;
+  const Tool<dim>& tool = tools_[contact.tool];
+  if (tool.friction_by_material.empty()) return tool.friction;
+  const auto most = std::max_element(contact.weight.begin(), contact.weight.end()) - contact.weight.begin();
+  return tool.friction_by_material[index_of(step.material[contact.node[index_of(most)]])];
 }
 
 /// Takes the law as it is for the contact; `rubbing_area` is asked where the law needs it.
@@ -18,7 +25,7 @@ template<int dim>
 template<class Area>
 void RigidContact<dim>::set_friction(Contact<dim>& contact, const ContactStep<dim>& step,
                                      Area&& rubbing_area) const {
-  const Friction& friction = friction_of(contact);
+  const Friction& friction = friction_of(contact, step);
   const bool on_tool = exists(contact.tool);
   if (on_tool) contact.surface = tool_reactions_[contact.tool].velocity;
   Rubbing rubbing;

@@ -22,6 +22,18 @@ FrictionBound Friction::bound(const Rubbing& rubbing) const {
   return bound;
 }
 
+bool Friction::set_coefficient(double coefficient) {
+  return std::visit(
+      [&](auto& law) {
+        if constexpr (requires { law.coefficient; }) {
+          law.coefficient = coefficient;
+          return true;
+        }
+        return false;
+      },
+      law_);
+}
+
 bool Friction::needs_flow_stress() const {
   return std::visit(
       [](const auto& law) {

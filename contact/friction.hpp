@@ -47,6 +47,8 @@ public:
   bool needs_speed() const;
   bool rubs() const; ///< whether it is any friction: then its melting is looked at
 
+  /// False where the law has no coefficient of its own.
+  bool set_coefficient(double coefficient);
   void set_melting(const FrictionMelting& melting) { melting_ = melting; }
 
   /// Throws InputError when a constant is out of its range; `owner` is whose friction this is.

@@ -9,11 +9,13 @@
 #include "core/parameter.hpp"
 #include "core/time_table.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cnem::contact {
 
@@ -114,9 +116,17 @@ struct ToolMetal {
 struct ToolSurface {
   std::string name;
   Friction friction;
+  std::vector<Friction>
+      friction_by_material; ///< [material of the node] in place of it; empty: the same for all
   Response response;
   ToolThermal thermal;
   bool equal_areas = false; ///< as contact/arc_offset.hpp and contact/covered_edges.hpp say
+
+  /// Whether any of its friction is what `property` says.
+  bool any_friction(bool (Friction::*property)() const) const {
+    return (friction.*property)() || std::any_of(friction_by_material.begin(), friction_by_material.end(),
+                                                 [&](const Friction& one) { return (one.*property)(); });
+  }
 };
 
 template<int dim> struct Tool : ToolSurface {

@@ -19,6 +19,7 @@
 #include "mechanics/local_steps.hpp"
 #include "mechanics/mass_scaling.hpp"
 #include "methods/registry.hpp"
+#include "plasticity/cohesive.hpp"
 #include "plasticity/material.hpp"
 #include "thermal/boundaries.hpp"
 #include "thermal/tool_section.hpp"
@@ -76,7 +77,9 @@ struct Hole {
 
 /// A polyline from boundary to boundary that divides the workpiece. Its faces are bonded.
 struct Interface : clouds::Crack {
-  std::optional<double> conductance; ///< W/(m² K); absent: both faces have one temperature
+  std::optional<double> conductance;               ///< W/(m² K); absent: both faces have one temperature
+  std::optional<plasticity::CohesiveLaw> cohesive; ///< absent: faces move as one
+  std::vector<Vec2> open; ///< m, empty or two points of a cohesive one: broken between them at the start
 };
 
 /// The part of the workpiece, bounded by interfaces and cracks, that holds a point.
@@ -232,12 +235,13 @@ struct ToolNodes {
 
 /// A rigid tool. Its shape is made of that by app/problem/registry.
 struct Tool : contact::ToolSurface {
-  Curve outline;                              ///< in the plane: counter-clockwise, at t = 0, m
-  std::optional<ToolSolid> solid;             ///< in space
-  VectorFunction velocity;                    ///< m/s, without a drive; absent components are zero
-  std::optional<contact::ToolDrive<3>> drive; ///< in the plane without z
-  std::optional<contact::ToolMetal> metal;    ///< what its effusivity is made of, where it was not given
-  std::optional<ToolNodes> section;           ///< of that metal; none: at one temperature
+  std::map<std::string, contact::Friction> friction_on; ///< by material, where it is another one
+  Curve outline;                                        ///< in the plane: counter-clockwise, at t = 0, m
+  std::optional<ToolSolid> solid;                       ///< in space
+  VectorFunction velocity;                              ///< m/s, without a drive; absent components are zero
+  std::optional<contact::ToolDrive<3>> drive;           ///< in the plane without z
+  std::optional<contact::ToolMetal> metal; ///< what its effusivity is made of, where it was not given
+  std::optional<ToolNodes> section;        ///< of that metal; none: at one temperature
 };
 
 struct Method {

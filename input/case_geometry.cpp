@@ -4,11 +4,13 @@
 #include "input/constants.hpp"
 #include "input/curve_checks.hpp"
 #include "input/outline.hpp"
+#include "input/schema/nearest.hpp"
 #include "input/space_domain.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace cnem::input {
 
@@ -200,6 +202,28 @@ contact::Friction read_friction(const Setting& table, Diagnostics& diagnostics) 
   return friction;
 }
 
+/// Where friction differs between materials.
+void read_friction_by_material(const Setting& table, const Setting& root, Tool& tool,
+                               Diagnostics& diagnostics) {
+  std::vector<std::string> known;
+  for (const Setting& material : root.entries("materials")) known.push_back(material.name);
+  for (const Setting& one : table.entries("by_material")) {
+    if (std::find(known.begin(), known.end(), one.name) == known.end())
+      diagnostics.add(Mistake::reference, one.where, one.path,
+                      fmt::format("found \"{}\", expected one of the materials: {}{}", one.name,
+                                  fmt::join(known, ", "), did_you_mean(one.name, known)));
+    contact::Friction friction = tool.friction;
+    if (!friction.set_coefficient(one.get<double>("coefficient"))) {
+      diagnostics.add(Mistake::conflict, one.where, one.path,
+                      fmt::format("found friction by material with law = \"{}\", expected a law with one "
+                                  "coefficient such as \"coulomb\"",
+                                  table.get<std::string>("law")));
+      return;
+    }
+    tool.friction_on[one.name] = friction;
+  }
+}
+
 } // namespace
 
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics) {
@@ -237,6 +261,7 @@ void read_tools(Setting& root, Case& result, Diagnostics& diagnostics) {
     tool.velocity = table.maybe<VectorFunction>("velocity").value_or(VectorFunction{});
     read_drive(table, result, tool, diagnostics);
     tool.friction = read_friction(*table.find("friction"), diagnostics);
+    read_friction_by_material(*table.find("friction"), root, tool, diagnostics);
     tool.response = read_law<contact::Response>(contact::Responses{}, *table.find("response"), diagnostics)
                         .value_or(contact::Response());
     tool.equal_areas = table.maybe<bool>("equal_areas").value_or(false);

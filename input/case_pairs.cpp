@@ -85,6 +85,12 @@ Text in_thin_dynamics(const Case& c) {
               "in an explicit analysis of plane stress");
 }
 
+/// The first of a case's interfaces whose faces separate.
+const Interface* cohesive(const Case& c) {
+  const auto found = std::find_if(c.domain.interfaces.begin(), c.domain.interfaces.end(),
+                                  [](const Interface& one) { return one.cohesive.has_value(); });
+  return found == c.domain.interfaces.end() ? nullptr : &*found;
+}
 const BoundaryCondition* moving(const Case& c) {
   const auto found =
       std::find_if(c.boundary.begin(), c.boundary.end(),
@@ -255,6 +261,18 @@ const std::vector<Pair>& pairs() {
        "they are of the yield stress, and equilibrium is elastic"},
       {"domain.interfaces", "", "static analyses", in_statics, dynamics,
        "bonds are ties of the explicit step"},
+      {"domain.interfaces.*.cohesive", "", "`analysis.thermal`",
+       [](const Case& c) { return when(cohesive(c) && c.analysis.thermal, "with analysis.thermal = true"); },
+       "analysis.thermal = false", "what heat crosses faces that separate is not known", nullptr,
+       [](const Case& c) { return "domain.interfaces." + cohesive(c)->name + ".cohesive"; }},
+      {"domain.interfaces.*.cohesive", "", "axisymmetric analyses",
+       [](const Case& c) { return when(cohesive(c) && is_round(c), "in an axisymmetric analysis"); },
+       "it in the plane", "tractions are per length of the interface, not of the surface that it turns to",
+       nullptr, [](const Case& c) { return "domain.interfaces." + cohesive(c)->name + ".cohesive"; }},
+      {"domain.interfaces.*.cohesive", "", "`time.step.local`",
+       [](const Case& c) { return when(cohesive(c) && local(c), "with local time steps"); },
+       "time.step.local = false", "both faces of a bond are kicked at once", nullptr,
+       [](const Case& c) { return "domain.interfaces." + cohesive(c)->name + ".cohesive"; }},
       {"domain.regions", "", "static analyses", in_statics, dynamics, "regions are parts between interfaces"},
       {"periodic", "", "static analyses", in_statics, dynamics, "periods are ties of the explicit step"},
       {"output.checkpoint", "", "static analyses", in_statics, dynamics, "equilibrium is found in one go"},

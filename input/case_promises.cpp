@@ -59,6 +59,12 @@ constexpr std::array needs{
          "contact with tools", "a node on a tool would not bring the surface there"},
     Need{Promise::interpolating_values, "contact.deformable", [](const Case& c) { return c.contact.active; },
          "contact of bodies", "nodes that touch would not bring the surfaces together", "false"},
+    Need{Promise::interpolating_values, "domain.interfaces",
+         [](const Case& c) {
+           return std::any_of(c.domain.interfaces.begin(), c.domain.interfaces.end(),
+                              [](const Interface& one) { return one.cohesive.has_value(); });
+         },
+         "a cohesive interface", "nodes of its faces would not be where the faces are"},
 };
 
 std::string expectation(const Need& need, int dimensions) {

@@ -1,5 +1,7 @@
 #include "input/case_walls.hpp"
 
+#include "core/error.hpp"
+#include "input/constants.hpp"
 #include "input/curve_checks.hpp"
 
 #include <algorithm>
@@ -137,6 +139,24 @@ void check_crack_names(const Setting& table, const Domain& domain, Diagnostics& 
   }
 }
 
+void read_cohesive(const Setting& table, Interface& interface, Diagnostics& diagnostics) {
+  plasticity::CohesiveLaw law;
+  read_constants(plasticity::CohesiveLaw::parameters, table, law);
+  try {
+    law.complete();
+  } catch (const InputError& error) {
+    diagnostics.add(Mistake::range, table.where, table.path, error.what());
+  }
+  interface.cohesive = law;
+  const Setting* open = table.find("open");
+  if (!open) return;
+  interface.open = std::get<std::vector<Vec2>>(open->value);
+  if (interface.open.size() != 2)
+    diagnostics.add(Mistake::type, open->where, open->path,
+                    fmt::format("found {} points, expected two such as {}", interface.open.size(),
+                                open->key->example_text()));
+}
+
 } // namespace
 
 std::vector<std::pair<std::string, const Curve*>> curves_of(const Domain& domain) {
@@ -178,7 +198,11 @@ void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics) 
         diagnostics.add(Mistake::conflict, interface.where, interface.path,
                         fmt::format("found the name of a crack, expected another name than {}", crack.name));
     domain.interfaces.push_back({{interface.name, interface.get<std::vector<Vec2>>("points")},
-                                 interface.maybe<double>("conductance")});
+                                 interface.maybe<double>("conductance"),
+                                 {},
+                                 {}});
+    if (const Setting* cohesive = interface.find("cohesive"))
+      read_cohesive(*cohesive, domain.interfaces.back(), diagnostics);
   }
 }
 

@@ -70,7 +70,10 @@ void use_local_origin(Case& input) {
   if (domain.sweep)
     for (double* z : {&domain.sweep->from, &domain.sweep->to}) *z -= input.origin.z();
   for (Crack& crack : domain.cracks) shift(crack.path);
-  for (Interface& interface : domain.interfaces) shift(interface.path);
+  for (Interface& interface : domain.interfaces) {
+    shift(interface.path);
+    shift(interface.open);
+  }
   for (Region& region : domain.regions) shift(region.at);
   shift(input.cloud.nodes);
   for (clouds::Refinement& refinement : input.cloud.refinements) shift(refinement.points);

@@ -63,6 +63,7 @@ template<int dim> void ExplicitSolver<dim>::archive_energies(Archive& archive) {
 template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   NodeState<dim>& node = state_.node;
   archive_cloud(archive);
+  if constexpr (dim == 2) conditions_.cohesive.archive(archive);
   archive.number("solver/time", "s", state_.time);
   archive.number("solver/step_before", "s", state_.step_before);
   archive.integer("solver/step", state_.step);
@@ -108,6 +109,8 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   if (archive.loading()) // pairs of touching bodies are listed on it
     conditions_.contact.set_boundary(conditions_.cloud.facets, node.size(),
                                      conditions_.supports.constraints(), conditions_.ties.group());
+  if constexpr (dim == 2)
+    if (archive.loading()) conditions_.contact.set_bonds(conditions_.cohesive.bonds(conditions_.cloud));
   conditions_.contact.archive(archive);
   if (!archive.loading()) return;
 

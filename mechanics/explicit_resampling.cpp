@@ -122,6 +122,7 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
   node.velocity_before = node.velocity;
   conditions_.ties.resample(change);
   conditions_.heat_ties.resample(change);
+  if constexpr (dim == 2) conditions_.cohesive.resample(change);
   share_heat<dim>(model_, conditions_.heat_ties, node);
   if (local_.on() && !change.points_stay) local_.follow(change.labels);
   start_weight_.clear();
@@ -132,6 +133,11 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
   });
 }
 
+template<int dim> void ExplicitSolver<dim>::part_faces() requires(dim == 2) {
+  conditions_.cohesive.part(state_.node.position);
+}
+
+template void ExplicitSolver<2>::part_faces();
 #define CNEM_INSTANTIATE(dim)                                                                                \
   template std::optional<ExplicitSolver<dim>::PointChange> ExplicitSolver<dim>::change_of_points(            \
       const Resampling<dim>*, const Cloud<dim>&, const DiscreteOperators<dim>&) const;                       \

@@ -146,7 +146,8 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   const DiscreteOperators<dim>& op = approximation_.mechanics;
   const PointState<dim>& point = state_.point;
   const auto step_of = [&](const typename SpectralBound<dim>::Result& bound) {
-    const double step = stable_wave_step(bound.value, limit.stabilisation, limit.critical_damping);
+    const double step =
+        stable_wave_step(bound.value + limit.springs, limit.stabilisation, limit.critical_damping);
     if (!(step > 0.0)) diverged(bound.point, "stable step");
     return step;
   };

@@ -3,6 +3,7 @@
 // and the values it starts from.
 #include "contact/contact.hpp"
 #include "core/operators/discretisation.hpp"
+#include "mechanics/cohesive_faces.hpp"
 #include "mechanics/local_steps.hpp"
 #include "mechanics/mass_scaling.hpp"
 #include "mechanics/supports.hpp"
@@ -34,6 +35,7 @@ template<int dim> struct Model {
   LocalStepControl local;    ///< local time steps
   MassScaling mass_scaling;
   bool open = false;                           ///< matter comes and goes: a window moves with a tool
+  bool separating = false;                     ///< there are cohesive interfaces
   bool sprung_tools = false;                   ///< there are tools on springs or with dampers
   std::vector<ToolSection<dim>> tool_sections; ///< of tools that conduct
 };
@@ -41,9 +43,10 @@ template<int dim> struct Model {
 /// What acts on the body from outside or ties it, and the cloud it is known by: all of it follows the cloud
 /// when that is resampled.
 template<int dim> struct Conditions {
-  Cloud<dim> cloud;    ///< boundary; its positions follow the reference
-  Ties<dim> ties;      ///< nodes that move as one
-  Ties<dim> heat_ties; ///< nodes that have one temperature
+  Cloud<dim> cloud;       ///< boundary; its positions follow the reference
+  Ties<dim> ties;         ///< nodes that move as one
+  Ties<dim> heat_ties;    ///< nodes that have one temperature
+  CohesiveFaces cohesive; ///< of the plane
   Supports<dim> supports;
   Loads<dim> loads;
   ThermalBoundaries<dim> heat_boundaries;

@@ -57,6 +57,21 @@ double distance_to(const std::vector<Vec2>& polyline, const Vec2& x) {
   return best;
 }
 
+/// The length along a polyline up to its point nearest to x.
+double arc_at(const std::vector<Vec2>& polyline, const Vec2& x) {
+  double before = 0.0, arc = 0.0, nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < polyline.size(); ++k) {
+    const Vec2 along = polyline[k] - polyline[k - 1];
+    const double s = std::clamp((x - polyline[k - 1]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    if (const double distance = (x - polyline[k - 1] - s * along).norm(); distance < nearest) {
+      nearest = distance;
+      arc = before + s * along.norm();
+    }
+    before += along.norm();
+  }
+  return arc;
+}
+
 /// The nodes on the two faces of an interface, face + first.
 std::vector<std::array<NodeIndex, 2>> face_pairs(const Cloud<2>& cloud, const std::string& name) {
   const std::vector<NodeIndex> left = nodes_of<2>(facets_of<2>(cloud, {name + "+"}));
@@ -142,6 +157,7 @@ template<int dim> Pairs tied_pairs(const input::Case& input, const Cloud<dim>& c
   Pairs pairs;
   if constexpr (dim == 2)
     for (const input::Interface& interface : input.domain.interfaces) {
+      if (interface.cohesive) continue;
       const auto faces = face_pairs(cloud, interface.name);
       const auto pieces = pieces_of<2>(facets_of<2>(cloud, {interface.name}));
       pairs.motion.insert(pairs.motion.end(), faces.begin(), faces.end());
@@ -165,6 +181,26 @@ void pair_facets(const input::Case& input, Cloud<2>& cloud) {
   if (!cloud.twins.empty()) pair_coincident_facets(cloud);
   for (const input::Periodicity& periodic : input.periodic)
     cnem::pair_facets(cloud, matching_nodes(input, periodic, cloud));
+}
+
+std::vector<CohesiveSpec> cohesive_specs(const input::Case& input, const Cloud<2>& cloud) {
+  std::vector<CohesiveSpec> specs;
+  for (const input::Interface& interface : input.domain.interfaces) {
+    if (!interface.cohesive) continue;
+    CohesiveSpec& spec = specs.emplace_back(CohesiveSpec{interface.name, *interface.cohesive});
+    for (const PieceIndex p : cloud.piece_names.indices()) {
+      if (cloud.piece_names[p] == interface.name + "+") spec.piece[0] = p;
+      if (cloud.piece_names[p] == interface.name + "-") spec.piece[1] = p;
+    }
+    if (interface.open.empty()) continue;
+    const double a = arc_at(interface.path, interface.open[0]), b = arc_at(interface.path, interface.open[1]);
+    if (a == b)
+      throw input.error(
+          fmt::format("domain.interfaces.{}.cohesive.open", interface.name),
+          "both points are nearest to the same place of the interface, expected a stretch of it");
+    spec.open.push_back({std::min(a, b), std::max(a, b)});
+  }
+  return specs;
 }
 
 std::vector<ContactConductance<2>> conductances(const input::Case& input, const Cloud<2>& cloud) {

@@ -37,6 +37,9 @@ template<int dim> Pairs tied_pairs(const input::Case& input, const Cloud<dim>& c
 /// Makes mates of their facets and of those of cracks. Throws as tied_pairs does.
 void pair_facets(const input::Case& input, Cloud<2>& cloud);
 
+/// Interfaces whose faces separate. Throws InputError where one is open nowhere between its points.
+std::vector<CohesiveSpec> cohesive_specs(const input::Case& input, const Cloud<2>& cloud);
+
 /// Interfaces that heat crosses through a conductance.
 std::vector<ContactConductance<2>> conductances(const input::Case& input, const Cloud<2>& cloud);
 

@@ -18,17 +18,21 @@ namespace cnem::app {
 
 namespace {
 
+/// The names of the materials in use, each once; points and nodes have their numbers.
+std::vector<std::string> materials_in_use(const input::Case& input) {
+  std::vector<std::string> names{input.domain.material};
+  for (const input::Region& part : input.domain.regions)
+    if (std::find(names.begin(), names.end(), part.material) == names.end()) names.push_back(part.material);
+  return names;
+}
+
 /// The materials in use and which node is of which. region: as region_of_nodes gives it.
 template<int dim>
 void set_materials(const input::Case& input, const IndexedVector<NodeIndex, std::int32_t>& region,
                    Problem<dim>& model) {
-  std::vector<std::string> names;
+  const std::vector<std::string> names = materials_in_use(input);
+  for (const std::string& name : names) model.materials.push_back(input.material(name));
   const auto number_of = [&](const std::string& name) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      names.push_back(name);
-      model.materials.push_back(input.material(name));
-    }
     return as<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
   const std::int32_t everywhere = number_of(input.domain.material);
@@ -184,6 +188,11 @@ template<int dim>
 contact::Tool<dim> make_tool(const input::Case& input, const input::Tool& spec, const Cloud<dim>& cloud) {
   contact::Tool<dim> tool;
   static_cast<contact::ToolSurface&>(tool) = spec;
+  if (!spec.friction_on.empty())
+    for (const std::string& material : materials_in_use(input)) {
+      const auto found = spec.friction_on.find(material);
+      tool.friction_by_material.push_back(found == spec.friction_on.end() ? spec.friction : found->second);
+    }
   if (spec.section) tool.thermal.conductance = 0.0; // its section exchanges heat, not one temperature
   tool.motion.velocity = components_of<dim>(spec.velocity);
   if (spec.drive) tool.drive = drive_of<dim>(*spec.drive);
@@ -224,6 +233,9 @@ void set_parts(const input::Case& input, Problem<2>& model, IndexedVector<NodeIn
   region = region_of_nodes(input, model.cloud);
   model.strength = strength(input, model.cloud);
   pair_facets(input, model.cloud);
+  std::vector<CohesiveSpec> specs = cohesive_specs(input, model.cloud);
+  model.separating = !specs.empty();
+  if (!specs.empty()) model.cohesive = CohesiveFaces(std::move(specs), model.cloud, input.contact.active);
 }
 
 } // namespace

@@ -71,6 +71,7 @@ void add_cutting(Keys& k) {
       .fallback("false");
   k.add(at + "tool", text, "What the tool is called.").fallback("\"cutter\"");
   add_friction(k, at + "friction", "Friction of the tool on the workpiece.");
+  add_friction_by_material(k, at + "friction");
 }
 
 } // namespace cnem::input

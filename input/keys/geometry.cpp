@@ -1,5 +1,7 @@
 // Keys that describe geometry and nodes: outlines, domain, cloud.
+#include "input/constants.hpp"
 #include "input/keys/keys.hpp"
+#include "plasticity/cohesive.hpp"
 
 namespace cnem::input {
 
@@ -144,7 +146,9 @@ void add_domain(Keys& k) {
 void add_parts(Keys& k) {
   k.add("domain.interfaces", named_tables, "Interfaces between parts of different material (explicit only).");
   k.add("domain.interfaces.*", table,
-        "A bonded interface: its two faces move as one. It divides the domain into parts for `regions`.");
+        "An interface: its two faces move as one, or under the tractions of `cohesive`. It divides the "
+        "domain into "
+        "parts for `regions`.");
   k.add("domain.interfaces.*.points", vectors, "Polyline whose two ends lie on the boundary.")
       .unit(d::length)
       .required()
@@ -154,6 +158,18 @@ void add_parts(Keys& k) {
       .unit(d::heat_transfer)
       .in(not_negative)
       .example("\"1e5 W/(m2 K)\"");
+  const std::string cohesive = "domain.interfaces.*.cohesive";
+  k.add(cohesive, table,
+        "Its faces separate: traction K δ up to onset, (⟨t_n⟩/`strength`)² + (t_s/`shear_strength`)² = 1, "
+        "then linear "
+        "softening in √(⟨δn⟩² + δs²) until the fracture energy `energy` + (`shear_energy` − `energy`) "
+        "β^`eta` is spent, "
+        "β the share of δs² (paper 001, (25), (26); Benzeggagh and Kenane 1996). It has no thickness.");
+  add_constants(k, cohesive, constant_texts<plasticity::CohesiveLaw>(plasticity::CohesiveLaw::parameters));
+  k.add(cohesive + ".open", vectors,
+        "Two points, between whose nearest places on the interface it is broken at the start.")
+      .unit(d::length)
+      .example("[\"0 3 mm\", \"40 3 mm\"]");
   k.add("domain.regions", named_tables, "Parts with a material or an initial state of their own.");
   k.add(
       "domain.regions.*", table,

@@ -65,6 +65,8 @@ public:
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
 /// The table of a law of friction.
 void add_friction(Keys& k, const std::string& at, const std::string& doc);
+/// What of it differs between materials.
+void add_friction_by_material(Keys& k, const std::string& friction);
 void add_cutting(Keys& k);
 /// Members of a table with a spacing: regions where it is finer, `of` what (" of the nodes"), at the ends of
 /// cracks too.

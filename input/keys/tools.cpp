@@ -18,6 +18,16 @@ void add_friction(Keys& k, const std::string& at, const std::string& doc) {
   add_constants(k, at, constant_texts<contact::FrictionMelting>(contact::FrictionMelting::parameters));
 }
 
+void add_friction_by_material(Keys& k, const std::string& friction) {
+  const std::string at = friction + ".by_material";
+  k.add(at, named_tables,
+        "By names of `materials`: friction of a law with a `coefficient` has another one on these. A node "
+        "that touches "
+        "counts with its material.");
+  k.add(at + ".*", table, "Friction on one material.");
+  k.add(at + ".*.coefficient", quantity, "μ on this material.").in(not_negative).required().example("0.2");
+}
+
 namespace {
 
 void add_tool_section(Keys& k, const std::string& at) {
@@ -132,6 +142,7 @@ void add_tools(Keys& k) {
         "it presses on what it covers of the edge, else it bears as if it reached to the next node.")
       .fallback("false");
   add_friction(k, at + "friction", "Friction on the workpiece.");
+  add_friction_by_material(k, at + "friction");
   const std::vector<LawText> responses = law_texts(contact::Responses{});
   k.add(at + "response", table,
         "What keeps the workpiece out of the tool. All but `\"exact\"` let nodes in first, and corners "

@@ -86,6 +86,9 @@ private:
         temperature.push_back(node.temperature[index_of(i)]);
         melting.push_back(melting_[index_of(node.material[index_of(i)])]);
       }
+    IndexedVector<BoundaryNodeIndex, std::int32_t> of_material;
+    if (contact.by_material())
+      for (const NodeIndex i : boundary) of_material.push_back(node.material[index_of(i)]);
     IndexedVector<BoundaryNodeIndex, double> effusivity;
     if (body.model.thermal)
       for (const NodeIndex i : boundary) {
@@ -98,6 +101,7 @@ private:
                      .position = node.position,
                      .velocity = node.velocity,
                      .mass = node.inertia(),
+                     .material = of_material,
                      .flow_stress = flow_stress,
                      .temperature = temperature,
                      .melting = melting,

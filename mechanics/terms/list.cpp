@@ -6,9 +6,9 @@ template<int dim> std::vector<std::unique_ptr<Term<dim>>> make_terms(const Model
   std::vector<std::unique_ptr<Term<dim>>> terms;
   for (const auto make :
        {body_energy<dim>, equation_of_state<dim>, point_damage<dim>, thermal_expansion<dim>,
-        bulk_viscosity<dim>, plane_stress<dim>, plies<dim>, contact_and_supports<dim>, edge_defect<dim>,
-        reference_energy<dim>, pressure_exchange<dim>, stress_annealing<dim>, matter_flow<dim>,
-        applied_loads<dim>, heat<dim>, tool_heat<dim>})
+        bulk_viscosity<dim>, plane_stress<dim>, plies<dim>, contact_and_supports<dim>, cohesive<dim>,
+        edge_defect<dim>, reference_energy<dim>, pressure_exchange<dim>, stress_annealing<dim>,
+        matter_flow<dim>, applied_loads<dim>, heat<dim>, tool_heat<dim>})
     if (auto term = make(model)) terms.push_back(std::move(term));
   return terms;
 }

@@ -19,6 +19,9 @@ template<int dim> std::unique_ptr<Term<dim>> bulk_viscosity(const Model<dim>& mo
 template<int dim> std::unique_ptr<Term<dim>> plane_stress(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> plies(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> contact_and_supports(const Model<dim>& model);
+template<int dim> std::unique_ptr<Term<dim>> cohesive(const Model<dim>& model);
+template<> std::unique_ptr<Term<2>> cohesive(const Model<2>& model);
+template<> std::unique_ptr<Term<3>> cohesive(const Model<3>& model);
 template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> reference_energy(const Model<dim>& model);
 template<int dim> std::unique_ptr<Term<dim>> pressure_exchange(const Model<dim>& model);

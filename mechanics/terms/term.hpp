@@ -73,6 +73,7 @@ struct StepLimit {
   double stabilisation = 0.0;    ///< α of the penalties: they raise the highest frequency by √(1 + α)
   double critical_damping = 0.0; ///< share ξ of it: the step shortens by √(1 + ξ²) − ξ
   double heat = 0.0;             ///< s, of heat where nothing moves
+  double springs = 0.0;          ///< 1/s², of bonds: what they add to the squares of the body's frequencies
   double tools = infinite;       ///< s, of the finest step: of tools on springs
 };
 

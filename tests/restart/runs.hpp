@@ -23,6 +23,7 @@ std::string space_sheared();
 std::string space_periodic();
 /// Bonded, periodic and cracked.
 std::string parts_case();
+std::string delaminating_case();
 /// A crack that runs, with damage averaged over a length.
 std::string cracked_case();
 /// A ply that fails while the cloud changes.

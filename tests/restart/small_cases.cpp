@@ -379,6 +379,7 @@ const std::vector<SmallCase>& small_cases() {
       {"touching", touching},
       {"conducting_tool", with_conducting_punch(punched)},
       {"parts", parts_case()},
+      {"delaminating", delaminating_case()},
       {"window", window_case()},
       {"ply", ply_case()},
       {"thin", "[analysis]\nkinematics = \"plane stress\"\n" + punched},

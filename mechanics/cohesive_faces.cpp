@@ -1,0 +1,224 @@
+#include "mechanics/cohesive_faces.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace cnem {
+namespace {
+
+/// An element where its nodes are now.
+struct Placed {
+  std::array<std::array<Vec2, 2>, 2> x; ///< [side][node] m
+  std::array<double, 2> span;           ///< m, bonded lengths of the segments
+  Vec2 along, normal;                   ///< unit vectors of the mean tangent
+  double stretch;                       ///< sum of the tangents of both sides by bonded length
+
+  Placed(const CohesiveElement& element, const Fields<2>& position) {
+    Vec2 tangent = Vec2::Zero();
+    for (std::size_t s = 0; s < 2; ++s) {
+      const BondedSegment& segment = element.side[s];
+      for (std::size_t k = 0; k < 2; ++k) x[s][k] = vector_at<2>(position, index_of(segment.node[k]));
+      span[s] = segment.arc[1] - segment.arc[0];
+      tangent += (x[s][1] - x[s][0]) / span[s];
+    }
+    stretch = tangent.norm();
+    along = tangent / stretch;
+    normal = left_normal(along);
+  }
+
+  Vec2 jump(const CohesiveElement& element, std::size_t end) const {
+    const auto left = element.values(0, end), right = element.values(1, end);
+    return left[0] * x[0][0] + left[1] * x[0][1] - right[0] * x[1][0] - right[1] * x[1][1];
+  }
+};
+
+} // namespace
+
+CohesiveFaces::CohesiveFaces(std::vector<CohesiveSpec> specs, const Cloud<2>& cloud, bool left_to_contact)
+    : left_to_contact_(left_to_contact) {
+  for (CohesiveSpec& spec : specs) {
+    CohesiveInterface& made = interface_.emplace_back();
+    made.spec = std::move(spec);
+    for (std::size_t s = 0; s < 2; ++s) {
+      double arc = 0.0;
+      made.face[s] = segments_of(cloud, made.spec.piece[s], s);
+      for (BondedSegment& segment : made.face[s]) {
+        segment.arc[0] = arc;
+        arc += (cloud.position[segment.node[1]] - cloud.position[segment.node[0]]).norm();
+        segment.arc[1] = arc;
+      }
+      made.length = arc;
+    }
+    build(made);
+    for (std::size_t e = 0; e < made.element.size(); ++e)
+      for (std::size_t end = 0; end < 2; ++end)
+        for (const auto& [from, to] : made.spec.open) {
+          const double middle = 0.5 * (made.element[e].arc[0] + made.element[e].arc[1]);
+          if (middle > from && middle < to) made.state[e][end].damage = 1.0;
+        }
+  }
+}
+
+/// Elements where segments of both faces overlap, at rest.
+void CohesiveFaces::build(CohesiveInterface& interface) const {
+  interface.element.clear();
+  const auto& [left, right] = interface.face;
+  const double least = 1e-9 * interface.length; // ends of segments that differ by rounding are one
+  for (std::size_t i = 0, j = 0; i < left.size() && j < right.size();) {
+    const double from = std::max(left[i].arc[0], right[j].arc[0]),
+                 to = std::min(left[i].arc[1], right[j].arc[1]);
+    if (to - from > least) interface.element.push_back({{left[i], right[j]}, {from, to}});
+    if (left[i].arc[1] <= right[j].arc[1])
+      ++i;
+    else
+      ++j;
+  }
+  interface.state.assign(interface.element.size(), {});
+}
+
+CohesiveWork CohesiveFaces::evaluate(const Fields<2>& position) {
+  CohesiveWork work;
+  has_broken_ = false;
+  for (std::size_t k = 0; k < 2; ++k) force_[k].assign(position[k].size(), 0.0);
+  for (CohesiveInterface& interface : interface_) {
+    const plasticity::CohesiveLaw& law = interface.spec.law;
+    for (std::size_t e = 0; e < interface.element.size(); ++e) {
+      if (free(interface.state[e][0]) && free(interface.state[e][1])) continue;
+      const CohesiveElement& element = interface.element[e];
+      const Placed now(element, position);
+      const double weight = element.weight();
+      for (std::size_t end = 0; end < 2; ++end) {
+        CohesiveEnd& state = interface.state[e][end];
+        if (free(state)) continue;
+        const Vec2 jump = now.jump(element, end);
+        const double across = now.normal.dot(jump);
+        const Vec2 separation(across - state.offset, now.along.dot(jump));
+        const double damage = law.damage_at(separation, state.damage);
+        work.dissipated += weight * law.dissipated(state.separation, separation, damage - state.damage);
+        has_broken_ |= damage >= 1.0 && state.damage < 1.0;
+        state.damage = damage;
+        state.separation = separation;
+        const double stored = weight * law.stored(separation, damage);
+        if (free(state)) { // contact goes on with what is pressed together, from rest
+          work.dissipated += stored;
+          continue;
+        }
+        work.stored += stored;
+        const Vec2 traction = law.traction(separation, damage);
+        const Vec2 push = weight * (traction.x() * now.normal + traction.y() * now.along);
+        const Vec2 couple =
+            weight * (traction.y() * across - traction.x() * separation.y()) / now.stretch * now.normal;
+        for (std::size_t s = 0; s < 2; ++s) {
+          const auto values = element.values(s, end);
+          for (std::size_t a = 0; a < 2; ++a) {
+            const Vec2 part =
+                (s == 0 ? -values[a] : values[a]) * push + (a == 0 ? 1.0 : -1.0) / now.span[s] * couple;
+            for (std::size_t k = 0; k < 2; ++k)
+              force_[k][index_of(element.side[s].node[a])] += part[static_cast<Eigen::Index>(k)];
+          }
+        }
+      }
+    }
+  }
+  return work;
+}
+
+double CohesiveFaces::frequency_bound(const Field& mass) const {
+  Field row(mass.size(), 0.0);
+  for (const CohesiveInterface& interface : interface_)
+    for (std::size_t e = 0; e < interface.element.size(); ++e)
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (free(interface.state[e][end])) continue;
+        const CohesiveElement& element = interface.element[e];
+        for (std::size_t s = 0; s < 2; ++s) {
+          const auto values = element.values(s, end);
+          for (std::size_t a = 0; a < 2; ++a)
+            row[index_of(element.side[s].node[a])] +=
+                2.0 * interface.spec.law.stiffness * element.weight() * values[a];
+        }
+      }
+  double bound = 0.0;
+  for (std::size_t i = 0; i < row.size(); ++i) bound = std::max(bound, row[i] / mass[i]);
+  return bound;
+}
+
+void CohesiveFaces::part(Fields<2>& position) {
+  constexpr double apart = 1e-4; // of an element
+  const std::size_t nodes = position[0].size();
+  IndexedVector<NodeIndex, Vec2> shift(nodes, Vec2::Zero());
+  bool any = false;
+  for (const CohesiveInterface& interface : interface_)
+    for (const CohesiveElement& element : interface.element) {
+      const Placed now(element, position);
+      for (std::size_t end = 0; end < 2; ++end) {
+        const Vec2 jump = now.jump(element, end);
+        const double wide = apart * 2.0 * element.weight(), missing = wide - now.normal.dot(jump);
+        if (missing <= 0.5 * wide || jump.isZero(0.0)) continue; // by less not at each reference
+        any = true;
+        for (std::size_t s = 0; s < 2; ++s) {
+          const auto values = element.values(s, end);
+          const Vec2 wanted = (s == 0 ? 0.5 : -0.5) * missing * now.normal;
+          for (std::size_t a = 0; a < 2; ++a)
+            if (Vec2& own = shift[element.side[s].node[a]]; values[a] > 0.0 && wanted.norm() > own.norm())
+              own = wanted;
+        }
+      }
+    }
+  if (!any) return;
+  const Fields<2> before = position;
+  for (const NodeIndex i : shift.indices())
+    for (std::size_t k = 0; k < 2; ++k) position[k][index_of(i)] += shift[i][static_cast<Eigen::Index>(k)];
+  for (CohesiveInterface& interface : interface_)
+    for (std::size_t e = 0; e < interface.element.size(); ++e) {
+      const CohesiveElement& element = interface.element[e];
+      const Placed was(element, before), is(element, position);
+      for (std::size_t end = 0; end < 2; ++end)
+        interface.state[e][end].offset +=
+            is.normal.dot(is.jump(element, end)) - was.normal.dot(was.jump(element, end));
+    }
+}
+
+double CohesiveFaces::broken_length(const CohesiveInterface& interface) {
+  double length = 0.0;
+  for (std::size_t e = 0; e < interface.element.size(); ++e)
+    for (const CohesiveEnd& end : interface.state[e])
+      if (end.damage >= 1.0) length += interface.element[e].weight();
+  return length;
+}
+
+contact::Bonds CohesiveFaces::bonds(const Cloud<2>& cloud) const {
+  contact::Bonds bonds;
+  if (interface_.empty() || !left_to_contact_) return bonds;
+  bonds.face.assign(cloud.facets.size(), -1);
+  bonds.covered.assign(cloud.facets.size(), 0);
+  bonds.bonded.assign(cloud.position.size(), -1);
+  IndexedVector<NodeIndex, CloudFacetIndex> leaving(cloud.position.size(), CloudFacetIndex::none);
+  for (const CloudFacetIndex f : cloud.facets.indices()) leaving[cloud.facets[f].node[0]] = f;
+  for (std::size_t i = 0; i < interface_.size(); ++i)
+    for (std::size_t s = 0; s < 2; ++s) {
+      const auto number = as<std::int32_t>(2 * i + s);
+      for (const BondedSegment& segment : interface_[i].face[s]) {
+        const CloudFacetIndex f = leaving[segment.node[s == 0 ? 0 : 1]];
+        bonds.face[f] = number;
+        bonds.covered[f] = 1;
+      }
+      for (std::size_t e = 0; e < interface_[i].element.size(); ++e) {
+        const CohesiveElement& element = interface_[i].element[e];
+        const BondedSegment& segment = element.side[s];
+        for (std::size_t end = 0; end < 2; ++end) {
+          if (interface_[i].state[e][end].damage >= 1.0) {
+            bonds.covered[leaving[segment.node[s == 0 ? 0 : 1]]] = 0;
+            continue;
+          }
+          const auto values = element.values(s, end);
+          for (std::size_t a = 0; a < 2; ++a)
+            if (values[a] > 0.5) bonds.bonded[segment.node[a]] = number;
+        }
+      }
+    }
+  return bonds;
+}
+
+} // namespace cnem

@@ -1,0 +1,176 @@
+// How cohesive interfaces follow a changed cloud, and what a checkpoint keeps of them.
+#include "core/index.hpp"
+#include "mechanics/cohesive_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace cnem {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Linear between the ends of an element.
+CohesiveEnd between(const std::array<CohesiveEnd, 2>& ends, double place) {
+  const auto mean = [&](double a, double b) {
+    return place == 0.0 ? a : place == 1.0 ? b : (1.0 - place) * a + place * b;
+  };
+  CohesiveEnd result;
+  result.damage = mean(ends[0].damage, ends[1].damage);
+  result.offset = mean(ends[0].offset, ends[1].offset);
+  for (Eigen::Index k = 0; k < 2; ++k)
+    result.separation[k] = mean(ends[0].separation[k], ends[1].separation[k]);
+  return result;
+}
+
+/// [new node] arc length of those that are old nodes of a face, or made of such alone; NaN elsewhere.
+IndexedVector<NodeIndex, double> known_arcs(const std::vector<BondedSegment>& before,
+                                            const Resampling<2>& change) {
+  IndexedVector<NodeIndex, double> old(change.new_of.size(), unknown), now(change.old_of.size(), unknown);
+  for (const BondedSegment& segment : before)
+    for (std::size_t k = 0; k < 2; ++k) old[segment.node[k]] = segment.arc[k];
+  for (const NodeIndex i : now.indices()) {
+    if (exists(change.old_of[i])) {
+      now[i] = old[change.old_of[i]];
+      continue;
+    }
+    now[i] = 0.0;
+    const auto p = index_of(i);
+    for (auto e = index_of(change.labels.begin[p]); e < index_of(change.labels.begin[p + 1]); ++e)
+      now[i] += change.labels.weight[e] * old[change.labels.from[e]];
+  }
+  return now;
+}
+
+/// Nodes of a chain of segments that have no arc length take it between their neighbours, by distance. What
+/// begins or ends without one is left out.
+void fill_chain(std::vector<BondedSegment>& face, std::size_t first, std::size_t last, const Cloud<2>& cloud,
+                IndexedVector<NodeIndex, double>& arc) {
+  std::vector<NodeIndex> chain{face[first].node[0]};
+  for (std::size_t i = first; i < last; ++i) chain.push_back(face[i].node[1]);
+  for (std::size_t a = 0; a < chain.size(); ++a) {
+    if (std::isnan(arc[chain[a]])) continue;
+    std::size_t b = a + 1;
+    while (b < chain.size() && std::isnan(arc[chain[b]])) ++b;
+    if (b == chain.size()) break;
+    const auto length = [&](std::size_t k) {
+      return (cloud.position[chain[k]] - cloud.position[chain[k - 1]]).norm();
+    };
+    double whole = 0.0, part = 0.0;
+    for (std::size_t k = a + 1; k <= b; ++k) whole += length(k);
+    for (std::size_t k = a + 1; k < b; ++k) {
+      part += length(k);
+      arc[chain[k]] = arc[chain[a]] + part / whole * (arc[chain[b]] - arc[chain[a]]);
+    }
+  }
+}
+
+std::vector<BondedSegment> follow(const std::vector<BondedSegment>& before, PieceIndex piece,
+                                  std::size_t side, const Resampling<2>& change) {
+  std::vector<BondedSegment> face = segments_of(change.cloud, piece, side);
+  IndexedVector<NodeIndex, double> arc = known_arcs(before, change);
+  for (std::size_t first = 0; first < face.size();) {
+    std::size_t last = first + 1;
+    while (last < face.size() && face[last].node[0] == face[last - 1].node[1]) ++last;
+    fill_chain(face, first, last, change.cloud, arc);
+    first = last;
+  }
+  for (BondedSegment& segment : face)
+    for (std::size_t k = 0; k < 2; ++k) segment.arc[k] = arc[segment.node[k]];
+  std::erase_if(face, [](const BondedSegment& segment) { return !(segment.arc[0] < segment.arc[1]); });
+  std::sort(face.begin(), face.end(),
+            [](const BondedSegment& a, const BondedSegment& b) { return a.arc[0] < b.arc[0]; });
+  return face;
+}
+
+} // namespace
+
+std::vector<BondedSegment> segments_of(const Cloud<2>& cloud, PieceIndex piece, std::size_t side) {
+  std::vector<BondedSegment> all;
+  std::map<NodeIndex, std::size_t> leaving;
+  std::set<NodeIndex> entered;
+  for (const Facet<2>& facet : cloud.facets) {
+    if (facet.piece != piece) continue;
+    const auto [a, b] = facet.node;
+    const std::array ends = side == 0 ? std::array{a, b} : std::array{b, a};
+    leaving[ends[0]] = all.size();
+    entered.insert(ends[1]);
+    all.push_back({ends, {}});
+  }
+  std::vector<BondedSegment> face;
+  for (const BondedSegment& begin : all) {
+    if (entered.contains(begin.node[0])) continue;
+    for (auto at = leaving.find(begin.node[0]); at != leaving.end(); at = leaving.find(face.back().node[1]))
+      face.push_back(all[at->second]);
+  }
+  return face;
+}
+
+void CohesiveFaces::resample(const Resampling<2>& change) {
+  for (CohesiveInterface& interface : interface_) {
+    const std::vector<CohesiveElement> element = std::move(interface.element);
+    const std::vector<std::array<CohesiveEnd, 2>> state = std::move(interface.state);
+    for (std::size_t s = 0; s < 2; ++s)
+      interface.face[s] = follow(interface.face[s], interface.spec.piece[s], s, change);
+    build(interface);
+    std::size_t old = 0;
+    for (std::size_t e = 0; e < interface.element.size() && !element.empty(); ++e) {
+      const auto& [from, to] = interface.element[e].arc;
+      const double middle = 0.5 * (from + to);
+      while (old + 1 < element.size() && element[old].arc[1] < middle) ++old;
+      for (std::size_t end = 0; end < 2; ++end) {
+        // an end beyond the old element has the state of the one that holds it
+        std::size_t holder = old;
+        const double at = interface.element[e].arc[end];
+        while (end == 0 && holder > 0 && element[holder].arc[0] > at) --holder;
+        while (end == 1 && holder + 1 < element.size() && element[holder].arc[1] < at) ++holder;
+        const auto& span = element[holder].arc;
+        interface.state[e][end] =
+            between(state[holder], std::clamp((at - span[0]) / (span[1] - span[0]), 0.0, 1.0));
+      }
+    }
+  }
+}
+
+void CohesiveFaces::archive(Archive& archive) {
+  for (CohesiveInterface& interface : interface_) {
+    const std::string place = "solver/cohesive/" + interface.spec.name;
+    for (std::size_t s = 0; s < 2; ++s) {
+      std::vector<NodeIndex> node;
+      std::vector<double> arc;
+      for (const BondedSegment& segment : interface.face[s])
+        for (std::size_t k = 0; k < 2; ++k) {
+          node.push_back(segment.node[k]);
+          arc.push_back(segment.arc[k]);
+        }
+      archive.integers(fmt::format("{}/face.{}/node", place, s), node);
+      archive.list(fmt::format("{}/face.{}/arc", place, s), "m", arc);
+      if (!archive.loading()) continue;
+      interface.face[s].assign(node.size() / 2, {});
+      for (std::size_t i = 0; i < interface.face[s].size(); ++i)
+        interface.face[s][i] = {{node[2 * i], node[2 * i + 1]}, {arc[2 * i], arc[2 * i + 1]}};
+    }
+    if (archive.loading()) build(interface);
+    Field damage, offset, across, along;
+    for (const auto& ends : interface.state)
+      for (const CohesiveEnd& end : ends) {
+        damage.push_back(end.damage);
+        offset.push_back(end.offset);
+        across.push_back(end.separation.x());
+        along.push_back(end.separation.y());
+      }
+    archive.field(place + "/damage", "1", damage);
+    archive.field(place + "/offset", "m", offset);
+    archive.field(place + "/separation.0", "m", across);
+    archive.field(place + "/separation.1", "m", along);
+    for (std::size_t i = 0; i < damage.size(); ++i)
+      interface.state[i / 2][i % 2] = {damage[i], {across[i], along[i]}, offset[i]};
+  }
+}
+
+} // namespace cnem
