@@ -84,8 +84,7 @@ WorkingSurface::Edge WorkingSurface::between(NodeIndex from, NodeIndex to) const
 }
 
 bool WorkingSurface::crease(Edge e) const {
-  return facet_[index_of(e / 3)].piece != facet_[index_of(across(e) / 3)].piece ||
-         cosine_across(e) < least_crease_;
+  return piece(e) != piece(across(e)) || (cosine_across(e) < least_crease_ && !is_still(piece(e)));
 }
 
 bool WorkingSurface::corner(NodeIndex i) const {
@@ -224,7 +223,8 @@ SurfaceChange WorkingSurface::try_collapse(Edge e, double spacing, Vec3& to) con
     if (i == gone) lost += area.dot(at(gone) - from);
   });
   const double limit = rules_.volume * spacing * spacing * spacing;
-  if (std::abs(lost) > limit) return {Refusal::volume};
+  const bool repeated = is_still(piece(e)) && !crease(e); // its image takes as much as it adds
+  if (!repeated && std::abs(lost) > limit) return {Refusal::volume};
   constexpr double rounding = 1e-9, farthest = 0.1;
   to = from;
   if (std::abs(lost) > rounding * limit && !held(stays) && !still(stays) && !corner(stays)) {
@@ -301,7 +301,7 @@ SurfaceChange WorkingSurface::try_flip(Edge e, double spacing) const {
       return {Refusal::normals};
   const double volume = (at(b) - at(a)).cross(at(c) - at(a)).dot(at(d) - at(a)) / 6.0;
   const double cube = spacing * spacing * spacing;
-  if (std::abs(volume) > rules_.volume * cube) return {Refusal::volume};
+  if (!is_still(piece(e)) && std::abs(volume) > rules_.volume * cube) return {Refusal::volume};
   constexpr double plane = 1e-9;
   if (held(a) && held(b) && held(c) && held(d) && std::abs(volume) > plane * cube) return {Refusal::held};
   return {Refusal::none, volume};

@@ -17,7 +17,9 @@ struct SurfaceRules {
   double flat = 14.0;   ///< facets that turn by less may exchange their diagonal
   double volume = 0.02; ///< how much volume a change may add or take (in h³) before it is given back
   double shape = 0.05;  ///< least height of a facet over its longest side, unless it was less before
-  std::vector<PieceIndex> still{}; ///< nodes on these come and go, but none moves
+  /// Pieces of which each is repeated by another: nodes on them come and go, but none moves, and what a
+  /// change inside of one does to the volume is undone by its image.
+  std::vector<PieceIndex> still{};
 };
 
 /// Why the surface was left as it was.
@@ -84,7 +86,8 @@ public:
   int valence(NodeIndex i) const;
   /// The edge between two nodes; no_edge where there is none.
   Edge between(NodeIndex from, NodeIndex to) const;
-  /// Where facets of two pieces meet, or that turn by more than rules.crease.
+  /// Where facets of two pieces meet, or that turn by more than rules.crease; pieces that are repeated have
+  /// no creases inside.
   bool crease(Edge e) const;
   /// Creases end, branch or turn here.
   bool corner(NodeIndex i) const;

@@ -74,7 +74,7 @@ TEST(SpacePeriods, generated_sides_are_copies) {
     const Vec3& x = cloud.position[group[0]];
     for (const NodeIndex i : group.subspan(1)) {
       const Vec3 shift = cloud.position[i] - x;
-      EXPECT_NEAR(std::abs(shift.x()), shift.x() == 0.0 ? 0.0 : 1e-3, 1e-17);
+      EXPECT_NEAR(shift.x() * (1e-3 - std::abs(shift.x())), 0.0, 1e-20);
       EXPECT_NEAR(shift.y() * (0.8e-3 - std::abs(shift.y())), 0.0, 1e-20);
       EXPECT_NEAR(shift.z(), 0.0, 1e-17);
     }
