@@ -65,6 +65,9 @@ TEST_P(AdversarialOperators, patch_linear_fields_are_exact) {
     const auto laplace = scni::Cnem({Functions::laplace, 1}).rebuild(random.cloud).mechanics;
     expect_linear_fields_reproduced(random.cloud, laplace);
     expect_interior_free_of_force(random.cloud, laplace);
+    const auto squares = scni::Cnem({.gauss_points = 1, .support = 2.5}).rebuild(random.cloud).mechanics;
+    expect_linear_fields_reproduced(random.cloud, squares);
+    expect_interior_free_of_force(random.cloud, squares);
     const auto triangles = methods::FeTriangles().rebuild(random.cloud).mechanics;
     expect_linear_fields_reproduced(random.cloud, triangles);
     expect_interior_free_of_force(random.cloud, triangles);

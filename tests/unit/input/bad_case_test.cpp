@@ -105,8 +105,9 @@ TEST(BadCase, TypesAndUnits) {
   expect_parts(refusal("[analysis]\nthermal = \"yes\"\n"),
                {"case.toml:15:11: key 'analysis.thermal'", "true or false"});
   expect_parts(refusal("[method]\ngauss_points = 1.5\n"), {"found 1.5, expected a whole number"});
-  expect_parts(refusal("[method]\nfunctions = \"sibsen\"\n"),
-               {"found \"sibsen\", expected one of \"sibson\", \"laplace\" (did you mean 'sibson'?)"});
+  expect_parts(
+      refusal("[method]\nfunctions = \"sibsen\"\n"),
+      {"found \"sibsen\", expected one of \"sibson\", \"laplace\", \"mls\" (did you mean 'sibson'?)"});
   expect_parts(refusal("title = 3\n", {}), {"key 'materials.steel.title'"}); // belongs to the table above
   expect_parts(refusal("", {"title=3"}), {"--set title=3: key 'title': found 3, expected a text"});
   expect_parts(refusal("", {"time=3"}), {"key 'time': found 3, expected a table [time]"});
