@@ -66,6 +66,16 @@ int winding_number(const Surface<2>& surface, PlacesOnBoundary<2> position, cons
   return turns;
 }
 
+/// Whether a node and a facet are on the two faces of a cohesive interface.
+bool were_bonded(const Bonds& bonds, const Surface<2>& surface, BoundaryNodeIndex node, FacetIndex facet) {
+  if (bonds.empty()) return false;
+  const auto face = [&](FacetIndex f) {
+    return exists(f) ? bonds.face[as<CloudFacetIndex>(index_of(f))] : -1;
+  };
+  const std::int32_t other = face(facet) < 0 ? -2 : face(facet) ^ 1;
+  return face(surface.entering[node]) == other || face(surface.leaving[node]) == other;
+}
+
 /// A hit with when it happened, to choose between facets that meet.
 struct Candidate {
   FacetHit<2> hit;
@@ -193,6 +203,11 @@ void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, 
       const double gap_before = before.gap(start[b]) - kept, place = now.place(end[b]);
       const double s = std::clamp(place, 0.0, 1.0);
       FacetHit<2> hit{b, f, {1.0 - s, s}, now.normal, std::min(gap_before, 0.0), kept};
+      if (were_bonded(bonds_, surface, b,
+                      f)) { // what compressed the bond stays: to push it out would take work
+        hit.clearance += hit.start;
+        hit.start = 0.0;
+      }
       if (gap_before >= -kept - rounding * before.length) {
         const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;
         const double there = (1.0 - when) * before.place(start[b]) + when * place;

@@ -96,16 +96,16 @@ CohesiveWork CohesiveFaces::evaluate(const Fields<2>& position) {
         const double across = now.normal.dot(jump);
         const Vec2 separation(across - state.offset, now.along.dot(jump));
         const double damage = law.damage_at(separation, state.damage);
+        const double pressed = std::min(separation.x(), 0.0) * std::min(state.separation.x(), 0.0);
         work.dissipated += weight * law.dissipated(state.separation, separation, damage - state.damage);
         has_broken_ |= damage >= 1.0 && state.damage < 1.0;
         state.damage = damage;
         state.separation = separation;
-        const double stored = weight * law.stored(separation, damage);
-        if (free(state)) { // contact goes on with what is pressed together, from rest
-          work.dissipated += stored;
+        if (free(state)) { // contact goes on with what is pressed together, and K stores no more
+          work.dissipated += weight * 0.5 * law.stiffness * pressed;
           continue;
         }
-        work.stored += stored;
+        work.stored += weight * law.stored(separation, damage);
         const Vec2 traction = law.traction(separation, damage);
         const Vec2 push = weight * (traction.x() * now.normal + traction.y() * now.along);
         const Vec2 couple =
@@ -145,7 +145,7 @@ double CohesiveFaces::frequency_bound(const Field& mass) const {
 }
 
 void CohesiveFaces::part(Fields<2>& position) {
-  constexpr double apart = 1e-4; // of an element
+  constexpr double apart = 1e-5; // of an element
   const std::size_t nodes = position[0].size();
   IndexedVector<NodeIndex, Vec2> shift(nodes, Vec2::Zero());
   bool any = false;

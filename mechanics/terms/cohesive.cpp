@@ -31,9 +31,9 @@ public:
 
   /// What resampling has taken of the stored energy, or given, goes to what is dissipated.
   void settle(const Body<2>&, bool resampled, const Booked&) override {
-    if (resampled) dissipated_.value += stored_before_ - stored_.value;
+    if (resampled) dissipated_.value = before_ - stored_.value;
   }
-  void leave(const Body<2>&) override { stored_before_ = stored_.value; }
+  void leave(const Body<2>&) override { before_ = stored_.value + dissipated_.value; }
 
   void begin_forces(const Body<2>& body, int /*activity*/) override {
     look(body);
@@ -61,7 +61,7 @@ private:
 
   Energy stored_{"cohesive_elastic", EnergyKind::held}; ///< of faces that separate or are pressed together
   Energy dissipated_{"cohesive_damage", EnergyKind::dissipated}; ///< by the growth of their damage
-  double stored_before_ = 0.0;                                   ///< J/m, under the reference that is left
+  double before_ = 0.0; ///< J/m, both under the reference that is left
 };
 
 } // namespace

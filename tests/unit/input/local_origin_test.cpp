@@ -139,6 +139,28 @@ materials.steel = { density = "7850 kg/m3", elastic = { young = "210 GPa", poiss
   EXPECT_LT(c.cloud.nodes[4].norm(), 2.0);
 }
 
+TEST(LocalOrigin, of_where_an_interface_is_open) {
+  const Case c = read_case_text(R"(time.end = "1 us"
+analysis.thermal = false
+[domain]
+material = "steel"
+outer.rectangle = { from = "1024 0 m", to = "1026 1 m" }
+interfaces.joint.points = ["1024 0.5 m", "1026 0.5 m"]
+interfaces.joint.cohesive = { stiffness = "1e12 Pa/m", strength = "1 MPa", energy = "10 J/m2", open = ["1024 0.5 m", "1025 0.5 m"] }
+[cloud]
+spacing = "0.5 m"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+)",
+                                "case.toml");
+  const Interface& interface = c.domain.interfaces.at(0);
+  EXPECT_EQ(interface.open.at(1) + c.origin.head<2>(), Vec2(1025, 0.5));
+  EXPECT_LT(interface.open.at(1).norm(), 2.0);
+  EXPECT_EQ(interface.cohesive->shear_strength, 1e6);
+  EXPECT_EQ(interface.cohesive->shear_energy, 10.0);
+}
+
 TEST(LocalOrigin, shifts_blocks_and_planes) {
   const auto at = [](double x) {
     return read_case_text(fmt::format(R"(analysis.kinematics = "three-dimensional"
@@ -213,6 +235,7 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
                               "domain.cracks.*.points",
                               "domain.cracks.*.rotate.centre",
                               "domain.interfaces.*.points",
+                              "domain.interfaces.*.cohesive.open",
                               "domain.regions.*.at",
                               "cloud.nodes",
                               "cloud.refine.*.box",
