@@ -214,7 +214,7 @@ private:
 double shear_left(const double (&damage)[ply_modes]) {
   double left = 1.0;
   for (const double d : damage) left *= 1.0 - d;
-  constexpr double least = 1e-4;
+  constexpr double least = 1e-6;
   return std::max(left, least);
 }
 

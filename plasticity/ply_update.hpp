@@ -13,7 +13,7 @@ struct PlyStress {
   PlyShares left;   ///< of the members that act
 };
 
-/// Π (1 − d) over the modes, at least 1e-4.
+/// Π (1 − d) over the modes, at least 1e-6.
 double shear_left(const double (&damage)[ply_modes]);
 
 /// Of ε11, ε22, γ12 with the damage of all modes. The sign of each nominal stress chooses the mode that acts

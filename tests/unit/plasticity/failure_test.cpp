@@ -64,6 +64,11 @@ TEST(Failure, indices_as_worked_out_without_the_program) {
   EXPECT_EQ(rows, 2 * 3 * 27);
 }
 
+/// Whether a mode stands in a list "a+b".
+bool begins(const std::string& modes, const std::string& mode) {
+  return ("+" + modes + "+").find("+" + mode + "+") != std::string::npos;
+}
+
 TEST(Failure, strengths_off_the_axes_and_their_modes) {
   for (const Row& row : read_csv("ply_strengths.csv")) {
     const double angle = std::stod(row[2]) * degrees, sign = std::stod(row[3]), strength = std::stod(row[4]);
@@ -75,7 +80,7 @@ TEST(Failure, strengths_off_the_axes_and_their_modes) {
       const Eigen::Vector3d stress = sign * share * strength * Eigen::Vector3d(c * c, s * s, -s * c);
       ASSERT_TRUE(point.set(stretch(strain_of(*m.ply, stress), angle), 1e-9));
       for (std::size_t mode = 0; mode < 5; ++mode)
-        EXPECT_EQ(point.state.begun[mode][0] > 0.0, share > 1.0 && row[5] == mode_names[mode])
+        EXPECT_EQ(point.state.begun[mode][0] > 0.0, share > 1.0 && begins(row[5], mode_names[mode]))
             << row[0] << " " << row[1] << " " << row[2] << "° " << sign << " " << share << " "
             << mode_names[mode];
     }
@@ -116,7 +121,6 @@ TEST(Failure, modes_take_their_energy_whatever_the_length) {
                            Mode{"hashin", fibre_compression, {-1, 0, 0}, 1e4, 2e4 / 443.76e6},
                            Mode{"hashin", matrix_tension, {0, 1, 0}, 1e3, 2e3 / 89.7216e6},
                            Mode{"hashin", matrix_compression, {0, -1, 0}, 1e3, 2e3 / 148.33e6},
-                           Mode{"hashin", matrix_tension, {0, 0, 1}, 1e3, 2e3 / 33.1e6},
                            Mode{"max-stress", ply_shear, {0, 0, 1}, 1e3, 2e3 / 33.1e6},
                            Mode{"larc02", fibre_tension, {1, 0, 0}, 1e4, 2e4 / 788.44e6},
                            Mode{"larc02", matrix_compression, {0, -1, 0}, 1e3, 2e3 / 148.33e6}})
@@ -142,6 +146,8 @@ TEST(Failure, sudden_loss_spends_less_the_smaller_the_cell) {
   const double onset = 89.7216e6 / 11.57e9, stored = 0.5 * 89.7216e6 * onset;
   const auto released = [&](double length) { // held at the strain of its onset for many times ℓ/c
     PlyPoint point(m, true, length);
+    EXPECT_TRUE(point.set(stretch({0.0, onset * (1 - 1e-9), 0.0}, 0.0), 1e-9));
+    EXPECT_EQ(point.state.matrix_tension_damage[0], 0.0);
     double sum = 0.0;
     for (int k = 0; k < 400; ++k) {
       EXPECT_TRUE(point.set(stretch({0.0, onset * (1 + 1e-9), 0.0}, 0.0), 0.05 * length / 4658.0));
