@@ -46,8 +46,8 @@ every_steps = 35
          testing::steel_304l;
 }
 
-// Layers that come apart under a punch beside which one is held, on a bond that is open at one end; passes go over faces
-// that have separated, are pressed together, and rub on each other.
+// Layers that come apart under a punch beside which one is held, on a bond that is open at one end; passes go
+// over faces that have separated, are pressed together, and rub on each other.
 std::string delaminating_case() {
   return R"toml(
 [time]
