@@ -120,6 +120,22 @@ TEST(Cohesive, what_is_sheared_off_under_pressure_goes_over_to_contact) {
   EXPECT_LT(done.status.energy_residual, 1e-3);
 }
 
+TEST(Cohesive, new_nodes_change_little) {
+  const std::string soft =
+      blocks + sheared_off + "[materials.steel.plastic]\nlaw = \"perfect\"\nyield = \"500 MPa\"\n";
+  const FinishedRun given = finish(input::read_case_text(soft, "case.toml", {}));
+  const FinishedRun resampled = finish(input::read_case_text(
+      soft, "case.toml",
+      {"adapt.resample=true", "adapt.indicator={field=\"plastic_strain\",h_min=\"0.12 mm\"}",
+       "method.rereference.every=40"}));
+  EXPECT_GT(resampled.metric("adapt.inserted"), 50.0);
+  expect_nothing_lost(resampled);
+  EXPECT_LT(resampled.status.energy_residual, 1e-3);
+  EXPECT_NEAR(resampled.of("cohesive.joint.broken").back(), given.of("cohesive.joint.broken").back(), 1e-9);
+  for (const char* name : {"cohesive_damage", "friction", "plastic"})
+    EXPECT_NEAR(energy(resampled, name), energy(given, name), 0.05 * energy(given, name)) << name;
+}
+
 TEST(Cohesive, without_contact_compression_is_borne_for_good) {
   const FinishedRun done = finish(input::read_case_text(blocks + sheared_off, "case.toml", {"contact={}"}));
   EXPECT_NEAR(done.of("cohesive.joint.broken").back(), std::hypot(4e-3, 0.2e-3), 1e-9);
