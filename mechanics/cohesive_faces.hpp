@@ -94,7 +94,7 @@ public:
   /// of M⁻¹ K (Gershgorin). mass: [node] kg/m.
   double frequency_bound(const Field& mass) const;
 
-  /// Sets faces apart that are nearer than a ten thousandth of an element, so that a new reference finds no
+  /// Sets faces apart that are nearer than a 100,000th of an element, so that a new reference finds no
   /// matter of one in the other; offsets follow, and so no traction changes. Faces that coincide stay.
   void part(Fields<2>& position);
 

@@ -129,9 +129,12 @@ void CohesiveFaces::resample(const Resampling<2>& change) {
         const double at = interface.element[e].arc[end];
         while (end == 0 && holder > 0 && element[holder].arc[0] > at) --holder;
         while (end == 1 && holder + 1 < element.size() && element[holder].arc[1] < at) ++holder;
-        const auto& span = element[holder].arc;
-        interface.state[e][end] =
-            between(state[holder], std::clamp((at - span[0]) / (span[1] - span[0]), 0.0, 1.0));
+        const auto& [first, last] = element[holder].arc;
+        double place = std::clamp((at - first) / (last - first), 0.0, 1.0);
+        // where an end is broken each speaks for its half, so that nothing heals
+        if (place > 0.0 && place < 1.0 && std::max(state[holder][0].damage, state[holder][1].damage) >= 1.0)
+          place = middle - first < last - middle ? 0.0 : 1.0;
+        interface.state[e][end] = between(state[holder], place);
       }
     }
   }

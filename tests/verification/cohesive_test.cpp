@@ -11,8 +11,6 @@
 namespace cnem::testing {
 namespace {
 
-using Texts = std::vector<std::string>;
-
 /// What beam theory says of a double cantilever beam per thickness (shared reference: composites.md; Williams
 /// 1989).
 struct Beam {
@@ -33,8 +31,7 @@ struct Beam {
 
 TEST(Cohesive, double_cantilever_beam_opens_as_beams_do) {
   const input::Case input =
-      input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/double_cantilever/case.toml",
-                       Texts{"output.pictures=\"\""});
+      input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/verification/double_cantilever/case.toml");
   const FinishedRun done = finish(input);
   const double young = 34.28e9, poisson = 0.3;
   const Beam beam{young / (1.0 - poisson * poisson), young / (2.0 + 2.0 * poisson), 1e-3, 300.0};
@@ -121,6 +118,22 @@ TEST(Cohesive, what_is_sheared_off_under_pressure_goes_over_to_contact) {
   const double pressed = done.mean("body_contact.pressing", 10e-6, 14e-6);
   EXPECT_GT(pressed, 0.9 * std::abs(done.mean("support.top.force_y", 10e-6, 14e-6)));
   EXPECT_LT(done.status.energy_residual, 1e-3);
+}
+
+TEST(Cohesive, new_nodes_change_little) {
+  const std::string soft =
+      blocks + sheared_off + "[materials.steel.plastic]\nlaw = \"perfect\"\nyield = \"500 MPa\"\n";
+  const FinishedRun given = finish(input::read_case_text(soft, "case.toml", {}));
+  const FinishedRun resampled = finish(input::read_case_text(
+      soft, "case.toml",
+      {"adapt.resample=true", "adapt.indicator={field=\"plastic_strain\",h_min=\"0.12 mm\"}",
+       "method.rereference.every=40"}));
+  EXPECT_GT(resampled.metric("adapt.inserted"), 50.0);
+  expect_nothing_lost(resampled);
+  EXPECT_LT(resampled.status.energy_residual, 1e-3);
+  EXPECT_NEAR(resampled.of("cohesive.joint.broken").back(), given.of("cohesive.joint.broken").back(), 1e-9);
+  for (const char* name : {"cohesive_damage", "friction", "plastic"})
+    EXPECT_NEAR(energy(resampled, name), energy(given, name), 0.05 * energy(given, name)) << name;
 }
 
 TEST(Cohesive, without_contact_compression_is_borne_for_good) {

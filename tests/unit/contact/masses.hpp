@@ -145,7 +145,16 @@ struct Masses {
         v[k][i] += dt_mean * force[i][int(k)] / mass[i];
         x[k][i] += dt * v[k][i];
       }
-    contact->correct({time, dt, dt_mean, x, v, mass, flow_stress, temperature, melting, effusivity});
+    contact->correct({.time = time,
+                      .dt = dt,
+                      .dt_mean = dt_mean,
+                      .position = x,
+                      .velocity = v,
+                      .mass = mass,
+                      .flow_stress = flow_stress,
+                      .temperature = temperature,
+                      .melting = melting,
+                      .effusivity = effusivity});
     for (int i = 0; i < int(mass.size()); ++i)
       applied_work += 0.5 * dt_mean * force[std::size_t(i)].dot(before[std::size_t(i)] + velocity(i));
     time += dt;

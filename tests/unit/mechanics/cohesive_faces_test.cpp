@@ -261,5 +261,17 @@ TEST(CohesiveFaces, new_nodes_interpolate_arc_length_and_damage) {
   EXPECT_LT(sum.norm(), 1e-12 * std::abs(faces.force()[1][2]));
 }
 
+TEST(CohesiveFaces, nothing_heals_where_nodes_come) {
+  const Cloud<2> cloud = two_faces(matching, matching);
+  CohesiveFaces faces = faces_of(cloud);
+  Fields<2> x = places(cloud);
+  x[1][2] += 25e-6; // breaks there alone
+  faces.evaluate(x);
+  const double broken = CohesiveFaces::broken_length(faces.interfaces()[0]);
+  EXPECT_NEAR(broken, 1.0 * h, 1e-18);
+  faces.resample(one_more_node(cloud));
+  EXPECT_NEAR(CohesiveFaces::broken_length(faces.interfaces()[0]), broken, 1e-18);
+}
+
 } // namespace
 } // namespace cnem
