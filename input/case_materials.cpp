@@ -260,7 +260,7 @@ plasticity::Material read_material(const Setting& table, std::vector<std::string
     material.anisotropy = read_anisotropy(*anisotropy, table, diagnostics);
   if (const Setting* plastic = table.find("plastic")) {
     material.hardening = read_law<plasticity::Hardening>(plasticity::HardeningLaws{}, *plastic, diagnostics);
-    if (material.hardening) check_fall(material, *plastic, diagnostics);
+    if (material.hardening && !material.ply) check_fall(material, *plastic, diagnostics);
     if (const Setting* range = plastic->find("range")) material.measured = read_range(*range, diagnostics);
   }
   if (const Setting* damage = table.find("damage"))

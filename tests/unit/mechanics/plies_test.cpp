@@ -157,5 +157,75 @@ Broken break_bar(const Bar& bar) {
   return {ledger["failure"] / cut, ledger.residual() / cut, damaged};
 }
 
+Bar matrix_bar(int cells, Lattice lattice) {
+  return {.angle = 90.0 * degree,
+          .length = 1.2e-3,
+          .cells = cells,
+          .lattice = lattice,
+          .failure = strengths(plasticity::FailureCriterion::hashin),
+          .speed = 2.0,
+          .opening = 4e-5};
+}
+
+TEST(Plies, bars_take_the_energy_of_the_mode_whatever_their_cells) {
+  for (const Lattice lattice : {Lattice::square, Lattice::hexagonal})
+    for (const int cells : {10, 20, 40}) {
+      const Broken bar = break_bar(matrix_bar(cells, lattice));
+      EXPECT_NEAR(bar.energy, 1e3, 50.0) << cells << (lattice == Lattice::square ? " square" : " hexagonal");
+      EXPECT_LT(std::abs(bar.residual), 1e-3 * bar.energy) << cells; // the ledger closes
+    }
+  for (const int cells : {10, 20, 40}) { // fibres, without shear in the index
+    Bar bar = matrix_bar(cells, Lattice::square);
+    bar.angle = 0.0, bar.speed = 4.0, bar.opening = 7e-5;
+    bar.failure.criterion = plasticity::FailureCriterion::max_stress;
+    EXPECT_NEAR(break_bar(bar).energy, 12.5e3, 0.05 * 12.5e3) << cells;
+  }
+}
+
+TEST(Plies, sudden_loss_takes_less_the_finer_the_cells) {
+  double last = 0.0;
+  for (const int cells : {20, 40, 80}) { // long: it stores more than it could lose
+    Bar bar = matrix_bar(cells, Lattice::square);
+    bar.length = 4.8e-3;
+    bar.failure.degradation = plasticity::Degradation::sudden;
+    bar.opening = 4.0e-5;
+    const double energy = break_bar(bar).energy;
+    if (last > 0.0) { EXPECT_NEAR(energy / last, 0.5, 0.01) << cells; }
+    last = energy;
+  }
+}
+
+TEST(Plies, turned_bars_break_as_those_that_are_not) {
+  Bar bar = matrix_bar(10, Lattice::square);
+  bar.angle = 60.0 * degree, bar.opening = 1.2e-5;
+  const Broken own = break_bar(bar);
+  bar.turn = 33.0 * degree;
+  const Broken turned = break_bar(bar);
+  EXPECT_GT(own.energy, 100.0);
+  EXPECT_NEAR(turned.energy, own.energy, 5e-3 * own.energy); // which of equal cells break first is rounding
+}
+
+TEST(Plies, mixed_points_keep_turns_and_stretches) {
+  // two halves of the same stretch, turned by angles on both sides of π: the mean is in the middle of them
+  PointState<2> point;
+  point.fibrous.switch_on(true);
+  point.oriented.switch_on(true);
+  for (FieldTable* table : {&point.table, &point.oriented, &point.fibrous}) table->rest(2);
+  const Mat<2> U = (Mat<2>() << 1.2, 0.1, 0.1, 0.9).finished();
+  const double angles[] = {179.0 * degree, -177.0 * degree};
+  for (std::size_t p : {0u, 1u}) {
+    const Mat<2> F = Eigen::Rotation2Dd(angles[p]).toRotationMatrix() * U;
+    for (std::size_t k = 0; k < 4; ++k) point.earlier_deformation[k][p] = F(as<int>(k / 2), as<int>(k % 2));
+  }
+  PointRows parcels;
+  parcels.begin = {0, 2};
+  parcels.from = {PointIndex{0}, PointIndex{1}};
+  parcels.weight = {1.0, 1.0};
+  const auto mixed = mixed_plies<2>(parcels, Field(2, 3.0), {gfrp(0.2)}, point);
+  ASSERT_EQ(mixed.size(), 1u);
+  const Mat<2> wanted = Eigen::Rotation2Dd(181.0 * degree).toRotationMatrix() * U;
+  EXPECT_LT((mixed[0].second - wanted).norm(), 1e-12);
+}
+
 } // namespace
 } // namespace cnem::testing
