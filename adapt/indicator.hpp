@@ -22,8 +22,8 @@ struct Indicator {
 /// looked at once for its two cells, with a rule of degree 2: exactly zero for a constant, exact for a linear
 /// field.
 ///
-/// make() gives the interpolation, one object a thread: evaluate(x, simplex) at a point of a face with
-/// InnerFace::simplex, evaluate(x, cell) at one of the boundary of a cell, then nodes() and values(); false
+/// make() gives the interpolation, one object a thread: evaluate(x, face) at a point of a
+/// face, evaluate(x, cell) at one of the boundary of a cell, then nodes() and values(); false
 /// where there is none, which counts as the value of the cell.
 template<int dim, class MakeFunctions>
 Indicator indicator(const Cloud<dim>& cloud, const CellComplex<dim>& cells, const Field& value,
@@ -62,7 +62,7 @@ Indicator indicator(const Cloud<dim>& cloud, const CellComplex<dim>& cells, cons
       const std::size_t i = index_of(face.cell[0]), j = index_of(face.cell[1]);
       if ((flat[i] && flat[j]) || face.normal().squaredNorm() == 0.0) continue;
       for (const FacePoint<dim>& point : rule) {
-        if (!functions.evaluate(point_on<dim>(face.corner, point.place), face.simplex)) continue;
+        if (!functions.evaluate(point_on<dim>(face.corner, point.place), face)) continue;
         const double at_i = excess(functions, i), at_j = excess(functions, j);
         over[f][0] += point.weight * at_i * at_i;
         over[f][1] += point.weight * at_j * at_j;

@@ -11,9 +11,9 @@ struct Sibson {
   const voronoi::Triangulation& mesh;
 
   // False outside the domain, where rounding may put a point of a cell at a notch.
-  bool evaluate(const Vec2& x, const std::array<SimplexIndex, 2>& simplex) {
+  bool evaluate(const Vec2& x, const InnerFace<2>& face) {
     try {
-      functions.evaluate_on_facet(voronoi::Functions::sibson, x, simplex);
+      functions.evaluate_on_facet(voronoi::Functions::sibson, x, face.simplex);
     } catch (const GeometryError&) { return false; }
     return true;
   }

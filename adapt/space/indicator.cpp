@@ -15,8 +15,8 @@ class Linear {
 public:
   Linear(const Cloud<3>& cloud, const SpaceStructure& structure) : cloud_(cloud), structure_(structure) {}
 
-  bool evaluate(const Vec3& x, const std::array<SimplexIndex, 2>& simplex) {
-    return take(x, structure_.mesh.node[simplex[0]]), true;
+  bool evaluate(const Vec3& x, const InnerFace<3>& face) {
+    return take(x, structure_.mesh.node[face.simplex[0]]), true;
   }
   bool evaluate(const Vec3& x, std::size_t cell) {
     double best = -1.0;
@@ -59,8 +59,8 @@ struct Sibson {
   const voronoi::Tetrahedra& mesh;
   voronoi::NaturalNeighbours3 functions;
 
-  bool evaluate(const Vec3& x, const std::array<SimplexIndex, 2>& simplex) {
-    for (const SimplexIndex hint : simplex)
+  bool evaluate(const Vec3& x, const InnerFace<3>& face) {
+    for (const SimplexIndex hint : face.simplex)
       if (exists(hint)) return functions.evaluate(voronoi::Functions::sibson, x, hint), true;
     return false;
   }

@@ -3,8 +3,8 @@
 #include "evaluate/blanking.hpp"
 
 #include "tests/clouds.hpp"
+#include "tests/degree.hpp"
 #include "tests/index_literals.hpp"
-#include "tests/unit/evaluate/degree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "core/geometry/plane_section.hpp"
 #include "evaluate/machined_surface.hpp"
 #include "tests/clouds.hpp"
-#include "tests/unit/evaluate/degree.hpp"
+#include "tests/degree.hpp"
 
 #include <algorithm>
 #include <cmath>

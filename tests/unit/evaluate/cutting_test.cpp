@@ -6,8 +6,8 @@
 #include "report/picture_recorder.hpp"
 #include "results/output_folder.hpp"
 #include "results/status.hpp"
+#include "tests/degree.hpp"
 #include "tests/temporary_folder.hpp"
-#include "tests/unit/evaluate/degree.hpp"
 #include "tests/unit/input/case_text.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // Outlines of bodies whose faces have known heights and angles.
 #include "evaluate/sheared_face.hpp"
 #include "tests/clouds.hpp"
-#include "tests/unit/evaluate/degree.hpp"
+#include "tests/degree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include "core/index.hpp"
 #include "evaluate/blanking_parts.hpp"
 #include "input/tool_surface.hpp"
+#include "tests/degree.hpp"
 #include "tests/index_literals.hpp"
-#include "tests/unit/evaluate/degree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,16 +1,13 @@
 // Plies in the explicit step: plane waves, energies of breaking bars, new references and mixed points.
 #include "mechanics/ply_mixing.hpp"
+#include "tests/degree.hpp"
 #include "tests/unit/mechanics/models.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 namespace cnem::testing {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// UD-GFRP of paper 000, Table 2, with energies of Lapczyk and Hurtado (2007).
 plasticity::Material gfrp(double angle) {

@@ -3,17 +3,15 @@
 #include "mechanics/statics/statics.hpp"
 #include "methods/fe_simplices.hpp"
 #include "tests/clouds.hpp"
+#include "tests/degree.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 namespace cnem::testing {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 plasticity::Orthotropic glass(double angle) {
   return {.E1 = 34.28e9,

@@ -1,8 +1,8 @@
 #pragma once
 #include <numbers>
 
-namespace cnem::evaluate {
+namespace cnem {
 
 inline constexpr double degree = std::numbers::pi / 180.0;
 
-} // namespace cnem::evaluate
+} // namespace cnem
