@@ -46,6 +46,7 @@ void doubt_indicator(const input::Case& input, double finest, std::vector<std::s
 template<int dim> Checked check_explicit(const input::Case& input, const RunOptions& options) {
   Checked checked;
   ExplicitSolver<dim> solver = make_solver<dim>(input, checked.warnings);
+  refuse_snap_back(input, solver);
   StepControl control(input.time);
   control.refresh(solver);
   for (std::string& warning : supersonic_tools(input, solver)) checked.warnings.push_back(std::move(warning));

@@ -27,7 +27,18 @@ Schedule every(double interval, double end, const Schedule& otherwise) {
   return interval > 0.0 ? Schedule::every(interval, end) : otherwise;
 }
 
-/// A cell over which a mode would let go more energy than it takes cannot spend it.
+} // namespace
+
+template<int dim>
+ExplicitSolver<dim> make_solver(const input::Case& input, std::vector<std::string>& warnings) {
+  Setup<dim> setup = build<dim>(input);
+  warnings = std::move(setup.warnings);
+  try {
+    // not through a name: terms keep addresses of what the solver holds
+    return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
+  } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
+}
+
 template<int dim> void refuse_snap_back(const input::Case& input, const ExplicitSolver<dim>& solver) {
   constexpr const char* modes[] = {"Gft", "Gfc", "Gmt", "Gmc", "Gs"};
   const PointState<dim>& point = solver.state().point;
@@ -46,20 +57,6 @@ template<int dim> void refuse_snap_back(const input::Case& input, const Explicit
   }
 }
 
-} // namespace
-
-template<int dim>
-ExplicitSolver<dim> make_solver(const input::Case& input, std::vector<std::string>& warnings) {
-  Setup<dim> setup = build<dim>(input);
-  warnings = std::move(setup.warnings);
-  try {
-    ExplicitSolver<dim> solver{std::move(setup.problem), std::move(setup.velocity),
-                               std::move(setup.temperature)};
-    refuse_snap_back(input, solver);
-    return solver;
-  } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
-}
-
 template<int dim>
 Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options, RunObserver& observer)
     : input_(input), options_(options), observer_(observer),
@@ -72,6 +69,7 @@ Simulation<dim>::Simulation(const input::Case& input, const RunOptions& options,
       pictures_due_(Schedule::at(input.output.pictures, input.time.end)), control_(input.time),
       renewal_(input.method, input.adapt.quiet_every), retries_(renewal_.by_strain()),
       features_(input, solver_), checkpoints_(input.output.checkpoint) {
+  refuse_snap_back(input, solver_);
   for (std::string& warning : supersonic_tools(input, solver_)) warn(std::move(warning));
   for (std::string& warning : unstable_fixed_step(input, solver_)) warn(std::move(warning));
   for (std::string& doubt : doubts(input, solver_)) warn(std::move(doubt));
@@ -383,6 +381,8 @@ template<int dim> results::RunStatus Simulation<dim>::status() {
   return status;
 }
 
+template void refuse_snap_back(const input::Case&, const ExplicitSolver<2>&);
+template void refuse_snap_back(const input::Case&, const ExplicitSolver<3>&);
 template ExplicitSolver<2> make_solver(const input::Case&, std::vector<std::string>&);
 template ExplicitSolver<3> make_solver(const input::Case&, std::vector<std::string>&);
 template class Simulation<2>;

@@ -127,6 +127,10 @@ private:
 template<int dim>
 ExplicitSolver<dim> make_solver(const input::Case& input, std::vector<std::string>& warnings);
 
+/// A cell over which a mode of failure would let go more energy than it takes cannot spend it: throws
+/// InputError.
+template<int dim> void refuse_snap_back(const input::Case& input, const ExplicitSolver<dim>& solver);
+
 extern template class Simulation<2>;
 extern template class Simulation<3>;
 

@@ -15,8 +15,8 @@ struct SmallCase {
 /// revolution, finite elements, particles, damage, parts that touch or are bonded and adapt, a failure that
 /// is gone back from, a window that moves, space.
 const std::vector<SmallCase>& small_cases();
-/// Those of them that are three-dimensional: a block that is hit, one that is refined, a strip that is sheared
-/// until it parts, and a slab between periodic planes.
+/// Those of them that are three-dimensional: a block that is hit, one that is refined, a strip that is
+/// sheared until it parts, and a slab between periodic planes.
 std::string space_case();
 std::string space_refined();
 std::string space_sheared();
