@@ -163,8 +163,8 @@ TEST(MovingLeastSquares, reproduce_linear_fields_to_rounding) {
   }
 }
 
-/// To 1e-7 where no node is nearer than a fifth of a support, else to what the weights of the others are there. But for
-/// nodes of one place on two faces, which no point tells apart.
+/// To 1e-7 where no node is nearer than a fifth of a support, else to what the weights of the others are
+/// there. But for nodes of one place on two faces, which no point tells apart.
 TEST(MovingLeastSquares, all_but_interpolate_at_nodes) {
   int close = 0, apart = 0;
   for (const NamedCloud& domain : domains()) {

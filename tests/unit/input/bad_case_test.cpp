@@ -52,9 +52,10 @@ TEST(BadCase, StaticAnalysesRefuseWhatMoves) {
                {"key 'boundary.b.velocity': found a velocity in a static analysis, expected a displacement"});
   expect_parts(refusal(head + "[initial]\nvelocity = \"1 0 m/s\"\n"),
                {"key 'initial.velocity': found in a static"});
-  expect_parts(refusal("[analysis]\nkinematics = \"plane stress\"\n[method]\npressure_exchange = 1.0\n"),
-               {"key 'method.pressure_exchange': found an exchange of volume in an explicit analysis of plane "
-                "stress, expected 0"});
+  expect_parts(
+      refusal("[analysis]\nkinematics = \"plane stress\"\n[method]\npressure_exchange = 1.0\n"),
+      {"key 'method.pressure_exchange': found an exchange of volume in an explicit analysis of plane "
+       "stress, expected 0"});
 }
 
 TEST(BadCase, ThermalToolsNeedAThermalAnalysis) {
