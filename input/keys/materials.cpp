@@ -92,13 +92,8 @@ void add_failure(Keys& k, const std::string& at) {
        "What follows when an index is 1: `energy`: the stress of the mode falls linearly with its opening "
        "until "
        "its energy is spent; `sudden`: stiffness is lost at the rate (1 − d) c/ℓ, c the speed of the fastest "
-<<<<<<< HEAD
        "wave, whose energy falls with the cells. A hundredth of the strength (`energy`) or of the "
        "stiffness (`sudden`) is always left.")
-=======
-       "wave, whose energy falls with the cells. A hundredth of the strength (`energy`) or of the stiffness "
-       "(`sudden`) is always left.")
->>>>>>> ortho18
       .one_of({std::begin(plasticity::degradation_names), std::end(plasticity::degradation_names)})
       .fallback("\"energy\"");
 }
