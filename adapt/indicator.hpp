@@ -22,9 +22,9 @@ struct Indicator {
 /// looked at once for its two cells, with a rule of degree 2: exactly zero for a constant, exact for a linear
 /// field.
 ///
-/// make() gives the interpolation, one object a thread: evaluate(x, face) at a point of a
-/// face, evaluate(x, cell) at one of the boundary of a cell, then nodes() and values(); false
-/// where there is none, which counts as the value of the cell.
+/// make() gives the interpolation, one object a thread: evaluate(x, face) at a point of a face, evaluate(x,
+/// cell) at one of the boundary of a cell, then nodes() and values(); false where there is none, which counts
+/// as the value of the cell.
 template<int dim, class MakeFunctions>
 Indicator indicator(const Cloud<dim>& cloud, const CellComplex<dim>& cells, const Field& value,
                     MakeFunctions&& make) {

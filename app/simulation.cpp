@@ -34,7 +34,6 @@ ExplicitSolver<dim> make_solver(const input::Case& input, std::vector<std::strin
   Setup<dim> setup = build<dim>(input);
   warnings = std::move(setup.warnings);
   try {
-    // not through a name: terms keep addresses of what the solver holds
     return {std::move(setup.problem), std::move(setup.velocity), std::move(setup.temperature)};
   } catch (const GeometryError& error) { throw input.error("domain", error.what()); }
 }

@@ -41,7 +41,7 @@ template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
     }
     for (FieldTable* table : node_tables()) table->rest(n);
     // of other methods nodes exchange mass, and are as many as before, which makes as many points
-    const std::size_t points = approximation_.mechanics.nodal ? n : state_.point.size();
+    const std::size_t points = approximation_->mechanics.nodal ? n : state_.point.size();
     for (FieldTable* table : point_tables()) table->rest(points);
   }
   conditions_.ties.archive_nodes(archive, "solver/ties", n);
@@ -117,8 +117,8 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
   for (std::size_t i = 0; i < node.size(); ++i)
     for (std::size_t k = 0; k < dim; ++k)
       conditions_.cloud.position[i][static_cast<Eigen::Index>(k)] = node.reference[k][i];
-  approximation_ = model_.method->rebuild(conditions_.cloud);
-  Conduction<dim>::keep_what_conducts(approximation_.conduction);
+  *approximation_ = model_.method->rebuild(conditions_.cloud);
+  Conduction<dim>::keep_what_conducts(approximation_->conduction);
   place_reference();
   set_levels(local_.level());
   scale_masses();

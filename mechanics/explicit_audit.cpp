@@ -47,7 +47,7 @@ template<int dim> std::vector<Metric> ExplicitSolver<dim>::metrics() const {
 }
 
 template<int dim> double ExplicitSolver<dim>::volume_ratio(std::size_t node) const {
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  const DiscreteOperators<dim>& op = approximation_->mechanics;
   const Field& stress_free = state_.point.stress_free;
   if (op.nodal)
     return body().material_of(node).density * op.volume[node] * stress_free[node] / state_.node.mass[node];

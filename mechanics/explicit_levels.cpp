@@ -20,7 +20,7 @@ template<int dim> void ExplicitSolver<dim>::scale_to_impulses(const LevelRange& 
   for (std::size_t c = stride * range.begin; c < stride * range.end; ++c) stress_.columns[c] *= steps;
   if constexpr (dim == 2)
     for (std::size_t p = range.begin; p < range.end; ++p) stress_.out_of_plane[p] *= steps;
-  if (!approximation_.mechanics.nodal) return;
+  if (!approximation_->mechanics.nodal) return;
   for (Field& component : state_.node.force)
     for (std::size_t i = range.begin; i < range.end; ++i) component[i] *= steps;
 }
@@ -33,9 +33,9 @@ template<int dim> void ExplicitSolver<dim>::set_levels(typename LocalSteps<dim>:
         for (const NodeIndex i : facet.node) finest[index_of(i)] = true;
     for (const auto& held : conditions_.supports.prescribed()) finest[index_of(held.node)] = true;
     for (const NodeIndex i : conditions_.ties.nodes()) finest[index_of(i)] = true;
-    local_.set_levels(std::move(level), approximation_.mechanics, approximation_.links, finest);
+    local_.set_levels(std::move(level), approximation_->mechanics, approximation_->links, finest);
   } else {
-    local_.set_one_level(approximation_.mechanics);
+    local_.set_one_level(approximation_->mechanics);
   }
   each([&](Term<dim>& term) { term.set_levels(body()); });
 }
@@ -47,7 +47,7 @@ template<int dim> void ExplicitSolver<dim>::rebuild_levels() {
   next_levels_.clear();
   if (local_.on()) {
     next_levels_ = local_.level();
-    LocalSteps<dim>::grade(approximation_.mechanics, approximation_.links, next_levels_);
+    LocalSteps<dim>::grade(approximation_->mechanics, approximation_->links, next_levels_);
     if (next_levels_ == local_.level()) next_levels_.clear();
   }
   on_new_reference_ = true;

@@ -78,7 +78,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   }
   if (change || points_change) carry_over(change, points_change, rebuilt.mechanics);
   conditions_.cloud = std::move(cloud);
-  approximation_ = std::move(rebuilt);
+  *approximation_ = std::move(rebuilt);
   node.reference = node.position;
   if (references_ == 0) start_points();
   place_reference();
@@ -102,7 +102,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   each([&](Term<dim>& term) { term.renew(body()); });
   for (std::size_t p = 0; p < points; ++p)
     point.density[p] = body().material_of(p).density * point.stress_free[p];
-  Conduction<dim>::keep_what_conducts(approximation_.conduction);
+  Conduction<dim>::keep_what_conducts(approximation_->conduction);
   each([&](Term<dim>& term) { term.attach(body()); });
   copy_stress_columns<dim>(point.piola, stress_);
   rebuild_levels();
@@ -145,7 +145,7 @@ template<int dim> void ExplicitSolver<dim>::choose_mass_factors() {
   const PointState<dim>& point = state_.point;
   const bool first = references_ == 0;
   const int rounds = first ? 8 : 0; // the step in use is the stable one whatever they come to
-  Field factor = scales_for_frequency(approximation_.mechanics, point.deformation, point.wave_modulus,
+  Field factor = scales_for_frequency(approximation_->mechanics, point.deformation, point.wave_modulus,
                                       node.mass, omega * omega / (1.0 + limit.stabilisation), rounds);
   if (!first)
     for (std::size_t i = 0; i < node.size(); ++i)
@@ -185,7 +185,7 @@ template<int dim> void ExplicitSolver<dim>::share_velocities() {
 template<int dim> void ExplicitSolver<dim>::start_points() {
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  const DiscreteOperators<dim>& op = approximation_->mechanics;
   const auto points = index_of(op.points);
   node.mass = op.node_volume();
   for (std::size_t i = 0; i < node.mass.size(); ++i) {

@@ -34,7 +34,7 @@ ExplicitSolver<dim>::change_of_points(const Resampling<dim>* change, const Cloud
     require(model_.method->promises(), Promise::one_point_per_node, model_.method->name(), "resampling");
     return PointChange{rows_of_points(change->parcels), rows_of_points(change->labels)};
   }
-  std::optional<PointRows> parcels = model_.method->point_parcels(approximation_.mechanics, now, cloud);
+  std::optional<PointRows> parcels = model_.method->point_parcels(approximation_->mechanics, now, cloud);
   if (!parcels) return std::nullopt;
   assert(keeps_materials_apart(*parcels, state_.point.material));
   PointRows labels = *parcels;
@@ -44,7 +44,7 @@ ExplicitSolver<dim>::change_of_points(const Resampling<dim>* change, const Cloud
 /// What a point carries, kg/m^(3−dim): ρ0 times its stress-free volume; the mass of its node where it has
 /// one.
 template<int dim> double ExplicitSolver<dim>::point_mass(std::size_t p) const {
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  const DiscreteOperators<dim>& op = approximation_->mechanics;
   if (op.nodal) return state_.node.mass[p];
   return body().material_of(p).density * op.volume[p] * state_.point.stress_free[p];
 }

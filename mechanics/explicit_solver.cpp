@@ -143,7 +143,7 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   StepLimit limit;
   each([&](Term<dim>& term) { term.limit(body(), limit); });
   if (!model_.mechanical) return {model_.safety * limit.heat, 0, "conduction"};
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  const DiscreteOperators<dim>& op = approximation_->mechanics;
   const PointState<dim>& point = state_.point;
   const auto step_of = [&](const typename SpectralBound<dim>::Result& bound) {
     const double step =
@@ -161,7 +161,7 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
                                          LocalSteps<dim>::block);
     Field stable(bounds.size());
     for (std::size_t b = 0; b < bounds.size(); ++b) stable[b] = step_of(bounds[b]);
-    auto level = local_.choose(op, approximation_.links, stable);
+    auto level = local_.choose(op, approximation_->links, stable);
     const auto [finest, limiting] = local_.finest_step(level, stable);
     if (level != local_.level()) next_levels_ = std::move(level);
     // Several levels keep the distance that rows leave: nearer the exact step, borders may resonate.
@@ -172,16 +172,16 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
 }
 
 template<int dim> Body<dim> ExplicitSolver<dim>::body() {
-  return {model_,  conditions_, state_,          approximation_,       local_,       reference_, position_,
+  return {model_,  conditions_, state_,          *approximation_,      local_,       reference_, position_,
           stress_, edge_,       plastic_offset_, 0.5 * finest_before_, start_weight_};
 }
 template<int dim> BodyView<dim> ExplicitSolver<dim>::body() const {
-  return {model_,  conditions_, state_,          approximation_,       local_,       reference_, position_,
+  return {model_,  conditions_, state_,          *approximation_,      local_,       reference_, position_,
           stress_, edge_,       plastic_offset_, 0.5 * finest_before_, start_weight_};
 }
 
 template<int dim> void ExplicitSolver<dim>::diverged(std::size_t point, const std::string& field) const {
-  const DiscreteOperators<dim>& op = approximation_.mechanics;
+  const DiscreteOperators<dim>& op = approximation_->mechanics;
   const std::size_t node = index_of(op.first_node(point));
   std::array<double, dim> place;
   for (std::size_t k = 0; k < dim; ++k) place[k] = state_.node.position[k][node];

@@ -91,7 +91,7 @@ public:
   const State<dim>& state() const { return state_; }
   const Model<dim>& model() const { return model_; }
   const Conditions<dim>& conditions() const { return conditions_; }
-  const Approximation<dim>& approximation() const { return approximation_; }
+  const Approximation<dim>& approximation() const { return *approximation_; }
   int references() const { return references_; }
   int resamplings() const { return resamplings_; } ///< how many of them changed the nodes
   const StepTimes& times() const { return times_; }
@@ -147,7 +147,8 @@ private:
   Model<dim> model_;
   Conditions<dim> conditions_;
   State<dim> state_;
-  Approximation<dim> approximation_;
+  /// On the heap: terms keep its address, which a solver that is moved takes along.
+  std::unique_ptr<Approximation<dim>> approximation_ = std::make_unique<Approximation<dim>>();
   std::vector<std::unique_ptr<Term<dim>>> terms_;
   SpectralBound<dim> bound_;
 

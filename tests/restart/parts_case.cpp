@@ -3,6 +3,20 @@
 #include "tests/steel.hpp"
 
 namespace cnem::app {
+namespace {
+
+const std::string followed = R"toml([method]
+rereference = { every = 30, strain = 0.1 }
+[adapt]
+resample = true
+[adapt.indicator]
+field = "plastic_strain"
+h_min = "0.12 mm"
+[output.checkpoint]
+every_steps = 35
+)toml";
+
+} // namespace
 
 // Parts that adapt: an interface between two materials with a resistance, periodic sides and a crack, whose
 // nodes come and go together.
@@ -28,22 +42,13 @@ symmetry = true
 [tools.punch]
 rectangle = { from = "1.4 2 mm", to = "2.7 5 mm" }
 velocity = { y = { value = "-60 m/s", ramp = "1 us" } }
-[method]
-rereference = { every = 30, strain = 0.1 }
-[adapt]
-resample = true
-[adapt.indicator]
-field = "plastic_strain"
-h_min = "0.12 mm"
 [output]
 history_every = "0.1 us"
 fields_every = "4 us"
 pictures = "8 us"
 picture_fields = ["plastic_strain", "level", "temperature"]
-[output.checkpoint]
-every_steps = 35
-)toml" + testing::soft_metal +
-         testing::steel_304l;
+)toml" + followed +
+         testing::soft_metal + testing::steel_304l;
 }
 
 // Layers that come apart under a punch beside which one is held, on a bond that is open at one end; passes go
@@ -80,22 +85,13 @@ velocity = "0 0 m/s"
 rectangle = { from = "2.3 2 mm", to = "5 5 mm" }
 velocity = { y = { value = "-60 m/s", ramp = "1 us" } }
 friction = { law = "coulomb", coefficient = 0.1, by_material.steel.coefficient = 0.3 }
-[method]
-rereference = { every = 30, strain = 0.1 }
-[adapt]
-resample = true
-[adapt.indicator]
-field = "plastic_strain"
-h_min = "0.12 mm"
 [output]
 history_every = "0.1 us"
 fields_every = "4 us"
 pictures = "8 us"
 picture_fields = ["plastic_strain", "level"]
-[output.checkpoint]
-every_steps = 35
-)toml" + testing::soft_metal +
-         testing::steel_304l;
+)toml" + followed +
+         testing::soft_metal + testing::steel_304l;
 }
 
 } // namespace cnem::app

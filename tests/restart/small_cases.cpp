@@ -339,26 +339,6 @@ const char* const rolled = "[materials.steel.anisotropy]\nlaw = \"hill48\"\nr0 =
 const char* const compressible =
     "[materials.steel.equation_of_state]\nlaw = \"mie-gruneisen\"\nS1 = 1.49\ngamma0 = 2.17\nb = 0.5\n";
 
-// What a punch needs to go into a block by springs, whose functions are those of Gauss points.
-const std::string gauss_points = R"toml(friction = { law = "coulomb", coefficient = 0.2 }
-[time]
-end = "6 us"
-[analysis]
-thermal = false
-[contact]
-scheme = "central-difference"
-[method]
-name = "efg"
-lagrangian = "total"
-[output]
-history_every = "0.1 us"
-fields_every = "3 us"
-pictures = "6 us"
-picture_fields = ["plastic_strain"]
-[output.checkpoint]
-every_steps = 25
-)toml";
-
 } // namespace
 
 const std::vector<SmallCase>& small_cases() {
@@ -400,7 +380,7 @@ const std::vector<SmallCase>& small_cases() {
       {"adapted_particles", with_method(adapted, "name = \"sph\"\n")},
       {"hybrid", with_method(adapted, "name = \"hybrid\"\n")},
       {"least_squares", with_method(separated, "functions = \"mls\"\n")},
-      {"gauss_points", testing::steel_block + testing::left_punch + gauss_points}};
+      {"gauss_points", gauss_point_case()}};
   return cases;
 }
 

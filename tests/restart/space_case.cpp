@@ -7,6 +7,15 @@
 namespace cnem::app {
 namespace {
 
+const std::string frequent_output = R"toml([output]
+history_every = "0.1 us"
+fields_every = "2 us"
+[output.checkpoint]
+every_steps = 15
+every_wall = "0 s"
+keep = 3
+)toml";
+
 std::string in_space(const std::string& end, const std::string& block, const std::string& spacing) {
   return fmt::format(R"toml(
 [analysis]
@@ -73,14 +82,8 @@ pieces = ["x-", "y-"]
 symmetry = true
 [tools.wall]
 plane = { at = "0 0 0 mm", normal = "0 0 1" }
-[output]
-history_every = "0.1 us"
-fields_every = "2 us"
-[output.checkpoint]
-every_steps = 15
-every_wall = "0 s"
-keep = 3
-)toml" + testing::steel_304l;
+)toml" + frequent_output +
+         testing::steel_304l;
 }
 
 // A strip that a punch with a mass shears off over a die: the cloud follows, breaks and parts; its parts
@@ -150,14 +153,8 @@ shape = "box"
 box = { from = "0.5 -1 1 mm", to = "1.5 2 2 mm" }
 velocity = "0 60 -100 m/s"
 friction = { law = "coulomb", coefficient = 0.3 }
-[output]
-history_every = "0.1 us"
-fields_every = "2 us"
-[output.checkpoint]
-every_steps = 15
-every_wall = "0 s"
-keep = 3
-)toml" + testing::steel_304l;
+)toml" + frequent_output +
+         testing::steel_304l;
 }
 
 } // namespace cnem::app

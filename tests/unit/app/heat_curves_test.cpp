@@ -74,6 +74,17 @@ TEST(HeatOverTemperature, steady_profile_is_that_of_kirchhoff) {
   EXPECT_LT(heat_error(solver), 1e-10);
 }
 
+/// What conducts keeps an address of the operators.
+TEST(HeatOverTemperature, a_solver_that_is_moved_goes_on_as_one_that_is_not) {
+  ExplicitSolver<2> stays = conducting_rod(), first = conducting_rod();
+  conduct(stays, 0.1);
+  conduct(first, 0.1);
+  ExplicitSolver<2> moved = std::move(first);
+  conduct(stays, 0.2);
+  conduct(moved, 0.2);
+  EXPECT_EQ(moved.state().node.temperature, stays.state().node.temperature);
+}
+
 /// The heat that came in is q t, and all of it is found at its temperature.
 TEST(HeatOverTemperature, heat_that_enters_is_held) {
   ExplicitSolver<2> solver = conducting_rod({"boundary={left={pieces=[\"left\"], heat_flux=\"2 MW/m2\"}}"});
