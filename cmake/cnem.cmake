@@ -11,6 +11,23 @@ function(cnem_warnings target)
   endif()
 endfunction()
 
+# Headers that nearly every file of a library reads, compiled once for cold builds; what a file needs it includes all the same.
+# g++ takes them with other optimisations and definitions than they were compiled with; clang does not.
+function(cnem_precompiled_headers target)
+  if(NOT CNEM_UNITY OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    return()
+  endif()
+  if(NOT TARGET cnem_headers)
+    add_library(cnem_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
+    target_compile_features(cnem_headers PUBLIC cxx_std_20)
+    target_link_libraries(cnem_headers PRIVATE Eigen3::Eigen fmt::fmt OpenMP::OpenMP_CXX)
+    cnem_warnings(cnem_headers)
+    target_precompile_headers(cnem_headers PRIVATE <Eigen/Core> <Eigen/LU> <fmt/format.h> <fmt/ranges.h> <algorithm> <array> <cmath>
+                              <filesystem> <functional> <map> <memory> <optional> <span> <string> <vector>)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM cnem_headers)
+endfunction()
+
 # One static library per folder of the method, with the folders inside it. Files named *_kernel.cpp are compiled once per instruction set
 # (see cnem_kernel); app/main.cpp belongs to the executable.
 function(cnem_library folder)
@@ -35,6 +52,7 @@ function(cnem_library folder)
   list(TRANSFORM arg_PRIVATE REPLACE "^(nlohmann_json::.*|CLI11::.*)$" "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(cnem_${folder} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   cnem_warnings(cnem_${folder})
+  cnem_precompiled_headers(cnem_${folder})
   if(CNEM_UNITY)
     set_target_properties(cnem_${folder} PROPERTIES UNITY_BUILD ON)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # takes each file for a header there, whose types others might see too

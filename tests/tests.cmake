@@ -9,7 +9,7 @@ set(test_options $<$<AND:$<BOOL:${CNEM_UNITY}>,$<CONFIG:Release>>:-O1>)
 # Headers that nearly every test reads, compiled once: they are nearly half of the time a test takes to compile.
 # g++ takes them with other definitions than they were compiled with, as those of single tests are; clang does not.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  add_library(test_headers OBJECT ${PROJECT_SOURCE_DIR}/tests/headers.cpp)
+  add_library(test_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
   target_link_libraries(test_headers PRIVATE cnem_core GTest::gtest)
   target_include_directories(test_headers PRIVATE ${PROJECT_SOURCE_DIR})
   cnem_warnings(test_headers)

@@ -1,1 +1,0 @@
-// Nothing: this file is there for the headers that are compiled before it (tests/tests.cmake).
