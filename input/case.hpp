@@ -15,6 +15,7 @@
 #include "core/time_table.hpp"
 #include "core/vec.hpp"
 #include "input/case_cutting.hpp"
+#include "input/case_machining.hpp"
 #include "input/case_output.hpp"
 #include "mechanics/local_steps.hpp"
 #include "mechanics/mass_scaling.hpp"
@@ -40,10 +41,12 @@ using VectorFunction = std::array<std::optional<TimeTable>, 3>;
 bool moves(const VectorFunction& velocity);
 
 struct Analysis {
-  enum class Type { explicit_dynamics, statics };
+  enum class Type { explicit_dynamics, statics, stability };
   enum class Kinematics { plane_strain, plane_stress, axisymmetric, three_dimensional };
   Type type = Type::explicit_dynamics;
   Kinematics kinematics = Kinematics::plane_strain;
+  /// Of milling: no body, no cloud.
+  bool milling() const { return type == Type::stability; }
   int dimensions() const { return kinematics == Kinematics::three_dimensional ? 3 : 2; }
   Space space() const { return kinematics == Kinematics::axisymmetric ? Space::revolution : Space::plane; }
   bool mechanical = true; ///< false: nothing moves, heat alone
@@ -330,6 +333,7 @@ struct Case {
   Adaptation adapt;
   Fracture fracture;
   std::optional<CuttingSetup> cutting; ///< what the case was made of, where it says [cutting]
+  std::optional<MachiningCase> machining; ///< of milling analyses, which have nothing of the above but titles
   Output output;
   Report report;
 

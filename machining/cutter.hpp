@@ -10,6 +10,8 @@
 
 namespace cnem::machining {
 
+inline constexpr double full_turn = 2.0 * std::numbers::pi; ///< rad
+
 struct Cutter {
   double diameter = 0.0;      ///< m
   std::vector<double> pitch;  ///< rad, from each tooth to the one that cuts after it; 2π together

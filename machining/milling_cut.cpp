@@ -10,8 +10,6 @@ namespace cnem::machining {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
-
 /// Adds the integral of f over [from, to], in pieces of at most half a radian.
 template<class F> void integrate(double from, double to, DirectionalFactors& sum, const F& f) {
   if (!(to > from)) return;
@@ -29,7 +27,7 @@ template<class F> void integrate(double from, double to, DirectionalFactors& sum
 double steady_thickness(const MillingCut& cut, std::size_t tooth, double phi) {
   const Cutter& cutter = cut.cutter;
   const std::size_t n = cutter.teeth();
-  const double share = cutter.pitch_before(tooth) * static_cast<double>(n) / turn;
+  const double share = cutter.pitch_before(tooth) * static_cast<double>(n) / full_turn;
   return cut.feed * share * std::sin(phi) + cutter.radius_of(tooth) - cutter.radius_of((tooth + n - 1) % n);
 }
 
@@ -57,15 +55,15 @@ DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth,
   const double lag = cut.cutter.lag(depth);
   constexpr double straight = 1e-9; // rad of lag
   if (std::abs(lag) < straight) {
-    const double phi = tip - turn * std::floor(tip / turn);
+    const double phi = tip - full_turn * std::floor(tip / full_turn);
     if (phi >= from && phi <= to) sum = depth * directional_factors(cut, tooth, phi, spindle);
     return sum;
   }
   // φ goes from tip − lag to tip along the edge; a long one is in the cut in several places.
   const double low = std::min(tip - lag, tip), high = std::max(tip - lag, tip);
-  for (int k = static_cast<int>(std::floor((low - to) / turn)); k * turn + from < high; ++k)
-    integrate(std::max(low, k * turn + from), std::min(high, k * turn + to), sum,
-              [&](double phi) { return directional_factors(cut, tooth, phi - k * turn, spindle); });
+  for (int k = static_cast<int>(std::floor((low - to) / full_turn)); k * full_turn + from < high; ++k)
+    integrate(std::max(low, k * full_turn + from), std::min(high, k * full_turn + to), sum,
+              [&](double phi) { return directional_factors(cut, tooth, phi - k * full_turn, spindle); });
   return sum * (depth / std::abs(lag));
 }
 
@@ -74,7 +72,7 @@ DirectionalFactors mean_factors(const MillingCut& cut, double spindle) {
   for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
     integrate(cut.engagement.entry(cut.cutter), cut.engagement.exit(cut.cutter), sum,
               [&](double phi) { return directional_factors(cut, j, phi, spindle); });
-  return sum / turn;
+  return sum / full_turn;
 }
 
 } // namespace cnem::machining

@@ -12,7 +12,7 @@ namespace cnem::machining {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
+
 constexpr int nodes = 8; ///< of an element
 
 using Index = Eigen::Index;
@@ -40,8 +40,7 @@ std::vector<double> break_points(const MillingCut& cut, double depth, double per
 
 } // namespace
 
-Monodromy::Monodromy(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth,
-                     double resolution)
+Monodromy::Monodromy(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth)
     : modes_(modes.begin(), modes.end()) {
   const Index m = size_of(modes.size());
   participation_.resize(3, m);
@@ -55,12 +54,12 @@ Monodromy::Monodromy(const MillingCut& cut, std::span<const Mode> modes, double 
   basis_ = Eigen::MatrixXd(qr.householderQ()).leftCols(d_);
   shape_ = basis_.transpose() * participation_.topRows<2>();
   states_ = 2 * m;
-  divide(cut, spindle, depth, resolution);
+  divide(cut, spindle, depth);
   couple(cut, spindle, depth);
   for (Element& element : elements_) solve(element, modes);
 }
 
-void Monodromy::divide(const MillingCut& cut, double spindle, double depth, double resolution) {
+void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
   double angle = 0.0;
   for (std::size_t j = 0; j < cut.cutter.pattern(); ++j) angle += cut.cutter.pitch[j];
   period_ = angle / spindle;
@@ -75,7 +74,7 @@ void Monodromy::divide(const MillingCut& cut, double spindle, double depth, doub
     for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
       cutting |= !directional_factors(cut, j, middle - cut.cutter.behind(j), depth, spindle).isZero(0.0);
     const double pieces = std::max((to - from) / widest, fastest_ * (to - from) / spindle / longest);
-    const int count = cutting ? static_cast<int>(std::ceil(pieces * resolution)) : 1;
+    const int count = cutting ? static_cast<int>(std::ceil(pieces)) : 1;
     for (int k = 0; k < std::max(count, 1); ++k) {
       Element element;
       element.length = (to - from) / spindle / std::max(count, 1);
@@ -250,10 +249,10 @@ double Monodromy::strongest_frequency(std::complex<double> multiplier, const Eig
   }
   // A solution is exp(λt) times something of the period: its harmonics answer the modes' to the forces'.
   const Complex exponent = std::log(multiplier) / period_;
-  const int most = static_cast<int>(std::ceil(2.0 * fastest_ * period_ / turn)) + 2;
+  const int most = static_cast<int>(std::ceil(2.0 * fastest_ * period_ / full_turn)) + 2;
   double strongest = 0.0, frequency = std::abs(exponent.imag());
   for (int k = -most; k <= most; ++k) {
-    const Complex lambda = exponent + Complex(0.0, turn * k / period_);
+    const Complex lambda = exponent + Complex(0.0, full_turn * k / period_);
     Eigen::VectorXcd displacement = Eigen::VectorXcd::Zero(d_);
     Eigen::VectorXcd harmonic = Eigen::VectorXcd::Zero(m);
     for (const Sample& sample : samples)

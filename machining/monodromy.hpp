@@ -18,9 +18,8 @@ namespace cnem::machining {
 /// exactly under the forces that belong to these, so that steps need not follow the period of a mode.
 class Monodromy {
 public:
-  /// resolution: on the number of elements; 1 gives multipliers to about 1e-6.
-  Monodromy(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth,
-            double resolution);
+  /// Multipliers are found to about 1e-7.
+  Monodromy(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth);
 
   /// Unknowns: (q, v/ω) of all modes, then displacements at the nodes of the last period.
   Eigen::Index size() const { return states_ + displacements_; }
@@ -49,7 +48,7 @@ private:
     std::vector<Delayed> delayed;
   };
 
-  void divide(const MillingCut& cut, double spindle, double depth, double resolution);
+  void divide(const MillingCut& cut, double spindle, double depth);
   void couple(const MillingCut& cut, double spindle, double depth);
   void solve(Element& element, std::span<const Mode> modes);
   template<class See> void march(const Eigen::VectorXd& from, Eigen::VectorXd& to, const See& see) const;

@@ -13,10 +13,10 @@ namespace cnem::machining {
 namespace {
 
 using Complex = std::complex<double>;
-using Pair = std::array<Complex, 2>;
+using EigenvaluePair = std::array<Complex, 2>;
 
 /// Eigenvalues of mean factors times receptance, of which the directions across the axis count.
-Pair eigenvalues(const DirectionalFactors& factors, std::span<const Mode> modes, double omega) {
+EigenvaluePair eigenvalues(const DirectionalFactors& factors, std::span<const Mode> modes, double omega) {
   // u = Φ F and F = a W u have the eigenvalues of (Φ W), which is 2 × 2.
   Eigen::Matrix<Complex, 2, 2> product = Eigen::Matrix<Complex, 2, 2>::Zero();
   for (const Mode& mode : modes) {
@@ -31,7 +31,7 @@ Pair eigenvalues(const DirectionalFactors& factors, std::span<const Mode> modes,
 }
 
 /// In the order of those before.
-Pair followed(Pair now, const Pair& before) {
+EigenvaluePair followed(EigenvaluePair now, const EigenvaluePair& before) {
   const double kept = std::abs(now[0] - before[0]) + std::abs(now[1] - before[1]);
   const double turned = std::abs(now[1] - before[0]) + std::abs(now[0] - before[1]);
   if (turned < kept) std::swap(now[0], now[1]);
@@ -50,7 +50,7 @@ void scan(const DirectionalFactors& factors, std::span<const Mode> modes, double
   low *= 0.2;
   high *= 2.5;
   const auto count = static_cast<std::int64_t>(std::ceil((high - low) / step));
-  Pair value = eigenvalues(factors, modes, low);
+  EigenvaluePair value = eigenvalues(factors, modes, low);
   for (std::int64_t i = 0; i <= count; ++i) {
     const double omega = low + (high - low) * static_cast<double>(i) / static_cast<double>(count);
     value = followed(eigenvalues(factors, modes, omega), value);
@@ -70,9 +70,9 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
   };
   std::optional<ZeroOrderLimit> least;
   double before = 0.0;
-  Pair value_before{};
+  EigenvaluePair value_before{};
   const double longest = *std::max_element(cut.cutter.pitch.begin(), cut.cutter.pitch.end()) / spindle;
-  scan(factors, modes, 0.05 / longest, [&](double omega, const Pair& value) {
+  scan(factors, modes, 0.05 / longest, [&](double omega, const EigenvaluePair& value) {
     for (std::size_t k = 0; before > 0.0 && k < 2; ++k) {
       double low = before, high = omega;
       Complex at_low = value_before[k] * regeneration(low);
@@ -82,7 +82,7 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
       Complex at = at_high;
       for (int i = 0; i < 60 && high - low > 1e-13 * high; ++i) {
         const double middle = 0.5 * (low + high);
-        const Pair pair = eigenvalues(factors, modes, middle);
+        const EigenvaluePair pair = eigenvalues(factors, modes, middle);
         const std::size_t near = std::abs(pair[0] - value[k]) <= std::abs(pair[1] - value[k]) ? 0 : 1;
         at = pair[near] * regeneration(middle);
         ((at.imag() > 0.0) == (at_low.imag() > 0.0) ? low : high) = middle;
@@ -99,7 +99,7 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
 std::optional<ZeroOrderLimit> zero_order_minimum(const MillingCut& cut, std::span<const Mode> modes,
                                                  double spindle) {
   std::optional<ZeroOrderLimit> least;
-  scan(mean_factors(cut, spindle), modes, infinite, [&](double omega, const Pair& value) {
+  scan(mean_factors(cut, spindle), modes, infinite, [&](double omega, const EigenvaluePair& value) {
     for (const Complex& lambda : value)
       if (lambda.real() > 0.0 && (!least || 0.5 / lambda.real() < least->depth))
         least = ZeroOrderLimit{0.5 / lambda.real(), omega};
