@@ -154,7 +154,7 @@ Checked check(const input::Case& input, const RunOptions& options) {
   const ThreadCount threads(options.threads);
   use_threads(options.threads);
   const bool space = input.analysis.dimensions() == 3;
-  if (input.analysis.milling()) return check_stability(input);
+  if (input.analysis.of_milling()) return check_stability(input);
   if (input.analysis.type == input::Analysis::Type::statics)
     return space ? check_static<3>(input, options) : check_static<2>(input, options);
   return space ? check_explicit<3>(input, options) : check_explicit<2>(input, options);

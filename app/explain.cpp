@@ -138,10 +138,11 @@ template<int dim> std::string explicit_text(const input::Case& input) {
 } // namespace
 
 std::string explanation(const input::Case& input) {
-  if (input.analysis.milling()) {
+  if (input.analysis.of_milling()) {
     std::string text;
     for (const auto& [label, fact] : check_stability(input).facts) text += line(label.c_str(), fact);
-    return text + line("solution", "multipliers of Floquet at the points of the chart, and limits between them");
+    return text +
+           line("solution", "multipliers of Floquet at the points of the chart, and limits between them");
   }
   std::string text = subject(input);
   if (input.analysis.type == input::Analysis::Type::statics)

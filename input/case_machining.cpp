@@ -1,4 +1,5 @@
 // Reads milling cases.
+#include "input/case_machining.hpp"
 #include "core/index.hpp"
 #include "input/case_parts.hpp"
 #include "input/constants.hpp"
@@ -36,7 +37,8 @@ machining::Cutter read_cutter(const Setting& table, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, pitch->where, pitch->path,
                     fmt::format("found angles of {:.8g} deg together, expected a whole turn, 360 deg",
                                 sum * 360.0 / machining::full_turn));
-  for (double& angle : cutter.pitch) angle *= machining::full_turn / sum; // "120 120 120 deg" is a turn but for rounding
+  for (double& angle : cutter.pitch)
+    angle *= machining::full_turn / sum; // "120 120 120 deg" is a turn but for rounding
   return cutter;
 }
 
@@ -70,9 +72,8 @@ NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
 
 void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& diagnostics) {
   constexpr double along_axis = 1e-9;
-  if (std::all_of(read.modes.begin(), read.modes.end(), [](const NamedMode& mode) {
-        return mode.direction.head<2>().norm() < along_axis;
-      }))
+  if (std::all_of(read.modes.begin(), read.modes.end(),
+                  [](const NamedMode& mode) { return mode.direction.head<2>().norm() < along_axis; }))
     diagnostics.add(Mistake::range, modes.where, "modes",
                     "found modes along z alone, expected one across the axis of the cutter: a flat end that "
                     "moves along z cuts the same chips");
@@ -82,10 +83,13 @@ void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& d
 
 void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   if (!root.find("cutting.forces")) {
-    diagnostics.add(Mistake::missing_key, root.where, "cutting.forces", find_key("cutting.forces")->missing());
+    diagnostics.add(Mistake::missing_key, root.where, "cutting.forces",
+                    find_key("cutting.forces")->missing());
     return;
   }
-  MachiningCase& read = result.machining.emplace();
+  const auto made = std::make_shared<MachiningCase>();
+  MachiningCase& read = *made;
+  result.machining = made;
   read.cut.cutter = read_cutter(*root.find("cutter"), diagnostics);
   const double diameter = read.cut.cutter.diameter;
   root.set_default("milling.radial_depth", diameter);

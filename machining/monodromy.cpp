@@ -12,7 +12,6 @@ namespace cnem::machining {
 
 namespace {
 
-
 constexpr int nodes = 8; ///< of an element
 
 using Index = Eigen::Index;

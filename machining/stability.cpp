@@ -27,8 +27,8 @@ double radius_of(const MillingCut& cut, std::span<const Mode> modes, double spin
 }
 
 /// Between a stable and an unstable depth, by false position with halved weights (Illinois).
-DepthLimit refined(const MillingCut& cut, std::span<const Mode> modes, double spindle, double low, double high,
-                   double radius_low, double radius_high) {
+DepthLimit refined(const MillingCut& cut, std::span<const Mode> modes, double spindle, double low,
+                   double high, double radius_low, double radius_high) {
   double at_low = std::log(radius_low), at_high = std::log(radius_high);
   int side = 0;
   constexpr double close = 1e-7;
@@ -78,8 +78,7 @@ Bifurcation Multiplier::kind() const {
 Multiplier multiplier(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth) {
   const Monodromy monodromy(cut, modes, spindle, depth);
   const Eigenpair pair = largest(monodromy, of_limits);
-  return {pair.value,
-          monodromy.strongest_frequency(pair.value, pair.vector) / (2.0 * std::numbers::pi)};
+  return {pair.value, monodromy.strongest_frequency(pair.value, pair.vector) / (2.0 * std::numbers::pi)};
 }
 
 double spectral_radius(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth) {
@@ -133,7 +132,8 @@ std::optional<std::size_t> nearest_speed(const StabilityChart& chart, double spi
   const double deepest = chart.depth.back();
   for (std::size_t i = 0; i < chart.speed.size(); ++i) {
     const double limit = chart.limit[i] ? chart.limit[i]->depth : deepest;
-    if (limit >= depth && (!best || std::abs(chart.speed[i] - spindle) < std::abs(chart.speed[*best] - spindle)))
+    if (limit >= depth &&
+        (!best || std::abs(chart.speed[i] - spindle) < std::abs(chart.speed[*best] - spindle)))
       best = i;
   }
   return best;

@@ -38,10 +38,10 @@ std::optional<DepthLimit> depth_limit(const MillingCut& cut, std::span<const Mod
                                       double step, double most);
 
 struct StabilityChart {
-  std::vector<double> speed; ///< rad/s
-  std::vector<double> depth; ///< m, > 0
-  std::vector<double> radius; ///< [speed × depths + depth]
-  std::vector<std::optional<DepthLimit>> limit; ///< of each speed, the first within the depths
+  std::vector<double> speed;                     ///< rad/s
+  std::vector<double> depth;                     ///< m, > 0
+  std::vector<double> radius;                    ///< [speed × depths + depth]
+  std::vector<std::optional<DepthLimit>> limit;  ///< of each speed, the first within the depths
   std::vector<std::optional<double>> zero_order; ///< m
 };
 

@@ -33,7 +33,8 @@ std::optional<Chart> stability_lobes(const std::filesystem::path& folder, const 
               .y_label = "axial depth",
               .y_unit = "m",
               .series = {},
-              .note = "Cuts below the line are stable. Zero order: from the mean of the directional factors."};
+              .note =
+                  "Cuts below the line are stable. Zero order: from the mean of the directional factors."};
   const std::vector<double> speed = column("speed[rpm]");
   chart.series.push_back({.label = "limit (Floquet)", .x = speed, .y = column("limit[m]"), .colour = 0});
   chart.series.push_back(

@@ -4,6 +4,7 @@
 #include "app/profile.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "input/case_machining.hpp"
 #include "machining/zero_order.hpp"
 #include "report/report.hpp"
 #include "report/stability_page.hpp"
@@ -68,7 +69,8 @@ std::string better_speed(const input::MachiningCase& milling, const StabilityCha
   const auto& limit = chart.limit[*there];
   status.add_metric("stability.better_speed[rad/s]", chart.speed[*there]);
   return fmt::format("the nearest better speed is {}, which bears {}", speed_text(chart.speed[*there]),
-                     limit ? si_format(limit->depth, "m") : "more than " + si_format(chart.depth.back(), "m"));
+                     limit ? si_format(limit->depth, "m")
+                           : "more than " + si_format(chart.depth.back(), "m"));
 }
 
 } // namespace
@@ -97,8 +99,7 @@ void StabilityRun::judge(const StabilityChart& chart) {
   // Lobes that flips bound are narrow: steps of a fifth of the least limit, but not without end.
   const double step = std::clamp(lowest ? 0.2 * lowest->depth : most, most / 1000.0, most / 50.0);
   constexpr double further = 4.0;
-  const auto limit =
-      machining::depth_limit(milling.cut, modes, milling.speed, step, further * most);
+  const auto limit = machining::depth_limit(milling.cut, modes, milling.speed, step, further * most);
   const auto zero = machining::zero_order_limit(milling.cut, modes, milling.speed);
   const auto here = machining::multiplier(milling.cut, modes, milling.speed, milling.axial_depth);
   const bool stable = std::abs(here.value) < 1.0;
@@ -117,14 +118,14 @@ void StabilityRun::judge(const StabilityChart& chart) {
     bound = fmt::format("the limit is {}", si_format(limit->depth, "m"));
   } else
     bound = fmt::format("there is no limit up to {}", si_format(further * most, "m"));
-  const std::string cut = fmt::format("{} deep at {}", si_format(milling.axial_depth, "m"),
-                                      speed_text(milling.speed));
+  const std::string cut =
+      fmt::format("{} deep at {}", si_format(milling.axial_depth, "m"), speed_text(milling.speed));
   if (!stable)
     status_.reason = fmt::format("unstable {}: {}; {}; {}", cut, bound, vibration(milling, here),
                                  better_speed(milling, chart, status_));
   else if (limit && limit->depth < 1.1 * milling.axial_depth)
-    status_.reason = fmt::format("stable {}, but barely: {}; {}", cut, bound,
-                                 better_speed(milling, chart, status_));
+    status_.reason =
+        fmt::format("stable {}, but barely: {}; {}", cut, bound, better_speed(milling, chart, status_));
   else
     status_.reason = fmt::format("stable {}: {}", cut, bound);
   if (!stable && limit && limit->depth > milling.axial_depth)
@@ -133,13 +134,14 @@ void StabilityRun::judge(const StabilityChart& chart) {
 
 void StabilityRun::write_files(const StabilityChart& chart) const {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  std::string limits = "speed[rad/s],speed[rpm],limit[m],zero_order[m],frequency[Hz],flip\n", radii = "depth[m]";
+  std::string limits = "speed[rad/s],speed[rpm],limit[m],zero_order[m],frequency[Hz],flip\n",
+              radii = "depth[m]";
   for (std::size_t i = 0; i < chart.speed.size(); ++i) {
     const auto& limit = chart.limit[i];
-    limits += fmt::format("{},{},{},{},{},{}\n", chart.speed[i], chart.speed[i] / rpm,
-                          limit ? limit->depth : none, chart.zero_order[i].value_or(none),
-                          limit ? limit->at.frequency : none,
-                          limit && limit->at.kind() == machining::Bifurcation::flip ? 1 : 0);
+    limits +=
+        fmt::format("{},{},{},{},{},{}\n", chart.speed[i], chart.speed[i] / rpm, limit ? limit->depth : none,
+                    chart.zero_order[i].value_or(none), limit ? limit->at.frequency : none,
+                    limit && limit->at.kind() == machining::Bifurcation::flip ? 1 : 0);
     radii += fmt::format(",{} rpm", results::number_format(chart.speed[i] / rpm, 6));
   }
   radii += '\n';
@@ -200,12 +202,13 @@ std::vector<std::string> milling_doubts(const input::Case& input) {
   std::vector<std::string> doubts;
   const double thinnest = machining::thinnest_chip(milling.cut);
   if (thinnest <= 0.0)
-    doubts.push_back(input
-                         .error("cutter.run_out",
-                                "with this run-out a tooth misses the cut at some angles: what it leaves is cut "
-                                "by the next one, which stability takes no account of; expected a run-out well "
-                                "below milling.feed")
-                         .what());
+    doubts.push_back(
+        input
+            .error("cutter.run_out",
+                   "with this run-out a tooth misses the cut at some angles: what it leaves is cut "
+                   "by the next one, which stability takes no account of; expected a run-out well "
+                   "below milling.feed")
+            .what());
   const auto [low, high] = milling.cut.law.thicknesses();
   const double angle = std::clamp(0.5 * std::numbers::pi, milling.cut.engagement.entry(milling.cut.cutter),
                                   milling.cut.engagement.exit(milling.cut.cutter));
@@ -213,12 +216,13 @@ std::vector<std::string> milling_doubts(const input::Case& input) {
   for (std::size_t j = 0; j < milling.cut.cutter.teeth(); ++j)
     thickest = std::max(thickest, machining::steady_thickness(milling.cut, j, angle));
   if (thickest > high || thickest < low)
-    doubts.push_back(input
-                         .error("cutting.forces.thickness",
-                                fmt::format("chips are up to {} thick, expected between {} and {}, which the "
-                                            "table covers",
-                                            si_format(thickest, "m"), si_format(low, "m"), si_format(high, "m")))
-                         .what());
+    doubts.push_back(
+        input
+            .error("cutting.forces.thickness",
+                   fmt::format("chips are up to {} thick, expected between {} and {}, which the "
+                               "table covers",
+                               si_format(thickest, "m"), si_format(low, "m"), si_format(high, "m")))
+            .what());
   return doubts;
 }
 
@@ -237,14 +241,16 @@ Checked check_stability(const input::Case& input) {
                             results::number_format(cutter.helix / degree)));
   add("cut", fmt::format("{} deep, teeth cut from {} to {} deg", si_format(milling.axial_depth, "m"),
                          results::number_format(entry / degree), results::number_format(exit / degree)));
-  add("speed", fmt::format("{}, teeth pass at {}, edges move at {}", speed_text(milling.speed),
-                           si_format(milling.speed * static_cast<double>(cutter.teeth()) / (2.0 * std::numbers::pi),
-                                     "Hz"),
-                           si_format(milling.speed * cutter.radius(), "m/s")));
+  add("speed",
+      fmt::format(
+          "{}, teeth pass at {}, edges move at {}", speed_text(milling.speed),
+          si_format(milling.speed * static_cast<double>(cutter.teeth()) / (2.0 * std::numbers::pi), "Hz"),
+          si_format(milling.speed * cutter.radius(), "m/s")));
   add("modes", fmt::format("{}", milling.modes.size()));
   const input::StabilityRange& range = milling.stability;
-  add("chart", fmt::format("{} speeds from {} to {}, {} depths to {}", range.speeds, speed_text(range.speed_from),
-                           speed_text(range.speed_to), range.depths, si_format(deepest(input), "m")));
+  add("chart",
+      fmt::format("{} speeds from {} to {}, {} depths to {}", range.speeds, speed_text(range.speed_from),
+                  speed_text(range.speed_to), range.depths, si_format(deepest(input), "m")));
   checked.numbers = {{"modes", static_cast<double>(milling.modes.size())},
                      {"points", static_cast<double>(range.speeds * range.depths)}};
   return checked;

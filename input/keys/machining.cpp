@@ -14,8 +14,8 @@ namespace d = dimension;
 using enum Type;
 
 /// Keys that both kinds of analyses have; of tables each member is looked at by itself.
-constexpr std::array shared{"title",   "include", "let",         "analysis", "analysis.type",
-                            "cutting", "report",  "report.units"};
+constexpr std::array shared{"title",         "include", "let",    "analysis",
+                            "analysis.type", "cutting", "report", "report.units"};
 /// Tables of milling, with all that lies below them.
 constexpr std::array milling_tables{"cutter", "cutting.forces", "milling", "modes", "stability"};
 
@@ -31,8 +31,7 @@ void add_cutter(Keys& k) {
       .in(positive)
       .example("\"110 125 125 deg\"")
       .computed("equal angles");
-  k.add("cutter.helix", quantity,
-        "Of the edges: positive ones lag behind with their height over the tip.")
+  k.add("cutter.helix", quantity, "Of the edges: positive ones lag behind with their height over the tip.")
       .unit(d::angle)
       .in(steep)
       .fallback("\"0 deg\"");
@@ -128,8 +127,8 @@ void add_stability(Keys& k) {
 }
 
 bool below(const std::string& key, std::string_view path) {
-  return key.starts_with(path) && (key.size() == path.size() || key[path.size()] == '.' ||
-                                   key[path.size()] == '[');
+  return key.starts_with(path) &&
+         (key.size() == path.size() || key[path.size()] == '.' || key[path.size()] == '[');
 }
 
 } // namespace
@@ -137,9 +136,10 @@ bool below(const std::string& key, std::string_view path) {
 void add_machining(Keys& k) {
   add_cutter(k);
   const std::vector<LawText> laws = law_texts(machining::CuttingLaws{});
-  k.add("cutting.forces", table,
-        "Forces on an edge per length along the axis of the cutter, over the chip thickness h: tangential "
-        "against its motion, radial towards the axis, axial along it. Where nothing is cut there is no force.")
+  k.add(
+       "cutting.forces", table,
+       "Forces on an edge per length along the axis of the cutter, over the chip thickness h: tangential "
+       "against its motion, radial towards the axis, axial along it. Where nothing is cut there is no force.")
       .required();
   add_law_choice(k, "cutting.forces", laws).required();
   add_law_constants(k, "cutting.forces", laws);

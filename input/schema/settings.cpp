@@ -313,7 +313,8 @@ Setting apply_schema(const Value& table, const std::string& pattern, const std::
   setting.path = path;
   setting.where = table.where;
   setting.given = true;
-  Resolver(diagnostics, document ? kinematics_of(*document) : "", document ? family_of(*document) : Family::bodies)
+  Resolver(diagnostics, document ? kinematics_of(*document) : "",
+           document ? family_of(*document) : Family::bodies)
       .table(setting, &table, pattern);
   return setting;
 }
