@@ -1,5 +1,6 @@
 #include "app/run.hpp"
 
+#include "app/machining/stability_run.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/simulation.hpp"
 #include "app/statics/statics.hpp"
@@ -96,15 +97,21 @@ std::unique_ptr<Simulation<dim>> at_last_checkpoint(input::Case& input, const Ru
   return nullptr;
 }
 
+/// Analyses without steps, which have no checkpoints.
+bool is_solved_at_once(const input::Case& input) {
+  return input.analysis.type != input::Analysis::Type::explicit_dynamics;
+}
+
 input::Case resolved_case(const fs::path& folder) {
   const fs::path resolved = folder / results::files::resolved_case;
   input::Case input = input::read_case(resolved.string());
-  if (input.analysis.type == input::Analysis::Type::statics) input.resolved = results::read_file(resolved);
+  if (is_solved_at_once(input)) input.resolved = results::read_file(resolved);
   return input;
 }
 
-std::unique_ptr<Session> static_run(const input::Case& input, const RunOptions& options,
-                                    RunObserver& observer) {
+std::unique_ptr<Session> solved_at_once(const input::Case& input, const RunOptions& options,
+                                        RunObserver& observer) {
+  if (input.analysis.of_milling()) return std::make_unique<StabilityRun>(input, options, observer);
   if (input.analysis.dimensions() == 3) return std::make_unique<StaticRun<3>>(input, options, observer);
   return std::make_unique<StaticRun<2>>(input, options, observer);
 }
@@ -161,8 +168,8 @@ Run::Run(input::Case input, RunOptions options, RunObserver& observer)
   const ThreadCount threads(options_.threads);
   use_threads(options_.threads);
   if (!options_.output.empty()) lock_.emplace(options_.output, another_run);
-  if (input_.analysis.type == input::Analysis::Type::statics) {
-    const auto make = [&] { session_ = static_run(input_, options_, observer); };
+  if (is_solved_at_once(input_)) {
+    const auto make = [&] { session_ = solved_at_once(input_, options_, observer); };
     // The status of a run that is there stays until that run is replaced.
     const bool there = lock_ && results::holds_run(options_.output);
     there ? make() : before_steps(input_, options_, make);
@@ -181,10 +188,11 @@ Run::Run(RunOptions options, RunObserver& observer) : options_(std::move(options
   input_ = resolved_case(options_.output);
   const ThreadCount threads(options_.threads);
   use_threads(options_.threads);
-  if (input_.analysis.type == input::Analysis::Type::statics) {
-    observer.outcome("a static analysis has no checkpoints: it is solved again");
+  if (is_solved_at_once(input_)) {
+    observer.outcome(fmt::format("a {} analysis has no checkpoints: it is solved again",
+                                 input_.analysis.of_milling() ? "stability" : "static"));
     options_.force = true;
-    session_ = static_run(input_, options_, observer);
+    session_ = solved_at_once(input_, options_, observer);
   } else if (input_.analysis.dimensions() == 3)
     resume<3>(observer);
   else

@@ -27,11 +27,14 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cnem::input {
+
+struct MachiningCase;
 
 /// Prescribed histories of the components x, y and, in space, z; an absent component is not prescribed.
 using VectorFunction = std::array<std::optional<TimeTable>, 3>;
@@ -40,10 +43,12 @@ using VectorFunction = std::array<std::optional<TimeTable>, 3>;
 bool moves(const VectorFunction& velocity);
 
 struct Analysis {
-  enum class Type { explicit_dynamics, statics };
+  enum class Type { explicit_dynamics, statics, stability, milling };
   enum class Kinematics { plane_strain, plane_stress, axisymmetric, three_dimensional };
   Type type = Type::explicit_dynamics;
   Kinematics kinematics = Kinematics::plane_strain;
+  /// Of milling: no body, no cloud.
+  bool of_milling() const { return type == Type::stability || type == Type::milling; }
   int dimensions() const { return kinematics == Kinematics::three_dimensional ? 3 : 2; }
   Space space() const { return kinematics == Kinematics::axisymmetric ? Space::revolution : Space::plane; }
   bool mechanical = true; ///< false: nothing moves, heat alone
@@ -330,6 +335,8 @@ struct Case {
   Adaptation adapt;
   Fracture fracture;
   std::optional<CuttingSetup> cutting; ///< what the case was made of, where it says [cutting]
+  /// Of milling analyses, which have nothing of the above but titles (input/case_machining.hpp); else null.
+  std::shared_ptr<const MachiningCase> machining;
   Output output;
   Report report;
 

@@ -25,6 +25,9 @@ std::optional<Curve> read_outline(const Setting& table, const OutlineNames& name
 /// Why a point (m) is not in the block; "" when it is.
 std::string outside_reason(const Block& block, const Vec3& x);
 
+/// Cutter, cut, law, modes and what is asked of a milling analysis.
+void read_machining(Setting& root, Case& result, Diagnostics& diagnostics);
+
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// The thermal side of a tool, with its section. Expects its outline.
 void read_tool_heat(const Setting& table, const Setting& root, const Case& input, Tool& tool,

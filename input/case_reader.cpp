@@ -196,6 +196,13 @@ std::string made_beside(const Value& document, const Override& change) {
              : fmt::format("\n{}: the case has no {}.{}{}", change.where.text(), table->key, name, meant);
 }
 
+/// A milling case, of settings that the schema has passed.
+void read_milling(Setting& root, Case& result, Diagnostics& diagnostics) {
+  read_machining(root, result, diagnostics);
+  read_shown_units(root, result, diagnostics);
+  diagnostics.throw_if_any();
+}
+
 Case read_changed(Value document, const std::string& path, const std::vector<Override>& changes) {
   if (const Member* include = document.find("include"))
     throw InputError(fmt::format("{}: key 'include': goes into the file of a case, expected none beside it",
@@ -204,24 +211,35 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   Diagnostics diagnostics;
   Case result;
   result.variables = apply_variables(document, changes, diagnostics, result.warnings);
-  take_from_library(document, diagnostics);
-  take_from_drawings(document, std::filesystem::path(path).parent_path(), diagnostics);
-  take_from_cutting(document, diagnostics);
-  start_temperature_ramps(document);
+  const bool milling = family_of(document) == Family::milling;
+  if (!milling) {
+    take_from_library(document, diagnostics);
+    take_from_drawings(document, std::filesystem::path(path).parent_path(), diagnostics);
+    take_from_cutting(document, diagnostics);
+    start_temperature_ramps(document);
+  }
   diagnostics.throw_if_any();
   Setting root = apply_schema(document, diagnostics);
   const Member* time = document.find("time");
   const bool ended = time && time->value.find("end");
   if (const Setting* type = root.find("analysis.type");
-      !ended && type && std::get<std::string>(type->value) != "static")
+      !milling && !ended && type && std::get<std::string>(type->value) != "static")
     diagnostics.add(Mistake::missing_key, time ? time->value.where : document.where, "time.end",
                     find_key("time.end")->missing());
   diagnostics.throw_if_any();
-  compute_defaults(root);
 
   result.path = path;
   result.name = name_after(path, "case");
   result.title = root.get<std::string>("title");
+  const std::string header = fmt::format("Resolved from {}: SI units, defaults included.", path);
+  if (milling) {
+    result.analysis.type = root.choice<Analysis::Type>("analysis.type");
+    collect_locations(root, result.location);
+    read_milling(root, result, diagnostics);
+    result.resolved = write_resolved(root, header);
+    return result;
+  }
+  compute_defaults(root);
   result.analysis = {root.choice<Analysis::Type>("analysis.type"),
                      root.choice<Analysis::Kinematics>("analysis.kinematics"),
                      root.get<bool>("analysis.mechanical"), root.get<bool>("analysis.thermal")};
@@ -255,7 +273,7 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   check_promises(root, result, diagnostics);
   check_pairs(root, result, diagnostics);
   diagnostics.throw_if_any();
-  result.resolved = write_resolved(root, fmt::format("Resolved from {}: SI units, defaults included.", path));
+  result.resolved = write_resolved(root, header);
   use_local_origin(result);
   return result;
 }

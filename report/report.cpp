@@ -3,6 +3,7 @@
 #include "report/blanking_page.hpp"
 #include "report/html.hpp"
 #include "report/picture_album.hpp"
+#include "report/stability_page.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
 
@@ -30,7 +31,7 @@ std::string run_line(const results::RunStatus& status, const CaseWords& said,
   std::vector<std::string> parts;
   if (std::isfinite(status.time) && status.steps > 0)
     parts.push_back(units.format(status.time, "s") + " simulated");
-  parts.push_back(grouped(status.nodes) + " nodes");
+  if (status.nodes > 0) parts.push_back(grouped(status.nodes) + " nodes");
   if (status.steps > 0) parts.push_back(grouped(status.steps) + " steps");
   for (const auto& [phase, seconds] : status.wall_s)
     if (phase == "total" && seconds > 0.0) parts.push_back(results::duration_format(seconds));
@@ -114,6 +115,11 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
                              .blanking = report.blanking ? &*report.blanking : nullptr,
                              .cutting = report.cutting ? &*report.cutting : nullptr,
                              .units = report.units});
+  if (auto lobes = stability_lobes(folder, status)) {
+    report.charts.push_back(std::move(*lobes));
+    report.charts_title = "Stability";
+    report.figures = stability_figures(status, report.units);
+  }
   collect_pictures(report, folder, status);
 
   const auto add = [&](ReportTable table) {

@@ -23,6 +23,9 @@ inline constexpr const char* cutting = "cutting.json";
 inline constexpr const char* cutting_course = "cutting.csv"; ///< chip and contact over the cut
 inline constexpr const char* cutting_folder = "cutting";     ///< tables of a cut, .csv
 inline constexpr const char* experiment = "experiment.json"; ///< computed forces beside measured ones
+inline constexpr const char* stability = "stability.csv";    ///< limits of a milling cut over speeds
+inline constexpr const char* stability_chart = "stability_chart.csv"; ///< spectral radii over speed and depth
+inline constexpr const char* stability_picture = "stability.svg";     ///< the limits
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files

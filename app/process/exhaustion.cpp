@@ -100,7 +100,7 @@ void on_exit() {
 }
 
 std::string how_to_go_on(const input::Case& input, const RunOptions& options) {
-  if (options.output.empty() || input.analysis.type == input::Analysis::Type::statics) return "";
+  if (options.output.empty() || input.analysis.type != input::Analysis::Type::explicit_dynamics) return "";
   const auto checkpoints = results::list_checkpoints(options.output);
   return fmt::format("once this is mended, `cnem restart {}` {}", options.output.string(),
                      checkpoints.empty() ? "begins at step 0"

@@ -21,8 +21,9 @@ void add_general(Keys& k) {
         "Names of quantities that others are calculated from ([more](user_guide.md#variables)).");
   k.add("analysis", table, "What is computed.").always();
   k.add("analysis.type", choice,
-        "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution.")
-      .one_of({"explicit", "static"})
+        "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution; `stability`: "
+        "which depths a milling cut bears without chatter (docs/milling.md).")
+      .one_of({"explicit", "static", "stability"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
         "Per unit thickness: no strain out of the plane, or no stress. `axisymmetric`: "
@@ -316,7 +317,9 @@ const std::vector<Key>& schema() {
     add_fracture(k);
     add_output(k);
     add_report(k);
+    add_machining(k);
     mark_scopes(k);
+    mark_families(k);
     return std::move(k.all);
   }();
   return keys;

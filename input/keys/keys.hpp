@@ -31,6 +31,8 @@ public:
   }
   KeyDraft& or_from_cutting() { return key_.elsewhere = "[cutting], which makes it", *this; }
   KeyDraft& or_from_drawing() { return key_.elsewhere = "domain.drawing or [cutting], which make it", *this; }
+  /// A vector with three components in all analyses.
+  KeyDraft& of_space() { return key_.components = 3, *this; }
   /// Where three-dimensional analyses may do without.
   KeyDraft& in_plane_only_required() { return key_.free_in_space = true, *this; }
   /// Of a table: the defaults of its members hold without it.
@@ -82,6 +84,7 @@ void add_adaptation(Keys& k);
 void add_method(Keys& k);
 void add_pictures(Keys& k);
 void add_report(Keys& k);
+void add_machining(Keys& k);
 
 /// Members of the table of a tool, "tools.*.", that let it move as a body.
 void add_drive(Keys& k, const std::string& tool);
@@ -89,5 +92,7 @@ void add_mass_scaling(Keys& k);
 
 /// Says which keys have a meaning in the plane alone, or in space alone: the one table of it.
 void mark_scopes(Keys& k);
+/// Says which keys belong to analyses of bodies, and which to milling: the one table of it.
+void mark_families(Keys& k);
 
 } // namespace cnem::input

@@ -35,6 +35,9 @@ enum class Type {
 /// In which analyses a key has a meaning.
 enum class Scope { everywhere, plane, space };
 
+/// In which analyses: of bodies that deform, or of milling, where cutter, cut and modes are all there is.
+enum class Family { everywhere, bodies, milling };
+
 /// Whether a key has to be written. For a table, `fallback` means that its own defaults hold without it.
 enum class Presence { required, fallback, optional };
 
@@ -56,6 +59,7 @@ struct Key {
   Dimension dimension = {};
   std::optional<Dimension> revolution = {}; ///< dimension in axisymmetric analyses, where that is another one
   Scope scope = Scope::everywhere;
+  Family family = Family::everywhere;
   std::string scope_reason = {}; ///< why it has none elsewhere
   std::size_t components = 2;    ///< of vectors; 3 in space
   bool free_in_space = false;    ///< required in the plane alone

@@ -249,6 +249,9 @@ bool says_scope(const Key& key) {
 
 /// Of a table whose keys have a meaning in the plane or in space alone, with the reason.
 std::string scope_of(const Key& table) {
+  const Key* around = find_key(table.parent());
+  if (table.family == Family::milling && (!around || around->family != Family::milling))
+    return " In milling analyses only.";
   if (!says_scope(table)) return "";
   return fmt::format(" {}: {}.",
                      table.scope == Scope::plane ? "Not in three-dimensional analyses"

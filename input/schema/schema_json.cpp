@@ -18,7 +18,7 @@ Json array_of(Json items) { return {{"type", "array"}, {"items", std::move(items
 /// Two components, or three.
 Json components_of(const Json& item, const Key& key) {
   Json list = array_of(item);
-  list["minItems"] = key.scope == Scope::space && !key.planar ? 3 : 2;
+  list["minItems"] = key.components == 3 || (key.scope == Scope::space && !key.planar) ? 3 : 2;
   list["maxItems"] = key.planar || key.scope == Scope::plane ? 2 : 3;
   return list;
 }
@@ -149,9 +149,10 @@ Json object_schema(const std::string& pattern, Needs needs) {
     if (!key->example.empty())
       if (Json example = parsed_toml(key->example); !example.is_discarded())
         schema["examples"] = Json::array({std::move(example)});
-    const bool outside =
-        key->scope != Scope::everywhere &&
-        (!find_key(pattern) || key->scope != find_key(pattern)->scope); // depends on the analysis
+    const Key* table = find_key(pattern);
+    const bool outside = // depends on the analysis
+        (key->scope != Scope::everywhere && (!table || key->scope != table->scope)) ||
+        (key->family != Family::everywhere && (!table || key->family != table->family));
     if (key->presence == Presence::required && !key->free_in_space && key->when.sibling.empty() &&
         key->elsewhere.empty() && !outside && needs == Needs::as_written)
       required.push_back(key->name());
@@ -164,9 +165,26 @@ Json object_schema(const std::string& pattern, Needs needs) {
 
 } // namespace
 
+namespace {
+
+/// What a case has to have at the top in one family of analyses.
+Json required_in(Family family) {
+  Json required = Json::array();
+  for (const Key* key : members_of(""))
+    if (key->presence == Presence::required && key->family == family && key->elsewhere.empty())
+      required.push_back(key->name());
+  return {{"required", std::move(required)}};
+}
+
+} // namespace
+
 std::string json_schema() {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "cnem case"}};
   schema.update(object_schema("", Needs::as_written));
+  const Json milling{{"properties", {{"type", {{"const", "stability"}}}}}, {"required", {"type"}}};
+  schema["if"] = {{"properties", {{"analysis", milling}}}, {"required", {"analysis"}}};
+  schema["then"] = required_in(Family::milling);
+  schema["else"] = required_in(Family::bodies);
   return schema.dump(2) + "\n";
 }
 

@@ -39,9 +39,9 @@ std::string suggestion(const std::string& name, const std::string& pattern, cons
 
 class Resolver {
 public:
-  Resolver(Diagnostics& diagnostics, std::string_view kinematics)
+  Resolver(Diagnostics& diagnostics, std::string_view kinematics, Family family)
       : diagnostics_(diagnostics), revolution_(kinematics == "axisymmetric"),
-        space_(kinematics == "three-dimensional") {}
+        space_(kinematics == "three-dimensional"), family_(family) {}
 
   /// Fills the members of a table from what was written (nullptr: nothing).
   void table(Setting& setting, const Value* written, const std::string& pattern) {
@@ -50,7 +50,7 @@ public:
       const Key* key = space_ ? &in_space(*plane) : revolution_ ? &in_revolution(*plane) : plane;
       const Member* found = written ? written->find(key->name()) : nullptr;
       const std::string path = join(setting.path, key->name());
-      if (!in_scope(*key, found, path)) continue;
+      if (!in_family(*key, found, path) || !in_scope(*key, found, path)) continue;
       if (!key->when.sibling.empty() && !applies(*key, setting, found, path)) continue;
       if (!found && key->presence != Presence::fallback) {
         if (key->presence == Presence::required)
@@ -66,9 +66,10 @@ public:
 private:
   void report_unknown(const Value& written, const std::string& pattern, const std::string& path) {
     std::vector<std::string> known;
-    for (const Key* key : members_of(pattern)) known.push_back(key->name());
+    for (const Key* key : members_of(pattern))
+      if (belongs(*key)) known.push_back(key->name());
     for (const Member& member : written.members) {
-      if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
+      if (find_key(join(pattern, member.key))) continue;
       if (diagnostics_.tells(Mistake::unknown_key))
         diagnostics_.add(Mistake::unknown_key, member.where, join(path, shown(member.key)),
                          fmt::format("unknown key, expected one of {}{}", fmt::join(known, ", "),
@@ -76,6 +77,20 @@ private:
       else
         diagnostics_.count(Mistake::unknown_key);
     }
+  }
+
+  bool belongs(const Key& key) const { return key.family == Family::everywhere || key.family == family_; }
+
+  /// Whether the key belongs to analyses of this kind; if not, it must not have been written.
+  bool in_family(const Key& key, const Member* found, const std::string& path) {
+    if (belongs(key)) return true;
+    if (found)
+      diagnostics_.add(Mistake::conflict, found->where, path,
+                       family_ == Family::milling
+                           ? "found in a milling analysis, expected none: it has no body that deforms"
+                           : "found in an analysis of bodies, expected it with analysis.type = "
+                             "\"stability\" only");
+    return false;
   }
 
   /// Whether the key has a meaning in this analysis; if not, it must not have been written.
@@ -185,17 +200,24 @@ private:
 
   Diagnostics& diagnostics_;
   bool revolution_, space_;
+  Family family_;
 };
 
-/// What the document says of them, of which other keys depend; "" where it says nothing.
-std::string_view kinematics_of(const Value& document) {
+/// What the document says of its analysis, of which other keys depend; "" where it says nothing.
+std::string_view analysis_of(const Value& document, std::string_view key) {
   const Member* analysis = document.find("analysis");
-  const Member* kinematics = analysis ? analysis->value.find("kinematics") : nullptr;
-  const bool said = kinematics && kinematics->value.kind == Value::Kind::text;
-  return said ? std::string_view(kinematics->value.text) : "";
+  const Member* found = analysis ? analysis->value.find(key) : nullptr;
+  const bool said = found && found->value.kind == Value::Kind::text;
+  return said ? std::string_view(found->value.text) : "";
 }
 
+std::string_view kinematics_of(const Value& document) { return analysis_of(document, "kinematics"); }
+
 } // namespace
+
+Family family_of(const Value& document) {
+  return analysis_of(document, "type") == "stability" ? Family::milling : Family::bodies;
+}
 
 bool valid_name(std::string_view name) {
   return !name.empty() && name.size() <= longest_name && std::all_of(name.begin(), name.end(), [](char c) {
@@ -280,7 +302,7 @@ void Setting::erase(std::string_view relative) {
 Setting apply_schema(const Value& document, Diagnostics& diagnostics) {
   Setting root;
   root.where = document.where;
-  Resolver(diagnostics, kinematics_of(document)).table(root, &document, "");
+  Resolver(diagnostics, kinematics_of(document), family_of(document)).table(root, &document, "");
   return root;
 }
 
@@ -291,7 +313,9 @@ Setting apply_schema(const Value& table, const std::string& pattern, const std::
   setting.path = path;
   setting.where = table.where;
   setting.given = true;
-  Resolver(diagnostics, document ? kinematics_of(*document) : "").table(setting, &table, pattern);
+  Resolver(diagnostics, document ? kinematics_of(*document) : "",
+           document ? family_of(*document) : Family::bodies)
+      .table(setting, &table, pattern);
   return setting;
 }
 

@@ -73,6 +73,9 @@ private:
   static int choice_index(const Setting& setting);
 };
 
+/// Which family of analyses a document asks for.
+Family family_of(const Value& document);
+
 /// Checks keys, types, units, ranges and presence; all mistakes go to `diagnostics`, and then the tree lacks
 /// what was wrong.
 Setting apply_schema(const Value& document, Diagnostics& diagnostics);

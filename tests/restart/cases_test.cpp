@@ -37,11 +37,18 @@ bool is_explicit(const fs::path& input) {
 
 bool is_in_space(const fs::path& input) { return input.parent_path().filename() == "three_dimensions"; }
 
-/// The command line of a case, with pictures of one field where it has any.
+bool is_milling(const fs::path& input) {
+  return input::read_case((input / "case.toml").string()).analysis.of_milling();
+}
+
+/// The command line of a case, with pictures of one field where it has any, or a chart of few points.
 std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::path& output, int threads) {
   std::vector<std::string> words{"run",           input.string(), "--output",
                                  output.string(), "--threads",    std::to_string(threads)};
-  words.insert(words.end(), {"--set", "output.picture_fields=[\"pressure\"]"});
+  if (is_milling(input))
+    words.insert(words.end(), {"--set", "stability.speeds=9", "--set", "stability.depths=10"});
+  else
+    words.insert(words.end(), {"--set", "output.picture_fields=[\"pressure\"]"});
   return words;
 }
 

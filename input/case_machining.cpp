@@ -1,0 +1,128 @@
+// Reads milling cases.
+#include "input/case_machining.hpp"
+#include "core/index.hpp"
+#include "input/case_parts.hpp"
+#include "input/constants.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace cnem::input {
+namespace {
+
+machining::Cutter read_cutter(const Setting& table, Diagnostics& diagnostics) {
+  machining::Cutter cutter;
+  cutter.diameter = table.get<double>("diameter");
+  const auto teeth = static_cast<std::size_t>(table.get<std::int64_t>("teeth"));
+  cutter.pitch = machining::equal_pitch(teeth);
+  cutter.helix = table.get<double>("helix");
+  cutter.run_out = table.get<double>("run_out");
+  cutter.run_out_angle = table.get<double>("run_out_angle");
+  if (const Setting* run_out = table.find("run_out"); cutter.run_out >= cutter.radius())
+    diagnostics.add(Mistake::range, run_out->where, run_out->path,
+                    fmt::format("found {:g} m, expected less than the radius of the cutter, {:g} m",
+                                cutter.run_out, cutter.radius()));
+  const Setting* pitch = table.find("pitch");
+  if (!pitch) return cutter;
+  cutter.pitch = std::get<std::vector<double>>(pitch->value);
+  const double sum = std::accumulate(cutter.pitch.begin(), cutter.pitch.end(), 0.0);
+  constexpr double close = 1e-6;
+  if (cutter.pitch.size() != teeth)
+    diagnostics.add(
+        Mistake::type, pitch->where, pitch->path,
+        fmt::format("found {} angles for {} teeth, expected one a tooth", cutter.pitch.size(), teeth));
+  else if (std::abs(sum - machining::full_turn) > close)
+    diagnostics.add(Mistake::range, pitch->where, pitch->path,
+                    fmt::format("found angles of {:.8g} deg together, expected a whole turn, 360 deg",
+                                sum * 360.0 / machining::full_turn));
+  for (double& angle : cutter.pitch)
+    angle *= machining::full_turn / sum; // "120 120 120 deg" is a turn but for rounding
+  return cutter;
+}
+
+NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
+  NamedMode mode;
+  mode.name = table.name;
+  mode.of = table.choice<machining::Mode::Of>("of");
+  mode.frequency = table.get<double>("frequency");
+  mode.damping = table.get<double>("damping");
+  mode.direction = table.get<Vec3>("direction");
+  const Setting *stiffness = table.find("stiffness"), *mass = table.find("mass");
+  if (stiffness && mass)
+    diagnostics.add(Mistake::conflict, mass->where, mass->path,
+                    "found a mass and a stiffness, expected one of them");
+  else if (!stiffness && !mass)
+    diagnostics.add(Mistake::missing_key, table.where, table.path + ".stiffness",
+                    find_key("modes.*.stiffness")->missing());
+  else
+    mode.stiffness = stiffness ? std::get<double>(stiffness->value)
+                               : std::get<double>(mass->value) * mode.omega() * mode.omega();
+  const double length = mode.direction.norm();
+  const Setting& direction = *table.find("direction");
+  if (!(length > 0.0))
+    diagnostics.add(Mistake::range, direction.where, direction.path,
+                    "found a vector without length, expected a direction such as " +
+                        direction.key->example_text());
+  else
+    mode.direction /= length;
+  return mode;
+}
+
+void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& diagnostics) {
+  constexpr double along_axis = 1e-9;
+  if (std::all_of(read.modes.begin(), read.modes.end(),
+                  [](const NamedMode& mode) { return mode.direction.head<2>().norm() < along_axis; }))
+    diagnostics.add(Mistake::range, modes.where, "modes",
+                    "found modes along z alone, expected one across the axis of the cutter: a flat end that "
+                    "moves along z cuts the same chips");
+}
+
+} // namespace
+
+void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
+  if (!root.find("cutting.forces")) {
+    diagnostics.add(Mistake::missing_key, root.where, "cutting.forces",
+                    find_key("cutting.forces")->missing());
+    return;
+  }
+  const auto made = std::make_shared<MachiningCase>();
+  MachiningCase& read = *made;
+  result.machining = made;
+  read.cut.cutter = read_cutter(*root.find("cutter"), diagnostics);
+  const double diameter = read.cut.cutter.diameter;
+  root.set_default("milling.radial_depth", diameter);
+  const Setting& milling = *root.find("milling");
+  read.speed = milling.get<double>("speed");
+  read.cut.feed = milling.get<double>("feed");
+  read.axial_depth = milling.get<double>("axial_depth");
+  read.cut.engagement = {milling.choice<machining::Engagement::Side>("side"),
+                         milling.get<double>("radial_depth")};
+  if (const Setting& depth = *milling.find("radial_depth"); read.cut.engagement.radial_depth > diameter)
+    diagnostics.add(Mistake::range, depth.where, depth.path,
+                    fmt::format("found {:g} m, expected at most cutter.diameter = {:g} m",
+                                read.cut.engagement.radial_depth, diameter));
+  if (const Setting& feed = *milling.find("feed"); read.cut.feed >= 0.5 * diameter)
+    diagnostics.add(Mistake::range, feed.where, feed.path,
+                    fmt::format("found {:g} m, expected less than the radius of the cutter, {:g} m",
+                                read.cut.feed, 0.5 * diameter));
+  if (auto law = read_law<machining::CuttingLaw>(machining::CuttingLaws{}, *root.find("cutting.forces"),
+                                                 diagnostics))
+    read.cut.law = *law;
+  read.cut.law.incline(read.cut.cutter.helix);
+  for (const Setting& table : root.entries("modes")) read.modes.push_back(read_mode(table, diagnostics));
+  check_modes(*root.find("modes"), read, diagnostics);
+  root.set_default("stability.speed_from", 0.5 * read.speed);
+  root.set_default("stability.speed_to", 1.5 * read.speed);
+  const Setting& range = *root.find("stability");
+  read.stability = {range.get<double>("speed_from"), range.get<double>("speed_to"),
+                    static_cast<int>(range.get<std::int64_t>("speeds")), range.maybe<double>("depth_to"),
+                    static_cast<int>(range.get<std::int64_t>("depths"))};
+  if (const Setting& to = *range.find("speed_to"); read.stability.speed_to <= read.stability.speed_from)
+    diagnostics.add(Mistake::range, to.where, to.path,
+                    fmt::format("found {:g} rad/s, expected more than stability.speed_from = {:g} rad/s",
+                                read.stability.speed_to, read.stability.speed_from));
+}
+
+} // namespace cnem::input

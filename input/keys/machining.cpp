@@ -1,0 +1,162 @@
+// Keys of milling analyses, and which keys belong to them and which to analyses of bodies.
+#include "input/constants.hpp"
+#include "machining/laws/list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <string_view>
+
+namespace cnem::input {
+namespace {
+
+namespace d = dimension;
+using enum Type;
+
+/// Keys that both kinds of analyses have; of tables each member is looked at by itself.
+constexpr std::array shared{"title",         "include", "let",    "analysis",
+                            "analysis.type", "cutting", "report", "report.units"};
+/// Tables of milling, with all that lies below them.
+constexpr std::array milling_tables{"cutter", "cutting.forces", "milling", "modes", "stability"};
+
+constexpr Range steep{.low = -60.0 * std::numbers::pi / 180.0, .high = 60.0 * std::numbers::pi / 180.0};
+
+void add_cutter(Keys& k) {
+  k.add("cutter", table, "The milling cutter, with a flat end.").required();
+  k.add("cutter.diameter", quantity, "").unit(d::length).in(positive).required().example("\"12 mm\"");
+  k.add("cutter.teeth", integer, "").in({.low = 1, .high = 64}).required().example("3");
+  k.add("cutter.pitch", quantities,
+        "Angles from each tooth to the one that cuts after it, as many as teeth; a whole turn together.")
+      .unit(d::angle)
+      .in(positive)
+      .example("\"110 125 125 deg\"")
+      .computed("equal angles");
+  k.add("cutter.helix", quantity, "Of the edges: positive ones lag behind with their height over the tip.")
+      .unit(d::angle)
+      .in(steep)
+      .fallback("\"0 deg\"");
+  k.add("cutter.run_out", quantity, "Distance from the axis of the spindle to that of the cutter.")
+      .unit(d::length)
+      .in(not_negative)
+      .fallback("\"0 m\"");
+  k.add("cutter.run_out_angle", quantity, "From the first tooth to the direction of the run-out.")
+      .unit(d::angle)
+      .fallback("\"0 deg\"");
+}
+
+void add_milling(Keys& k) {
+  k.add("milling", table, "The cut. The feed is along +x, the cutter turns clockwise seen from +z.")
+      .required();
+  k.add("milling.speed", quantity, "Of the spindle.")
+      .unit(d::angular_velocity)
+      .in(positive)
+      .required()
+      .example("\"8000 rpm\"");
+  k.add("milling.feed", quantity, "Per tooth, the mean of a turn.")
+      .unit(d::length)
+      .in(positive)
+      .required()
+      .example("\"0.1 mm\"");
+  k.add("milling.axial_depth", quantity, "Along the axis of the cutter.")
+      .unit(d::length)
+      .in(positive)
+      .required()
+      .example("\"2 mm\"");
+  k.add("milling.radial_depth", quantity, "Across axis and feed, at most the diameter, which is a slot.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"3 mm\"")
+      .computed("`cutter.diameter`");
+  k.add("milling.side", choice,
+        "`up`: chips begin thin, the cut lies from the +y side of the cutter inwards; `down`: they end thin, "
+        "it lies from the −y side inwards.")
+      .one_of({"up", "down"})
+      .fallback("\"down\"");
+}
+
+void add_modes(Keys& k) {
+  k.add("modes", named_tables, "Modes of vibration of tool and part, as a tap test gives them.").required();
+  k.add("modes.*", table, "A mode.");
+  k.add("modes.*.of", choice, "What vibrates.").one_of({"tool", "part"}).fallback("\"tool\"");
+  k.add("modes.*.frequency", quantity, "Without damping.")
+      .unit(d::rate)
+      .in(positive)
+      .required()
+      .example("\"922 Hz\"");
+  k.add("modes.*.damping", quantity, "ζ, the share of critical damping.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true, .high_open = true})
+      .required()
+      .example("0.011");
+  k.add("modes.*.stiffness", quantity, "Modal, of the direction where the cutter cuts.")
+      .unit(d::force_per_length)
+      .in(positive)
+      .example("\"1.34 N/um\"")
+      .computed("(2π frequency)² `mass`");
+  k.add("modes.*.mass", quantity, "Modal, in place of `stiffness`.")
+      .unit(d::mass)
+      .in(positive)
+      .example("\"0.04 kg\"");
+  k.add("modes.*.direction", vector, "Along which it moves where the cutter cuts, of any length.")
+      .of_space()
+      .required()
+      .example("\"1 0 0\"");
+}
+
+void add_stability(Keys& k) {
+  k.add("stability", table,
+        "The chart of `analysis.type = \"stability\"`: spectral radius over speed of the spindle and axial "
+        "depth.")
+      .always();
+  k.add("stability.speed_from", quantity, "")
+      .unit(d::angular_velocity)
+      .in(positive)
+      .example("\"5000 rpm\"")
+      .computed("half of `milling.speed`");
+  k.add("stability.speed_to", quantity, "")
+      .unit(d::angular_velocity)
+      .in(positive)
+      .example("\"10000 rpm\"")
+      .computed("1.5 `milling.speed`");
+  k.add("stability.speeds", integer, "").in({.low = 2, .high = 2000}).fallback("200");
+  k.add("stability.depth_to", quantity, "The chart begins at 0.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"5 mm\"")
+      .computed("six times the smallest limit of zero order, and beyond `milling.axial_depth`");
+  k.add("stability.depths", integer, "").in({.low = 2, .high = 2000}).fallback("100");
+}
+
+bool below(const std::string& key, std::string_view path) {
+  return key.starts_with(path) &&
+         (key.size() == path.size() || key[path.size()] == '.' || key[path.size()] == '[');
+}
+
+} // namespace
+
+void add_machining(Keys& k) {
+  add_cutter(k);
+  const std::vector<LawText> laws = law_texts(machining::CuttingLaws{});
+  k.add(
+       "cutting.forces", table,
+       "Forces on an edge per length along the axis of the cutter, over the chip thickness h: tangential "
+       "against its motion, radial towards the axis, axial along it. Where nothing is cut there is no force.")
+      .required();
+  add_law_choice(k, "cutting.forces", laws).required();
+  add_law_constants(k, "cutting.forces", laws);
+  add_milling(k);
+  add_modes(k);
+  add_stability(k);
+}
+
+void mark_families(Keys& k) {
+  const auto in = [](const auto& list, const auto& matches) {
+    return std::any_of(list.begin(), list.end(), matches);
+  };
+  for (Key& key : k.all) {
+    if (in(shared, [&](const char* path) { return key.path == path; })) continue;
+    const bool milling = in(milling_tables, [&](const char* path) { return below(key.path, path); });
+    key.family = milling ? Family::milling : Family::bodies;
+  }
+}
+
+} // namespace cnem::input

@@ -1,0 +1,44 @@
+#include "machining/cutter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cnem::machining {
+
+double Cutter::lag(double z) const { return z * std::tan(helix) / radius(); }
+
+double Cutter::behind(std::size_t tooth) const {
+  double angle = 0.0;
+  for (std::size_t j = 0; j < tooth; ++j) angle += pitch[j];
+  return angle;
+}
+
+double Cutter::radius_of(std::size_t tooth) const {
+  return radius() + run_out * std::cos(run_out_angle + behind(tooth));
+}
+
+std::size_t Cutter::pattern() const {
+  const std::size_t n = teeth();
+  constexpr double same = 1e-12;
+  for (std::size_t k = 1; k < n; ++k) {
+    bool repeats = n % k == 0;
+    for (std::size_t j = 0; repeats && j < n; ++j) repeats = std::abs(pitch[j] - pitch[(j + k) % n]) < same;
+    if (repeats) return k;
+  }
+  return n;
+}
+
+std::vector<double> equal_pitch(std::size_t teeth) {
+  return std::vector<double>(teeth, 2.0 * std::numbers::pi / static_cast<double>(teeth));
+}
+
+double Engagement::entry(const Cutter& cutter) const {
+  return side == Side::up ? 0.0 : std::acos(std::clamp(radial_depth / cutter.radius() - 1.0, -1.0, 1.0));
+}
+
+double Engagement::exit(const Cutter& cutter) const {
+  return side == Side::up ? std::acos(std::clamp(1.0 - radial_depth / cutter.radius(), -1.0, 1.0))
+                          : std::numbers::pi;
+}
+
+} // namespace cnem::machining

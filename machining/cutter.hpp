@@ -1,0 +1,58 @@
+#pragma once
+// A milling cutter and how it stands in the workpiece. The cutter is fed along +x and turns clockwise seen
+// from +z; the angle φ of a tooth counts from +y in that sense: it is at (R sin φ, R cos φ). z goes up from
+// the tip along the axis, and the edge lags behind with it.
+#include "core/vec.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace cnem::machining {
+
+inline constexpr double full_turn = 2.0 * std::numbers::pi; ///< rad
+
+struct Cutter {
+  double diameter = 0.0;      ///< m
+  std::vector<double> pitch;  ///< rad, from each tooth to the one that cuts after it; 2π together
+  double helix = 0.0;         ///< rad
+  double run_out = 0.0;       ///< m, of the axis of the cutter beside that of the spindle
+  double run_out_angle = 0.0; ///< rad, from tooth 0 to the direction of it, clockwise
+
+  std::size_t teeth() const { return pitch.size(); }
+  double radius() const { return 0.5 * diameter; }
+  /// rad that the edge lags behind its tip at a height, m.
+  double lag(double z) const;
+  /// rad from the tip of tooth 0 back to that of another.
+  double behind(std::size_t tooth) const;
+  /// rad from a tooth to the one that cut before it.
+  double pitch_before(std::size_t tooth) const { return pitch[(tooth + teeth() - 1) % teeth()]; }
+  /// m, of a tooth round the axis of the spindle.
+  double radius_of(std::size_t tooth) const;
+  /// How many teeth there are before the pitches repeat themselves.
+  std::size_t pattern() const;
+};
+
+/// Teeth at equal angles.
+std::vector<double> equal_pitch(std::size_t teeth);
+
+/// Which part of a turn a cutter is in the workpiece.
+struct Engagement {
+  enum class Side { up, down };
+  Side side = Side::down;
+  double radial_depth = 0.0; ///< m; the diameter: a slot
+
+  /// Angles at which an edge enters and leaves: 0 … acos(1 − ae/R), or acos(ae/R − 1) … π.
+  double entry(const Cutter& cutter) const;
+  double exit(const Cutter& cutter) const;
+};
+
+/// How a chip thickness and forces stand at an edge at φ.
+inline Vec3 outward(double phi) { return {std::sin(phi), std::cos(phi), 0.0}; }
+/// (tangential, radial, axial) per length into the force on the tool (x, y, z).
+inline Vec3 on_tool(double phi, const Vec3& force) {
+  const double s = std::sin(phi), c = std::cos(phi);
+  return {-force[0] * c - force[1] * s, force[0] * s - force[1] * c, -force[2]};
+}
+
+} // namespace cnem::machining

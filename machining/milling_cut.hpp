@@ -1,0 +1,39 @@
+#pragma once
+// A milling cut as stability and forces see it, and how its forces answer to vibrations.
+#include "machining/cutter.hpp"
+#include "machining/cutting_law.hpp"
+
+#include <Eigen/Core>
+
+namespace cnem::machining {
+
+struct MillingCut {
+  Cutter cutter;
+  Engagement engagement;
+  CuttingLaw law;
+  double feed = 0.0; ///< m per tooth, the mean of a turn
+};
+
+/// Force on the tool per displacement of it, N/m: columns x and y alone, because a flat end moves along its
+/// edges in z.
+using DirectionalFactors = Eigen::Matrix<double, 3, 2>;
+
+/// Chip thickness of a tooth at φ in steady cutting, m, on circular paths: its share of the feed, and what it
+/// stands out beyond the tooth before it. Negative where the tooth misses the cut.
+double steady_thickness(const MillingCut& cut, std::size_t tooth, double phi);
+
+/// The smallest of all teeth where they cut, over the engagement; ≤ 0 where one misses the cut.
+double thinnest_chip(const MillingCut& cut);
+
+/// Per depth, at one angle: ∂F/∂(n·u) n, of the slope of the law at the steady thickness. N/m²
+DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth, double phi, double spindle);
+
+/// Of one tooth whose tip is at an angle φ, over the part of [0, depth] that is in the cut; the factors times
+/// u(t) − u(t − τ) are its force. spindle: rad/s.
+DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth, double tip, double depth,
+                                       double spindle);
+
+/// Per depth, the mean over a turn of the sum over the teeth (Altintas and Budak 1995). N/m²
+DirectionalFactors mean_factors(const MillingCut& cut, double spindle);
+
+} // namespace cnem::machining
