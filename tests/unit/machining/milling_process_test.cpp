@@ -169,12 +169,12 @@ TEST(Milling, LocationErrorOfAToolThatSwings) {
 TEST(Milling, DisturbancesGrowBeyondTheLimitOfFloquet) {
   MillingCut cut = insperger(up, 0.5);
   cut.feed = 1e-5; // far fewer than a radian of the cutter: the delay is that of circles
-  const double limit = 0.2603e-3;
-  for (const double share : {0.97, 1.03}) {
+  const double limit = 0.2603e-3; // m
+  for (const double share : {0.98, 1.02}) {
     MillingProcess process(cut, insperger_modes(1),
                            {.spindle = 5000.0 * rpm,
                             .axial_depth = share * limit,
-                            .length = 120 * 2e-5,
+                            .length = 80 * 2e-5,
                             .pitch = 1e-6,
                             .layers = 1,
                             .steps = 1600});
@@ -192,9 +192,9 @@ TEST(Milling, DisturbancesGrowBeyondTheLimitOfFloquet) {
     const double growth =
         spread(sample.size() - 40, sample.size()) / spread(sample.size() - 120, sample.size() - 80);
     if (share < 1.0)
-      EXPECT_LT(growth, 0.95);
+      EXPECT_LT(growth, 0.8);
     else
-      EXPECT_GT(growth, 1.05);
+      EXPECT_GT(growth, 1.2);
   }
 }
 
