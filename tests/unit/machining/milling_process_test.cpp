@@ -168,7 +168,7 @@ TEST(Milling, LocationErrorOfAToolThatSwings) {
 
 TEST(Milling, DisturbancesGrowBeyondTheLimitOfFloquet) {
   MillingCut cut = insperger(up, 0.5);
-  cut.feed = 1e-5; // far fewer than a radian of the cutter: the delay is that of circles
+  cut.feed = 1e-5;                // far fewer than a radian of the cutter: the delay is that of circles
   const double limit = 0.2603e-3; // m
   for (const double share : {0.98, 1.02}) {
     MillingProcess process(cut, insperger_modes(1),
