@@ -1,7 +1,7 @@
 #include "adapt/indicated_fields.hpp"
 #include "app/divergence.hpp"
 #include "app/forecast/forecast.hpp"
-#include "app/machining/stability_run.hpp"
+#include "app/machining/machining_session.hpp"
 #include "app/places.hpp"
 #include "app/plausibility/plausibility.hpp"
 #include "app/run.hpp"
@@ -154,7 +154,7 @@ Checked check(const input::Case& input, const RunOptions& options) {
   const ThreadCount threads(options.threads);
   use_threads(options.threads);
   const bool space = input.analysis.dimensions() == 3;
-  if (input.analysis.of_milling()) return check_stability(input);
+  if (input.analysis.of_milling()) return check_machining(input);
   if (input.analysis.type == input::Analysis::Type::statics)
     return space ? check_static<3>(input, options) : check_static<2>(input, options);
   return space ? check_explicit<3>(input, options) : check_explicit<2>(input, options);

@@ -3,7 +3,7 @@
 #include "input/space_domain.hpp"
 
 #include "app/forecast/forecast.hpp"
-#include "app/machining/stability_run.hpp"
+#include "app/machining/machining_session.hpp"
 #include "app/simulation.hpp"
 #include "clouds/generate.hpp"
 #include "input/curve_checks.hpp"
@@ -140,9 +140,8 @@ template<int dim> std::string explicit_text(const input::Case& input) {
 std::string explanation(const input::Case& input) {
   if (input.analysis.of_milling()) {
     std::string text;
-    for (const auto& [label, fact] : check_stability(input).facts) text += line(label.c_str(), fact);
-    return text +
-           line("solution", "multipliers of Floquet at the points of the chart, and limits between them");
+    for (const auto& [label, fact] : check_machining(input).facts) text += line(label.c_str(), fact);
+    return text;
   }
   std::string text = subject(input);
   if (input.analysis.type == input::Analysis::Type::statics)

@@ -1,6 +1,6 @@
 #include "app/run.hpp"
 
-#include "app/machining/stability_run.hpp"
+#include "app/machining/machining_session.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/simulation.hpp"
 #include "app/statics/statics.hpp"
@@ -111,7 +111,7 @@ input::Case resolved_case(const fs::path& folder) {
 
 std::unique_ptr<Session> solved_at_once(const input::Case& input, const RunOptions& options,
                                         RunObserver& observer) {
-  if (input.analysis.of_milling()) return std::make_unique<StabilityRun>(input, options, observer);
+  if (input.analysis.of_milling()) return machining_run(input, options, observer);
   if (input.analysis.dimensions() == 3) return std::make_unique<StaticRun<3>>(input, options, observer);
   return std::make_unique<StaticRun<2>>(input, options, observer);
 }
@@ -190,7 +190,7 @@ Run::Run(RunOptions options, RunObserver& observer) : options_(std::move(options
   use_threads(options_.threads);
   if (is_solved_at_once(input_)) {
     observer.outcome(fmt::format("a {} analysis has no checkpoints: it is solved again",
-                                 input_.analysis.of_milling() ? "stability" : "static"));
+                                 input_.analysis.of_milling() ? "milling" : "static"));
     options_.force = true;
     session_ = solved_at_once(input_, options_, observer);
   } else if (input_.analysis.dimensions() == 3)

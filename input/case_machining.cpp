@@ -72,6 +72,7 @@ NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
 
 void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& diagnostics) {
   constexpr double along_axis = 1e-9;
+  if (read.modes.empty()) return;
   if (std::all_of(read.modes.begin(), read.modes.end(),
                   [](const NamedMode& mode) { return mode.direction.head<2>().norm() < along_axis; }))
     diagnostics.add(Mistake::range, modes.where, "modes",
@@ -112,7 +113,26 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
     read.cut.law = *law;
   read.cut.law.incline(read.cut.cutter.helix);
   for (const Setting& table : root.entries("modes")) read.modes.push_back(read_mode(table, diagnostics));
-  check_modes(*root.find("modes"), read, diagnostics);
+  if (const Setting* modes = root.find("modes")) check_modes(*modes, read, diagnostics);
+  if (read.modes.empty() && result.analysis.type == Analysis::Type::stability)
+    diagnostics.add(Mistake::missing_key, root.where, "modes",
+                    "missing, expected a mode of tool or part, [modes.NAME]: nothing else can chatter");
+  const double turn = read.cut.feed * static_cast<double>(read.cut.cutter.teeth());
+  constexpr double turns = 12.0, share = 0.1, lag = 2.0 * std::numbers::pi / 180.0;
+  root.set_default("milling.length", turns * turn);
+  root.set_default("dexels.pitch", share * read.cut.feed);
+  const double layers = std::ceil(std::abs(read.cut.cutter.lag(read.axial_depth)) / lag - 1e-9);
+  root.set_default("dexels.layers", static_cast<std::int64_t>(std::clamp(layers, 1.0, 2000.0)));
+  read.length = root.get<double>("milling.length");
+  read.entry = root.get<bool>("milling.entry");
+  read.dexels = {root.get<double>("dexels.pitch"), static_cast<int>(root.get<std::int64_t>("dexels.layers")),
+                 static_cast<int>(root.get<std::int64_t>("dexels.steps"))};
+  constexpr double most_lines = 2e5;
+  if (const Setting& pitch = *root.find("dexels.pitch");
+      (read.length + 3.0 * diameter) / read.dexels.pitch > most_lines)
+    diagnostics.add(Mistake::range, pitch.where, pitch.path,
+                    fmt::format("found {:g} m, expected at least {:.3g} m: {:g} lines along the path",
+                                read.dexels.pitch, (read.length + 3.0 * diameter) / most_lines, most_lines));
   root.set_default("stability.speed_from", 0.5 * read.speed);
   root.set_default("stability.speed_to", 1.5 * read.speed);
   const Setting& range = *root.find("stability");

@@ -21,10 +21,20 @@ struct StabilityRange {
   int depths = 100;
 };
 
+/// How a cut in the time domain is resolved.
+struct DexelSettings {
+  double pitch = 0.0; ///< m
+  int layers = 1;     ///< along the axis
+  int steps = 720;    ///< in a turn
+};
+
 struct MachiningCase {
   machining::MillingCut cut;
   double speed = 0.0;       ///< rad/s of the spindle
   double axial_depth = 0.0; ///< m
+  double length = 0.0;      ///< m, of the path of the axis in the time domain
+  bool entry = false;       ///< which begins beside the workpiece
+  DexelSettings dexels;
   std::vector<NamedMode> modes;
   StabilityRange stability;
 };

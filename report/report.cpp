@@ -2,6 +2,7 @@
 
 #include "report/blanking_page.hpp"
 #include "report/html.hpp"
+#include "report/milling_page.hpp"
 #include "report/picture_album.hpp"
 #include "report/stability_page.hpp"
 #include "results/output_folder.hpp"
@@ -120,6 +121,12 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
     report.charts_title = "Stability";
     report.figures = stability_figures(status, report.units);
   }
+  if (history)
+    if (std::vector<Chart> charts = milling_charts(folder, *history); !charts.empty()) {
+      report.charts = std::move(charts);
+      report.charts_title = "Milling";
+      report.figures = milling_figures(status, report.units);
+    }
   collect_pictures(report, folder, status);
 
   const auto add = [&](ReportTable table) {

@@ -26,6 +26,7 @@ inline constexpr const char* experiment = "experiment.json"; ///< computed force
 inline constexpr const char* stability = "stability.csv";    ///< limits of a milling cut over speeds
 inline constexpr const char* stability_chart = "stability_chart.csv"; ///< spectral radii over speed and depth
 inline constexpr const char* stability_picture = "stability.svg";     ///< the limits
+inline constexpr const char* machined_surface = "surface.csv";        ///< of a milling cut
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files

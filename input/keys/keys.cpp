@@ -22,8 +22,9 @@ void add_general(Keys& k) {
   k.add("analysis", table, "What is computed.").always();
   k.add("analysis.type", choice,
         "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution; `stability`: "
-        "which depths a milling cut bears without chatter (docs/milling.md).")
-      .one_of({"explicit", "static", "stability"})
+        "which depths a milling cut bears without chatter; `milling`: the cut in the time domain "
+        "(docs/milling.md).")
+      .one_of({"explicit", "static", "stability", "milling"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
         "Per unit thickness: no strain out of the plane, or no stress. `axisymmetric`: "

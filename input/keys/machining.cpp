@@ -17,7 +17,7 @@ using enum Type;
 constexpr std::array shared{"title",         "include", "let",    "analysis",
                             "analysis.type", "cutting", "report", "report.units"};
 /// Tables of milling, with all that lies below them.
-constexpr std::array milling_tables{"cutter", "cutting.forces", "milling", "modes", "stability"};
+constexpr std::array milling_tables{"cutter", "cutting.forces", "milling", "modes", "stability", "dexels"};
 
 constexpr Range steep{.low = -60.0 * std::numbers::pi / 180.0, .high = 60.0 * std::numbers::pi / 180.0};
 
@@ -72,10 +72,34 @@ void add_milling(Keys& k) {
         "it lies from the −y side inwards.")
       .one_of({"up", "down"})
       .fallback("\"down\"");
+  k.add("milling.length", quantity, "In the time domain: how far the axis of the cutter goes.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"20 mm\"")
+      .computed("twelve turns");
+  k.add("milling.entry", boolean,
+        "In the time domain: the cutter begins beside the workpiece, which ends at x = 0. Without, it begins "
+        "in "
+        "the middle of a cut.")
+      .fallback("false");
+  k.add("dexels", table, "How matter and motion are resolved in the time domain.").always();
+  k.add("dexels.pitch", quantity, "Distance of the lines that matter is made of, along x and along y.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"10 um\"")
+      .computed("a tenth of `milling.feed`");
+  k.add("dexels.layers", integer, "Along the axis of the cutter.")
+      .in({.low = 1, .high = 2000})
+      .example("20")
+      .computed("edges lag behind by at most 2 deg in a layer");
+  k.add("dexels.steps", integer, "In a turn.").in({.low = 36, .high = 1e6}).fallback("720");
 }
 
 void add_modes(Keys& k) {
-  k.add("modes", named_tables, "Modes of vibration of tool and part, as a tap test gives them.").required();
+  k.add(
+      "modes", named_tables,
+      "Modes of vibration of tool and part, as a tap test gives them. Stability needs one; without any a cut "
+      "in the time domain is rigid.");
   k.add("modes.*", table, "A mode.");
   k.add("modes.*.of", choice, "What vibrates.").one_of({"tool", "part"}).fallback("\"tool\"");
   k.add("modes.*.frequency", quantity, "Without damping.")

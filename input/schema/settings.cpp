@@ -88,8 +88,8 @@ private:
       diagnostics_.add(Mistake::conflict, found->where, path,
                        family_ == Family::milling
                            ? "found in a milling analysis, expected none: it has no body that deforms"
-                           : "found in an analysis of bodies, expected it with analysis.type = "
-                             "\"stability\" only");
+                           : "found in an analysis of bodies, expected it with analysis.type = \"stability\" "
+                             "or \"milling\" only");
     return false;
   }
 
@@ -216,7 +216,8 @@ std::string_view kinematics_of(const Value& document) { return analysis_of(docum
 } // namespace
 
 Family family_of(const Value& document) {
-  return analysis_of(document, "type") == "stability" ? Family::milling : Family::bodies;
+  const std::string_view type = analysis_of(document, "type");
+  return type == "stability" || type == "milling" ? Family::milling : Family::bodies;
 }
 
 bool valid_name(std::string_view name) {

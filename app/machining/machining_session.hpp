@@ -1,0 +1,63 @@
+#pragma once
+// What milling analyses share as runs: no body, no steps to go back to.
+#include "app/run.hpp"
+#include "app/stopwatch.hpp"
+#include "input/case.hpp"
+#include "machining/mode.hpp"
+
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cnem::app {
+
+inline constexpr double rpm = std::numbers::pi / 30.0; ///< rad/s
+
+/// Solved in one go, as a static analysis.
+class MachiningSession : public Session {
+public:
+  /// Takes the folder. `input` and `observer` must outlive this object. Throws InputError and IoError.
+  MachiningSession(const input::Case& input, const RunOptions& options, RunObserver& observer);
+
+  std::optional<Exit> go_on() override;
+  results::RunStatus status() override { return status_; }
+  /// Throws InputError: there is no body.
+  std::variant<results::Snapshot<2>, results::Snapshot<3>> snapshot() override;
+  const results::HistoryLog& history() const override { return history_; }
+
+protected:
+  /// Fills the status, and the history where there is one.
+  virtual void solve() = 0;
+  /// What is written beside status and report, into a folder that is there.
+  virtual void write_files() = 0;
+
+  const input::Case& input_;
+  RunOptions options_;
+  RunObserver& observer_;
+  Stopwatch watch_;
+  results::HistoryLog history_;
+  results::RunStatus status_;
+
+private:
+  void finish();
+  bool ended_ = false;
+};
+
+/// Of the kind that the case asks for.
+std::unique_ptr<Session> machining_run(const input::Case& input, const RunOptions& options,
+                                       RunObserver& observer);
+
+/// What is known before anything is solved.
+Checked check_machining(const input::Case& input);
+
+/// What there is to doubt in a milling case, a sentence each.
+std::vector<std::string> milling_doubts(const input::Case& input);
+
+// For those who make them.
+std::vector<machining::Mode> modes_of(const input::Case& input);
+std::string speed_text(double speed); ///< "8000 rpm" of rad/s
+/// The depth that charts and searches span, m.
+double deepest(const input::Case& input);
+
+} // namespace cnem::app

@@ -1,0 +1,102 @@
+#include "report/milling_page.hpp"
+
+#include "core/index.hpp"
+#include "results/history_writer.hpp"
+#include "results/output_folder.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace cnem::report {
+
+namespace {
+
+/// The last rows of a history, over the angle of the first tooth.
+class LastTurns {
+public:
+  explicit LastTurns(const results::HistoryTable& history) : history_(history) {
+    constexpr double turns = 4.0 * std::numbers::pi;
+    const std::vector<double> angle = history.column[index_of(history.find("angle"))];
+    while (first_ < angle.size() && angle[first_] < angle.back() - turns) ++first_;
+  }
+  ChartSeries series(const char* column, const char* label, int colour) const {
+    return {.label = label, .x = of("angle"), .y = of(column), .colour = colour};
+  }
+
+private:
+  std::vector<double> of(const char* name) const {
+    const std::vector<double>& all = history_.column[index_of(history_.find(name))];
+    return {all.begin() + static_cast<std::ptrdiff_t>(first_), all.end()};
+  }
+  const results::HistoryTable& history_;
+  std::size_t first_ = 0;
+};
+
+} // namespace
+
+std::vector<Chart> milling_charts(const std::filesystem::path& folder, const results::HistoryTable& history) {
+  const std::filesystem::path path = folder / results::files::machined_surface;
+  if (!std::filesystem::exists(path) || history.rows() < 2) return {};
+  const LastTurns last(history);
+  const auto over_angle = [](const char* title, const char* label, const char* unit,
+                             std::vector<ChartSeries> series) {
+    return Chart{.title = title,
+                 .x_label = "angle of the first tooth",
+                 .x_unit = "rad",
+                 .y_label = label,
+                 .y_unit = unit,
+                 .series = std::move(series),
+                 .note = ""};
+  };
+  std::vector<Chart> charts{over_angle("Forces on the tool", "force", "N",
+                                       {last.series("Fx", "along the feed, x", 0),
+                                        last.series("Fy", "across, y", 1), last.series("Fz", "axial, z", 2)}),
+                            over_angle("Thickest chip", "thickness", "m", {last.series("thickest", "", 0)}),
+                            over_angle("Tool relative to the part", "displacement", "m",
+                                       {last.series("x", "x", 0), last.series("y", "y", 1)})};
+  const results::HistoryTable surface = results::read_history(path);
+  if (surface.rows() < 2) return charts;
+  Chart left{.title = "Machined surface",
+             .x_label = "along the feed",
+             .x_unit = "m",
+             .y_label = "left on it",
+             .y_unit = "m",
+             .series = {},
+             .note =
+                 "Positive: material is left beyond where still teeth would have passed. By height over the "
+                 "tip of the cutter."};
+  const std::size_t layers = surface.column.size() - 1;
+  std::size_t before = 0;
+  int colour = 0;
+  for (const std::size_t layer : {std::size_t{1}, 1 + layers / 2, layers}) {
+    if (layer == before) continue;
+    before = layer;
+    std::string name = results::split_column_name(surface.names[layer]).name;
+    left.series.push_back({.label = name.substr(name.rfind("at_") + 3),
+                           .x = surface.column[0],
+                           .y = surface.column[layer],
+                           .colour = colour++});
+    std::replace(left.series.back().label.begin(), left.series.back().label.end(), '_', ' ');
+  }
+  charts.push_back(std::move(left));
+  return charts;
+}
+
+std::vector<Figure> milling_figures(const results::RunStatus& status, const results::ShownUnits& units) {
+  std::vector<Figure> figures;
+  const auto add = [&](const char* metric, const char* name, const char* note) {
+    for (const auto& [known, value] : status.metrics)
+      if (known == std::string("milling.") + metric)
+        figures.push_back({name, units.format(value, status.unit_of(known)), note});
+  };
+  add("Fx", "Largest Fx", "along the feed, of the last turns");
+  add("Fy", "Largest Fy", "across it");
+  add("power", "Power", "mean of the last turns");
+  add("peak_to_valley", "Peak to valley", "along the feed");
+  add("location_error", "Location error", "positive: material is left");
+  add("chip_growth", "Chips", "times as thick as without vibration");
+  return figures;
+}
+
+} // namespace cnem::report

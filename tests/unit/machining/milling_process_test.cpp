@@ -1,0 +1,243 @@
+// Cuts in the time domain against closed formulas and independently computed numbers.
+#include "machining/milling_process.hpp"
+
+#include "machining/stability.hpp"
+#include "tests/unit/machining/benchmarks.hpp"
+
+#include <array>
+#include <gtest/gtest.h>
+
+namespace cnem::machining {
+namespace {
+
+using enum Engagement::Side;
+
+/// Al 7075-T6.
+CuttingLaw aluminium() {
+  LinearLaw law;
+  law.Ktc = 767e6;
+  law.Krc = 168.8e6;
+  law.Kac = 222e6;
+  law.Kte = 27.7e3;
+  law.Kre = 26.6e3;
+  law.Kae = 0.7e3;
+  return CuttingLaw(law);
+}
+
+MillingCut end_mill(Engagement::Side side) {
+  MillingCut cut = milling_cut(3, 1.0, 0.0, side, 0.25);
+  cut.cutter.helix = std::numbers::pi / 6.0;
+  cut.law = aluminium();
+  return cut;
+}
+
+TEST(Dexels, DiscAndBoxAreTakenOnce) {
+  DexelLayer layer(Vec2(0, 0), Vec2(20e-3, 10e-3), Vec2(1e-5, 1e-5));
+  EXPECT_NEAR(layer.area(0), 200e-6, 1e-12);
+  layer.erase_disc(Vec2(10e-3, 5e-3), 4e-3);
+  for (const int axis : {0, 1})
+    EXPECT_NEAR(layer.area(axis), 200e-6 - std::numbers::pi * 16e-6, 1e-9) << axis;
+  layer.erase_disc(Vec2(10e-3, 5e-3), 3e-3);
+  layer.erase_box(Vec2(-1.0, 8e-3), Vec2(1.0, 1.0));
+  for (const int axis : {0, 1}) {
+    const double beyond = 16e-6 * std::acos(0.75) - 3e-3 * std::sqrt(7e-6); // of the disc, within the box
+    EXPECT_NEAR(layer.area(axis), 200e-6 - 16e-6 * std::numbers::pi - 40e-6 + beyond, 1e-9) << axis;
+  }
+}
+
+TEST(Milling, ForcesOnTrueTrochoids) {
+  struct Row {
+    Engagement::Side side;
+    double angle; ///< deg
+    Vec3 force;
+    double torque;
+  };
+  const std::array rows{Row{up, 30, Vec3(-293.318, -87.770, -35.464), 1.57358},
+                        Row{up, 60, Vec3(-492.803, 169.153, -94.633), 2.87185},
+                        Row{down, 30, Vec3(159.428, 461.900, -89.225), 2.67502},
+                        Row{down, 60, Vec3(224.427, 273.694, -42.881), 1.79904}};
+  for (const Row& row : rows) {
+    MillingProcess process(
+        end_mill(row.side), {},
+        {.spindle = 800.0, .axial_depth = 6e-3, .length = 1.5e-3, .pitch = 1e-5, .layers = 24, .steps = 720});
+    ProcessStep before, now;
+    const double at = 4.0 * full_turn + row.angle * std::numbers::pi / 180.0;
+    while (now.angle < at) {
+      before = now;
+      now = process.advance();
+    }
+    const Vec3 force = 0.5 * (before.force + now.force);
+    EXPECT_LT((force - row.force).norm(), 0.01 * row.force.norm()) << row.angle << ": " << force.transpose();
+    EXPECT_NEAR(0.5 * (before.torque + now.torque), row.torque, 0.01 * row.torque);
+  }
+}
+
+TEST(Milling, ChipsOfATrochoid) {
+  MillingCut cut = milling_cut(1, 1.0, 0.0, down, 1.0);
+  MillingProcess process(
+      cut, {},
+      {.spindle = 100.0, .axial_depth = 1e-3, .length = 1e-3, .pitch = 1e-5, .layers = 1, .steps = 720});
+  std::array<double, 180> sum{}, count{};
+  while (!process.at_end()) {
+    const ProcessStep step = process.advance();
+    const double degree = std::fmod(step.angle, full_turn) * 180.0 / std::numbers::pi;
+    if (step.angle < 3.0 * full_turn || degree >= 180.0) continue;
+    sum[static_cast<std::size_t>(degree)] += step.thickest;
+    count[static_cast<std::size_t>(degree)] += 1.0;
+  }
+  double square = 0.0;
+  for (std::size_t k = 3; k < 177; ++k) {
+    const double phi = (static_cast<double>(k) + 0.5) * std::numbers::pi / 180.0, f = cut.feed,
+                 r = cut.cutter.radius();
+    // To second order in f/R, on trochoids: an earlier turn was elsewhere when it was at this angle.
+    const double exact = f * std::sin(phi) + f * f * std::cos(phi) * std::cos(phi) / (2.0 * r) -
+                         f * f * std::sin(phi) * std::cos(phi) / (full_turn * r);
+    square += std::pow(sum[k] / count[k] / exact - 1.0, 2) / 174.0;
+  }
+  EXPECT_LT(std::sqrt(square), 0.01);
+}
+
+TEST(Milling, RemovesWhatIsGone) {
+  for (const double immersion : {0.5, 1.0}) {
+    MillingProcess process(
+        milling_cut(3, 767e6, 0.0, down, immersion), {},
+        {.spindle = 800.0, .axial_depth = 1e-3, .length = 3.6e-3, .pitch = 1e-5, .layers = 1, .steps = 1440});
+    double removed = 0.0, work = 0.0, volume = 0.0;
+    while (!process.at_end()) {
+      if (process.time() * 800.0 < 3.0 * full_turn) volume = process.volume();
+      const ProcessStep step = process.advance();
+      if (step.angle < 3.0 * full_turn) continue;
+      removed += step.removed;
+      work += step.power * full_turn / 800.0 / 1440.0;
+    }
+    volume -= process.volume();
+    EXPECT_NEAR(removed / volume, 1.0, 2e-3);
+    EXPECT_NEAR(work / (767e6 * volume), 1.0, 2e-3) << "all work goes into the chips";
+    EXPECT_NEAR(volume, immersion * 12e-3 * 1e-3 * (3.6e-3 - 0.9e-3), 2e-3 * volume);
+  }
+}
+
+TEST(Milling, Scallops) {
+  for (const auto& [side, height] : {std::pair{down, 0.09283e-3}, {up, 0.05183e-3}}) {
+    MillingCut cut = milling_cut(3, 767e6, 0.0, side, 1.0 / 6.0);
+    cut.feed = 1.8e-3;
+    MillingProcess process(
+        cut, {},
+        {.spindle = 800.0, .axial_depth = 1e-3, .length = 20e-3, .pitch = 4e-6, .layers = 1, .steps = 2880});
+    while (!process.at_end()) process.advance();
+    double low = 1.0, high = -1.0;
+    for (double x = 6e-3; x < 13e-3; x += 4e-6) {
+      low = std::min(low, process.left_at(0, x));
+      high = std::max(high, process.left_at(0, x));
+    }
+    EXPECT_NEAR(high - low, height, 0.01 * height);
+  }
+}
+
+TEST(Milling, LocationErrorOfAToolThatSwings) {
+  struct Row {
+    Engagement::Side side;
+    double speed;
+    std::array<double, 2> error; ///< µm at 0 and 4 mm
+  };
+  for (const Row& row : {Row{up, 6600, {1.431, 1.167}}, Row{down, 8000, {9.722, 7.603}}}) {
+    MillingCut cut = milling_cut(2, 1.0, 0.0, row.side, 1.0 / 12.0);
+    cut.cutter.helix = std::numbers::pi / 6.0;
+    cut.law = aluminium();
+    cut.feed = 8e-5;
+    MillingProcess process(cut,
+                           {{.of = Mode::Of::tool,
+                             .frequency = 300.0,
+                             .damping = 0.02,
+                             .stiffness = 3e7,
+                             .direction = Vec3::UnitY()}},
+                           {.spindle = row.speed * rpm,
+                            .axial_depth = 4e-3,
+                            .length = 10e-3,
+                            .pitch = 2e-5,
+                            .layers = 20,
+                            .steps = 720});
+    while (!process.at_end()) process.advance();
+    for (const std::size_t end : {0U, 1U}) {
+      double sum = 0.0, count = 0.0;
+      for (double x = 8e-3; x < 9.6e-3; x += 2e-5, count += 1.0) sum += process.left_at(end * 19, x);
+      EXPECT_NEAR(1e6 * sum / count, row.error[end], std::max(0.3, 0.03 * row.error[end])) << row.speed;
+    }
+  }
+}
+
+TEST(Milling, DisturbancesGrowBeyondTheLimitOfFloquet) {
+  MillingCut cut = insperger(up, 0.5);
+  cut.feed = 1e-5;                // far fewer than a radian of the cutter: the delay is that of circles
+  const double limit = 0.2603e-3; // m
+  for (const double share : {0.98, 1.02}) {
+    MillingProcess process(cut, insperger_modes(1),
+                           {.spindle = 5000.0 * rpm,
+                            .axial_depth = share * limit,
+                            .length = 80 * 2e-5,
+                            .pitch = 1e-6,
+                            .layers = 1,
+                            .steps = 1600});
+    // Once-a-tooth samples: what is left of their spread is the disturbance.
+    std::vector<double> sample;
+    for (int step = 0; !process.at_end(); ++step) {
+      const ProcessStep now = process.advance();
+      if (step % 800 == 400) sample.push_back(now.displacement.x());
+    }
+    const auto spread = [&](std::size_t from, std::size_t to) {
+      const auto [low, high] = std::minmax_element(sample.begin() + static_cast<std::ptrdiff_t>(from),
+                                                   sample.begin() + static_cast<std::ptrdiff_t>(to));
+      return *high - *low;
+    };
+    const double growth =
+        spread(sample.size() - 40, sample.size()) / spread(sample.size() - 120, sample.size() - 80);
+    if (share < 1.0)
+      EXPECT_LT(growth, 0.8);
+    else
+      EXPECT_GT(growth, 1.2);
+  }
+}
+
+TEST(Milling, RunOutShowsInChipsAndPitchInTheirOrder) {
+  MillingCut cut = milling_cut(2, 767e6, 0.0, down, 1.0);
+  cut.cutter.run_out = 2e-5;
+  const ProcessSettings settings{
+      .spindle = 800.0, .axial_depth = 1e-3, .length = 2e-3, .pitch = 1e-5, .layers = 1, .steps = 720};
+  MillingProcess process(cut, {}, settings);
+  std::array<double, 2> thickest{};
+  while (!process.at_end()) {
+    const ProcessStep step = process.advance();
+    if (step.angle < 4.0 * full_turn) continue;
+    const double phi = std::fmod(step.angle, full_turn);
+    double& most = thickest[phi < std::numbers::pi ? 0 : 1];
+    most = std::max(most, step.thickest);
+  }
+  // The first tooth stands out by twice the run-out over the other: f + 2e, f − 2e at the middle.
+  EXPECT_NEAR(thickest[0], 1.4e-4, 2e-6);
+  EXPECT_NEAR(thickest[1], 0.6e-4, 2e-6);
+}
+
+TEST(Milling, EntersFromBesideTheWorkpiece) {
+  MillingCut cut = milling_cut(3, 767e6, 0.0, down, 0.5);
+  cut.feed = 3e-4;
+  MillingProcess process(cut, {},
+                         {.spindle = 800.0,
+                          .axial_depth = 1e-3,
+                          .length = 14e-3,
+                          .from_outside = true,
+                          .pitch = 2e-5,
+                          .layers = 1,
+                          .steps = 720});
+  const double whole = process.volume();
+  double first = -1.0;
+  while (!process.at_end()) {
+    const ProcessStep step = process.advance();
+    if (first < 0.0 && step.removed > 0.0) first = step.time;
+  }
+  EXPECT_GT(process.start() + first * process.feed_of_turn() * 800.0 / full_turn, -6.1e-3);
+  EXPECT_LT(process.volume(), whole);
+  EXPECT_GT(first, 0.0);
+}
+
+} // namespace
+} // namespace cnem::machining
