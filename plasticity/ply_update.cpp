@@ -212,10 +212,7 @@ private:
 } // namespace
 
 double shear_left(const double (&damage)[ply_modes]) {
-  double left = 1.0;
-  for (const double d : damage) left *= 1.0 - d;
-  constexpr double least = 1e-6;
-  return std::max(left, least);
+  return 1.0 - *std::max_element(std::begin(damage), std::end(damage));
 }
 
 PlyStress damaged_stress(const PlyConstants& elastic, const double (&strain)[3],

@@ -218,7 +218,7 @@ TEST(Plies, mixed_points_keep_turns_and_stretches) {
   parcels.begin = {0, 2};
   parcels.from = {PointIndex{0}, PointIndex{1}};
   parcels.weight = {1.0, 1.0};
-  const auto mixed = mixed_plies<2>(parcels, Field(2, 3.0), {gfrp(0.2)}, point);
+  const auto mixed = mixed_plies<2>(parcels, Field(2, 3.0), {gfrp(0.2)}, true, point);
   ASSERT_EQ(mixed.size(), 1u);
   const Mat<2> wanted = Eigen::Rotation2Dd(181.0 * degree).toRotationMatrix() * U;
   EXPECT_LT((mixed[0].second - wanted).norm(), 1e-12);
