@@ -5,6 +5,7 @@
 #include "evaluate/cut_flow.hpp"
 #include "evaluate/cutting_forces.hpp"
 #include "evaluate/machined_surface.hpp"
+#include "evaluate/ply_cut.hpp"
 #include "evaluate/residual_stress.hpp"
 #include "evaluate/tool_isotherms.hpp"
 #include "results/fields.hpp"
@@ -111,6 +112,37 @@ void take_forces(CuttingResult& result, const input::CuttingReport& asked, const
   result.friction_angle = result.rake + std::atan2(part.mean.Ft, part.mean.Fc);
 }
 
+/// Forces and damage of a chip that breaks off, in place of a steady part.
+void take_broken_chip(CuttingResult& result, const results::HistoryTable& rows) {
+  result.breaks = true;
+  result.steady = false;
+  result.steady_note = "a chip breaks off; forces are means from full engagement to its completion";
+  const auto& cut = values_of(result.forces, "cut");
+  const BrokenChip chip =
+      broken_chip(cut, values_of(result.forces, "Fc.filtered"), values_of(rows, "ply_parted"));
+  result.Fc = result.Ft = result.Fc_spread = result.Ft_spread = unknown;
+  if (!(chip.peak > 0.0)) return;
+  result.engaged_at = chip.engaged;
+  result.completed_at = chip.completed;
+  result.chip_completed = std::isfinite(chip.completed);
+  result.Fc_peak = chip.peak;
+  const auto& thrust = values_of(result.forces, "Ft.filtered");
+  result.Ft_peak =
+      *std::max_element(thrust.begin(), thrust.begin() + static_cast<std::ptrdiff_t>(chip.last) + 1);
+  const auto at_last = [&](std::string_view name) { return values_of(rows, name)[chip.last]; };
+  result.chip_plane = at_last("ply_plane");
+  result.fibre_depth = at_last("fibre_depth");
+  result.matrix_depth = at_last("matrix_depth");
+  result.fibre_damage = at_last("fibre_damage");
+  result.matrix_damage = at_last("matrix_damage");
+  result.steady_from = chip.engaged, result.steady_to = cut[chip.last];
+  if (!(result.steady_to > result.steady_from)) return;
+  const CutForce mean = mean_force(impulse_of(rows), result.steady_from, result.steady_to);
+  result.Fc = mean.Fc, result.Ft = mean.Ft;
+  result.specific_energy = mean.Fc / result.feed;
+  result.friction_angle = result.rake + std::atan2(mean.Ft, mean.Fc);
+}
+
 /// Rates of wear over the bins of a face, m/s; not-a-number where nothing touches.
 std::vector<double> wear_of(const input::UsuiWear& law, const RakeFace& face) {
   std::vector<double> rate;
@@ -200,6 +232,7 @@ void take_surface(CuttingResult& result, const MachinedSurface& surface, bool th
   result.surface_to = -surface.measured.from;
   result.surface_height = surface.height;
   result.roughness = surface.roughness;
+  result.Rz = surface.Rz;
   result.layer = surface.layer;
   for (const DepthLayer& layer : surface.layers) {
     std::vector<double> row{layer.depth};
@@ -264,6 +297,8 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
   const double tooth =
       std::isfinite(chip.tooth_spacing) ? chip.tooth_spacing * chip.thickness / asked.feed : 0.0;
   take_forces(result, asked, rows, tooth, end_of_workpiece(input, cut, result.cut));
+  const bool plies = plies_fail(input);
+  if (plies) take_broken_chip(result, rows);
   const double from = result.steady_from, to = result.steady_to;
   const RakeFace face = course.rake().mean(from, to);
   take_rake_face(result, input, face);
@@ -283,7 +318,9 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
     result.shear_stress =
         (result.Fc * std::cos(angle) - result.Ft * std::sin(angle)) * std::sin(angle) / asked.feed;
   }
-  const ResidualStress left = residual_stress(shot, body);
+  const ResidualStress left =
+      plies ? no_residual_stress(place.size(), "the elastic way back is that of isotropic metal")
+            : residual_stress(shot, body);
   result.residual_note = left.note;
   if (input.analysis.thermal && std::none_of(input.materials.begin(), input.materials.end(),
                                              [](const auto& material) { return material.expansion != 0.0; }))

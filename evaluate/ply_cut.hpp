@@ -1,0 +1,37 @@
+#pragma once
+// What a tool has broken of plies, in the frame of the tool (chip.hpp): whether broken matter goes through
+// from the edge to the free surface, along which line, and how deep below the cut fibres and matrix are hurt.
+#include "evaluate/chip.hpp"
+#include "results/snapshot.hpp"
+
+#include <cstddef>
+#include <span>
+
+namespace cnem::evaluate {
+
+/// At one moment, as docs/cutting.md defines it.
+struct PlyCut {
+  bool parted = false;    ///< a chain of broken matrix leads from the edge to the free surface
+  double plane = unknown; ///< rad, from the way of the tool: the side of that chain towards the workpiece
+  double fibre_depth = 0.0, matrix_depth = 0.0; ///< m below the cut, of the deepest cell that has lost half
+  double fibre_area = 0.0, matrix_area = 0.0;   ///< m², Σ d V
+};
+
+/// place: [node] m, in the frame of the tool; feed: m.
+PlyCut look_at_plies(const PointState<2>& point, const Approximation<2>& approximation,
+                     std::span<const Vec2> place, double feed);
+
+/// A chip that breaks off: from full engagement of the tool to its completion.
+struct BrokenChip {
+  double engaged = unknown; ///< m of cut at which the force has first reached nine tenths of its peak
+  double completed =
+      unknown;           ///< m of cut: broken through, or half of the peak is lost; not-a-number: neither
+  double peak = unknown; ///< the largest force until then
+  std::size_t last = 0;  ///< row of completion, else the last one
+};
+
+/// cut: [row] m; force: [row], filtered; parted: [row] whether it was broken through.
+BrokenChip broken_chip(std::span<const double> cut, std::span<const double> force,
+                       std::span<const double> parted);
+
+} // namespace cnem::evaluate
