@@ -116,28 +116,31 @@ void take_forces(CuttingResult& result, const input::CuttingReport& asked, const
 void take_broken_chip(CuttingResult& result, const results::HistoryTable& rows) {
   result.breaks = true;
   result.steady = false;
-  result.steady_note = "a chip breaks off; forces are means from full engagement to its completion";
-  const auto& cut = values_of(result.forces, "cut");
-  const BrokenChip chip =
-      broken_chip(cut, values_of(result.forces, "Fc.filtered"), values_of(rows, "ply_parted"));
+  result.steady_note = "a chip breaks off; forces are means while the tool is fully engaged";
   result.Fc = result.Ft = result.Fc_spread = result.Ft_spread = unknown;
-  if (!(chip.peak > 0.0)) return;
-  result.engaged_at = chip.engaged;
+  result.specific_energy = result.friction_angle = unknown;
+  const auto &cut = values_of(result.forces, "cut"), &parted = values_of(rows, "ply_parted");
+  const BrokenChip chip = broken_chip(cut, values_of(result.forces, "Fc.filtered"), parted);
+  if (!std::isfinite(chip.peak)) return;
+  result.engaged_at = result.steady_from = chip.engaged;
+  result.released_at = result.steady_to = chip.released;
   result.completed_at = chip.completed;
   result.chip_completed = std::isfinite(chip.completed);
   result.Fc_peak = chip.peak;
   const auto& thrust = values_of(result.forces, "Ft.filtered");
-  result.Ft_peak =
-      *std::max_element(thrust.begin(), thrust.begin() + static_cast<std::ptrdiff_t>(chip.last) + 1);
-  const auto at_last = [&](std::string_view name) { return values_of(rows, name)[chip.last]; };
-  result.chip_plane = at_last("ply_plane");
-  result.fibre_depth = at_last("fibre_depth");
-  result.matrix_depth = at_last("matrix_depth");
-  result.fibre_damage = at_last("fibre_damage");
-  result.matrix_damage = at_last("matrix_damage");
-  result.steady_from = chip.engaged, result.steady_to = cut[chip.last];
-  if (!(result.steady_to > result.steady_from)) return;
-  const CutForce mean = mean_force(impulse_of(rows), result.steady_from, result.steady_to);
+  result.Ft_peak = *std::max_element(thrust.begin(), thrust.begin() + as<std::ptrdiff_t>(chip.last) + 1);
+  const auto at_row = [&](std::string_view name, std::size_t row) { return values_of(rows, name)[row]; };
+  result.fibre_depth = at_row("fibre_depth", chip.last);
+  result.matrix_depth = at_row("matrix_depth", chip.last);
+  result.fibre_damage = at_row("fibre_damage", chip.last);
+  result.matrix_damage = at_row("matrix_damage", chip.last);
+  const auto through = std::ranges::find_if(parted, [](double yes) { return yes != 0.0; });
+  if (through != parted.end()) result.chip_plane = at_row("ply_plane", index_of(through - parted.begin()));
+  const CutImpulse impulse = impulse_of(rows);
+  if (impulse.rows() < 2) return;
+  if (result.chip_completed) result.Fc_of_chip = mean_force(impulse, impulse.cut.front(), chip.completed).Fc;
+  if (!(chip.released > chip.engaged)) return;
+  const CutForce mean = mean_force(impulse, chip.engaged, chip.released);
   result.Fc = mean.Fc, result.Ft = mean.Ft;
   result.specific_energy = mean.Fc / result.feed;
   result.friction_angle = result.rake + std::atan2(mean.Ft, mean.Fc);

@@ -48,9 +48,11 @@ template<class Result, class Carry> void carry_plies(Result& result, Carry& carr
   carry.newer("breaks", result.breaks);
   carry.newer("chip_completed", result.chip_completed);
   carry.newer("engaged_at[m]", result.engaged_at);
+  carry.newer("released_at[m]", result.released_at);
   carry.newer("completed_at[m]", result.completed_at);
   carry.newer("Fc_peak[N/m]", result.Fc_peak);
   carry.newer("Ft_peak[N/m]", result.Ft_peak);
+  carry.newer("Fc_of_chip[N/m]", result.Fc_of_chip);
   carry.newer("chip_plane[rad]", result.chip_plane);
   carry.newer("fibre_depth[m]", result.fibre_depth);
   carry.newer("matrix_depth[m]", result.matrix_depth);
@@ -174,7 +176,9 @@ std::vector<std::pair<std::string, double>> metrics_of(const CuttingResult& resu
   if (result.breaks)
     list.insert(list.end(), {{"cutting.Fc_peak[N]", result.in_newton(result.Fc_peak)},
                              {"cutting.Ft_peak[N]", result.in_newton(result.Ft_peak)},
+                             {"cutting.Fc_of_chip[N]", result.in_newton(result.Fc_of_chip)},
                              {"cutting.engaged_at[m]", result.engaged_at},
+                             {"cutting.released_at[m]", result.released_at},
                              {"cutting.completed_at[m]", result.completed_at},
                              {"cutting.chip_plane[deg]", result.chip_plane / degree},
                              {"cutting.fibre_depth[m]", result.fibre_depth},

@@ -33,10 +33,11 @@ struct CuttingResult {
   double friction_angle = unknown;             ///< rad, of the whole force from the normal of the rake face
   double shear_stress = unknown;               ///< Pa, on a plane at the shear angle
 
-  // Of a chip that breaks off a ply (docs/cutting.md); Fc and Ft are means from engagement to completion.
+  // Of a chip that breaks off a ply (docs/cutting.md); Fc and Ft are means while the tool is fully engaged.
   bool breaks = false, chip_completed = false;
-  double engaged_at = unknown, completed_at = unknown;    ///< m of cut
-  double Fc_peak = unknown, Ft_peak = unknown;            ///< N/m, largest filtered forces until then
+  double engaged_at = unknown, released_at = unknown, completed_at = unknown; ///< m of cut
+  double Fc_peak = unknown, Ft_peak = unknown;            ///< N/m, largest filtered forces until completion
+  double Fc_of_chip = unknown;                            ///< N/m, mean from first touch to completion
   double chip_plane = unknown;                            ///< rad, from the way of the tool
   double fibre_depth = unknown, matrix_depth = unknown;   ///< m below the cut, at completion
   double fibre_damage = unknown, matrix_damage = unknown; ///< m², at completion

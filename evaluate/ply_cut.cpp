@@ -134,20 +134,22 @@ PlyCut look_at_plies(const PointState<2>& point, const Approximation<2>& approxi
 
 BrokenChip broken_chip(std::span<const double> cut, std::span<const double> force,
                        std::span<const double> parted) {
-  constexpr double full = 0.9, dropped = 0.5;
+  constexpr double full = 0.9, lost = 0.5;
   BrokenChip chip;
-  if (cut.empty()) return chip;
-  double peak = 0.0;
-  chip.last = cut.size() - 1;
+  std::size_t top = 0; // row of the peak
   for (std::size_t k = 0; k < cut.size(); ++k) {
-    peak = std::max(peak, force[k]);
-    if (parted[k] == 0.0 && !(k > 0 && force[k] < dropped * peak)) continue;
-    chip.last = k, chip.completed = cut[k];
+    if (force[k] > force[top]) top = k;
+    chip.last = k;
+    if (parted[k] == 0.0 && !(force[k] < lost * force[top])) continue;
+    chip.completed = cut[k];
     break;
   }
-  chip.peak = peak;
-  const auto engaged = std::ranges::find_if(force, [&](double value) { return value >= full * peak; });
-  if (peak > 0.0) chip.engaged = cut[index_of(engaged - force.begin())];
+  if (cut.empty() || !(force[top] > 0.0)) return {};
+  chip.peak = force[top];
+  std::size_t from = top, to = top; // the stretch round the peak in which the tool is fully engaged
+  while (from > 0 && force[from - 1] >= full * chip.peak) --from;
+  while (to < chip.last && force[to] >= full * chip.peak) ++to;
+  chip.engaged = cut[from], chip.released = cut[to];
   return chip;
 }
 

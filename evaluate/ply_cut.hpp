@@ -21,13 +21,14 @@ struct PlyCut {
 PlyCut look_at_plies(const PointState<2>& point, const Approximation<2>& approximation,
                      std::span<const Vec2> place, double feed);
 
-/// A chip that breaks off: from full engagement of the tool to its completion.
+/// A chip that breaks off, over the rows of its cut.
 struct BrokenChip {
-  double engaged = unknown; ///< m of cut at which the force has first reached nine tenths of its peak
+  double peak = unknown;     ///< the largest force until half of it is lost
+  double engaged = unknown;  ///< m of cut: the force has first reached nine tenths of its peak
+  double released = unknown; ///< m of cut: it has fallen below that again, or the chip is completed
   double completed =
-      unknown;           ///< m of cut: broken through, or half of the peak is lost; not-a-number: neither
-  double peak = unknown; ///< the largest force until then
-  std::size_t last = 0;  ///< row of completion, else the last one
+      unknown;          ///< m of cut: broken through, or half of the peak is lost; not-a-number: neither
+  std::size_t last = 0; ///< row of completion, else the last one
 };
 
 /// cut: [row] m; force: [row], filtered; parted: [row] whether it was broken through.

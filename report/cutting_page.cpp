@@ -61,8 +61,10 @@ std::string force_table_html(const evaluate::CuttingResult& result, const ShownU
     table.add("Chip", result.chip_completed
                           ? fmt::format("completed after {} of cut", units.format(result.completed_at, "m"))
                           : "not completed");
-    table.add("Fully engaged", result.engaged_at, "m");
+    table.add("Fully engaged", fmt::format("from {} to {} of cut", units.format(result.engaged_at, "m"),
+                                           units.format(result.released_at, "m")));
     table.add("Largest Fc until then", result.in_newton(result.Fc_peak), "N");
+    table.add("Fc from first touch to completion, mean", result.in_newton(result.Fc_of_chip), "N");
     table.add("Largest Ft until then", result.in_newton(result.Ft_peak), "N");
   } else
     table.add("Steady", result.steady
