@@ -105,7 +105,8 @@ void CuttingCourse::record(const ExplicitSolver<2>& solver) {
                           (speed - own).dot(cut_.face()),
                           std::atan2(speed.y(), speed.x())};
   if (plies_) {
-    const PlyCut plies = look_at_plies(state.point, solver.approximation(), place, asked.feed);
+    const PlyCut plies =
+        look_at_plies(state.point, solver.approximation(), place, asked.feed, moved.dot(cut_.along));
     row.insert(row.end(), {plies.parted ? 1.0 : 0.0, plies.plane, plies.fibre_depth, plies.matrix_depth,
                            plies.fibre_area, plies.matrix_area});
   }

@@ -103,8 +103,8 @@ double foremost_line(const Cells& cells, std::span<const std::size_t> broken, do
 } // namespace
 
 PlyCut look_at_plies(const PointState<2>& point, const Approximation<2>& approximation,
-                     std::span<const Vec2> place, double feed) {
-  PlyCut cut;
+                     std::span<const Vec2> place, double feed, double cut) {
+  PlyCut found;
   const Field& volume = approximation.mechanics.volume;
   const Field lost = lost_share(point);
   const Cells cells(approximation.cells, place);
@@ -112,24 +112,26 @@ PlyCut look_at_plies(const PointState<2>& point, const Approximation<2>& approxi
     const double fibre = std::max(point.fibre_tension_damage[p], point.fibre_compression_damage[p]);
     const double matrix =
         std::max({point.matrix_tension_damage[p], point.matrix_compression_damage[p], point.shear_damage[p]});
-    cut.fibre_area += fibre * volume[p];
-    cut.matrix_area += matrix * volume[p];
+    found.fibre_area += fibre * volume[p];
+    found.matrix_area += matrix * volume[p];
     if (fibre < half && matrix < half) continue;
-    double below = 0.0;
-    cells.each_vertex(p, [&](const Vec2& x) { below = std::max(below, -x.y()); });
-    if (fibre >= half) cut.fibre_depth = std::max(cut.fibre_depth, below);
-    if (matrix >= half) cut.matrix_depth = std::max(cut.matrix_depth, below);
+    double below = 0.0, foremost = -INFINITY;
+    cells.each_vertex(
+        p, [&](const Vec2& x) { below = std::max(below, -x.y()), foremost = std::max(foremost, x.x()); });
+    if (foremost < -cut) continue;
+    if (fibre >= half) found.fibre_depth = std::max(found.fibre_depth, below);
+    if (matrix >= half) found.matrix_depth = std::max(found.matrix_depth, below);
   }
   const std::vector<std::size_t> broken = broken_from_edge(cells, lost, volume, feed);
-  cut.parted = std::ranges::any_of(broken, [&](std::size_t c) {
+  found.parted = std::ranges::any_of(broken, [&](std::size_t c) {
     bool free = false;
     cells.each_neighbour(c, [&](std::size_t other, const Vec2& middle) {
       free = free || (other == Cells::none && middle.y() > half * feed && middle.x() > clear * feed);
     });
     return free;
   });
-  if (cut.parted) cut.plane = foremost_line(cells, broken, feed);
-  return cut;
+  if (found.parted) found.plane = foremost_line(cells, broken, feed);
+  return found;
 }
 
 BrokenChip broken_chip(std::span<const double> cut, std::span<const double> force,

@@ -17,9 +17,10 @@ struct PlyCut {
   double fibre_area = 0.0, matrix_area = 0.0;   ///< m², Σ d V
 };
 
-/// place: [node] m, in the frame of the tool; feed: m.
+/// place: [node] m, in the frame of the tool; feed, cut: m. Depths are of cells that the tool has gone over
+/// or has before it.
 PlyCut look_at_plies(const PointState<2>& point, const Approximation<2>& approximation,
-                     std::span<const Vec2> place, double feed);
+                     std::span<const Vec2> place, double feed, double cut);
 
 /// A chip that breaks off, over the rows of its cut.
 struct BrokenChip {
