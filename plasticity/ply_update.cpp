@@ -227,9 +227,6 @@ PlyStress damaged_stress(const PlyConstants& elastic, const double (&strain)[3],
   for (const int fibre : {fibre_tension, fibre_compression})
     for (const int matrix : {matrix_tension, matrix_compression}) {
       left.fibre = 1.0 - damage[fibre], left.matrix = 1.0 - damage[matrix];
-      // crushed matter does not vanish: it becomes denser, and bears again
-      if (fibre == fibre_compression) left.fibre = std::max(left.fibre, 1.0 - Failure::broken);
-      if (matrix == matrix_compression) left.matrix = std::max(left.matrix, 1.0 - Failure::broken);
       PlyStress now{.stress = {}, .energy = 0.0, .left = left};
       elastic.stiffness(left).stress(strain, now.stress);
       const double wrong = std::max({0.0, fibre == fibre_tension ? -now.stress[0] : now.stress[0],
