@@ -94,7 +94,10 @@ std::vector<std::pair<std::string, double>> PlaneFeatures::metrics() const {
 }
 
 std::vector<std::string> PlaneFeatures::flags() const {
-  return cut_ ? std::vector<std::string>{"cutting.steady"} : std::vector<std::string>{};
+  if (!cut_) return {};
+  std::vector<std::string> list{"cutting.steady"};
+  if (cut_->breaks) list.emplace_back("cutting.chip_completed");
+  return list;
 }
 
 } // namespace cnem::app

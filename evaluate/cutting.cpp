@@ -5,6 +5,7 @@
 #include "evaluate/cut_flow.hpp"
 #include "evaluate/cutting_forces.hpp"
 #include "evaluate/machined_surface.hpp"
+#include "evaluate/ply_cut.hpp"
 #include "evaluate/residual_stress.hpp"
 #include "evaluate/tool_isotherms.hpp"
 #include "results/fields.hpp"
@@ -111,6 +112,40 @@ void take_forces(CuttingResult& result, const input::CuttingReport& asked, const
   result.friction_angle = result.rake + std::atan2(part.mean.Ft, part.mean.Fc);
 }
 
+/// Forces and damage of a chip that breaks off, in place of a steady part.
+void take_broken_chip(CuttingResult& result, const results::HistoryTable& rows) {
+  result.breaks = true;
+  result.steady = false;
+  result.steady_note = "a chip breaks off; forces are means while the tool is fully engaged";
+  result.Fc = result.Ft = result.Fc_spread = result.Ft_spread = unknown;
+  result.specific_energy = result.friction_angle = unknown;
+  const auto &cut = values_of(result.forces, "cut"), &parted = values_of(rows, "ply_parted");
+  const BrokenChip chip = broken_chip(cut, values_of(result.forces, "Fc.filtered"), parted);
+  if (!std::isfinite(chip.peak)) return;
+  result.engaged_at = result.steady_from = chip.engaged;
+  result.released_at = result.steady_to = chip.released;
+  result.completed_at = chip.completed;
+  result.chip_completed = std::isfinite(chip.completed);
+  result.Fc_peak = chip.peak;
+  const auto& thrust = values_of(result.forces, "Ft.filtered");
+  result.Ft_peak = *std::max_element(thrust.begin(), thrust.begin() + as<std::ptrdiff_t>(chip.last) + 1);
+  const auto at_row = [&](std::string_view name, std::size_t row) { return values_of(rows, name)[row]; };
+  result.fibre_depth = at_row("fibre_depth", chip.last);
+  result.matrix_depth = at_row("matrix_depth", chip.last);
+  result.fibre_damage = at_row("fibre_damage", chip.last);
+  result.matrix_damage = at_row("matrix_damage", chip.last);
+  const auto through = std::ranges::find_if(parted, [](double yes) { return yes != 0.0; });
+  if (through != parted.end()) result.chip_plane = at_row("ply_plane", index_of(through - parted.begin()));
+  const CutImpulse impulse = impulse_of(rows);
+  if (impulse.rows() < 2) return;
+  if (result.chip_completed) result.Fc_of_chip = mean_force(impulse, impulse.cut.front(), chip.completed).Fc;
+  if (!(chip.released > chip.engaged)) return;
+  const CutForce mean = mean_force(impulse, chip.engaged, chip.released);
+  result.Fc = mean.Fc, result.Ft = mean.Ft;
+  result.specific_energy = mean.Fc / result.feed;
+  result.friction_angle = result.rake + std::atan2(mean.Ft, mean.Fc);
+}
+
 /// Rates of wear over the bins of a face, m/s; not-a-number where nothing touches.
 std::vector<double> wear_of(const input::UsuiWear& law, const RakeFace& face) {
   std::vector<double> rate;
@@ -200,6 +235,7 @@ void take_surface(CuttingResult& result, const MachinedSurface& surface, bool th
   result.surface_to = -surface.measured.from;
   result.surface_height = surface.height;
   result.roughness = surface.roughness;
+  result.Rz = surface.Rz;
   result.layer = surface.layer;
   for (const DepthLayer& layer : surface.layers) {
     std::vector<double> row{layer.depth};
@@ -264,6 +300,8 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
   const double tooth =
       std::isfinite(chip.tooth_spacing) ? chip.tooth_spacing * chip.thickness / asked.feed : 0.0;
   take_forces(result, asked, rows, tooth, end_of_workpiece(input, cut, result.cut));
+  const bool plies = plies_fail(input);
+  if (plies) take_broken_chip(result, rows);
   const double from = result.steady_from, to = result.steady_to;
   const RakeFace face = course.rake().mean(from, to);
   take_rake_face(result, input, face);
@@ -283,7 +321,9 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
     result.shear_stress =
         (result.Fc * std::cos(angle) - result.Ft * std::sin(angle)) * std::sin(angle) / asked.feed;
   }
-  const ResidualStress left = residual_stress(shot, body);
+  const ResidualStress left =
+      plies ? no_residual_stress(place.size(), "the elastic way back is that of isotropic metal")
+            : residual_stress(shot, body);
   result.residual_note = left.note;
   if (input.analysis.thermal && std::none_of(input.materials.begin(), input.materials.end(),
                                              [](const auto& material) { return material.expansion != 0.0; }))

@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "evaluate/cut_flow.hpp"
 #include "evaluate/cutting.hpp"
+#include "evaluate/ply_cut.hpp"
 #include "results/output_folder.hpp"
 
 #include <algorithm>
@@ -11,21 +12,26 @@
 namespace cnem::evaluate {
 namespace {
 
-const std::vector<std::string>& columns() {
-  static const std::vector<std::string> names{"time[s]",
-                                              "cut[m]",
-                                              "Fc[N/m]",
-                                              "Ft[N/m]",
-                                              "contact_length[m]",
-                                              "interface_temperature[K]",
-                                              "temperature_max[K]",
-                                              "tool_temperature_max[K]",
-                                              "chip_length[m]",
-                                              "chip_thickness[m]",
-                                              "shear_plane[m]",
-                                              "shear_plane_angle[rad]",
-                                              "chip_speed[m/s]",
-                                              "shear_angle_speed[rad]"};
+/// plies: of a case in which plies fail.
+std::vector<std::string> columns(bool plies) {
+  std::vector<std::string> names{"time[s]",
+                                 "cut[m]",
+                                 "Fc[N/m]",
+                                 "Ft[N/m]",
+                                 "contact_length[m]",
+                                 "interface_temperature[K]",
+                                 "temperature_max[K]",
+                                 "tool_temperature_max[K]",
+                                 "chip_length[m]",
+                                 "chip_thickness[m]",
+                                 "shear_plane[m]",
+                                 "shear_plane_angle[rad]",
+                                 "chip_speed[m/s]",
+                                 "shear_angle_speed[rad]"};
+  if (plies)
+    for (const char* name : {"ply_parted", "ply_plane[rad]", "fibre_depth[m]", "matrix_depth[m]",
+                             "fibre_damage[m^2]", "matrix_damage[m^2]"})
+      names.emplace_back(name);
   return names;
 }
 
@@ -42,16 +48,22 @@ double fresh_thickness(const Chip& chip, double feed) {
 
 } // namespace
 
+bool plies_fail(const input::Case& input) {
+  return std::any_of(input.materials.begin(), input.materials.end(),
+                     [](const auto& material) { return material.failure.has_value(); });
+}
+
 CuttingCourse::CuttingCourse(const input::Case& input)
     : input_(&input), cut_(input::cutting_tool(input, input.report.cutting->tool)),
-      rake_(cut_, as<ToolIndex>(input.report.cutting->tool), input.report.cutting->feed) {}
+      rake_(cut_, as<ToolIndex>(input.report.cutting->tool), input.report.cutting->feed),
+      plies_(plies_fail(input)) {}
 
 void CuttingCourse::start(const std::filesystem::path& folder) {
-  log_.start(results::file_in(folder, results::files::cutting_course), columns());
+  log_.start(results::file_in(folder, results::files::cutting_course), columns(plies_));
 }
 
 void CuttingCourse::resume(const std::filesystem::path& folder) {
-  log_.resume(results::file_in(folder, results::files::cutting_course), columns(), rows_);
+  log_.resume(results::file_in(folder, results::files::cutting_course), columns(plies_), rows_);
 }
 
 void CuttingCourse::record(const ExplicitSolver<2>& solver) {
@@ -78,11 +90,27 @@ void CuttingCourse::record(const ExplicitSolver<2>& solver) {
     if (const Field& of_tool = state.tool_temperature[s];
         solver.model().tool_sections[s].tool == as<ToolIndex>(asked.tool))
       hottest_of_tool = *std::max_element(of_tool.begin(), of_tool.end());
-  log_.write(std::vector<double>{state.time, moved.dot(cut_.along), force.x(), 0.0 - force.y(),
-                                 face.contact_length, thermal ? face.mean_temperature : unknown,
-                                 thermal ? hottest : unknown, hottest_of_tool, chip.length,
-                                 fresh_thickness(chip, asked.feed), chip.shear_plane, chip.shear_plane_angle,
-                                 (speed - own).dot(cut_.face()), std::atan2(speed.y(), speed.x())});
+  std::vector<double> row{state.time,
+                          moved.dot(cut_.along),
+                          force.x(),
+                          0.0 - force.y(),
+                          face.contact_length,
+                          thermal ? face.mean_temperature : unknown,
+                          thermal ? hottest : unknown,
+                          hottest_of_tool,
+                          chip.length,
+                          fresh_thickness(chip, asked.feed),
+                          chip.shear_plane,
+                          chip.shear_plane_angle,
+                          (speed - own).dot(cut_.face()),
+                          std::atan2(speed.y(), speed.x())};
+  if (plies_) {
+    const PlyCut plies =
+        look_at_plies(state.point, solver.approximation(), place, asked.feed, moved.dot(cut_.along));
+    row.insert(row.end(), {plies.parted ? 1.0 : 0.0, plies.plane, plies.fibre_depth, plies.matrix_depth,
+                           plies.fibre_area, plies.matrix_area});
+  }
+  log_.write(row);
   ++rows_;
 }
 

@@ -44,6 +44,22 @@ template<class Result, class Carry> void carry_forces(Result& result, Carry& car
   carry("shear_stress[Pa]", result.shear_stress);
 }
 
+template<class Result, class Carry> void carry_plies(Result& result, Carry& carry) {
+  carry.newer("breaks", result.breaks);
+  carry.newer("chip_completed", result.chip_completed);
+  carry.newer("engaged_at[m]", result.engaged_at);
+  carry.newer("released_at[m]", result.released_at);
+  carry.newer("completed_at[m]", result.completed_at);
+  carry.newer("Fc_peak[N/m]", result.Fc_peak);
+  carry.newer("Ft_peak[N/m]", result.Ft_peak);
+  carry.newer("Fc_of_chip[N/m]", result.Fc_of_chip);
+  carry.newer("chip_plane[rad]", result.chip_plane);
+  carry.newer("fibre_depth[m]", result.fibre_depth);
+  carry.newer("matrix_depth[m]", result.matrix_depth);
+  carry.newer("fibre_damage[m^2]", result.fibre_damage);
+  carry.newer("matrix_damage[m^2]", result.matrix_damage);
+}
+
 template<class Result, class Carry> void carry_chip(Result& result, Carry& carry) {
   carry("chip_note", result.chip_note);
   carry("chip_thickness[m]", result.chip_thickness);
@@ -77,6 +93,7 @@ template<class Result, class Carry> void carry_faces(Result& result, Carry& carr
   carry("surface_to[m]", result.surface_to);
   carry("surface_height[m]", result.surface_height);
   carry("roughness[m]", result.roughness);
+  carry.newer("Rz[m]", result.Rz);
   carry("layer[m]", result.layer);
   carry("residual_note", result.residual_note);
   carry("residual_stress_surface[Pa]", result.residual_stress_surface);
@@ -86,6 +103,7 @@ template<class Result, class Carry> void carry_faces(Result& result, Carry& carr
 template<class Result, class Carry> void carry_cut(Result& result, Carry& carry) {
   carry_conditions(result, carry);
   carry_forces(result, carry);
+  carry_plies(result, carry);
   carry_chip(result, carry);
   carry_faces(result, carry);
 }
@@ -117,42 +135,58 @@ std::string csv_text(const results::HistoryTable& table) {
 
 std::vector<std::pair<std::string, double>> metrics_of(const CuttingResult& result) {
   constexpr double degree = std::numbers::pi / 180.0;
-  return {{"cutting.Fc[N]", result.in_newton(result.Fc)},
-          {"cutting.Fc_spread[N]", result.in_newton(result.Fc_spread)},
-          {"cutting.Ft[N]", result.in_newton(result.Ft)},
-          {"cutting.Ft_spread[N]", result.in_newton(result.Ft_spread)},
-          {"cutting.Fc_per_width[N/m]", result.Fc},
-          {"cutting.Ft_per_width[N/m]", result.Ft},
-          {"cutting.edge_Fc[N]", result.in_newton(result.edge_Fc)},
-          {"cutting.edge_Ft[N]", result.in_newton(result.edge_Ft)},
-          {"cutting.specific_energy[J/m^3]", result.specific_energy},
-          {"cutting.friction_angle[deg]", result.friction_angle / degree},
-          {"cutting.shear_stress[Pa]", result.shear_stress},
-          {"cutting.chip_thickness[m]", result.chip_thickness},
-          {"cutting.chip_peak[m]", result.chip_peak},
-          {"cutting.chip_valley[m]", result.chip_valley},
-          {"cutting.chip_ratio", result.chip_ratio},
-          {"cutting.chip_length[m]", result.chip_length},
-          {"cutting.chip_speed[m/s]", result.chip_speed},
-          {"cutting.curl_radius[m]", result.curl_radius},
-          {"cutting.shear_angle[deg]", result.shear_angle / degree},
-          {"cutting.shear_angle_speed[deg]", result.shear_angle_speed / degree},
-          {"cutting.shear_angle_rate[deg]", result.shear_angle_rate / degree},
-          {"cutting.shear_plane[m]", result.shear_plane},
-          {"cutting.contact_length[m]", result.contact_length},
-          {"cutting.tooth_spacing[m]", result.tooth_spacing},
-          {"cutting.tooth_frequency[1/s]", result.tooth_frequency},
-          {"cutting.interface_temperature[K]", result.interface_temperature},
-          {"cutting.temperature_max[K]", result.temperature_max},
-          {"cutting.tool_temperature_max[K]", result.tool_temperature_max},
-          {"cutting.wear_rate[m/s]", result.wear_rate},
-          {"cutting.wear_rate_max[m/s]", result.wear_rate_max},
-          {"cutting.roughness[m]", result.roughness},
-          {"cutting.residual_stress_surface[Pa]", result.residual_stress_surface},
-          {"cutting.residual_yield", result.residual_yield},
-          {"cutting.steady_from[m]", result.steady_from},
-          {"cutting.steady_to[m]", result.steady_to},
-          {"cutting.steady", result.steady ? 1.0 : 0.0}};
+  std::vector<std::pair<std::string, double>> list{
+      {"cutting.Fc[N]", result.in_newton(result.Fc)},
+      {"cutting.Fc_spread[N]", result.in_newton(result.Fc_spread)},
+      {"cutting.Ft[N]", result.in_newton(result.Ft)},
+      {"cutting.Ft_spread[N]", result.in_newton(result.Ft_spread)},
+      {"cutting.Fc_per_width[N/m]", result.Fc},
+      {"cutting.Ft_per_width[N/m]", result.Ft},
+      {"cutting.edge_Fc[N]", result.in_newton(result.edge_Fc)},
+      {"cutting.edge_Ft[N]", result.in_newton(result.edge_Ft)},
+      {"cutting.specific_energy[J/m^3]", result.specific_energy},
+      {"cutting.friction_angle[deg]", result.friction_angle / degree},
+      {"cutting.shear_stress[Pa]", result.shear_stress},
+      {"cutting.chip_thickness[m]", result.chip_thickness},
+      {"cutting.chip_peak[m]", result.chip_peak},
+      {"cutting.chip_valley[m]", result.chip_valley},
+      {"cutting.chip_ratio", result.chip_ratio},
+      {"cutting.chip_length[m]", result.chip_length},
+      {"cutting.chip_speed[m/s]", result.chip_speed},
+      {"cutting.curl_radius[m]", result.curl_radius},
+      {"cutting.shear_angle[deg]", result.shear_angle / degree},
+      {"cutting.shear_angle_speed[deg]", result.shear_angle_speed / degree},
+      {"cutting.shear_angle_rate[deg]", result.shear_angle_rate / degree},
+      {"cutting.shear_plane[m]", result.shear_plane},
+      {"cutting.contact_length[m]", result.contact_length},
+      {"cutting.tooth_spacing[m]", result.tooth_spacing},
+      {"cutting.tooth_frequency[1/s]", result.tooth_frequency},
+      {"cutting.interface_temperature[K]", result.interface_temperature},
+      {"cutting.temperature_max[K]", result.temperature_max},
+      {"cutting.tool_temperature_max[K]", result.tool_temperature_max},
+      {"cutting.wear_rate[m/s]", result.wear_rate},
+      {"cutting.wear_rate_max[m/s]", result.wear_rate_max},
+      {"cutting.roughness[m]", result.roughness},
+      {"cutting.Rz[m]", result.Rz},
+      {"cutting.residual_stress_surface[Pa]", result.residual_stress_surface},
+      {"cutting.residual_yield", result.residual_yield},
+      {"cutting.steady_from[m]", result.steady_from},
+      {"cutting.steady_to[m]", result.steady_to},
+      {"cutting.steady", result.steady ? 1.0 : 0.0}};
+  if (result.breaks)
+    list.insert(list.end(), {{"cutting.Fc_peak[N]", result.in_newton(result.Fc_peak)},
+                             {"cutting.Ft_peak[N]", result.in_newton(result.Ft_peak)},
+                             {"cutting.Fc_of_chip[N]", result.in_newton(result.Fc_of_chip)},
+                             {"cutting.engaged_at[m]", result.engaged_at},
+                             {"cutting.released_at[m]", result.released_at},
+                             {"cutting.completed_at[m]", result.completed_at},
+                             {"cutting.chip_plane[deg]", result.chip_plane / degree},
+                             {"cutting.fibre_depth[m]", result.fibre_depth},
+                             {"cutting.matrix_depth[m]", result.matrix_depth},
+                             {"cutting.fibre_damage[m^2]", result.fibre_damage},
+                             {"cutting.matrix_damage[m^2]", result.matrix_damage},
+                             {"cutting.chip_completed", result.chip_completed ? 1.0 : 0.0}});
+  return list;
 }
 
 void write_cutting(const fs::path& folder, const CuttingResult& result) {

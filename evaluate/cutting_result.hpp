@@ -33,6 +33,15 @@ struct CuttingResult {
   double friction_angle = unknown;             ///< rad, of the whole force from the normal of the rake face
   double shear_stress = unknown;               ///< Pa, on a plane at the shear angle
 
+  // Of a chip that breaks off a ply (docs/cutting.md); Fc and Ft are means while the tool is fully engaged.
+  bool breaks = false, chip_completed = false;
+  double engaged_at = unknown, released_at = unknown, completed_at = unknown; ///< m of cut
+  double Fc_peak = unknown, Ft_peak = unknown;            ///< N/m, largest filtered forces until completion
+  double Fc_of_chip = unknown;                            ///< N/m, mean from first touch to completion
+  double chip_plane = unknown;                            ///< rad, from the way of the tool
+  double fibre_depth = unknown, matrix_depth = unknown;   ///< m below the cut, at completion
+  double fibre_damage = unknown, matrix_damage = unknown; ///< m², at completion
+
   std::string chip_note;
   double chip_thickness = unknown, chip_peak = unknown, chip_valley = unknown; ///< m
   double chip_ratio = unknown;                                                 ///< –, thickness over feed
@@ -52,8 +61,8 @@ struct CuttingResult {
   double wear_rate = unknown, wear_rate_max = unknown;               ///< m/s
 
   std::string surface_note;
-  double surface_from = unknown, surface_to = unknown;                   ///< m, behind the tip
-  double surface_height = unknown, roughness = unknown, layer = unknown; ///< m
+  double surface_from = unknown, surface_to = unknown;                                 ///< m, behind the tip
+  double surface_height = unknown, roughness = unknown, Rz = unknown, layer = unknown; ///< m
   std::string residual_note;
   double residual_stress_surface = unknown; ///< Pa, along the cut, of the uppermost layer
   double residual_yield = unknown;          ///< –, largest equivalent residual stress over the flow stress

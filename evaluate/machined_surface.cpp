@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -26,6 +27,27 @@ std::vector<std::size_t> surface_of(const CutOutline& outline, double feed) {
     places.push_back(k);
   }
   return places;
+}
+
+/// Mean over five equal lengths of a stretch; not-a-number where one of them has fewer than two nodes.
+double highest_over_lowest(const CutOutline& outline, const std::vector<std::size_t>& places,
+                           const Stretch& stretch) {
+  constexpr std::size_t lengths = 5;
+  std::array<Stretch, lengths> height;
+  height.fill({INFINITY, -INFINITY});
+  std::array<int, lengths> nodes{};
+  for (const std::size_t k : places) {
+    const Vec2& x = outline.point[k];
+    if (x.x() < stretch.from || x.x() > stretch.to) continue;
+    const auto at =
+        std::min(lengths - 1, static_cast<std::size_t>(lengths * (x.x() - stretch.from) / stretch.length()));
+    height[at] = {std::min(height[at].from, x.y()), std::max(height[at].to, x.y())};
+    ++nodes[at];
+  }
+  if (*std::min_element(nodes.begin(), nodes.end()) < 2) return unknown;
+  double sum = 0.0;
+  for (const Stretch& own : height) sum += own.length();
+  return sum / lengths;
 }
 
 struct Moments {
@@ -109,6 +131,7 @@ MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2>
       ++count;
     }
   surface.roughness = count > 0.0 ? rough / count : unknown;
+  surface.Rz = highest_over_lowest(outline, places, surface.measured);
 
   const auto depth = [&](std::size_t i) { return surface.height - position[i].y(); };
   const auto below = [&](std::size_t i, double most) {

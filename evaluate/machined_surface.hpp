@@ -40,6 +40,7 @@ struct MachinedSurface {
   Stretch measured;           ///< m, x: behind the tool
   double height = unknown;    ///< m, mean, above the tip
   double roughness = unknown; ///< m, Σ|y|/n of its n nodes from the mean height (paper 003, (27))
+  double Rz = unknown;        ///< m, highest over lowest point, mean over five equal lengths (ISO 4287)
   double layer = unknown;     ///< m, thickness of layers: mean distance of nodes near the surface
   std::vector<DepthLayer> layers;
   double yield_ratio = unknown; ///< –, the largest in the layers

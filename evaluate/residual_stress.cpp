@@ -24,22 +24,23 @@ Fields<4> stress_at_nodes(const results::Snapshot<2>& shot) {
           results::values_at_nodes(shot, "stress_zz"), results::values_at_nodes(shot, "stress_xy")};
 }
 
+ResidualStress no_residual_stress(std::size_t nodes, const std::string& reason) {
+  ResidualStress residual;
+  resize_all(residual.stress, nodes, std::numeric_limits<double>::quiet_NaN());
+  residual.yield_ratio = residual.stress.front();
+  residual.note = fmt::format("there are no residual stresses: {}", reason);
+  return residual;
+}
+
 ResidualStress residual_stress(const results::Snapshot<2>& shot, const StressedBody* body) {
   const auto& node = shot.state.node;
-  ResidualStress residual;
-  resize_all(residual.stress, node.size(), std::numeric_limits<double>::quiet_NaN());
-  residual.yield_ratio = residual.stress.front();
-  if (!body) {
-    residual.note = "there are no residual stresses: tied nodes are not let go";
-    return residual;
-  }
+  if (!body) return no_residual_stress(node.size(), "tied nodes are not let go");
   Springback released;
   try {
     released = springback(*body);
-  } catch (const std::runtime_error& error) {
-    residual.note = fmt::format("there are no residual stresses: {}", error.what());
-    return residual;
-  }
+  } catch (const std::runtime_error& error) { return no_residual_stress(node.size(), error.what()); }
+  ResidualStress residual = no_residual_stress(node.size(), "");
+  residual.note.clear();
   const DiscreteOperators<2>& op = shot.approximation.mechanics;
   residual.stress = stress_at_nodes(shot);
   for (std::size_t c = 0; c < residual.stress.size(); ++c) {

@@ -17,6 +17,9 @@ struct ResidualStress {
 /// Cauchy stress of a state, laid as in ResidualStress.
 Fields<4> stress_at_nodes(const results::Snapshot<2>& shot);
 
+/// None of any of the nodes, for a reason.
+ResidualStress no_residual_stress(std::size_t nodes, const std::string& reason);
+
 /// Of a state at the end of a run. body: the same state as springback() takes it, with the temperatures that
 /// it cools to; null where nodes are tied.
 ResidualStress residual_stress(const results::Snapshot<2>& shot, const StressedBody* body);

@@ -59,7 +59,8 @@ void ExplicitSolver<dim>::carry_over(const Resampling<dim>* change, const std::o
   Field tension = points ? held_tension(model_.materials, point) : Field();
   if (points) to_present_thickness(point);
   const PlyDeformation<dim> plies =
-      points ? mixed_plies(points->parcels, mass, model_.materials, point) : PlyDeformation<dim>();
+      points ? mixed_plies(points->parcels, mass, model_.materials, model_.plane_stress, point)
+             : PlyDeformation<dim>();
   if (change) carry_nodes(*change);
   if (points) {
     for (FieldTable* table : point_tables()) {

@@ -2,8 +2,11 @@
 
 #include "core/index.hpp"
 #include "plasticity/log_strain.hpp"
+#include "plasticity/ply_update.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cnem {
@@ -26,11 +29,57 @@ plasticity::Symmetric<2> twice_log_stretch(const Mat<2>& F) {
   return plasticity::logarithm<2>({C(0, 0), C(1, 1), 1.0, C(0, 1)});
 }
 
+/// ε11, ε22, γ12 in the axes of a ply from 2 ln U, and back.
+std::array<double, 3> in_axes(const plasticity::Symmetric<2>& twice, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double xx = 0.5 * twice[0], yy = 0.5 * twice[1], xy = 0.5 * twice[3];
+  return {c * c * xx + s * s * yy + 2.0 * c * s * xy, s * s * xx + c * c * yy - 2.0 * c * s * xy,
+          2.0 * (c * s * (yy - xx) + (c * c - s * s) * xy)};
+}
+plasticity::Symmetric<2> twice_from_axes(const std::array<double, 3>& e, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {2.0 * (c * c * e[0] + s * s * e[1] - c * s * e[2]),
+          2.0 * (s * s * e[0] + c * c * e[1] + c * s * e[2]), 0.0,
+          2.0 * c * s * (e[0] - e[1]) + (c * c - s * s) * e[2]};
+}
+
+/// Mean of 2 ln U in which each component of the strain counts as much as its parcel resists it: the gap of
+/// broken matter does not come to bear on sound matter, and the mean stores no more than the parcels did.
+class HeldStretch {
+public:
+  HeldStretch(const plasticity::Material& material, bool plane_stress)
+      : elastic_(plasticity::ply_constants(*material.ply, plane_stress)), angle_(material.ply->angle) {}
+
+  void add(double share, const plasticity::Symmetric<2>& twice, const PointState<2>& point, std::size_t p) {
+    const std::array<double, 3> strain = in_axes(twice, angle_);
+    double damage[plasticity::ply_modes];
+    for (std::size_t mode = 0; mode < plasticity::ply_modes; ++mode)
+      damage[mode] = 1.0 - point.ply_left[mode][p];
+    const plasticity::PlyShares left =
+        plasticity::damaged_stress(elastic_, {strain[0], strain[1], strain[2]}, damage).left;
+    const double held[] = {share * left.fibre, share * left.matrix, share * left.shear};
+    for (std::size_t k = 0; k < 3; ++k) sum_[k] += held[k] * strain[k], weight_[k] += held[k];
+  }
+  plasticity::Symmetric<2> half_mean() const {
+    return 0.5 * twice_from_axes({sum_[0] / weight_[0], sum_[1] / weight_[1], sum_[2] / weight_[2]}, angle_);
+  }
+
+private:
+  plasticity::PlyConstants elastic_;
+  double angle_;
+  std::array<double, 3> sum_{}, weight_{};
+};
+
+bool damaged(const PointState<2>& point, std::size_t p) {
+  return point.failing.on() && std::any_of(point.ply_left.begin(), point.ply_left.end(),
+                                           [p](const Field& left) { return left[p] < 1.0; });
+}
+
 } // namespace
 
 template<int dim>
 PlyDeformation<dim> mixed_plies(const PointRows& parcels, const Field& mass,
-                                const std::vector<plasticity::Material>& materials,
+                                const std::vector<plasticity::Material>& materials, bool plane_stress,
                                 const PointState<dim>& point) {
   PlyDeformation<dim> plies;
   if constexpr (dim == 2) {
@@ -45,16 +94,22 @@ PlyDeformation<dim> mixed_plies(const PointRows& parcels, const Field& mass,
       }
       const double near = angle_of(start); // turns are counted from this one, which may be any number of them
       plasticity::Symmetric<2> stretch = plasticity::Symmetric<2>::Zero();
+      HeldStretch held(materials[index_of(point.material[index_of(parcels.from[first])])], plane_stress);
+      bool broken = false;
       double angle = 0.0, total = 0.0;
       for (std::size_t e = first; e < last; ++e) {
         const auto k = index_of(parcels.from[e]);
         const double share = parcels.weight[e] * mass[k];
         const Mat<2> F = earlier_at(point, k);
-        stretch += share * twice_log_stretch(F);
+        const plasticity::Symmetric<2> twice = twice_log_stretch(F);
+        stretch += share * twice;
+        if (point.failing.on()) held.add(share, twice, point, k);
+        broken = broken || damaged(point, k);
         angle += share * angle_of(turn(-near) * F);
         total += share;
       }
-      const plasticity::Symmetric<2> U = plasticity::exponential<2>(0.5 / total * stretch);
+      const plasticity::Symmetric<2> U =
+          plasticity::exponential<2>(broken ? held.half_mean() : 0.5 / total * stretch);
       plies.emplace_back(p, turn(near + angle / total) * (Mat<2>() << U[0], U[3], U[3], U[1]).finished());
     }
   }
@@ -85,8 +140,9 @@ template<int dim> void to_initial_thickness(PointState<dim>& point) {
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \
-  template PlyDeformation<dim> mixed_plies<dim>(                                                             \
-      const PointRows&, const Field&, const std::vector<plasticity::Material>&, const PointState<dim>&);     \
+  template PlyDeformation<dim> mixed_plies<dim>(const PointRows&, const Field&,                              \
+                                                const std::vector<plasticity::Material>&, bool,              \
+                                                const PointState<dim>&);                                     \
   template void set_plies<dim>(const PlyDeformation<dim>&, const Field&, PointState<dim>&);                  \
   template void to_present_thickness<dim>(PointState<dim>&);                                                 \
   template void to_initial_thickness<dim>(PointState<dim>&);

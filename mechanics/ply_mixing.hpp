@@ -13,11 +13,12 @@ namespace cnem {
 template<int dim> using PlyDeformation = std::vector<std::pair<std::size_t, Mat<2>>>;
 
 /// F₀ = R U of the new points that are plies, averaged over their parcels as ln U and the angle of R, so that
-/// the mean is objective and its change of area additive. Expects F₀ pushed forward and not carried over;
-/// mass [old point] kg/m.
+/// the mean is objective and its change of area additive. Where matter is damaged each component of ln U in
+/// the axes of the ply counts by the stiffness that is left of it, so that mixing stores no energy. Expects
+/// F₀ pushed forward and nothing carried over; mass [old point] kg/m.
 template<int dim>
 PlyDeformation<dim> mixed_plies(const PointRows& parcels, const Field& mass,
-                                const std::vector<plasticity::Material>& materials,
+                                const std::vector<plasticity::Material>& materials, bool plane_stress,
                                 const PointState<dim>& point);
 /// Gives points their F₀, and the C_p⁻¹ = F₀ F₀ᵀ that belongs to it. elastic_volume: as mix_elastic takes it,
 /// det F₀ where cells tile the matter.

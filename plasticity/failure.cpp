@@ -12,24 +12,6 @@ namespace {
 constexpr double square(double x) { return x * x; }
 constexpr double positive_part(double x) { return std::max(x, 0.0); }
 
-constexpr int planes = 91; // of fracture, a degree apart
-
-struct Plane {
-  double sine, cosine;
-};
-
-const std::array<Plane, planes>& fracture_planes() {
-  static const auto table = [] {
-    std::array<Plane, planes> list{};
-    for (int k = 0; k < planes; ++k) {
-      const double angle = k * std::numbers::pi / 180.0;
-      list[static_cast<std::size_t>(k)] = {std::sin(angle), std::cos(angle)};
-    }
-    return list;
-  }();
-  return table;
-}
-
 } // namespace
 
 double Failure::longest_length(const PlyConstants& elastic, int mode) const {
@@ -45,10 +27,20 @@ FailureForm::FailureForm(const Failure& law, const PlyConstants& elastic)
     : law_(law), shear_modulus_(elastic.G12) {
   const double a = law.alpha0, c = std::cos(a), tangent = std::tan(2.0 * a);
   transverse_shear_ = law.Yc * c * (std::sin(a) + c / tangent);
-  eta_transverse_ = -1.0 / tangent;
   eta_along_ = -law.S * std::cos(2.0 * a) / (law.Yc * c * c);
   const double ratio = law.S / law.Xc, k = ratio + eta_along_;
   kink_ = std::atan((1.0 - std::sqrt(std::max(0.0, 1.0 - 4.0 * k * ratio))) / (2.0 * k));
+  if (law.criterion != FailureCriterion::larc02) return;
+  for (std::size_t n = 0; n < planes; ++n) {
+    const Plane own = plane(static_cast<double>(n) * std::numbers::pi / 180.0);
+    across_[n] = own.across, along_[n] = own.along, held_[n] = own.held;
+  }
+}
+
+FailureForm::Plane FailureForm::plane(double angle) const {
+  const double s = std::sin(angle), c = std::cos(angle), eta_transverse = -1.0 / std::tan(2.0 * law_.alpha0);
+  return {std::max(0.0, c * (s - eta_transverse * c)) / transverse_shear_, c / law_.S,
+          eta_along_ * c * c / law_.S};
 }
 
 void FailureForm::indices(const double (&strain)[3], const double (&stress)[3],
@@ -77,22 +69,19 @@ void FailureForm::indices(const double (&strain)[3], const double (&stress)[3],
 
 /// The largest over the planes of fracture; between planes of whole degrees where a parabola has its vertex.
 double FailureForm::matrix_crushing(double s2, double shear) const {
-  const auto on = [&](const Plane& plane) {
-    const double across = positive_part(-s2 * plane.cosine * (plane.sine - eta_transverse_ * plane.cosine));
-    const double along = positive_part(plane.cosine * (shear + eta_along_ * s2 * plane.cosine));
-    return square(across / transverse_shear_) + square(along / law_.S);
+  const auto on = [&](double across, double along, double held) {
+    return square(-s2 * across) + square(positive_part(shear * along + s2 * held));
   };
-  std::array<double, planes> value{};
-  const auto& table = fracture_planes();
-  for (std::size_t k = 0; k < value.size(); ++k) value[k] = on(table[k]);
+  std::array<double, planes> value;
+  for (std::size_t n = 0; n < planes; ++n) value[n] = on(across_[n], along_[n], held_[n]);
   const auto best = static_cast<std::size_t>(std::max_element(value.begin(), value.end()) - value.begin());
   if (best == 0 || best + 1 == value.size()) return value[best];
   const double before = value[best - 1], after = value[best + 1];
   const double curvature = before - 2.0 * value[best] + after;
   if (!(curvature < 0.0)) return value[best];
   const double vertex = static_cast<double>(best) + 0.5 * (before - after) / curvature;
-  const double angle = vertex * std::numbers::pi / 180.0;
-  return std::max(value[best], on({std::sin(angle), std::cos(angle)}));
+  const Plane at = plane(vertex * std::numbers::pi / 180.0);
+  return std::max(value[best], on(at.across, at.along, at.held));
 }
 
 void FailureForm::larc(const double (&strain)[3], double s1, double s2, double shear,

@@ -144,7 +144,15 @@ private:
 
   Failure law_;
   double shear_modulus_;
-  double transverse_shear_, eta_transverse_, eta_along_, kink_; ///< S_T (Pa), η_T, η_L, ψc (rad)
+  double transverse_shear_, eta_along_, kink_; ///< S_T (Pa), η_L, ψc (rad)
+
+  static constexpr std::size_t planes = 91; ///< of fracture, a degree apart
+  /// On a plane the index is ⟨−σ2 across⟩² + ⟨|τ| along + σ2 held⟩².
+  struct Plane {
+    double across, along, held; ///< 1/Pa
+  };
+  Plane plane(double angle) const;
+  std::array<double, planes> across_, along_, held_; ///< 1/Pa, of `larc02`
 };
 
 } // namespace cnem::plasticity

@@ -57,10 +57,20 @@ std::string force_text(const evaluate::CuttingResult& result, double mean, doubl
 
 std::string force_table_html(const evaluate::CuttingResult& result, const ShownUnits& units) {
   CutTable table("Forces", units);
-  table.add("Steady", result.steady
-                          ? fmt::format("from {} to {} of cut", units.format(result.steady_from, "m"),
-                                        units.format(result.steady_to, "m"))
-                          : "not steady");
+  if (result.breaks) {
+    table.add("Chip", result.chip_completed
+                          ? fmt::format("completed after {} of cut", units.format(result.completed_at, "m"))
+                          : "not completed");
+    table.add("Fully engaged", fmt::format("from {} to {} of cut", units.format(result.engaged_at, "m"),
+                                           units.format(result.released_at, "m")));
+    table.add("Largest Fc until then", result.in_newton(result.Fc_peak), "N");
+    table.add("Fc from first touch to completion, mean", result.in_newton(result.Fc_of_chip), "N");
+    table.add("Largest Ft until then", result.in_newton(result.Ft_peak), "N");
+  } else
+    table.add("Steady", result.steady
+                            ? fmt::format("from {} to {} of cut", units.format(result.steady_from, "m"),
+                                          units.format(result.steady_to, "m"))
+                            : "not steady");
   if (std::isfinite(result.Fc)) {
     table.add("Cutting force Fc", force_text(result, result.Fc, result.Fc_spread, units));
     table.add("Thrust force Ft", force_text(result, result.Ft, result.Ft_spread, units));
@@ -93,6 +103,7 @@ std::string chip_table_html(const evaluate::CuttingResult& result, const ShownUn
   table.add("Chip length", result.chip_length, "m");
   table.add("Speed on the rake face", result.chip_speed, "m/s");
   table.add("Curl radius", result.curl_radius, "m");
+  table.angle("Plane that it broke off along", result.chip_plane);
   table.add("Tooth spacing", result.tooth_spacing, "m");
   table.add("Tooth frequency", result.tooth_frequency, "1/s");
   return table.html();
@@ -107,6 +118,11 @@ std::string face_table_html(const evaluate::CuttingResult& result, const ShownUn
   table.add("Wear rate (Usui), mean", result.wear_rate, "m/s");
   table.add("Wear rate (Usui), largest", result.wear_rate_max, "m/s");
   table.add("Roughness", result.roughness, "m");
+  table.add("Rz", result.Rz, "m");
+  table.add("Fibres damaged to a depth of", result.fibre_depth, "m");
+  table.add("Matrix damaged to a depth of", result.matrix_depth, "m");
+  table.add("Area of damaged fibres", result.fibre_damage, "m^2");
+  table.add("Area of damaged matrix", result.matrix_damage, "m^2");
   table.add("Mean height over the tool's lowest point", result.surface_height, "m");
   table.add("Residual stress at the surface, along the cut", result.residual_stress_surface, "Pa");
   if (std::isfinite(result.residual_yield))
@@ -243,9 +259,10 @@ std::string render_cutting(const evaluate::CuttingResult& result, const ShownUni
     if (!chart.note.empty()) html += fmt::format("<figcaption>{}</figcaption>", html_escape(chart.note));
     html += "</figure>\n";
   }
-  return html +
-         "</div>\n<p>Any model with Johnson-Cook's law and Coulomb's friction gives feed forces 30 to 40% "
-         "too small and chip ratios 15 to 30% too large against experiments.</p>\n";
+  html += "</div>\n";
+  if (result.breaks) return html;
+  return html + "<p>Any model with Johnson-Cook's law and Coulomb's friction gives feed forces 30 to 40% "
+                "too small and chip ratios 15 to 30% too large against experiments.</p>\n";
 }
 
 } // namespace cnem::report

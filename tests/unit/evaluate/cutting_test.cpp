@@ -1,6 +1,7 @@
 // Forces of known courses and their steady part, the file of a cut and its page, keys of [report.cutting].
 #include "evaluate/cutting_forces.hpp"
 #include "evaluate/cutting_result.hpp"
+#include "evaluate/ply_cut.hpp"
 #include "input/cutting_tool.hpp"
 #include "report/cutting_page.hpp"
 #include "report/picture_recorder.hpp"
@@ -190,6 +191,73 @@ TEST(CuttingPage, shows_forces_chip_and_why_a_cut_is_not_steady) {
   const std::string other = report::render_cutting(result);
   for (const char* part : {"Not steady: Fc rises.", "<p>tied nodes</p>", "−210 MPa", "unloaded and cooled"})
     EXPECT_NE(other.find(part), std::string::npos) << "no '" << part << "' in:\n" << other;
+}
+
+TEST(BrokenChip, engaged_while_the_force_is_within_a_tenth_of_its_peak_and_completed_when_half_is_lost) {
+  const std::vector<double> cut{0, 1, 2, 3, 4, 5, 6, 7}, force{0, 50, 92, 100, 95, 80, 45, 120},
+      whole(cut.size(), 0.0);
+  const BrokenChip chip = broken_chip(cut, force, whole);
+  EXPECT_EQ(chip.peak, 100.0); // what comes after completion is another chip
+  EXPECT_EQ(chip.engaged, 2.0);
+  EXPECT_EQ(chip.released, 5.0);
+  EXPECT_EQ(chip.completed, 6.0);
+  EXPECT_EQ(chip.last, 6u);
+}
+
+TEST(BrokenChip, broken_through_is_completed) {
+  const std::vector<double> cut{0, 1, 2, 3, 4, 5}, force{0, 50, 92, 100, 97, 96}, parted{0, 0, 0, 0, 1, 1};
+  const BrokenChip chip = broken_chip(cut, force, parted);
+  EXPECT_EQ(chip.completed, 4.0);
+  EXPECT_EQ(chip.released, 4.0);
+  const BrokenChip going_on = broken_chip(cut, force, std::vector<double>(cut.size(), 0.0));
+  EXPECT_FALSE(std::isfinite(going_on.completed));
+  EXPECT_EQ(going_on.peak, 100.0);
+  EXPECT_FALSE(std::isfinite(broken_chip({}, {}, {}).peak));
+}
+
+/// Square cells of side 1 on a grid of columns by rows from (0, 0) on, and their points.
+Approximation<2> squares(int columns, int rows) {
+  Approximation<2> made;
+  CellGeometry<2>& cells = made.cells;
+  cells.begin = {0}, cells.vertex_begin = {0};
+  for (int y = 0; y <= rows; ++y)
+    for (int x = 0; x <= columns; ++x) {
+      cells.vertex.emplace_back(x, y);
+      cells.vertex_node.push_back(as<NodeIndex>(cells.vertex_node.size()));
+      cells.vertex_weight.push_back(1.0);
+      cells.vertex_begin.push_back(as<std::int32_t>(cells.vertex_node.size()));
+    }
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const int low = y * (columns + 1) + x, high = low + columns + 1;
+      for (const int v : {low, low + 1, high + 1, high}) cells.index.push_back(v);
+      cells.begin.push_back(as<std::int32_t>(cells.index.size()));
+    }
+  made.mechanics.volume.assign(index_of(columns * rows), 1.0);
+  return made;
+}
+
+TEST(PlyCut, a_stair_of_broken_cells_leads_to_the_free_surface_along_its_slope) {
+  constexpr int side = 16;
+  const Approximation<2> block = squares(2 * side, side);
+  PointState<2> point;
+  point.failing.switch_on(true);
+  for (FieldTable* table : {&point.table, &point.failing}) table->rest(block.mechanics.volume.size());
+  const auto damage = [&](int x, int y) -> double& {
+    return point.matrix_compression_damage[index_of(y * 2 * side + x)];
+  };
+  for (int y = 0; y < side; ++y) // one up, one along
+    for (const int x : {y, y + 1}) damage(x, y) = plasticity::Failure::broken;
+  const PlyCut through = look_at_plies(point, block, block.cells.vertex, side, 0.0);
+  EXPECT_TRUE(through.parted);
+  EXPECT_NEAR(through.plane, std::atan(1.0), 1e-9);
+  EXPECT_NEAR(through.matrix_area, 2 * side * plasticity::Failure::broken, 1e-9);
+  EXPECT_EQ(through.fibre_area, 0.0);
+  EXPECT_EQ(through.matrix_depth, 0.0);
+  for (const int x : {8, 9}) damage(x, 8) = 0.9; // a bridge
+  const PlyCut bridged = look_at_plies(point, block, block.cells.vertex, side, 0.0);
+  EXPECT_FALSE(bridged.parted);
+  EXPECT_FALSE(std::isfinite(bridged.plane));
 }
 
 const std::string cutter =

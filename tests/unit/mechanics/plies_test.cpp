@@ -218,10 +218,34 @@ TEST(Plies, mixed_points_keep_turns_and_stretches) {
   parcels.begin = {0, 2};
   parcels.from = {PointIndex{0}, PointIndex{1}};
   parcels.weight = {1.0, 1.0};
-  const auto mixed = mixed_plies<2>(parcels, Field(2, 3.0), {gfrp(0.2)}, point);
+  const auto mixed = mixed_plies<2>(parcels, Field(2, 3.0), {gfrp(0.2)}, true, point);
   ASSERT_EQ(mixed.size(), 1u);
   const Mat<2> wanted = Eigen::Rotation2Dd(181.0 * degree).toRotationMatrix() * U;
   EXPECT_LT((mixed[0].second - wanted).norm(), 1e-12);
+}
+
+TEST(Plies, the_gap_of_broken_matter_does_not_load_sound_matter_that_it_is_mixed_with) {
+  // a point whose matrix is broken and open by half, and a sound one under a small pull across the fibres
+  PointState<2> point;
+  for (FieldTable* table : {&point.oriented, &point.fibrous, &point.failing}) table->switch_on(true);
+  for (FieldTable* table : {&point.table, &point.oriented, &point.fibrous, &point.failing}) table->rest(2);
+  const double across[] = {std::log(1.5), 1e-3};
+  for (std::size_t p : {0u, 1u}) {
+    const double F[] = {1.0, 0.0, 0.0, std::exp(across[p])};
+    for (std::size_t k = 0; k < 4; ++k) point.earlier_deformation[k][p] = F[k];
+  }
+  point.ply_left[plasticity::matrix_tension][0] = 1e-4;
+  PointRows parcels;
+  parcels.begin = {0, 2};
+  parcels.from = {PointIndex{0}, PointIndex{1}};
+  parcels.weight = {1.0, 1.0};
+  const auto mixed = mixed_plies<2>(parcels, Field(2, 3.0), {gfrp(0.0)}, true, point);
+  ASSERT_EQ(mixed.size(), 1u);
+  const double strain = std::log(mixed[0].second(1, 1));
+  EXPECT_NEAR(strain, (1e-4 * across[0] + across[1]) / (1.0 + 1e-4), 1e-12);
+  // ½ E2 (mean of what is left) ε² is less than the mean of what the two stored
+  EXPECT_LT(0.5 * (1.0 + 1e-4) * strain * strain,
+            0.5 * (1e-4 * across[0] * across[0] + across[1] * across[1]));
 }
 
 } // namespace
