@@ -5,6 +5,7 @@
 #include "input/case_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <vector>
 
@@ -60,8 +61,9 @@ const plasticity::Material* compressible(const Case& c) {
 const plasticity::Material* planar(const Case& c) {
   const auto found = std::find_if(c.materials.begin(), c.materials.end(), [](const plasticity::Material& m) {
     if (!m.anisotropy) return false;
-    const plasticity::Hill48& law = *m.anisotropy;
-    return law.normal != plasticity::Axis::y || law.r45 != law.r0 || law.r90 != law.r0 || law.L != law.M;
+    const auto [F, G, H, L, M, N] = m.anisotropy->coefficients();
+    const auto same = [scale = F + G + H](double a, double b) { return std::abs(a - b) <= 1e-12 * scale; };
+    return m.anisotropy->normal() != plasticity::Axis::y || !same(F, G) || !same(N, F + 2.0 * H) || !same(L, M);
   });
   return found == c.materials.end() ? nullptr : &*found;
 }
