@@ -77,6 +77,9 @@ Text first_path(const Case& c, const char* key, bool (*holds)(const Metal&)) {
 Text fibrous_path(const Case& c) {
   return first_path(c, ".elastic", [](const Metal& m) { return m.ply.has_value(); });
 }
+Text broken_ply_path(const Case& c) {
+  return first_path(c, ".damage", [](const Metal& m) { return m.ply && m.damage; });
+}
 bool fibrous(const Case& c) { return !fibrous_path(c).empty(); }
 bool failing(const Case& c) {
   return !first_path(c, "", [](const Metal& m) { return m.failure.has_value(); }).empty();
@@ -181,12 +184,14 @@ const std::vector<Pair>& pairs() {
        "it pushes along its motion alone", nullptr,
        [](const Case& c) { return "tools." + kinematic(c, stands)->name + ".response.law"; }},
 
-      {"materials.*.damage", "", "plane stress in explicit analyses", in_thin_dynamics,
-       "analysis.kinematics = \"plane strain\"",
-       "softening takes the mean stress and leaves one out of the plane", nullptr,
+      {"materials.*.damage", "of an orthotropic material", "plane strain",
        [](const Case& c) {
-         return first_path(c, ".damage", [](const Metal& m) { return m.damage.has_value(); });
-       }},
+         return when(!broken_ply_path(c).empty() &&
+                         c.analysis.kinematics != Analysis::Kinematics::plane_stress,
+                     "without plane stress");
+       },
+       "analysis.kinematics = \"plane stress\"",
+       "plies have no law for a mean tension that flow does not take", nullptr, broken_ply_path},
       {"materials.*.equation_of_state", "", "plane stress in explicit analyses", in_thin_dynamics,
        "analysis.kinematics = \"plane strain\"", "its pressure would act out of the plane", nullptr,
        [](const Case& c) {

@@ -59,7 +59,8 @@ void mix_elastic(const PointRows& parcels, const Field& mass, const Field& tensi
         total += share;
       }
       elastic /= total;
-      const double softening = material.damage ? point.softening[p] : 0.0;
+      // in plane stress what has opened has flowed
+      const double softening = material.damage && !point.thin.on() ? point.softening[p] : 0.0;
       if (softening > 0.0 || !elastic_volume.empty()) { // gaps are volumes, which add
         const double dilated = elastic_volume.empty() ? volume / total : elastic_volume[p];
         elastic.template head<3>().array() +=

@@ -161,7 +161,11 @@ public:
   }
 
 private:
-  double softening(std::ptrdiff_t p) const { return points_.ply.softening ? points_.ply.softening[p] : 0.0; }
+  /// ω of what stands closed: what has opened in flow has room to close in.
+  double softening(std::ptrdiff_t p) const {
+    const bool closed = points_.ply.flow[0][p] + points_.ply.flow[1][p] <= 0.0;
+    return points_.softening && closed ? points_.softening[p] : 0.0;
+  }
 
   struct Nominal {
     double stress[3], out, energy; ///< Pa, J/m³: σ11, σ22, σ12 and σ33

@@ -233,7 +233,7 @@ TYPED_TEST(Hill, shear_with_linear_hardening_is_closed) {
 TYPED_TEST(Hill, returns_along_the_normal_of_the_yield_surface) {
   constexpr int dim = TypeParam::value;
   for (Material m : {sheet(rolled), perfect(rolled)}) {
-    m.anisotropy->r0 = 3.0;
+    std::get<Hill48>(*m.anisotropy).r0 = 3.0;
     PointState<dim> s = one_point<dim>();
     double dissipated = 0.0;
     for (int k = 1; k <= 300; ++k) {
