@@ -184,7 +184,7 @@ const std::vector<Pair>& pairs() {
        "it pushes along its motion alone", nullptr,
        [](const Case& c) { return "tools." + kinematic(c, stands)->name + ".response.law"; }},
 
-      {"materials.*.damage", "of an orthotropic material", "plane strain",
+      {"materials.*.damage", "that of an orthotropic material", "plane strain",
        [](const Case& c) {
          return when(!broken_ply_path(c).empty() &&
                          c.analysis.kinematics != Analysis::Kinematics::plane_stress,
