@@ -9,6 +9,8 @@ namespace cnem::plasticity {
 
 namespace {
 
+constexpr double rounding = 1e-13; ///< of the largest value of A, below which one is none
+
 /// Normal components 11, 22 and 33; shear stands in the last place.
 constexpr int shear_place = 3;
 
@@ -91,16 +93,21 @@ PlyReturn::Modes PlyReturn::modes(const Normals& normal) const {
   Modes made;
   made.count = static_cast<int>(normal.rows()) + 1;
   for (int k = 0; k + 1 < made.count; ++k) {
-    made.value[k] = std::max(solver.eigenvalues()[k], 0.0); // of a mean stress rounding alone
-    for (int i = 0; i + 1 < made.count; ++i) made.vector[k][i] = solver.eigenvectors()(i, k);
+    const double value = solver.eigenvalues()[k];
+    made.value[k] = value > rounding * solver.eigenvalues().maxCoeff() ? value : 0.0; // that of a mean stress
+    const auto strain = (compliance_ * solver.eigenvectors().col(k)).eval();
+    for (int i = 0; i + 1 < made.count; ++i) {
+      made.vector[k][i] = solver.eigenvectors()(i, k);
+      made.strain[k][i] = strain[i];
+    }
   }
   made.value[made.count - 1] = shear_ * shear_modulus_;
   made.vector[made.count - 1][shear_place] = std::sqrt(shear_modulus_);
+  made.strain[made.count - 1][shear_place] = 1.0 / std::sqrt(shear_modulus_);
   return made;
 }
 
-PlyReturn::Result PlyReturn::solve(const Normals& normal, const Modes& modes, const double (&trial)[4],
-                                   const StepFlow* flow) const {
+PlyReturn::Result PlyReturn::solve(const Modes& modes, const double (&trial)[4], const StepFlow* flow) {
   double part[4] = {};
   for (int k = 0; k < modes.count; ++k)
     for (int i = 0; i < 4; ++i) part[k] += modes.vector[k][i] * trial[i];
@@ -115,18 +122,17 @@ PlyReturn::Result PlyReturn::solve(const Normals& normal, const Modes& modes, co
     result.increment = lambda * path.yield;
   }
   result.yield = path.yield;
-  double stress[4] = {};
+  double stress[4] = {}, flowed[4] = {};
   for (int k = 0; k < modes.count; ++k) {
     const double own = part[k] / (1.0 + lambda * modes.value[k]);
     result.energy += 0.5 * own * own;
-    for (int i = 0; i < 4; ++i) stress[i] += own * modes.vector[k][i];
+    for (int i = 0; i < 4; ++i) {
+      stress[i] += own * modes.vector[k][i];
+      flowed[i] += lambda * modes.value[k] * own * modes.strain[k][i];
+    }
   }
-  for (int i = 0; i < 2; ++i) {
-    result.stress[i] = stress[i];
-    for (Eigen::Index j = 0; j < normal.cols(); ++j) result.flow[i] += lambda * normal(i, j) * stress[j];
-  }
-  result.stress[2] = stress[shear_place];
-  result.flow[2] = lambda * shear_ * stress[shear_place];
+  const int place[] = {0, 1, shear_place};
+  for (int i = 0; i < 3; ++i) result.stress[i] = stress[place[i]], result.flow[i] = flowed[place[i]];
   result.out = stress[2];
   return result;
 }
@@ -135,7 +141,7 @@ PlyReturn::Result PlyReturn::operator()(const double (&strain)[3], const double 
                                         const StepFlow* flow, double softening) const {
   const double out = stress_free_ ? 0.0 : plastic[0] + plastic[1];
   const double trial[4] = {strain[0] - plastic[0], strain[1] - plastic[1], out, strain[2] - plastic[2]};
-  const Result sound = solve(normal_, all_, trial, flow);
+  const Result sound = solve(all_, trial, flow);
   if (softening == 0.0) return sound;
   assert(stress_free_);
   const Eigen::Vector2d out_of_plane = normal_ * Eigen::Vector2d::Ones();
@@ -143,7 +149,7 @@ PlyReturn::Result PlyReturn::operator()(const double (&strain)[3], const double 
   const double left = (1.0 - softening) * (1.0 - softening);
   const Normals broken =
       normal_ - (1.0 - left) / out_of_plane.sum() * out_of_plane * out_of_plane.transpose();
-  return solve(broken, modes(broken), trial, flow);
+  return solve(modes(broken), trial, flow);
 }
 
 double PlyReturn::yield_stress(const double (&stress)[3], double out) const {
@@ -158,7 +164,7 @@ double PlyReturn::least_slope() const {
   double least = infinite;
   const double largest = *std::max_element(all_.value, all_.value + all_.count);
   for (int k = 0; k < all_.count; ++k) // a mean stress does not flow
-    if (all_.value[k] > 1e-12 * largest) least = std::min(least, all_.value[k]);
+    if (all_.value[k] > rounding * largest) least = std::min(least, all_.value[k]);
   return least;
 }
 

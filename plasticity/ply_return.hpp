@@ -56,10 +56,10 @@ private:
     int count = 0;
     double value[4] = {};
     double vector[4][4] = {};
+    double strain[4][4] = {}; ///< S v_k
   };
   Modes modes(const Normals& normal) const;
-  Result solve(const Normals& normal, const Modes& modes, const double (&trial)[4],
-               const StepFlow* flow) const;
+  static Result solve(const Modes& modes, const double (&trial)[4], const StepFlow* flow);
 
   bool stress_free_;
   Normals compliance_, normal_; ///< S and A of normal stresses, 1/Pa and –

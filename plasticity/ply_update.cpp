@@ -163,7 +163,8 @@ public:
 private:
   /// ω of what stands closed: what has opened in flow has room to close in.
   double softening(std::ptrdiff_t p) const {
-    const bool closed = points_.ply.flow[0][p] + points_.ply.flow[1][p] <= 0.0;
+    constexpr double slack = 1e-9;
+    const bool closed = points_.ply.flow[0][p] + points_.ply.flow[1][p] <= slack;
     return points_.softening && closed ? points_.softening[p] : 0.0;
   }
 

@@ -144,7 +144,7 @@ TEST(ThinDamage, random_paths_of_breaking_matter_dissipate_and_close_their_balan
   std::mt19937 generator(18);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (const Material& material : {flax(), pla()})
-    for (int path = 0; path < 10; ++path) {
+    for (int path = 0; path < 4; ++path) {
       ThinPoint point(material);
       for (int leg = 0; leg < 6; ++leg) {
         const Mat2 F = turn(any(generator)) *
