@@ -58,7 +58,7 @@ double root(Path& path, const StepFlow& flow) {
     const double over = stress / path.yield - 1.0;
     if (std::abs(over) <= accuracy) return lambda;
     (over < 0.0 ? low : high) = lambda;
-    if (high - low <= 1e-16 * high) return lambda;
+    if (high < infinite && high - low <= 1e-16 * high) return lambda;
     const double harder =
         hardened > least ? flow.slope(increment) * (path.yield + lambda * path.slope) : 0.0;
     const double rise = (harder * path.yield - stress * path.slope) / (path.yield * path.yield);

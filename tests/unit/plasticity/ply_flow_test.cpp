@@ -131,7 +131,6 @@ TEST(PlyFlow, a_way_that_ends_in_a_known_stress_finds_it_and_its_flow) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (const Material& material : {flax(0.0, law), odd(0.0, law)}) {
     const Written hill(std::get<HillRatios>(*material.anisotropy));
-    const PlyReturn back(*material.ply, material.yield_coefficients(), true);
     for (int trial = 0; trial < 50; ++trial) {
       const Vector3d direction(any(generator), any(generator), 0.1 * any(generator));
       const double increment = std::pow(10.0, -2.5 + 2.0 * any(generator));
@@ -217,7 +216,7 @@ TEST(PlyFlow, random_paths_stay_within_the_yield_surface_and_dissipate) {
           EXPECT_GE(now, last);
           EXPECT_GE(point.state.dissipation[0], 0.0);
           EXPECT_NEAR(point.state.plastic_work[0] - worked, point.state.dissipation[0], 1e-6);
-          EXPECT_EQ(point.state.plastic_rate[0], rate);
+          EXPECT_NEAR(point.state.plastic_rate[0], rate, 1e-9 + 1e-9 * rate);
         }
         EXPECT_GT(point.state.plastic_strain[0], 0.05);
       }
