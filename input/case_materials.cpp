@@ -83,10 +83,11 @@ template<class Law> void read_axes(const Setting& table, Law& law, Diagnostics& 
   if (law.rolling != law.normal) return;
   const Setting& rolling = *table.find("rolling");
   const Setting& one = rolling.given ? rolling : *table.find("normal");
-  diagnostics.add(Mistake::conflict, one.where, one.path,
-                  fmt::format("found \"{}\" for the rolling direction and the normal of the sheet, expected two "
-                              "axes",
-                              plasticity::axis_names[static_cast<int>(law.rolling)]));
+  diagnostics.add(
+      Mistake::conflict, one.where, one.path,
+      fmt::format("found \"{}\" for the rolling direction and the normal of the sheet, expected two "
+                  "axes",
+                  plasticity::axis_names[static_cast<int>(law.rolling)]));
 }
 
 std::optional<plasticity::Anisotropy> read_anisotropy(const Setting& table, const Setting& material, bool ply,
@@ -155,14 +156,16 @@ void read_elasticity(const Setting& table, const Setting& of, plasticity::Materi
   const Setting* plastic = of.find("plastic");
   if (plastic && ply.measure == plasticity::StrainMeasure::green) {
     const Setting& measure = *table.find("measure");
-    diagnostics.add(Mistake::conflict, measure.where, measure.path,
-                    "found \"green\" in a material that flows, expected \"log\": plastic strains add up in the "
-                    "logarithm alone");
+    diagnostics.add(
+        Mistake::conflict, measure.where, measure.path,
+        "found \"green\" in a material that flows, expected \"log\": plastic strains add up in the "
+        "logarithm alone");
   }
   if (const Setting* failure = of.find("failure"); failure && plastic)
-    diagnostics.add(Mistake::conflict, failure->where, failure->path,
-                    "found beside a plastic law, expected one of them: failure by modes is that of plies that "
-                    "are elastic until then, a ply that flows breaks by damage");
+    diagnostics.add(
+        Mistake::conflict, failure->where, failure->path,
+        "found beside a plastic law, expected one of them: failure by modes is that of plies that "
+        "are elastic until then, a ply that flows breaks by damage");
   if (const Setting* expansion = of.find("heat.expansion"); expansion && material_expands(*expansion))
     diagnostics.add(Mistake::conflict, expansion->where, expansion->path,
                     "found in an orthotropic material, expected 0: plies expand differently along and across "
@@ -269,18 +272,20 @@ namespace {
 void check_fall(const plasticity::Material& material, const Setting& table, Diagnostics& diagnostics) {
   const plasticity::Hardening::Fall fall = material.hardening->steepest_fall();
   const double least = material.anisotropy ? least_slope(material.anisotropy->form()) : 1.5;
-  const double limit = material.ply ? plasticity::least_ply_slope(*material.ply, material.yield_coefficients())
-                                    : 2.0 * least * material.elasticity.mu();
+  const double limit = material.ply
+                           ? plasticity::least_ply_slope(*material.ply, material.yield_coefficients())
+                           : 2.0 * least * material.elasticity.mu();
   if (fall.slope < limit) return;
   const std::string words =
       material.ply ? "the least slope of its elastic way back"
                    : fmt::format("{} shear moduli",
                                  material.anisotropy ? fmt::format("{:.3g}", 2.0 * least) : "three");
-  diagnostics.add(Mistake::range, table.where, table.path,
-                  fmt::format("found a flow stress that falls by {:.3g} GPa per strain at a plastic strain of "
-                              "{:.3g} and {:.4g} K, expected less than {}, {:.3g} GPa: an "
-                              "increment of strain would have several stresses",
-                              fall.slope * 1e-9, fall.strain, fall.temperature, words, limit * 1e-9));
+  diagnostics.add(
+      Mistake::range, table.where, table.path,
+      fmt::format("found a flow stress that falls by {:.3g} GPa per strain at a plastic strain of "
+                  "{:.3g} and {:.4g} K, expected less than {}, {:.3g} GPa: an "
+                  "increment of strain would have several stresses",
+                  fall.slope * 1e-9, fall.strain, fall.temperature, words, limit * 1e-9));
 }
 
 } // namespace

@@ -63,7 +63,8 @@ const plasticity::Material* planar(const Case& c) {
     if (!m.anisotropy) return false;
     const auto [F, G, H, L, M, N] = m.anisotropy->coefficients();
     const auto same = [scale = F + G + H](double a, double b) { return std::abs(a - b) <= 1e-12 * scale; };
-    return m.anisotropy->normal() != plasticity::Axis::y || !same(F, G) || !same(N, F + 2.0 * H) || !same(L, M);
+    return m.anisotropy->normal() != plasticity::Axis::y || !same(F, G) || !same(N, F + 2.0 * H) ||
+           !same(L, M);
   });
   return found == c.materials.end() ? nullptr : &*found;
 }

@@ -70,7 +70,9 @@ DamageSums update_damage(const std::vector<Material>& materials, const std::vect
   DamageSums sums;
   for_each_run(materials, material, begin, end,
                [&](const Material& own, std::ptrdiff_t p, std::ptrdiff_t stop) {
-                 if (own.damage) sums.released += on_active_isa(damage_parameters(own, dt, !points.stress.thickness), points, p, stop);
+                 if (own.damage)
+                   sums.released +=
+                       on_active_isa(damage_parameters(own, dt, !points.stress.thickness), points, p, stop);
                });
   return sums;
 }

@@ -21,7 +21,7 @@ HillCoefficients Hill48::coefficients() const {
 HillCoefficients HillRatios::coefficients() const {
   const auto by_square = [](double R) { return 1.0 / (R * R); };
   const double a = by_square(R11), b = by_square(R22), c = by_square(R33);
-  return {0.5 * (b + c - a),     0.5 * (c + a - b),     0.5 * (a + b - c),
+  return {0.5 * (b + c - a),    0.5 * (c + a - b),    0.5 * (a + b - c),
           1.5 * by_square(R23), 1.5 * by_square(R13), 1.5 * by_square(R12)};
 }
 

@@ -84,12 +84,11 @@ struct HillRatios {
   static constexpr const char* source = "paper 001 (1)–(13)";
   static constexpr Parameter<HillRatios> parameters[] = {
       {&HillRatios::R11,
-       {.name = "R11", .range = positive, .meaning = "Yield stress in tension along 1 over the flow stress."}},
-      {&HillRatios::R22,
-       {.name = "R22",
+       {.name = "R11",
         .range = positive,
-        .meaning = "The same in tension along 2.",
-        .example = "0.2"}},
+        .meaning = "Yield stress in tension along 1 over the flow stress."}},
+      {&HillRatios::R22,
+       {.name = "R22", .range = positive, .meaning = "The same in tension along 2.", .example = "0.2"}},
       {&HillRatios::R33,
        {.name = "R33",
         .range = positive,
@@ -108,7 +107,10 @@ struct HillRatios {
         .example = "0.046188",
         .computed = "`R12`"}},
       {&HillRatios::R23,
-       {.name = "R23", .range = positive, .meaning = "The same in shear of 2 and 3.", .example = "0.046188"}}};
+       {.name = "R23",
+        .range = positive,
+        .meaning = "The same in shear of 2 and 3.",
+        .example = "0.046188"}}};
 
   HillCoefficients coefficients() const;
 };

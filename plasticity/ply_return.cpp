@@ -59,8 +59,7 @@ double root(Path& path, const StepFlow& flow) {
     if (std::abs(over) <= accuracy) return lambda;
     (over < 0.0 ? low : high) = lambda;
     if (high < infinite && high - low <= 1e-16 * high) return lambda;
-    const double harder =
-        hardened > least ? flow.slope(increment) * (path.yield + lambda * path.slope) : 0.0;
+    const double harder = hardened > least ? flow.slope(increment) * (path.yield + lambda * path.slope) : 0.0;
     const double rise = (harder * path.yield - stress * path.slope) / (path.yield * path.yield);
     double next = lambda - over / rise;
     if (!(next > low && next < high) || k % 16 == 15)
@@ -177,7 +176,8 @@ double ply_yield_stress(const Orthotropic& elastic, const HillCoefficients& yiel
 }
 
 double least_ply_slope(const Orthotropic& elastic, const HillCoefficients& yield) {
-  return std::min(PlyReturn(elastic, yield, true).least_slope(), PlyReturn(elastic, yield, false).least_slope());
+  return std::min(PlyReturn(elastic, yield, true).least_slope(),
+                  PlyReturn(elastic, yield, false).least_slope());
 }
 
 } // namespace cnem::plasticity

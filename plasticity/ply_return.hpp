@@ -62,8 +62,8 @@ private:
   static Result solve(const Modes& modes, const double (&trial)[4], const StepFlow* flow);
 
   bool stress_free_;
-  Normals compliance_, normal_; ///< S and A of normal stresses, 1/Pa and –
-  double shear_modulus_, shear_;        ///< Pa, –: G12 and 2 N
+  Normals compliance_, normal_;  ///< S and A of normal stresses, 1/Pa and –
+  double shear_modulus_, shear_; ///< Pa, –: G12 and 2 N
   Modes all_;
 };
 

@@ -104,8 +104,7 @@ public:
       : ply_(*material.ply), points_(points), dt_(dt), elastic_(ply_constants(ply_, points.thickness)),
         intact_(elastic_.stiffness()), cosine_(std::cos(ply_.angle)), sine_(std::sin(ply_.angle)) {
     if (material.failure) form_.emplace(*material.failure, elastic_);
-    if (material.hardening)
-      return_.emplace(ply_, material.yield_coefficients(), points.thickness != nullptr);
+    if (material.hardening) return_.emplace(ply_, material.yield_coefficients(), points.thickness != nullptr);
     hardening_ = material.hardening ? &*material.hardening : nullptr;
     speed_ = std::sqrt(std::max(intact_.Q11, intact_.Q22) / material.density);
   }
@@ -178,9 +177,8 @@ private:
     if (form_) fail(p, e, damage);
     const PlyStress borne = damaged_stress(elastic_, e, damage);
     const auto& s = borne.stress;
-    result = {{s[0], s[1], s[2]},
-              elastic_.out_of_plane[0] * s[0] + elastic_.out_of_plane[1] * s[1],
-              borne.energy};
+    result = {
+        {s[0], s[1], s[2]}, elastic_.out_of_plane[0] * s[0] + elastic_.out_of_plane[1] * s[1], borne.energy};
     points_.dissipation[p] = 0.0;
     return true;
   }

@@ -53,11 +53,13 @@ void add_damage(Keys& k, const std::string& at) {
 
 void add_anisotropy(Keys& k, const std::string& at) {
   const std::vector<LawText> laws = law_texts(plasticity::AnisotropyLaws{});
-  k.add(at, table,
-        "Yield function of rolled sheet and of plies; without it von Mises', the same in all directions. That "
-        "of a metal, whose elasticity stays isotropic, has its directions along axes of the model at the start; "
-        "those of a ply (`elastic.law = \"orthotropic\"`) are along and across its fibres. They turn with the "
-        "material.");
+  k.add(
+      at, table,
+      "Yield function of rolled sheet and of plies; without it von Mises', the same in all directions. That "
+      "of a metal, whose elasticity stays isotropic, has its directions along axes of the model at the "
+      "start; "
+      "those of a ply (`elastic.law = \"orthotropic\"`) are along and across its fibres. They turn with the "
+      "material.");
   add_law_choice(k, at, laws).required();
   add_source(k, at);
   add_law_constants(k, at, laws);

@@ -77,7 +77,8 @@ struct Written {
     F = 0.5 * (b + c - a), G = 0.5 * (c + a - b), H = 0.5 * (a + b - c), N = 1.5 * std::pow(r.R12, -2);
   }
   double stress(const Vector3d& t) const {
-    return std::sqrt((G + H) * t[0] * t[0] + (F + H) * t[1] * t[1] - 2 * H * t[0] * t[1] + 2 * N * t[2] * t[2]);
+    return std::sqrt((G + H) * t[0] * t[0] + (F + H) * t[1] * t[1] - 2 * H * t[0] * t[1] +
+                     2 * N * t[2] * t[2]);
   }
   Vector3d direction(const Vector3d& t) const {
     return Vector3d((G + H) * t[0] - H * t[1], (F + H) * t[1] - H * t[0], 2 * N * t[2]) / stress(t);
@@ -158,9 +159,7 @@ Tabulated table() {
   return law;
 }
 
-const Hardening laws[] = {Perfect{400e6},
-                          table(),
-                          Linear{400e6, 2e9},
+const Hardening laws[] = {Perfect{400e6}, table(), Linear{400e6, 2e9},
                           Swift{.K = 900e6, .strain0 = 0.002, .n = 0.25},
                           JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0}};
 
@@ -181,8 +180,8 @@ TEST(PlyFlow, ratios_of_one_are_von_mises) {
         ASSERT_TRUE(ply.set(F, 1e-5));
         for (std::size_t k = 0; k < 4; ++k) state.deformation[k][0] = F(as<int>(k / 2), as<int>(k % 2));
         ASSERT_EQ(update(metal(law), state, 1e-5), -1);
-        const Mat2 P = (Mat2() << state.piola[0][0], state.piola[1][0], state.piola[2][0], state.piola[3][0])
-                           .finished();
+        const Mat2 P =
+            (Mat2() << state.piola[0][0], state.piola[1][0], state.piola[2][0], state.piola[3][0]).finished();
         EXPECT_LT((ply.piola() - P).norm(), 1e-8 * P.norm()) << step;
         EXPECT_NEAR(ply.state.plastic_strain[0], state.plastic_strain[0], 1e-10);
         EXPECT_NEAR(ply.state.plastic_work[0], state.plastic_work[0], 1e-8 * state.plastic_work[0] + 1e-3);
@@ -202,7 +201,7 @@ TEST(PlyFlow, random_paths_stay_within_the_yield_surface_and_dissipate) {
       for (Material material : {flax(0.8, law), odd(0.8, law)}) {
         PlyPoint point(material, stress_free);
         Vector3d e(0.0, 0.0, 0.0);
-        for (int step = 0; step < 200; ++step) {
+        for (int step = 0; step < 500; ++step) {
           const double last = point.state.plastic_strain[0], worked = point.state.plastic_work[0];
           e += std::pow(10.0, -3.0 + any(generator)) *
                Vector3d(any(generator), any(generator), 2.0 * any(generator));
@@ -210,9 +209,7 @@ TEST(PlyFlow, random_paths_stay_within_the_yield_surface_and_dissipate) {
           const double now = point.state.plastic_strain[0], rate = (now - last) / dt;
           const double limit = law.flow_stress(now, rate, 293.15);
           EXPECT_LE(point.state.equivalent_stress[0], limit * (1.0 + 1e-10)) << step;
-          if (now > last) {
-            EXPECT_NEAR(point.state.equivalent_stress[0], limit, 1e-10 * limit) << step;
-          }
+          if (now > last) { EXPECT_NEAR(point.state.equivalent_stress[0], limit, 1e-10 * limit) << step; }
           EXPECT_GE(now, last);
           EXPECT_GE(point.state.dissipation[0], 0.0);
           EXPECT_NEAR(point.state.plastic_work[0] - worked, point.state.dissipation[0], 1e-6);
@@ -226,7 +223,8 @@ TEST(PlyFlow, stress_is_the_derivative_of_the_energy_at_a_plastic_strain) {
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   const auto deformation = [&](double size) -> Mat2 {
-    return turn(any(generator)) * (Mat2::Identity() + size * Mat2::NullaryExpr([&] { return any(generator); }));
+    return turn(any(generator)) *
+           (Mat2::Identity() + size * Mat2::NullaryExpr([&] { return any(generator); }));
   };
   for (const bool stress_free : {true, false})
     for (int trial = 0; trial < 20; ++trial) {
@@ -255,8 +253,10 @@ TEST(PlyFlow, stress_is_the_derivative_of_the_energy_at_a_plastic_strain) {
 TEST(PlyFlow, new_references_and_turns_change_nothing) {
   for (const bool stress_free : {true, false}) {
     const Linear law{300e6, 1e9};
-    PlyPoint one(odd(0.3, law), stress_free), other(odd(0.3, law), stress_free), turned(odd(0.3, law), stress_free);
-    const Mat2 first = turn(0.4) * stretch({0.03, -0.01, 0.02}, 0.3), second = stretch({0.01, 0.04, -0.03}, 1.0);
+    PlyPoint one(odd(0.3, law), stress_free), other(odd(0.3, law), stress_free),
+        turned(odd(0.3, law), stress_free);
+    const Mat2 first = turn(0.4) * stretch({0.03, -0.01, 0.02}, 0.3),
+               second = stretch({0.01, 0.04, -0.03}, 1.0);
     const Mat2 R = turn(2.0);
     for (PlyPoint* point : {&one, &other}) ASSERT_TRUE(point->set(first, 1e-6));
     ASSERT_TRUE(turned.set(R * first, 1e-6));

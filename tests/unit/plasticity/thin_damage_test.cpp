@@ -22,7 +22,8 @@ Damage ductile() {
 Material flax() {
   Material m;
   m.density = 1500.0;
-  m.ply = Orthotropic{.E1 = 50e9, .E2 = 12e9, .nu12 = 0.178, .G12 = 3.4e9, .E3 = 12e9, .nu13 = 0.2, .nu23 = 0.2};
+  m.ply =
+      Orthotropic{.E1 = 50e9, .E2 = 12e9, .nu12 = 0.178, .G12 = 3.4e9, .E3 = 12e9, .nu13 = 0.2, .nu23 = 0.2};
   m.anisotropy = HillRatios{.R22 = 0.2, .R33 = 0.2, .R12 = 0.046188, .R13 = 0.046188, .R23 = 0.046188};
   m.hardening = Linear{300e6, 2e9};
   m.damage = ductile();
@@ -52,8 +53,7 @@ public:
     const Mat2 before = point_.piola();
     s.flow_factor[0] = flow_share<2>(point_.material, s, 0, s.pressure[0]);
     ASSERT_TRUE(point_.set(F, 1e-6));
-    update_damage<2>({point_.material}, s.material,
-                     damage_points<2>(s, {length}, {1.0}, {0.0}), 0, 1, 1e-6);
+    update_damage<2>({point_.material}, s.material, damage_points<2>(s, {length}, {1.0}, {0.0}), 0, 1, 1e-6);
     EXPECT_GE(s.dissipation[0], 0.0);
     work += (0.5 * (before + point_.piola()).array() * (F - last_).array()).sum();
     last_ = F;
@@ -151,7 +151,8 @@ TEST(ThinDamage, random_paths_of_breaking_matter_dissipate_and_close_their_balan
                        stretch({0.15 * any(generator), 0.15 * any(generator), 0.3 * any(generator)}, 0.0);
         const double work = point.work, energy = point.energy();
         point.go(F, 4000);
-        EXPECT_NEAR(point.work - work, point.energy() - energy, 5e-3 * std::abs(point.energy())) << path << leg;
+        EXPECT_NEAR(point.work - work, point.energy() - energy, 5e-3 * std::abs(point.energy()))
+            << path << leg;
       }
       EXPECT_GT(point.state().softening[0], 0.0);
     }
