@@ -4,6 +4,7 @@
 #include "input/library.hpp"
 #include "input/schema/nearest.hpp"
 #include "plasticity/hardening_laws.hpp"
+#include "plasticity/ply_return.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,24 +76,43 @@ plasticity::Axis axis_of(const std::string& name) {
   return static_cast<plasticity::Axis>(found - std::begin(plasticity::axis_names));
 }
 
-plasticity::Hill48 read_anisotropy(const Setting& table, const Setting& material, Diagnostics& diagnostics) {
-  plasticity::Hill48 law;
-  read_constants(plasticity::Hill48::parameters, table, law);
+/// Of a sheet; a ply has its own.
+template<class Law> void read_axes(const Setting& table, Law& law, Diagnostics& diagnostics) {
   law.rolling = axis_of(table.get<std::string>("rolling"));
   law.normal = axis_of(table.get<std::string>("normal"));
-  if (law.rolling == law.normal) {
-    const Setting& rolling = *table.find("rolling");
-    const Setting& one = rolling.given ? rolling : *table.find("normal");
-    diagnostics.add(
-        Mistake::conflict, one.where, one.path,
-        fmt::format("found \"{}\" for the rolling direction and the normal of the sheet, expected two "
-                    "axes",
-                    plasticity::axis_names[static_cast<int>(law.rolling)]));
+  if (law.rolling != law.normal) return;
+  const Setting& rolling = *table.find("rolling");
+  const Setting& one = rolling.given ? rolling : *table.find("normal");
+  diagnostics.add(
+      Mistake::conflict, one.where, one.path,
+      fmt::format("found \"{}\" for the rolling direction and the normal of the sheet, expected two "
+                  "axes",
+                  plasticity::axis_names[static_cast<int>(law.rolling)]));
+}
+
+std::optional<plasticity::Anisotropy> read_anisotropy(const Setting& table, const Setting& material, bool ply,
+                                                      Diagnostics& diagnostics) {
+  auto law = read_law<plasticity::Anisotropy>(plasticity::AnisotropyLaws{}, table, diagnostics);
+  if (!law) return law;
+  std::visit([&](auto& own) { read_axes(table, own, diagnostics); },
+             static_cast<plasticity::Anisotropy::variant&>(*law));
+  if (ply)
+    for (const char* axis : {"rolling", "normal"})
+      if (const Setting& key = *table.find(axis); key.given)
+        diagnostics.add(Mistake::conflict, key.where, key.path,
+                        "found in an orthotropic material, expected none: 1 lies along its fibres, 2 across "
+                        "them in the plane");
+  if (!law->coefficients().convex()) {
+    const auto& own = std::get<plasticity::HillRatios>(*law);
+    diagnostics.add(Mistake::range, table.where, table.path,
+                    fmt::format("found R11 = {:g}, R22 = {:g}, R33 = {:g}, with which some stresses would "
+                                "never yield, expected 1/R of each to be less than the sum of the other two",
+                                own.R11, own.R22, own.R33));
   }
   if (!material.find("plastic"))
     diagnostics.add(
         Mistake::missing_key, table.where, table.path,
-        "found in an elastic material, expected a plastic law beside it: elasticity is isotropic");
+        "found in an elastic material, expected a plastic law beside it: it says where the material yields");
   return law;
 }
 
@@ -129,11 +149,23 @@ void read_elasticity(const Setting& table, const Setting& of, plasticity::Materi
                     "constants with which every strain stores energy",
                     ply.nu23, ply.nu12, ply.nu13));
   }
-  for (const char* other : {"plastic", "anisotropy", "equation_of_state", "damage"})
-    if (const Setting* found = of.find(other))
-      diagnostics.add(Mistake::conflict, found->where, found->path,
-                      "found beside an orthotropic elasticity, expected an isotropic one: plies are elastic "
-                      "until they fail");
+  if (const Setting* found = of.find("equation_of_state"))
+    diagnostics.add(Mistake::conflict, found->where, found->path,
+                    "found beside an orthotropic elasticity, expected an isotropic one: pressure alone would "
+                    "change the shape of a ply");
+  const Setting* plastic = of.find("plastic");
+  if (plastic && ply.measure == plasticity::StrainMeasure::green) {
+    const Setting& measure = *table.find("measure");
+    diagnostics.add(
+        Mistake::conflict, measure.where, measure.path,
+        "found \"green\" in a material that flows, expected \"log\": plastic strains add up in the "
+        "logarithm alone");
+  }
+  if (const Setting* failure = of.find("failure"); failure && plastic)
+    diagnostics.add(
+        Mistake::conflict, failure->where, failure->path,
+        "found beside a plastic law, expected one of them: failure by modes is that of plies that "
+        "are elastic until then, a ply that flows breaks by damage");
   if (const Setting* expansion = of.find("heat.expansion"); expansion && material_expands(*expansion))
     diagnostics.add(Mistake::conflict, expansion->where, expansion->path,
                     "found in an orthotropic material, expected 0: plies expand differently along and across "
@@ -205,6 +237,12 @@ void set_material_defaults(Setting& root, double temperature) {
       for (const char* key : {"r45", "r90"})
         root.set_default(fmt::format("{}.anisotropy.{}", entry.path, key), *along);
   for (const Setting& entry : root.entries("materials")) {
+    if (entry.maybe<std::string>("anisotropy.law") != plasticity::HillRatios::name) continue;
+    for (const auto& [key, of] : {std::pair{"R33", "R22"}, {"R13", "R12"}})
+      root.set_default(fmt::format("{}.anisotropy.{}", entry.path, key),
+                       entry.maybe<double>(fmt::format("anisotropy.{}", of)).value_or(1.0));
+  }
+  for (const Setting& entry : root.entries("materials")) {
     if (entry.maybe<std::string>("elastic.law") != plasticity::Orthotropic::name) continue;
     for (const auto& [key, of] : {std::pair{"E3", "E2"}, {"nu13", "nu12"}})
       if (const auto value = entry.maybe<double>(fmt::format("elastic.{}", of)))
@@ -234,15 +272,20 @@ namespace {
 void check_fall(const plasticity::Material& material, const Setting& table, Diagnostics& diagnostics) {
   const plasticity::Hardening::Fall fall = material.hardening->steepest_fall();
   const double least = material.anisotropy ? least_slope(material.anisotropy->form()) : 1.5;
-  const double limit = 2.0 * least * material.elasticity.mu();
+  const double limit = material.ply
+                           ? plasticity::least_ply_slope(*material.ply, material.yield_coefficients())
+                           : 2.0 * least * material.elasticity.mu();
   if (fall.slope < limit) return;
+  const std::string words =
+      material.ply ? "the least slope of its elastic way back"
+                   : fmt::format("{} shear moduli",
+                                 material.anisotropy ? fmt::format("{:.3g}", 2.0 * least) : "three");
   diagnostics.add(
       Mistake::range, table.where, table.path,
       fmt::format("found a flow stress that falls by {:.3g} GPa per strain at a plastic strain of "
-                  "{:.3g} and {:.4g} K, expected less than {} shear moduli, {:.3g} GPa: an "
+                  "{:.3g} and {:.4g} K, expected less than {}, {:.3g} GPa: an "
                   "increment of strain would have several stresses",
-                  fall.slope * 1e-9, fall.strain, fall.temperature,
-                  material.anisotropy ? fmt::format("{:.3g}", 2.0 * least) : "three", limit * 1e-9));
+                  fall.slope * 1e-9, fall.strain, fall.temperature, words, limit * 1e-9));
 }
 
 } // namespace
@@ -257,10 +300,10 @@ plasticity::Material read_material(const Setting& table, std::vector<std::string
   if (const Setting* failure = table.find("failure"))
     material.failure = read_failure(*failure, material, diagnostics);
   if (const Setting* anisotropy = table.find("anisotropy"))
-    material.anisotropy = read_anisotropy(*anisotropy, table, diagnostics);
+    material.anisotropy = read_anisotropy(*anisotropy, table, material.ply.has_value(), diagnostics);
   if (const Setting* plastic = table.find("plastic")) {
     material.hardening = read_law<plasticity::Hardening>(plasticity::HardeningLaws{}, *plastic, diagnostics);
-    if (material.hardening && !material.ply) check_fall(material, *plastic, diagnostics);
+    if (material.hardening) check_fall(material, *plastic, diagnostics);
     if (const Setting* range = plastic->find("range")) material.measured = read_range(*range, diagnostics);
   }
   if (const Setting* damage = table.find("damage"))

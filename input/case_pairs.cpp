@@ -5,6 +5,7 @@
 #include "input/case_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <vector>
 
@@ -60,8 +61,10 @@ const plasticity::Material* compressible(const Case& c) {
 const plasticity::Material* planar(const Case& c) {
   const auto found = std::find_if(c.materials.begin(), c.materials.end(), [](const plasticity::Material& m) {
     if (!m.anisotropy) return false;
-    const plasticity::Hill48& law = *m.anisotropy;
-    return law.normal != plasticity::Axis::y || law.r45 != law.r0 || law.r90 != law.r0 || law.L != law.M;
+    const auto [F, G, H, L, M, N] = m.anisotropy->coefficients();
+    const auto same = [scale = F + G + H](double a, double b) { return std::abs(a - b) <= 1e-12 * scale; };
+    return m.anisotropy->normal() != plasticity::Axis::y || !same(F, G) || !same(N, F + 2.0 * H) ||
+           !same(L, M);
   });
   return found == c.materials.end() ? nullptr : &*found;
 }
@@ -74,6 +77,9 @@ Text first_path(const Case& c, const char* key, bool (*holds)(const Metal&)) {
 }
 Text fibrous_path(const Case& c) {
   return first_path(c, ".elastic", [](const Metal& m) { return m.ply.has_value(); });
+}
+Text broken_ply_path(const Case& c) {
+  return first_path(c, ".damage", [](const Metal& m) { return m.ply && m.damage; });
 }
 bool fibrous(const Case& c) { return !fibrous_path(c).empty(); }
 bool failing(const Case& c) {
@@ -179,12 +185,14 @@ const std::vector<Pair>& pairs() {
        "it pushes along its motion alone", nullptr,
        [](const Case& c) { return "tools." + kinematic(c, stands)->name + ".response.law"; }},
 
-      {"materials.*.damage", "", "plane stress in explicit analyses", in_thin_dynamics,
-       "analysis.kinematics = \"plane strain\"",
-       "softening takes the mean stress and leaves one out of the plane", nullptr,
+      {"materials.*.damage", "that of an orthotropic material", "plane strain",
        [](const Case& c) {
-         return first_path(c, ".damage", [](const Metal& m) { return m.damage.has_value(); });
-       }},
+         return when(!broken_ply_path(c).empty() &&
+                         c.analysis.kinematics != Analysis::Kinematics::plane_stress,
+                     "without plane stress");
+       },
+       "analysis.kinematics = \"plane stress\"",
+       "plies have no law for a mean tension that flow does not take", nullptr, broken_ply_path},
       {"materials.*.equation_of_state", "", "plane stress in explicit analyses", in_thin_dynamics,
        "analysis.kinematics = \"plane strain\"", "its pressure would act out of the plane", nullptr,
        [](const Case& c) {

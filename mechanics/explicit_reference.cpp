@@ -29,6 +29,10 @@ ExplicitSolver<dim>::ExplicitSolver(Problem<dim> problem, Fields<dim> velocity, 
   state_.point.fibrous.switch_on(
       std::any_of(model_.materials.begin(), model_.materials.end(),
                   [](const plasticity::Material& material) { return material.ply.has_value(); }));
+  state_.point.flowing.switch_on(
+      std::any_of(model_.materials.begin(), model_.materials.end(), [](const plasticity::Material& material) {
+        return material.ply.has_value() && material.hardening.has_value();
+      }));
   state_.point.failing.switch_on(
       std::any_of(model_.materials.begin(), model_.materials.end(),
                   [](const plasticity::Material& material) { return material.failure.has_value(); }));

@@ -82,6 +82,7 @@ void ExplicitSolver<dim>::carry_over(const Resampling<dim>* change, const std::o
     mix_elastic(points->parcels, mass, tension, elastic_volume, model_.materials, point);
     to_initial_thickness(point);
     set_plies(plies, elastic_volume, point);
+    draw_back_plies(plies, model_.materials, point);
   }
   if (change && change->open()) rest_virgin(*change);
   each([&](Term<dim>& term) { term.carried(body()); });

@@ -45,7 +45,8 @@ void mix_elastic(const PointRows& parcels, const Field& mass, const Field& tensi
     const auto first = index_of(parcels.begin[p]), last = index_of(parcels.begin[p + 1]);
     auto elastic =
         plasticity::at_point<dim>(point.inverse_plastic_cauchy_green, index_of(parcels.from[first]));
-    if (last - first > 1) {
+    const plasticity::Material& material = materials[index_of(point.material[p])];
+    if (last - first > 1 && !material.ply) {
       elastic.setZero();
       double total = 0.0, volume = 0.0;
       for (std::size_t e = first; e < last; ++e) {
@@ -58,8 +59,8 @@ void mix_elastic(const PointRows& parcels, const Field& mass, const Field& tensi
         total += share;
       }
       elastic /= total;
-      const plasticity::Material& material = materials[index_of(point.material[p])];
-      const double softening = material.damage ? point.softening[p] : 0.0;
+      // in plane stress what has opened has flowed
+      const double softening = material.damage && !point.thin.on() ? point.softening[p] : 0.0;
       if (softening > 0.0 || !elastic_volume.empty()) { // gaps are volumes, which add
         const double dilated = elastic_volume.empty() ? volume / total : elastic_volume[p];
         elastic.template head<3>().array() +=

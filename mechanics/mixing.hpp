@@ -18,7 +18,8 @@ Field held_tension(const std::vector<plasticity::Material>& materials, const Poi
 /// is mixed with sound matter its gap must not come to bear on the latter: as much of the dilatation becomes
 /// an opening as leaves no more than the tension that the parts held. Expects all other fields of the points
 /// carried over already; mass [old point] kg/m^(3−dim); tension: held_tension() carried over; elastic_volume
-/// [new point]: the volume over the stress-free one, –, where cells tile the matter, else empty.
+/// [new point]: the volume over the stress-free one, –, where cells tile the matter, else empty. Plies are
+/// left to set_plies (mechanics/ply_mixing.hpp).
 template<int dim>
 void mix_elastic(const PointRows& parcels, const Field& mass, const Field& tension,
                  const Field& elastic_volume, const std::vector<plasticity::Material>& materials,

@@ -1,8 +1,10 @@
 #include "mechanics/ply_mixing.hpp"
 
 #include "core/index.hpp"
+#include "plasticity/damage.hpp"
 #include "plasticity/log_strain.hpp"
 #include "plasticity/ply_update.hpp"
+#include "plasticity/return_map.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -129,6 +131,21 @@ void set_plies(const PlyDeformation<dim>& plies, const Field& elastic_volume, Po
   }
 }
 
+template<int dim>
+void draw_back_plies(const PlyDeformation<dim>& plies, const std::vector<plasticity::Material>& materials,
+                     PointState<dim>& point) {
+  if constexpr (dim == 2) {
+    if (!point.flowing.on()) return;
+    const plasticity::StressPoints<2> points = plasticity::stress_points(point);
+    for (const auto& [p, mean] : plies) {
+      const plasticity::Material& material = materials[index_of(point.material[p])];
+      if (!material.hardening) continue;
+      const double share = material.damage ? plasticity::flow_share<2>(material, point, p, 0.0) : 1.0;
+      plasticity::draw_back(material, points, static_cast<std::ptrdiff_t>(p), share * point.strength[p]);
+    }
+  }
+}
+
 template<int dim> void to_present_thickness(PointState<dim>& point) {
   for (std::size_t p = 0; p < point.thickness.size(); ++p)
     point.inverse_plastic_cauchy_green[2][p] *= point.thickness[p] * point.thickness[p];
@@ -144,6 +161,8 @@ template<int dim> void to_initial_thickness(PointState<dim>& point) {
                                                 const std::vector<plasticity::Material>&, bool,              \
                                                 const PointState<dim>&);                                     \
   template void set_plies<dim>(const PlyDeformation<dim>&, const Field&, PointState<dim>&);                  \
+  template void draw_back_plies<dim>(const PlyDeformation<dim>&, const std::vector<plasticity::Material>&,   \
+                                     PointState<dim>&);                                                      \
   template void to_present_thickness<dim>(PointState<dim>&);                                                 \
   template void to_initial_thickness<dim>(PointState<dim>&);
 CNEM_INSTANTIATE(2)

@@ -25,6 +25,12 @@ PlyDeformation<dim> mixed_plies(const PointRows& parcels, const Field& mass,
 template<int dim>
 void set_plies(const PlyDeformation<dim>& plies, const Field& elastic_volume, PointState<dim>& point);
 
+/// Draws the stress of plies that flow back to the yield surface of the averaged state, by a plastic strain
+/// that does no work of its own. Expects set_plies.
+template<int dim>
+void draw_back_plies(const PlyDeformation<dim>& plies, const std::vector<plasticity::Material>& materials,
+                     PointState<dim>& point);
+
 /// In plane stress C_p⁻¹_zz is counted from the initial thickness: with that of the present one it is b_e, as
 /// mixing takes it, and back.
 template<int dim> void to_present_thickness(PointState<dim>& point);

@@ -17,14 +17,15 @@ double JohnsonCookDamage::fracture_strain(double triaxiality, double rate, doubl
 
 namespace {
 
-DamageParameters damage_parameters(const Material& material, double dt) {
+DamageParameters damage_parameters(const Material& material, double dt, bool relieves) {
   const Damage& damage = *material.damage;
   return {static_cast<int>(damage.law.index()),
           std::visit([](const auto& law) { return static_cast<const void*>(&law); }, damage.law),
           1.0 / damage.fracture_energy,
           material.elasticity.kappa(),
           0.5 / material.elasticity.kappa(),
-          dt};
+          dt,
+          relieves};
 }
 
 template<int dim>
@@ -69,7 +70,9 @@ DamageSums update_damage(const std::vector<Material>& materials, const std::vect
   DamageSums sums;
   for_each_run(materials, material, begin, end,
                [&](const Material& own, std::ptrdiff_t p, std::ptrdiff_t stop) {
-                 if (own.damage) sums.released += on_active_isa(damage_parameters(own, dt), points, p, stop);
+                 if (own.damage)
+                   sums.released +=
+                       on_active_isa(damage_parameters(own, dt, !points.stress.thickness), points, p, stop);
                });
   return sums;
 }

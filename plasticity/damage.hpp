@@ -35,9 +35,9 @@ DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, con
 /// so that a band of thickness ℓ takes G_f per area whatever it hardens and however long ℓ is, and 1 − ω
 /// falls linearly with ℓ ε̄p at constant flow stress. The mean stress is multiplied by 1 − ω in tension and
 /// kept in compression, in P, pressure and stored energy; what that lets go of the stored energy is returned.
-/// Dilatation up to the opening of a point, a gap that it holds, makes no tension.
-/// dt = 0: nothing evolves. Points of materials without damage are left alone. material[p] as for
-/// update_stress.
+/// In plane stress every tension is flow's to take, and what is left of it is ω's: nothing else is done
+/// there. Dilatation up to the opening of a point, a gap that it holds, makes no tension. dt = 0: nothing
+/// evolves. Points of materials without damage are left alone. material[p] as for update_stress.
 template<int dim>
 DamageSums update_damage(const std::vector<Material>& materials, const std::vector<std::int32_t>& material,
                          const DamagePoints<dim>& points, std::ptrdiff_t begin, std::ptrdiff_t end,

@@ -109,6 +109,7 @@ CNEM_INLINE void damage_step(const DamageParameters& parameters, const Law& law,
   if (parameters.dt > 0.0 && any(flowing))
     accumulate<dim, T>(parameters, law, points, p, flowing, load<T>(points.damage + p), gap, borne,
                        softening);
+  if (!parameters.relieves) return;
   const Mask<T> relieved = (pressure < T(0.0)) & ((softening > T(0.0)) | (gap > T(0.0)));
   if (!any(relieved)) return;
   const T energy = borne * borne * T(parameters.by_two_kappa);

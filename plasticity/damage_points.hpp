@@ -26,6 +26,7 @@ struct DamageParameters {
   double by_fracture_energy;  ///< m²/J
   double kappa, by_two_kappa; ///< Pa, 1/Pa
   double dt;                  ///< s
+  bool relieves;              ///< tension has to be taken: no flow takes it, as in plane stress
 };
 
 #define CNEM_DAMAGE(isa)                                                                                     \

@@ -5,16 +5,40 @@
 #include <iterator>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 namespace cnem::plasticity {
 
-Hill48::Coefficients Hill48::coefficients() const {
+bool HillCoefficients::convex() const {
+  return G + H > 0.0 && F * G + G * H + H * F > 0.0 && L > 0.0 && M > 0.0 && N > 0.0;
+}
+
+HillCoefficients Hill48::coefficients() const {
   const double G = 1.0 / (1.0 + r0), H = r0 * G, F = H / r90;
   return {F, G, H, L, M, (F + G) * (r45 + 0.5)};
 }
 
-HillForm Hill48::form() const {
-  const Coefficients c = coefficients();
+HillCoefficients HillRatios::coefficients() const {
+  const auto by_square = [](double R) { return 1.0 / (R * R); };
+  const double a = by_square(R11), b = by_square(R22), c = by_square(R33);
+  return {0.5 * (b + c - a),    0.5 * (c + a - b),    0.5 * (a + b - c),
+          1.5 * by_square(R23), 1.5 * by_square(R13), 1.5 * by_square(R12)};
+}
+
+HillCoefficients Anisotropy::coefficients() const {
+  return std::visit([](const auto& law) { return law.coefficients(); }, static_cast<const variant&>(*this));
+}
+
+HillForm Anisotropy::form() const {
+  return std::visit([](const auto& law) { return hill_form(law.coefficients(), law.rolling, law.normal); },
+                    static_cast<const variant&>(*this));
+}
+
+Axis Anisotropy::normal() const {
+  return std::visit([](const auto& law) { return law.normal; }, static_cast<const variant&>(*this));
+}
+
+HillForm hill_form(const HillCoefficients& c, Axis rolling, Axis normal) {
   const int along = static_cast<int>(rolling), across = static_cast<int>(normal);
   double opposite[3], shear[3]; // of the plane that an axis of the model is normal to
   for (const auto& [axis, difference, of_shear] :

@@ -16,6 +16,10 @@ Elasticity Elasticity::with_bulk_modulus(double kappa) const {
   return {9.0 * kappa * shear / both, (1.5 * kappa - shear) / both};
 }
 
+HillCoefficients Material::yield_coefficients() const {
+  return anisotropy ? anisotropy->coefficients() : Hill48{}.coefficients();
+}
+
 double Material::shear_modulus() const { return ply ? ply->G12 : elasticity.mu(); }
 
 double Material::wave_modulus(bool stress_free) const {

@@ -66,7 +66,7 @@ struct Material {
   std::optional<Orthotropic> ply;                ///< none: isotropic
   std::optional<Failure> failure;                ///< of a ply; none: never fails
   std::optional<Hardening> hardening;            ///< none: elastic
-  std::optional<Hill48> anisotropy;              ///< none: von Mises
+  std::optional<Anisotropy> anisotropy;          ///< none: von Mises
   std::optional<Damage> damage;                  ///< none: never breaks
   std::optional<MieGruneisen> equation_of_state; ///< none: the logarithmic law in compression too
   MeasuredRange measured;                        ///< of the hardening; it holds beyond as well
@@ -74,7 +74,8 @@ struct Material {
   double expansion_reference = 293.15;
   HeatCurves heat_curves; ///< factors of specific heat and conductivity
 
-  double shear_modulus() const; ///< Pa, μ or G12
+  HillCoefficients yield_coefficients() const; ///< of the anisotropy or von Mises
+  double shear_modulus() const;                ///< Pa, μ or G12
   /// Pa: λ + 2μ, without stress out of the plane E/(1 − ν²), of a ply the largest eigenvalue of its stiffness
   double wave_modulus(bool stress_free = false) const;
   double fastest_wave() const; ///< m/s, √(wave modulus/ρ), without strain out of the plane

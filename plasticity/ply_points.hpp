@@ -10,6 +10,7 @@ inline constexpr int ply_modes = 5;
 /// Pointers to fields, indexed [point], lists over modes [mode][point].
 struct PlyPoints {
   double* fibre_angle; ///< rad, of the fibres from +x at present; null: no point is of a ply
+  double* flow[3];     ///< –   E^p: ε11, ε22, γ12 in the axes of the ply; null: no ply flows
   // null where no ply fails
   double* damage[ply_modes]; ///< –      d, at most 0.99
   double* left[ply_modes];   ///< –      of the stiffness, 1 − d and less where it has opened further

@@ -1,5 +1,7 @@
 #include "plasticity/ply_update.hpp"
 
+#include "plasticity/ply_return.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,6 +66,37 @@ private:
   double c_ = 1.0, s_ = 0.0, large_ = 1.0, small_ = 1.0, mixed_ = 1.0;
 };
 
+/// Flow stress of a point at the mean rate of a step.
+class PointFlow : public StepFlow {
+public:
+  PointFlow(const Hardening& law, const StressPoints<2>& points, std::ptrdiff_t p, double dt)
+      : law_(law), strain_(points.plastic_strain[p]), temperature_(points.temperature[p]),
+        factor_(points.strength[p]), by_dt_(1.0 / dt) {}
+
+  double stress(double increment) const override {
+    return factor_ * law_.flow_stress(strain_ + increment, increment * by_dt_, temperature_);
+  }
+  double slope(double increment) const override {
+    const double strain = strain_ + increment, rate = increment * by_dt_;
+    return factor_ * (law_.hardening_modulus(strain, rate, temperature_) +
+                      by_dt_ * law_.rate_modulus(strain, rate, temperature_));
+  }
+
+private:
+  const Hardening& law_;
+  double strain_, temperature_, factor_, by_dt_;
+};
+
+class FixedFlow : public StepFlow {
+public:
+  explicit FixedFlow(double stress) : stress_(stress) {}
+  double stress(double) const override { return stress_; }
+  double slope(double) const override { return 0.0; }
+
+private:
+  double stress_;
+};
+
 /// A ply with everything that is the same at all of its points.
 class PlyUpdate {
 public:
@@ -71,6 +104,8 @@ public:
       : ply_(*material.ply), points_(points), dt_(dt), elastic_(ply_constants(ply_, points.thickness)),
         intact_(elastic_.stiffness()), cosine_(std::cos(ply_.angle)), sine_(std::sin(ply_.angle)) {
     if (material.failure) form_.emplace(*material.failure, elastic_);
+    if (material.hardening) return_.emplace(ply_, material.yield_coefficients(), points.thickness != nullptr);
+    hardening_ = material.hardening ? &*material.hardening : nullptr;
     speed_ = std::sqrt(std::max(intact_.Q11, intact_.Q22) / material.density);
   }
 
@@ -86,32 +121,87 @@ public:
     const Symmetric2 own = along(strain.value(), cosine_, sine_);
     const double e[3] = {own.xx, own.yy, 2.0 * own.xy};
     if (!(std::abs(e[0]) + std::abs(e[1]) + std::abs(e[2]) < 1e100)) return false;
-    const double undamaged[ply_modes] = {};
-    double damage[ply_modes] = {};
-    if (form_) fail(p, e, damage);
-    const PlyStress result = damaged_stress(elastic_, e, form_ ? damage : undamaged);
+    Nominal result;
+    if (!(return_ ? flow(p, e, result) : bear(p, e, result))) return false;
     const auto& s = result.stress;
+    const double zz = result.out;
     const Symmetric2 S =
         strain.second_piola(along({s[0], s[1], s[2]}, cosine_, -sine_)); // in the axes of the model
     const Matrix2 first = total * whole(S), piola = first * transposed(earlier),
                   tau = first * transposed(total);
     const double by_volume = 1.0 / before;
-    const double zz = elastic_.out_of_plane[0] * s[0] + elastic_.out_of_plane[1] * s[1];
     const double components[] = {piola.xx, piola.xy, piola.yx, piola.yy, zz};
     for (int k = 0; k < 5; ++k) points_.piola[k][p] = components[k] * by_volume;
     const double pressure = -(tau.xx + tau.yy + zz) / 3.0;
-    const double xx = tau.xx + pressure, yy = tau.yy + pressure, out = zz + pressure;
     points_.pressure[p] = pressure;
-    points_.equivalent_stress[p] = std::sqrt(1.5 * (xx * xx + yy * yy + out * out + 2.0 * tau.xy * tau.xy));
+    if (!return_) {
+      const double xx = tau.xx + pressure, yy = tau.yy + pressure, out = zz + pressure;
+      points_.equivalent_stress[p] = std::sqrt(1.5 * (xx * xx + yy * yy + out * out + 2.0 * tau.xy * tau.xy));
+    }
     points_.stored_energy[p] = result.energy;
-    points_.dissipation[p] = 0.0;
     points_.stress_free[p] = by_volume;
     points_.ply.fibre_angle[p] =
         std::atan2(total.yx * cosine_ + total.yy * sine_, total.xx * cosine_ + total.xy * sine_);
     return true;
   }
 
+  void draw_back(std::ptrdiff_t p, double factor) const {
+    const auto& f = points_.earlier_deformation;
+    const Strain strain({f[0][p], f[1][p], f[2][p], f[3][p]}, ply_.measure);
+    const Symmetric2 own = along(strain.value(), cosine_, sine_);
+    double plastic[3];
+    for (int k = 0; k < 3; ++k) plastic[k] = points_.ply.flow[k][p];
+    const FixedFlow flow_stress(factor * hardening_->flow_stress(points_.plastic_strain[p],
+                                                                 points_.plastic_rate[p],
+                                                                 points_.temperature[p]));
+    const PlyReturn::Result now =
+        (*return_)({own.xx, own.yy, 2.0 * own.xy}, plastic, &flow_stress, softening(p));
+    for (int k = 0; k < 3; ++k) points_.ply.flow[k][p] += now.flow[k];
+  }
+
 private:
+  /// ω of what stands closed: what has opened in flow has room to close in.
+  double softening(std::ptrdiff_t p) const {
+    constexpr double slack = 1e-9;
+    const bool closed = points_.ply.flow[0][p] + points_.ply.flow[1][p] <= slack;
+    return points_.softening && closed ? points_.softening[p] : 0.0;
+  }
+
+  struct Nominal {
+    double stress[3], out, energy; ///< Pa, J/m³: σ11, σ22, σ12 and σ33
+  };
+
+  /// Elastic, but for what fails.
+  bool bear(std::ptrdiff_t p, const double (&e)[3], Nominal& result) const {
+    double damage[ply_modes] = {};
+    if (form_) fail(p, e, damage);
+    const PlyStress borne = damaged_stress(elastic_, e, damage);
+    const auto& s = borne.stress;
+    result = {
+        {s[0], s[1], s[2]}, elastic_.out_of_plane[0] * s[0] + elastic_.out_of_plane[1] * s[1], borne.energy};
+    points_.dissipation[p] = 0.0;
+    return true;
+  }
+
+  /// Back to the yield surface; false, and nothing changes, where no way was found.
+  bool flow(std::ptrdiff_t p, const double (&e)[3], Nominal& result) const {
+    double before[3];
+    for (int k = 0; k < 3; ++k) before[k] = points_.ply.flow[k][p];
+    const PointFlow flow_stress(*hardening_, points_, p, dt_);
+    const PlyReturn::Result now = (*return_)(e, before, dt_ > 0.0 ? &flow_stress : nullptr, softening(p));
+    if (!now.found) return false;
+    result = {{now.stress[0], now.stress[1], now.stress[2]}, now.out, now.energy};
+    for (int k = 0; k < 3; ++k) points_.ply.flow[k][p] = before[k] + now.flow[k];
+    // as work is measured, by the trapezoid
+    const double work = 0.5 * (points_.equivalent_stress[p] + now.yield) * now.increment;
+    points_.equivalent_stress[p] = now.yield;
+    points_.plastic_strain[p] += now.increment;
+    points_.plastic_work[p] += work;
+    points_.dissipation[p] = work;
+    if (dt_ > 0.0) points_.plastic_rate[p] = now.increment / dt_;
+    return true;
+  }
+
   /// Damage at the strain e, and what its growth lets go.
   void fail(std::ptrdiff_t p, const double (&e)[3], double (&damage)[ply_modes]) const {
     const PlyPoints& ply = points_.ply;
@@ -206,6 +296,8 @@ private:
   PlyStiffness intact_;
   double cosine_, sine_;
   std::optional<FailureForm> form_;
+  std::optional<PlyReturn> return_; ///< of plies that flow
+  const Hardening* hardening_ = nullptr;
   double speed_; ///< m/s, of the fastest waves
 };
 
@@ -236,6 +328,10 @@ PlyStress damaged_stress(const PlyConstants& elastic, const double (&strain)[3],
     }
   for (int k = 0; k < 3; ++k) best.energy += 0.5 * best.stress[k] * strain[k];
   return best;
+}
+
+void draw_back(const Material& material, const StressPoints<2>& points, std::ptrdiff_t p, double factor) {
+  PlyUpdate(material, points, 0.0).draw_back(p, factor);
 }
 
 std::ptrdiff_t update_plies(const Material& material, const StressPoints<2>& points, std::ptrdiff_t begin,

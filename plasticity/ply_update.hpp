@@ -1,5 +1,6 @@
 #pragma once
-// Stresses of plies: hyperelastic in the strain since the stress-free state, with damage by modes.
+// Stresses of plies: hyperelastic in the strain since the stress-free state, with damage by modes, or with a
+// plastic strain.
 #include "plasticity/failure.hpp"
 #include "plasticity/material.hpp"
 #include "plasticity/stress_points.hpp"
@@ -24,9 +25,14 @@ PlyStress damaged_stress(const PlyConstants& elastic, const double (&strain)[3],
 
 /// update_stress (plasticity/return_map.hpp) of the points [begin, end) of a ply, in the plane: P of
 /// F_total = F F₀ with F₀ = earlier_deformation, per stress-free volume (of the initial thickness in plane
-/// stress). With a `failure` also its damage, dt in s; at 0 nothing grows.
+/// stress). With a `failure` also its damage, with a hardening law its plastic strain in the axes of the ply,
+/// of which T = Q : (½ ln C − E^p); dt in s; at 0 nothing grows.
 /// Returns the first point with det F ≤ 0 or no number, which stays as it was, or −1.
 std::ptrdiff_t update_plies(const Material& material, const StressPoints<2>& points, std::ptrdiff_t begin,
                             std::ptrdiff_t end, double dt);
+
+/// Lets point p of a ply that flows, on a new reference, flow without work or strain that count until its
+/// stress is within `factor` times the flow stress of its strain, rate and temperature.
+void draw_back(const Material& material, const StressPoints<2>& points, std::ptrdiff_t p, double factor);
 
 } // namespace cnem::plasticity

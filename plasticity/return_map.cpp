@@ -32,6 +32,8 @@ namespace {
 template<int dim> PlyPoints ply_points(PointState<dim>& state) {
   PlyPoints p{};
   p.fibre_angle = state.fibre_angle.data();
+  if (state.flowing.on())
+    for (std::size_t k = 0; k < 3; ++k) p.flow[k] = state.ply_flow[k].data();
   if (!state.failing.on()) return p;
   Field* const damage[] = {&state.fibre_tension_damage, &state.fibre_compression_damage,
                            &state.matrix_tension_damage, &state.matrix_compression_damage,
@@ -76,6 +78,7 @@ template<int dim> StressPoints<dim> stress_points(PointState<dim>& state) {
   p.dissipation = state.dissipation.data();
   p.stress_free = state.stress_free.data();
   if (state.thin.on()) p.thickness = state.thickness.data();
+  if (state.damaged.on()) p.softening = state.softening.data();
   if (state.fibrous.on()) p.ply = ply_points(state);
   return p;
 }

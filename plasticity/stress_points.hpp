@@ -36,6 +36,7 @@ template<int dim> struct StressPoints {
   double* stress_free;    ///< –     V_stress-free/V_reference = 1/√det C_p⁻¹
   // of some analyses and materials alone, which kernels do not see
   double* thickness; ///< –     of plane stress, present over initial; in: that of t_n; null: no such analysis
+  const double* softening; ///< –     ω at t_n; null: no material has a damage law
   PlyPoints ply;
 };
 

@@ -105,7 +105,7 @@ double flow_begins(const input::Case& input, const ExplicitSolver<2>& solver,
   const auto asked = cut_of(input);
   const plasticity::Material& material = metal(input);
   const contact::Tool<2>& punch = solver.conditions().contact.tools()[as<ToolIndex>(asked->punch)];
-  if (!material.hardening || (punch.drive && !punch.drive->spring)) return 0.0;
+  if (!material.hardening || material.ply || (punch.drive && !punch.drive->spring)) return 0.0;
   const double flow = starting_flow_stress(input, material, 0.0);
   const double stroke = std::max(0.0, StartingSurface<2>(solver).gap(*punch.shape, Vec2::Zero()).distance) +
                         cut.thickness * flow / (std::sqrt(3.0) * material.elasticity.mu());

@@ -26,7 +26,7 @@ constexpr Usual usual_expansion{"heat.expansion", "1/K", 1e-7, 3e-4, flowing_sol
 
 void doubt_sizes(const input::Case& input, const Material& material, Doubts& doubts) {
   const std::string table = "materials." + material.name;
-  doubt_size(input, table, usual_young, material.elasticity.young, doubts);
+  if (!material.ply) doubt_size(input, table, usual_young, material.elasticity.young, doubts);
   doubt_size(input, table, usual_density, material.density, doubts);
   doubt_size(input, table, usual_flow_stress, starting_flow_stress(input, material, 0.0), doubts);
   if (!input.analysis.thermal) return;
@@ -120,7 +120,7 @@ void doubt_materials(const input::Case& input, Doubts& doubts) {
     doubt_stiffness(input, material, doubts);
     if (!material.hardening) continue;
     doubt_sizes(input, material, doubts);
-    doubt_flow_over_young(input, material, doubts);
+    if (!material.ply) doubt_flow_over_young(input, material, doubts);
     doubt_hardening(input, material, doubts);
   }
 }

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "mechanics/kinematics.hpp"
+#include "plasticity/ply_return.hpp"
 
 #include <Eigen/LU>
 #include <array>
@@ -138,8 +139,9 @@ std::string beyond_yield(const StaticModel<dim>& model, const StaticSolution<dim
     double s[6] = {};
     for (std::size_t k = 0; k < solution.stress.size(); ++k) s[k] = solution.stress[k][p];
     all += volume[p];
-    if ((material.anisotropy ? hill_stress(material.anisotropy->form(), s)
-                             : von_mises(stress_at<dim>(solution.stress, p))) > yield)
+    if ((material.ply          ? plasticity::ply_yield_stress(*material.ply, material.yield_coefficients(), s)
+         : material.anisotropy ? hill_stress(material.anisotropy->form(), s)
+                               : von_mises(stress_at<dim>(solution.stress, p))) > yield)
       beyond += volume[p];
   }
   if (beyond == 0.0) return "";

@@ -171,6 +171,10 @@ template<int dim> struct PointState {
                            Shown{"fibre angle", "Angle of the fibres of a ply from +x, counter-clockwise",
                                  "deg", 3.14159265358979324 / 180.0, ColourMap::diverging}}};
 
+  FieldTable flowing{"solver/point", false}; ///< on where a ply flows
+  /// E^p: ε11, ε22, γ12 in the axes of the ply
+  TensorField<3> ply_flow{flowing, {"ply_flow", "1", Carry::mass_mean, Checkpoint::holds}};
+
   FieldTable failing{"solver/point", false}; ///< on where a ply fails; modes as in plasticity/ply_points.hpp
   ScalarField fibre_tension_damage{failing,
                                    ply_damage("fibre_tension_damage", "fibre damage, tension",
@@ -220,7 +224,7 @@ template<int dim> struct PointState {
   std::size_t size() const { return plastic_strain.size(); }
   /// All groups, as checkpoints and changes of the cloud go through them.
   std::vector<FieldTable*> tables() {
-    return {&table, &damaged, &traded, &oriented, &thin, &fibrous, &failing};
+    return {&table, &damaged, &traded, &oriented, &thin, &fibrous, &flowing, &failing};
   }
 };
 

@@ -52,18 +52,19 @@ void add_damage(Keys& k, const std::string& at) {
 }
 
 void add_anisotropy(Keys& k, const std::string& at) {
-  using Law = plasticity::Hill48;
-  k.add(at, table,
-        "Yield function of rolled sheet; without it von Mises', the same in all directions. Elasticity stays "
-        "isotropic. The directions of the sheet lie along axes of the model at the start and turn with the "
-        "material.");
-  k.add(at + ".law", choice, fmt::format("`{}`: {}.", Law::name, Law::formula))
-      .one_of({Law::name})
-      .required();
+  const std::vector<LawText> laws = law_texts(plasticity::AnisotropyLaws{});
+  k.add(
+      at, table,
+      "Yield function of rolled sheet and of plies; without it von Mises', the same in all directions. That "
+      "of a metal, whose elasticity stays isotropic, has its directions along axes of the model at the "
+      "start; "
+      "those of a ply (`elastic.law = \"orthotropic\"`) are along and across its fibres. They turn with the "
+      "material.");
+  add_law_choice(k, at, laws).required();
   add_source(k, at);
-  add_constants(k, at, constant_texts<Law>(Law::parameters));
+  add_law_constants(k, at, laws);
   const std::vector<std::string> axes(std::begin(plasticity::axis_names), std::end(plasticity::axis_names));
-  k.add(at + ".rolling", choice, "Axis of the model along the rolling direction.")
+  k.add(at + ".rolling", choice, "Axis of the model along the rolling direction, of a metal.")
       .one_of(axes)
       .fallback("\"x\"");
   k.add(at + ".normal", choice,

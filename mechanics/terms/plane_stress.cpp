@@ -11,8 +11,10 @@ public:
   void limit(const Body<dim>& body, StepLimit&) override {
     PointState<dim>& point = body.state.point;
     for (std::size_t p = 0; p < point.size(); ++p)
-      if (const plasticity::Material& material = body.material_of(p); !material.ply)
-        point.wave_modulus[p] = material.wave_modulus(true) * point.stress_free[p] / point.jacobian[p];
+      if (const plasticity::Material& material = body.material_of(p); !material.ply) {
+        const bool confined = material.damage && point.softening[p] == 1.0; // it may keep its thickness
+        point.wave_modulus[p] = material.wave_modulus(!confined) * point.stress_free[p] / point.jacobian[p];
+      }
   }
 };
 

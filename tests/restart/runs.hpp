@@ -28,6 +28,8 @@ std::string delaminating_case();
 std::string cracked_case();
 /// A ply that fails while the cloud changes.
 std::string ply_case();
+/// One that flows and breaks.
+std::string flowing_ply_case();
 /// Functions at Gauss points, contact by springs.
 std::string gauss_point_case();
 /// A cut through a window that moves.

@@ -362,6 +362,8 @@ const std::vector<SmallCase>& small_cases() {
       {"delaminating", delaminating_case()},
       {"window", window_case()},
       {"ply", ply_case()},
+      {"flowing_ply", flowing_ply_case()},
+      {"thin_breaking", "[analysis]\nkinematics = \"plane stress\"\n" + breaking},
       {"thin", "[analysis]\nkinematics = \"plane stress\"\n" + punched},
       {"layers", in_layers(separated)},
       {"set_back", set_back},

@@ -40,6 +40,8 @@ struct PlyPoint {
     state.thin.rest(1);
     state.failing.switch_on(material.failure.has_value());
     state.failing.rest(1);
+    state.flowing.switch_on(material.hardening.has_value());
+    state.flowing.rest(1);
     if (material.failure) state.failure_length[0] = length;
     set(Mat2::Identity(), 0.0);
   }
