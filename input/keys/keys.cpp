@@ -21,7 +21,8 @@ void add_general(Keys& k) {
         "Names of quantities that others are calculated from ([more](user_guide.md#variables)).");
   k.add("analysis", table, "What is computed.").always();
   k.add("analysis.type", choice,
-        "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution; `stability`: "
+        "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution; "
+        "`stability`: "
         "which depths a milling cut bears without chatter; `milling`: the cut in the time domain "
         "(docs/milling.md).")
       .one_of({"explicit", "static", "stability", "milling"})

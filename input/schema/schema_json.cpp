@@ -181,7 +181,8 @@ Json required_in(Family family) {
 std::string json_schema() {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "cnem case"}};
   schema.update(object_schema("", Needs::as_written));
-  const Json milling{{"properties", {{"type", {{"enum", {"stability", "milling"}}}}}}, {"required", {"type"}}};
+  const Json milling{{"properties", {{"type", {{"enum", {"stability", "milling"}}}}}},
+                     {"required", {"type"}}};
   schema["if"] = {{"properties", {{"analysis", milling}}}, {"required", {"analysis"}}};
   schema["then"] = required_in(Family::milling);
   schema["else"] = required_in(Family::bodies);
