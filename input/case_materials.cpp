@@ -94,12 +94,13 @@ std::optional<plasticity::Anisotropy> read_anisotropy(const Setting& table, cons
                                                       Diagnostics& diagnostics) {
   auto law = read_law<plasticity::Anisotropy>(plasticity::AnisotropyLaws{}, table, diagnostics);
   if (!law) return law;
-  std::visit([&](auto& own) { read_axes(table, own, diagnostics); },
-             static_cast<plasticity::Anisotropy::variant&>(*law));
-  if (ply)
+  if (!ply)
+    std::visit([&](auto& own) { read_axes(table, own, diagnostics); },
+               static_cast<plasticity::Anisotropy::variant&>(*law));
+  else
     for (const char* axis : {"rolling", "normal"})
-      if (const Setting& key = *table.find(axis); key.given)
-        diagnostics.add(Mistake::conflict, key.where, key.path,
+      if (const Setting* key = table.find(axis))
+        diagnostics.add(Mistake::conflict, key->where, key->path,
                         "found in an orthotropic material, expected none: 1 lies along its fibres, 2 across "
                         "them in the plane");
   if (!law->coefficients().convex()) {
@@ -244,6 +245,10 @@ void set_material_defaults(Setting& root, double temperature) {
   }
   for (const Setting& entry : root.entries("materials")) {
     if (entry.maybe<std::string>("elastic.law") != plasticity::Orthotropic::name) continue;
+    for (const char* axis : {"rolling", "normal"}) // those of a ply are its fibres'
+      if (const std::string path = fmt::format("{}.anisotropy.{}", entry.path, axis);
+          root.find(path) && !root.find(path)->given)
+        root.erase(path);
     for (const auto& [key, of] : {std::pair{"E3", "E2"}, {"nu13", "nu12"}})
       if (const auto value = entry.maybe<double>(fmt::format("elastic.{}", of)))
         root.set_default(fmt::format("{}.elastic.{}", entry.path, key), *value);
