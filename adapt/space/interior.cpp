@@ -198,7 +198,8 @@ bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules,
       if (guarded.too_near(place[index_of(g)])) barred[g] = 1;
     });
   }
-  const NodeGrid nodes(body.cloud().position, spacing);
+  const auto position = body.cloud().position; // a copy: insertions move the others in memory
+  const NodeGrid nodes(position, spacing);
   const std::size_t before = body.size();
   for (std::size_t g = 0; g < list.size(); ++g) {
     const Gap& gap = list[g];
