@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cnem::machining {
 
@@ -31,14 +32,17 @@ double steady_thickness(const MillingCut& cut, std::size_t tooth, double phi) {
   return cut.feed * share * std::sin(phi) + cutter.radius_of(tooth) - cutter.radius_of((tooth + n - 1) % n);
 }
 
-double thinnest_chip(const MillingCut& cut) {
+SteadyChips steady_chips(const MillingCut& cut) {
   const double from = cut.engagement.entry(cut.cutter), to = cut.engagement.exit(cut.cutter);
-  double least = infinite;
-  // Within a hundredth of the engagement of where the thickness is nothing anyway it does not count.
-  for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
+  const double foremost = std::clamp(0.5 * std::numbers::pi, from, to); // where sin φ is the largest
+  SteadyChips chips;
+  for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) {
+    chips.thickest = std::max(chips.thickest, steady_thickness(cut, j, foremost));
+    // Within a hundredth of the engagement of where the thickness is nothing anyway it does not count.
     for (int k = 1; k < 100; ++k)
-      least = std::min(least, steady_thickness(cut, j, from + 0.01 * k * (to - from)));
-  return least;
+      chips.thinnest = std::min(chips.thinnest, steady_thickness(cut, j, from + 0.01 * k * (to - from)));
+  }
+  return chips;
 }
 
 DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth, double phi, double spindle) {

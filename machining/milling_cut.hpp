@@ -22,8 +22,11 @@ using DirectionalFactors = Eigen::Matrix<double, 3, 2>;
 /// stands out beyond the tooth before it. Negative where the tooth misses the cut.
 double steady_thickness(const MillingCut& cut, std::size_t tooth, double phi);
 
-/// The smallest of all teeth where they cut, over the engagement; ≤ 0 where one misses the cut.
-double thinnest_chip(const MillingCut& cut);
+/// Of all teeth where they cut, over the engagement, m; thinnest ≤ 0 where one misses the cut.
+struct SteadyChips {
+  double thinnest = infinite, thickest = 0.0;
+};
+SteadyChips steady_chips(const MillingCut& cut);
 
 /// Per depth, at one angle: ∂F/∂(n·u) n, of the slope of the law at the steady thickness. N/m²
 DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth, double phi, double spindle);

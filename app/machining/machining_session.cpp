@@ -93,7 +93,7 @@ double deepest(const input::Case& input) {
 std::vector<std::string> milling_doubts(const input::Case& input) {
   const input::MachiningCase& milling = *input.machining;
   std::vector<std::string> doubts;
-  const double thinnest = machining::thinnest_chip(milling.cut);
+  const auto [thinnest, thickest] = machining::steady_chips(milling.cut);
   if (thinnest <= 0.0)
     doubts.push_back(
         input
@@ -103,11 +103,6 @@ std::vector<std::string> milling_doubts(const input::Case& input) {
                    "below milling.feed")
             .what());
   const auto [low, high] = milling.cut.law.thicknesses();
-  const double angle = std::clamp(0.5 * std::numbers::pi, milling.cut.engagement.entry(milling.cut.cutter),
-                                  milling.cut.engagement.exit(milling.cut.cutter));
-  double thickest = 0.0;
-  for (std::size_t j = 0; j < milling.cut.cutter.teeth(); ++j)
-    thickest = std::max(thickest, machining::steady_thickness(milling.cut, j, angle));
   if (thickest > high || thickest < low)
     doubts.push_back(
         input

@@ -101,12 +101,7 @@ void MillingRun::judge(const Course& steady) {
   status_.add_metric("milling.thickest[m]", steady.thickest);
   // Campomanes and Altintas (2003): chips a quarter thicker than without vibration are chatter.
   constexpr double chatter = 1.25;
-  double still = 0.0;
-  const double from = milling.cut.engagement.entry(milling.cut.cutter),
-               to = milling.cut.engagement.exit(milling.cut.cutter);
-  for (std::size_t j = 0; j < milling.cut.cutter.teeth(); ++j)
-    for (int k = 0; k <= 100; ++k)
-      still = std::max(still, machining::steady_thickness(milling.cut, j, from + 0.01 * k * (to - from)));
+  const double still = machining::steady_chips(milling.cut).thickest;
   const bool chatters = !milling.modes.empty() && steady.thickest > chatter * still;
   status_.add_metric("milling.chip_growth", steady.thickest / still);
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);

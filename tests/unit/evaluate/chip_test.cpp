@@ -181,6 +181,7 @@ TEST(Surface, has_its_height_roughness_and_layers) {
   EXPECT_EQ(surface.note, "");
   EXPECT_NEAR(surface.height, -0.01, 1e-6);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
+  EXPECT_NEAR(surface.Rz, 0.02, 1e-12);
   EXPECT_NEAR(surface.measured.to, -feed, 1e-12);
   EXPECT_NEAR(surface.layer, 0.02, 0.003);
   ASSERT_GT(surface.layers.size(), 20U);
@@ -206,6 +207,20 @@ TEST(Surface, behind_a_cut_that_has_hardly_begun_is_not_measured) {
                       {none, {none, none, none}, {none, none, none}, none, none, none}, feed);
   EXPECT_NE(surface.note.find("too short"), std::string::npos);
   EXPECT_TRUE(std::isnan(surface.roughness));
+  EXPECT_TRUE(std::isnan(surface.Rz));
+}
+
+TEST(Surface, a_scratch_counts_in_one_of_five_lengths) {
+  Cloud<2> cloud;
+  std::vector<Vec2> points{{-3, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}};
+  for (int k = 1; k < 150; ++k) points.emplace_back(-0.02 * k, k == 100 ? -0.07 : k % 2 ? -0.02 : 0.0);
+  testing::add_loop(cloud, points, 10.0);
+  const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
+  const std::vector<double> none(position.size(), 1.0);
+  const MachinedSurface surface =
+      measure_surface(cut_outline(cloud.facets, position), position,
+                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed);
+  EXPECT_NEAR(surface.Rz, (4 * 0.02 + 0.07) / 5, 1e-12);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "tests/unit/plasticity/points.hpp"
 
 #include <cmath>
+#include <gtest/gtest.h>
 #include <numbers>
 
 namespace cnem::plasticity::test {
@@ -67,6 +68,24 @@ inline Mat2 stretch(const Eigen::Vector3d& e, double angle) {
   const Eigen::SelfAdjointEigenSolver<Mat2> axes(E);
   return axes.eigenvectors() * axes.eigenvalues().array().exp().matrix().asDiagonal() *
          axes.eigenvectors().transpose();
+}
+
+/// P at F is the derivative of the stored energy, which is that of a step without time.
+inline void expect_derivative_of_energy(PlyPoint& point, const Mat2& F) {
+  ASSERT_TRUE(point.set(F, 0.0));
+  const Mat2 P = point.piola();
+  const double step = 1e-5;
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 2; ++k) {
+      double energy[2];
+      for (const int side : {0, 1}) {
+        Mat2 near = F;
+        near(i, k) += side == 0 ? -step : step;
+        ASSERT_TRUE(point.set(near, 0.0));
+        energy[side] = point.energy();
+      }
+      EXPECT_NEAR(P(i, k), (energy[1] - energy[0]) / (2.0 * step), 1e-7 * P.norm() + 1e-7 * 1e9) << i << k;
+    }
 }
 
 } // namespace cnem::plasticity::test

@@ -97,22 +97,8 @@ TEST(Ply, stress_is_the_derivative_of_the_energy) {
           point.set_earlier(random.deformation(0.4));
           if (damaged)
             for (Field& left : point.state.ply_left) left[0] = random.uniform(0.1, 1.0);
-          const Mat2 F = random.deformation(0.3);
-          ASSERT_TRUE(point.set(F, 0.0));
-          const Mat2 P = point.piola();
-          const double step = 1e-5;
-          for (int i = 0; i < 2; ++i)
-            for (int k = 0; k < 2; ++k) {
-              double energy[2];
-              for (const int side : {0, 1}) {
-                Mat2 near = F;
-                near(i, k) += side == 0 ? -step : step;
-                ASSERT_TRUE(point.set(near, 0.0));
-                energy[side] = point.energy();
-              }
-              EXPECT_NEAR(P(i, k), (energy[1] - energy[0]) / (2.0 * step), 1e-7 * P.norm() + 1e-7 * 1e9)
-                  << trial << " " << i << k;
-            }
+          SCOPED_TRACE(trial);
+          expect_derivative_of_energy(point, random.deformation(0.3));
         }
 }
 
