@@ -213,7 +213,7 @@ TEST(Surface, behind_a_cut_that_has_hardly_begun_is_not_measured) {
 TEST(Surface, a_scratch_counts_in_one_of_five_lengths) {
   Cloud<2> cloud;
   std::vector<Vec2> points{{-3, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}};
-  for (int k = 1; k < 150; ++k) points.emplace_back(-0.02 * k, k == 100 ? -0.07 : k % 2 ? -0.02 : 0.0);
+  for (int k = 1; k < 150; ++k) points.emplace_back(-0.02 * k, k == 80 ? -0.07 : k % 2 ? -0.02 : 0.0);
   testing::add_loop(cloud, points, 10.0);
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);
