@@ -51,8 +51,8 @@ public:
       const double length = step.norm();
       if (length < 1e-6 * h_[i]) continue; // leaves a perfect lattice alone
       const Vec2 x = cloud_.position[i] + step * std::min(1.0, 0.5 * h_[i] / length);
-      const double clearance = 0.45 * h_[i];
-      if (by_wall[i] && !(tree_.inside(x) && tree_.distance(x, clearance) >= clearance)) continue;
+      const double free_distance = 0.45 * h_[i];
+      if (by_wall[i] && !(tree_.inside(x) && tree_.distance(x, free_distance) >= free_distance)) continue;
       cloud_.position[i] = x;
     }
     undo_inversions(before);

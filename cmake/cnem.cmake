@@ -28,6 +28,23 @@ function(cnem_precompiled_headers target)
   target_precompile_headers(${target} REUSE_FROM cnem_headers)
 endfunction()
 
+# Compiles the files of a library together, twelve at a time; those whose UNITY_GROUP is set, with the files of that group.
+function(cnem_unity target)
+  get_target_property(sources ${target} SOURCES)
+  set(count 0)
+  foreach(source ${sources})
+    get_source_file_property(group ${source} UNITY_GROUP)
+    get_source_file_property(alone ${source} SKIP_UNITY_BUILD_INCLUSION)
+    if(group OR alone OR NOT source MATCHES "\\.cpp$")
+      continue()
+    endif()
+    math(EXPR batch "${count} / 12")
+    math(EXPR count "${count} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${batch})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # One static library per folder of the method, with the folders inside it. Files named *_kernel.cpp are compiled once per instruction set
 # (see cnem_kernel); app/main.cpp belongs to the executable.
 function(cnem_library folder)
@@ -54,7 +71,7 @@ function(cnem_library folder)
   cnem_warnings(cnem_${folder})
   cnem_precompiled_headers(cnem_${folder})
   if(CNEM_UNITY)
-    set_target_properties(cnem_${folder} PROPERTIES UNITY_BUILD ON)
+    cnem_unity(cnem_${folder})
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # takes each file for a header there, whose types others might see too
       target_compile_options(cnem_${folder} PRIVATE -Wno-subobject-linkage)
     endif()

@@ -10,7 +10,7 @@
 namespace cnem::contact {
 namespace {
 
-constexpr double skin_of_facets = 0.2; ///< skin over the mean length of facets
+constexpr double skin_of_tools = 0.2; ///< skin over the mean length of facets
 
 } // namespace
 
@@ -50,7 +50,7 @@ void NearTools<dim>::list(const Surface<dim>& surface, const Tools<dim>& tools, 
   shift_.resize(tools.size());
   double total = 0.0;
   for (const auto& facet : surface.facets) total += (position[facet[1]] - position[facet[0]]).norm();
-  skin_ = skin_of_facets * total / static_cast<double>(std::max<std::size_t>(surface.facets.size(), 1));
+  skin_ = skin_of_tools * total / static_cast<double>(std::max<std::size_t>(surface.facets.size(), 1));
   for (const ToolIndex t : tools.indices()) {
     const ToolShape<dim>& shape = *tools[t].shape;
     const Vec<dim> shift = shift_[t] = poses[t].end;

@@ -19,7 +19,7 @@ double arc_fraction(const CurvePiece& arc, const Vec2& x) {
   return angle / std::abs(arc.sweep());
 }
 
-double distance(const CurvePiece& piece, const Vec2& x) {
+double distance_to_piece(const CurvePiece& piece, const Vec2& x) {
   const double to_ends = std::min((x - piece.from).norm(), (x - piece.to).norm());
   if (piece.is_arc())
     return arc_fraction(piece, x) <= 1.0 ? std::abs((x - piece.centre).norm() - piece.radius) : to_ends;
@@ -104,11 +104,11 @@ std::vector<Vec2> meeting_points(const CurvePiece& a, const CurvePiece& b, doubl
   if (apart(a, b, tolerance)) return {};
   std::vector<Vec2> points;
   for (const Vec2& x : carrier_crossings(a, b))
-    if (distance(a, x) <= tolerance && distance(b, x) <= tolerance) points.push_back(x);
+    if (distance_to_piece(a, x) <= tolerance && distance_to_piece(b, x) <= tolerance) points.push_back(x);
   for (const Vec2& end : {a.from, a.to})
-    if (distance(b, end) <= tolerance) points.push_back(end);
+    if (distance_to_piece(b, end) <= tolerance) points.push_back(end);
   for (const Vec2& end : {b.from, b.to})
-    if (distance(a, end) <= tolerance) points.push_back(end);
+    if (distance_to_piece(a, end) <= tolerance) points.push_back(end);
   return points;
 }
 
@@ -139,7 +139,7 @@ std::optional<Vec2> common_point(const Curve& a, const Curve& b) {
 
 double distance(const Curve& curve, const Vec2& x) {
   double least = std::numeric_limits<double>::max();
-  for (const CurvePiece& piece : curve.pieces) least = std::min(least, distance(piece, x));
+  for (const CurvePiece& piece : curve.pieces) least = std::min(least, distance_to_piece(piece, x));
   return least;
 }
 

@@ -22,7 +22,7 @@ constexpr const char* kind = "calibration";
 constexpr double difference_step = 0.03; ///< of a place, for sensitivities
 
 /// Constants with their values, in words.
-std::string in_words(const Calibration& calibration, const Eigen::VectorXd& place) {
+std::string constants_in_words(const Calibration& calibration, const Eigen::VectorXd& place) {
   std::string text;
   for (std::size_t k = 0; k < calibration.constants.size(); ++k) {
     const SoughtConstant& constant = calibration.constants[k];
@@ -51,7 +51,7 @@ bool search_all(const Calibration& calibration, Evaluator& evaluator, std::vecto
         const VisitedPlace& visited = replay.end.course[shown];
         const Evaluation& evaluation = *evaluator.known(visited.place);
         fmt::print("start {}, evaluation {}: {}: {}\n", k + 1, shown + 1,
-                   in_words(calibration, visited.place),
+                   constants_in_words(calibration, visited.place),
                    evaluation.good() ? "misfit " + misfit_text(evaluation) : "FAILED: " + evaluation.failure);
       }
       if (replay.wanted.empty())

@@ -31,10 +31,10 @@ std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, 
   const auto ends_cut = [&](NodeIndex i) {
     return work.on_boundary(i) && !work.has_mates(i) && work.node().broken[index_of(i)] >= 1.0;
   };
-  std::vector<Waist> list;
+  std::vector<Waist> found;
   const auto consider = [&](NodeIndex i, NodeIndex start, double place, double distance) {
     const double thickness = distance / work.size_between(i, start);
-    if (thickness < film) list.push_back({thickness, i, start, place});
+    if (thickness < film) found.push_back({thickness, i, start, place});
   };
   for (const NodeIndex i : work.nodes())
     for (const NodeIndex k : structure.neighbours(i))
@@ -53,10 +53,10 @@ std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, 
       if (std::min(foot.place, 1.0 - foot.place) * length > foot.distance)
         consider(i, a, foot.place, foot.distance);
     }
-  std::sort(list.begin(), list.end(), [](const Waist& a, const Waist& b) {
+  std::sort(found.begin(), found.end(), [](const Waist& a, const Waist& b) {
     return std::tie(a.thickness, a.node, a.start) < std::tie(b.thickness, b.node, b.start);
   });
-  return list;
+  return found;
 }
 
 /// Puts a node on a facet, with the matter of the cell it takes. Returns its number; none, with nothing
@@ -94,13 +94,13 @@ void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules
   constexpr int most = 8; // cuts in one pass
   for (int k = 0; k < most; ++k) {
     const BoundaryLoops loops(work);
-    const std::vector<Waist> list = waists(work, structure, rules.film);
-    const auto cut = std::find_if(list.begin(), list.end(), [&](const Waist& waist) {
+    const std::vector<Waist> found = waists(work, structure, rules.film);
+    const auto cut = std::find_if(found.begin(), found.end(), [&](const Waist& waist) {
       const double length = waist.thickness * work.size_between(waist.node, waist.start);
       return loops.parts(waist.node, waist.start, rules.part * length, rules.least_loop) &&
              cut_at(work, structure, waist, rules);
     });
-    if (cut == list.end()) return;
+    if (cut == found.end()) return;
     ++report.films;
     ++report.cuts;
     ++report.opened;

@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace cnem::clouds {
 
 namespace {
-
-constexpr double straight = std::numeric_limits<double>::infinity();
 
 double radius_of(const CurvePiece& piece) { return piece.is_arc() ? piece.radius : straight; }
 

@@ -3,9 +3,13 @@
 #include "clouds/space/surface.hpp"
 
 #include <functional>
+#include <limits>
 #include <span>
 
 namespace cnem::clouds {
+
+/// The radius of curvature of a straight line.
+inline constexpr double straight = std::numeric_limits<double>::infinity();
 
 /// Vertices of the surface, by number.
 using Polyline = std::vector<std::int32_t>;

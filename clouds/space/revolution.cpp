@@ -14,7 +14,7 @@ namespace cnem::clouds {
 
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi, straight = std::numeric_limits<double>::infinity();
+constexpr double full_turn = 2.0 * std::numbers::pi;
 
 Vec3 turned(const Vec2& x, double angle) { return {x.x() * std::cos(angle), x.x() * std::sin(angle), x.y()}; }
 
@@ -231,7 +231,7 @@ private:
   void set_spacing(Patch& patch, const CurvePiece& piece, const Plane& plane) const {
     const SpaceSpacing& field = surface_.spacing();
     constexpr int samples = 400;
-    double coarsest = 0.0, finest = straight;
+    double coarsest = 0.0, finest = std::numeric_limits<double>::infinity();
     std::vector<double> at, value;
     for (int k = 0; k <= samples; ++k) {
       const double s = static_cast<double>(k) / samples, limit = curvature_radius(piece, s, plane.core);

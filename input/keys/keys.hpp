@@ -3,6 +3,7 @@
 #include "input/schema/schema.hpp"
 
 #include <initializer_list>
+#include <string_view>
 #include <utility>
 
 namespace cnem::input {
@@ -10,6 +11,12 @@ namespace cnem::input {
 /// What `content` of a file of triangles is.
 inline constexpr const char* stl_content =
     "Written into resolved cases: a checksum of the file. One with another is refused, as by a restart.";
+
+/// Whether a key is that of a path or within it.
+inline bool below(std::string_view key, std::string_view path) {
+  return key.starts_with(path) &&
+         (key.size() == path.size() || key[path.size()] == '.' || key[path.size()] == '[');
+}
 
 /// The key just added, to be completed in a chain of calls.
 class KeyDraft {

@@ -150,11 +150,6 @@ void add_stability(Keys& k) {
   k.add("stability.depths", integer, "").in({.low = 2, .high = 2000}).fallback("100");
 }
 
-bool below(const std::string& key, std::string_view path) {
-  return key.starts_with(path) &&
-         (key.size() == path.size() || key[path.size()] == '.' || key[path.size()] == '[');
-}
-
 } // namespace
 
 void add_machining(Keys& k) {

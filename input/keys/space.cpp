@@ -72,10 +72,6 @@ constexpr std::array scopes{
 constexpr std::array flat{"tools.*.start",  "tools.*.path",    "tools.*.rectangle", "tools.*.circle",
                           "tools.*.rotate", "tools.*.drawing", "tools.*.profile"};
 
-bool below(const std::string& key, const std::string& path) {
-  return key == path || key.starts_with(path + ".") || key.starts_with(path + "[");
-}
-
 } // namespace
 
 namespace {

@@ -14,8 +14,8 @@ namespace cnem::voronoi {
 
 namespace {
 
-using Corners = Simplex<2>;
-using Triangles = IndexedVector<SimplexIndex, Corners>;
+using NodesOfTriangle = Simplex<2>;
+using Triangles = IndexedVector<SimplexIndex, NodesOfTriangle>;
 
 /// A part of an old triangle.
 struct Part {
@@ -25,8 +25,8 @@ struct Part {
 
 class Overlaps {
 public:
-  Overlaps(const IndexedVector<NodeIndex, Vec2>& position, std::span<const Corners> old,
-           std::span<const Corners> now, Space space)
+  Overlaps(const IndexedVector<NodeIndex, Vec2>& position, std::span<const NodesOfTriangle> old,
+           std::span<const NodesOfTriangle> now, Space space)
       : position_(position), space_(space), old_(turned(old)), now_(turned(now)) {}
 
   SourceRows<SimplexIndex> run() {
@@ -39,10 +39,10 @@ private:
   const Vec2& at(NodeIndex i) const { return position_[i]; }
 
   /// Each counter-clockwise from its lowest node.
-  Triangles turned(std::span<const Corners> list) const {
+  Triangles turned(std::span<const NodesOfTriangle> list) const {
     Triangles triangles;
     triangles.reserve(list.size());
-    for (Corners corner : list) {
+    for (NodesOfTriangle corner : list) {
       std::rotate(corner.begin(), std::min_element(corner.begin(), corner.end()), corner.end());
       if (cross(at(corner[1]) - at(corner[0]), at(corner[2]) - at(corner[0])) < 0.0)
         std::swap(corner[1], corner[2]);
@@ -115,7 +115,7 @@ private:
   }
 
   /// The part that `b` has of `a`, seen from the first corner of a.
-  void common(const Corners& a, const Corners& b, Cutter& cutter) const {
+  void common(const NodesOfTriangle& a, const NodesOfTriangle& b, Cutter& cutter) const {
     const Vec2& origin = at(a[0]);
     cutter.polygon.clear();
     for (const NodeIndex i : b) cutter.polygon.emplace_back(at(i) - origin);
@@ -150,14 +150,14 @@ private:
     }
     return space_ == Space::plane ? area : origin.x() * area + moment;
   }
-  double volume_of(const Corners& corner) const {
+  double volume_of(const NodesOfTriangle& corner) const {
     const Vec2& origin = at(corner[0]);
     const std::array<Vec2, 3> seen{Vec2(0, 0), at(corner[1]) - origin, at(corner[2]) - origin};
     return volume_of(seen, origin);
   }
 
   /// Throws unless the parts of a triangle make up the whole.
-  void check_whole(const Corners& corner, double parts) const {
+  void check_whole(const NodesOfTriangle& corner, double parts) const {
     constexpr double loss = 1e-6, rounding = 1e-12;
     const double whole = volume_of(corner);
     double longest = 0.0;

@@ -39,11 +39,11 @@ using FaceBase =
                                               CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Unconstrained = CGAL::Delaunay_triangulation_2<Kernel, Structure>;
-using Delaunay =
+using ConstrainedDelaunay =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure,
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
-using Vertex = Delaunay::Vertex_handle;
-using Face = Delaunay::Face_handle;
+using Vertex = ConstrainedDelaunay::Vertex_handle;
+using Face = ConstrainedDelaunay::Face_handle;
 
 /// The work of one call of triangulate().
 class Builder {
@@ -101,14 +101,14 @@ private:
     try {
       for (const auto& facet : cloud_.facets)
         delaunay_.insert_constraint(vertex_[facet.node[0]], vertex_[facet.node[1]]);
-    } catch (const Delaunay::Intersection_of_constraints_exception&) { throw_crossing(cloud_); }
+    } catch (const ConstrainedDelaunay::Intersection_of_constraints_exception&) { throw_crossing(cloud_); }
     left_of_.resize(cloud_.facets.size());
     for (const CloudFacetIndex facet : cloud_.facets.indices()) {
       const Vertex a = vertex_[cloud_.facets[facet].node[0]], b = vertex_[cloud_.facets[facet].node[1]];
       Face face;
       int k = 0;
       if (!delaunay_.is_edge(a, b, face, k)) throw_node_on_facet(cloud_, facet);
-      if (face->vertex(Delaunay::ccw(k)) != a) {
+      if (face->vertex(ConstrainedDelaunay::ccw(k)) != a) {
         const Face other = face->neighbor(k);
         k = delaunay_.mirror_index(face, k);
         face = other;
@@ -194,10 +194,10 @@ private:
       const NodeIndex node = cloud_.facets[f].node[0];
       if (!is_merged_[node]) continue;
       SimplexIndex t = left_of_[f].first->info().triangle;
-      int k = Delaunay::ccw(left_of_[f].second);
+      int k = ConstrainedDelaunay::ccw(left_of_[f].second);
       while (true) {
         result_.node[t][index_of(k)] = node;
-        const int exit = Delaunay::ccw(k);
+        const int exit = ConstrainedDelaunay::ccw(k);
         const SimplexIndex next = result_.neighbour[t][index_of(exit)];
         if (!exists(next)) {
           const CloudFacetIndex last = result_.facet[t][index_of(exit)];
@@ -210,7 +210,7 @@ private:
         int back = 0;
         while (result_.neighbour[next][index_of(back)] != t) ++back;
         t = next;
-        k = Delaunay::ccw(back);
+        k = ConstrainedDelaunay::ccw(back);
       }
     }
   }
@@ -229,7 +229,7 @@ private:
 
   const Cloud<2>& cloud_;
   IndexedVector<NodeIndex, CloudFacetIndex> leaving_; ///< facet that leaves it
-  Delaunay delaunay_;
+  ConstrainedDelaunay delaunay_;
   IndexedVector<NodeIndex, Vertex> vertex_;
   IndexedVector<NodeIndex, bool> is_merged_; ///< shares its CGAL vertex
   bool merged_ = false;                      ///< any of them

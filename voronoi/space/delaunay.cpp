@@ -20,11 +20,11 @@ namespace cnem::voronoi {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<NodeIndex, Kernel>;
+using SpaceVertexBase = CGAL::Triangulation_vertex_base_with_info_3<NodeIndex, Kernel>;
 using CellBase = CGAL::Triangulation_cell_base_with_info_3<SimplexIndex, Kernel,
                                                            CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
 using Mesh =
-    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<SpaceVertexBase, CellBase>>;
 
 /// Nodes in an order in which the next one is near.
 std::vector<std::size_t> nearby_order(const std::vector<Kernel::Point_3>& points) {

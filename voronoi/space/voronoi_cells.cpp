@@ -94,13 +94,13 @@ bool draw_in_small_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const Fi
 }
 
 void add_boundary(const Cloud<3>& cloud, VoronoiCells& cells) {
-  using Place = std::array<double, 2>;
-  constexpr Place corner[3] = {{0, 0}, {1, 0}, {0, 1}}, middle[3] = {{0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+  using OnFacet = std::array<double, 2>;
+  constexpr OnFacet corner[3] = {{0, 0}, {1, 0}, {0, 1}}, middle[3] = {{0.5, 0}, {0.5, 0.5}, {0, 0.5}};
   cells.boundary.reserve(6 * cloud.facets.size());
   for (const CloudFacetIndex f : cloud.facets.indices())
     for (std::size_t a = 0; a < 3; ++a) {
       const NodeIndex node = cloud.facets[f].node[a];
-      const Place& centre = cells.points.on_facet[f];
+      const OnFacet& centre = cells.points.on_facet[f];
       cells.boundary.push_back({node, f, {corner[a], middle[a], centre}});
       cells.boundary.push_back({node, f, {corner[a], centre, middle[(a + 2) % 3]}});
     }
