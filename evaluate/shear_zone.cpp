@@ -23,9 +23,9 @@ template<class F> double root(const F& f, double low, double high, double at_low
   return 0.5 * (a + b);
 }
 
-class Zone {
+class PlaneBalance {
 public:
-  Zone(const plasticity::Material& material, const ShearZoneCut& cut)
+  PlaneBalance(const plasticity::Material& material, const ShearZoneCut& cut)
       : material_(material), cut_(cut), friction_(std::atan(cut.friction)) {}
 
   /// tan θ less what the shear plane can bear: 0 at the angle that is taken.
@@ -91,7 +91,7 @@ private:
 
 std::optional<ShearZone> shear_zone(const plasticity::Material& material, const ShearZoneCut& cut) {
   if (!material.hardening) return std::nullopt;
-  Zone zone(material, cut);
+  PlaneBalance zone(material, cut);
   const double low = degree, high = 89.0 * degree - std::max(0.0, std::atan(cut.friction) - cut.rake);
   if (!(high > low)) return std::nullopt;
   const double at_low = zone.unbalance(low), at_high = zone.unbalance(high);

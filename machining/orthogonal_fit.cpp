@@ -43,7 +43,7 @@ std::optional<PowerFit> fit_power(const std::vector<OrthogonalCut>& cuts, Estima
   if (!(line.slope.value > 0.0)) return std::nullopt;
   if (line.slope.value > 1.0) { // the law knows no pressure that grows with h: m = 0
     for (std::size_t k = 0; k < y.size(); ++k) y[k] -= x[k];
-    line = LineFit{.intercept = weighted_mean(y, error), .slope = {1.0, 0.0}, .residual = {}};
+    line = LineFit{.intercept = weighted_mean(y, error), .slope = {1.0, std::nan("")}, .residual = {}};
   }
   PowerFit fit;
   const double pressure = std::exp(line.intercept.value);

@@ -14,7 +14,7 @@ namespace cnem::machining {
 struct OrthogonalCut {
   std::string name;
   double thickness = 0.0, speed = 0.0, rake = 0.0; ///< m, of the uncut chip; m/s; rad
-  Estimate tangential, radial;                     ///< N/m of edge: along the cut, away from the workpiece
+  Estimate tangential{}, radial{};                 ///< N/m of edge: along the cut, away from the workpiece
   double chip_thickness = std::numeric_limits<double>::quiet_NaN(); ///< m; not-a-number: not known
 };
 

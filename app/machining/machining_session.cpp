@@ -96,7 +96,7 @@ namespace {
 std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
   const input::MachiningCase& milling = *input.machining;
   const machining::LawRange& holds = milling.law_range;
-  constexpr double degree = std::numbers::pi / 180.0, rounding = 1e-9;
+  constexpr double degree = std::numbers::pi / 180.0, rounding = 1e-6; // of numbers as files have them
   std::vector<std::string> doubts;
   const auto compare = [&](const Range& range, double value, const char* name, const std::string& what,
                            auto&& text) {

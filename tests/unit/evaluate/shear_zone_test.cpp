@@ -2,6 +2,7 @@
 #include "evaluate/shear_zone.hpp"
 
 #include "evaluate/material_point.hpp"
+#include "plasticity/hardening_laws.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -10,12 +11,12 @@
 namespace cnem::evaluate {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 plasticity::Material perfect(double yield) {
   plasticity::Material material;
   material.density = 2700.0;
-  plasticity::PerfectLaw law;
+  plasticity::Perfect law;
   law.yield = yield;
   material.hardening = plasticity::Hardening(law);
   return material;
@@ -26,7 +27,7 @@ plasticity::Material johnson_cook() {
   material.density = 7800.0;
   material.specific_heat = 480.0;
   material.conductivity = 40.0;
-  plasticity::JohnsonCookLaw law;
+  plasticity::JohnsonCook law;
   law.A = 550e6;
   law.B = 600e6;
   law.n = 0.25;
@@ -40,12 +41,13 @@ plasticity::Material johnson_cook() {
 }
 
 TEST(ShearZone, OfPerfectMetalSolvesOxleysEquation) {
-  const ShearZoneCut cut{.feed = 0.3e-3, .speed = 13.0, .rake = 17.5 * degree};
+  const ShearZoneCut cut{.feed = 0.3e-3, .speed = 13.0, .rake = 17.5 * one_degree};
   const auto zone = shear_zone(perfect(440e6), cut);
   ASSERT_TRUE(zone);
   const double phi = zone->shear_angle, theta = phi - cut.rake, k = 440e6 / std::numbers::sqrt3;
   EXPECT_NEAR(std::tan(theta), 1.0 + 2.0 * (0.25 * std::numbers::pi - phi), 1e-9);
-  EXPECT_NEAR(zone->Fc, k * cut.feed * std::cos(cut.rake) / (std::sin(phi) * std::cos(theta)), 1e-6 * zone->Fc);
+  EXPECT_NEAR(zone->Fc, k * cut.feed * std::cos(cut.rake) / (std::sin(phi) * std::cos(theta)),
+              1e-6 * zone->Fc);
   EXPECT_NEAR(zone->Ft / zone->Fc, -std::tan(cut.rake), 1e-9) << "no friction draws the tool in";
   EXPECT_NEAR(zone->chip_thickness, cut.feed * std::cos(theta) / std::sin(phi), 1e-12);
   EXPECT_NEAR(zone->Fc / cut.feed, 386e6, 0.05 * 386e6) << "Lee and Shaffer";
@@ -53,7 +55,7 @@ TEST(ShearZone, OfPerfectMetalSolvesOxleysEquation) {
 }
 
 TEST(ShearZone, WorkOfTheForceIsThatOfZoneAndFriction) {
-  const ShearZoneCut cut{.feed = 0.2e-3, .speed = 3.0, .rake = 5.0 * degree, .friction = 0.5};
+  const ShearZoneCut cut{.feed = 0.2e-3, .speed = 3.0, .rake = 5.0 * one_degree, .friction = 0.5};
   const auto zone = shear_zone(johnson_cook(), cut);
   ASSERT_TRUE(zone);
   const double phi = zone->shear_angle, ratio = cut.feed / zone->chip_thickness;
@@ -67,7 +69,7 @@ TEST(ShearZone, WorkOfTheForceIsThatOfZoneAndFriction) {
 }
 
 TEST(ShearZone, TemperatureIsThatOfItsWork) {
-  const ShearZoneCut cut{.feed = 0.2e-3, .speed = 3.0, .rake = 5.0 * degree, .friction = 0.5};
+  const ShearZoneCut cut{.feed = 0.2e-3, .speed = 3.0, .rake = 5.0 * one_degree, .friction = 0.5};
   plasticity::Material insulating = johnson_cook();
   insulating.conductivity = 0.0;
   const auto zone = shear_zone(insulating, cut);
@@ -76,9 +78,10 @@ TEST(ShearZone, TemperatureIsThatOfItsWork) {
   const double work = 2.0 * zone->strain * zone->flow_stress;
   EXPECT_NEAR(zone->temperature - cut.temperature,
               insulating.taylor_quinney * work / (insulating.density * insulating.specific_heat), 1e-6);
-  EXPECT_NEAR(zone->flow_stress,
-              flow_stress_of(insulating, zone->strain, zone->rate, zone->temperature), 1.0);
-  EXPECT_LT(shear_zone(johnson_cook(), cut)->temperature, zone->temperature) << "some goes into the workpiece";
+  EXPECT_NEAR(zone->flow_stress, flow_stress_of(insulating, zone->strain, zone->rate, zone->temperature),
+              1.0);
+  EXPECT_LT(shear_zone(johnson_cook(), cut)->temperature, zone->temperature)
+      << "some goes into the workpiece";
 }
 
 TEST(ShearZone, FrictionMakesChipsThickerAndHeatForcesSmaller) {

@@ -9,7 +9,7 @@
 namespace cnem::machining {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 /// Forces of a linear law with Gaussian noise.
 struct MadeUp {
@@ -22,7 +22,7 @@ struct MadeUp {
     std::normal_distribution<double> normal;
     std::vector<OrthogonalCut> list;
     for (const double h : thicknesses) {
-      OrthogonalCut cut{.name = "cut", .thickness = h, .speed = 2.0, .rake = 10.0 * degree};
+      OrthogonalCut cut{.name = "cut", .thickness = h, .speed = 2.0, .rake = 10.0 * one_degree};
       for (const auto& [force, exact] :
            {std::pair{&cut.tangential, Ktc * h + Kte}, {&cut.radial, Krc * h + Kre}})
         *force = {exact * (1.0 + std::hypot(own, between) * normal(engine)), own * exact};
@@ -120,7 +120,7 @@ TEST(OrthogonalFit, ShearPlaneGivesTheLinearLawBack) {
   ObliqueLaw law;
   law.shear_stress = plane->shear_stress.value;
   law.friction_angle = plane->friction_angle.value;
-  law.rake = 10.0 * degree;
+  law.rake = 10.0 * one_degree;
   law.chip_ratio = plane->chip_ratio.value;
   law.inclination = 0.0;
   EXPECT_NEAR(law.pressures(1e-4)[0], 767e6, 1.0);
@@ -143,7 +143,7 @@ TEST(OrthogonalFit, GroupsAndTablesOverRakesAndSpeeds) {
   for (const double rake : {10.0, 0.0})
     for (const double speed : {4.0, 2.0})
       for (const double h : {2e-4, 1e-4}) {
-        OrthogonalCut cut{.name = "", .thickness = h, .speed = speed * (1.0 + h), .rake = rake * degree};
+        OrthogonalCut cut{.name = "", .thickness = h, .speed = speed * (1.0 + h), .rake = rake * one_degree};
         cut.tangential.value = 1e9 * h + 1e3 * speed - 100.0 * rake;
         cuts.push_back(cut);
       }

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 class Coefficients : public ::testing::Test {
 protected:
@@ -33,7 +33,7 @@ protected:
     result.tool = "cutter";
     result.feed = feed;
     result.width = 2e-3;
-    result.rake = rake * degree;
+    result.rake = rake * one_degree;
     result.speed = speed;
     result.steady = true;
     result.steady_from = feed;
@@ -84,8 +84,9 @@ protected:
   }
   Json json() const { return Json::parse(results::read_file(folder / "coefficients.json")); }
   input::Case milling(const std::vector<std::string>& set = {}) const {
-    write("case.toml", "[analysis]\ntype = \"milling\"\n[cutter]\ndiameter = \"12 mm\"\nteeth = 3\n[cutting]\nlaw "
-                       "= \"law.toml\"\n[milling]\nspeed = \"3000 rpm\"\nfeed = \"0.1 mm\"\naxial_depth = \"2 mm\"\n");
+    write("case.toml",
+          "[analysis]\ntype = \"milling\"\n[cutter]\ndiameter = \"12 mm\"\nteeth = 3\n[cutting]\nlaw "
+          "= \"law.toml\"\n[milling]\nspeed = \"3000 rpm\"\nfeed = \"0.1 mm\"\naxial_depth = \"2 mm\"\n");
     return input::read_case((folder / "case.toml").string(), set);
   }
 
@@ -122,12 +123,14 @@ TEST_F(Coefficients, its_law_is_one_that_milling_reads) {
   };
   const double h = 0.1e-3;
   const Vec3 there = force(milling(), h);
-  EXPECT_NEAR(there[0], linear.at("Ktc").at("value").get<double>() * h + linear.at("Kte").at("value").get<double>(),
+  EXPECT_NEAR(there[0],
+              linear.at("Ktc").at("value").get<double>() * h + linear.at("Kte").at("value").get<double>(),
               1e-6 * there[0]);
-  EXPECT_NEAR(there[1], linear.at("Krc").at("value").get<double>() * h + linear.at("Kre").at("value").get<double>(),
+  EXPECT_NEAR(there[1],
+              linear.at("Krc").at("value").get<double>() * h + linear.at("Kre").at("value").get<double>(),
               1e-6 * there[0]);
   EXPECT_NEAR(milling().machining->law_range.thickness.high, 0.3e-3, 1e-12);
-  EXPECT_NEAR(milling().machining->law_range.rake.low, 10.0 * degree, 1e-9);
+  EXPECT_NEAR(milling().machining->law_range.rake.low, 10.0 * one_degree, 1e-9);
   // Straight edges: the oblique law of the shear plane is the linear one.
   EXPECT_NEAR(force(milling({"cutting.forces.law=oblique"}), h)[0], there[0], 1e-5 * there[0]);
   EXPECT_NEAR(force(milling({"cutting.forces.law=kienzle"}), h)[0], there[0], 0.05 * there[0]);
@@ -174,7 +177,8 @@ TEST_F(Coefficients, what_is_no_sweep_is_refused) {
   EXPECT_NE(refusal().find("found 0 steady cuts, expected two thicknesses"), std::string::npos) << refusal();
   add(cut(0.1e-3, 10.0, 2.0, 1e5, 1e4));
   add_failed("wild", "the step fell to nothing");
-  EXPECT_NE(refusal().find("left out:\n  wild: failed: the step fell to nothing"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("left out:\n  wild: failed: the step fell to nothing"), std::string::npos)
+      << refusal();
   manifest["kind"] = "comparison";
   EXPECT_NE(refusal().find("holds the runs of a comparison, expected those of a sweep"), std::string::npos)
       << refusal();
