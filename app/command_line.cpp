@@ -15,6 +15,7 @@
 #include "report/report.hpp"
 #include "results/output_folder.hpp"
 #include "study/calibration.hpp"
+#include "study/coefficients.hpp"
 #include "study/compare.hpp"
 #include "study/sweep.hpp"
 
@@ -250,6 +251,12 @@ int act(CLI::App& program, int argc, char** argv) {
                    "runs at a time (default: as the calibration says, else one for each core)")
       ->check(at_least_one);
 
+  CLI::App* coefficients_command = program.add_subcommand(
+      "coefficients", "make a cutting law of a finished sweep of orthogonal cuts (docs/cutting.md)");
+  std::string cuts_folder;
+  coefficients_command->add_option("folder", cuts_folder, "folder of results of a sweep; law.toml goes there")
+      ->required();
+
   CLI::App* compare_command =
       program.add_subcommand("compare", "run a case with several methods and lay their results side by side");
   CaseOptions compare_options;
@@ -310,6 +317,7 @@ int act(CLI::App& program, int argc, char** argv) {
     calibration_options.version = version();
     return study::calibrate(calibration, calibration_options);
   }
+  if (*coefficients_command) return study::coefficients(cuts_folder, version());
   if (*compare_command) {
     const study::Comparison comparison{.case_file = compare_options.file(),
                                        .methods = methods,

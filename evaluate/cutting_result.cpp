@@ -199,14 +199,17 @@ void write_cutting(const fs::path& folder, const CuttingResult& result) {
   results::write_atomically(folder / results::files::cutting, writer.json.dump(1) + "\n");
 }
 
+std::optional<CuttingResult> read_cutting_numbers(const fs::path& folder) {
+  return read_evaluation(folder / results::files::cutting, [](const Json& json) {
+    CuttingResult written;
+    JsonReader reader(json);
+    carry_cut(written, reader);
+    return written;
+  });
+}
+
 std::optional<CuttingResult> read_cutting(const fs::path& folder) {
-  std::optional<CuttingResult> result =
-      read_evaluation(folder / results::files::cutting, [](const Json& json) {
-        CuttingResult written;
-        JsonReader reader(json);
-        carry_cut(written, reader);
-        return written;
-      });
+  std::optional<CuttingResult> result = read_cutting_numbers(folder);
   if (!result) return result;
   each_table(*result, [&](const char* name, results::HistoryTable& table) {
     table = results::read_history(table_path(folder, name));

@@ -83,6 +83,8 @@ std::vector<std::pair<std::string, double>> metrics_of(const CuttingResult& resu
 
 /// Written atomically to `folder`/cutting.json and the tables but `course`. Throws IoError.
 void write_cutting(const std::filesystem::path& folder, const CuttingResult& result);
+/// Without the tables. Empty when there is no such file. Throws IoError when it cannot be read.
+std::optional<CuttingResult> read_cutting_numbers(const std::filesystem::path& folder);
 /// With all tables. Empty when there is no such file. Throws IoError when one cannot be read.
 std::optional<CuttingResult> read_cutting(const std::filesystem::path& folder);
 

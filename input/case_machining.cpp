@@ -42,6 +42,38 @@ machining::Cutter read_cutter(const Setting& table, Diagnostics& diagnostics) {
   return cutter;
 }
 
+/// Two numbers of the table `range`; everywhere without them.
+Range read_range(const Setting& range, const char* name, Diagnostics& diagnostics) {
+  const Setting* given = range.find(name);
+  if (!given) return {};
+  const auto& ends = std::get<std::vector<double>>(given->value);
+  if (ends.size() == 2 && ends[0] <= ends[1]) return {.low = ends[0], .high = ends[1]};
+  diagnostics.add(ends.size() == 2 ? Mistake::range : Mistake::type, given->where, given->path,
+                  fmt::format("found {} numbers{}, expected two of them, the smaller one first, such as {}",
+                              ends.size(), ends.size() == 2 ? " that fall" : "", given->key->example_text()));
+  return {};
+}
+
+void read_cutting_law(const Setting& root, MachiningCase& read, Diagnostics& diagnostics) {
+  const Setting& forces = *root.find("cutting.forces");
+  if (auto law = read_law<machining::CuttingLaw>(machining::CuttingLaws{}, forces, diagnostics))
+    read.cut.law = *law;
+  if (const Setting* range = forces.find("range"))
+    read.law_range = {read_range(*range, "thickness", diagnostics), read_range(*range, "speed", diagnostics),
+                      read_range(*range, "rake", diagnostics)};
+  read.rake = root.maybe<double>("cutter.rake");
+  if (const Setting* rakes = forces.find("rakes");
+      rakes && read.cut.law.known().several_rakes() && !read.rake)
+    diagnostics.add(
+        Mistake::missing_key, root.find("cutter")->where, "cutter.rake",
+        fmt::format("missing, expected an angle such as \"10 deg\": the law is over several rakes "
+                    "({})",
+                    rakes->where.text()));
+  read.law_range = common(read.law_range, read.cut.law.known());
+  read.cut.law.incline(read.cut.cutter.helix);
+  read.cut.law.take_rake(read.rake.value_or(0.0));
+}
+
 NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
   NamedMode mode;
   mode.name = table.name;
@@ -108,10 +140,7 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, feed.where, feed.path,
                     fmt::format("found {:g} m, expected less than the radius of the cutter, {:g} m",
                                 read.cut.feed, 0.5 * diameter));
-  if (auto law = read_law<machining::CuttingLaw>(machining::CuttingLaws{}, *root.find("cutting.forces"),
-                                                 diagnostics))
-    read.cut.law = *law;
-  read.cut.law.incline(read.cut.cutter.helix);
+  read_cutting_law(root, read, diagnostics);
   for (const Setting& table : root.entries("modes")) read.modes.push_back(read_mode(table, diagnostics));
   if (const Setting* modes = root.find("modes")) check_modes(*modes, read, diagnostics);
   if (read.modes.empty() && result.analysis.type == Analysis::Type::stability)

@@ -30,10 +30,12 @@ struct DexelSettings {
 
 struct MachiningCase {
   machining::MillingCut cut;
-  double speed = 0.0;       ///< rad/s of the spindle
-  double axial_depth = 0.0; ///< m
-  double length = 0.0;      ///< m, of the path of the axis in the time domain
-  bool entry = false;       ///< which begins beside the workpiece
+  std::optional<double> rake;    ///< rad, of the edges
+  machining::LawRange law_range; ///< from where to where the law holds, as the case says
+  double speed = 0.0;            ///< rad/s of the spindle
+  double axial_depth = 0.0;      ///< m
+  double length = 0.0;           ///< m, of the path of the axis in the time domain
+  bool entry = false;            ///< which begins beside the workpiece
   DexelSettings dexels;
   std::vector<NamedMode> modes;
   StabilityRange stability;

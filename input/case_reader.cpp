@@ -4,6 +4,7 @@
 #include "input/cutting.hpp"
 #include "input/drawings/outlines.hpp"
 #include "input/included_files.hpp"
+#include "input/law_file.hpp"
 #include "input/library.hpp"
 #include "input/local_origin.hpp"
 #include "input/schema/nearest.hpp"
@@ -210,8 +211,9 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   name_single_experiment(document);
   Diagnostics diagnostics;
   Case result;
-  result.variables = apply_variables(document, changes, diagnostics, result.warnings);
   const bool milling = family_of(document) == Family::milling;
+  if (milling) take_law_from_file(document, std::filesystem::path(path).parent_path());
+  result.variables = apply_variables(document, changes, diagnostics, result.warnings);
   if (!milling) {
     take_from_library(document, diagnostics);
     take_from_drawings(document, std::filesystem::path(path).parent_path(), diagnostics);

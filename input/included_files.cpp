@@ -26,7 +26,7 @@ void merge(Value& into, Value from) {
   }
 }
 
-/// Drawings and triangles that an included file names are seen from its folder.
+/// Drawings and triangles that an included file names are seen from its folder, and so are cutting laws.
 void place_drawings(Value& value, const fs::path& folder) {
   for (Member& member : value.members) {
     const bool names_file = member.key == "drawing" || member.key == "stl";
@@ -78,6 +78,9 @@ private:
     Value document = expand(read_document(path.string()), path.parent_path());
     open_.pop_back();
     place_drawings(document, fs::path(name.text).parent_path());
+    if (Member* cutting = document.find("cutting"))
+      if (Member* law = cutting->value.find("law"); law && law->value.kind == Kind::text)
+        law->value.text = (fs::path(name.text).parent_path() / law->value.text).string();
     return document;
   }
 

@@ -165,6 +165,47 @@ bool holds_manifest(const fs::path& folder, const std::string& kind, bool force)
   }
 }
 
+std::vector<RunNote> read_run_notes(const fs::path& folder, const std::string& kind) {
+  if (!fs::is_directory(folder))
+    throw InputError(
+        fmt::format("there is no folder {}, expected the results of a {}", folder.string(), kind));
+  if (!fs::exists(folder / manifest_file))
+    throw InputError(fmt::format("{} holds {}, expected the results of a {}", folder.string(),
+                                 results::holds_run(folder) ? "a single run" : "no manifest.json of runs",
+                                 kind));
+  std::vector<Json> entries;
+  try {
+    const Json manifest = *read_manifest(folder);
+    if (const std::string made = manifest.value("kind", "sweep"); made != kind)
+      throw InputError(
+          fmt::format("{} holds the runs of a {}, expected those of a {}", folder.string(), made, kind));
+    for (const Json& entry : manifest.at("runs")) entries.push_back(entry);
+    std::vector<fs::path> parts;
+    for (const auto& file : fs::directory_iterator(folder))
+      if (file.path().filename().string().ends_with(".part.json")) parts.push_back(file.path());
+    std::sort(parts.begin(), parts.end());
+    for (const fs::path& part : parts) {
+      const Json note = Json::parse(results::read_file(part));
+      std::erase_if(entries, [&](const Json& old) { return old.at("name") == note.at("name"); });
+      entries.push_back(note);
+    }
+    std::vector<RunNote> notes;
+    for (const Json& entry : entries) {
+      RunNote& note = notes.emplace_back();
+      note.name = entry.at("name");
+      note.done = entry.at("state") == state_name(State::done);
+      if (!note.done)
+        note.reason =
+            fmt::format("{}{}", entry.at("state").get<std::string>(),
+                        entry.contains("reason") ? ": " + entry.at("reason").get<std::string>() : "");
+    }
+    return notes;
+  } catch (const Json::exception& error) {
+    throw IoError(fmt::format("{} is not the manifest of a {}: {}", (folder / manifest_file).string(), kind,
+                              error.what()));
+  }
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);

@@ -190,7 +190,8 @@ Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
   result.best = found;
   const std::optional<Eigen::MatrixXd> jacobian = jacobian_at(found.place, evaluator);
   if (!jacobian) return interrupted();
-  result.inference = infer(calibration, found.residual, *jacobian, found.lengths);
+  result.inference = infer(calibration, found.residual, *jacobian, found.lengths, found.known_variance);
+  result.logarithmic = logarithmic_values(calibration, found.place, *jacobian);
   result.evaluations = evaluator.count();
   result.failures = evaluator.failures();
   write(folder,

@@ -41,7 +41,24 @@ struct PointTarget {
   evaluate::ComparedCurve measured; ///< strain, Pa
 };
 
-/// What curves are compared with: all of [report.experiment] of a case, or one of a single point.
+/// A measured number of an orthogonal cut.
+struct MeasuredNumber {
+  enum class What { Fc, Ft, chip_thickness };
+  What what = What::Fc;
+  double value = 0.0;      ///< N or N/m; m
+  bool per_width = false;  ///< N/m
+  double error = 0.0;      ///< standard error, in the same unit
+  bool error_known = true; ///< else it is a share of the value
+  const char* name() const;
+};
+
+/// What was measured of the steady part of a cut, beside what the case says of it.
+struct CutTarget {
+  std::vector<MeasuredNumber> measured;
+  bool closed_form = false; ///< the shear zone of evaluate/shear_zone.hpp stands for the run
+};
+
+/// What curves are compared with: all of [report.experiment] of a case, one of a single point, or a cut.
 struct CalibrationTarget {
   std::string name;
   input::Location where;
@@ -49,6 +66,9 @@ struct CalibrationTarget {
   std::vector<input::Override> set;
   double weight = 1.0;
   std::optional<PointTarget> point; ///< none: the case is run
+  std::optional<CutTarget> cut;     ///< its cut is compared, in place of curves
+
+  bool runs() const { return !point && !(cut && cut->closed_form); }
 };
 
 struct Calibration {
@@ -77,6 +97,8 @@ struct CalibratedCurve {
   evaluate::ComparedCurve measured, computed; ///< measured: as far as the computed one goes
   double peak = 0.0;                          ///< of the whole measured curve
   std::string note;                           ///< what makes the comparison doubtful; empty otherwise
+  double relative_error = 0.0;                ///< of a number of a cut, as a share of its peak
+  double weight = 1.0;    ///< beside that of its target: of a number of a cut, by its error
   double rms_share = 0.0; ///< – root mean square of the difference over the measured peak
 };
 
@@ -88,6 +110,7 @@ struct Evaluation {
   std::vector<std::size_t> lengths{}; ///< residuals of each curve
   Eigen::VectorXd residual;           ///< weighted, so that its squares add up to the misfit
   double misfit = 0.0;                ///< – mean of the squared rms shares of all curves by weight
+  double known_variance = 0.0;        ///< of each residual, by the errors of numbers; 0: not known
 
   bool good() const { return failure.empty(); }
 };
@@ -123,26 +146,34 @@ struct Inference {
   std::vector<bool> told;         ///< [constant]
   Eigen::VectorXd half_width;     ///< of the 95% interval, of places
   double independent = 0.0;       ///< number of residuals that are
-  double degrees = 0.0;           ///< of freedom; none: there are no intervals
-  double quantile = 0.0;          ///< of 95%, by Student's t
+  double degrees = 0.0;           ///< of freedom
+  double quantile = 0.0;          ///< of 95%, by Student's t; 0: there are no intervals
   std::vector<std::string> words; ///< what the curves do not tell
 
-  bool intervals() const { return degrees > 0.0; }
+  bool intervals() const { return quantile > 0.0; }
 };
 
 /// 97.5% quantile of Student's t: half the width of a 95% interval. degrees: of freedom, above 0.
 double student_quantile(double degrees);
 
 /// residual at the best place; jacobian by finite differences there, with columns that are not finite for
-/// constants whose sensitivity is not known. curve_lengths: residuals of each curve.
+/// constants whose sensitivity is not known. curve_lengths: residuals of each curve. With errors of the
+/// numbers that are compared (Evaluation::known_variance) the variance is theirs, or that of the residuals if
+/// it is larger.
 Inference infer(const Calibration& calibration, const Eigen::VectorXd& residual, Eigen::MatrixXd jacobian,
-                const std::vector<std::size_t>& curve_lengths);
+                const std::vector<std::size_t>& curve_lengths, double known_variance = 0.0);
+
+/// Singular values, falling, of ∂ln y/∂ln p over the constants whose sensitivity is known: residuals are
+/// shares of y by weight, times 1/√N.
+Eigen::VectorXd logarithmic_values(const Calibration& calibration, const Eigen::VectorXd& place,
+                                   const Eigen::MatrixXd& jacobian);
 
 /// Everything that tables and pages show.
 struct CalibrationResult {
   Evaluation start, best;
   std::vector<SearchEnd> searches;
   Inference inference;
+  Eigen::VectorXd logarithmic;               ///< singular values of ∂ln(curves)/∂ln(constants)
   std::size_t evaluations = 0, failures = 0; ///< of different constants
 };
 

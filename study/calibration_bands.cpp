@@ -51,6 +51,13 @@ std::vector<Met> met_by_run(const std::filesystem::path& folder, const input::Ca
   return met;
 }
 
+/// The shear plane of a cut in closed form.
+std::vector<Met> met_by_cut(const input::Case& input) {
+  const auto zone = closed_form_cut(input);
+  if (!zone) return {};
+  return {{zone->strain, zone->rate, zone->temperature}};
+}
+
 } // namespace
 
 std::vector<FlowBand> flow_bands(const Calibration& calibration, const CalibrationResult& result,
@@ -79,8 +86,9 @@ std::vector<FlowBand> flow_bands(const Calibration& calibration, const Calibrati
       low.push_back(read(a));
       high.push_back(read(b));
     }
-    for (const Met& met : target.point ? met_by_point(*target.point, material)
-                                       : met_by_run(evaluator.folder_of(target, best), input)) {
+    for (const Met& met : target.point    ? met_by_point(*target.point, material)
+                          : target.runs() ? met_by_run(evaluator.folder_of(target, best), input)
+                                          : met_by_cut(input)) {
       FlowBand& band = bands.emplace_back();
       band.name = fmt::format("{} ({})", name, target.name);
       band.rate = met.rate;

@@ -86,6 +86,11 @@ std::vector<double> places_of_residuals(const std::vector<double>& measured) {
 
 } // namespace
 
+std::string failure_of_run(const fs::path& folder) {
+  if (ended_with(folder) == Exit::done) return "";
+  return fmt::format("{}: {}", folder.filename().string(), failure_of(folder, log_of(folder)));
+}
+
 std::string place_key(const Eigen::VectorXd& place) {
   std::string key;
   for (const double value : place) key += fmt::format("{:a} ", value);
@@ -135,8 +140,7 @@ fs::path Evaluator::folder_of(const CalibrationTarget& target, const Eigen::Vect
 std::string Evaluator::collect_run(const CalibrationTarget& target, std::size_t index,
                                    const Eigen::VectorXd& place, Evaluation& evaluation) const {
   const fs::path folder = folder_of(target, place);
-  if (ended_with(folder) != Exit::done)
-    return fmt::format("{}: {}", folder.filename().string(), failure_of(folder, log_of(folder)));
+  if (std::string failure = failure_of_run(folder); !failure.empty()) return failure;
   for (evaluate::ExperimentResult& experiment : evaluate::read_experiments(folder)) {
     const evaluate::CurveDifference& difference = experiment.difference;
     if (!difference.common()) return fmt::format("{}: {}", target.name, experiment.note);
@@ -188,6 +192,7 @@ Evaluation Evaluator::collected(const Eigen::VectorXd& place) const {
     for (std::size_t t = 0; t < calibration_.targets.size() && evaluation.good(); ++t) {
       const CalibrationTarget& target = calibration_.targets[t];
       evaluation.failure = target.point ? collect_point(target, t, place, evaluation)
+                           : target.cut ? collect_cut(target, t, place, evaluation)
                                         : collect_run(target, t, place, evaluation);
     }
   } catch (const InputError& error) { evaluation.failure = error.what(); }
@@ -196,9 +201,10 @@ Evaluation Evaluator::collected(const Eigen::VectorXd& place) const {
     evaluation.misfit = failed_misfit;
     return evaluation;
   }
+  weigh_cuts(calibration_, evaluation);
   std::vector<double> weights;
   for (const CalibratedCurve& curve : evaluation.curves)
-    weights.push_back(calibration_.targets[curve.target].weight);
+    weights.push_back(calibration_.targets[curve.target].weight * curve.weight);
   weigh(evaluation, weights);
   return evaluation;
 }
@@ -208,7 +214,7 @@ bool Evaluator::evaluate(const std::vector<Eigen::VectorXd>& places) {
   std::vector<fs::path> folders;
   for (const Eigen::VectorXd& place : places)
     for (const CalibrationTarget& target : calibration_.targets) {
-      if (target.point) continue;
+      if (!target.runs()) continue;
       try {
         const fs::path folder = folder_of(target, place);
         if (ended_with(folder) || !ended_.insert(folder).second) continue;

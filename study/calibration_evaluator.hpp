@@ -1,5 +1,6 @@
 #pragma once
 // The misfit of constants: runs and single points, each done once.
+#include "evaluate/shear_zone.hpp"
 #include "study/calibration.hpp"
 
 #include <map>
@@ -33,6 +34,8 @@ private:
                           Evaluation& evaluation) const;
   std::string collect_point(const CalibrationTarget& target, std::size_t index, const Eigen::VectorXd& place,
                             Evaluation& evaluation) const;
+  std::string collect_cut(const CalibrationTarget& target, std::size_t index, const Eigen::VectorXd& place,
+                          Evaluation& evaluation) const;
   Evaluation collected(const Eigen::VectorXd& place) const;
 
   const Calibration& calibration_;
@@ -41,12 +44,23 @@ private:
   std::set<std::filesystem::path> ended_;         ///< folders of runs of this call that have ended
 };
 
+/// Why a run of an evaluation is to be counted as failed; empty where it is done.
+std::string failure_of_run(const std::filesystem::path& folder);
+
+/// The shear zone of a case with [cutting]; none where no angle fits.
+std::optional<evaluate::ShearZone> closed_form_cut(const input::Case& input);
+
 /// What a place is told apart by.
 std::string place_key(const Eigen::VectorXd& place);
 
 /// Residuals of curves, weighted, and the misfit: at the points of each measured curve, or at
 /// `most_residuals` even places of one that has more. weights: of each curve.
 void weigh(Evaluation& evaluation, const std::vector<double>& weights);
+
+/// Numbers of cuts weigh by (e/ε)², ε their relative error and e the root mean square of all, so that they
+/// weigh one in the mean; where every residual is such a number and each error is known, known_variance is
+/// that of one residual.
+void weigh_cuts(const Calibration& calibration, Evaluation& evaluation);
 
 inline constexpr std::size_t most_residuals = 100; ///< of each curve
 

@@ -105,6 +105,7 @@ Json json_of(const Calibration& calibration, const CalibrationResult& result,
          {"rms_share_start", result.start.good() ? finite(result.start.curves[k].rms_share) : Json(nullptr)},
          {"rms_share", finite(result.best.curves[k].rms_share)}});
   json["singular_values"] = list_of(inference.singular);
+  json["logarithmic_singular_values"] = list_of(result.logarithmic);
   json["directions"] = rows_of(inference.directions.transpose());
   json["covariance_of_places"] = rows_of(inference.covariance);
   json["independent_residuals"] = inference.independent;

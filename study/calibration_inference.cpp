@@ -109,8 +109,22 @@ double student_quantile(double degrees) {
       largest, boost::math::quantile(boost::math::students_t_distribution<double, Policy>(degrees), 0.975));
 }
 
+Eigen::VectorXd logarithmic_values(const Calibration& calibration, const Eigen::VectorXd& place,
+                                   const Eigen::MatrixXd& jacobian) {
+  const std::vector<Eigen::Index> known = known_columns(jacobian);
+  if (known.empty()) return {};
+  Eigen::MatrixXd part = jacobian(Eigen::all, known) * std::sqrt(double(jacobian.rows()));
+  for (std::size_t c = 0; c < known.size(); ++c) {
+    const SoughtConstant& constant = calibration.constants[static_cast<std::size_t>(known[c])];
+    part.col(static_cast<Eigen::Index>(c)) *=
+        constant.logarithmic ? 1.0 / std::log(constant.high / constant.low)
+                             : constant.at(place[known[c]]) / (constant.high - constant.low);
+  }
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(part).singularValues();
+}
+
 Inference infer(const Calibration& calibration, const Eigen::VectorXd& residual, Eigen::MatrixXd jacobian,
-                const std::vector<std::size_t>& curve_lengths) {
+                const std::vector<std::size_t>& curve_lengths, double known_variance) {
   const Eigen::Index n = jacobian.cols();
   Inference result;
   result.jacobian = std::move(jacobian);
@@ -120,8 +134,12 @@ Inference infer(const Calibration& calibration, const Eigen::VectorXd& residual,
   result.degrees = std::max(0.0, result.independent - double(n));
   // Residuals are weighted by 1/√N: their squared sum is the variance of one of N; as many as are independent
   // stand in the sum of squares of the sensitivities.
-  const double variance = result.intervals() ? residual.squaredNorm() / result.degrees : 0.0;
-  const double quantile = result.quantile = result.intervals() ? student_quantile(result.degrees) : 0.0;
+  const bool scatter = result.degrees > 0.0;
+  const double variance = std::max(known_variance, scatter ? residual.squaredNorm() / result.degrees : 0.0);
+  constexpr double normal = 1.959963984540054; // what Student's t comes to where errors are known
+  const double quantile = result.quantile = scatter                ? student_quantile(result.degrees)
+                                            : known_variance > 0.0 ? normal
+                                                                   : 0.0;
   if (!result.intervals())
     result.words.push_back(fmt::format(
         "There are no intervals: the curves come to {:.1f} independent residuals for {} constants.",

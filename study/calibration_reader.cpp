@@ -33,7 +33,7 @@ public:
   CalibrationReader(std::string_view text, const fs::path& path)
       : root_(input::parse_document(text, path.string())), folder_(path.parent_path()),
         table_(root_, "",
-               {"title", "case", "set", "parameters", "targets", "evaluations", "starts", "tolerance",
+               {"title", "case", "set", "parameters", "targets", "cuts", "evaluations", "starts", "tolerance",
                 "processes", "threads"},
                diagnostics_) {
     result_.name = input::name_after(path, "calibration");
@@ -50,6 +50,7 @@ public:
     if (!(result_.tolerance > 0.0 && result_.tolerance < 1.0))
       table_.wrong("tolerance", root_.find("tolerance")->value, "a number between 0 and 1");
     if (root_.find("case")) case_ = case_file(table_, root_);
+    closed_form_ = choice(table_, root_, "cuts", {"run", "shear-zone"}) == "shear-zone";
     if (const input::Value* set = table_.find("set", Kind::table, "a table of keys of the cases"))
       set_ = read_set(*set, "set.", diagnostics_);
     for_each_table("parameters", "[parameters.NAME]",
@@ -179,7 +180,8 @@ private:
     const input::Value& table = member.value;
     TableReader reader(table, path,
                        {"case", "set", "weight", "file", "columns", "units", "material", "test", "rate",
-                        "temperature", "heating", "strain"},
+                        "temperature", "heating", "strain", "Fc", "Fc_error", "Ft", "Ft_error",
+                        "chip_thickness", "chip_thickness_error"},
                        diagnostics_);
     CalibrationTarget target;
     target.name = member.key;
@@ -193,6 +195,10 @@ private:
     if (const auto weight = number(reader, table, path, "weight", input::Dimension{}))
       target.weight = weight->si;
     if (!(target.weight > 0.0)) reader.wrong("weight", table.find("weight")->value, "a number above 0");
+    target.cut = read_cut(reader, table, path);
+    if (table.find("file") && target.cut)
+      diagnostics_.add(Mistake::conflict, table.find("file")->where, path + "file",
+                       "found beside numbers of a cut, expected a curve or a cut");
     if (table.find("file"))
       target.point = read_point(reader, table, path);
     else
@@ -202,6 +208,54 @@ private:
           diagnostics_.add(Mistake::conflict, beside->where, path + key,
                            "found without a file, expected it with the curve of a single point");
     result_.targets.push_back(std::move(target));
+  }
+
+  /// What was measured of a cut; none where nothing was.
+  std::optional<CutTarget> read_cut(TableReader& reader, const input::Value& table, const std::string& path) {
+    using What = MeasuredNumber::What;
+    namespace d = input::dimension;
+    CutTarget cut;
+    cut.closed_form = closed_form_;
+    bool any = false;
+    for (const auto& [key, what, of, per] :
+         {std::tuple{"Fc", What::Fc, d::force, d::force_per_length},
+          {"Ft", What::Ft, d::force, d::force_per_length},
+          {"chip_thickness", What::chip_thickness, d::length, d::length}}) {
+      const std::string error_key = std::string(key) + "_error";
+      const input::Member* error = table.find(error_key);
+      if (!table.find(key)) {
+        if (error)
+          diagnostics_.add(Mistake::conflict, error->where, path + error_key,
+                           fmt::format("found without {}, expected it beside the number", key));
+        continue;
+      }
+      any = true;
+      const auto written = number(reader, table, path, key, std::nullopt);
+      if (!written) continue;
+      const input::Dimension dimension = written->unit.dimension;
+      if (dimension != of && dimension != per) {
+        reader.wrong(key, table.find(key)->value,
+                     what == What::chip_thickness ? "a length such as \"0.5 mm\""
+                                                  : "a force such as \"800 N\", also per width");
+        continue;
+      }
+      constexpr double usual = 0.02;
+      MeasuredNumber& measured = cut.measured.emplace_back();
+      measured = {what, written->si, dimension == per && what != What::chip_thickness,
+                  usual * std::abs(written->si), false};
+      if (what == What::chip_thickness && !(measured.value > 0.0))
+        reader.wrong(key, table.find(key)->value, "a thickness above 0");
+      if (!error) continue;
+      const auto given = number(reader, table, path, error_key, std::nullopt);
+      if (!given) continue;
+      const bool share = given->unit.dimension.dimensionless();
+      measured.error = share ? given->si * std::abs(measured.value) : given->si;
+      measured.error_known = true;
+      if ((!share && given->unit.dimension != dimension) || !(measured.error > 0.0))
+        reader.wrong(error_key, error->value,
+                     "a standard error above 0: in the unit of the number, or \"2 %\" of it");
+    }
+    return any ? std::optional(cut) : std::nullopt;
   }
 
   PointTarget read_point(TableReader& reader, const input::Value& table, const std::string& path) {
@@ -325,6 +379,17 @@ private:
   }
 
   void finish(CalibrationTarget& target, const input::Case& input) {
+    if (target.cut) {
+      const bool fits =
+          target.cut->closed_form ? input.cutting.has_value() : input.report.cutting.has_value();
+      if (!fits)
+        throw InputError(
+            fmt::format("{}: key 'targets.{}': the case {} has no {}, expected it for the numbers "
+                        "of a cut",
+                        target.where.text(), target.name, target.case_file.string(),
+                        target.cut->closed_form ? "[cutting]" : "[report.cutting]"));
+      return;
+    }
     if (!target.point) {
       if (input.report.experiments.empty())
         throw InputError(fmt::format("{}: key 'targets.{}': the case {} has no [report.experiment], expected "
@@ -350,6 +415,7 @@ private:
 
   input::Value root_;
   fs::path folder_, case_;
+  bool closed_form_ = false; ///< of cuts
   input::Diagnostics diagnostics_;
   TableReader table_;
   std::vector<input::Override> set_;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace cnem::study {
 namespace {
@@ -70,6 +71,23 @@ std::string curves_section(const CalibrationResult& result) {
   return table_section("misfit", "Misfit", rows, note);
 }
 
+std::string cuts_section(const CalibrationResult& result) {
+  std::string rows;
+  for (std::size_t k = 0; k < result.best.curves.size(); ++k) {
+    const CalibratedCurve& curve = result.best.curves[k];
+    if (curve.measured.x.size() > 1) continue;
+    const auto shown = [&](const CalibratedCurve& one) {
+      return results::si_format(one.computed.y.front(), curve.y_unit);
+    };
+    rows += row({curve.name, results::si_format(curve.measured.y.front(), curve.y_unit),
+                 percent(curve.relative_error),
+                 result.start.good() ? shown(result.start.curves[k]) : "failed", shown(curve)});
+  }
+  if (rows.empty()) return "";
+  return table_section("cuts", "Cuts",
+                       row({"number", "measured", "standard error", "before", "after"}, "th") + rows);
+}
+
 std::string searches_section(const CalibrationResult& result) {
   std::string rows =
       row({"start", "evaluations", "misfit at its start", "least misfit", "ended because"}, "th");
@@ -88,7 +106,8 @@ std::string searches_section(const CalibrationResult& result) {
                                            : "");
 }
 
-std::string sensitivity_section(const Calibration& calibration, const Inference& inference) {
+std::string sensitivity_section(const Calibration& calibration, const Inference& inference,
+                                const Eigen::VectorXd& logarithmic) {
   std::vector<std::string> head{"singular value"};
   for (const SoughtConstant& constant : calibration.constants) head.push_back(constant.name);
   head.emplace_back("");
@@ -103,7 +122,10 @@ std::string sensitivity_section(const Calibration& calibration, const Inference&
   return table_section(
       "sensitivity", "Sensitivity", rows,
       "How much the curves change, as a share of their peaks, along each direction per range from "
-      "bound to bound; each direction is a combination of the constants.");
+      "bound to bound; each direction is a combination of the constants. Singular values of the logarithms "
+      "of "
+      "the curves by those of the constants: " +
+          fmt::format("{:.3g}", fmt::join(logarithmic, ", ")) + ".");
 }
 
 std::string correlation_section(const Calibration& calibration, const Inference& inference) {
@@ -143,6 +165,7 @@ std::vector<report::Chart> curve_charts(const CalibrationResult& result) {
   std::vector<report::Chart> charts;
   for (std::size_t k = 0; k < result.best.curves.size(); ++k) {
     const CalibratedCurve& curve = result.best.curves[k];
+    if (curve.measured.x.size() < 2) continue; // a number of a cut: it stands in a table
     report::Chart chart;
     chart.title = curve.name;
     chart.x_label = curve.of_point ? "strain" : curve.over_stroke ? "stroke" : "time";
@@ -196,10 +219,10 @@ std::string calibration_report(const Calibration& calibration, const Calibration
               constants_section(calibration, result) +
                   words_section("untold", "What the curves do not tell", result.inference.words) +
                   words_section("warnings", "Warnings", warnings_of(calibration, result)) +
-                  curves_section(result) +
+                  curves_section(result) + cuts_section(result) +
                   chart_section(curve_charts(result), {}, "curves", "Measured and computed") +
                   chart_section(band_charts(bands), {}, "flow", "Flow stress over what the targets meet") +
-                  sensitivity_section(calibration, result.inference) +
+                  sensitivity_section(calibration, result.inference, result.logarithmic) +
                   correlation_section(calibration, result.inference) + searches_section(result));
 }
 

@@ -18,7 +18,7 @@ set(input core clouds plasticity thermal contact methods mechanics adapt machini
 set(results core voronoi mechanics adapt input)
 set(evaluate core plasticity mechanics input results)
 set(report core input results evaluate)
-set(study core methods mechanics input results evaluate report)
+set(study core machining methods mechanics input results evaluate report)
 set(app core machining voronoi clouds plasticity thermal contact cnem methods mechanics fracture adapt input results evaluate report study)
 set(python ${app} app)
 set(folders ${python} python)

@@ -90,6 +90,41 @@ double deepest(const input::Case& input) {
   return std::max(least ? lobes * least->depth : 0.0, beyond * milling.axial_depth);
 }
 
+namespace {
+
+/// What of a cut lies beyond the range of its law.
+std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
+  const input::MachiningCase& milling = *input.machining;
+  const machining::LawRange& holds = milling.law_range;
+  constexpr double degree = std::numbers::pi / 180.0, rounding = 1e-6; // of numbers as files have them
+  std::vector<std::string> doubts;
+  const auto compare = [&](const Range& range, double value, const char* name, const std::string& what,
+                           auto&& text) {
+    const double slack = rounding * std::max(std::abs(range.low), std::abs(range.high));
+    if (!range.bounded() || (value >= range.low - slack && value <= range.high + slack)) return;
+    const std::string given = std::string("cutting.forces.range.") + name;
+    const std::string of_table = std::string("cutting.forces.") + name;
+    doubts.push_back(
+        input
+            .error(input.location.contains(given)      ? given
+                   : input.location.contains(of_table) ? of_table
+                                                       : "cutting.forces",
+                   fmt::format("{} {}, expected {}{}, for which the law holds", what, text(value),
+                               text(range.low), range.high > range.low ? " to " + text(range.high) : ""))
+            .what());
+  };
+  compare(holds.thickness, thickest, "thickness", "chips are up to",
+          [](double h) { return si_format(h, "m"); });
+  compare(holds.speed, milling.speed * milling.cut.cutter.radius(), "speed", "edges move at",
+          [](double v) { return si_format(v, "m/s"); });
+  if (milling.rake)
+    compare(holds.rake, *milling.rake, "rake", "cutter.rake is",
+            [&](double a) { return results::number_format(a / degree, 4) + " deg"; });
+  return doubts;
+}
+
+} // namespace
+
 std::vector<std::string> milling_doubts(const input::Case& input) {
   const input::MachiningCase& milling = *input.machining;
   std::vector<std::string> doubts;
@@ -102,15 +137,7 @@ std::vector<std::string> milling_doubts(const input::Case& input) {
                    "by the next one, which stability takes no account of; expected a run-out well "
                    "below milling.feed")
             .what());
-  const auto [low, high] = milling.cut.law.thicknesses();
-  if (thickest > high || thickest < low)
-    doubts.push_back(
-        input
-            .error("cutting.forces.thickness",
-                   fmt::format("chips are up to {} thick, expected between {} and {}, which the "
-                               "table covers",
-                               si_format(thickest, "m"), si_format(low, "m"), si_format(high, "m")))
-            .what());
+  for (std::string& doubt : law_doubts(input, thickest)) doubts.push_back(std::move(doubt));
   if (input.analysis.type != input::Analysis::Type::milling) return doubts;
   constexpr double few = 5.0, periods = 20.0;
   if (milling.dexels.pitch > milling.cut.feed / few)

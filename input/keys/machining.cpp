@@ -6,6 +6,7 @@
 #include <array>
 #include <numbers>
 #include <string_view>
+#include <tuple>
 
 namespace cnem::input {
 namespace {
@@ -17,7 +18,8 @@ using enum Type;
 constexpr std::array shared{"title",         "include", "let",    "analysis",
                             "analysis.type", "cutting", "report", "report.units"};
 /// Tables of milling, with all that lies below them.
-constexpr std::array milling_tables{"cutter", "cutting.forces", "milling", "modes", "stability", "dexels"};
+constexpr std::array milling_tables{"cutter", "cutting.law", "cutting.forces", "milling",
+                                    "modes",  "stability",   "dexels"};
 
 constexpr Range steep{.low = -60.0 * std::numbers::pi / 180.0, .high = 60.0 * std::numbers::pi / 180.0};
 
@@ -35,6 +37,12 @@ void add_cutter(Keys& k) {
       .unit(d::angle)
       .in(steep)
       .fallback("\"0 deg\"");
+  k.add(
+       "cutter.rake", quantity,
+       "Of the edges, normal to them: of laws over several rakes, and to be held against the range of a law.")
+      .unit(d::angle)
+      .in(steep)
+      .example("\"10 deg\"");
   k.add("cutter.run_out", quantity, "Distance from the axis of the spindle to that of the cutter.")
       .unit(d::length)
       .in(not_negative)
@@ -42,6 +50,28 @@ void add_cutter(Keys& k) {
   k.add("cutter.run_out_angle", quantity, "From the first tooth to the direction of the run-out.")
       .unit(d::angle)
       .fallback("\"0 deg\"");
+}
+
+void add_law(Keys& k) {
+  const std::vector<LawText> laws = law_texts(machining::CuttingLaws{});
+  k.add("cutting.law", text,
+        "A file with a cutting law, seen from the folder of the case, such as `cnem coefficients` writes "
+        "(docs/milling.md): its values become those of `cutting.forces`. What the case gives there itself "
+        "stands before them; `cutting.forces.law` chooses among the laws of the file.")
+      .example("\"law.toml\"");
+  k.add(
+       "cutting.forces", table,
+       "Forces on an edge per length along the axis of the cutter, over the chip thickness h: tangential "
+       "against its motion, radial towards the axis, axial along it. Where nothing is cut there is no force.")
+      .required();
+  add_law_choice(k, "cutting.forces", laws).required();
+  add_law_constants(k, "cutting.forces", laws);
+  k.add("cutting.forces.range", table, "From where to where the law holds: beyond, there are warnings.");
+  for (const auto& [name, dimension, meaning, example] :
+       {std::tuple{"thickness", d::length, "Of the chip, smallest and largest.", "\"0.02 0.2 mm\""},
+        {"speed", d::velocity, "Of the edge.", "\"1 5 m/s\""},
+        {"rake", d::angle, "Of the edge, held against `cutter.rake`.", "\"0 10 deg\""}})
+    k.add(std::string("cutting.forces.range.") + name, quantities, meaning).unit(dimension).example(example);
 }
 
 void add_milling(Keys& k) {
@@ -154,14 +184,7 @@ void add_stability(Keys& k) {
 
 void add_machining(Keys& k) {
   add_cutter(k);
-  const std::vector<LawText> laws = law_texts(machining::CuttingLaws{});
-  k.add(
-       "cutting.forces", table,
-       "Forces on an edge per length along the axis of the cutter, over the chip thickness h: tangential "
-       "against its motion, radial towards the axis, axial along it. Where nothing is cut there is no force.")
-      .required();
-  add_law_choice(k, "cutting.forces", laws).required();
-  add_law_constants(k, "cutting.forces", laws);
+  add_law(k);
   add_milling(k);
   add_modes(k);
   add_stability(k);

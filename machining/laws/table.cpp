@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace cnem::machining {
 
@@ -18,16 +19,43 @@ void check_increasing(const char* name, const NumberList& list) {
                                    name, list.value[i], list.value[i - 1]));
 }
 
+/// The place of a number in an increasing list: after which one, and how far towards the next; at the ends of
+/// the list where it is beyond them.
+std::pair<int, double> between(const NumberList& list, double x) {
+  if (list.size < 2) return {0, 0.0};
+  const auto next = std::upper_bound(list.value, list.value + list.size, x) - list.value;
+  const int low = std::clamp(static_cast<int>(next), 1, list.size - 1) - 1;
+  return {low, std::clamp((x - list.value[low]) / (list.value[low + 1] - list.value[low]), 0.0, 1.0)};
+}
+
 } // namespace
 
 void TableLaw::complete() const {
   check_increasing("thickness", thickness);
   check_increasing("speed", speed);
-  const int points = thickness.size * std::max(1, speed.size);
+  check_increasing("rakes", rakes);
+  const int points = thickness.size * std::max(1, speed.size) * std::max(1, rakes.size);
   for (const auto& [what, list] : {std::pair{"Ft", &Ft}, {"Fr", &Fr}, {"Fa", &Fa}})
     if (list->size != points && (list->size > 0 || list != &Fa))
-      throw InputError(fmt::format("found {} numbers of {} for {} thicknesses and {} speeds, expected {}",
-                                   list->size, what, thickness.size, std::max(1, speed.size), points));
+      throw InputError(fmt::format("found {} numbers of {} for {} thicknesses and {} speeds{}, expected {}",
+                                   list->size, what, thickness.size, std::max(1, speed.size),
+                                   rakes.size > 0 ? fmt::format(" and {} rakes", rakes.size) : "", points));
+}
+
+TableLaw TableLaw::of_rake(double rake) const {
+  if (rakes.size == 0) return *this;
+  const auto [low, share] = between(rakes, rake);
+  const int high = std::min(low + 1, rakes.size - 1), points = thickness.size * std::max(1, speed.size);
+  TableLaw one = *this;
+  one.rakes = {};
+  for (NumberList TableLaw::*force : {&TableLaw::Ft, &TableLaw::Fr, &TableLaw::Fa}) {
+    const NumberList& all = this->*force;
+    NumberList& of_one = one.*force;
+    of_one.size = std::min(points, all.size);
+    for (int k = 0; k < of_one.size; ++k)
+      of_one.value[k] = (1.0 - share) * all.value[low * points + k] + share * all.value[high * points + k];
+  }
+  return one;
 }
 
 LawPoint TableLaw::of_speed(int row, double h) const {
@@ -48,11 +76,8 @@ LawPoint TableLaw::of_speed(int row, double h) const {
 
 LawPoint TableLaw::at(const Cut& cut) const {
   if (speed.size < 2) return of_speed(0, cut.thickness);
-  const auto next = std::upper_bound(speed.value, speed.value + speed.size, cut.speed) - speed.value;
-  const int high = std::clamp(static_cast<int>(next), 1, speed.size - 1), low = high - 1;
-  const double share =
-      std::clamp((cut.speed - speed.value[low]) / (speed.value[high] - speed.value[low]), 0.0, 1.0);
-  const LawPoint slow = of_speed(low, cut.thickness), fast = of_speed(high, cut.thickness);
+  const auto [low, share] = between(speed, cut.speed);
+  const LawPoint slow = of_speed(low, cut.thickness), fast = of_speed(low + 1, cut.thickness);
   return {(1.0 - share) * slow.force + share * fast.force, (1.0 - share) * slow.slope + share * fast.slope};
 }
 

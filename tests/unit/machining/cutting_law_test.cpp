@@ -97,7 +97,34 @@ TEST(CuttingLaws, TableBetweenItsPoints) {
   EXPECT_NEAR(law.at({.thickness = 5e-6, .speed = 2.0}).force[0], 0.5e4, 1e-9) << "from the origin";
   EXPECT_NEAR(law.at({.thickness = 2e-4, .speed = 9.0}).force[0], 8e4, 1e-9) << "the last slope";
   EXPECT_EQ(law.at({.thickness = 3e-5, .speed = 3.0}).force[2], 0.0);
-  EXPECT_EQ(law.thicknesses().second, 1e-4);
+  EXPECT_EQ(law.known().thickness.high, 1e-4);
+  EXPECT_EQ(law.known().speed.low, 2.0);
+  EXPECT_FALSE(law.known().rake.bounded());
+}
+
+TEST(CuttingLaws, TableOverRakes) {
+  TableLaw law = table();
+  law.rakes = {{-0.1, 0.2}, 2};
+  law.Ft.size = law.Fr.size = 12;
+  for (int k = 0; k < 6; ++k) {
+    law.Ft.value[6 + k] = 0.5 * law.Ft.value[k];
+    law.Fr.value[6 + k] = 0.2 * law.Fr.value[k];
+  }
+  const Cut cut{.thickness = 3e-5, .speed = 3.0};
+  const auto of = [&](double rake) {
+    CuttingLaw any(law);
+    EXPECT_TRUE(any.known().several_rakes());
+    any.take_rake(rake);
+    EXPECT_FALSE(any.known().several_rakes());
+    return any.at(cut).force;
+  };
+  const Vec3 first = CuttingLaw(table()).at(cut).force;
+  EXPECT_NEAR(of(-0.1)[0], first[0], 1e-9);
+  EXPECT_NEAR(of(0.2)[0], 0.5 * first[0], 1e-9);
+  EXPECT_NEAR(of(0.05)[1], 0.6 * first[1], 1e-9) << "halfway";
+  EXPECT_NEAR(of(1.0)[1], 0.2 * first[1], 1e-9) << "constant beyond";
+  law.Fr.size = 6;
+  EXPECT_THROW(CuttingLaw{law}, InputError);
 }
 
 TEST(CuttingLaws, TablesThatDoNotFitAreRefused) {

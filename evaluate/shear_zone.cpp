@@ -1,0 +1,102 @@
+#include "evaluate/shear_zone.hpp"
+
+#include "evaluate/material_point.hpp"
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cnem::evaluate {
+
+namespace {
+
+constexpr double rate_constant = 5.9; ///< C0, of Oxley's experiments
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// The root of a function that rises from below 0 to above it.
+template<class F> double root(const F& f, double low, double high, double at_low, double at_high) {
+  std::uintmax_t most = 100;
+  const auto [a, b] = boost::math::tools::toms748_solve(f, low, high, at_low, at_high,
+                                                        boost::math::tools::eps_tolerance<double>(48), most);
+  return 0.5 * (a + b);
+}
+
+class PlaneBalance {
+public:
+  PlaneBalance(const plasticity::Material& material, const ShearZoneCut& cut)
+      : material_(material), cut_(cut), friction_(std::atan(cut.friction)) {}
+
+  /// tan θ less what the shear plane can bear: 0 at the angle that is taken.
+  double unbalance(double phi) {
+    at_angle(phi);
+    constexpr double step = 1e-4;
+    const double low = zone_.strain * (1.0 - step), high = zone_.strain * (1.0 + step);
+    const double hardening = (stress(high) - stress(low)) / (2.0 * step * zone_.flow_stress);
+    return std::tan(phi + friction_ - cut_.rake) - 1.0 - 2.0 * (0.25 * std::numbers::pi - phi) +
+           rate_constant * hardening;
+  }
+
+  ShearZone at_angle(double phi) {
+    const double along = std::cos(cut_.rake) / std::cos(phi - cut_.rake); // Vs/V
+    zone_.shear_angle = phi;
+    zone_.strain = 0.5 * along / std::sin(phi) / std::numbers::sqrt3;
+    zone_.rate = rate_constant * along * cut_.speed * std::sin(phi) / cut_.feed / std::numbers::sqrt3;
+    heat(phi, along);
+    const double k = zone_.flow_stress / std::numbers::sqrt3, theta = phi + friction_ - cut_.rake;
+    const double force = k * cut_.feed / (std::sin(phi) * std::cos(theta));
+    zone_.Fc = force * std::cos(friction_ - cut_.rake);
+    zone_.Ft = force * std::sin(friction_ - cut_.rake);
+    zone_.chip_thickness = cut_.feed * std::cos(phi - cut_.rake) / std::sin(phi);
+    return zone_;
+  }
+
+private:
+  double stress(double strain) const {
+    return flow_stress_of(material_, strain, zone_.rate, zone_.temperature);
+  }
+
+  /// Temperature and flow stress in the plane, which depend on each other.
+  void heat(double phi, double along) {
+    zone_.temperature = cut_.temperature;
+    zone_.flow_stress = stress(zone_.strain);
+    if (!(material_.specific_heat > 0.0)) return;
+    const double capacity = material_.density * material_.specific_heat;
+    double into_workpiece = 0.0;
+    if (material_.conductivity > 0.0) {
+      const double peclet = capacity * cut_.speed * cut_.feed / material_.conductivity * std::tan(phi);
+      const double lg = std::log10(peclet);
+      into_workpiece = std::clamp(peclet <= 10.0 ? 0.5 - 0.35 * lg : 0.3 - 0.15 * lg, 0.0, 1.0);
+    }
+    const double per_stress = (1.0 - into_workpiece) * material_.taylor_quinney * along /
+                              (std::numbers::sqrt3 * capacity * std::sin(phi));
+    const auto excess = [&](double rise) {
+      return rise - per_stress * flow_stress_of(material_, zone_.strain, zone_.rate, cut_.temperature + rise);
+    };
+    const double most = per_stress * zone_.flow_stress, at_most = excess(most);
+    if (!(most > 0.0)) return;
+    // A metal that does not soften becomes as warm as its cold flow stress makes it.
+    zone_.temperature += at_most > 0.0 ? root(excess, 0.0, most, -most, at_most) : most;
+    zone_.flow_stress = stress(zone_.strain);
+  }
+
+  const plasticity::Material& material_;
+  ShearZoneCut cut_;
+  double friction_; ///< rad
+  ShearZone zone_;
+};
+
+} // namespace
+
+std::optional<ShearZone> shear_zone(const plasticity::Material& material, const ShearZoneCut& cut) {
+  if (!material.hardening) return std::nullopt;
+  PlaneBalance zone(material, cut);
+  const double low = degree, high = 89.0 * degree - std::max(0.0, std::atan(cut.friction) - cut.rake);
+  if (!(high > low)) return std::nullopt;
+  const double at_low = zone.unbalance(low), at_high = zone.unbalance(high);
+  if (!(at_low < 0.0 && at_high > 0.0)) return std::nullopt;
+  return zone.at_angle(root([&](double phi) { return zone.unbalance(phi); }, low, high, at_low, at_high));
+}
+
+} // namespace cnem::evaluate

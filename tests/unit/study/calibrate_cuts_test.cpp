@@ -1,0 +1,140 @@
+// Constants and friction from forces and chips of made-up cuts: the shear zone in closed form stands for
+// runs.
+#include "evaluate/material_point.hpp"
+#include "input/case_reader.hpp"
+#include "study/calibration_evaluator.hpp"
+#include "tests/unit/study/calibrate_fixture.hpp"
+
+#include <numbers>
+#include <random>
+
+namespace cnem::study {
+namespace {
+
+constexpr const char* cut_case = R"toml(
+[cutting]
+feed = "0.1 mm"
+width = "2 mm"
+rake = "0 deg"
+clearance = "7 deg"
+edge_radius = "5 um"
+speed = "2 m/s"
+length = "1 mm"
+friction = { law = "coulomb", coefficient = 0.5 }
+[domain]
+material = "steel"
+[materials.steel]
+density = "7900 kg/m3"
+elastic = { young = "200 GPa", poisson = 0.3 }
+plastic = { law = "johnson-cook", A = "350 MPa", B = "700 MPa", n = 0.3, C = 0.02, rate0 = "1 /s", m = 1.0, T0 = "293 K", Tmelt = "1700 K" }
+heat = { specific_heat = "500 J/(kg K)", conductivity = "16 W/(m K)" }
+)toml";
+
+struct Sought {
+  std::string name, key;
+  double truth;
+  std::string unit;
+};
+const std::vector<Sought> all_constants{
+    {"A", "materials.steel.plastic.A", 350.0, " MPa"}, {"B", "materials.steel.plastic.B", 700.0, " MPa"},
+    {"n", "materials.steel.plastic.n", 0.3, ""},       {"C", "materials.steel.plastic.C", 0.02, ""},
+    {"m", "materials.steel.plastic.m", 1.0, ""},       {"friction", "cutting.friction.coefficient", 0.5, ""}};
+
+struct Settings {
+  double feed, speed, rake; ///< mm, m/s, deg
+  std::vector<std::string> set() const {
+    return {fmt::format("cutting.feed={} mm", feed), fmt::format("cutting.speed={} m/s", speed),
+            fmt::format("cutting.rake={} deg", rake)};
+  }
+};
+const std::vector<Settings> eight_cuts{{0.1, 1, 0},  {0.25, 1, 0},  {0.1, 4, 0},  {0.25, 4, 0},
+                                       {0.1, 1, 10}, {0.25, 1, 10}, {0.1, 4, 10}, {0.25, 4, 10}};
+
+class CalibrateCuts : public Calibrate {
+protected:
+  void SetUp() override { write("case.toml", cut_case); }
+
+  input::Case input(std::vector<std::string> set, const Settings& cut) const {
+    for (std::string& one : cut.set()) set.push_back(std::move(one));
+    return input::read_case((folder / "case.toml").string(), set);
+  }
+  /// Targets with noise, whose standard error they know.
+  std::string targets(const std::vector<Settings>& cuts, double noise, unsigned seed) const {
+    std::mt19937 engine(seed);
+    std::normal_distribution<double> normal;
+    std::string text;
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const auto exact = *closed_form_cut(input({}, cuts[k]));
+      text += fmt::format(
+          "[targets.cut_{}]\nset = {{ \"cutting.feed\" = \"{} mm\", \"cutting.speed\" = \"{} m/s\", "
+          "\"cutting.rake\" = \"{} deg\" }}\n",
+          k, cuts[k].feed, cuts[k].speed, cuts[k].rake);
+      for (const auto& [key, value, unit] : {std::tuple{"Fc", 2e-3 * exact.Fc, "N"},
+                                             {"Ft", 2e-3 * exact.Ft, "N"},
+                                             {"chip_thickness", 1e3 * exact.chip_thickness, "mm"}})
+        text += fmt::format("{0} = \"{1:.6g} {2}\"\n{0}_error = \"{3} %\"\n", key,
+                            value * (1.0 + noise * normal(engine)), unit, 100.0 * noise);
+    }
+    return text;
+  }
+  /// Looked for from 30% off, up for every second one.
+  static std::string parameters() {
+    std::string text;
+    for (std::size_t k = 0; k < all_constants.size(); ++k) {
+      const auto& [name, key, truth, unit] = all_constants[k];
+      const auto written = [&](double factor) {
+        return unit.empty() ? fmt::format("{:.6g}", factor * truth)
+                            : fmt::format("\"{:.6g}{}\"", factor * truth, unit);
+      };
+      text += fmt::format("[parameters.{}]\nkey = \"{}\"\nstart = {}\nlow = {}\nhigh = {}\nscale = \"log\"\n",
+                          name, key, written(k % 2 == 0 ? 1.3 : 0.7), written(0.4), written(2.5));
+    }
+    return text;
+  }
+  std::vector<std::string> found() const {
+    std::vector<std::string> set;
+    const Json constants = result().at("constants");
+    for (const auto& [name, key, truth, unit] : all_constants)
+      set.push_back(fmt::format(
+          "{}={}{}", key, constants.at(name).at("value").get<double>() / (unit.empty() ? 1.0 : 1e6), unit));
+    return set;
+  }
+};
+
+TEST_F(CalibrateCuts, eight_noisy_cuts_tell_flow_stress_forces_and_friction) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    force = true;
+    ASSERT_EQ(run("cuts = \"shear-zone\"\nevaluations = 400\ntolerance = 1e-5\n" + parameters() +
+                  targets(eight_cuts, 0.02, seed)),
+              0)
+        << message;
+    const std::vector<std::string> set = found();
+    for (const Settings& cut : eight_cuts) {
+      const input::Case truth = input({}, cut), here = input(set, cut);
+      const auto met = *closed_form_cut(truth);
+      EXPECT_NEAR(evaluate::flow_stress_of(here.material("steel"), met.strain, met.rate, met.temperature) /
+                      met.flow_stress,
+                  1.0, 0.03)
+          << "seed " << seed;
+    }
+    for (const Settings& unseen : {Settings{0.17, 2.0, 5}, {0.3, 1.5, 0}, {0.07, 6.0, 10}}) {
+      const auto truth = *closed_form_cut(input({}, unseen)), here = *closed_form_cut(input(set, unseen));
+      EXPECT_NEAR(here.Fc / truth.Fc, 1.0, 0.03) << "seed " << seed;
+      EXPECT_NEAR(here.Ft / truth.Ft, 1.0, 0.03) << "seed " << seed;
+    }
+    const Json constants = result().at("constants");
+    for (const auto& [name, key, truth, unit] : all_constants) {
+      const Json& one = constants.at(name);
+      if (!one.at("told")) continue;
+      const double si = truth * (unit.empty() ? 1.0 : 1e6);
+      EXPECT_LT(one.at("interval").at(0), si) << name << ", seed " << seed;
+      EXPECT_GT(one.at("interval").at(1), si) << name << ", seed " << seed;
+    }
+    EXPECT_TRUE(constants.at("friction").at("told"));
+    std::cout << "seed " << seed << ": " << result().at("logarithmic_singular_values")
+              << result().at("evaluations") << result().at("misfit") << constants << "\n";
+  }
+}
+
+} // namespace
+} // namespace cnem::study
