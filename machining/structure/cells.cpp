@@ -40,7 +40,7 @@ std::array<double, 3> serendipity(int i, int j, double x, double y) {
 
 Shapes shapes(PartElement element, const Vec3& at) {
   const ElementForm& form = form_of(element);
-  const Index functions = size_of(form.lattice_node.size());
+  const Index functions = as<Eigen::Index>(form.lattice_node.size());
   Shapes s{Eigen::VectorXd(functions), Eigen::MatrixX3d(functions, 3)};
   for (Index n = 0; n < functions; ++n) {
     const auto& [i, j, k] = form.lattice_node[index_of(n)];
@@ -61,7 +61,7 @@ Shapes shapes(PartElement element, const Vec3& at) {
 
 CellMatrices solid_matrices(PartElement element, const Vec3& size, const ElasticSolid& solid) {
   const ElementForm& form = form_of(element);
-  const Index functions = size_of(form.lattice_node.size());
+  const Index functions = as<Eigen::Index>(form.lattice_node.size());
   CellMatrices m{Eigen::MatrixXd::Zero(3 * functions, 3 * functions),
                  Eigen::MatrixXd::Zero(3 * functions, 3 * functions)};
   const double mu = 0.5 * solid.young / (1.0 + solid.poisson),
@@ -94,7 +94,7 @@ CellMatrices solid_matrices(PartElement element, const Vec3& size, const Elastic
 /// Mindlin: u + z βx, v + z βy, w; strains of the surface and curvatures 3 + 3, shear 2.
 CellMatrices plate_matrices(const Vec3& size, double low, const ElasticSolid& solid) {
   const ElementForm& form = form_of(PartElement::plate_8);
-  const Index functions = size_of(form.lattice_node.size()), all = 5 * functions;
+  const Index functions = as<Eigen::Index>(form.lattice_node.size()), all = 5 * functions;
   CellMatrices m{Eigen::MatrixXd::Zero(all, all), Eigen::MatrixXd::Zero(all, all)};
   const double high = low + size.z(), e = solid.young / (1.0 - solid.poisson * solid.poisson);
   const double h1 = high - low, h2 = (high * high - low * low) / 2.0,

@@ -123,7 +123,7 @@ template<class Visit> void Part::each_entry(const Cell& cell, Visit&& visit) con
   for (std::size_t n = 0; n < cell.node.size(); ++n)
     for (std::size_t k = 0; k < freedoms; ++k)
       if (const std::int64_t unknown = unknown_[index_of(cell.node[n])][k]; unknown >= 0)
-        visit(size_of(n * freedoms + k), static_cast<Index>(unknown));
+        visit(as<Eigen::Index>(n * freedoms + k), static_cast<Index>(unknown));
 }
 
 void Part::fill_pattern() {
@@ -224,7 +224,7 @@ std::vector<Vec3> Part::displacements(const Eigen::VectorXd& q) const {
   std::vector<Vec3> all(position_.size(), Vec3::Zero());
   for (std::size_t n = 0; n < all.size(); ++n)
     for (std::size_t k = 0; k < 3; ++k)
-      if (const std::int64_t unknown = unknown_[n][k]; unknown >= 0) all[n][size_of(k)] = q[unknown];
+      if (const std::int64_t unknown = unknown_[n][k]; unknown >= 0) all[n][as<Eigen::Index>(k)] = q[unknown];
   return all;
 }
 
