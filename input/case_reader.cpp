@@ -196,9 +196,10 @@ std::string made_beside(const Value& document, const Override& change) {
              : fmt::format("\n{}: the case has no {}.{}{}", change.where.text(), table->key, name, meant);
 }
 
-/// A milling case, of settings that the schema has passed.
+/// A case of milling or of structures, of settings that the schema has passed.
 void read_milling(Setting& root, Case& result, Diagnostics& diagnostics) {
-  read_machining(root, result, diagnostics);
+  read_structure(root, result, diagnostics);
+  if (result.analysis.type != Analysis::Type::modes) read_machining(root, result, diagnostics);
   read_shown_units(root, result, diagnostics);
   diagnostics.throw_if_any();
 }
@@ -211,7 +212,7 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   Diagnostics diagnostics;
   Case result;
   result.variables = apply_variables(document, changes, diagnostics, result.warnings);
-  const bool milling = family_of(document) == Family::milling;
+  const bool milling = family_of(document) != Family::bodies;
   if (!milling) {
     take_from_library(document, diagnostics);
     take_from_drawings(document, std::filesystem::path(path).parent_path(), diagnostics);

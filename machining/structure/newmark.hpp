@@ -21,8 +21,8 @@ struct NewmarkStep {
   double dt;                     ///< s
   double a0, a1, a2, a3, a4, a5; ///< (14), (15)
 
-  /// K̂ (12).
-  SparseMatrix effective(const Matrices& of) const { return a0 * of.mass + a1 * of.damping + of.stiffness; }
+  /// K̂ (12), of matrices of the same pattern.
+  SparseMatrix effective(const Matrices& of) const;
   /// Q̄ of the motion at the begin of the step (13).
   Eigen::VectorXd carried(const Motion& from, const Matrices& of) const;
   /// The motion that has come to q at the end of the step.

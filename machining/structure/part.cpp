@@ -105,16 +105,16 @@ void Part::number(std::span<const PartSupport> supports) {
   const int freedoms = form_of(element_).freedoms;
   unknown_.assign(position_.size(), {-1, -1, -1, -1, -1});
   for (std::size_t n = 0; n < position_.size(); ++n) {
-    bool held = false, turns = true;
+    std::array<bool, 5> held{};
     for (const PartSupport& support : supports) {
       const Index axis = support.axis;
       const double end = support.far ? shape_.size[axis] : 0.0;
       if (std::abs(position_[n][axis] - end) > same * shape_.size[axis]) continue;
-      held = true;
-      turns = turns && support.turns;
+      for (std::size_t k = 0; k < held.size(); ++k)
+        held[k] = held[k] || !support.turns || k != 3 + index_of(support.axis);
     }
-    for (int k = 0; k < freedoms; ++k)
-      if (!held || (turns && k >= 3)) unknown_[n][index_of(k)] = unknowns_++;
+    for (std::size_t k = 0; k < index_of(freedoms); ++k)
+      if (!held[k]) unknown_[n][k] = unknowns_++;
   }
 }
 

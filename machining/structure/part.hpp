@@ -26,7 +26,8 @@ struct PartShape {
   std::vector<PartZone> zones;
 };
 
-/// A face of the box that is held: all unknowns of its nodes, or their displacements alone.
+/// A face of the box that is held: all unknowns of its nodes; of plates, if it turns, all but the slope
+/// across it.
 struct PartSupport {
   int axis = 0;
   bool far = false; ///< where the axis ends

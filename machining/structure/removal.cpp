@@ -35,8 +35,10 @@ public:
   }
 
 private:
-  void damp() {
-    matrices_.damping = rayleigh_.mass * matrices_.mass + rayleigh_.stiffness * matrices_.stiffness;
+  void damp() { // all matrices of a part have the same pattern
+    matrices_.damping = matrices_.mass;
+    matrices_.damping.coeffs() =
+        rayleigh_.mass * matrices_.mass.coeffs() + rayleigh_.stiffness * matrices_.stiffness.coeffs();
   }
   const Part& part_;
   Rayleigh rayleigh_;
