@@ -35,6 +35,7 @@
 namespace cnem::input {
 
 struct MachiningCase;
+struct StructureCase;
 
 /// Prescribed histories of the components x, y and, in space, z; an absent component is not prescribed.
 using VectorFunction = std::array<std::optional<TimeTable>, 3>;
@@ -43,12 +44,12 @@ using VectorFunction = std::array<std::optional<TimeTable>, 3>;
 bool moves(const VectorFunction& velocity);
 
 struct Analysis {
-  enum class Type { explicit_dynamics, statics, stability, milling };
+  enum class Type { explicit_dynamics, statics, stability, milling, modes };
   enum class Kinematics { plane_strain, plane_stress, axisymmetric, three_dimensional };
   Type type = Type::explicit_dynamics;
   Kinematics kinematics = Kinematics::plane_strain;
-  /// Of milling: no body, no cloud.
-  bool of_milling() const { return type == Type::stability || type == Type::milling; }
+  /// Of milling, or of the structures that are milled: no body, no cloud.
+  bool of_milling() const { return type == Type::stability || type == Type::milling || type == Type::modes; }
   int dimensions() const { return kinematics == Kinematics::three_dimensional ? 3 : 2; }
   Space space() const { return kinematics == Kinematics::axisymmetric ? Space::revolution : Space::plane; }
   bool mechanical = true; ///< false: nothing moves, heat alone
@@ -337,6 +338,8 @@ struct Case {
   std::optional<CuttingSetup> cutting; ///< what the case was made of, where it says [cutting]
   /// Of milling analyses, which have nothing of the above but titles (input/case_machining.hpp); else null.
   std::shared_ptr<const MachiningCase> machining;
+  /// What vibrates in it, and in analyses of modes (input/case_structure.hpp); else null.
+  std::shared_ptr<const StructureCase> structure;
   Output output;
   Report report;
 

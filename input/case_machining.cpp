@@ -143,9 +143,15 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   read_cutting_law(root, read, diagnostics);
   for (const Setting& table : root.entries("modes")) read.modes.push_back(read_mode(table, diagnostics));
   if (const Setting* modes = root.find("modes")) check_modes(*modes, read, diagnostics);
-  if (read.modes.empty() && result.analysis.type == Analysis::Type::stability)
-    diagnostics.add(Mistake::missing_key, root.where, "modes",
-                    "missing, expected a mode of tool or part, [modes.NAME]: nothing else can chatter");
+  if (const Setting* part = root.find("part")) {
+    for (const char* key : {"cutter", "damping"})
+      if (!part->find(key) && (std::string_view(key) != "damping" || !part->find("rayleigh")))
+        diagnostics.add(Mistake::missing_key, part->where, part->path + "." + key,
+                        find_key(std::string("part.") + key)->missing());
+  } else if (read.modes.empty() && result.analysis.type == Analysis::Type::stability)
+    diagnostics.add(
+        Mistake::missing_key, root.where, "modes",
+        "missing, expected a mode of tool or part, [modes.NAME], or a [part]: nothing else can chatter");
   const double turn = read.cut.feed * static_cast<double>(read.cut.cutter.teeth());
   constexpr double turns = 12.0, share = 0.1, lag = 2.0 * std::numbers::pi / 180.0;
   root.set_default("milling.length", turns * turn);

@@ -27,6 +27,8 @@ std::string outside_reason(const Block& block, const Vec3& x);
 
 /// Cutter, cut, law, modes and what is asked of a milling analysis.
 void read_machining(Setting& root, Case& result, Diagnostics& diagnostics);
+/// Parts and shafts, of it and of analyses of modes.
+void read_structure(Setting& root, Case& result, Diagnostics& diagnostics);
 
 void read_contact(const Setting& root, Case& result, Diagnostics& diagnostics);
 /// The thermal side of a tool, with its section. Expects its outline.

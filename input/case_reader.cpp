@@ -197,9 +197,10 @@ std::string made_beside(const Value& document, const Override& change) {
              : fmt::format("\n{}: the case has no {}.{}{}", change.where.text(), table->key, name, meant);
 }
 
-/// A milling case, of settings that the schema has passed.
+/// A case of milling or of structures, of settings that the schema has passed.
 void read_milling(Setting& root, Case& result, Diagnostics& diagnostics) {
-  read_machining(root, result, diagnostics);
+  read_structure(root, result, diagnostics);
+  if (result.analysis.type != Analysis::Type::modes) read_machining(root, result, diagnostics);
   read_shown_units(root, result, diagnostics);
   diagnostics.throw_if_any();
 }
@@ -211,8 +212,9 @@ Case read_changed(Value document, const std::string& path, const std::vector<Ove
   name_single_experiment(document);
   Diagnostics diagnostics;
   Case result;
-  const bool milling = family_of(document) == Family::milling;
-  if (milling) take_law_from_file(document, std::filesystem::path(path).parent_path());
+  const Family family = family_of(document);
+  const bool milling = family != Family::bodies;
+  if (family == Family::milling) take_law_from_file(document, std::filesystem::path(path).parent_path());
   result.variables = apply_variables(document, changes, diagnostics, result.warnings);
   if (!milling) {
     take_from_library(document, diagnostics);

@@ -1,7 +1,9 @@
 #include "app/machining/machining_session.hpp"
 
 #include "app/machining/milling_run.hpp"
+#include "app/machining/modes_run.hpp"
 #include "app/machining/stability_run.hpp"
+#include "app/machining/structure_modes.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/profile.hpp"
 #include "core/error.hpp"
@@ -60,6 +62,7 @@ std::optional<Exit> MachiningSession::go_on() {
       status_.warnings = milling_doubts(input_);
       for (const std::string& warning : status_.warnings) observer_.remark("warning: " + warning);
       status_.exit = Exit::done;
+      if (input_.machining) modes_ = modes_of(input_);
       watch_.time("step", [&] { solve(); });
       finish();
     });
@@ -73,20 +76,28 @@ std::unique_ptr<Session> machining_run(const input::Case& input, const RunOption
                                        RunObserver& observer) {
   if (input.analysis.type == input::Analysis::Type::milling)
     return std::make_unique<MillingRun>(input, options, observer);
+  if (input.analysis.type == input::Analysis::Type::modes)
+    return std::make_unique<ModesRun>(input, options, observer);
   return std::make_unique<StabilityRun>(input, options, observer);
 }
 
-std::vector<machining::Mode> modes_of(const input::Case& input) {
-  return {input.machining->modes.begin(), input.machining->modes.end()};
+std::vector<input::NamedMode> modes_of(const input::Case& input) {
+  std::vector<input::NamedMode> modes = input.machining->modes;
+  if (input.structure->part) {
+    int number = 0;
+    for (const machining::Mode& mode : modes_at_cutter(input, SolvedPart(input)))
+      modes.push_back({mode, fmt::format("{}", ++number)});
+  }
+  return modes;
 }
 
 std::string speed_text(double speed) { return results::number_format(speed / rpm, 6) + " rpm"; }
 
-double deepest(const input::Case& input) {
+double deepest(const input::Case& input, const std::vector<machining::Mode>& modes) {
   const input::MachiningCase& milling = *input.machining;
   if (milling.stability.depth_to) return *milling.stability.depth_to;
   constexpr double lobes = 6.0, beyond = 1.5;
-  const auto least = machining::zero_order_minimum(milling.cut, modes_of(input), milling.speed);
+  const auto least = machining::zero_order_minimum(milling.cut, modes, milling.speed);
   return std::max(least ? lobes * least->depth : 0.0, beyond * milling.axial_depth);
 }
 
@@ -126,8 +137,9 @@ std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
 } // namespace
 
 std::vector<std::string> milling_doubts(const input::Case& input) {
-  const input::MachiningCase& milling = *input.machining;
   std::vector<std::string> doubts;
+  if (!input.machining) return doubts;
+  const input::MachiningCase& milling = *input.machining;
   const auto [thinnest, thickest] = machining::steady_chips(milling.cut);
   if (thinnest <= 0.0)
     doubts.push_back(
@@ -158,9 +170,39 @@ std::vector<std::string> milling_doubts(const input::Case& input) {
   return doubts;
 }
 
+namespace {
+
+/// What there is to say of parts and shafts.
+void describe(const input::Case& input, Checked& checked) {
+  const input::StructureCase& structure = *input.structure;
+  if (const auto& read = structure.part) {
+    const machining::Part part = part_of(input);
+    for (const input::PartPlace& place : read->places) displacement_at(input, part, place);
+    if (read->cutter) displacement_at_cutter(input, part);
+    const Vec3& size = read->shape.size;
+    checked.facts.emplace_back("part", fmt::format("{} × {} × {}, {} cells, {} unknowns",
+                                                   si_format(size.x(), "m"), si_format(size.y(), "m"),
+                                                   si_format(size.z(), "m"), part.cells(), part.unknowns()));
+    checked.numbers.emplace_back("unknowns", static_cast<double>(part.unknowns()));
+  }
+  if (const auto& read = structure.shaft) {
+    const machining::Shaft shaft = shaft_of(input);
+    checked.facts.emplace_back("shaft", fmt::format("{} long, {} elements, at {}",
+                                                    si_format(shaft.end() - shaft.begin(), "m"),
+                                                    shaft.nodes().size() - 1, speed_text(read->speed)));
+  }
+}
+
+} // namespace
+
 Checked check_machining(const input::Case& input) {
-  const input::MachiningCase& milling = *input.machining;
   Checked checked;
+  if (!input.machining) {
+    checked.facts.emplace_back("case", input.title.empty() ? input.name : input.title);
+    describe(input, checked);
+    return checked;
+  }
+  const input::MachiningCase& milling = *input.machining;
   checked.warnings = milling_doubts(input);
   const auto add = [&](const char* label, std::string text) {
     checked.facts.emplace_back(label, std::move(text));
@@ -178,22 +220,24 @@ Checked check_machining(const input::Case& input) {
           "{}, teeth pass at {}, edges move at {}", speed_text(milling.speed),
           si_format(milling.speed * static_cast<double>(cutter.teeth()) / (2.0 * std::numbers::pi), "Hz"),
           si_format(milling.speed * cutter.radius(), "m/s")));
-  add("modes", fmt::format("{}", milling.modes.size()));
+  describe(input, checked);
+  const std::vector<input::NamedMode> modes = modes_of(input);
+  add("modes", fmt::format("{}", modes.size()));
   if (input.analysis.type == input::Analysis::Type::milling) {
     const input::DexelSettings& dexels = milling.dexels;
     const double turns = milling.length / (milling.cut.feed * static_cast<double>(cutter.teeth()));
     add("path", fmt::format("{}, {} turns of {} steps", si_format(milling.length, "m"),
                             results::number_format(turns), dexels.steps));
     add("dexels", fmt::format("{} apart, {} layers", si_format(dexels.pitch, "m"), dexels.layers));
-    checked.numbers = {{"steps", turns * dexels.steps}};
+    checked.numbers.emplace_back("steps", turns * dexels.steps);
     return checked;
   }
   const input::StabilityRange& range = milling.stability;
-  add("chart",
-      fmt::format("{} speeds from {} to {}, {} depths to {}", range.speeds, speed_text(range.speed_from),
-                  speed_text(range.speed_to), range.depths, si_format(deepest(input), "m")));
-  checked.numbers = {{"modes", static_cast<double>(milling.modes.size())},
-                     {"points", static_cast<double>(range.speeds * range.depths)}};
+  add("chart", fmt::format("{} speeds from {} to {}, {} depths to {}", range.speeds,
+                           speed_text(range.speed_from), speed_text(range.speed_to), range.depths,
+                           si_format(deepest(input, {modes.begin(), modes.end()}), "m")));
+  checked.numbers.emplace_back("modes", static_cast<double>(modes.size()));
+  checked.numbers.emplace_back("points", static_cast<double>(range.speeds * range.depths));
   return checked;
 }
 

@@ -3,6 +3,7 @@
 #include "app/run.hpp"
 #include "app/stopwatch.hpp"
 #include "input/case.hpp"
+#include "input/case_machining.hpp"
 #include "machining/mode.hpp"
 
 #include <numbers>
@@ -38,6 +39,8 @@ protected:
   Stopwatch watch_;
   results::HistoryLog history_;
   results::RunStatus status_;
+  std::vector<input::NamedMode> modes_; ///< of a milling analysis
+  std::vector<machining::Mode> plain_modes() const { return {modes_.begin(), modes_.end()}; }
 
 private:
   void finish();
@@ -55,9 +58,10 @@ Checked check_machining(const input::Case& input);
 std::vector<std::string> milling_doubts(const input::Case& input);
 
 // For those who make them.
-std::vector<machining::Mode> modes_of(const input::Case& input);
+/// Of tool and part: those of the case, and of its [part] where the cutter cuts, which is solved for it.
+std::vector<input::NamedMode> modes_of(const input::Case& input);
 std::string speed_text(double speed); ///< "8000 rpm" of rad/s
 /// The depth that charts and searches span, m.
-double deepest(const input::Case& input);
+double deepest(const input::Case& input, const std::vector<machining::Mode>& modes);
 
 } // namespace cnem::app

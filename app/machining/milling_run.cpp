@@ -38,7 +38,7 @@ void MillingRun::Course::add(const machining::ProcessStep& step, double dt) {
 
 void MillingRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
-  machining::MillingProcess process(milling.cut, modes_of(input_),
+  machining::MillingProcess process(milling.cut, plain_modes(),
                                     {.spindle = milling.speed,
                                      .axial_depth = milling.axial_depth,
                                      .length = milling.length,
@@ -102,11 +102,11 @@ void MillingRun::judge(const Course& steady) {
   // Campomanes and Altintas (2003): chips a quarter thicker than without vibration are chatter.
   constexpr double chatter = 1.25;
   const double still = machining::steady_chips(milling.cut).thickest;
-  const bool chatters = !milling.modes.empty() && steady.thickest > chatter * still;
+  const bool chatters = !modes_.empty() && steady.thickest > chatter * still;
   status_.add_metric("milling.chip_growth", steady.thickest / still);
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);
   status_.flags.emplace_back("milling.chatter");
-  if (!milling.modes.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
+  if (!modes_.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
   std::string surface = "the path is too short for a surface";
   if (!place_.empty()) {
     double roughness = 0.0, error = 0.0;
@@ -122,10 +122,10 @@ void MillingRun::judge(const Course& steady) {
   }
   status_.reason =
       fmt::format("{}; at most {} along x, {} along y; {}",
-                  milling.modes.empty() ? "a rigid cut"
-                  : chatters            ? fmt::format("chatter: chips {} times as thick as without vibration",
-                                                      results::number_format(steady.thickest / still, 3))
-                                        : "no chatter",
+                  modes_.empty() ? "a rigid cut"
+                  : chatters     ? fmt::format("chatter: chips {} times as thick as without vibration",
+                                               results::number_format(steady.thickest / still, 3))
+                                 : "no chatter",
                   si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface);
 }
 

@@ -19,20 +19,19 @@ using machining::StabilityChart;
 using results::si_format;
 
 /// The mode that a vibration is nearest to.
-std::string nearest_mode(const input::MachiningCase& milling, double frequency) {
-  const auto near =
-      std::min_element(milling.modes.begin(), milling.modes.end(), [&](const auto& a, const auto& b) {
-        return std::abs(std::log(a.frequency / frequency)) < std::abs(std::log(b.frequency / frequency));
-      });
+std::string nearest_mode(const std::vector<input::NamedMode>& modes, double frequency) {
+  const auto near = std::min_element(modes.begin(), modes.end(), [&](const auto& a, const auto& b) {
+    return std::abs(std::log(a.frequency / frequency)) < std::abs(std::log(b.frequency / frequency));
+  });
   return fmt::format("mode {} of the {} ({})", near->name,
                      near->of == machining::Mode::Of::tool ? "tool" : "part",
                      si_format(near->frequency, "Hz"));
 }
 
-std::string vibration(const input::MachiningCase& milling, const machining::Multiplier& at) {
+std::string vibration(const std::vector<input::NamedMode>& modes, const machining::Multiplier& at) {
   if (at.kind() == machining::Bifurcation::fold) return "it grows without a vibration of its own";
   return fmt::format("it chatters at {} ({}), by {}", si_format(at.frequency, "Hz"),
-                     machining::name_of(at.kind()), nearest_mode(milling, at.frequency));
+                     machining::name_of(at.kind()), nearest_mode(modes, at.frequency));
 }
 
 /// Another speed that bears the depth with a tenth to spare, "" where there is none; metrics of it.
@@ -55,7 +54,7 @@ std::string better_speed(const input::MachiningCase& milling, const StabilityCha
 void StabilityRun::judge() {
   const StabilityChart& chart = chart_;
   const input::MachiningCase& milling = *input_.machining;
-  const std::vector<machining::Mode> modes = modes_of(input_);
+  const std::vector<machining::Mode> modes = plain_modes();
   const double most = std::max(chart.depth.back(), milling.axial_depth);
   const auto lowest = machining::zero_order_minimum(milling.cut, modes, milling.speed);
   // Lobes that flips bound are narrow: steps of a fifth of the least limit, but not without end.
@@ -83,7 +82,7 @@ void StabilityRun::judge() {
   const std::string cut =
       fmt::format("{} deep at {}", si_format(milling.axial_depth, "m"), speed_text(milling.speed));
   if (!stable)
-    status_.reason = fmt::format("unstable {}: {}; {}; {}", cut, bound, vibration(milling, here),
+    status_.reason = fmt::format("unstable {}: {}; {}; {}", cut, bound, vibration(modes_, here),
                                  better_speed(milling, chart, status_));
   else if (limit && limit->depth < 1.1 * milling.axial_depth)
     status_.reason =
@@ -124,8 +123,9 @@ void StabilityRun::write_files() {
 void StabilityRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
   const input::StabilityRange& range = milling.stability;
-  chart_ = machining::stability_chart(milling.cut, modes_of(input_), range.speed_from, range.speed_to,
-                                      range.speeds, deepest(input_), range.depths);
+  const std::vector<machining::Mode> modes = plain_modes();
+  chart_ = machining::stability_chart(milling.cut, modes, range.speed_from, range.speed_to, range.speeds,
+                                      deepest(input_, modes), range.depths);
   judge();
   status_.time = 0.0;
 }

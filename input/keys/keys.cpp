@@ -24,8 +24,8 @@ void add_general(Keys& k) {
         "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution; "
         "`stability`: "
         "which depths a milling cut bears without chatter; `milling`: the cut in the time domain "
-        "(docs/milling.md).")
-      .one_of({"explicit", "static", "stability", "milling"})
+        "(docs/milling.md); `modes`: how a part or a shaft vibrates and bends (docs/structures.md).")
+      .one_of({"explicit", "static", "stability", "milling", "modes"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
         "Per unit thickness: no strain out of the plane, or no stress. `axisymmetric`: "
@@ -320,6 +320,7 @@ const std::vector<Key>& schema() {
     add_output(k);
     add_report(k);
     add_machining(k);
+    add_structure(k);
     mark_scopes(k);
     mark_families(k);
     return std::move(k.all);

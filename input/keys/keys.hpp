@@ -92,6 +92,7 @@ void add_method(Keys& k);
 void add_pictures(Keys& k);
 void add_report(Keys& k);
 void add_machining(Keys& k);
+void add_structure(Keys& k);
 
 /// Members of the table of a tool, "tools.*.", that let it move as a body.
 void add_drive(Keys& k, const std::string& tool);
@@ -99,7 +100,8 @@ void add_mass_scaling(Keys& k);
 
 /// Says which keys have a meaning in the plane alone, or in space alone: the one table of it.
 void mark_scopes(Keys& k);
-/// Says which keys belong to analyses of bodies, and which to milling: the one table of it.
+/// Says which keys belong to analyses of bodies, which to milling and which to structures: the one table of
+/// it.
 void mark_families(Keys& k);
 
 } // namespace cnem::input

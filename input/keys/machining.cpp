@@ -17,7 +17,9 @@ using enum Type;
 /// Keys that both kinds of analyses have; of tables each member is looked at by itself.
 constexpr std::array shared{"title",         "include", "let",    "analysis",
                             "analysis.type", "cutting", "report", "report.units"};
-/// Tables of milling, with all that lies below them.
+/// Tables of milling, of structures whose modes are sought, and of both, with all that lies below them.
+constexpr std::array structure_tables{"shaft"};
+constexpr std::array common_tables{"part"};
 constexpr std::array milling_tables{"cutter", "cutting.law", "cutting.forces", "milling",
                                     "modes",  "stability",   "dexels"};
 
@@ -196,8 +198,11 @@ void mark_families(Keys& k) {
   };
   for (Key& key : k.all) {
     if (in(shared, [&](const char* path) { return key.path == path; })) continue;
-    const bool milling = in(milling_tables, [&](const char* path) { return below(key.path, path); });
-    key.family = milling ? Family::milling : Family::bodies;
+    const auto stands_below = [&](const char* path) { return below(key.path, path); };
+    key.family = in(milling_tables, stands_below)     ? Family::milling
+                 : in(structure_tables, stands_below) ? Family::structures
+                 : in(common_tables, stands_below)    ? Family::machining
+                                                      : Family::bodies;
   }
 }
 

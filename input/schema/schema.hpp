@@ -35,8 +35,9 @@ enum class Type {
 /// In which analyses a key has a meaning.
 enum class Scope { everywhere, plane, space };
 
-/// In which analyses: of bodies that deform, or of milling, where cutter, cut and modes are all there is.
-enum class Family { everywhere, bodies, milling };
+/// In which analyses: of bodies that deform; of milling, where cutter, cut and modes are all there is; of
+/// structures, whose modes are sought; machining: of the latter two.
+enum class Family { everywhere, bodies, milling, structures, machining };
 
 /// Whether a key has to be written. For a table, `fallback` means that its own defaults hold without it.
 enum class Presence { required, fallback, optional };

@@ -181,11 +181,13 @@ Json required_in(Family family) {
 std::string json_schema() {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "cnem case"}};
   schema.update(object_schema("", Needs::as_written));
-  const Json milling{{"properties", {{"type", {{"enum", {"stability", "milling"}}}}}},
-                     {"required", {"type"}}};
-  schema["if"] = {{"properties", {{"analysis", milling}}}, {"required", {"analysis"}}};
+  const auto of_types = [](std::vector<std::string> types) -> Json {
+    const Json analysis{{"properties", {{"type", {{"enum", std::move(types)}}}}}, {"required", {"type"}}};
+    return {{"properties", {{"analysis", analysis}}}, {"required", {"analysis"}}};
+  };
+  schema["if"] = of_types({"stability", "milling"});
   schema["then"] = required_in(Family::milling);
-  schema["else"] = required_in(Family::bodies);
+  schema["else"] = {{"if", of_types({"modes"})}, {"else", required_in(Family::bodies)}};
   return schema.dump(2) + "\n";
 }
 

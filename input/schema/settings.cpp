@@ -79,15 +79,28 @@ private:
     }
   }
 
-  bool belongs(const Key& key) const { return key.family == Family::everywhere || key.family == family_; }
+  bool belongs(const Key& key) const {
+    return key.family == Family::everywhere || key.family == family_ ||
+           (key.family == Family::machining && family_ != Family::bodies);
+  }
 
   /// Whether the key belongs to analyses of this kind; if not, it must not have been written.
   bool in_family(const Key& key, const Member* found, const std::string& path) {
     if (belongs(key)) return true;
     if (found)
       diagnostics_.add(Mistake::conflict, found->where, path,
-                       family_ == Family::milling
+                       family_ == Family::milling && key.family == Family::structures
+                           ? "found in a milling analysis, expected it with analysis.type = \"modes\" only: "
+                             "its modes go into [modes]"
+                       : family_ == Family::milling
                            ? "found in a milling analysis, expected none: it has no body that deforms"
+                       : family_ == Family::structures
+                           ? "found in an analysis of modes, expected none: it has [part] and [shaft] alone"
+                       : key.family == Family::structures
+                           ? "found in an analysis of bodies, expected it with analysis.type = \"modes\" only"
+                       : key.family == Family::machining
+                           ? "found in an analysis of bodies, expected it with analysis.type = \"modes\", "
+                             "\"stability\" or \"milling\" only"
                            : "found in an analysis of bodies, expected it with analysis.type = \"stability\" "
                              "or \"milling\" only");
     return false;
@@ -217,6 +230,7 @@ std::string_view kinematics_of(const Value& document) { return analysis_of(docum
 
 Family family_of(const Value& document) {
   const std::string_view type = analysis_of(document, "type");
+  if (type == "modes") return Family::structures;
   return type == "stability" || type == "milling" ? Family::milling : Family::bodies;
 }
 

@@ -5,7 +5,7 @@
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
 #include "mechanics/statics/rigid_motion.hpp"
-#include "mechanics/statics/sparse_solver.hpp"
+#include "core/sparse_cholesky.hpp"
 #include "mechanics/statics/stiffness.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 // The stiffness of linear statics on the operators of any discretisation, with the edge defect.
-#include "mechanics/statics/sparse_solver.hpp"
+#include "core/sparse_cholesky.hpp"
 #include "mechanics/statics/statics.hpp"
 
 #include <utility>

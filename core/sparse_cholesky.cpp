@@ -1,4 +1,4 @@
-#include "mechanics/statics/sparse_solver.hpp"
+#include "core/sparse_cholesky.hpp"
 
 #include "core/error.hpp"
 

@@ -1,0 +1,35 @@
+#pragma once
+// Parts and shafts of a case, solved.
+#include "input/case.hpp"
+#include "input/case_structure.hpp"
+#include "machining/structure/eigenmodes.hpp"
+#include "machining/structure/part.hpp"
+#include "machining/structure/shaft.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cnem::app {
+
+/// The part and the shaft of a case. Throw InputError with their key.
+machining::Part part_of(const input::Case& input);
+machining::Shaft shaft_of(const input::Case& input);
+
+/// A place of a part: what the unknowns make of its displacement, [3 × unknowns]. Throws InputError with its
+/// key where there is no material.
+SparseMatrix displacement_at(const input::Case& input, const machining::Part& part,
+                             const input::PartPlace& place);
+/// Where the cutter is.
+SparseMatrix displacement_at_cutter(const input::Case& input, const machining::Part& part);
+
+struct SolvedPart {
+  explicit SolvedPart(const input::Case& input);
+  machining::Part part;
+  SparseMatrix stiffness, mass;
+  machining::Eigenmodes modes;
+};
+
+/// Modes of a part as its cutter sees them, along axes of the cut.
+std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& part);
+
+} // namespace cnem::app

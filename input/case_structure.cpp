@@ -1,0 +1,234 @@
+// Reads parts and shafts.
+#include "input/case_structure.hpp"
+
+#include "core/index.hpp"
+#include "input/case_parts.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace cnem::input {
+namespace {
+
+machining::ElasticSolid read_solid(const Setting& table) {
+  return {table.get<double>("young"), table.get<double>("poisson"), table.get<double>("density")};
+}
+
+/// Of a piece of a whole, which has what it does not say.
+machining::ElasticSolid read_solid(const Setting& table, const machining::ElasticSolid& whole) {
+  return {table.maybe<double>("young").value_or(whole.young),
+          table.maybe<double>("poisson").value_or(whole.poisson),
+          table.maybe<double>("density").value_or(whole.density)};
+}
+
+machining::PartSupport face_of(const std::string& name) {
+  return {.axis = name[0] - 'x', .far = name[1] == '1'};
+}
+
+std::array<int, 3> read_cells(const Setting& part, const Vec3& size, Diagnostics& diagnostics) {
+  std::array<int, 3> cells{};
+  const Setting* written = part.find("cells");
+  constexpr double longest = 20.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double count = written ? std::get<Vec3>(written->value)[axis]
+                                 : std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9);
+    constexpr double most = 1000.0;
+    if (count < 1.0 || count > most || count != std::floor(count)) {
+      diagnostics.add(Mistake::range, written->where, written->path,
+                      fmt::format("found {:g} cells along {}, expected a whole number from 1 to {:g}", count,
+                                  axis_name(index_of(axis)), most));
+      return {1, 1, 1};
+    }
+    cells[index_of(axis)] = static_cast<int>(count);
+  }
+  constexpr int most = 20000;
+  if (static_cast<double>(cells[0]) * cells[1] * cells[2] > most)
+    diagnostics.add(
+        Mistake::range, written ? written->where : part.where, part.path + ".cells",
+        fmt::format("{} × {} × {} cells, expected at most {}", cells[0], cells[1], cells[2], most));
+  return cells;
+}
+
+void read_zones(const Setting& part, machining::PartShape& shape, Diagnostics& diagnostics) {
+  for (const Setting& table : part.entries("zones")) {
+    machining::PartZone zone{.low = table.get<Vec3>("from"),
+                             .high = table.get<Vec3>("to"),
+                             .material = shape.materials.size(),
+                             .taken = table.get<double>("taken")};
+    if (!((zone.high - zone.low).array() > 0.0).all())
+      diagnostics.add(Mistake::range, table.where, table.path + ".to",
+                      "found a corner that is not beyond `from` along x, y and z, expected the opposite one");
+    else if (((zone.low.array() >= shape.size.array()) || (zone.high.array() <= 0.0)).any())
+      diagnostics.add(Mistake::range, table.where, table.path,
+                      "lies beside the part, expected a box within it");
+    shape.materials.push_back(read_solid(table, shape.materials.front()));
+    shape.zones.push_back(std::move(zone));
+  }
+}
+
+void read_supports(const Setting& table, PartCase& part, Diagnostics& diagnostics) {
+  const auto add = [&](const char* key, bool turns) {
+    const Setting* faces = table.find(key);
+    if (!faces) return;
+    for (const std::string& name : std::get<std::vector<std::string>>(faces->value)) {
+      machining::PartSupport support = face_of(name);
+      support.turns = turns;
+      if (part.element == machining::PartElement::plate_8 && support.axis == 2)
+        diagnostics.add(Mistake::conflict, faces->where, faces->path,
+                        "found " + name +
+                            ", expected an edge: x0, x1, y0, y1: the faces of a plate are not apart");
+      part.supports.push_back(support);
+    }
+    if (turns && part.element != machining::PartElement::plate_8)
+      diagnostics.add(
+          Mistake::conflict, faces->where, faces->path,
+          "found with hexahedra, expected it with part.element = \"plate_8\" only: what holds all points "
+          "of a face does not let it turn");
+  };
+  add("clamped", false);
+  add("supported", true);
+  if (part.supports.empty())
+    diagnostics.add(
+        Mistake::missing_key, table.where, table.path + ".clamped",
+        "missing, expected faces that are held, such as [\"y0\"]: a part that nothing holds has no "
+        "stiffness against moving as a whole");
+}
+
+void read_damping(const Setting& table, PartCase& part, Diagnostics& diagnostics) {
+  part.damping = table.maybe<double>("damping");
+  if (const Setting* rayleigh = table.find("rayleigh")) {
+    part.rayleigh = {rayleigh->get<double>("mass"), rayleigh->get<double>("stiffness")};
+    if (part.damping)
+      diagnostics.add(Mistake::conflict, rayleigh->where, rayleigh->path,
+                      "found part.damping too, expected one of them");
+  }
+}
+
+void read_directions(const Setting& table, PartCase& part, Diagnostics& diagnostics) {
+  part.cutter = table.maybe<Vec3>("cutter");
+  const Vec3 feed = table.get<Vec3>("feed"), axis = table.get<Vec3>("axis");
+  constexpr double square = 1e-6;
+  const Setting& where = *table.find("axis");
+  if (!(feed.norm() > 0.0) || !(axis.norm() > 0.0) ||
+      std::abs(feed.normalized().dot(axis.normalized())) > square) {
+    diagnostics.add(Mistake::range, where.where, where.path,
+                    "found a direction that is not square to part.feed, expected one across it");
+    return;
+  }
+  part.to_cutter.row(0) = feed.normalized().transpose();
+  part.to_cutter.row(2) = axis.normalized().transpose();
+  part.to_cutter.row(1) = axis.normalized().cross(feed.normalized()).transpose();
+}
+
+PartCase read_part(const Setting& table, Diagnostics& diagnostics) {
+  PartCase part;
+  part.shape.size = table.get<Vec3>("size");
+  if (const Setting& size = *table.find("size"); !(part.shape.size.array() > 0.0).all()) {
+    diagnostics.add(Mistake::range, size.where, size.path,
+                    "found a side without length, expected three > 0 m");
+    return part;
+  }
+  part.shape.divisions = read_cells(table, part.shape.size, diagnostics);
+  part.shape.materials = {read_solid(table)};
+  part.element = table.choice<machining::PartElement>("element");
+  read_zones(table, part.shape, diagnostics);
+  read_supports(table, part, diagnostics);
+  read_damping(table, part, diagnostics);
+  read_directions(table, part, diagnostics);
+  part.count = static_cast<int>(table.get<std::int64_t>("count"));
+  for (const Setting& point : table.entries("points")) {
+    PartPlace place{.name = point.name, .at = point.maybe<Vec3>("at"), .force = point.get<Vec3>("force")};
+    const Setting* face = point.find("face");
+    if (static_cast<bool>(face) == place.at.has_value())
+      diagnostics.add(Mistake::conflict, point.where, point.path,
+                      face ? "found a point and a face, expected one of them"
+                           : "missing, expected a point, `at`, or a `face`");
+    else if (face) {
+      const machining::PartSupport of = face_of(std::get<std::string>(face->value));
+      place.axis = of.axis;
+      place.far = of.far;
+      if (part.element == machining::PartElement::plate_8 && of.axis == 2)
+        diagnostics.add(Mistake::conflict, face->where, face->path,
+                        "found a face of a plate, expected one of its edges: x0, x1, y0, y1");
+    }
+    part.places.push_back(std::move(place));
+  }
+  return part;
+}
+
+machining::Bearing read_bearing(const Setting& table) {
+  enum class Kind { spring, pinned, clamped };
+  constexpr double rigid = std::numeric_limits<double>::infinity();
+  machining::Bearing bearing{.at = table.get<double>("at")};
+  const auto kind = table.choice<Kind>("kind");
+  if (kind == Kind::spring) {
+    bearing.stiffness = table.get<double>("stiffness");
+    bearing.damping = table.get<double>("damping");
+    bearing.tilt_stiffness = table.get<double>("tilt_stiffness");
+    bearing.tilt_damping = table.get<double>("tilt_damping");
+  } else
+    bearing.stiffness = rigid;
+  if (kind == Kind::clamped) bearing.tilt_stiffness = rigid;
+  return bearing;
+}
+
+ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
+  ShaftCase shaft;
+  const machining::ElasticSolid solid = read_solid(table);
+  for (const Setting& section : table.entries("sections")) {
+    shaft.sections.push_back({.from = section.get<double>("from"),
+                              .to = section.get<double>("to"),
+                              .diameter = section.get<double>("diameter"),
+                              .bore = section.get<double>("bore"),
+                              .solid = read_solid(section, solid),
+                              .shear_correction = section.maybe<double>("shear_correction")});
+    const machining::ShaftSection& read = shaft.sections.back();
+    if (read.to <= read.from)
+      diagnostics.add(Mistake::range, section.where, section.path + ".to",
+                      fmt::format("found {:g} m, expected more than from = {:g} m", read.to, read.from));
+    if (read.bore >= read.diameter)
+      diagnostics.add(
+          Mistake::range, section.where, section.path + ".bore",
+          fmt::format("found {:g} m, expected less than the diameter, {:g} m", read.bore, read.diameter));
+  }
+  double begin = std::numeric_limits<double>::infinity(), end = -begin;
+  for (const machining::ShaftSection& section : shaft.sections) {
+    begin = std::min(begin, section.from);
+    end = std::max(end, section.to);
+  }
+  constexpr double elements = 40.0, most = 400.0;
+  table.set_default("element", (end - begin) / elements);
+  shaft.element = table.get<double>("element");
+  if (const Setting& element = *table.find("element"); (end - begin) / shaft.element > most)
+    diagnostics.add(Mistake::range, element.where, element.path,
+                    fmt::format("found {:g} m, expected at least {:g} m: {:g} elements", shaft.element,
+                                (end - begin) / most, most));
+  for (const Setting& bearing : table.entries("bearings")) shaft.bearings.push_back(read_bearing(bearing));
+  shaft.speed = table.get<double>("speed");
+  shaft.count = static_cast<int>(table.get<std::int64_t>("count"));
+  for (const Setting& point : table.entries("points")) {
+    shaft.places.push_back({point.name, point.get<double>("at"), point.get<double>("force")});
+    if (const double at = shaft.places.back().at; at < begin || at > end)
+      diagnostics.add(
+          Mistake::range, point.where, point.path + ".at",
+          fmt::format("found {:g} m, expected from {:g} to {:g} m, along the shaft", at, begin, end));
+  }
+  return shaft;
+}
+
+} // namespace
+
+void read_structure(Setting& root, Case& result, Diagnostics& diagnostics) {
+  const auto made = std::make_shared<StructureCase>();
+  result.structure = made;
+  if (const Setting* part = root.find("part")) made->part = read_part(*part, diagnostics);
+  if (Setting* shaft = root.find("shaft")) made->shaft = read_shaft(*shaft, diagnostics);
+  if (result.analysis.type == Analysis::Type::modes && !made->part && !made->shaft)
+    diagnostics.add(Mistake::missing_key, root.where, "part",
+                    "missing, expected a [part] or a [shaft] that vibrates");
+}
+
+} // namespace cnem::input

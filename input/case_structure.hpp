@@ -1,0 +1,59 @@
+#pragma once
+// Parts and shafts as read.
+#include "machining/structure/eigenmodes.hpp"
+#include "machining/structure/part.hpp"
+#include "machining/structure/shaft.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cnem::input {
+
+/// A place of a part that is looked at: a point of the material, or the mean of a face.
+struct PartPlace {
+  std::string name;
+  std::optional<Vec3> at;    ///< m
+  int axis = 0;              ///< of the face
+  bool far = false;          ///< which end of it
+  Vec3 force = Vec3::Zero(); ///< N
+};
+
+struct PartCase {
+  machining::PartShape shape;
+  machining::PartElement element = machining::PartElement::hexahedron_27;
+  std::vector<machining::PartSupport> supports;
+  int count = 6;                                           ///< modes
+  std::optional<double> damping;                           ///< – ζ of each
+  std::optional<machining::Rayleigh> rayleigh;             ///< in its place
+  std::optional<Vec3> cutter;                              ///< m, where it cuts
+  Eigen::Matrix3d to_cutter = Eigen::Matrix3d::Identity(); ///< from axes of the part to those of the cut
+  std::vector<PartPlace> places;
+
+  /// ζ of a mode, omega: rad/s; 0 where nothing is said of it.
+  double damping_of(double omega) const {
+    return rayleigh ? rayleigh->of_mode(omega) : damping.value_or(0.0);
+  }
+};
+
+struct ShaftPlace {
+  std::string name;
+  double at = 0.0;    ///< m
+  double force = 0.0; ///< N along x
+};
+
+struct ShaftCase {
+  std::vector<machining::ShaftSection> sections;
+  std::vector<machining::Bearing> bearings;
+  double element = 0.0; ///< m
+  double speed = 0.0;   ///< rad/s
+  int count = 8;        ///< modes
+  std::vector<ShaftPlace> places;
+};
+
+struct StructureCase {
+  std::optional<PartCase> part;
+  std::optional<ShaftCase> shaft;
+};
+
+} // namespace cnem::input
