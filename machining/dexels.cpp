@@ -37,9 +37,6 @@ struct Side {
   double reach(const Vec2& size) const { return 0.5 * normal.cwiseAbs().dot(size); }
 };
 
-/// What clipping works in.
-thread_local std::vector<Vec2> within, beyond, scratch;
-
 } // namespace
 
 /// A convex polygon, counter-clockwise. Its first side is the one that leaves matter: pieces are divided by
@@ -59,25 +56,15 @@ public:
   std::span<const Vec2> corners() const { return {corner_.data(), count_}; }
   std::span<const Side> sides() const { return {side_.data(), count_}; }
 
-  enum class Place { outside, across, inside };
-  Place of_cell(const Vec2& middle, const Vec2& size) const {
-    bool inside = true;
-    for (const Side& side : sides()) {
-      const double height = side.height(middle), reach = side.reach(size);
-      if (height >= reach) return Place::outside;
-      inside = inside && height <= -reach;
+  /// The sides that may divide a cell, one bit each; none where the cell lies outside.
+  std::optional<unsigned> sides_across(const Vec2& middle, const Vec2& size) const {
+    unsigned across = 0;
+    for (std::size_t k = 0; k < count_; ++k) {
+      const double height = side_[k].height(middle), reach = side_[k].reach(size);
+      if (height >= reach) return std::nullopt;
+      if (height > -reach) across |= 1U << k;
     }
-    return inside ? Place::inside : Place::across;
-  }
-
-  /// Leaves in `within` what of a piece lies in the region; false if that is nothing.
-  bool meets(std::span<const Vec2> piece, double least) const {
-    within.assign(piece.begin(), piece.end());
-    for (const Side& side : sides()) {
-      clip_polygon(within, scratch, [&](const Vec2& x) { return side.height(x); });
-      if (within.size() < 3) return false;
-    }
-    return area_of(within) > least;
+    return across;
   }
 
 private:
@@ -87,6 +74,37 @@ private:
 };
 
 namespace {
+
+/// A piece divided by a region: what lies within, and the parts beyond its sides, one behind the other.
+class Division {
+public:
+  /// False if no more than `least`, m², lies within. sides: those that may divide the piece.
+  template<bool parts_beyond>
+  bool divide(std::span<const Vec2> piece, std::span<const Side> sides, unsigned across, double least) {
+    within.assign(piece.begin(), piece.end());
+    beyond.clear();
+    size.clear();
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      if (!(across & 1U << k)) continue;
+      split_polygon(within, inside_, outside_, [&](const Vec2& x) { return sides[k].height(x); });
+      if (inside_.size() < 3) return false;
+      if (outside_.size() < 3) continue;
+      std::swap(within, inside_);
+      if constexpr (parts_beyond) {
+        beyond.insert(beyond.end(), outside_.begin(), outside_.end());
+        size.push_back(outside_.size());
+      }
+    }
+    return area_of(within) > least;
+  }
+  std::vector<Vec2> within, beyond;
+  std::vector<std::size_t> size; ///< numbers of corners of the parts beyond
+
+private:
+  std::vector<Vec2> inside_, outside_;
+};
+
+thread_local Division division;
 
 /// Adds a polygon that a rake takes.
 void take(std::span<const Vec2> polygon, const Sweep* sweep, Bite& bite) {
@@ -134,47 +152,49 @@ std::array<Vec2, 4> DexelLayer::square(std::size_t i, std::size_t j) const {
   return {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)};
 }
 
-/// Calls visit(i, j, place) for the cells with matter that a region may share something with.
+/// Cells of an axis that an interval meets, m: from, and behind the last.
+std::pair<std::size_t, std::size_t> DexelLayer::range(int axis, double from, double to) const {
+  const double last = static_cast<double>(count_[index_of(axis)]) - 1.0;
+  const double first = std::floor((from - low_[axis]) / size_[axis]);
+  const double end = std::floor((to - low_[axis]) / size_[axis]);
+  if (end < 0.0 || first > last) return {0, 0};
+  return {static_cast<std::size_t>(std::max(0.0, first)), static_cast<std::size_t>(std::min(last, end)) + 1};
+}
+
+/// Calls visit(i, j, sides) for the cells with matter that a region may share something with; sides: those
+/// that may divide them.
 template<class Visit> void DexelLayer::meet(const Region& region, Visit&& visit) const {
   const std::span<const Vec2> corner = region.corners();
-  const auto range = [&](int axis, double from, double to) {
-    const double last = static_cast<double>(count_[index_of(axis)]) - 1.0;
-    const double first = std::floor((from - low_[axis]) / size_[axis]);
-    const double end = std::floor((to - low_[axis]) / size_[axis]);
-    if (end < 0.0 || first > last) return std::pair<std::size_t, std::size_t>{0, 0};
-    return std::pair{static_cast<std::size_t>(std::max(0.0, first)),
-                     static_cast<std::size_t>(std::min(last, end)) + 1};
-  };
-  double left = corner[0].x(), right = left;
+  Vec2 low = corner[0], high = low;
   for (const Vec2& x : corner) {
-    left = std::min(left, x.x());
-    right = std::max(right, x.x());
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
   }
-  const auto [i_from, i_to] = range(0, left, right);
-  for (std::size_t i = i_from; i < i_to; ++i) {
-    const double x0 = low_.x() + static_cast<double>(i) * size_.x(), x1 = x0 + size_.x();
-    double low = HUGE_VAL, high = -HUGE_VAL;
+  // Rows of cells along the longer side of the region: the fewer.
+  const int across = high.x() - low.x() < high.y() - low.y() ? 0 : 1, along = 1 - across;
+  const auto [row_from, row_to] = range(across, low[across], high[across]);
+  for (std::size_t row = row_from; row < row_to; ++row) {
+    const double from = low_[across] + static_cast<double>(row) * size_[across], to = from + size_[across];
+    double least = HUGE_VAL, most = -HUGE_VAL;
     for (std::size_t k = 0; k < corner.size(); ++k) {
-      const Vec2 &a = corner[k], &b = corner[(k + 1) % corner.size()];
-      if (std::max(a.x(), b.x()) < x0 || std::min(a.x(), b.x()) > x1) continue;
-      const double slope = a.x() == b.x() ? 0.0 : (b.y() - a.y()) / (b.x() - a.x());
-      const double least = std::min(a.y(), b.y()), most = std::max(a.y(), b.y());
-      const auto at = [&](const Vec2& c) {
-        return std::clamp(a.y() + (std::clamp(c.x(), x0, x1) - a.x()) * slope, least, most);
-      };
-      for (const double y : {at(a), at(b)}) {
-        low = std::min(low, y);
-        high = std::max(high, y);
+      const Vec2 &a = corner[k], &b = corner[k + 1 < corner.size() ? k + 1 : 0];
+      const double way = b[across] - a[across];
+      if (std::max(a[across], b[across]) < from || std::min(a[across], b[across]) > to) continue;
+      const double slope = way == 0.0 ? 0.0 : (b[along] - a[along]) / way;
+      for (const Vec2* c : {&a, &b}) {
+        const double at = a[along] + (std::clamp((*c)[across], from, to) - a[across]) * slope;
+        least = std::min(least, at);
+        most = std::max(most, at);
       }
     }
-    if (low > high) continue;
-    const auto [j_from, j_to] = range(1, low, high);
-    for (std::size_t j = j_from; j < j_to; ++j) {
+    // Rounding may lead a little out of the region, not out of its box.
+    const auto [first, end] = range(along, std::max(least, low[along]), std::min(most, high[along]));
+    for (std::size_t k = first; k < end; ++k) {
+      const std::size_t i = across == 0 ? row : k, j = across == 0 ? k : row;
       if (cell_[cell(i, j)] == empty) continue;
       const Vec2 middle =
           low_ + size_.cwiseProduct(Vec2(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5));
-      if (const Region::Place place = region.of_cell(middle, size_); place != Region::Place::outside)
-        visit(i, j, place);
+      if (const auto sides = region.sides_across(middle, size_)) visit(i, j, *sides);
     }
   }
 }
@@ -194,24 +214,31 @@ template<class Region> std::array<std::optional<Region>, 2> regions(const Sweep&
 
 } // namespace
 
+bool DexelLayer::misses(const Sweep& sweep) const {
+  const Vec2 high = low_ + size_.cwiseProduct(Vec2(static_cast<double>(count_[0]), static_cast<double>(count_[1])));
+  const auto& [a, b] = sweep;
+  const Vec2 least = a.edge.cwiseMin(a.inner).cwiseMin(b.edge).cwiseMin(b.inner);
+  const Vec2 most = a.edge.cwiseMax(a.inner).cwiseMax(b.edge).cwiseMax(b.inner);
+  return (least.array() >= high.array()).any() || (most.array() <= low_.array()).any();
+}
+
 Bite DexelLayer::ask(const Sweep& sweep) const {
   Bite bite;
+  if (misses(sweep)) return bite;
   const double least = nothing * size_.prod();
   for (const std::optional<Region>& region : regions<Region>(sweep)) {
     if (!region) continue;
-    meet(*region, [&](std::size_t i, std::size_t j, Region::Place place) {
+    const auto ask_piece = [&](std::span<const Vec2> piece, unsigned across) {
+      if (division.divide<false>(piece, region->sides(), across, least)) take(division.within, &sweep, bite);
+    };
+    meet(*region, [&](std::size_t i, std::size_t j, unsigned across) {
       const std::int32_t index = cell_[cell(i, j)];
       if (index == full) {
-        const std::array<Vec2, 4> whole = square(i, j);
-        if (place == Region::Place::inside)
-          take(whole, &sweep, bite);
-        else if (region->meets(whole, least))
-          take(within, &sweep, bite);
+        ask_piece(square(i, j), across);
         return;
       }
       const Pieces& pieces = cut_[index_of(index)];
-      for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k)
-        if (region->meets(pieces.next(k, begin), least)) take(within, &sweep, bite);
+      for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k) ask_piece(pieces.next(k, begin), across);
     });
   }
   return bite;
@@ -219,58 +246,57 @@ Bite DexelLayer::ask(const Sweep& sweep) const {
 
 void DexelLayer::erase(const Region& region, const Sweep* sweep, Bite& bite) {
   const double least = nothing * size_.prod();
-  meet(region, [&](std::size_t i, std::size_t j, Region::Place place) {
+  thread_local Pieces left;
+  meet(region, [&](std::size_t i, std::size_t j, unsigned across) {
     std::int32_t& index = cell_[cell(i, j)];
-    if (index == full) {
-      const std::array<Vec2, 4> whole = square(i, j);
-      if (place == Region::Place::inside) {
-        take(whole, sweep, bite);
-        index = empty;
-        return;
-      }
-      if (!region.meets(whole, least)) return;
-      if (free_.empty()) {
-        index = static_cast<std::int32_t>(cut_.size());
-        cut_.emplace_back();
-      } else {
-        index = free_.back();
-        free_.pop_back();
-      }
-      cut_[index_of(index)].add(whole);
-    }
-    Pieces& pieces = cut_[index_of(index)];
-    thread_local Pieces left;
     left.corner.clear();
     left.size.clear();
-    for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k) {
-      const std::span<const Vec2> piece = pieces.next(k, begin);
-      if (!region.meets(piece, least)) {
+    bool taken = false;
+    const auto erase_piece = [&](std::span<const Vec2> piece) {
+      if (!division.divide<true>(piece, region.sides(), across, least)) {
         left.add(piece);
-        continue;
+        return;
       }
-      take(within, sweep, bite);
-      within.assign(piece.begin(), piece.end());
-      for (const Side& side : region.sides()) {
-        beyond = within;
-        clip_polygon(beyond, scratch, [&](const Vec2& x) { return -side.height(x); });
-        if (const double area = area_of(beyond); area > least) {
-          left.add(beyond);
-        } else {
+      taken = true;
+      take(division.within, sweep, bite);
+      std::size_t begin = 0;
+      for (const std::size_t corners : division.size) {
+        const std::span<const Vec2> part(division.beyond.data() + begin, corners);
+        begin += corners;
+        if (const double area = area_of(part); area > least)
+          left.add(part);
+        else
           bite.area += area;
-        }
-        clip_polygon(within, scratch, [&](const Vec2& x) { return side.height(x); });
       }
+    };
+    if (index == full) {
+      erase_piece(square(i, j));
+      if (!taken) return;
+      if (!left.size.empty()) {
+        if (free_.empty()) {
+          index = static_cast<std::int32_t>(cut_.size());
+          cut_.emplace_back();
+        } else {
+          index = free_.back();
+          free_.pop_back();
+        }
+      }
+    } else {
+      const Pieces& pieces = cut_[index_of(index)];
+      for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k) erase_piece(pieces.next(k, begin));
+      if (!taken) return;
+      if (left.size.empty()) free_.push_back(index);
     }
-    std::swap(pieces, left);
-    if (pieces.size.empty()) {
-      free_.push_back(index);
+    if (left.size.empty())
       index = empty;
-    }
+    else
+      std::swap(cut_[index_of(index)], left);
   });
 }
 
 Bite DexelLayer::erase(const Sweep& sweep) {
   Bite bite;
+  if (misses(sweep)) return bite;
   for (const std::optional<Region>& region : regions<Region>(sweep))
     if (region) erase(*region, &sweep, bite);
   return bite;

@@ -3,8 +3,10 @@
 // of a dexel are as oblique as the rakes that cut it: what rakes sweep is taken exactly, however wide it is.
 #include "core/vec.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cnem::machining {
@@ -63,6 +65,8 @@ private:
   class Region;
   static constexpr std::int32_t empty = -1, full = -2;
 
+  bool misses(const Sweep& sweep) const; ///< for want of any matter where it is
+  std::pair<std::size_t, std::size_t> range(int axis, double from, double to) const;
   template<class Visit> void meet(const Region& region, Visit&& visit) const;
   void erase(const Region& region, const Sweep* sweep, Bite& bite);
   std::array<Vec2, 4> square(std::size_t i, std::size_t j) const;

@@ -62,16 +62,16 @@ CutterPlace MillingProcess::place(std::int64_t step, const Vec3& shift) const {
 }
 
 double MillingProcess::reach(const Vec3& shift) const {
-  // Teeth that miss the cut leave their chips to later ones, for a few turns at most.
-  constexpr double turns = 4.0;
-  return turns * (feed_of_turn() + cut_.cutter.run_out + std::max(farthest_, shift.norm()));
+  // Each tooth has been everywhere within a turn: what is left lies no deeper than the cutter has moved since.
+  constexpr double beyond = 1.25;
+  return beyond * (feed_of_turn() + 2.0 * cut_.cutter.run_out + 2.0 * std::max(farthest_, shift.norm()));
 }
 
 template<class TakeBite> EdgeLoad MillingProcess::bear(const Vec3& shift, TakeBite&& bite) {
   const CutterPlace from = place(step_, shift_), to = place(step_ + 1, shift);
   const double deep = reach(shift);
   const double forward = 1.5 * feed_speed_ / settings_.spindle; // nearer to the axis rakes go backwards
-#pragma omp parallel for schedule(static) if (layer_.size() > 8)
+#pragma omp parallel for schedule(static) if (bite_.size() >= 256)
   for (std::size_t k = 0; k < layer_.size(); ++k) {
     const double r = edges_.radius(k), depth = std::min(deep, std::max(r - forward, 0.5 * r));
     for (std::size_t j = 0; j < edges_.teeth(); ++j) {
