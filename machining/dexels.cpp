@@ -215,7 +215,8 @@ template<class Region> std::array<std::optional<Region>, 2> regions(const Sweep&
 } // namespace
 
 bool DexelLayer::misses(const Sweep& sweep) const {
-  const Vec2 high = low_ + size_.cwiseProduct(Vec2(static_cast<double>(count_[0]), static_cast<double>(count_[1])));
+  const Vec2 high =
+      low_ + size_.cwiseProduct(Vec2(static_cast<double>(count_[0]), static_cast<double>(count_[1])));
   const auto& [a, b] = sweep;
   const Vec2 least = a.edge.cwiseMin(a.inner).cwiseMin(b.edge).cwiseMin(b.inner);
   const Vec2 most = a.edge.cwiseMax(a.inner).cwiseMax(b.edge).cwiseMax(b.inner);
@@ -238,7 +239,8 @@ Bite DexelLayer::ask(const Sweep& sweep) const {
         return;
       }
       const Pieces& pieces = cut_[index_of(index)];
-      for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k) ask_piece(pieces.next(k, begin), across);
+      for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k)
+        ask_piece(pieces.next(k, begin), across);
     });
   }
   return bite;

@@ -6,9 +6,9 @@
 
 namespace cnem::machining {
 
-EdgeElements::EdgeElements(const MillingCut& cut, double depth, int layers)
-    : cut_(cut), thickness_(depth / layers) {
-  assert(depth > 0.0 && layers > 0);
+EdgeElements::EdgeElements(const MillingCut& cut, double depth, int layers, double step)
+    : cut_(cut), thickness_(depth / layers), chord_(std::sqrt(step / std::sin(step))) {
+  assert(depth > 0.0 && layers > 0 && step > 0.0 && step < 1.0);
   for (int k = 0; k < layers; ++k) {
     const double low = k * thickness_, high = low + thickness_;
     layer_.push_back({.low = low,
@@ -26,7 +26,8 @@ Rake EdgeElements::rake(std::size_t layer, std::size_t tooth, const CutterPlace&
   Vec2 axis = place.axis.head<2>();
   if (cutter.run_out > 0.0) axis += cutter.run_out * outward(place.angle + cutter.run_out_angle).head<2>();
   const double low = at.low - place.axis.z();
-  const double radius = cutter.corner > 0.0 ? cutter.mean_radius(low, low + thickness_) : at.radius;
+  const double radius =
+      chord_ * (cutter.corner > 0.0 ? cutter.mean_radius(low, low + thickness_) : at.radius);
   const Vec2 out = outward(place.angle - teeth_[tooth] - at.lag).head<2>();
   return {axis + radius * out, axis + std::max(0.0, radius - reach) * out};
 }
@@ -36,14 +37,17 @@ void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, con
   const double share = bite.share();
   if (!(bite.area > 0.0) || !(share > 0.0)) return;
   const Layer& at = layer_[layer];
-  // Over the part of its way on which the edge cuts.
-  const double chip = bite.area * thickness_ / (at.width * path * share);
+  // Over the part of its way on which the edge cuts. The chip is as thick, from the edge inwards, as makes
+  // the area: its middle goes a shorter way round the axis than its edge, h (1 − h/2r) = a.
+  const double a = bite.area / (path * share);
+  const double inward = at.radius * (1.0 - std::sqrt(std::max(0.0, 1.0 - 2.0 * a / at.radius)));
+  const double chip = inward * thickness_ / at.width;
   const double middle = 0.5 * (bite.begin + bite.end);
   const double phi = from.angle + middle * (to.angle - from.angle) - teeth_[tooth] - at.lag;
   const Vec3 local = at.width * share * cut_.law.at({.thickness = chip, .speed = path / duration}).force;
   load.force += on_tool(phi, at.lead, local);
   load.torque += local[0] * at.radius;
-  load.power += local[0] * path / duration;
+  load.power += local[0] * path * a / inward / duration;
   load.removed += bite.area * thickness_;
   load.thickest = std::max(load.thickest, chip);
 }

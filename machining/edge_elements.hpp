@@ -17,15 +17,16 @@ struct CutterPlace {
 struct EdgeLoad {
   Vec3 force = Vec3::Zero(); ///< N
   double torque = 0.0;       ///< N m, against the spindle
-  double power = 0.0;        ///< W, of the edges along their own paths
+  double power = 0.0;        ///< W, of the forces along the ways of the middles of chips
   double removed = 0.0;      ///< m³
   double thickest = 0.0;     ///< m, chip
 };
 
 class EdgeElements {
 public:
-  /// depth: m along the axis, in layers of the same thickness.
-  EdgeElements(const MillingCut& cut, double depth, int layers);
+  /// depth: m along the axis, in layers of the same thickness. step: rad that the cutter turns by in a step;
+  /// edges go straight in one, so far out that they enclose what arcs would.
+  EdgeElements(const MillingCut& cut, double depth, int layers, double step);
 
   std::size_t layers() const { return layer_.size(); }
   std::size_t teeth() const { return teeth_.size(); }
@@ -53,7 +54,7 @@ private:
     double lead = 0.0;   ///< rad
   };
   MillingCut cut_;
-  double thickness_ = 0.0;
+  double thickness_ = 0.0, chord_ = 1.0; ///< m; of the radius
   std::vector<Layer> layer_;
   std::vector<double> teeth_; ///< rad behind tooth 0
 };

@@ -16,6 +16,7 @@ struct ProcessSettings {
   double spindle = 0.0;     ///< rad/s
   double axial_depth = 0.0; ///< m
   double length = 0.0;      ///< m, of the path of the cutter's axis along +x
+  double dwell = 0.0;       ///< turns at its end, without feed
   Start start = Start::inside;
   double pitch = 0.0; ///< m, of dexels
   int layers = 1;     ///< along the axis
@@ -38,11 +39,12 @@ public:
   ProcessStep advance();
 
   double time() const { return static_cast<double>(step_) * dt_; }
-  double duration() const { return settings_.length / feed_speed_; } ///< s
-  double start() const { return start_; }                            ///< m, x of the axis at first
-  double axis() const {
-    return start_ + feed_speed_ * time();
-  } ///< m, x of the cutter's axis without vibration
+  double duration() const {
+    return settings_.length / feed_speed_ + settings_.dwell * full_turn / settings_.spindle;
+  }                                       ///< s
+  double start() const { return start_; } ///< m, x of the axis at first
+  /// m, x of the cutter's axis without vibration.
+  double axis() const { return axis_at(static_cast<double>(step_) / settings_.steps); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
   double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
   double volume() const;                                                  ///< m³ of matter
@@ -54,6 +56,7 @@ public:
   double feed_of_turn() const { return feed_speed_ * full_turn / settings_.spindle; }
 
 private:
+  double axis_at(double turns) const;
   CutterPlace place(std::int64_t step, const Vec3& shift) const;
   /// What teeth remove and bear whose cutter is shifted at the end of the step. bite(layer, sweep): what is
   /// taken of a layer, or would be.
