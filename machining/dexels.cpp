@@ -1,5 +1,6 @@
 #include "machining/dexels.hpp"
 
+#include "core/error.hpp"
 #include "core/geometry/clip_polygon.hpp"
 #include "core/index.hpp"
 
@@ -318,6 +319,42 @@ void DexelLayer::erase_disc(const Vec2& centre, double radius) {
 void DexelLayer::erase_box(const Vec2& low, const Vec2& high) {
   Bite bite;
   erase({low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())}, nullptr, bite);
+}
+
+void DexelLayer::archive(Archive& archive, const std::string& path) {
+  const std::size_t cells = cell_.size();
+  archive.integers(path + "cell", cell_);
+  archive.integers(path + "free", free_);
+  std::vector<std::int32_t> pieces, corners;
+  std::vector<double> place;
+  for (const Pieces& cell : cut_) {
+    pieces.push_back(static_cast<std::int32_t>(cell.size.size()));
+    corners.insert(corners.end(), cell.size.begin(), cell.size.end());
+    for (const Vec2& x : cell.corner) place.insert(place.end(), {x.x(), x.y()});
+  }
+  archive.integers(path + "pieces", pieces);
+  archive.integers(path + "corners", corners);
+  archive.list(path + "place", "m", place);
+  if (!archive.loading()) return;
+  cut_.assign(pieces.size(), {});
+  std::size_t next = 0, at = 0;
+  bool good = cell_.size() == cells;
+  for (const std::int32_t index : cell_)
+    good = good && index >= full && index < static_cast<std::int32_t>(cut_.size());
+  for (const std::int32_t index : free_)
+    good = good && index >= 0 && index < static_cast<std::int32_t>(cut_.size());
+  for (std::size_t k = 0; good && k < cut_.size(); ++k) {
+    for (std::int32_t piece = 0; good && piece < pieces[k]; ++piece) {
+      good = next < corners.size() && corners[next] >= 3 && at + 2 * index_of(corners[next]) <= place.size();
+      if (!good) break;
+      cut_[k].size.push_back(corners[next]);
+      for (std::int32_t c = 0; c < corners[next]; ++c, at += 2)
+        cut_[k].corner.emplace_back(place[at], place[at + 1]);
+      ++next;
+    }
+  }
+  if (!good || next != corners.size() || at != place.size())
+    throw IoError(path + " holds no layer of dexels of this case");
 }
 
 double DexelLayer::area() const {

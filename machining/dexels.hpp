@@ -1,11 +1,13 @@
 #pragma once
 // The workpiece as dexels: bars of matter in layers across the axis of the cutter (paper 004, 3.2). The ends
 // of a dexel are as oblique as the rakes that cut it: what rakes sweep is taken exactly, however wide it is.
+#include "core/fields/archive.hpp"
 #include "core/vec.hpp"
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -50,6 +52,9 @@ public:
   void erase_box(const Vec2& low, const Vec2& high);
 
   double area() const; ///< m² of matter
+
+  /// What evolves, under a path of names that ends with "/". Throws IoError for what is no such layer.
+  void archive(Archive& archive, const std::string& path);
   /// Matter on the line along an axis that crosses the other one at a place, m, in order; none beside the
   /// box.
   std::vector<Interval> matter(int axis, double place) const;

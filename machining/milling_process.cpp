@@ -142,6 +142,20 @@ ProcessStep MillingProcess::advance() {
   return step;
 }
 
+void MillingProcess::archive(Archive& archive) {
+  archive.integer("milling/step", step_);
+  std::vector<double> modes(state_.data(), state_.data() + state_.size());
+  archive.list("milling/modes", "m", modes);
+  if (modes.size() != static_cast<std::size_t>(state_.size()))
+    throw IoError("milling/modes holds no modes of this case");
+  std::copy(modes.begin(), modes.end(), state_.data());
+  archive.vector<3>("milling/shift", "m", shift_);
+  archive.vector<3>("milling/force", "N", force_);
+  archive.number("milling/farthest", "m", farthest_);
+  for (std::size_t k = 0; k < layer_.size(); ++k)
+    layer_[k].archive(archive, fmt::format("milling/layer/{}/", k));
+}
+
 std::optional<double> MillingProcess::left_at(std::size_t layer, double x) const {
   const std::vector<Interval> matter = layer_[layer].matter(1, x);
   if (matter.empty()) return std::nullopt;

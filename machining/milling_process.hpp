@@ -38,6 +38,10 @@ public:
   /// what they sweep. Throws SolverError where they do not agree.
   ProcessStep advance();
 
+  /// What evolves.
+  void archive(Archive& archive);
+
+  std::int64_t steps() const { return step_; }
   double time() const { return static_cast<double>(step_) * dt_; }
   double duration() const {
     return settings_.length / feed_speed_ + settings_.dwell * full_turn / settings_.spindle;

@@ -1,7 +1,9 @@
 #pragma once
 // One milling cut in the time domain: forces, vibrations, and the surface that is left.
 #include "app/machining/machining_session.hpp"
+#include "app/time_control.hpp"
 #include "machining/milling_process.hpp"
+#include "results/checkpoint.hpp"
 
 namespace cnem::app {
 
@@ -9,7 +11,14 @@ namespace cnem::app {
 /// status.json and the report.
 class MillingRun final : public MachiningSession {
 public:
-  using MachiningSession::MachiningSession;
+  MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
+             bool goes_on = false);
+
+  /// Takes the state of a checkpoint and goes on behind the rows that were there. Throws IoError with the
+  /// reason when it does not fit the case or the files.
+  void resume(results::CheckpointReader& checkpoint);
+  /// A warning of what was found before the first step.
+  void warn(std::string warning) { status_.warnings.push_back(std::move(warning)); }
 
 private:
   /// The largest and the mean of a part of the run.
@@ -21,11 +30,19 @@ private:
     double thickest = 0.0;         ///< m
     double displacement = 0.0;     ///< m, largest
     void add(const machining::ProcessStep& step, double dt);
+    void archive(Archive& archive);
   };
-  void solve() override;
+  bool solve() override;
   void write_files() override;
-  void judge(const Course& steady);
-  void measure_surface(const machining::MillingProcess& process);
+  void judge();
+  void measure_surface();
+  void write_checkpoint();
+  std::filesystem::path history_file() const; ///< empty where there is no folder
+  void archive(Archive& archive);
+
+  machining::MillingProcess process_;
+  CheckpointTimer checkpoints_;
+  Course steady_; ///< of the last turns
 
   std::vector<double> place_;             ///< m along the path
   std::vector<double> height_;            ///< m of each layer

@@ -121,13 +121,14 @@ void StabilityRun::write_files() {
                               report::svg_file(*lobes, results::ShownUnits::of_case(input_.resolved)));
 }
 
-void StabilityRun::solve() {
+bool StabilityRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
   const input::StabilityRange& range = milling.stability;
   chart_ = machining::stability_chart(milling.cut, modes_of(input_), range.speed_from, range.speed_to,
                                       range.speeds, deepest(input_), range.depths);
   judge();
   status_.time = 0.0;
+  return true;
 }
 
 } // namespace cnem::app

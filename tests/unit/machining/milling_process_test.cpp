@@ -154,12 +154,12 @@ TEST(Milling, VolumesOfSlotSideAndBall) {
   cut.cutter.diameter = 10e-3;
   cut.engagement = {down, 10e-3};
   cut.cutter.corner = 5e-3;
-  EXPECT_NEAR(removed(1.5e-3, 30e-3, 30) / 253.433, 1.0, 3e-4);
+  EXPECT_NEAR(removed(1.5e-3, 10e-3, 20) / (253.433 - 20.0 * 7.38748), 1.0, 3e-4);
   // A bull end: section and solid of revolution of an arc of 2 mm below a side of 5 mm, 3 mm deep.
   cut.cutter.corner = 2e-3;
   const double section = 2.0 * (3.0 * 2.0 + std::numbers::pi + 5.0 * 1.0);
   const double hole = std::numbers::pi * (9.0 * 2.0 + 6.0 * std::numbers::pi + 16.0 / 3.0 + 25.0);
-  EXPECT_NEAR(removed(3e-3, 30e-3, 30) / (section * 30.0 + hole), 1.0, 3e-4);
+  EXPECT_NEAR(removed(3e-3, 4e-3, 24) / (section * 4.0 + hole), 1.0, 3e-4);
 }
 
 TEST(Milling, Scallops) {
