@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <tuple>
 
 namespace cnem::input {
 namespace {
@@ -64,6 +65,20 @@ machining::Cutter read_cutter(const Setting& table, Diagnostics& diagnostics) {
   return cutter;
 }
 
+void read_shape(NamedMode& mode, const Setting& table, Diagnostics& diagnostics) {
+  for (const auto& [at, value, points, shape] :
+       {std::tuple{"along", "shape_along", &mode.along, &mode.shape_along},
+        {"height", "shape_over_height", &mode.height, &mode.shape_over_height}}) {
+    for (const auto& [name, list] : {std::pair{at, points}, {value, shape}})
+      read_list({.name = name}, table, *list, diagnostics);
+    try {
+      check_points(at, *points, value, *shape);
+    } catch (const InputError& error) {
+      diagnostics.add(Mistake::conflict, table.where, table.path, error.what());
+    }
+  }
+}
+
 NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
   NamedMode mode;
   mode.name = table.name;
@@ -81,6 +96,7 @@ NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
   else
     mode.stiffness = stiffness ? std::get<double>(stiffness->value)
                                : std::get<double>(mass->value) * mode.omega() * mode.omega();
+  read_shape(mode, table, diagnostics);
   const double length = mode.direction.norm();
   const Setting& direction = *table.find("direction");
   if (!(length > 0.0))
@@ -109,6 +125,11 @@ void check_time_domain(const Setting& root, const MachiningCase& read, Analysis:
     diagnostics.add(Mistake::conflict, end.where, end.path,
                     "found a rounded end, expected a flat one: lobes are those of edges at one radius, whose "
                     "chips do not change with a motion along z; analysis.type = \"milling\" takes any");
+  for (const NamedMode& mode : read.modes)
+    if (type == Analysis::Type::stability && (mode.along.size > 0 || mode.height.size > 0))
+      diagnostics.add(Mistake::conflict, root.where, "modes." + mode.name,
+                      "found a mode that changes along the path or over the height, expected the stiffness "
+                      "at one place: lobes are those of a place; analysis.type = \"milling\" takes shapes");
   const double closest = *std::min_element(cutter.pitch.begin(), cutter.pitch.end());
   if (const Setting& steps = *root.find("dexels.steps");
       read.dexels.steps * closest < 2.0 * machining::full_turn)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace cnem::machining {
 
@@ -46,6 +47,9 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
   state_ = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(modes_.size()));
   bite_.resize(edges_.layers() * edges_.teeth());
   path_.resize(bite_.size());
+  shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
+  shift_.assign(layer_.size(), Vec3::Zero());
+  force_ = shift_;
 }
 
 double MillingProcess::axis_at(double turns) const {
@@ -60,65 +64,99 @@ double MillingProcess::volume() const {
   return sum * edges_.thickness();
 }
 
-Vec3 MillingProcess::shift_of(const Eigen::MatrixXd& state) const {
-  Vec3 shift = Vec3::Zero();
+void MillingProcess::take_shapes() {
+  const double x = axis_at((static_cast<double>(step_) + 0.5) / settings_.steps);
   for (std::size_t i = 0; i < modes_.size(); ++i)
-    shift += state(0, static_cast<Eigen::Index>(i)) * modes_[i].participation();
+    for (std::size_t k = 0; k < layer_.size(); ++k)
+      shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = modes_[i].shape(x, height(k));
+}
+
+MillingProcess::PerLayer MillingProcess::shift_of(const Eigen::MatrixXd& state) const {
+  PerLayer shift(layer_.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const Vec3 moved = state(0, column) * modes_[i].participation();
+    for (std::size_t k = 0; k < layer_.size(); ++k)
+      shift[k] += shape_(static_cast<Eigen::Index>(k), column) * moved;
+  }
   return shift;
 }
 
-CutterPlace MillingProcess::place(std::int64_t step, const Vec3& shift) const {
+CutterPlace MillingProcess::place(std::int64_t step) const {
   const double turns = static_cast<double>(step) / settings_.steps;
-  return {Vec3(axis_at(turns), 0.0, 0.0) + shift, full_turn * turns};
+  return {Vec3(axis_at(turns), 0.0, 0.0), full_turn * turns};
 }
 
-double MillingProcess::reach(const Vec3& shift) const {
+namespace {
+
+double largest(const std::vector<Vec3>& shift) {
+  double most = 0.0;
+  for (const Vec3& s : shift) most = std::max(most, s.norm());
+  return most;
+}
+
+} // namespace
+
+double MillingProcess::reach(const PerLayer& shift) const {
   // Each tooth has been everywhere within a turn: what is left lies no deeper than the cutter has moved
   // since.
   constexpr double beyond = 1.25;
-  return beyond * (feed_of_turn() + 2.0 * cut_.cutter.run_out + 2.0 * std::max(farthest_, shift.norm()));
+  return beyond * (feed_of_turn() + 2.0 * cut_.cutter.run_out + 2.0 * std::max(farthest_, largest(shift)));
 }
 
-template<class TakeBite> EdgeLoad MillingProcess::bear(const Vec3& shift, TakeBite&& bite) {
-  const CutterPlace from = place(step_, shift_), to = place(step_ + 1, shift);
+template<class TakeBite>
+EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite) {
+  const CutterPlace from = place(step_), to = place(step_ + 1);
+  const auto shifted = [](CutterPlace place, const Vec3& by) {
+    place.axis += by;
+    return place;
+  };
   const double deep = reach(shift);
   const double forward = 1.5 * feed_speed_ / settings_.spindle; // nearer to the axis rakes go backwards
 #pragma omp parallel for schedule(static) if (bite_.size() >= 256)
   for (std::size_t k = 0; k < layer_.size(); ++k) {
     const double r = edges_.radius(k), depth = std::min(deep, std::max(r - forward, 0.5 * r));
+    const CutterPlace first = shifted(from, shift_[k]), last = shifted(to, shift[k]);
     for (std::size_t j = 0; j < edges_.teeth(); ++j) {
-      const Sweep sweep{edges_.rake(k, j, from, depth), edges_.rake(k, j, to, depth)};
+      const Sweep sweep{edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
       path_[k * edges_.teeth() + j] = sweep.path();
       bite_[k * edges_.teeth() + j] = bite(k, sweep);
     }
   }
   EdgeLoad load;
-  for (std::size_t k = 0, i = 0; k < layer_.size(); ++k)
+  for (std::size_t k = 0, i = 0; k < layer_.size(); ++k) {
+    const Vec3 below = load.force;
     for (std::size_t j = 0; j < edges_.teeth(); ++j, ++i)
       edges_.add(load, k, j, bite_[i], path_[i], dt_, from, to);
+    force[k] = load.force - below;
+  }
   return load;
 }
 
-Eigen::MatrixXd MillingProcess::moved(const Vec3& force) const {
+Eigen::MatrixXd MillingProcess::moved(const PerLayer& force) const {
   Eigen::MatrixXd state = state_;
   for (std::size_t i = 0; i < modes_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    const Vec2 rest(modes_[i].participation().dot(force) / modes_[i].stiffness, 0.0);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < layer_.size(); ++k)
+      sum += shape_(static_cast<Eigen::Index>(k), column) * force[k];
+    const Vec2 rest(modes_[i].participation().dot(sum) / modes_[i].stiffness, 0.0);
     state.col(column) = rest + free_[i].of_state * (state_.col(column) - rest);
   }
   return state;
 }
 
 ProcessStep MillingProcess::advance() {
-  Vec3 shift = shift_of(moved(force_));
+  take_shapes();
+  PerLayer shift = shift_of(moved(force_));
   constexpr int most = 30;
   constexpr double close = 1e-12; // m
   for (int iteration = 0; !modes_.empty(); ++iteration) {
-    const EdgeLoad asked =
-        bear(shift, [&](std::size_t k, const Sweep& sweep) { return layer_[k].ask(sweep); });
-    const Vec3 next = shift_of(moved(asked.force));
-    const double change = (next - shift).norm();
-    shift = next;
+    bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].ask(sweep); });
+    PerLayer next = shift_of(moved(force_));
+    double change = 0.0;
+    for (std::size_t k = 0; k < layer_.size(); ++k) change = std::max(change, (next[k] - shift[k]).norm());
+    shift = std::move(next);
     if (change < close) break;
     if (iteration == most)
       throw DivergenceError(
@@ -130,14 +168,14 @@ ProcessStep MillingProcess::advance() {
   }
   ProcessStep step;
   static_cast<EdgeLoad&>(step) =
-      bear(shift, [&](std::size_t k, const Sweep& sweep) { return layer_[k].erase(sweep); });
+      bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].erase(sweep); });
   step.time = time() + 0.5 * dt_;
   step.angle = settings_.spindle * step.time;
-  force_ = step.force;
-  state_ = moved(step.force);
-  shift_ = shift;
-  farthest_ = std::max(farthest_, shift.norm());
-  step.displacement = shift_of(state_);
+  state_ = moved(force_);
+  farthest_ = std::max(farthest_, largest(shift));
+  for (const Vec3& s : shift)
+    if (s.squaredNorm() > step.displacement.squaredNorm()) step.displacement = s;
+  shift_ = std::move(shift);
   ++step_;
   return step;
 }
@@ -149,8 +187,14 @@ void MillingProcess::archive(Archive& archive) {
   if (modes.size() != static_cast<std::size_t>(state_.size()))
     throw IoError("milling/modes holds no modes of this case");
   std::copy(modes.begin(), modes.end(), state_.data());
-  archive.vector<3>("milling/shift", "m", shift_);
-  archive.vector<3>("milling/force", "N", force_);
+  for (const auto& [name, unit, list] :
+       {std::tuple{"milling/shift", "m", &shift_}, {"milling/force", "N", &force_}}) {
+    std::vector<double> numbers(list->front().data(), list->front().data() + 3 * list->size());
+    archive.list(name, unit, numbers);
+    if (numbers.size() != 3 * list->size())
+      throw IoError(fmt::format("{} is not of this case's layers", name));
+    std::copy(numbers.begin(), numbers.end(), list->front().data());
+  }
   archive.number("milling/farthest", "m", farthest_);
   for (std::size_t k = 0; k < layer_.size(); ++k)
     layer_[k].archive(archive, fmt::format("milling/layer/{}/", k));

@@ -26,7 +26,8 @@ struct ProcessSettings {
 struct ProcessStep : EdgeLoad {
   double time = 0.0;                ///< s, at the middle
   double angle = 0.0;               ///< rad, of the tip of tooth 0 there
-  Vec3 displacement = Vec3::Zero(); ///< m, of the tool relative to the part, at the end
+  Vec3 displacement = Vec3::Zero(); ///< m, of the tool relative to the part, at the end, in the
+                                    ///< layer where it is the largest
 };
 
 class MillingProcess {
@@ -60,16 +61,20 @@ public:
   double feed_of_turn() const { return feed_speed_ * full_turn / settings_.spindle; }
 
 private:
+  using PerLayer = std::vector<Vec3>;
+
   double axis_at(double turns) const;
-  CutterPlace place(std::int64_t step, const Vec3& shift) const;
-  /// What teeth remove and bear whose cutter is shifted at the end of the step. bite(layer, sweep): what is
-  /// taken of a layer, or would be.
-  template<class TakeBite> EdgeLoad bear(const Vec3& shift, TakeBite&& bite);
+  CutterPlace place(std::int64_t step) const; ///< without vibration
+  /// What teeth remove and bear whose cutter is shifted at the end of the step, m for each layer; forces on
+  /// the tool for each, N, come into `force`. bite(layer, sweep): what is taken of a layer, or would be.
+  template<class TakeBite> EdgeLoad bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite);
   /// Modes are integrated exactly under the mean force of the step.
-  Eigen::MatrixXd moved(const Vec3& force) const;
-  Vec3 shift_of(const Eigen::MatrixXd& state) const;
+  Eigen::MatrixXd moved(const PerLayer& force) const;
+  PerLayer shift_of(const Eigen::MatrixXd& state) const;
+  /// Of modes in layers, where the cutter is in the middle of this step.
+  void take_shapes();
   /// m, how deep rakes have to be: thicker than any chip.
-  double reach(const Vec3& shift) const;
+  double reach(const PerLayer& shift) const;
 
   MillingCut cut_;
   std::vector<Mode> modes_;
@@ -79,12 +84,13 @@ private:
   EdgeElements edges_;
   std::int64_t step_ = 0;
   std::vector<DexelLayer> layer_;
-  std::vector<Bite> bite_;    ///< [layer × tooth] of the last question
-  std::vector<double> path_;  ///< [layer × tooth] m
-  Eigen::MatrixXd state_;     ///< [2 × modes] (q, v/ω)
-  Vec3 shift_ = Vec3::Zero(); ///< m, at the begin of the step
-  Vec3 force_ = Vec3::Zero(); ///< N, of the last step
-  double farthest_ = 0.0;     ///< m, the largest shift so far
+  std::vector<Bite> bite_;   ///< [layer × tooth] of the last question
+  std::vector<double> path_; ///< [layer × tooth] m
+  Eigen::MatrixXd state_;    ///< [2 × modes] (q, v/ω)
+  Eigen::MatrixXd shape_;    ///< [layers × modes] –, in this step
+  PerLayer shift_;           ///< m, at the begin of the step
+  PerLayer force_;           ///< N, of the last step
+  double farthest_ = 0.0;    ///< m, the largest shift so far
 };
 
 } // namespace cnem::machining

@@ -160,6 +160,24 @@ void MillingRun::measure_surface() {
   }
 }
 
+double MillingRun::peak_to_valley() const {
+  // Tips of scallops lie between dexels.
+  constexpr int finer = 16;
+  double most = 0.0;
+  for (std::size_t k = 0; k < left_.size(); ++k) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (std::size_t i = 0; i + 1 < place_.size(); ++i)
+      for (int part = 0; part < finer; ++part) {
+        const double left =
+            process_.left_at(k, place_[i] + part * (place_[i + 1] - place_[i]) / finer).value();
+        low = std::min(low, left);
+        high = std::max(high, left);
+      }
+    most = std::max(most, high - low);
+  }
+  return most;
+}
+
 void MillingRun::judge() {
   const Course& steady = steady_;
   const input::MachiningCase& milling = *input_.machining;
@@ -182,12 +200,10 @@ void MillingRun::judge() {
   if (!milling.modes.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
   std::string surface = "the path is too short for a surface";
   if (!place_.empty()) {
-    double roughness = 0.0, error = 0.0;
-    for (const std::vector<double>& left : left_) {
-      const auto [low, high] = std::minmax_element(left.begin(), left.end());
-      roughness = std::max(roughness, *high - *low);
+    double error = 0.0;
+    for (const std::vector<double>& left : left_)
       if (const double e = mean(left); std::abs(e) > std::abs(error)) error = e;
-    }
+    const double roughness = peak_to_valley();
     status_.add_metric("milling.peak_to_valley[m]", roughness);
     status_.add_metric("milling.location_error[m]", error);
     surface = fmt::format("the surface is {} from peak to valley along the feed, and off its place by {}",

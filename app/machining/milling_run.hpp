@@ -36,6 +36,7 @@ private:
   void write_files() override;
   void judge();
   void measure_surface();
+  double peak_to_valley() const; ///< m, of the layer where it is the largest
   void write_checkpoint();
   std::filesystem::path history_file() const; ///< empty where there is no folder
   void archive(Archive& archive);

@@ -150,6 +150,23 @@ void add_modes(Keys& k) {
       .example("\"1 0 0\"");
 }
 
+void add_shapes(Keys& k) {
+  k.add("modes.*.along", quantities,
+        "In the time domain: places of the cutter's axis along x, increasing, for `shape_along`.")
+      .unit(d::length)
+      .example("\"0 50 100 mm\"");
+  k.add("modes.*.shape_along", quantities,
+        "How the mode changes along the path, as shares of where `stiffness` is taken.")
+      .example("\"1 0.8 1\"");
+  k.add("modes.*.height", quantities,
+        "In the time domain: heights over the tip of the cutter, increasing, for `shape_over_height`.")
+      .unit(d::length)
+      .example("\"0 18 mm\"");
+  k.add("modes.*.shape_over_height", quantities,
+        "How the mode changes over the height, as shares of where `stiffness` is taken.")
+      .example("\"0.4 1\"");
+}
+
 void add_stability(Keys& k) {
   k.add("stability", table,
         "The chart of `analysis.type = \"stability\"`: spectral radius over speed of the spindle and axial "
@@ -193,6 +210,7 @@ void add_machining(Keys& k) {
   add_law_constants(k, "cutting.forces", laws);
   add_milling(k);
   add_modes(k);
+  add_shapes(k);
   add_stability(k);
 }
 
