@@ -36,6 +36,8 @@ struct Bite {
   double share() const { return begin < end ? end - begin : 0.0; }
 };
 
+class Region;
+
 /// Matter of one layer of a box. Dexels lie along y beside each other and are divided into cells; a cell is
 /// full, empty, or holds convex pieces.
 class DexelLayer {
@@ -67,7 +69,6 @@ private:
     std::span<const Vec2> next(std::size_t piece, std::size_t& begin) const;
     void add(std::span<const Vec2> polygon);
   };
-  class Region;
   static constexpr std::int32_t empty = -1, full = -2;
 
   bool misses(const Sweep& sweep) const; ///< for want of any matter where it is

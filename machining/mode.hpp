@@ -18,7 +18,7 @@ struct Mode {
 
   /// How it changes along the path and over the height where the cutter cuts, as shares of the displacement
   /// that the stiffness is of; linear between, 1 without points. m, –
-  NumberList along, shape_along, height, shape_over_height;
+  NumberList along{}, shape_along{}, height{}, shape_over_height{};
 
   double shape(double x, double z) const {
     return piecewise_linear(along, shape_along, x) * piecewise_linear(height, shape_over_height, z);

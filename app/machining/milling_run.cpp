@@ -160,22 +160,57 @@ void MillingRun::measure_surface() {
   }
 }
 
-double MillingRun::peak_to_valley() const {
+MillingRun::Texture MillingRun::texture(std::size_t layer) const {
   // Tips of scallops lie between dexels.
   constexpr int finer = 16;
-  double most = 0.0;
-  for (std::size_t k = 0; k < left_.size(); ++k) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (std::size_t i = 0; i + 1 < place_.size(); ++i)
-      for (int part = 0; part < finer; ++part) {
-        const double left =
-            process_.left_at(k, place_[i] + part * (place_[i + 1] - place_[i]) / finer).value();
-        low = std::min(low, left);
-        high = std::max(high, left);
-      }
-    most = std::max(most, high - low);
+  constexpr std::size_t lengths = 5;
+  std::vector<double> height;
+  for (std::size_t i = 0; i + 1 < place_.size(); ++i)
+    for (int part = 0; part < finer; ++part)
+      height.push_back(
+          process_.left_at(layer, place_[i] + part * (place_[i + 1] - place_[i]) / finer).value());
+  if (height.empty()) return {};
+  Texture texture;
+  texture.location_error = mean(height);
+  for (const double h : height)
+    texture.Ra += std::abs(h - texture.location_error) / static_cast<double>(height.size());
+  const auto [low, high] = std::minmax_element(height.begin(), height.end());
+  texture.peak_to_valley = *high - *low;
+  for (std::size_t k = 0; k < lengths; ++k) { // ISO 4287
+    const auto from = height.begin() + static_cast<std::ptrdiff_t>(k * height.size() / lengths);
+    const auto to = height.begin() + static_cast<std::ptrdiff_t>((k + 1) * height.size() / lengths);
+    const auto [least, most] = std::minmax_element(from, to);
+    texture.Rz += (*most - *least) / lengths;
   }
-  return most;
+  return texture;
+}
+
+void MillingRun::tell_surface() {
+  std::vector<Texture> layers;
+  for (std::size_t k = 0; k < left_.size(); ++k) layers.push_back(texture(k));
+  const auto zone = [&](const std::string& name, std::size_t from, std::size_t to) {
+    Texture all;
+    for (std::size_t k = from; k < to; ++k) {
+      all.Ra += layers[k].Ra / static_cast<double>(to - from);
+      all.Rz += layers[k].Rz / static_cast<double>(to - from);
+      all.peak_to_valley = std::max(all.peak_to_valley, layers[k].peak_to_valley);
+      if (std::abs(layers[k].location_error) > std::abs(all.location_error))
+        all.location_error = layers[k].location_error;
+    }
+    for (const auto& [what, value] : {std::pair{"Ra", all.Ra},
+                                      {"Rz", all.Rz},
+                                      {"peak_to_valley", all.peak_to_valley},
+                                      {"location_error", all.location_error}})
+      status_.add_metric(fmt::format("{}.{}[m]", name, what), value);
+    return all;
+  };
+  const Texture whole = zone("milling", 0, layers.size());
+  surface_ = fmt::format("the surface is {} from peak to valley along the feed, and off its place by {}",
+                         si_format(whole.peak_to_valley, "m"), si_format(whole.location_error, "m"));
+  if (layers.size() < 3) return;
+  const std::array<std::size_t, 4> third{0, layers.size() / 3, 2 * layers.size() / 3, layers.size()};
+  for (const auto& [k, name] : {std::pair{0U, "bottom"}, {1U, "middle"}, {2U, "top"}})
+    zone(fmt::format("milling.{}", name), third[k], third[k + 1]);
 }
 
 void MillingRun::judge() {
@@ -198,24 +233,14 @@ void MillingRun::judge() {
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);
   status_.flags.emplace_back("milling.chatter");
   if (!milling.modes.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
-  std::string surface = "the path is too short for a surface";
-  if (!place_.empty()) {
-    double error = 0.0;
-    for (const std::vector<double>& left : left_)
-      if (const double e = mean(left); std::abs(e) > std::abs(error)) error = e;
-    const double roughness = peak_to_valley();
-    status_.add_metric("milling.peak_to_valley[m]", roughness);
-    status_.add_metric("milling.location_error[m]", error);
-    surface = fmt::format("the surface is {} from peak to valley along the feed, and off its place by {}",
-                          si_format(roughness, "m"), si_format(error, "m"));
-  }
+  if (place_.size() > 1) tell_surface();
   status_.reason =
       fmt::format("{}; at most {} along x, {} along y; {}",
                   milling.modes.empty() ? "a rigid cut"
                   : chatters            ? fmt::format("chatter: chips {} times as thick as without vibration",
                                                       results::number_format(steady.thickest / still, 3))
                                         : "no chatter",
-                  si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface);
+                  si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface_);
 }
 
 void MillingRun::write_files() {

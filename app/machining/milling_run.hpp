@@ -36,7 +36,13 @@ private:
   void write_files() override;
   void judge();
   void measure_surface();
-  double peak_to_valley() const; ///< m, of the layer where it is the largest
+  /// The machined side of one layer along the path, m.
+  struct Texture {
+    double Ra = 0.0, Rz = 0.0, peak_to_valley = 0.0, location_error = 0.0;
+  };
+  Texture texture(std::size_t layer) const;
+  /// Metrics of the surface, and of thirds of the height: means of Ra and Rz, the largest of the others.
+  void tell_surface();
   void write_checkpoint();
   std::filesystem::path history_file() const; ///< empty where there is no folder
   void archive(Archive& archive);
@@ -45,6 +51,7 @@ private:
   CheckpointTimer checkpoints_;
   Course steady_; ///< of the last turns
 
+  std::string surface_ = "the path is too short for a surface";
   std::vector<double> place_;             ///< m along the path
   std::vector<double> height_;            ///< m of each layer
   std::vector<std::vector<double>> left_; ///< [layer][place] m
