@@ -214,36 +214,127 @@ TEST(Milling, LocationErrorOfAToolThatSwings) {
   }
 }
 
+/// Once-a-tooth samples of a cut of Insperger and Stépán's benchmark.
+std::vector<double> samples(Engagement::Side side, double immersion, double rpms, double depth, double feed,
+                            int turns) {
+  constexpr int steps = 1600;
+  MillingCut cut = insperger(side, immersion);
+  cut.feed = feed;
+  MillingProcess process(cut, insperger_modes(1),
+                         {.spindle = rpms * rpm,
+                          .axial_depth = depth,
+                          .length = turns * 2.0 * feed,
+                          .pitch = 1e-6,
+                          .layers = 1,
+                          .steps = steps});
+  std::vector<double> sample;
+  for (int step = 0; !process.at_end(); ++step) {
+    const ProcessStep now = process.advance();
+    if (step % (steps / 2) == steps / 4) sample.push_back(now.displacement.x());
+  }
+  return sample;
+}
+
+double spread(const std::vector<double>& sample, std::size_t from, std::size_t to) {
+  const auto [low, high] = std::minmax_element(sample.begin() + static_cast<std::ptrdiff_t>(from),
+                                               sample.begin() + static_cast<std::ptrdiff_t>(to));
+  return *high - *low;
+}
+
 TEST(Milling, DisturbancesGrowBeyondTheLimitOfFloquet) {
-  MillingCut cut = insperger(up, 0.5);
-  cut.feed = 1e-5;                // far fewer than a radian of the cutter: the delay is that of circles
-  const double limit = 0.2603e-3; // m
+  // A feed of far fewer than a radian of the cutter: the delay is that of circles.
   for (const double share : {0.98, 1.02}) {
-    MillingProcess process(cut, insperger_modes(1),
-                           {.spindle = 5000.0 * rpm,
-                            .axial_depth = share * limit,
-                            .length = 80 * 2e-5,
-                            .pitch = 1e-6,
-                            .layers = 1,
-                            .steps = 1600});
-    // Once-a-tooth samples: what is left of their spread is the disturbance.
-    std::vector<double> sample;
-    for (int step = 0; !process.at_end(); ++step) {
-      const ProcessStep now = process.advance();
-      if (step % 800 == 400) sample.push_back(now.displacement.x());
-    }
-    const auto spread = [&](std::size_t from, std::size_t to) {
-      const auto [low, high] = std::minmax_element(sample.begin() + static_cast<std::ptrdiff_t>(from),
-                                                   sample.begin() + static_cast<std::ptrdiff_t>(to));
-      return *high - *low;
-    };
-    const double growth =
-        spread(sample.size() - 40, sample.size()) / spread(sample.size() - 120, sample.size() - 80);
+    const std::vector<double> sample = samples(up, 0.5, 5000.0, share * 0.2603e-3, 1e-5, 80);
+    const double growth = spread(sample, sample.size() - 40, sample.size()) /
+                          spread(sample, sample.size() - 120, sample.size() - 80);
     if (share < 1.0)
       EXPECT_LT(growth, 0.8);
     else
       EXPECT_GT(growth, 1.2);
   }
+}
+
+TEST(Milling, FlipsBeyondTheLimitOfFlips) {
+  for (const double share : {0.98, 1.03}) {
+    const std::vector<double> sample = samples(down, 0.1, 7000.0, share * 2.9878e-3, 1e-5, 100);
+    // What changes from tooth to tooth and comes back with the second one.
+    double early = 0.0, late = 0.0, slow = 0.0;
+    const std::size_t n = sample.size();
+    for (std::size_t k = 0; k < 20; ++k) {
+      early += std::abs(sample[n - 100 + k] - sample[n - 101 + k]);
+      late += std::abs(sample[n - 20 + k] - sample[n - 21 + k]);
+      slow += std::abs(sample[n - 20 + k] - sample[n - 22 + k]);
+    }
+    if (share < 1.0) {
+      EXPECT_LT(late / early, 0.9);
+    } else {
+      EXPECT_GT(late / early, 1.1);
+      EXPECT_LT(slow, 0.2 * late) << "the sign of the disturbance turns with each tooth";
+    }
+  }
+}
+
+TEST(Milling, VibrationsSaturateAsTeethLeaveTheCut) {
+  const std::vector<double> sample = samples(up, 0.5, 5000.0, 1.0e-3, 1e-5, 80);
+  const double early = spread(sample, 10, 40), late = spread(sample, sample.size() - 40, sample.size()),
+               middle = spread(sample, sample.size() - 80, sample.size() - 40);
+  EXPECT_GT(late, 1e-6);
+  EXPECT_GT(late, 0.5 * early);
+  EXPECT_LT(late, 1e-3) << "grown without bound it would be far larger";
+  EXPECT_NEAR(late / middle, 1.0, 0.3);
+}
+
+TEST(Milling, ThePartThatMovesIsTheToolThatMovesTheOtherWay) {
+  std::array<std::vector<ProcessStep>, 2> steps;
+  for (const Mode::Of of : {Mode::Of::tool, Mode::Of::part}) {
+    const double way = of == Mode::Of::tool ? 1.0 : -1.0;
+    MillingProcess process(
+        end_mill(down),
+        {{.of = of,
+          .frequency = 900.0,
+          .damping = 0.02,
+          .stiffness = 1e6,
+          .direction = way * Vec3(0.6, 0.8, 0.0)}},
+        {.spindle = 800.0, .axial_depth = 2e-3, .length = 6e-4, .pitch = 1e-4, .layers = 4, .steps = 360});
+    while (!process.at_end()) steps[of == Mode::Of::tool ? 0 : 1].push_back(process.advance());
+  }
+  ASSERT_EQ(steps[0].size(), steps[1].size());
+  double most = 0.0;
+  for (const ProcessStep& step : steps[0]) most = std::max(most, step.removed);
+  for (std::size_t k = 0; k < steps[0].size(); ++k)
+    EXPECT_NEAR(steps[0][k].removed, steps[1][k].removed, 1e-9 * most);
+}
+
+TEST(Milling, AModeMovesAsMuchAsItsShapeWhereItIsCut) {
+  // A soft spring that is slow: the wall leans away from the force by shape² F/k.
+  const auto lean = [](const Mode& mode) {
+    MillingCut cut = milling_cut(3, 767e6, 168.8e6, down, 0.5);
+    MillingProcess process(
+        cut, {mode},
+        {.spindle = 100.0, .axial_depth = 1e-3, .length = 9e-4, .pitch = 1e-4, .layers = 2, .steps = 360});
+    double most = 0.0;
+    while (!process.at_end()) most = std::max(most, process.advance().displacement.norm());
+    return most;
+  };
+  Mode mode{.of = Mode::Of::part,
+            .frequency = 5000.0,
+            .damping = 0.3,
+            .stiffness = 4e9,
+            .direction = Vec3::UnitY()};
+  const double full = lean(mode);
+  const auto list = [](double a, double b) {
+    NumberList numbers;
+    numbers.value[0] = a;
+    numbers.value[1] = b;
+    numbers.size = 2;
+    return numbers;
+  };
+  mode.along = list(-1.0, 1.0);
+  mode.shape_along = list(0.5, 0.5);
+  EXPECT_NEAR(lean(mode) / full, 0.25, 1e-3) << "half the force on the mode, half the way of it";
+  mode.height = list(0.25e-3, 0.75e-3);
+  mode.shape_over_height = list(0.0, 2.0);
+  EXPECT_NEAR(lean(mode) / full, 0.5, 1e-3) << "the upper layer alone, with twice the share";
 }
 
 TEST(Milling, RunOutShowsInChipsAndPitchInTheirOrder) {
