@@ -233,6 +233,14 @@ void MillingRun::judge() {
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);
   status_.flags.emplace_back("milling.chatter");
   if (!milling.modes.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
+  // Chips change by more than a small part of themselves: lobes, which are of small vibrations, say no more.
+  if (constexpr double small = 0.5; steady.displacement > small * milling.cut.engagement.radial_depth)
+    warn(input_
+             .error("milling.radial_depth",
+                    fmt::format("the cutter moves by {} relative to the part, expected less than half of the "
+                                "radial depth: vibrations are not small beside the cut",
+                                si_format(steady.displacement, "m")))
+             .what());
   if (place_.size() > 1) tell_surface();
   status_.reason =
       fmt::format("{}; at most {} along x, {} along y; {}",

@@ -17,7 +17,7 @@ public:
   /// Takes the state of a checkpoint and goes on behind the rows that were there. Throws IoError with the
   /// reason when it does not fit the case or the files.
   void resume(results::CheckpointReader& checkpoint);
-  /// A warning of what was found before the first step.
+  /// A warning beside those of the case.
   void warn(std::string warning) { status_.warnings.push_back(std::move(warning)); }
 
 private:
