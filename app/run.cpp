@@ -1,6 +1,7 @@
 #include "app/run.hpp"
 
 #include "app/machining/machining_session.hpp"
+#include "app/machining/milling_run.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/simulation.hpp"
 #include "app/statics/statics.hpp"
@@ -62,10 +63,10 @@ bool adopt(results::CheckpointReader& checkpoint, input::Case& input, const std:
 /// The run at its last good checkpoint; none when there is no good one, of which `warnings` tell. Files that
 /// are no use are set aside, so that they do not come before good ones again. Throws InputError when there
 /// are only those of another case.
-template<int dim>
-std::unique_ptr<Simulation<dim>> at_last_checkpoint(input::Case& input, const RunOptions& options,
-                                                    RunObserver& observer,
-                                                    std::vector<std::string>& warnings) {
+/// make(): the run before its first step.
+template<class Make>
+auto at_last_checkpoint(input::Case& input, const RunOptions& options, RunObserver& observer,
+                        std::vector<std::string>& warnings, Make&& make) -> decltype(make()) {
   std::vector<fs::path> refused;
   bool foreign = false;
   for (const fs::path& path : results::list_checkpoints(options.output)) {
@@ -76,7 +77,7 @@ std::unique_ptr<Simulation<dim>> at_last_checkpoint(input::Case& input, const Ru
         foreign = true;
         throw IoError(fmt::format("it belongs to another case than {}", results::files::resolved_case));
       }
-      auto simulation = std::make_unique<Simulation<dim>>(input, options, observer);
+      auto simulation = make();
       simulation->resume(checkpoint);
       warnings.insert(warnings.end(), differences.begin(), differences.end());
       for (const fs::path& other : refused) results::set_aside(other);
@@ -97,7 +98,7 @@ std::unique_ptr<Simulation<dim>> at_last_checkpoint(input::Case& input, const Ru
   return nullptr;
 }
 
-/// Analyses without steps, which have no checkpoints.
+/// Analyses of bodies without steps, and all of milling.
 bool is_solved_at_once(const input::Case& input) {
   return input.analysis.type != input::Analysis::Type::explicit_dynamics;
 }
@@ -142,25 +143,35 @@ template<int dim> void Run::begin(RunObserver& observer) {
   session_ = std::move(simulation);
 }
 
-template<int dim> void Run::resume(RunObserver& observer) {
-  observer.begins();
-  std::unique_ptr<Simulation<dim>> simulation;
-  before_steps(input_, options_, [&] {
+/// Takes a run up in its folder. make(goes on): the run before its first step, whose folder holds what a
+/// checkpoint counts on, or nothing but the resolved case.
+template<class Make> auto Run::take_up(RunObserver& observer, Make&& make) -> decltype(make(true)) {
+  return before_steps(input_, options_, [&] {
     std::vector<std::string> warnings;
-    simulation = at_last_checkpoint<dim>(input_, options_, observer, warnings);
-    if (simulation) {
+    auto session = at_last_checkpoint(input_, options_, observer, warnings, [&] { return make(true); });
+    if (session) {
       for (const char* end : {results::files::blanking, results::files::cutting, results::files::experiment,
                               results::files::status, results::files::report})
         fs::remove(options_.output / end);
     } else {
       observer.outcome("there is no checkpoint to go on from: starting at step 0");
-      simulation = std::make_unique<Simulation<dim>>(input_, options_, observer);
+      session = make(false);
+    }
+    for (std::string& warning : warnings) session->warn(std::move(warning));
+    return session;
+  });
+}
+
+template<int dim> void Run::resume(RunObserver& observer) {
+  observer.begins();
+  session_ = take_up(observer, [&](bool goes_on) {
+    auto simulation = std::make_unique<Simulation<dim>>(input_, options_, observer);
+    if (!goes_on) {
       results::clear_results(options_.output);
       simulation->start();
     }
-    for (std::string& warning : warnings) simulation->warn(std::move(warning));
+    return simulation;
   });
-  session_ = std::move(simulation);
 }
 
 Run::Run(input::Case input, RunOptions options, RunObserver& observer)
@@ -188,9 +199,14 @@ Run::Run(RunOptions options, RunObserver& observer) : options_(std::move(options
   input_ = resolved_case(options_.output);
   const ThreadCount threads(options_.threads);
   use_threads(options_.threads);
-  if (is_solved_at_once(input_)) {
+  if (input_.analysis.type == input::Analysis::Type::milling) {
+    options_.force = true;
+    session_ = take_up(observer, [&](bool goes_on) {
+      return std::make_unique<MillingRun>(input_, options_, observer, goes_on);
+    });
+  } else if (is_solved_at_once(input_)) {
     observer.outcome(fmt::format("a {} analysis has no checkpoints: it is solved again",
-                                 input_.analysis.of_milling() ? "milling" : "static"));
+                                 input_.analysis.of_milling() ? "stability" : "static"));
     options_.force = true;
     session_ = solved_at_once(input_, options_, observer);
   } else if (input_.analysis.dimensions() == 3)

@@ -64,6 +64,7 @@ public:
 private:
   template<int dim> void begin(RunObserver& observer);
   template<int dim> void resume(RunObserver& observer);
+  template<class Make> auto take_up(RunObserver& observer, Make&& make) -> decltype(make(true));
 
   RunOptions options_;
   std::optional<results::FolderLock> lock_;

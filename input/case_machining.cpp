@@ -8,9 +8,31 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <tuple>
 
 namespace cnem::input {
 namespace {
+
+enum class End { flat, bull, ball };
+
+void read_end(machining::Cutter& cutter, const Setting& table, Diagnostics& diagnostics) {
+  const End end = table.choice<End>("end");
+  const Setting* corner = table.find("corner");
+  if (end == End::ball) cutter.corner = cutter.radius();
+  if (corner && end != End::bull)
+    diagnostics.add(Mistake::conflict, corner->where, corner->path,
+                    "found a corner of a flat or ball end, expected cutter.end = \"bull\"");
+  else if (!corner && end == End::bull)
+    diagnostics.add(Mistake::missing_key, table.where, table.path + ".corner",
+                    "missing, expected the corner radius of the bull end, e.g. \"2 mm\"");
+  else if (corner) {
+    cutter.corner = std::get<double>(corner->value);
+    if (cutter.corner > cutter.radius())
+      diagnostics.add(Mistake::range, corner->where, corner->path,
+                      fmt::format("found {:g} m, expected at most the radius of the cutter, {:g} m",
+                                  cutter.corner, cutter.radius()));
+  }
+}
 
 machining::Cutter read_cutter(const Setting& table, Diagnostics& diagnostics) {
   machining::Cutter cutter;
@@ -24,6 +46,7 @@ machining::Cutter read_cutter(const Setting& table, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, run_out->where, run_out->path,
                     fmt::format("found {:g} m, expected less than the radius of the cutter, {:g} m",
                                 cutter.run_out, cutter.radius()));
+  read_end(cutter, table, diagnostics);
   const Setting* pitch = table.find("pitch");
   if (!pitch) return cutter;
   cutter.pitch = std::get<std::vector<double>>(pitch->value);
@@ -74,6 +97,20 @@ void read_cutting_law(const Setting& root, MachiningCase& read, Diagnostics& dia
   read.cut.law.take_rake(read.rake.value_or(0.0));
 }
 
+void read_shape(NamedMode& mode, const Setting& table, Diagnostics& diagnostics) {
+  for (const auto& [at, value, points, shape] :
+       {std::tuple{"along", "shape_along", &mode.along, &mode.shape_along},
+        {"height", "shape_over_height", &mode.height, &mode.shape_over_height}}) {
+    for (const auto& [name, list] : {std::pair{at, points}, {value, shape}})
+      read_list({.name = name}, table, *list, diagnostics);
+    try {
+      check_points(at, *points, value, *shape);
+    } catch (const InputError& error) {
+      diagnostics.add(Mistake::conflict, table.where, table.path, error.what());
+    }
+  }
+}
+
 NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
   NamedMode mode;
   mode.name = table.name;
@@ -91,6 +128,7 @@ NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
   else
     mode.stiffness = stiffness ? std::get<double>(stiffness->value)
                                : std::get<double>(mass->value) * mode.omega() * mode.omega();
+  read_shape(mode, table, diagnostics);
   const double length = mode.direction.norm();
   const Setting& direction = *table.find("direction");
   if (!(length > 0.0))
@@ -110,6 +148,27 @@ void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& d
     diagnostics.add(Mistake::range, modes.where, "modes",
                     "found modes along z alone, expected one across the axis of the cutter: a flat end that "
                     "moves along z cuts the same chips");
+}
+
+void check_time_domain(const Setting& root, const MachiningCase& read, Analysis::Type type,
+                       Diagnostics& diagnostics) {
+  const machining::Cutter& cutter = read.cut.cutter;
+  if (const Setting& end = *root.find("cutter.end"); cutter.corner > 0.0 && type == Analysis::Type::stability)
+    diagnostics.add(Mistake::conflict, end.where, end.path,
+                    "found a rounded end, expected a flat one: lobes are those of edges at one radius, whose "
+                    "chips do not change with a motion along z; analysis.type = \"milling\" takes any");
+  for (const NamedMode& mode : read.modes)
+    if (type == Analysis::Type::stability && (mode.along.size > 0 || mode.height.size > 0))
+      diagnostics.add(Mistake::conflict, root.where, "modes." + mode.name,
+                      "found a mode that changes along the path or over the height, expected the stiffness "
+                      "at one place: lobes are those of a place; analysis.type = \"milling\" takes shapes");
+  const double closest = *std::min_element(cutter.pitch.begin(), cutter.pitch.end());
+  if (const Setting& steps = *root.find("dexels.steps");
+      read.dexels.steps * closest < 2.0 * machining::full_turn)
+    diagnostics.add(Mistake::range, steps.where, steps.path,
+                    fmt::format("found {} steps a turn, expected at least {:.0f}, two from each tooth to the "
+                                "next one",
+                                read.dexels.steps, std::ceil(2.0 * machining::full_turn / closest)));
 }
 
 } // namespace
@@ -153,13 +212,17 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
         Mistake::missing_key, root.where, "modes",
         "missing, expected a mode of tool or part, [modes.NAME], or a [part]: nothing else can chatter");
   const double turn = read.cut.feed * static_cast<double>(read.cut.cutter.teeth());
-  constexpr double turns = 12.0, share = 0.1, lag = 2.0 * std::numbers::pi / 180.0;
+  constexpr double turns = 12.0, share = 0.1, lag = std::numbers::pi / 180.0, corner = 0.05;
   root.set_default("milling.length", turns * turn);
   root.set_default("dexels.pitch", share * read.cut.feed);
-  const double layers = std::ceil(std::abs(read.cut.cutter.lag(read.axial_depth)) / lag - 1e-9);
+  const double rounded = std::min(read.cut.cutter.corner, read.axial_depth);
+  const double layers = std::ceil(std::max(std::abs(read.cut.cutter.lag(read.axial_depth)) / lag,
+                                           rounded > 0.0 ? read.axial_depth / (corner * rounded) : 0.0) -
+                                  1e-9);
   root.set_default("dexels.layers", static_cast<std::int64_t>(std::clamp(layers, 1.0, 2000.0)));
   read.length = root.get<double>("milling.length");
-  read.entry = root.get<bool>("milling.entry");
+  read.dwell = root.get<double>("milling.dwell");
+  read.start = root.choice<machining::ProcessSettings::Start>("milling.start");
   read.dexels = {root.get<double>("dexels.pitch"), static_cast<int>(root.get<std::int64_t>("dexels.layers")),
                  static_cast<int>(root.get<std::int64_t>("dexels.steps"))};
   constexpr double most_lines = 2e5;
@@ -168,6 +231,7 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, pitch.where, pitch.path,
                     fmt::format("found {:g} m, expected at least {:.3g} m: {:g} lines along the path",
                                 read.dexels.pitch, (read.length + 3.0 * diameter) / most_lines, most_lines));
+  check_time_domain(root, read, result.analysis.type, diagnostics);
   root.set_default("stability.speed_from", 0.5 * read.speed);
   root.set_default("stability.speed_to", 1.5 * read.speed);
   const Setting& range = *root.find("stability");

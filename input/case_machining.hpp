@@ -1,6 +1,7 @@
 #pragma once
 // A milling case as read: of analyses in which nothing but the cut and the modes of tool and part counts.
 #include "machining/milling_cut.hpp"
+#include "machining/milling_process.hpp"
 #include "machining/mode.hpp"
 
 #include <optional>
@@ -35,7 +36,8 @@ struct MachiningCase {
   double speed = 0.0;            ///< rad/s of the spindle
   double axial_depth = 0.0;      ///< m
   double length = 0.0;           ///< m, of the path of the axis in the time domain
-  bool entry = false;            ///< which begins beside the workpiece
+  double dwell = 0.0;            ///< turns at its end without feed
+  machining::ProcessSettings::Start start = machining::ProcessSettings::Start::inside; ///< where it begins
   DexelSettings dexels;
   std::vector<NamedMode> modes;
   StabilityRange stability;

@@ -143,6 +143,12 @@ void read_method(Setting& root, Case& result, Diagnostics& diagnostics) {
   method.energy_tolerance = table.get<double>("energy_tolerance");
 }
 
+CheckpointControl read_checkpoint(const Setting& root) {
+  const Setting& checkpoint = *root.find("output.checkpoint");
+  return {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
+          checkpoint.get<double>("every_wall"), static_cast<int>(checkpoint.get<std::int64_t>("keep"))};
+}
+
 void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   const Setting& table = *root.find("output");
   constexpr double most_rows = 1e7;
@@ -161,10 +167,7 @@ void read_output(const Setting& root, Case& result, Diagnostics& diagnostics) {
   if (table.find("surface")) output.surface = table.get<bool>("surface");
   if (table.find("polyhedra")) output.polyhedra = table.get<bool>("polyhedra");
   read_pictures(table, result, diagnostics);
-  const Setting& checkpoint = *table.find("checkpoint");
-  output.checkpoint = {checkpoint.get<std::int64_t>("every_steps"), checkpoint.get<double>("every_time"),
-                       checkpoint.get<double>("every_wall"),
-                       static_cast<int>(checkpoint.get<std::int64_t>("keep"))};
+  output.checkpoint = read_checkpoint(root);
   for (const Setting& probe : table.entries("probes"))
     output.probes.push_back({probe.name, probe.vector("at"), probe.get<std::vector<std::string>>("fields")});
   for (const Setting& line : table.entries("lines"))
@@ -201,6 +204,7 @@ std::string made_beside(const Value& document, const Override& change) {
 void read_milling(Setting& root, Case& result, Diagnostics& diagnostics) {
   read_structure(root, result, diagnostics);
   if (result.analysis.type != Analysis::Type::modes) read_machining(root, result, diagnostics);
+  result.output.checkpoint = read_checkpoint(root);
   read_shown_units(root, result, diagnostics);
   diagnostics.throw_if_any();
 }

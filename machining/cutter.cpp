@@ -28,6 +28,31 @@ std::size_t Cutter::pattern() const {
   return n;
 }
 
+double Cutter::mean_radius(double from, double to) const {
+  if (!(corner > 0.0)) return radius();
+  // ∫ √(c² − (c − z)²) dz up to a height within the corner.
+  const auto rounded = [&](double z) {
+    const double a = arc(z);
+    return 0.5 * corner * corner * (a - std::sin(a) * std::cos(a));
+  };
+  const double low = std::max(0.0, from), high = std::max(0.0, to);
+  if (!(low < high)) return radius() - corner;
+  const double within = std::min(high, corner) - std::min(low, corner);
+  return (rounded(high) - rounded(low) + (radius() - corner) * within + radius() * (high - low - within)) /
+         (high - low);
+}
+
+double Cutter::profile(double from, double to) const {
+  if (!(corner > 0.0)) return to - from;
+  return corner * (arc(to) - arc(from)) + std::max(to, corner) - std::max(from, corner);
+}
+
+double Cutter::lead(double from, double to) const {
+  constexpr double quarter = 0.5 * std::numbers::pi;
+  if (!(corner > 0.0)) return quarter;
+  return std::min(quarter, arc(from) + 0.5 * profile(from, to) / corner);
+}
+
 std::vector<double> equal_pitch(std::size_t teeth) {
   return std::vector<double>(teeth, 2.0 * std::numbers::pi / static_cast<double>(teeth));
 }

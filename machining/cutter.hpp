@@ -4,6 +4,7 @@
 // the tip along the axis, and the edge lags behind with it.
 #include "core/vec.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -18,6 +19,7 @@ struct Cutter {
   double helix = 0.0;         ///< rad
   double run_out = 0.0;       ///< m, of the axis of the cutter beside that of the spindle
   double run_out_angle = 0.0; ///< rad, from tooth 0 to the direction of it, clockwise
+  double corner = 0.0;        ///< m, radius between end and side: 0 a flat end, the cutter's radius a ball
 
   std::size_t teeth() const { return pitch.size(); }
   double radius() const { return 0.5 * diameter; }
@@ -31,6 +33,17 @@ struct Cutter {
   double radius_of(std::size_t tooth) const;
   /// How many teeth there are before the pitches repeat themselves.
   std::size_t pattern() const;
+  /// m, mean radius of the edges between two heights; below the tip that of the tip.
+  double mean_radius(double from, double to) const;
+  /// m, length of the profile between two heights ≥ 0.
+  double profile(double from, double to) const;
+  /// rad between the axis and the normal of the profile, in the middle of its length between two heights: 90°
+  /// at the side, 0 at the tip of a ball.
+  double lead(double from, double to) const;
+
+private:
+  /// rad of the corner's arc from the axis up to a height.
+  double arc(double z) const { return std::acos(1.0 - std::clamp(z / corner, 0.0, 1.0)); }
 };
 
 /// Teeth at equal angles.
@@ -53,6 +66,12 @@ inline Vec3 outward(double phi) { return {std::sin(phi), std::cos(phi), 0.0}; }
 inline Vec3 on_tool(double phi, const Vec3& force) {
   const double s = std::sin(phi), c = std::cos(phi);
   return {-force[0] * c - force[1] * s, force[0] * s - force[1] * c, -force[2]};
+}
+/// The same where the normal of the edge leans by `lead` from the axis: radial is along the normal, axial
+/// along the profile (Altintas and Lee 1996).
+inline Vec3 on_tool(double phi, double lead, const Vec3& force) {
+  const double s = std::sin(lead), c = std::cos(lead);
+  return on_tool(phi, Vec3(force[0], s * force[1] + c * force[2], s * force[2] - c * force[1]));
 }
 
 } // namespace cnem::machining

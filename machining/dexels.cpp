@@ -1,152 +1,321 @@
 #include "machining/dexels.hpp"
 
+#include "core/error.hpp"
+#include "core/index.hpp"
+#include "machining/swept_region.hpp"
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace cnem::machining {
 
 namespace {
 
-/// Length of the matter within [low, high].
-double length_within(std::span<const Interval> matter, double low, double high) {
-  double sum = 0.0;
-  for (const Interval& piece : matter)
-    sum += std::max(0.0, std::min(high, piece.high) - std::max(low, piece.low));
-  return sum;
-}
+/// Where what is left, or what is met, is nothing but rounding, as a share of a cell.
+constexpr double nothing = 1e-13;
 
-void take_away(std::vector<Interval>& matter, double low, double high) {
-  for (std::size_t i = 0; i < matter.size();) {
-    Interval& piece = matter[i];
-    if (piece.high <= low || piece.low >= high) {
-      ++i;
-    } else if (piece.low < low && piece.high > high) {
-      const Interval rest{high, piece.high};
-      piece.high = low;
-      matter.insert(matter.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest);
-      return;
-    } else if (piece.low < low) {
-      piece.high = low;
-      ++i;
-    } else if (piece.high > high) {
-      piece.low = high;
-      ++i;
-    } else {
-      matter.erase(matter.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+thread_local Division division;
+
+/// Adds a polygon that a rake takes.
+void take(std::span<const Vec2> polygon, const Sweep* sweep, Bite& bite) {
+  bite.area += area_of(polygon);
+  if (!sweep) return;
+  const Side from = Side::through(sweep->from.edge, sweep->from.inner),
+             to = Side::through(sweep->to.inner, sweep->to.edge);
+  const double scale = to.normal.norm() / from.normal.norm();
+  for (const Vec2& x : polygon) {
+    const double behind = std::max(0.0, -from.height(x) * scale), ahead = std::max(0.0, -to.height(x));
+    if (!(behind + ahead > 0.0)) continue;
+    const double share = behind / (behind + ahead);
+    bite.begin = std::min(bite.begin, share);
+    bite.end = std::max(bite.end, share);
   }
 }
 
 } // namespace
 
-DexelLayer::DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch) {
-  for (const int along : {0, 1}) {
-    const int across = 1 - along;
-    Lines& lines = set_[index(along)];
-    const double width = high[across] - low[across];
-    const auto count = static_cast<std::size_t>(std::ceil(width / pitch[across] - 1e-9));
-    lines.begin = low[across];
-    lines.pitch = width / static_cast<double>(count);
-    lines.line.assign(count, {Interval{low[along], high[along]}});
+std::span<const Vec2> DexelLayer::Pieces::next(std::size_t piece, std::size_t& begin) const {
+  const std::span<const Vec2> corners(corner.data() + begin, index_of(size[piece]));
+  begin += corners.size();
+  return corners;
+}
+
+void DexelLayer::Pieces::add(std::span<const Vec2> polygon) {
+  corner.insert(corner.end(), polygon.begin(), polygon.end());
+  size.push_back(static_cast<std::int32_t>(polygon.size()));
+}
+
+DexelLayer::DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch) : low_(low) {
+  for (const int axis : {0, 1}) {
+    const double width = high[axis] - low[axis];
+    const double cells = std::max(1.0, std::ceil(width / pitch[axis] - 1e-9));
+    count_[index_of(axis)] = static_cast<std::size_t>(cells);
+    size_[axis] = width / cells;
+  }
+  cell_.assign(count_[0] * count_[1], full);
+}
+
+std::array<Vec2, 4> DexelLayer::square(std::size_t i, std::size_t j) const {
+  const auto corner = [&](std::size_t x, std::size_t y) {
+    return Vec2(low_.x() + static_cast<double>(x) * size_.x(), low_.y() + static_cast<double>(y) * size_.y());
+  };
+  return {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)};
+}
+
+/// Cells of an axis that an interval meets, m: from, and behind the last.
+std::pair<std::size_t, std::size_t> DexelLayer::range(int axis, double from, double to) const {
+  const double last = static_cast<double>(count_[index_of(axis)]) - 1.0;
+  const double first = std::floor((from - low_[axis]) / size_[axis]);
+  const double end = std::floor((to - low_[axis]) / size_[axis]);
+  if (end < 0.0 || first > last) return {0, 0};
+  return {static_cast<std::size_t>(std::max(0.0, first)), static_cast<std::size_t>(std::min(last, end)) + 1};
+}
+
+/// Calls visit(i, j, sides) for the cells with matter that a region may share something with; sides: those
+/// that may divide them.
+template<class Visit> void DexelLayer::meet(const Region& region, Visit&& visit) const {
+  const std::span<const Vec2> corner = region.corners();
+  Vec2 low = corner[0], high = low;
+  for (const Vec2& x : corner) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  // Rows of cells along the longer side of the region: the fewer.
+  const int across = high.x() - low.x() < high.y() - low.y() ? 0 : 1, along = 1 - across;
+  const auto [row_from, row_to] = range(across, low[across], high[across]);
+  for (std::size_t row = row_from; row < row_to; ++row) {
+    const double from = low_[across] + static_cast<double>(row) * size_[across], to = from + size_[across];
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (std::size_t k = 0; k < corner.size(); ++k) {
+      const Vec2 &a = corner[k], &b = corner[k + 1 < corner.size() ? k + 1 : 0];
+      const double way = b[across] - a[across];
+      if (std::max(a[across], b[across]) < from || std::min(a[across], b[across]) > to) continue;
+      const double slope = way == 0.0 ? 0.0 : (b[along] - a[along]) / way;
+      for (const Vec2* c : {&a, &b}) {
+        const double at = a[along] + (std::clamp((*c)[across], from, to) - a[across]) * slope;
+        least = std::min(least, at);
+        most = std::max(most, at);
+      }
+    }
+    // Rounding may lead a little out of the region, not out of its box.
+    const auto [first, end] = range(along, std::max(least, low[along]), std::min(most, high[along]));
+    for (std::size_t k = first; k < end; ++k) {
+      const std::size_t i = across == 0 ? row : k, j = across == 0 ? k : row;
+      if (cell_[cell(i, j)] == empty) continue;
+      const Vec2 middle =
+          low_ + size_.cwiseProduct(Vec2(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5));
+      if (const auto sides = region.sides_across(middle, size_)) visit(i, j, *sides);
+    }
   }
 }
 
-/// Calls visit(line, low, high) for the parts of lines behind the path.
-template<class Visit> void DexelLayer::meet(int axis, const Sweep& sweep, Visit&& visit) const {
-  const Lines& lines = set_[index(axis)];
-  const int across = 1 - axis;
-  const double a = sweep.a[across], b = sweep.b[across];
-  const auto next = [&](double x) { return std::ceil((x - lines.begin) / lines.pitch - 0.5); };
-  const double from = std::min(next(a), next(b)), to = std::max(next(a), next(b));
-  const double last = std::min(to, static_cast<double>(lines.line.size()));
-  for (double i = std::max(from, 0.0); i < last; ++i) {
-    const auto line = static_cast<std::size_t>(i);
-    if (lines.line[line].empty()) continue;
-    const double edge = sweep.a[axis] + (place(axis, line) - a) / (b - a) * (sweep.b[axis] - sweep.a[axis]);
-    const double behind = edge - std::copysign(sweep.reach[axis], sweep.normal[axis]);
-    visit(line, std::min(edge, behind), std::max(edge, behind));
-  }
+namespace {
+
+/// The convex regions that a sweep consists of, the way of the edge first: one, or two triangles where it is
+/// not convex, without those that the rake leaves backwards.
+std::array<std::optional<Region>, 2> regions(const Sweep& sweep) {
+  const Region whole{sweep.to.edge, sweep.from.edge, sweep.from.inner, sweep.to.inner};
+  if (whole.convex()) return {whole, std::nullopt};
+  std::array<std::optional<Region>, 2> parts;
+  if (const Region outer{sweep.to.edge, sweep.from.edge, sweep.from.inner}; outer.convex()) parts[0] = outer;
+  if (const Region inner{sweep.to.edge, sweep.from.inner, sweep.to.inner}; inner.convex()) parts[1] = inner;
+  return parts;
 }
 
-DexelLayer::Sample DexelLayer::sample(int axis, double line, const Sweep& sweep) const {
-  const Lines& lines = set_[index(axis)];
-  const Vec2 middle = 0.5 * (sweep.a + sweep.b), way = (sweep.b - sweep.a).normalized();
-  const double there = lines.begin + (line + 0.5) * lines.pitch;
-  const double path = (there - middle[1 - axis]) / way[1 - axis];
-  Sample sample{.edge = path, .end = path, .chip = 0.0};
-  if (line < 0.0 || line >= static_cast<double>(lines.line.size())) return sample;
-  // The edge on its circle, also beyond the step.
-  const Vec2 out = (sweep.normal * sweep.radius + path * way).normalized();
-  const double edge =
-      middle[axis] + path * way[axis] - path * path / (2.0 * sweep.radius) * sweep.normal[axis];
-  const double behind = edge - std::copysign(sweep.reach[axis], sweep.normal[axis]);
-  const double length = length_within(lines.line[static_cast<std::size_t>(line)], std::min(edge, behind),
-                                      std::max(edge, behind));
-  if (!(length > 0.0)) return sample;
-  // The far end of the matter, seen from the axis of the cutter: inwards, and along the path.
-  const Vec2 far = -std::copysign(length, out[axis]) * Vec2::Unit(axis);
-  const double inward = -far.dot(out), along = far.dot(Vec2(out.y(), -out.x()));
-  sample.end = path + sweep.radius * std::atan2(along, sweep.radius - inward);
-  sample.chip = (inward * (2.0 * sweep.radius - inward) - along * along) / (2.0 * sweep.radius);
-  return sample;
+} // namespace
+
+bool DexelLayer::misses(const Sweep& sweep) const {
+  const Vec2 high =
+      low_ + size_.cwiseProduct(Vec2(static_cast<double>(count_[0]), static_cast<double>(count_[1])));
+  const auto& [a, b] = sweep;
+  const Vec2 least = a.edge.cwiseMin(a.inner).cwiseMin(b.edge).cwiseMin(b.inner);
+  const Vec2 most = a.edge.cwiseMax(a.inner).cwiseMax(b.edge).cwiseMax(b.inner);
+  return (least.array() >= high.array()).any() || (most.array() <= low_.array()).any();
 }
 
-std::optional<double> DexelLayer::chip(const Sweep& sweep) const {
-  const int axis = std::abs(sweep.normal.x()) > std::abs(sweep.normal.y()) ? 0 : 1;
-  const Lines& lines = set_[index(axis)];
-  const auto next = [&](const Vec2& x) { return std::ceil((x[1 - axis] - lines.begin) / lines.pitch - 0.5); };
-  const double first = next(sweep.a), last = next(sweep.b);
-  if (first == last) return std::nullopt;
-  // Upwards lines `first` … `last` − 1 are met, downwards `first` − 1 … `last`.
-  const double forward = last > first ? 1.0 : -1.0, offset = forward > 0.0 ? 0.0 : -1.0;
-  double sum = 0.0;
-  for (double line = first + offset; line != last + offset; line += forward) {
-    const Sample here = sample(axis, line, sweep), ahead = sample(axis, line + forward, sweep);
-    sum += here.chip;
-    constexpr double most = 0.2; // of the chip: beyond, the lines see the end of a cut
-    if (here.chip > 0.0 && ahead.chip > 0.0 && ahead.end > here.end)
-      sum += std::clamp((here.edge - here.end) / (ahead.end - here.end) * (ahead.chip - here.chip),
-                        -most * here.chip, most * here.chip);
-  }
-  return sum / std::abs(last - first);
-}
-
-void DexelLayer::erase(const Sweep& sweep) {
-  for (const int axis : {0, 1})
-    meet(axis, sweep, [&](std::size_t line, double low, double high) {
-      take_away(set_[index(axis)].line[line], low, high);
+Bite DexelLayer::ask(const Sweep& sweep) const {
+  Bite bite;
+  if (misses(sweep)) return bite;
+  const double least = nothing * size_.prod();
+  for (const std::optional<Region>& region : regions(sweep)) {
+    if (!region) continue;
+    const auto ask_piece = [&](std::span<const Vec2> piece, unsigned across) {
+      if (division.divide<false>(piece, region->sides(), across, least)) take(division.within, &sweep, bite);
+    };
+    meet(*region, [&](std::size_t i, std::size_t j, unsigned across) {
+      const std::int32_t index = cell_[cell(i, j)];
+      if (index == full) {
+        ask_piece(square(i, j), across);
+        return;
+      }
+      const Pieces& pieces = cut_[index_of(index)];
+      for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k)
+        ask_piece(pieces.next(k, begin), across);
     });
+  }
+  return bite;
 }
 
-/// ends: the part of a line at a place across, where its length is positive.
-template<class Ends> void DexelLayer::erase_between(int axis, const Ends& ends) {
-  for (std::size_t i = 0; i < lines(axis); ++i)
-    if (const Interval part = ends(axis, place(axis, i)); part.low < part.high)
-      take_away(set_[index(axis)].line[i], part.low, part.high);
+void DexelLayer::erase(const Region& region, const Sweep* sweep, Bite& bite) {
+  const double least = nothing * size_.prod();
+  thread_local Pieces left;
+  meet(region, [&](std::size_t i, std::size_t j, unsigned across) {
+    std::int32_t& index = cell_[cell(i, j)];
+    left.corner.clear();
+    left.size.clear();
+    bool taken = false;
+    const auto erase_piece = [&](std::span<const Vec2> piece) {
+      if (!division.divide<true>(piece, region.sides(), across, least)) {
+        left.add(piece);
+        return;
+      }
+      taken = true;
+      take(division.within, sweep, bite);
+      std::size_t begin = 0;
+      for (const std::size_t corners : division.size) {
+        const std::span<const Vec2> part(division.beyond.data() + begin, corners);
+        begin += corners;
+        if (const double area = area_of(part); area > least)
+          left.add(part);
+        else
+          bite.area += area;
+      }
+    };
+    if (index == full) {
+      erase_piece(square(i, j));
+      if (!taken) return;
+      if (!left.size.empty()) {
+        if (free_.empty()) {
+          index = static_cast<std::int32_t>(cut_.size());
+          cut_.emplace_back();
+        } else {
+          index = free_.back();
+          free_.pop_back();
+        }
+      }
+    } else {
+      const Pieces& pieces = cut_[index_of(index)];
+      for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k) erase_piece(pieces.next(k, begin));
+      if (!taken) return;
+      if (left.size.empty()) free_.push_back(index);
+    }
+    if (left.size.empty())
+      index = empty;
+    else
+      std::swap(cut_[index_of(index)], left);
+  });
+}
+
+Bite DexelLayer::erase(const Sweep& sweep) {
+  Bite bite;
+  if (misses(sweep)) return bite;
+  for (const std::optional<Region>& region : regions(sweep))
+    if (region) erase(*region, &sweep, bite);
+  return bite;
 }
 
 void DexelLayer::erase_disc(const Vec2& centre, double radius) {
-  for (const int axis : {0, 1})
-    erase_between(axis, [&](int along, double place) {
-      const double away = place - centre[1 - along],
-                   half = std::sqrt(std::max(0.0, radius * radius - away * away));
-      return Interval{centre[along] - half, centre[along] + half};
-    });
+  constexpr int sectors = 1440;
+  constexpr double angle = 2.0 * std::numbers::pi / sectors;
+  const double out = radius * std::sqrt(angle / std::sin(angle)); // of as large an area as the disc
+  const auto corner = [&](int k) {
+    return Vec2(centre + out * Vec2(std::cos(angle * k), std::sin(angle * k)));
+  };
+  Bite bite;
+  for (int k = 0; k < sectors; ++k) erase({corner(k), corner((k + 1) % sectors), centre}, nullptr, bite);
 }
 
 void DexelLayer::erase_box(const Vec2& low, const Vec2& high) {
-  for (const int axis : {0, 1})
-    erase_between(axis, [&](int along, double place) {
-      const bool within = place > low[1 - along] && place < high[1 - along];
-      return within ? Interval{low[along], high[along]} : Interval{};
-    });
+  Bite bite;
+  erase({low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())}, nullptr, bite);
 }
 
-double DexelLayer::area(int axis) const {
+void DexelLayer::archive(Archive& archive, const std::string& path) {
+  const std::size_t cells = cell_.size();
+  archive.integers(path + "cell", cell_);
+  archive.integers(path + "free", free_);
+  std::vector<std::int32_t> pieces, corners;
+  std::vector<double> place;
+  for (const Pieces& cell : cut_) {
+    pieces.push_back(static_cast<std::int32_t>(cell.size.size()));
+    corners.insert(corners.end(), cell.size.begin(), cell.size.end());
+    for (const Vec2& x : cell.corner) place.insert(place.end(), {x.x(), x.y()});
+  }
+  archive.integers(path + "pieces", pieces);
+  archive.integers(path + "corners", corners);
+  archive.list(path + "place", "m", place);
+  if (!archive.loading()) return;
+  cut_.assign(pieces.size(), {});
+  std::size_t next = 0, at = 0;
+  bool good = cell_.size() == cells;
+  for (const std::int32_t index : cell_)
+    good = good && index >= full && index < static_cast<std::int32_t>(cut_.size());
+  for (const std::int32_t index : free_)
+    good = good && index >= 0 && index < static_cast<std::int32_t>(cut_.size());
+  for (std::size_t k = 0; good && k < cut_.size(); ++k) {
+    for (std::int32_t piece = 0; good && piece < pieces[k]; ++piece) {
+      good = next < corners.size() && corners[next] >= 3 && at + 2 * index_of(corners[next]) <= place.size();
+      if (!good) break;
+      cut_[k].size.push_back(corners[next]);
+      for (std::int32_t c = 0; c < corners[next]; ++c, at += 2)
+        cut_[k].corner.emplace_back(place[at], place[at + 1]);
+      ++next;
+    }
+  }
+  if (!good || next != corners.size() || at != place.size())
+    throw IoError(path + " holds no layer of dexels of this case");
+}
+
+double DexelLayer::area() const {
+  std::size_t whole = 0;
   double sum = 0.0;
-  for (const std::vector<Interval>& matter : set_[index(axis)].line)
-    sum += set_[index(axis)].pitch * length_within(matter, -HUGE_VAL, HUGE_VAL);
-  return sum;
+  for (const std::int32_t index : cell_) {
+    if (index == full) ++whole;
+    if (index < 0) continue;
+    const Pieces& pieces = cut_[index_of(index)];
+    for (std::size_t k = 0, begin = 0; k < pieces.size.size(); ++k) sum += area_of(pieces.next(k, begin));
+  }
+  return sum + static_cast<double>(whole) * size_.prod();
+}
+
+std::vector<Interval> DexelLayer::matter(int axis, double place) const {
+  const int across = 1 - axis;
+  const double row = std::floor((place - low_[across]) / size_[across]);
+  std::vector<Interval> parts;
+  if (row < 0.0 || row >= static_cast<double>(count_[index_of(across)])) return parts;
+  for (std::size_t k = 0; k < count_[index_of(axis)]; ++k) {
+    const auto other = static_cast<std::size_t>(row);
+    const std::int32_t index = axis == 0 ? cell_[cell(k, other)] : cell_[cell(other, k)];
+    if (index == full)
+      parts.push_back({low_[axis] + static_cast<double>(k) * size_[axis],
+                       low_[axis] + static_cast<double>(k + 1) * size_[axis]});
+    if (index < 0) continue;
+    const Pieces& pieces = cut_[index_of(index)];
+    for (std::size_t p = 0, begin = 0; p < pieces.size.size(); ++p) {
+      const std::span<const Vec2> polygon = pieces.next(p, begin);
+      Interval part{HUGE_VAL, -HUGE_VAL};
+      for (std::size_t c = 0; c < polygon.size(); ++c) {
+        const Vec2 &a = polygon[c], &b = polygon[(c + 1) % polygon.size()];
+        if ((a[across] <= place) == (b[across] <= place)) continue;
+        const double at = a[axis] + (place - a[across]) / (b[across] - a[across]) * (b[axis] - a[axis]);
+        part.low = std::min(part.low, at);
+        part.high = std::max(part.high, at);
+      }
+      if (part.low < part.high) parts.push_back(part);
+    }
+  }
+  std::sort(parts.begin(), parts.end(), [](const Interval& a, const Interval& b) { return a.low < b.low; });
+  std::vector<Interval> merged;
+  const double close = 1e-9 * size_[axis];
+  for (const Interval& part : parts)
+    if (!merged.empty() && part.low <= merged.back().high + close)
+      merged.back().high = std::max(merged.back().high, part.high);
+    else
+      merged.push_back(part);
+  return merged;
 }
 
 } // namespace cnem::machining

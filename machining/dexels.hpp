@@ -1,10 +1,14 @@
 #pragma once
-// The workpiece as dexels: lines of matter in layers across the axis of the cutter, along y and along x.
+// The workpiece as dexels: bars of matter in layers across the axis of the cutter (paper 004, 3.2). The ends
+// of a dexel are as oblique as the rakes that cut it: what rakes sweep is taken exactly, however wide it is.
+#include "core/fields/archive.hpp"
 #include "core/vec.hpp"
 
 #include <array>
-#include <optional>
+#include <cstdint>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem::machining {
@@ -13,57 +17,72 @@ struct Interval {
   double low = 0.0, high = 0.0; ///< m
 };
 
-/// Matter of one layer of a box: lines in both directions, each with any number of intervals.
+/// A rake face where a layer crosses it, from the edge to as deep as chips are. m
+struct Rake {
+  Vec2 edge, inner;
+};
+
+/// What a rake sweeps in a step, (6): the region between its first and last place, whose outer side is the
+/// way of the edge. The rake goes forward, clockwise round its inner end.
+struct Sweep {
+  Rake from, to;
+  double path() const { return (to.edge - from.edge).norm(); } ///< m
+};
+
+/// What a rake takes of a layer, (5).
+struct Bite {
+  double area = 0.0;             ///< m²
+  double begin = 1.0, end = 0.0; ///< shares of the way of the edge between which something is cut
+  double share() const { return begin < end ? end - begin : 0.0; }
+};
+
+class Region;
+
+/// Matter of one layer of a box. Dexels lie along y beside each other and are divided into cells; a cell is
+/// full, empty, or holds convex pieces.
 class DexelLayer {
 public:
-  /// pitch: m, of lines along y, which stand beside each other in x, and of lines along x; the sides of the
-  /// box are divided into whole lines no farther apart.
+  /// pitch: m, the most that cells measure along x and y.
   DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch);
 
-  /// What an edge sweeps in a step: its path from a to b, the normal out of the cutter in the middle of it,
-  /// of length 1, how far behind the path lines along x and lines along y are taken, and the radius of the
-  /// edge round the axis. m
-  struct Sweep {
-    Vec2 a, b, normal, reach;
-    double radius = 0.0;
-  };
-
-  /// The chip of the edge, m: removed area over the length of its path, from the lines that the path meets,
-  /// of those along the axis that the normal is nearer to, because it meets more of these. What lies on a
-  /// line is cut while the rake goes along it; where the lines tell how the chip changes with the angle, it
-  /// is that of the moment in which the edge meets the line. None where it meets no line.
-  std::optional<double> chip(const Sweep& sweep) const;
-  /// Takes it away, of lines along both axes.
-  void erase(const Sweep& sweep);
-  /// Takes away all within a disc, and within a rectangle.
+  /// What a rake would take.
+  Bite ask(const Sweep& sweep) const;
+  /// Takes it: afterwards the area is less by that of the bite.
+  Bite erase(const Sweep& sweep);
+  /// Takes away all within a polygon of as large an area as a disc, and within a rectangle.
   void erase_disc(const Vec2& centre, double radius);
   void erase_box(const Vec2& low, const Vec2& high);
 
-  /// Area of matter as lines along an axis see it, m².
-  double area(int axis) const;
-  /// Lines along an axis: their places across it, and the matter of one of them in order.
-  std::size_t lines(int axis) const { return set_[index(axis)].line.size(); }
-  double place(int axis, std::size_t line) const {
-    return set_[index(axis)].begin + (static_cast<double>(line) + 0.5) * set_[index(axis)].pitch;
-  }
-  std::span<const Interval> matter(int axis, std::size_t line) const { return set_[index(axis)].line[line]; }
+  double area() const; ///< m² of matter
+
+  /// What evolves, under a path of names that ends with "/". Throws IoError for what is no such layer.
+  void archive(Archive& archive, const std::string& path);
+  /// Matter on the line along an axis that crosses the other one at a place, m, in order; none beside the
+  /// box.
+  std::vector<Interval> matter(int axis, double place) const;
 
 private:
-  struct Lines {
-    double begin = 0.0, pitch = 0.0; ///< m, across
-    std::vector<std::vector<Interval>> line;
+  /// Pieces of a cell, one behind the other, with their numbers of corners.
+  struct Pieces {
+    std::vector<Vec2> corner; ///< m
+    std::vector<std::int32_t> size;
+    std::span<const Vec2> next(std::size_t piece, std::size_t& begin) const;
+    void add(std::span<const Vec2> polygon);
   };
-  static std::size_t index(int axis) { return static_cast<std::size_t>(axis); }
-  /// What one line tells of a chip: where the edge meets it and where the rake leaves its matter, m along the
-  /// path from the middle of the step, and the chip there.
-  struct Sample {
-    double edge = 0.0, end = 0.0, chip = 0.0;
-  };
-  Sample sample(int axis, double line, const Sweep& sweep) const;
-  template<class Visit> void meet(int axis, const Sweep& sweep, Visit&& visit) const;
-  template<class Ends> void erase_between(int axis, const Ends& ends);
+  static constexpr std::int32_t empty = -1, full = -2;
 
-  std::array<Lines, 2> set_; ///< along x, along y
+  bool misses(const Sweep& sweep) const; ///< for want of any matter where it is
+  std::pair<std::size_t, std::size_t> range(int axis, double from, double to) const;
+  template<class Visit> void meet(const Region& region, Visit&& visit) const;
+  void erase(const Region& region, const Sweep* sweep, Bite& bite);
+  std::array<Vec2, 4> square(std::size_t i, std::size_t j) const;
+  std::size_t cell(std::size_t i, std::size_t j) const { return i * count_[1] + j; }
+
+  Vec2 low_, size_; ///< m, of the box, of a cell
+  std::array<std::size_t, 2> count_{};
+  std::vector<std::int32_t> cell_; ///< [along x × along y] empty, full, or an index of cut_
+  std::vector<Pieces> cut_;
+  std::vector<std::int32_t> free_; ///< indices of cut_ that no cell has
 };
 
 } // namespace cnem::machining

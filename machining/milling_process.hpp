@@ -1,34 +1,33 @@
 #pragma once
 // Milling in the time domain: teeth sweep through dexels, what they remove makes forces, forces make the
-// modes swing (paper 004, section 3.2 and 3.3: (5), (6)).
-#include "machining/dexels.hpp"
-#include "machining/milling_cut.hpp"
+// modes swing (paper 004, section 3.2 and Box 1: (5), (6)).
+#include "machining/edge_elements.hpp"
 #include "machining/mode.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cnem::machining {
 
 struct ProcessSettings {
-  double spindle = 0.0;      ///< rad/s
-  double axial_depth = 0.0;  ///< m
-  double length = 0.0;       ///< m, of the path of the cutter's axis along +x
-  bool from_outside = false; ///< it begins beside the workpiece, not in the middle of a cut
-  double pitch = 0.0;        ///< m, of dexels
-  int layers = 1;            ///< along the axis
-  int steps = 0;             ///< in a turn
+  /// Where the cutter begins: in the middle of a cut, in a hole of its own size, or beside the workpiece.
+  enum class Start { inside, hole, outside };
+  double spindle = 0.0;     ///< rad/s
+  double axial_depth = 0.0; ///< m
+  double length = 0.0;      ///< m, of the path of the cutter's axis along +x
+  double dwell = 0.0;       ///< turns at its end, without feed
+  Start start = Start::inside;
+  double pitch = 0.0; ///< m, of dexels
+  int layers = 1;     ///< along the axis
+  int steps = 0;      ///< in a turn
 };
 
-/// Means over a step; forces on the tool.
-struct ProcessStep {
+struct ProcessStep : EdgeLoad {
   double time = 0.0;                ///< s, at the middle
   double angle = 0.0;               ///< rad, of the tip of tooth 0 there
-  Vec3 force = Vec3::Zero();        ///< N
-  double torque = 0.0;              ///< N m, against the spindle
-  double power = 0.0;               ///< W, of the edges along their own paths
-  double removed = 0.0;             ///< m³
-  double thickest = 0.0;            ///< m, chip
-  Vec3 displacement = Vec3::Zero(); ///< m, of the tool relative to the part, at the end
+  Vec3 displacement = Vec3::Zero(); ///< m, of the tool relative to the part, at the end, in the
+                                    ///< layer where it is the largest
 };
 
 class MillingProcess {
@@ -37,43 +36,61 @@ public:
 
   bool at_end() const;
   /// Makes a step: edges ask the dexels what they would remove until modes and forces agree, then they erase
-  /// what they sweep.
+  /// what they sweep. Throws SolverError where they do not agree.
   ProcessStep advance();
 
+  /// What evolves.
+  void archive(Archive& archive);
+
+  std::int64_t steps() const { return step_; }
   double time() const { return static_cast<double>(step_) * dt_; }
-  double duration() const { return settings_.length / feed_speed_; } ///< s
-  double start() const { return start_; }                            ///< m, x of the axis at first
-  double axis() const {
-    return start_ + feed_speed_ * time();
-  } ///< m, x of the cutter's axis without vibration
+  double duration() const {
+    return settings_.length / feed_speed_ + settings_.dwell * full_turn / settings_.spindle;
+  }                                       ///< s
+  double start() const { return start_; } ///< m, x of the axis at first
+  /// m, x of the cutter's axis without vibration.
+  double axis() const { return axis_at(static_cast<double>(step_) / settings_.steps); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
-  double height(std::size_t layer) const; ///< m, middle of it over the tip
-  double volume() const;                  ///< m³ of matter
+  double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
+  double volume() const;                                                  ///< m³ of matter
+  double block() const { return block_; } ///< m³ of matter before anything was taken
   /// m, matter that is left on the machined side beyond where the teeth pass, at a place along x; negative:
-  /// too much was taken. Of the last layer's line that is nearest.
-  double left_at(std::size_t layer, double x) const;
+  /// too much was taken. None where no matter is left.
+  std::optional<double> left_at(std::size_t layer, double x) const;
   /// m that the cutter goes on in a turn.
   double feed_of_turn() const { return feed_speed_ * full_turn / settings_.spindle; }
 
 private:
-  /// The way of an edge in this step, whose cutter is shifted at its end.
-  DexelLayer::Sweep sweep(std::size_t tooth, std::size_t layer, const Vec2& shift) const;
-  /// What teeth would remove and bear whose cutter is shifted at the end of the step. chips: [layer × tooth]
-  /// m, of the step before, then of this one.
-  ProcessStep ask(const Vec2& shift, std::vector<double>& chips) const;
-  void erase(const Vec2& shift);
-  Vec2 shift_of(const Eigen::MatrixXd& state) const;
+  using PerLayer = std::vector<Vec3>;
+
+  double axis_at(double turns) const;
+  CutterPlace place(std::int64_t step) const; ///< without vibration
+  /// What teeth remove and bear whose cutter is shifted at the end of the step, m for each layer; forces on
+  /// the tool for each, N, come into `force`. bite(layer, sweep): what is taken of a layer, or would be.
+  template<class TakeBite> EdgeLoad bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite);
+  /// Modes are integrated exactly under the mean force of the step.
+  Eigen::MatrixXd moved(const PerLayer& force) const;
+  PerLayer shift_of(const Eigen::MatrixXd& state) const;
+  /// Of modes in layers, where the cutter is in the middle of this step.
+  void take_shapes();
+  /// m, how deep rakes have to be: thicker than any chip.
+  double reach(const PerLayer& shift) const;
 
   MillingCut cut_;
   std::vector<Mode> modes_;
   ProcessSettings settings_;
-  double dt_ = 0.0, feed_speed_ = 0.0, start_ = 0.0, strip_ = 0.0;
+  double dt_ = 0.0, feed_speed_ = 0.0, start_ = 0.0, block_ = 0.0;
+  std::vector<FreeMotion> free_;
+  EdgeElements edges_;
   std::int64_t step_ = 0;
   std::vector<DexelLayer> layer_;
-  std::vector<double> chips_; ///< [layer × tooth] m
-  Eigen::MatrixXd state_;     ///< [2 × modes] (q, v/ω)
-  Vec2 shift_ = Vec2::Zero(); ///< m, at the begin of the step
-  Vec3 force_ = Vec3::Zero(); ///< N, of the last step
+  std::vector<Bite> bite_;   ///< [layer × tooth] of the last question
+  std::vector<double> path_; ///< [layer × tooth] m
+  Eigen::MatrixXd state_;    ///< [2 × modes] (q, v/ω)
+  Eigen::MatrixXd shape_;    ///< [layers × modes] –, in this step
+  PerLayer shift_;           ///< m, at the begin of the step
+  PerLayer force_;           ///< N, of the last step
+  double farthest_ = 0.0;    ///< m, the largest shift so far
 };
 
 } // namespace cnem::machining

@@ -1,5 +1,6 @@
 #pragma once
 // A mode of vibration as a tap test gives it.
+#include "core/piecewise_linear.hpp"
 #include "core/vec.hpp"
 
 #include <cmath>
@@ -15,6 +16,13 @@ struct Mode {
   double stiffness = 0.0;         ///< N/m, where the cutter cuts, along the direction
   Vec3 direction = Vec3::UnitX(); ///< unit vector along which it moves there
 
+  /// How it changes along the path and over the height where the cutter cuts, as shares of the displacement
+  /// that the stiffness is of; linear between, 1 without points. m, –
+  NumberList along{}, shape_along{}, height{}, shape_over_height{};
+
+  double shape(double x, double z) const {
+    return piecewise_linear(along, shape_along, x) * piecewise_linear(height, shape_over_height, z);
+  }
   double omega() const { return 2.0 * std::numbers::pi * frequency; } ///< rad/s
   double mass() const { return stiffness / (omega() * omega()); }     ///< kg
   /// Displacement of the tool relative to the part by one unit of the mode; the force on the tool works on it

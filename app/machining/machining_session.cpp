@@ -22,15 +22,17 @@ namespace cnem::app {
 
 using results::si_format;
 
-MachiningSession::MachiningSession(const input::Case& input, const RunOptions& options, RunObserver& observer)
+MachiningSession::MachiningSession(const input::Case& input, const RunOptions& options, RunObserver& observer,
+                                   bool goes_on)
     : input_(input), options_(options), observer_(observer), history_(options.keep_history) {
-  if (!options_.output.empty()) {
+  if (!options_.output.empty() && !goes_on) {
     results::prepare_output_folder(options_.output, options_.force);
     results::write_atomically(options_.output / results::files::resolved_case, input.resolved);
   }
   status_.version = options_.version;
   status_.case_name = input_.name;
   status_.threads = omp_get_max_threads();
+  if (input.machining) modes_ = modes_of(input);
   watch_.pause();
 }
 
@@ -47,7 +49,7 @@ void MachiningSession::finish() {
   note_times();
   observer_.outcome(status_.reason);
   if (options_.output.empty()) return;
-  watch_.time("output", [&] { write_files(); });
+  if (status_.exit == Exit::done) watch_.time("output", [&] { write_files(); });
   const std::filesystem::path report = report::write_report(options_.output, status_);
   note_times();
   results::write_status(options_.output, status_);
@@ -59,15 +61,24 @@ std::optional<Exit> MachiningSession::go_on() {
   if (!ended_) {
     watch_.go_on();
     before_steps(input_, options_, [&] {
-      status_.warnings = milling_doubts(input_);
-      for (const std::string& warning : status_.warnings) observer_.remark("warning: " + warning);
-      status_.exit = Exit::done;
-      if (input_.machining) modes_ = modes_of(input_);
-      watch_.time("step", [&] { solve(); });
-      finish();
+      if (!begun_) {
+        std::vector<std::string> doubts = milling_doubts(input_);
+        status_.warnings.insert(status_.warnings.end(), doubts.begin(), doubts.end());
+        for (const std::string& warning : status_.warnings) observer_.remark("warning: " + warning);
+        status_.exit = Exit::done;
+        begun_ = true;
+      }
+      ended_ = true;
+      try {
+        watch_.time("step", [&] { ended_ = solve(); });
+      } catch (const DivergenceError& error) {
+        status_.exit = Exit::diverged;
+        status_.reason = error.what();
+      }
+      if (ended_) finish();
     });
     watch_.pause();
-    ended_ = true;
+    if (!ended_) return std::nullopt;
   }
   return static_cast<Exit>(status_.exit);
 }

@@ -15,11 +15,12 @@ namespace cnem::app {
 
 inline constexpr double rpm = std::numbers::pi / 30.0; ///< rad/s
 
-/// Solved in one go, as a static analysis.
 class MachiningSession : public Session {
 public:
-  /// Takes the folder. `input` and `observer` must outlive this object. Throws InputError and IoError.
-  MachiningSession(const input::Case& input, const RunOptions& options, RunObserver& observer);
+  /// Takes the folder, but where a run that is there goes on. `input` and `observer` must outlive this
+  /// object. Throws InputError and IoError.
+  MachiningSession(const input::Case& input, const RunOptions& options, RunObserver& observer,
+                   bool goes_on = false);
 
   std::optional<Exit> go_on() override;
   results::RunStatus status() override { return status_; }
@@ -28,8 +29,9 @@ public:
   const results::HistoryLog& history() const override { return history_; }
 
 protected:
-  /// Fills the status, and the history where there is one.
-  virtual void solve() = 0;
+  /// Fills the status, and the history where there is one. False where the observer asked for a pause.
+  /// Throws DivergenceError.
+  virtual bool solve() = 0;
   /// What is written beside status and report, into a folder that is there.
   virtual void write_files() = 0;
 
@@ -44,7 +46,7 @@ protected:
 
 private:
   void finish();
-  bool ended_ = false;
+  bool begun_ = false, ended_ = false;
 };
 
 /// Of the kind that the case asks for.

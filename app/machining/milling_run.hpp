@@ -1,7 +1,9 @@
 #pragma once
 // One milling cut in the time domain: forces, vibrations, and the surface that is left.
 #include "app/machining/machining_session.hpp"
+#include "app/time_control.hpp"
 #include "machining/milling_process.hpp"
+#include "results/checkpoint.hpp"
 
 namespace cnem::app {
 
@@ -9,7 +11,14 @@ namespace cnem::app {
 /// status.json and the report.
 class MillingRun final : public MachiningSession {
 public:
-  using MachiningSession::MachiningSession;
+  MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
+             bool goes_on = false);
+
+  /// Takes the state of a checkpoint and goes on behind the rows that were there. Throws IoError with the
+  /// reason when it does not fit the case or the files.
+  void resume(results::CheckpointReader& checkpoint);
+  /// A warning beside those of the case.
+  void warn(std::string warning) { status_.warnings.push_back(std::move(warning)); }
 
 private:
   /// The largest and the mean of a part of the run.
@@ -21,12 +30,28 @@ private:
     double thickest = 0.0;         ///< m
     double displacement = 0.0;     ///< m, largest
     void add(const machining::ProcessStep& step, double dt);
+    void archive(Archive& archive);
   };
-  void solve() override;
+  bool solve() override;
   void write_files() override;
-  void judge(const Course& steady);
-  void measure_surface(const machining::MillingProcess& process);
+  void judge();
+  void measure_surface();
+  /// The machined side of one layer along the path, m.
+  struct Texture {
+    double Ra = 0.0, Rz = 0.0, peak_to_valley = 0.0, location_error = 0.0;
+  };
+  Texture texture(std::size_t layer) const;
+  /// Metrics of the surface, and of thirds of the height: means of Ra and Rz, the largest of the others.
+  void tell_surface();
+  void write_checkpoint();
+  std::filesystem::path history_file() const; ///< empty where there is no folder
+  void archive(Archive& archive);
 
+  machining::MillingProcess process_;
+  CheckpointTimer checkpoints_;
+  Course steady_; ///< of the last turns
+
+  std::string surface_ = "the path is too short for a surface";
   std::vector<double> place_;             ///< m along the path
   std::vector<double> height_;            ///< m of each layer
   std::vector<std::vector<double>> left_; ///< [layer][place] m

@@ -120,7 +120,7 @@ void StabilityRun::write_files() {
                               report::svg_file(*lobes, results::ShownUnits::of_case(input_.resolved)));
 }
 
-void StabilityRun::solve() {
+bool StabilityRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
   const input::StabilityRange& range = milling.stability;
   const std::vector<machining::Mode> modes = plain_modes();
@@ -128,6 +128,7 @@ void StabilityRun::solve() {
                                       deepest(input_, modes), range.depths);
   judge();
   status_.time = 0.0;
+  return true;
 }
 
 } // namespace cnem::app

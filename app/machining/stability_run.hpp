@@ -12,7 +12,7 @@ public:
   using MachiningSession::MachiningSession;
 
 private:
-  void solve() override;
+  bool solve() override;
   void write_files() override;
   void judge();
 

@@ -28,4 +28,28 @@ void clip_polygon(std::vector<Place>& polygon, std::vector<Place>& scratch, Heig
                [](const Place& a, const Place& b, double share) { return Place(a + share * (b - a)); });
 }
 
+/// Divides a convex polygon by a line: `inside` gets what lies where `height` is not positive, `outside` the
+/// rest; either may get nothing or less than three corners. Neither may be the polygon itself.
+template<class Place, class Height>
+void split_polygon(const std::vector<Place>& polygon, std::vector<Place>& inside, std::vector<Place>& outside,
+                   Height&& height) {
+  inside.clear();
+  outside.clear();
+  if (polygon.empty()) return;
+  const Place* a = &polygon.back();
+  double at_a = height(*a);
+  for (const Place& b : polygon) {
+    const double at_b = height(b);
+    if ((at_a < 0.0 && at_b > 0.0) || (at_a > 0.0 && at_b < 0.0)) {
+      const Place between = *a + at_a / (at_a - at_b) * (b - *a);
+      inside.push_back(between);
+      outside.push_back(between);
+    }
+    if (at_b <= 0.0) inside.push_back(b);
+    if (at_b >= 0.0) outside.push_back(b);
+    a = &b;
+    at_a = at_b;
+  }
+}
+
 } // namespace cnem

@@ -15,8 +15,20 @@ namespace d = dimension;
 using enum Type;
 
 /// Keys that both kinds of analyses have; of tables each member is looked at by itself.
-constexpr std::array shared{"title",         "include", "let",    "analysis",
-                            "analysis.type", "cutting", "report", "report.units"};
+constexpr std::array shared{"title",
+                            "include",
+                            "let",
+                            "analysis",
+                            "analysis.type",
+                            "cutting",
+                            "report",
+                            "report.units",
+                            "output",
+                            "output.checkpoint",
+                            "output.checkpoint.every_steps",
+                            "output.checkpoint.every_time",
+                            "output.checkpoint.every_wall",
+                            "output.checkpoint.keep"};
 /// Tables of milling, of structures whose modes are sought, and of both, with all that lies below them.
 constexpr std::array structure_tables{"shaft"};
 constexpr std::array common_tables{"part"};
@@ -26,7 +38,7 @@ constexpr std::array milling_tables{"cutter", "cutting.law", "cutting.forces", "
 constexpr Range steep{.low = -60.0 * std::numbers::pi / 180.0, .high = 60.0 * std::numbers::pi / 180.0};
 
 void add_cutter(Keys& k) {
-  k.add("cutter", table, "The milling cutter, with a flat end.").required();
+  k.add("cutter", table, "The milling cutter.").required();
   k.add("cutter.diameter", quantity, "").unit(d::length).in(positive).required().example("\"12 mm\"");
   k.add("cutter.teeth", integer, "").in({.low = 1, .high = 64}).required().example("3");
   k.add("cutter.pitch", quantities,
@@ -45,6 +57,13 @@ void add_cutter(Keys& k) {
       .unit(d::angle)
       .in(steep)
       .example("\"10 deg\"");
+  k.add("cutter.end", choice, "In the time domain: how the cutter ends; a bull end has a `corner` radius.")
+      .one_of({"flat", "bull", "ball"})
+      .fallback("\"flat\"");
+  k.add("cutter.corner", quantity, "Radius between end and side of a bull end.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"2 mm\"");
   k.add("cutter.run_out", quantity, "Distance from the axis of the spindle to that of the cutter.")
       .unit(d::length)
       .in(not_negative)
@@ -109,13 +128,18 @@ void add_milling(Keys& k) {
       .in(positive)
       .example("\"20 mm\"")
       .computed("twelve turns");
-  k.add("milling.entry", boolean,
-        "In the time domain: the cutter begins beside the workpiece, which ends at x = 0. Without, it begins "
-        "in "
-        "the middle of a cut.")
-      .fallback("false");
+  k.add("milling.dwell", quantity, "In the time domain: turns at the end of the path, without feed.")
+      .in(not_negative)
+      .fallback("0");
+  k.add(
+       "milling.start", choice,
+       "In the time domain: `inside`: the cutter begins in the middle of a cut; `hole`: in a hole of its own "
+       "size; `outside`: beside the workpiece, which ends at x = 0.")
+      .one_of({"inside", "hole", "outside"})
+      .fallback("\"inside\"");
   k.add("dexels", table, "How matter and motion are resolved in the time domain.").always();
-  k.add("dexels.pitch", quantity, "Distance of the lines that matter is made of, along x and along y.")
+  k.add("dexels.pitch", quantity,
+        "Distance of the dexels: where the surface is told. Chips do not depend on it.")
       .unit(d::length)
       .in(positive)
       .example("\"10 um\"")
@@ -123,7 +147,7 @@ void add_milling(Keys& k) {
   k.add("dexels.layers", integer, "Along the axis of the cutter.")
       .in({.low = 1, .high = 2000})
       .example("20")
-      .computed("edges lag behind by at most 2 deg in a layer");
+      .computed("edges lag behind by at most 1 deg in a layer, which is at most a twentieth of a corner");
   k.add("dexels.steps", integer, "In a turn.").in({.low = 36, .high = 1e6}).fallback("720");
 }
 
@@ -158,6 +182,23 @@ void add_modes(Keys& k) {
       .example("\"1 0 0\"");
 }
 
+void add_shapes(Keys& k) {
+  k.add("modes.*.along", quantities,
+        "In the time domain: places of the cutter's axis along x, increasing, for `shape_along`.")
+      .unit(d::length)
+      .example("\"0 50 100 mm\"");
+  k.add("modes.*.shape_along", quantities,
+        "How the mode changes along the path, as shares of where `stiffness` is taken.")
+      .example("\"1 0.8 1\"");
+  k.add("modes.*.height", quantities,
+        "In the time domain: heights over the tip of the cutter, increasing, for `shape_over_height`.")
+      .unit(d::length)
+      .example("\"0 18 mm\"");
+  k.add("modes.*.shape_over_height", quantities,
+        "How the mode changes over the height, as shares of where `stiffness` is taken.")
+      .example("\"0.4 1\"");
+}
+
 void add_stability(Keys& k) {
   k.add("stability", table,
         "The chart of `analysis.type = \"stability\"`: spectral radius over speed of the spindle and axial "
@@ -189,6 +230,7 @@ void add_machining(Keys& k) {
   add_law(k);
   add_milling(k);
   add_modes(k);
+  add_shapes(k);
   add_stability(k);
 }
 

@@ -1,0 +1,55 @@
+#include "machining/edge_elements.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace cnem::machining {
+
+EdgeElements::EdgeElements(const MillingCut& cut, double depth, int layers, double step)
+    : cut_(cut), thickness_(depth / layers), chord_(std::sqrt(step / std::sin(step))) {
+  assert(depth > 0.0 && layers > 0 && step > 0.0 && step < 1.0);
+  for (int k = 0; k < layers; ++k) {
+    const double low = k * thickness_, high = low + thickness_;
+    layer_.push_back({.low = low,
+                      .radius = cut.cutter.mean_radius(low, high),
+                      .lag = cut.cutter.lag(0.5 * (low + high)),
+                      .width = cut.cutter.profile(low, high),
+                      .lead = cut.cutter.lead(low, high)});
+  }
+  for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) teeth_.push_back(cut.cutter.behind(j));
+}
+
+Rake EdgeElements::rake(std::size_t layer, std::size_t tooth, const CutterPlace& place, double reach) const {
+  const Cutter& cutter = cut_.cutter;
+  const Layer& at = layer_[layer];
+  Vec2 axis = place.axis.head<2>();
+  if (cutter.run_out > 0.0) axis += cutter.run_out * outward(place.angle + cutter.run_out_angle).head<2>();
+  const double low = at.low - place.axis.z();
+  const double radius =
+      chord_ * (cutter.corner > 0.0 ? cutter.mean_radius(low, low + thickness_) : at.radius);
+  const Vec2 out = outward(place.angle - teeth_[tooth] - at.lag).head<2>();
+  return {axis + radius * out, axis + std::max(0.0, radius - reach) * out};
+}
+
+void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite, double path,
+                       double duration, const CutterPlace& from, const CutterPlace& to) const {
+  const double share = bite.share();
+  if (!(bite.area > 0.0) || !(share > 0.0)) return;
+  const Layer& at = layer_[layer];
+  // Over the part of its way on which the edge cuts. The chip is as thick, from the edge inwards, as makes
+  // the area: its middle goes a shorter way round the axis than its edge, h (1 − h/2r) = a.
+  const double a = bite.area / (path * share);
+  const double inward = at.radius * (1.0 - std::sqrt(std::max(0.0, 1.0 - 2.0 * a / at.radius)));
+  const double chip = inward * thickness_ / at.width;
+  const double middle = 0.5 * (bite.begin + bite.end);
+  const double phi = from.angle + middle * (to.angle - from.angle) - teeth_[tooth] - at.lag;
+  const Vec3 local = at.width * share * cut_.law.at({.thickness = chip, .speed = path / duration}).force;
+  load.force += on_tool(phi, at.lead, local);
+  load.torque += local[0] * at.radius;
+  load.power += local[0] * path * a / inward / duration;
+  load.removed += bite.area * thickness_;
+  load.thickest = std::max(load.thickest, chip);
+}
+
+} // namespace cnem::machining

@@ -1,0 +1,62 @@
+#pragma once
+// The edges of a cutter divided into elements, one for each tooth and layer, and what they bear.
+#include "machining/dexels.hpp"
+#include "machining/milling_cut.hpp"
+
+#include <vector>
+
+namespace cnem::machining {
+
+/// Where a cutter is: the place of its axis at the height of the tip, and how far it has turned.
+struct CutterPlace {
+  Vec3 axis = Vec3::Zero(); ///< m
+  double angle = 0.0;       ///< rad, of the tip of tooth 0
+};
+
+/// Means over a step; forces on the tool.
+struct EdgeLoad {
+  Vec3 force = Vec3::Zero(); ///< N
+  double torque = 0.0;       ///< N m, against the spindle
+  double power = 0.0;        ///< W, of the forces along the ways of the middles of chips
+  double removed = 0.0;      ///< m³
+  double thickest = 0.0;     ///< m, chip
+};
+
+class EdgeElements {
+public:
+  /// depth: m along the axis, in layers of the same thickness. step: rad that the cutter turns by in a step;
+  /// edges go straight in one, so far out that they enclose what arcs would.
+  EdgeElements(const MillingCut& cut, double depth, int layers, double step);
+
+  std::size_t layers() const { return layer_.size(); }
+  std::size_t teeth() const { return teeth_.size(); }
+  double thickness() const { return thickness_; } ///< m, of a layer
+  /// m over the tip, the middle of a layer.
+  double height(std::size_t layer) const { return layer_[layer].low + 0.5 * thickness_; }
+  /// m, mean of a layer, of the cutter round its own axis.
+  double radius(std::size_t layer) const { return layer_[layer].radius; }
+
+  /// An element's rake face, which is `reach` deep but where the cutter is thinner. The cutter that is higher
+  /// cuts a layer farther down its profile.
+  Rake rake(std::size_t layer, std::size_t tooth, const CutterPlace& place, double reach) const;
+
+  /// Adds what an element bears that has taken a bite on its way in a step, of a duration, s, and between two
+  /// angles of the cutter.
+  void add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite, double path,
+           double duration, const CutterPlace& from, const CutterPlace& to) const;
+
+private:
+  struct Layer {
+    double low = 0.0;    ///< m over the tip
+    double radius = 0.0; ///< m
+    double lag = 0.0;    ///< rad
+    double width = 0.0;  ///< m, of the chip: along the profile
+    double lead = 0.0;   ///< rad
+  };
+  MillingCut cut_;
+  double thickness_ = 0.0, chord_ = 1.0; ///< m; of the radius
+  std::vector<Layer> layer_;
+  std::vector<double> teeth_; ///< rad behind tooth 0
+};
+
+} // namespace cnem::machining
