@@ -96,8 +96,7 @@ public:
 
   /// Sets faces apart that are nearer than a 100,000th of a segment, or overlap by less than half of one,
   /// wherever they were bonded, so that a new reference finds no matter of one in the other; offsets follow,
-  /// and so no traction changes.
-  /// Faces that coincide stay.
+  /// and so no traction changes. Faces that coincide stay.
   void part(Fields<2>& position);
 
   /// Follows a changed cloud: nodes that stay keep their arc length, new ones take it from their neighbours
