@@ -146,6 +146,17 @@ void take_broken_chip(CuttingResult& result, const results::HistoryTable& rows) 
   result.friction_angle = result.rake + std::atan2(mean.Ft, mean.Fc);
 }
 
+/// What came off cohesive interfaces until the end, and the largest forces where plies have told none.
+void take_debonding(CuttingResult& result, const results::HistoryTable& rows) {
+  result.debonds = true;
+  if (rows.rows() == 0) return;
+  result.debonded_length = values_of(rows, "debonded_length").back();
+  result.debonded_depth = values_of(rows, "debonded_depth").back();
+  if (result.breaks || result.forces.rows() == 0) return;
+  result.Fc_peak = *std::ranges::max_element(values_of(result.forces, "Fc.filtered"));
+  result.Ft_peak = *std::ranges::max_element(values_of(result.forces, "Ft.filtered"));
+}
+
 /// Rates of wear over the bins of a face, m/s; not-a-number where nothing touches.
 std::vector<double> wear_of(const input::UsuiWear& law, const RakeFace& face) {
   std::vector<double> rate;
@@ -302,6 +313,7 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
   take_forces(result, asked, rows, tooth, end_of_workpiece(input, cut, result.cut));
   const bool plies = plies_fail(input);
   if (plies) take_broken_chip(result, rows);
+  if (bonds_fail(input)) take_debonding(result, rows);
   const double from = result.steady_from, to = result.steady_to;
   const RakeFace face = course.rake().mean(from, to);
   take_rake_face(result, input, face);
@@ -338,7 +350,7 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
                measure_surface(
                    outline, place,
                    {volume, spans(loaded), spans(residual), strain, state.node.temperature, left.yield_ratio},
-                   asked.feed),
+                   asked.feed, asked.clear),
                input.analysis.thermal);
   result.course = std::move(rows);
   return result;

@@ -16,6 +16,8 @@ namespace cnem::evaluate {
 
 /// Whether a material of a case is a ply that can fail: then a chip breaks off, and more is recorded.
 bool plies_fail(const input::Case& input);
+/// Whether it has cohesive interfaces, of which the debonded length is recorded.
+bool bonds_fail(const input::Case& input);
 
 /// Follows a cut: contact on the rake face in every step, force and chip whenever a row of the history is
 /// written, in cutting.csv.
@@ -42,7 +44,7 @@ private:
   const input::Case* input_;
   input::CuttingTool cut_;
   RakeContact rake_;
-  bool plies_;
+  bool plies_, bonds_;
   results::HistoryLog log_;
   std::int64_t rows_ = 0;
   double last_time_ = 0.0;  ///< s, of the last row

@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "evaluate/cut_flow.hpp"
 #include "evaluate/cutting.hpp"
+#include "evaluate/debonding.hpp"
 #include "evaluate/ply_cut.hpp"
 #include "results/output_folder.hpp"
 
@@ -12,8 +13,8 @@
 namespace cnem::evaluate {
 namespace {
 
-/// plies: of a case in which plies fail.
-std::vector<std::string> columns(bool plies) {
+/// plies: of a case in which plies fail; bonds: with cohesive interfaces.
+std::vector<std::string> columns(bool plies, bool bonds) {
   std::vector<std::string> names{"time[s]",
                                  "cut[m]",
                                  "Fc[N/m]",
@@ -32,6 +33,8 @@ std::vector<std::string> columns(bool plies) {
     for (const char* name : {"ply_parted", "ply_plane[rad]", "fibre_depth[m]", "matrix_depth[m]",
                              "fibre_damage[m^2]", "matrix_damage[m^2]"})
       names.emplace_back(name);
+  if (bonds)
+    for (const char* name : {"debonded_length[m]", "debonded_depth[m]"}) names.emplace_back(name);
   return names;
 }
 
@@ -53,17 +56,22 @@ bool plies_fail(const input::Case& input) {
                      [](const auto& material) { return material.failure.has_value(); });
 }
 
+bool bonds_fail(const input::Case& input) {
+  return std::any_of(input.domain.interfaces.begin(), input.domain.interfaces.end(),
+                     [](const auto& interface) { return interface.cohesive.has_value(); });
+}
+
 CuttingCourse::CuttingCourse(const input::Case& input)
     : input_(&input), cut_(input::cutting_tool(input, input.report.cutting->tool)),
       rake_(cut_, as<ToolIndex>(input.report.cutting->tool), input.report.cutting->feed),
-      plies_(plies_fail(input)) {}
+      plies_(plies_fail(input)), bonds_(bonds_fail(input)) {}
 
 void CuttingCourse::start(const std::filesystem::path& folder) {
-  log_.start(results::file_in(folder, results::files::cutting_course), columns(plies_));
+  log_.start(results::file_in(folder, results::files::cutting_course), columns(plies_, bonds_));
 }
 
 void CuttingCourse::resume(const std::filesystem::path& folder) {
-  log_.resume(results::file_in(folder, results::files::cutting_course), columns(plies_), rows_);
+  log_.resume(results::file_in(folder, results::files::cutting_course), columns(plies_, bonds_), rows_);
 }
 
 void CuttingCourse::record(const ExplicitSolver<2>& solver) {
@@ -109,6 +117,10 @@ void CuttingCourse::record(const ExplicitSolver<2>& solver) {
         look_at_plies(state.point, solver.approximation(), place, asked.feed, moved.dot(cut_.along));
     row.insert(row.end(), {plies.parted ? 1.0 : 0.0, plies.plane, plies.fibre_depth, plies.matrix_depth,
                            plies.fibre_area, plies.matrix_area});
+  }
+  if (bonds_) {
+    const Debonding bonds = look_at_bonds(solver.conditions().cohesive, place);
+    row.insert(row.end(), {bonds.length, bonds.depth});
   }
   log_.write(row);
   ++rows_;

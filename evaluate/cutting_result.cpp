@@ -60,6 +60,12 @@ template<class Result, class Carry> void carry_plies(Result& result, Carry& carr
   carry.newer("matrix_damage[m^2]", result.matrix_damage);
 }
 
+template<class Result, class Carry> void carry_bonds(Result& result, Carry& carry) {
+  carry.newer("debonds", result.debonds);
+  carry.newer("debonded_length[m]", result.debonded_length);
+  carry.newer("debonded_depth[m]", result.debonded_depth);
+}
+
 template<class Result, class Carry> void carry_chip(Result& result, Carry& carry) {
   carry("chip_note", result.chip_note);
   carry("chip_thickness[m]", result.chip_thickness);
@@ -104,6 +110,7 @@ template<class Result, class Carry> void carry_cut(Result& result, Carry& carry)
   carry_conditions(result, carry);
   carry_forces(result, carry);
   carry_plies(result, carry);
+  carry_bonds(result, carry);
   carry_chip(result, carry);
   carry_faces(result, carry);
 }
@@ -173,10 +180,16 @@ std::vector<std::pair<std::string, double>> metrics_of(const CuttingResult& resu
       {"cutting.steady_from[m]", result.steady_from},
       {"cutting.steady_to[m]", result.steady_to},
       {"cutting.steady", result.steady ? 1.0 : 0.0}};
-  if (result.breaks)
+  if (result.breaks || result.debonds)
     list.insert(list.end(), {{"cutting.Fc_peak[N]", result.in_newton(result.Fc_peak)},
-                             {"cutting.Ft_peak[N]", result.in_newton(result.Ft_peak)},
-                             {"cutting.Fc_of_chip[N]", result.in_newton(result.Fc_of_chip)},
+                             {"cutting.Ft_peak[N]", result.in_newton(result.Ft_peak)}});
+  if (result.debonds)
+    list.insert(list.end(), {{"cutting.chip_length[m]", result.chip_length},
+                             {"cutting.curl_radius[m]", result.curl_radius},
+                             {"cutting.debonded_length[m]", result.debonded_length},
+                             {"cutting.debonded_depth[m]", result.debonded_depth}});
+  if (result.breaks)
+    list.insert(list.end(), {{"cutting.Fc_of_chip[N]", result.in_newton(result.Fc_of_chip)},
                              {"cutting.engaged_at[m]", result.engaged_at},
                              {"cutting.released_at[m]", result.released_at},
                              {"cutting.completed_at[m]", result.completed_at},

@@ -36,11 +36,14 @@ struct CuttingResult {
   // Of a chip that breaks off a ply (docs/cutting.md); Fc and Ft are means while the tool is fully engaged.
   bool breaks = false, chip_completed = false;
   double engaged_at = unknown, released_at = unknown, completed_at = unknown; ///< m of cut
-  double Fc_peak = unknown, Ft_peak = unknown;            ///< N/m, largest filtered forces until completion
+  double Fc_peak = unknown, Ft_peak = unknown;            ///< N/m, largest filtered forces, until completion
   double Fc_of_chip = unknown;                            ///< N/m, mean from first touch to completion
   double chip_plane = unknown;                            ///< rad, from the way of the tool
   double fibre_depth = unknown, matrix_depth = unknown;   ///< m below the cut, at completion
   double fibre_damage = unknown, matrix_damage = unknown; ///< m², at completion
+
+  bool debonds = false; ///< there are cohesive interfaces: these, and the largest forces, have a meaning
+  double debonded_length = unknown, debonded_depth = unknown; ///< m at the end; m below the cut
 
   std::string chip_note;
   double chip_thickness = unknown, chip_peak = unknown, chip_valley = unknown; ///< m

@@ -10,8 +10,6 @@
 namespace cnem::evaluate {
 namespace {
 
-constexpr double clear_of_tool =
-    1.0; ///< feeds: so near to the tool, and to where the cut began, nothing is measured
 constexpr double longest_surface = 5.0;  ///< feeds
 constexpr double shortest_surface = 0.5; ///< feeds
 constexpr double deepest_layer = 3.0;    ///< feeds
@@ -94,19 +92,18 @@ struct LayerSums {
 } // namespace
 
 MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2> position,
-                                const DepthFields& fields, double feed) {
+                                const DepthFields& fields, double feed, double clear) {
   MachinedSurface surface;
   const std::vector<std::size_t> places = surface_of(outline, feed);
   double begin = 0.0;
   for (const std::size_t k : places) begin = std::min(begin, outline.point[k].x());
-  surface.measured.to = -clear_of_tool * feed;
-  surface.measured.from =
-      std::max(begin + clear_of_tool * feed, surface.measured.to - longest_surface * feed);
+  surface.measured.to = -clear;
+  surface.measured.from = std::max(begin + clear, surface.measured.to - longest_surface * feed);
   if (surface.measured.length() < shortest_surface * feed) {
     surface.note =
         fmt::format("the cut is too short for its surface to be measured: {:.2g} feeds long, {:.2g} "
                     "are needed",
-                    -begin / feed, 2.0 * clear_of_tool + shortest_surface);
+                    -begin / feed, 2.0 * clear / feed + shortest_surface);
     return surface;
   }
   const auto lies = [&](const Vec2& x) {

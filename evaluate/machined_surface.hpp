@@ -46,8 +46,9 @@ struct MachinedSurface {
   double yield_ratio = unknown; ///< –, the largest in the layers
 };
 
-/// position: [node] m, in the frame of the tool.
+/// position: [node] m, in the frame of the tool. clear, m: so near to the tool, and to where the cut began,
+/// nothing is measured.
 MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2> position,
-                                const DepthFields& fields, double feed);
+                                const DepthFields& fields, double feed, double clear);
 
 } // namespace cnem::evaluate

@@ -86,6 +86,7 @@ struct Interface : clouds::Crack {
   std::optional<double> conductance;               ///< W/(m² K); absent: both faces have one temperature
   std::optional<plasticity::CohesiveLaw> cohesive; ///< absent: faces move as one
   std::vector<Vec2> open; ///< m, empty or two points of a cohesive one: broken between them at the start
+  std::string key;        ///< of the case, that asks for it: "domain.interfaces.joint"
 };
 
 /// The part of the workpiece, bounded by interfaces and cracks, that holds a point.

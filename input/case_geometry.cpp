@@ -3,6 +3,7 @@
 #include "input/case_walls.hpp"
 #include "input/constants.hpp"
 #include "input/curve_checks.hpp"
+#include "input/fibres.hpp"
 #include "input/outline.hpp"
 #include "input/schema/nearest.hpp"
 #include "input/space_domain.hpp"
@@ -184,6 +185,7 @@ void read_domain(Setting& root, Case& result, Diagnostics& diagnostics) {
   }
   read_walls(table, domain, diagnostics);
   if (!complete) return;
+  read_fibres(root, domain, diagnostics);
   if (result.analysis.kinematics == Analysis::Kinematics::axisymmetric || revolve)
     check_axis(*table.find("outer"), domain, diagnostics);
   if (const Setting* holes = table.find("holes")) check_holes(*holes, domain, diagnostics);

@@ -357,6 +357,7 @@ void read_materials(const Setting& root, Case& result, Diagnostics& diagnostics)
   check(everywhere);
   for (const Setting& region : root.entries("domain.regions"))
     if (const Setting& own = *region.find("material"); own.given) check(own);
+  for (const Setting& bundle : root.entries("domain.fibres")) check(*bundle.find("material"));
 }
 
 } // namespace cnem::input

@@ -150,6 +150,7 @@ struct CuttingReport {
   double feed = 0.0;             ///< m, uncut chip thickness
   double width = 0.0;            ///< m, of cut, out of the plane
   double filter = 0.0;           ///< m of cut that forces are averaged over
+  double clear = 0.0;            ///< m from the tool and the beginning of the cut: no surface is measured
   double steady_feeds = 0.0;     ///< – feeds that the steady part is long at least
   double steady_tolerance = 0.0; ///< –
   std::optional<UsuiWear> wear;

@@ -27,6 +27,8 @@ void read_cutting_report(Setting& root, Case& result, Diagnostics& diagnostics) 
   report.width = root.get<double>(at + ".width");
   root.set_default(at + ".filter", 0.2 * report.feed);
   report.filter = root.get<double>(at + ".filter");
+  root.set_default(at + ".clear", report.feed);
+  report.clear = root.get<double>(at + ".clear");
   report.steady_feeds = root.get<double>(at + ".steady.feeds");
   report.steady_tolerance = root.get<double>(at + ".steady.tolerance");
   if (const Setting* isotherms = root.find(at + ".isotherms")) {

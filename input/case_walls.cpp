@@ -27,9 +27,14 @@ std::vector<Wall> walls_of(const Setting& table, const Domain& domain) {
   for (std::size_t i = 0; i < domain.cracks.size(); ++i)
     walls.push_back({"crack", "domain.cracks." + domain.cracks[i].name, domain.cracks[i].path, false,
                      table.entries("cracks")[i].find("points")});
-  for (std::size_t i = 0; i < domain.interfaces.size(); ++i)
-    walls.push_back({"interface", "domain.interfaces." + domain.interfaces[i].name, domain.interfaces[i].path,
-                     true, table.entries("interfaces")[i].find("points")});
+  const std::vector<Setting>& interfaces = table.entries("interfaces");
+  for (std::size_t i = 0; i < domain.interfaces.size(); ++i) {
+    const Interface& one = domain.interfaces[i];
+    const bool own = i < interfaces.size(); // else of a fibre
+    const std::string key = one.key.substr(std::string("domain.").size());
+    walls.push_back({own ? "interface" : "face of a fibre", own ? one.key : one.key + " (" + one.name + ")",
+                     one.path, true, own ? interfaces[i].find("points") : table.find(key + ".centre")});
+  }
   return walls;
 }
 
@@ -139,24 +144,6 @@ void check_crack_names(const Setting& table, const Domain& domain, Diagnostics& 
   }
 }
 
-void read_cohesive(const Setting& table, Interface& interface, Diagnostics& diagnostics) {
-  plasticity::CohesiveLaw law;
-  read_constants(plasticity::CohesiveLaw::parameters, table, law);
-  try {
-    law.complete();
-  } catch (const InputError& error) {
-    diagnostics.add(Mistake::range, table.where, table.path, error.what());
-  }
-  interface.cohesive = law;
-  const Setting* open = table.find("open");
-  if (!open) return;
-  interface.open = std::get<std::vector<Vec2>>(open->value);
-  if (interface.open.size() != 2)
-    diagnostics.add(Mistake::type, open->where, open->path,
-                    fmt::format("found {} points, expected two such as {}", interface.open.size(),
-                                open->key->example_text()));
-}
-
 } // namespace
 
 std::vector<std::pair<std::string, const Curve*>> curves_of(const Domain& domain) {
@@ -188,6 +175,24 @@ std::vector<Vec2> crack_path(const Setting& table) {
   return path;
 }
 
+void read_cohesive(const Setting& table, Interface& interface, Diagnostics& diagnostics) {
+  plasticity::CohesiveLaw law;
+  read_constants(plasticity::CohesiveLaw::parameters, table, law);
+  try {
+    law.complete();
+  } catch (const InputError& error) {
+    diagnostics.add(Mistake::range, table.where, table.path, error.what());
+  }
+  interface.cohesive = law;
+  const Setting* open = table.find("open");
+  if (!open) return;
+  interface.open = std::get<std::vector<Vec2>>(open->value);
+  if (interface.open.size() != 2)
+    diagnostics.add(Mistake::type, open->where, open->path,
+                    fmt::format("found {} points, expected two such as {}", interface.open.size(),
+                                open->key->example_text()));
+}
+
 void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics) {
   for (const Setting& crack : table.entries("cracks"))
     domain.cracks.push_back({{crack.name, crack_path(crack)}, tip_names(crack, table, diagnostics)});
@@ -200,7 +205,8 @@ void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics) 
     domain.interfaces.push_back({{interface.name, interface.get<std::vector<Vec2>>("points")},
                                  interface.maybe<double>("conductance"),
                                  {},
-                                 {}});
+                                 {},
+                                 interface.path});
     if (const Setting* cohesive = interface.find("cohesive"))
       read_cohesive(*cohesive, domain.interfaces.back(), diagnostics);
   }

@@ -18,6 +18,9 @@ std::string outside_reason(const Domain& domain, const Vec2& x);
 /// Points of a crack, turned as it says.
 std::vector<Vec2> crack_path(const Setting& table);
 
+/// Tractions of an interface from its table `cohesive`.
+void read_cohesive(const Setting& table, Interface& interface, Diagnostics& diagnostics);
+
 /// Cracks and interfaces of the table `domain`.
 void read_walls(const Setting& table, Domain& domain, Diagnostics& diagnostics);
 

@@ -1,41 +1,11 @@
 #include "mechanics/cohesive_faces.hpp"
+#include "mechanics/placed_element.hpp"
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 namespace cnem {
-namespace {
-
-/// An element where its nodes are now.
-struct Placed {
-  std::array<std::array<Vec2, 2>, 2> x; ///< [side][node] m
-  std::array<double, 2> span;           ///< m, bonded lengths of the segments
-  Vec2 along, normal;                   ///< unit vectors of the mean tangent
-  double stretch;                       ///< sum of the tangents of both sides by bonded length
-
-  Placed(const CohesiveElement& element, const Fields<2>& position) {
-    Vec2 tangent = Vec2::Zero();
-    for (std::size_t s = 0; s < 2; ++s) {
-      const BondedSegment& segment = element.side[s];
-      for (std::size_t k = 0; k < 2; ++k) x[s][k] = vector_at<2>(position, index_of(segment.node[k]));
-      span[s] = segment.arc[1] - segment.arc[0];
-      tangent += (x[s][1] - x[s][0]) / span[s];
-    }
-    stretch = tangent.norm();
-    along = tangent / stretch;
-    normal = left_normal(along);
-  }
-
-  Vec2 jump(const CohesiveElement& element, std::size_t end) const {
-    const auto left = element.values(0, end), right = element.values(1, end);
-    return left[0] * x[0][0] + left[1] * x[0][1] - right[0] * x[1][0] - right[1] * x[1][1];
-  }
-};
-
-} // namespace
-
 CohesiveFaces::CohesiveFaces(std::vector<CohesiveSpec> specs, const Cloud<2>& cloud, bool left_to_contact)
     : left_to_contact_(left_to_contact) {
   for (CohesiveSpec& spec : specs) {
@@ -87,7 +57,7 @@ CohesiveWork CohesiveFaces::evaluate(const Fields<2>& position) {
     for (std::size_t e = 0; e < interface.element.size(); ++e) {
       if (free(interface.state[e][0]) && free(interface.state[e][1])) continue;
       const CohesiveElement& element = interface.element[e];
-      const Placed now(element, position);
+      const PlacedElement now(element, position);
       const double weight = element.weight();
       for (std::size_t end = 0; end < 2; ++end) {
         CohesiveEnd& state = interface.state[e][end];
@@ -142,42 +112,6 @@ double CohesiveFaces::frequency_bound(const Field& mass) const {
   double bound = 0.0;
   for (std::size_t i = 0; i < row.size(); ++i) bound = std::max(bound, row[i] / mass[i]);
   return bound;
-}
-
-void CohesiveFaces::part(Fields<2>& position) {
-  constexpr double apart = 1e-5; // of an element
-  const std::size_t nodes = position[0].size();
-  IndexedVector<NodeIndex, Vec2> shift(nodes, Vec2::Zero());
-  bool any = false;
-  for (const CohesiveInterface& interface : interface_)
-    for (const CohesiveElement& element : interface.element) {
-      const Placed now(element, position);
-      for (std::size_t end = 0; end < 2; ++end) {
-        const Vec2 jump = now.jump(element, end);
-        const double wide = apart * 2.0 * element.weight(), missing = wide - now.normal.dot(jump);
-        if (missing <= 0.5 * wide || jump.isZero(0.0)) continue; // by less not at each reference
-        any = true;
-        for (std::size_t s = 0; s < 2; ++s) {
-          const auto values = element.values(s, end);
-          const Vec2 wanted = (s == 0 ? 0.5 : -0.5) * missing * now.normal;
-          for (std::size_t a = 0; a < 2; ++a)
-            if (Vec2& own = shift[element.side[s].node[a]]; values[a] > 0.0 && wanted.norm() > own.norm())
-              own = wanted;
-        }
-      }
-    }
-  if (!any) return;
-  const Fields<2> before = position;
-  for (const NodeIndex i : shift.indices())
-    for (std::size_t k = 0; k < 2; ++k) position[k][index_of(i)] += shift[i][static_cast<Eigen::Index>(k)];
-  for (CohesiveInterface& interface : interface_)
-    for (std::size_t e = 0; e < interface.element.size(); ++e) {
-      const CohesiveElement& element = interface.element[e];
-      const Placed was(element, before), is(element, position);
-      for (std::size_t end = 0; end < 2; ++end)
-        interface.state[e][end].offset +=
-            is.normal.dot(is.jump(element, end)) - was.normal.dot(was.jump(element, end));
-    }
 }
 
 double CohesiveFaces::broken_length(const CohesiveInterface& interface) {

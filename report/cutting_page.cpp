@@ -71,6 +71,14 @@ std::string force_table_html(const evaluate::CuttingResult& result, const ShownU
                             ? fmt::format("from {} to {} of cut", units.format(result.steady_from, "m"),
                                           units.format(result.steady_to, "m"))
                             : "not steady");
+  if (result.debonds && !result.breaks) {
+    table.add("Largest Fc", result.in_newton(result.Fc_peak), "N");
+    table.add("Largest Ft", result.in_newton(result.Ft_peak), "N");
+  }
+  if (result.debonds) {
+    table.add("Debonded", result.debonded_length, "m");
+    table.add("Debonded below the cut, deepest", result.debonded_depth, "m");
+  }
   if (std::isfinite(result.Fc)) {
     table.add("Cutting force Fc", force_text(result, result.Fc, result.Fc_spread, units));
     table.add("Thrust force Ft", force_text(result, result.Ft, result.Ft_spread, units));

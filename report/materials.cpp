@@ -19,8 +19,9 @@ struct Group {
   const char* key; ///< "": the material itself
   const char* title;
 };
-constexpr Group groups[] = {{"", "General"},        {"elastic", "Elastic"}, {"plastic", "Plastic"},
-                            {"failure", "Failure"}, {"damage", "Damage"},   {"heat", "Heat"}};
+constexpr Group groups[] = {
+    {"", "General"},        {"elastic", "Elastic"}, {"plastic", "Plastic"}, {"anisotropy", "Anisotropy"},
+    {"failure", "Failure"}, {"damage", "Damage"},   {"heat", "Heat"}};
 
 const std::string& text_at(const Setting& table, const char* key) {
   static const std::string none;

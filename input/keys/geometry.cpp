@@ -143,6 +143,45 @@ void add_domain(Keys& k) {
   k.add("domain.cracks.*.rotate.centre", vector, "Centre of the turn.").unit(d::length).fallback("\"0 0 m\"");
 }
 
+void add_cohesive(Keys& k, const std::string& cohesive) {
+  k.add(cohesive, table,
+        "Its faces separate: traction K δ up to onset, (⟨t_n⟩/`strength`)² + (t_s/`shear_strength`)² = 1, "
+        "then linear "
+        "softening in √(⟨δn⟩² + δs²) until the fracture energy `energy` + (`shear_energy` − `energy`) "
+        "β^`eta` is spent, "
+        "β the share of δs² (paper 001, (25), (26); Benzeggagh and Kenane 1996). It has no thickness.");
+  add_constants(k, cohesive, constant_texts<plasticity::CohesiveLaw>(plasticity::CohesiveLaw::parameters));
+}
+
+void add_fibres(Keys& k) {
+  const std::string at = "domain.fibres.*";
+  k.add("domain.fibres", named_tables, "Bundles of straight fibres in a matrix (explicit only).");
+  k.add(
+      at, table,
+      "Parallel fibres that run from boundary to boundary. Number k is the region `NAMEk`, its faces are the "
+      "interfaces `NAMEk_left` and `NAMEk_right`, seen along the fibres; they are counted from left to "
+      "right.");
+  k.add(at + ".material", text, "Of the fibres: name of one of `materials`. `domain.material` is the matrix.")
+      .required()
+      .example("\"flax\"");
+  k.add(at + ".number", integer, "Of fibres.").required().in({.low = 1, .high = 1000}).example("4");
+  k.add(at + ".width", quantity, "Of a fibre.").unit(d::length).required().in(positive).example("\"15 um\"");
+  k.add(at + ".pitch", quantity, "From the middle of a fibre to that of the next.")
+      .unit(d::length)
+      .required()
+      .in(positive)
+      .example("\"33 um\"");
+  k.add(at + ".centre", vector, "Middle of the bundle; between two fibres where their number is even.")
+      .unit(d::length)
+      .required()
+      .example("\"110 16.5 um\"");
+  k.add(at + ".angle", quantity, "Of the fibres from +x, counter-clockwise.")
+      .unit(d::angle)
+      .fallback("\"0 rad\"")
+      .example("\"45 deg\"");
+  add_cohesive(k, at + ".cohesive");
+}
+
 void add_parts(Keys& k) {
   k.add("domain.interfaces", named_tables, "Interfaces between parts of different material (explicit only).");
   k.add("domain.interfaces.*", table,
@@ -159,17 +198,12 @@ void add_parts(Keys& k) {
       .in(not_negative)
       .example("\"1e5 W/(m2 K)\"");
   const std::string cohesive = "domain.interfaces.*.cohesive";
-  k.add(cohesive, table,
-        "Its faces separate: traction K δ up to onset, (⟨t_n⟩/`strength`)² + (t_s/`shear_strength`)² = 1, "
-        "then linear "
-        "softening in √(⟨δn⟩² + δs²) until the fracture energy `energy` + (`shear_energy` − `energy`) "
-        "β^`eta` is spent, "
-        "β the share of δs² (paper 001, (25), (26); Benzeggagh and Kenane 1996). It has no thickness.");
-  add_constants(k, cohesive, constant_texts<plasticity::CohesiveLaw>(plasticity::CohesiveLaw::parameters));
+  add_cohesive(k, cohesive);
   k.add(cohesive + ".open", vectors,
         "Two points, between whose nearest places on the interface it is broken at the start.")
       .unit(d::length)
       .example("[\"0 3 mm\", \"40 3 mm\"]");
+  add_fibres(k);
   k.add("domain.regions", named_tables, "Parts with a material or an initial state of their own.");
   k.add(
       "domain.regions.*", table,

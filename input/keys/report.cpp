@@ -156,6 +156,12 @@ void add_cutting_report(Keys& k) {
       .in(positive)
       .example("\"0.06 mm\"")
       .computed("a fifth of the feed");
+  k.add("report.cutting.clear", quantity,
+        "So near to the tool, and to where the cut began, nothing of the machined surface is measured.")
+      .unit(d::length)
+      .in(positive)
+      .example("\"20 um\"")
+      .computed("the feed");
   k.add("report.cutting.steady", table, "When a part of the cut is steady.").always();
   k.add("report.cutting.steady.feeds", quantity, "It is at least so many feeds long.")
       .in({.low = 1.0, .high = 1e6})

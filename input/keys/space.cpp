@@ -21,6 +21,7 @@ constexpr std::array scopes{
     Scoped{"cutting", Scope::plane, "what it makes is an outline"},
     Scoped{"domain.cracks", Scope::plane, "a polyline does not cut a body in space"},
     Scoped{"domain.interfaces", Scope::plane, "a polyline does not divide a body in space"},
+    Scoped{"domain.fibres", Scope::plane, "a straight line does not divide a body in space"},
     Scoped{"domain.regions", Scope::plane, "only interfaces divide a workpiece, and in space there are none"},
     Scoped{"domain.block", Scope::space, "a workpiece in the plane has an outline, domain.outer"},
     Scoped{"domain.extrude", Scope::space, "a workpiece in the plane is its outline"},

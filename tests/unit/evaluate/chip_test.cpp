@@ -176,8 +176,9 @@ TEST(Surface, has_its_height_roughness_and_layers) {
     left.push_back(10.0 + 20.0 * x.y());
     if (x.y() < -1.2) ratio[left.size() - 1] = 2.0; // deeper than what is looked at
   }
-  const MachinedSurface surface = measure_surface(
-      outline, position, {volume, {along, away, across}, {left, across, away}, strain, heat, ratio}, feed);
+  const MachinedSurface surface =
+      measure_surface(outline, position,
+                      {volume, {along, away, across}, {left, across, away}, strain, heat, ratio}, feed, feed);
   EXPECT_EQ(surface.note, "");
   EXPECT_NEAR(surface.height, -0.01, 1e-6);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
@@ -204,7 +205,7 @@ TEST(Surface, behind_a_cut_that_has_hardly_begun_is_not_measured) {
   const std::vector<double> none(position.size(), 1.0);
   const MachinedSurface surface =
       measure_surface(cut_outline(cloud.facets, position), position,
-                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed);
+                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed, feed);
   EXPECT_NE(surface.note.find("too short"), std::string::npos);
   EXPECT_TRUE(std::isnan(surface.roughness));
   EXPECT_TRUE(std::isnan(surface.Rz));
@@ -219,8 +220,23 @@ TEST(Surface, a_scratch_counts_in_one_of_five_lengths) {
   const std::vector<double> none(position.size(), 1.0);
   const MachinedSurface surface =
       measure_surface(cut_outline(cloud.facets, position), position,
-                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed);
+                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed, feed);
   EXPECT_NEAR(surface.Rz, (4 * 0.02 + 0.07) / 5, 1e-12);
+}
+
+TEST(Surface, of_a_short_cut_is_measured_nearer_to_the_tool) {
+  Cloud<2> cloud;
+  std::vector<Vec2> points{{-2, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}};
+  for (int k = 1; k < 100; ++k) points.emplace_back(-0.02 * k, k % 2 ? -0.02 : 0.0);
+  testing::add_loop(cloud, points, 10.0);
+  const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
+  const std::vector<double> none(position.size(), 1.0);
+  const DepthFields fields{none, {none, none, none}, {none, none, none}, none, none, none};
+  const CutOutline outline = cut_outline(cloud.facets, position);
+  EXPECT_TRUE(std::isnan(measure_surface(outline, position, fields, feed, feed).roughness));
+  const MachinedSurface surface = measure_surface(outline, position, fields, feed, 0.25 * feed);
+  EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
+  EXPECT_NEAR(surface.measured.to, -0.25 * feed, 1e-12);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <optional>
 
 namespace cnem {
 namespace {
@@ -192,6 +193,56 @@ TEST(CohesiveFaces, parting_changes_no_traction) {
   const Fields<2> parted = x;
   faces.part(x);
   EXPECT_EQ(x, parted);
+}
+
+/// m, how far a point lies above a face whose nodes are these, in the order of x; nothing beside it.
+std::optional<double> height_above(const Fields<2>& x, std::size_t first, std::size_t count, const Vec2& of) {
+  for (std::size_t i = first; i + 1 < first + count; ++i) {
+    const double place = (of.x() - x[0][i]) / (x[0][i + 1] - x[0][i]);
+    if (place >= 0.0 && place <= 1.0) return of.y() - std::lerp(x[1][i], x[1][i + 1], place);
+  }
+  return std::nullopt;
+}
+
+/// Faces that slide over waves overlap elsewhere than where they were bonded.
+TEST(CohesiveFaces, parting_sets_apart_what_has_slid_over_waves) {
+  std::vector<double> grid;
+  for (int i = 0; i <= 40; ++i) grid.push_back(i * h);
+  const Cloud<2> cloud = two_faces(grid, grid);
+  for (const double slip : {0.3 * h, 0.8 * h, 2.0 * h}) {
+    CohesiveFaces faces = faces_of(cloud);
+    Fields<2> x = places(cloud);
+    for (std::size_t i = 0; i < x[0].size(); ++i) {
+      x[1][i] = 0.5 * h * std::sin(0.9 * x[0][i] / h);
+      if (i < grid.size()) x[0][i] += slip, x[1][i] += 0.3 * slip;
+    }
+    const auto deepest = [&] {
+      double deep = 0.0;
+      for (std::size_t i = 0; i < x[0].size(); ++i) {
+        const bool above = i < grid.size();
+        const auto height = height_above(x, above ? grid.size() : 0, grid.size(), vector_at<2>(x, i));
+        if (height) deep = std::max(deep, above ? -*height : *height);
+      }
+      return deep;
+    };
+    EXPECT_GT(deepest(), 0.01 * h) << slip / h;
+    faces.part(x);
+    EXPECT_LE(deepest(), 0.0) << slip / h;
+  }
+}
+
+/// What is broken and has gone is no business of the pairs that it once made.
+TEST(CohesiveFaces, parting_leaves_alone_what_has_slid_away) {
+  const Cloud<2> cloud = two_faces(matching, matching);
+  CohesiveFaces faces = faces_of(cloud, true, {{0.0, 4 * h}});
+  Fields<2> x = places(cloud);
+  for (std::size_t i = 0; i < matching.size(); ++i) { // turned by a right angle, beside the lower face
+    x[0][i] = -2 * h;
+    x[1][i] = -matching[i] - h;
+  }
+  const Fields<2> before = x;
+  faces.part(x);
+  EXPECT_EQ(x, before);
 }
 
 TEST(CohesiveFaces, open_parts_bear_nothing_and_are_left_to_contact) {
