@@ -1,5 +1,6 @@
 // Constants and friction from forces and chips of made-up cuts: the shear zone in closed form stands for
 // runs.
+#include "evaluate/cutting_result.hpp"
 #include "evaluate/material_point.hpp"
 #include "input/case_reader.hpp"
 #include "study/calibration_evaluator.hpp"
@@ -158,6 +159,48 @@ TEST_F(CalibrateCuts, two_cuts_say_what_they_do_not_tell) {
   const std::string page = results::read_file(folder / "results/report.html");
   for (const char* part : {"chip_thickness", "standard error", "What the curves do not tell"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+TEST_F(CalibrateCuts, runs_on_another_cloud_tell_the_yield_stress) {
+  write("case.toml", R"toml(
+[cutting]
+feed = "0.3 mm"
+width = "1 mm"
+rake = "17.5 deg"
+clearance = "7 deg"
+edge_radius = "30 um"
+speed = "800 m/min"
+length = "0.5 mm"
+friction = { law = "coulomb", coefficient = 0 }
+[domain]
+material = "steel"
+[cloud]
+spacing = "0.15 mm"
+refine.layer.spacing = "0.1 mm"
+[materials.steel]
+density = "2700 kg/m3"
+elastic = { young = "70 GPa", poisson = 0.33 }
+plastic = { law = "perfect", yield = "440 MPa" }
+[adapt]
+resample = false
+[output]
+pictures = []
+)toml");
+  ASSERT_EQ(program({"run", (folder / "case.toml").string(), "--output", (folder / "truth").string(), "--set",
+                     "cloud.pattern=jittered", "--threads", "1"}),
+            0);
+  const auto truth = *evaluate::read_cutting_numbers(folder / "truth");
+  ASSERT_EQ(run(fmt::format("evaluations = 8\n[parameters.yield]\nkey = \"materials.steel.plastic.yield\"\n"
+                            "start = \"310 MPa\"\nlow = \"200 MPa\"\nhigh = \"700 MPa\"\n[targets.cut]\n"
+                            "Fc = \"{} N/mm\"\nFc_error = \"2 %\"\n",
+                            1e-3 * truth.Fc)),
+            0)
+      << message;
+  const Json yield = result().at("constants").at("yield");
+  EXPECT_NEAR(yield.at("value").get<double>(), 440e6, 0.03 * 440e6);
+  EXPECT_TRUE(yield.at("told")) << "by the error that is given";
+  EXPECT_LT(yield.at("interval").at(0), 440e6);
+  EXPECT_NE(message.find("cut Fc: the computed cut is not steady"), std::string::npos) << message;
 }
 
 } // namespace
