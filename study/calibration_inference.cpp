@@ -149,6 +149,9 @@ Inference infer(const Calibration& calibration, const Eigen::VectorXd& residual,
   for (std::size_t k = 0; k < result.told.size(); ++k)
     if (!result.told[k]) result.words.push_back(unknown_words(calibration.constants[k]));
   result.covariance = Eigen::MatrixXd::Zero(n, n);
+  // Along a direction that is not told places may lie anywhere between the bounds, and take a told constant a
+  // little way with them.
+  Eigen::VectorXd astray = Eigen::VectorXd::Zero(n);
   for (Eigen::Index k = 0; k < result.singular.size(); ++k) {
     const double change = result.singular[k];
     const Eigen::VectorXd direction = result.directions.col(k);
@@ -158,11 +161,15 @@ Inference infer(const Calibration& calibration, const Eigen::VectorXd& residual,
       result.covariance += variance / (change * change) * direction * direction.transpose();
       continue;
     }
+    astray += widest * widest * direction.cwiseAbs2();
     for (Eigen::Index c = 0; c < n; ++c)
       if (std::abs(direction[c]) >= notable) result.told[static_cast<std::size_t>(c)] = false;
     result.words.push_back(weak_words(calibration, direction, change));
   }
-  result.half_width = quantile * result.covariance.diagonal().cwiseSqrt();
+  result.half_width =
+      result.intervals()
+          ? Eigen::VectorXd((quantile * quantile * result.covariance.diagonal() + astray).cwiseSqrt())
+          : Eigen::VectorXd::Zero(n);
   return result;
 }
 

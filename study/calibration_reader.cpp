@@ -6,8 +6,7 @@
 #include "input/schema/nearest.hpp"
 #include "input/schema/settings.hpp"
 #include "results/output_folder.hpp"
-#include "study/calibration.hpp"
-#include "study/study_parts.hpp"
+#include "study/calibration_reader_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +19,6 @@ namespace {
 
 using Kind = input::Value::Kind;
 using input::Mistake;
-
-/// A number of a table with its unit: 0.3, "250 MPa".
-struct WrittenNumber {
-  double si = 0.0;
-  input::Unit unit;
-  std::string unit_text;
-};
 
 class CalibrationReader {
 public:
@@ -83,27 +75,9 @@ private:
     }
   }
 
-  /// A number at a key; none where it is absent or, which is told, something else.
   std::optional<WrittenNumber> number(TableReader& reader, const input::Value& table, const std::string& path,
                                       const std::string& key, std::optional<input::Dimension> dimension) {
-    const input::Member* member = table.find(key);
-    if (!member) return std::nullopt;
-    WrittenNumber written;
-    double value = 0.0;
-    if (!split_number(member->value, value, written.unit_text)) {
-      reader.wrong(key, member->value, "a number with its unit such as \"250 MPa\", or a plain one");
-      return std::nullopt;
-    }
-    if (!written.unit_text.empty()) written.unit = input::parse_unit(written.unit_text);
-    written.si = written.unit.to_si(value);
-    if (dimension && written.unit.dimension != *dimension) {
-      const input::DimensionText text = input::describe(*dimension);
-      diagnostics_.add(Mistake::unit, member->value.where, path + key,
-                       fmt::format("found {}, expected {} such as {}", member->value.show(), text.name,
-                                   dimension->dimensionless() ? text.example : "\"" + text.example + "\""));
-      return std::nullopt;
-    }
-    return written;
+    return read_number(reader, table, path, key, dimension, diagnostics_);
   }
 
   fs::path case_file(TableReader& reader, const input::Value& table) {
@@ -195,7 +169,7 @@ private:
     if (const auto weight = number(reader, table, path, "weight", input::Dimension{}))
       target.weight = weight->si;
     if (!(target.weight > 0.0)) reader.wrong("weight", table.find("weight")->value, "a number above 0");
-    target.cut = read_cut(reader, table, path);
+    target.cut = read_cut(reader, table, path, closed_form_, diagnostics_);
     if (table.find("file") && target.cut)
       diagnostics_.add(Mistake::conflict, table.find("file")->where, path + "file",
                        "found beside numbers of a cut, expected a curve or a cut");
@@ -208,54 +182,6 @@ private:
           diagnostics_.add(Mistake::conflict, beside->where, path + key,
                            "found without a file, expected it with the curve of a single point");
     result_.targets.push_back(std::move(target));
-  }
-
-  /// What was measured of a cut; none where nothing was.
-  std::optional<CutTarget> read_cut(TableReader& reader, const input::Value& table, const std::string& path) {
-    using What = MeasuredNumber::What;
-    namespace d = input::dimension;
-    CutTarget cut;
-    cut.closed_form = closed_form_;
-    bool any = false;
-    for (const auto& [key, what, of, per] :
-         {std::tuple{"Fc", What::Fc, d::force, d::force_per_length},
-          {"Ft", What::Ft, d::force, d::force_per_length},
-          {"chip_thickness", What::chip_thickness, d::length, d::length}}) {
-      const std::string error_key = std::string(key) + "_error";
-      const input::Member* error = table.find(error_key);
-      if (!table.find(key)) {
-        if (error)
-          diagnostics_.add(Mistake::conflict, error->where, path + error_key,
-                           fmt::format("found without {}, expected it beside the number", key));
-        continue;
-      }
-      any = true;
-      const auto written = number(reader, table, path, key, std::nullopt);
-      if (!written) continue;
-      const input::Dimension dimension = written->unit.dimension;
-      if (dimension != of && dimension != per) {
-        reader.wrong(key, table.find(key)->value,
-                     what == What::chip_thickness ? "a length such as \"0.5 mm\""
-                                                  : "a force such as \"800 N\", also per width");
-        continue;
-      }
-      constexpr double usual = 0.02;
-      MeasuredNumber& measured = cut.measured.emplace_back();
-      measured = {what, written->si, dimension == per && what != What::chip_thickness,
-                  usual * std::abs(written->si), false};
-      if (what == What::chip_thickness && !(measured.value > 0.0))
-        reader.wrong(key, table.find(key)->value, "a thickness above 0");
-      if (!error) continue;
-      const auto given = number(reader, table, path, error_key, std::nullopt);
-      if (!given) continue;
-      const bool share = given->unit.dimension.dimensionless();
-      measured.error = share ? given->si * std::abs(measured.value) : given->si;
-      measured.error_known = true;
-      if ((!share && given->unit.dimension != dimension) || !(measured.error > 0.0))
-        reader.wrong(error_key, error->value,
-                     "a standard error above 0: in the unit of the number, or \"2 %\" of it");
-    }
-    return any ? std::optional(cut) : std::nullopt;
   }
 
   PointTarget read_point(TableReader& reader, const input::Value& table, const std::string& path) {

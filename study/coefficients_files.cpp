@@ -253,15 +253,15 @@ report::ChartSeries crosses(const std::vector<OrthogonalCut>& cuts, Estimate Ort
   report::ChartSeries series;
   series.label = "";
   series.colour = colour;
-  double widest = 0.0, strongest = 0.0;
+  double thickest = 0.0, strongest = 0.0;
   for (const OrthogonalCut& cut : cuts) {
-    widest = std::max(widest, cut.thickness);
+    thickest = std::max(thickest, cut.thickness);
     strongest = std::max(strongest, std::abs((cut.*which).value));
   }
   const double gap = std::nan("");
   for (const OrthogonalCut& cut : cuts) {
     const Estimate& force = cut.*which;
-    const double dx = 0.01 * widest, dy = std::max(0.01 * strongest, 2.0 * force.error);
+    const double dx = 0.01 * thickest, dy = std::max(0.01 * strongest, 2.0 * force.error);
     series.x.insert(series.x.end(),
                     {cut.thickness - dx, cut.thickness + dx, gap, cut.thickness, cut.thickness, gap});
     series.y.insert(series.y.end(), {force.value, force.value, gap, force.value - dy, force.value + dy, gap});
