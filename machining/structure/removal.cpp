@@ -173,7 +173,7 @@ std::vector<double> presence_without(const Part& part, const Vec3& low, const Ve
   for (std::size_t c = 0; c < presence.size(); ++c) {
     const Vec3 from = part.low(c), to = part.high(c);
     const Vec3 common = (high.cwiseMin(to) - low.cwiseMax(from)).cwiseMax(0.0);
-    presence[c] *= 1.0 - std::min(most, common.cwiseQuotient(to - from).prod());
+    presence[c] *= 1.0 - most * common.cwiseQuotient(to - from).prod();
   }
   return presence;
 }

@@ -55,8 +55,8 @@ struct RemovalStep {
 void machine(const Part& part, const RemovalSettings& settings, Motion motion, const PresenceAt& presence,
              const LoadAt& load, const std::function<void(const RemovalStep&)>& observe);
 
-/// 1 − D of cells of which a box is taken, times what is there: D = the share that the box has of the cell,
-/// at most `most`.
+/// 1 − D of cells of which a box is taken, times what is there: D = `most` times the share that the box has
+/// of the cell, which comes to `most` without a kink that intervals would not see.
 std::vector<double> presence_without(const Part& part, const Vec3& low, const Vec3& high, double most);
 
 /// K̂ q = load to a share of the load, by conjugate gradients with a factor before them; q: where it begins,
