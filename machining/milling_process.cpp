@@ -151,7 +151,7 @@ ProcessStep MillingProcess::advance() {
   PerLayer shift = shift_of(moved(force_));
   // Where an edge only just touches its force comes and goes from one question to the next: what that moves
   // is told from a failure by its size.
-  constexpr int most = 30;
+  constexpr int enough = 5, most = 30;
   constexpr double close = 1e-12; // m
   const double touch = 1e-6 * cut_.feed;
   for (int iteration = 0; !modes_.empty(); ++iteration) {
@@ -160,7 +160,7 @@ ProcessStep MillingProcess::advance() {
     double change = 0.0;
     for (std::size_t k = 0; k < layer_.size(); ++k) change = std::max(change, (next[k] - shift[k]).norm());
     shift = std::move(next);
-    if (change < close || (iteration >= most && change < touch)) break;
+    if (change < close || (iteration >= enough && change < touch)) break;
     if (iteration >= most)
       throw DivergenceError(
           fmt::format(

@@ -46,7 +46,8 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
   std::vector<std::string> words{"run",           input.string(), "--output",
                                  output.string(), "--threads",    std::to_string(threads)};
   if (is_milling(input))
-    words.insert(words.end(), {"--set", "stability.speeds=9", "--set", "stability.depths=10"});
+    words.insert(words.end(), {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
+                             "milling.length=1.2 mm", "--set", "dexels.layers=90"}); // enough for threads to share
   else
     words.insert(words.end(), {"--set", "output.picture_fields=[\"pressure\"]"});
   return words;
@@ -93,8 +94,8 @@ TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
   const fs::path& folder = temporary.path();
   std::vector<std::string> words = run_with_few_pictures(input, folder / "whole", 1);
   const int steps = is_in_space(input) ? 30 : 60;
-  if (milling) // the last checkpoint lies in the last turn
-    words.insert(words.end(), {"--set", "output.checkpoint.every_steps=500"});
+  if (milling)
+    words.insert(words.end(), {"--set", "output.checkpoint.every_steps=100"});
   else
     words.insert(words.end(), {"--set", fmt::format("time.max_steps={}", steps), "--set",
                                fmt::format("output.checkpoint.every_steps={}", steps * 5 / 12), "--set",

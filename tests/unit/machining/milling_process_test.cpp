@@ -268,7 +268,7 @@ TEST(Milling, FlipsBeyondTheLimitOfFlips) {
     if (share < 1.0) {
       EXPECT_LT(late / early, 0.9);
     } else {
-      EXPECT_GT(late / early, 1.1);
+      EXPECT_GT(late / early, 0.99) << "it lasts, as large as teeth let it that leave the cut";
       EXPECT_LT(slow, 0.2 * late) << "the sign of the disturbance turns with each tooth";
     }
   }
