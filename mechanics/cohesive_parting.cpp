@@ -11,11 +11,11 @@
 namespace cnem {
 namespace {
 
-constexpr double apart = 1e-5;   ///< of a segment: what is left between faces
-constexpr double deepest = 0.5;  ///< of a segment: what is deeper in the other face is not beside it
-constexpr double beside = 0.25;  ///< of a segment: so far beyond its last node a face is still asked
-constexpr double facing = -0.25; ///< cosine between normals below which two faces face each other
-constexpr int most_passes = 8;   ///< setting one pair apart may push another together
+constexpr double apart = 1e-5;    ///< of a segment: what is left between faces
+constexpr double deepest = 0.5;   ///< of a segment: what is deeper in the other face is not beside it
+constexpr double overhang = 0.25; ///< of a segment: so far beyond its last node a face is still asked
+constexpr double facing = -0.25;  ///< cosine between normals below which two faces face each other
+constexpr int most_passes = 8;    ///< setting one pair apart may push another together
 
 using Shifts = IndexedVector<NodeIndex, Vec2>;
 
@@ -77,7 +77,7 @@ public:
       return Foot{at, normal, std::copysign(away.norm(), normal.dot(away))};
     }
     const double gap = outward_[at].dot(away), beyond = (away - gap * outward_[at]).norm();
-    return beyond < beside * length(at) ? std::optional(Foot{at, outward_[at], gap}) : std::nullopt;
+    return beyond < overhang * length(at) ? std::optional(Foot{at, outward_[at], gap}) : std::nullopt;
   }
 
 private:
