@@ -245,9 +245,9 @@ void MillingRun::judge() {
   status_.reason =
       fmt::format("{}; at most {} along x, {} along y; {}",
                   modes_.empty() ? "a rigid cut"
-                  : chatters            ? fmt::format("chatter: chips {} times as thick as without vibration",
-                                                      results::number_format(steady.thickest / still, 3))
-                                        : "no chatter",
+                  : chatters     ? fmt::format("chatter: chips {} times as thick as without vibration",
+                                               results::number_format(steady.thickest / still, 3))
+                                 : "no chatter",
                   si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface_);
 }
 
