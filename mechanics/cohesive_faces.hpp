@@ -94,9 +94,9 @@ public:
   /// of M⁻¹ K (Gershgorin). mass: [node] kg/m.
   double frequency_bound(const Field& mass) const;
 
-  /// Sets faces apart that are nearer than a 100,000th of a segment, or overlap by less than half of one,
-  /// wherever they were bonded, so that a new reference finds no matter of one in the other; offsets follow,
-  /// and so no traction changes. Faces that coincide stay.
+  /// Sets faces apart that are nearer than a 100,000th of an element, where they were bonded or, slid, touch
+  /// now, so that a new reference finds no matter of one in the other; offsets follow, and so no traction
+  /// changes. Faces that coincide stay.
   void part(Fields<2>& position);
 
   /// Follows a changed cloud: nodes that stay keep their arc length, new ones take it from their neighbours

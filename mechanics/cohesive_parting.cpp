@@ -11,11 +11,10 @@
 namespace cnem {
 namespace {
 
-constexpr double apart = 1e-5;    ///< of a segment: what is left between faces
-constexpr double deepest = 0.5;   ///< of a segment: what is deeper in the other face is not beside it
-constexpr double overhang = 0.25; ///< of a segment: so far beyond its last node a face is still asked
-constexpr double facing = -0.25;  ///< cosine between normals below which two faces face each other
-constexpr int most_passes = 8;    ///< setting one pair apart may push another together
+constexpr double apart = 1e-5;   ///< of an element or a segment: what is left between faces
+constexpr double deepest = 0.5;  ///< of a segment: what is deeper in the other face is not beside it
+constexpr double facing = -0.25; ///< cosine between normals below which two faces face each other
+constexpr int most_passes = 8;   ///< setting one pair apart may push another together
 
 using Shifts = IndexedVector<NodeIndex, Vec2>;
 
@@ -49,16 +48,14 @@ public:
     if (joined(i)) return (outward_[i] + outward_[i - 1]).normalized();
     return i < size() ? outward_[i] : outward_.back();
   }
-  const Vec2& place(std::size_t i) const { return from_[i]; } ///< m, of the first node of a segment
-  Vec2 end(std::size_t i) const { return from_[i] + edge_[i]; }
-  const Vec2& outward(std::size_t i) const { return outward_[i]; }
+  const Vec2& place(std::size_t i) const { return from_[i]; }
 
   struct Foot {
     std::size_t segment;
     Vec2 normal; ///< outward
     double gap;  ///< m, negative within the matter
   };
-  /// Where the face is nearest; nothing where that is far beside an end of it, or the point itself.
+  /// Where the face is nearest; nothing where that is an end of it, or the point itself.
   std::optional<Foot> nearest(const Vec2& x) const {
     double least = std::numeric_limits<double>::infinity();
     std::size_t at = 0;
@@ -72,12 +69,9 @@ public:
     const Vec2 away = x - from_[at] - place * edge_[at];
     if (place > 0.0 && place < 1.0) return Foot{at, outward_[at], outward_[at].dot(away)};
     const std::size_t node = place == 0.0 ? at : at + 1;
-    if (joined(node)) {
-      const Vec2 normal = normal_at(node);
-      return Foot{at, normal, std::copysign(away.norm(), normal.dot(away))};
-    }
-    const double gap = outward_[at].dot(away), beyond = (away - gap * outward_[at]).norm();
-    return beyond < overhang * length(at) ? std::optional(Foot{at, outward_[at], gap}) : std::nullopt;
+    if (!joined(node)) return std::nullopt;
+    const Vec2 normal = normal_at(node);
+    return Foot{at, normal, std::copysign(away.norm(), normal.dot(away))};
   }
 
 private:
@@ -85,27 +79,46 @@ private:
   std::vector<Vec2> from_, edge_, outward_;
 };
 
-/// Where faces lie in each other now, which is elsewhere than where they were bonded when they slide and
-/// bend.
+/// Of pairs that were bonded and are not in contact's hands.
+bool part_bonded(const CohesiveInterface& interface, const Fields<2>& position, const auto& free,
+                 Shifts& shift) {
+  bool any = false;
+  for (std::size_t e = 0; e < interface.element.size(); ++e) {
+    const CohesiveElement& element = interface.element[e];
+    const PlacedElement now(element, position);
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (free(interface.state[e][end])) continue;
+      const Vec2 jump = now.jump(element, end);
+      const double wide = apart * 2.0 * element.weight(), missing = wide - now.normal.dot(jump);
+      if (missing <= 0.5 * wide || jump.isZero(0.0)) continue; // by less not at each reference
+      any = true;
+      for (std::size_t s = 0; s < 2; ++s) {
+        const auto values = element.values(s, end);
+        for (std::size_t a = 0; a < 2; ++a)
+          if (values[a] > 0.0)
+            wish(shift[element.side[s].node[a]], (s == 0 ? 0.5 : -0.5) * missing * now.normal);
+      }
+    }
+  }
+  return any;
+}
+
+/// Of what lies on each other now: faces that slide and bend overlap elsewhere than where they were bonded.
 bool part_touching(const CohesiveInterface& interface, const Fields<2>& position, Shifts& shift) {
   bool any = false;
   const std::array face{PlacedFace(interface.face[0], 0, position),
                         PlacedFace(interface.face[1], 1, position)};
   for (std::size_t s = 0; s < 2; ++s) {
     const PlacedFace &own = face[s], &other = face[1 - s];
-    const auto ask = [&](NodeIndex node, const Vec2& x, const Vec2& normal) {
-      const auto foot = other.nearest(x);
-      if (!foot || foot->normal.dot(normal) > facing) return;
-      const double length = other.length(foot->segment), wide = apart * length, missing = wide - foot->gap;
-      if (missing <= 0.5 * wide || missing > deepest * length) return; // by less not at each reference
-      any = true;
-      wish(shift[node], 0.5 * missing * foot->normal);
-      for (const NodeIndex end : other.segment(foot->segment).node)
-        wish(shift[end], -0.5 * missing * foot->normal);
-    };
     for (std::size_t i = 0; i < own.size(); ++i) {
-      ask(own.segment(i).node[0], own.place(i), own.normal_at(i));
-      if (!own.joined(i + 1)) ask(own.segment(i).node[1], own.end(i), own.outward(i));
+      const auto foot = other.nearest(own.place(i));
+      if (!foot || foot->normal.dot(own.normal_at(i)) > facing) continue;
+      const double length = other.length(foot->segment), wide = apart * length, missing = wide - foot->gap;
+      if (missing <= 0.5 * wide || missing > deepest * length) continue;
+      any = true;
+      wish(shift[own.segment(i).node[0]], 0.5 * missing * foot->normal);
+      for (const NodeIndex node : other.segment(foot->segment).node)
+        wish(shift[node], -0.5 * missing * foot->normal);
     }
   }
   return any;
@@ -115,13 +128,16 @@ bool part_touching(const CohesiveInterface& interface, const Fields<2>& position
 
 void CohesiveFaces::part(Fields<2>& position) {
   const Fields<2> before = position;
+  const auto left_free = [&](const CohesiveEnd& end) { return free(end); };
   bool any = false;
   for (int pass = 0; pass < most_passes; ++pass) {
     Shifts shift(position[0].size(), Vec2::Zero());
     bool now = false;
-    for (const CohesiveInterface& interface : interface_) now |= part_touching(interface, position, shift);
-    if (!now) break;
-    any = true;
+    for (const CohesiveInterface& interface : interface_)
+      now |= pass == 0 ? part_bonded(interface, position, left_free, shift)
+                       : part_touching(interface, position, shift);
+    if (pass > 0 && !now) break;
+    any |= now;
     for (const NodeIndex i : shift.indices())
       for (std::size_t k = 0; k < 2; ++k) position[k][index_of(i)] += shift[i][static_cast<Eigen::Index>(k)];
   }

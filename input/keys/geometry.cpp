@@ -174,7 +174,7 @@ void add_fibres(Keys& k) {
   k.add(at + ".centre", vector, "Middle of the bundle; between two fibres where their number is even.")
       .unit(d::length)
       .required()
-      .example("\"110 16.5 um\"");
+      .example("\"130 16.5 um\"");
   k.add(at + ".angle", quantity, "Of the fibres from +x, counter-clockwise.")
       .unit(d::angle)
       .fallback("\"0 rad\"")

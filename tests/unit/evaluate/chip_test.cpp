@@ -226,8 +226,8 @@ TEST(Surface, a_scratch_counts_in_one_of_five_lengths) {
 
 TEST(Surface, of_a_short_cut_is_measured_nearer_to_the_tool) {
   Cloud<2> cloud;
-  std::vector<Vec2> points{{-2, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}};
-  for (int k = 1; k < 100; ++k) points.emplace_back(-0.02 * k, k % 2 ? -0.02 : 0.0);
+  std::vector<Vec2> points{{-0.6, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}};
+  for (int k = 1; k < 30; ++k) points.emplace_back(-0.02 * k, k % 2 ? -0.02 : 0.0);
   testing::add_loop(cloud, points, 10.0);
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);

@@ -236,6 +236,7 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
                               "domain.cracks.*.rotate.centre",
                               "domain.interfaces.*.points",
                               "domain.interfaces.*.cohesive.open",
+                              "domain.fibres.*.centre", // of interfaces and regions
                               "domain.regions.*.at",
                               "cloud.nodes",
                               "cloud.refine.*.box",
