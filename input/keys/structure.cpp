@@ -14,7 +14,7 @@ constexpr Dimension moment = Dimension::of(2, 1, -2), moment_rate = Dimension::o
 constexpr Range share{.low = 0.0, .high = 1.0};
 constexpr Range poisson_range{.low = -1.0, .high = 0.5, .low_open = true, .high_open = true};
 
-void add_solid(Keys& k, const std::string& at) {
+void add_elasticity_of(Keys& k, const std::string& at) {
   k.add(at + ".young", quantity, "Young's modulus.")
       .unit(d::pressure)
       .in(positive)
@@ -51,7 +51,7 @@ void add_part(Keys& k) {
       .unit(d::length)
       .required()
       .example("\"100 40 4 mm\"");
-  add_solid(k, "part");
+  add_elasticity_of(k, "part");
   k.add("part.element", choice,
         "`hexahedron_27`: triquadratic, does not lock; `plate_8`: Mindlin's plate, cells over each other are "
         "its "
@@ -119,7 +119,7 @@ void add_shaft(Keys& k) {
       "shaft", table,
       "Shank, holder and spindle as Timoshenko beams along z that turn, on bearings. Vibrations are those of "
       "bending.");
-  add_solid(k, "shaft");
+  add_elasticity_of(k, "shaft");
   k.add("shaft.speed", quantity, "At which it turns.").unit(d::angular_velocity).fallback("\"0 rpm\"");
   k.add("shaft.count", integer, "Modes that are sought: twice each where it stands still.")
       .in({.low = 1, .high = 200})
