@@ -123,10 +123,11 @@ void ModesRun::solve_shaft(const input::ShaftCase& input) {
                   si_format(whirls.front().omega / machining::full_turn, "Hz"));
 }
 
-void ModesRun::solve() {
+bool ModesRun::solve() {
   const input::StructureCase& structure = *input_.structure;
   if (structure.part) solve_part(*structure.part);
   if (structure.shaft) solve_shaft(*structure.shaft);
+  return true;
 }
 
 void ModesRun::write_files() {

@@ -13,7 +13,7 @@ public:
   using MachiningSession::MachiningSession;
 
 private:
-  void solve() override;
+  bool solve() override;
   void write_files() override;
   void solve_part(const input::PartCase& input);
   void solve_shaft(const input::ShaftCase& input);

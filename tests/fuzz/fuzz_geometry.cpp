@@ -116,7 +116,7 @@ input::Case case_of(const fuzz::Shape& shape) {
   const std::vector<clouds::Crack>& cracks = shape.domain.cracks;
   for (std::size_t k = 0; k < shape.interfaces; ++k) {
     const clouds::Crack& face = cracks[cracks.size() - shape.interfaces + k];
-    input.domain.interfaces.push_back({face.name, face.path, {}, {}, {}});
+    input.domain.interfaces.push_back({face.name, face.path, {}, {}, {}, {}});
     if (k % 2 == 1) input.domain.interfaces.back().conductance = 1.0;
   }
   for (const Vec2& at : shape.regions)
