@@ -4,8 +4,8 @@
 #include "core/fields/vector_at.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
-#include "mechanics/statics/rigid_motion.hpp"
 #include "core/sparse_cholesky.hpp"
+#include "mechanics/statics/rigid_motion.hpp"
 #include "mechanics/statics/stiffness.hpp"
 
 #include <algorithm>

@@ -46,8 +46,9 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
   std::vector<std::string> words{"run",           input.string(), "--output",
                                  output.string(), "--threads",    std::to_string(threads)};
   if (is_milling(input))
-    words.insert(words.end(), {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
-                             "milling.length=1.2 mm", "--set", "dexels.layers=90"}); // enough for threads to share
+    words.insert(words.end(),
+                 {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
+                  "milling.length=1.2 mm", "--set", "dexels.layers=90"}); // enough for threads to share
   else
     words.insert(words.end(), {"--set", "output.picture_fields=[\"pressure\"]"});
   return words;
