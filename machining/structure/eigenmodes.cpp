@@ -73,7 +73,8 @@ Eigenmodes lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
     for (Index c = 0; c < solved.cols(); ++c) solved.col(c) = factor.solve(next.times_mass.col(c));
     append(image, solved);
     if (basis.cols() >= count) {
-      const Eigen::MatrixXd projected = times_mass.transpose() * image;
+      // Lazy products: the others are divided among threads, and their sums depend on how many there are.
+      const Eigen::MatrixXd projected = times_mass.transpose().lazyProduct(image);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(0.5 * (projected + projected.transpose()));
       const Eigen::VectorXd flexibility = ritz.eigenvalues().reverse().head(count); // 1/ω²
       const Eigen::MatrixXd mix = ritz.eigenvectors().rowwise().reverse().leftCols(count);
@@ -83,8 +84,8 @@ Eigenmodes lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
       if (steady) {
         Eigenmodes modes;
         modes.omega = flexibility.cwiseSqrt().cwiseInverse();
-        modes.shape = basis * mix;
-        const Eigen::MatrixXd residual = image * mix - modes.shape * flexibility.asDiagonal();
+        modes.shape = basis.lazyProduct(mix);
+        const Eigen::MatrixXd residual = image.lazyProduct(mix) - modes.shape * flexibility.asDiagonal();
         if ((residual.colwise().norm().transpose().array() <
              residual_close * (modes.shape * flexibility.asDiagonal()).colwise().norm().transpose().array())
                 .all())

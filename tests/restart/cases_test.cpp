@@ -45,6 +45,7 @@ bool is_milling(const fs::path& input) {
 std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::path& output, int threads) {
   std::vector<std::string> words{"run",           input.string(), "--output",
                                  output.string(), "--threads",    std::to_string(threads)};
+  if (is_of(input, input::Analysis::Type::modes)) return words;
   if (is_milling(input))
     words.insert(words.end(),
                  {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
