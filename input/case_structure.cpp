@@ -34,7 +34,7 @@ std::array<int, 3> read_cells(const Setting& part, const Vec3& size, Diagnostics
   constexpr double longest = 20.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double count = written ? std::get<Vec3>(written->value)[axis]
-                                 : std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9);
+                                 : std::max(1.0, std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9));
     constexpr double most = 1000.0;
     if (count < 1.0 || count > most || count != std::floor(count)) {
       diagnostics.add(Mistake::range, written->where, written->path,

@@ -40,14 +40,16 @@ void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, con
   // Over the part of its way on which the edge cuts. The chip is as thick, from the edge inwards, as makes
   // the area: its middle goes a shorter way round the axis than its edge, h (1 − h/2r) = a.
   const double a = bite.area / (path * share);
-  const double inward = at.radius * (1.0 - std::sqrt(std::max(0.0, 1.0 - 2.0 * a / at.radius)));
+  const double of_edge =
+      0.5 * (1.0 + std::sqrt(std::max(0.0, 1.0 - 2.0 * a / at.radius))); // a/h, way of the middle
+  const double inward = a / of_edge;
   const double chip = inward * thickness_ / at.width;
   const double middle = 0.5 * (bite.begin + bite.end);
   const double phi = from.angle + middle * (to.angle - from.angle) - teeth_[tooth] - at.lag;
   const Vec3 local = at.width * share * cut_.law.at({.thickness = chip, .speed = path / duration}).force;
   load.force += on_tool(phi, at.lead, local);
   load.torque += local[0] * at.radius;
-  load.power += local[0] * path * a / inward / duration;
+  load.power += local[0] * path * of_edge / duration;
   load.removed += bite.area * thickness_;
   load.thickest = std::max(load.thickest, chip);
 }

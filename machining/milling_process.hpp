@@ -54,6 +54,10 @@ public:
   double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
   double volume() const;                                                  ///< m³ of matter
   double block() const { return block_; } ///< m³ of matter before anything was taken
+  /// Whether teeth reach matter in a layer: the end of a cutter is thinner.
+  bool cuts(std::size_t layer) const {
+    return edges_.radius(layer) > cut_.cutter.radius() - cut_.engagement.radial_depth;
+  }
   /// m, matter that is left on the machined side beyond where the teeth pass, at a place along x; negative:
   /// too much was taken. None where no matter is left.
   std::optional<double> left_at(std::size_t layer, double x) const;

@@ -4,6 +4,7 @@
 #include "core/vec.hpp"
 
 #include <array>
+#include <cassert>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -37,6 +38,7 @@ struct Side {
 class Region {
 public:
   Region(std::initializer_list<Vec2> corners) {
+    assert(corners.size() >= 3 && corners.size() <= corner_.size());
     for (const Vec2& corner : corners) corner_[count_++] = corner;
     for (std::size_t k = 0; k < count_; ++k) side_[k] = Side::through(corner_[k], corner_[(k + 1) % count_]);
   }

@@ -67,6 +67,8 @@ std::optional<CutTarget> read_cut(TableReader& reader, const input::Value& table
                 usual * std::abs(written->si), false};
     if (what == What::chip_thickness && !(measured.value > 0.0))
       reader.wrong(key, table.find(key)->value, "a thickness above 0");
+    if (!error && measured.value == 0.0)
+      reader.wrong(key, table.find(key)->value, "a number that is not 0, or its " + error_key);
     if (!error) continue;
     const auto given = read_number(reader, table, path, error_key, std::nullopt, diagnostics);
     if (!given) continue;

@@ -143,13 +143,18 @@ CuttingCoefficients fit_coefficients(const CutsOfSweep& cuts, const std::string&
                     "one rake and speed{}{}",
                     source, cuts.cuts.size(), reasons.empty() ? "" : "; left out:", fmt::join(reasons, "")));
   }
-  if (found.groups.size() == 1 && groups.size() == 1) {
+  if (found.groups.size() == 1) {
     found.all = found.groups.front();
   } else {
     std::vector<OrthogonalCut> all;
     for (const LawFit& group : found.groups) all.insert(all.end(), group.cuts.begin(), group.cuts.end());
     found.all = fit_of("all cuts", std::move(all), false);
   }
+  if (const double slope = found.all.linear.tangential.slope.value; !(slope > 0.0))
+    throw InputError(
+        fmt::format("{}: tangential forces do not grow with the thickness of the chip ({:.4g} N/m² "
+                    "of {} cuts), expected a sweep over cutting.feed at the same rake and speed",
+                    source, slope, found.all.cuts.size()));
   found.table = machining::table_of(groups);
   constexpr std::size_t most = NumberList::capacity;
   if (found.table && found.table->tangential.size() > most) {
@@ -158,7 +163,7 @@ CuttingCoefficients fit_coefficients(const CutsOfSweep& cuts, const std::string&
     found.table.reset();
   }
   found.law = groups.size() > 1 && found.table ? "table" : "linear";
-  if (groups.size() > 1 && !found.table)
+  if (found.groups.size() > 1 && !found.table)
     found.notes.push_back("the linear law is one for all rakes and speeds: there is no table of them, which "
                           "needs a steady cut at "
                           "each thickness with each rake and speed");

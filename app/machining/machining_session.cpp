@@ -98,6 +98,11 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
     int number = 0;
     for (const machining::Mode& mode : modes_at_cutter(input, SolvedPart(input)))
       modes.push_back({mode, fmt::format("{}", ++number)});
+    if (std::all_of(modes.begin(), modes.end(),
+                    [](const machining::Mode& mode) { return mode.direction.head<2>().norm() < 1e-9; }))
+      throw input.error("part.cutter",
+                        "found a place where no mode of the part moves across the axis of the cutter, "
+                        "expected one away from what is held");
   }
   return modes;
 }

@@ -153,11 +153,21 @@ void MillingRun::measure_surface() {
                       std::max(2.0 * turn, outside ? 0.0 : 0.5 * (process_.axis() - process_.start())),
                to = process_.axis() - turn, pitch = input_.machining->dexels.pitch;
   for (double x = std::max(from, 0.0); x <= to; x += pitch) place_.push_back(x);
-  left_.resize(process_.layers().size());
-  for (std::size_t k = 0; k < left_.size(); ++k) {
-    height_.push_back(process_.height(k));
-    for (const double x : place_) left_[k].push_back(process_.left_at(k, x).value());
+  for (std::size_t k = 0; k < process_.layers().size(); ++k) {
+    if (!process_.cuts(k)) continue;
+    cut_layer_.push_back(k);
+    left_.emplace_back();
+    for (const double x : place_) left_.back().push_back(left_at(k, x));
   }
+}
+
+double MillingRun::left_at(std::size_t layer, double x) const {
+  if (const auto left = process_.left_at(layer, x)) return *left;
+  throw DivergenceError(
+      fmt::format("nothing is left of the workpiece at {} along the path and {} over the tip: the "
+                  "cutter has gone through it, expected vibrations that are small beside the cut",
+                  si_format(x, "m"), si_format(process_.height(layer), "m")),
+      -1, "displacement");
 }
 
 MillingRun::Texture MillingRun::texture(std::size_t layer) const {
@@ -167,8 +177,7 @@ MillingRun::Texture MillingRun::texture(std::size_t layer) const {
   std::vector<double> height;
   for (std::size_t i = 0; i + 1 < place_.size(); ++i)
     for (int part = 0; part < finer; ++part)
-      height.push_back(
-          process_.left_at(layer, place_[i] + part * (place_[i + 1] - place_[i]) / finer).value());
+      height.push_back(left_at(layer, place_[i] + part * (place_[i + 1] - place_[i]) / finer));
   if (height.empty()) return {};
   Texture texture;
   texture.location_error = mean(height);
@@ -187,7 +196,7 @@ MillingRun::Texture MillingRun::texture(std::size_t layer) const {
 
 void MillingRun::tell_surface() {
   std::vector<Texture> layers;
-  for (std::size_t k = 0; k < left_.size(); ++k) layers.push_back(texture(k));
+  for (const std::size_t k : cut_layer_) layers.push_back(texture(k));
   const auto zone = [&](const std::string& name, std::size_t from, std::size_t to) {
     Texture all;
     for (std::size_t k = from; k < to; ++k) {
@@ -241,7 +250,7 @@ void MillingRun::judge() {
                                 "radial depth: vibrations are not small beside the cut",
                                 si_format(steady.displacement, "m")))
              .what());
-  if (place_.size() > 1) tell_surface();
+  if (place_.size() > 1 && !cut_layer_.empty()) tell_surface();
   status_.reason =
       fmt::format("{}; at most {} along x, {} along y; {}",
                   modes_.empty() ? "a rigid cut"
@@ -253,7 +262,8 @@ void MillingRun::judge() {
 
 void MillingRun::write_files() {
   std::string text = "x[m]";
-  for (const double z : height_) text += fmt::format(",left_at_{:.6g}_mm[m]", 1e3 * z);
+  for (const std::size_t k : cut_layer_)
+    text += fmt::format(",left_at_{:.6g}_mm[m]", 1e3 * process_.height(k));
   text += '\n';
   for (std::size_t i = 0; i < place_.size(); ++i) {
     text += fmt::format("{}", place_[i]);

@@ -36,6 +36,8 @@ private:
   void write_files() override;
   void judge();
   void measure_surface();
+  /// m, as the process has it. Throws DivergenceError where no matter is left.
+  double left_at(std::size_t layer, double x) const;
   /// The machined side of one layer along the path, m.
   struct Texture {
     double Ra = 0.0, Rz = 0.0, peak_to_valley = 0.0, location_error = 0.0;
@@ -53,8 +55,8 @@ private:
 
   std::string surface_ = "the path is too short for a surface";
   std::vector<double> place_;             ///< m along the path
-  std::vector<double> height_;            ///< m of each layer
-  std::vector<std::vector<double>> left_; ///< [layer][place] m
+  std::vector<std::size_t> cut_layer_;    ///< those that the cutter reaches
+  std::vector<std::vector<double>> left_; ///< [layer that is cut][place] m
 };
 
 } // namespace cnem::app

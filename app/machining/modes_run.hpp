@@ -17,7 +17,7 @@ private:
   void write_files() override;
   void solve_part(const input::PartCase& input);
   void solve_shaft(const input::ShaftCase& input);
-  /// A row of modes.csv, and the first place of a mode makes a metric of it.
+  /// A row of modes.csv and its metrics.
   void add_mode(const char* of, std::size_t number, const machining::Mode& mode, const std::string& place);
 
   std::optional<SolvedPart> part_;

@@ -46,6 +46,11 @@ SolvedPart::SolvedPart(const input::Case& input)
       modes(about(input, "part",
                   [&] { return machining::lowest_modes(stiffness, mass, input.structure->part->count); })) {}
 
+bool is_felt(const machining::Eigenmodes& modes, Eigen::Index mode, const Vec3& motion) {
+  constexpr double still = 1e-9;
+  return motion.norm() > still * modes.shape.col(mode).cwiseAbs().maxCoeff();
+}
+
 std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
   const input::PartCase& part = *input.structure->part;
   const Eigen::MatrixXd motion = displacement_at_cutter(input, solved.part) * solved.modes.shape;
@@ -53,9 +58,7 @@ std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const Sol
   for (Eigen::Index i = 0; i < solved.modes.count(); ++i) {
     const Vec3 shape = part.to_cutter * motion.col(i);
     const double omega = solved.modes.omega[i];
-    // Of a mode whose node the cutter is at nothing is felt.
-    constexpr double still = 1e-9;
-    if (shape.norm() > still * motion.colwise().norm().maxCoeff())
+    if (is_felt(solved.modes, i, motion.col(i)))
       modes.push_back(machining::mode_at(omega, part.damping_of(omega), shape, machining::Mode::Of::part));
   }
   return modes;

@@ -22,6 +22,9 @@ SparseMatrix displacement_at(const input::Case& input, const machining::Part& pa
 /// Where the cutter is.
 SparseMatrix displacement_at_cutter(const input::Case& input, const machining::Part& part);
 
+/// Whether a mode moves a place at all, m as it is there: at its nodes there is rounding alone.
+bool is_felt(const machining::Eigenmodes& modes, Eigen::Index mode, const Vec3& motion);
+
 struct SolvedPart {
   explicit SolvedPart(const input::Case& input);
   machining::Part part;

@@ -4,6 +4,7 @@
 #include "core/vec.hpp"
 #include "machining/mode.hpp"
 
+#include <numbers>
 #include <vector>
 
 namespace cnem::machining {

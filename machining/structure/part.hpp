@@ -4,6 +4,7 @@
 #include "core/sparse_cholesky.hpp"
 #include "machining/structure/cells.hpp"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
@@ -97,6 +98,7 @@ int conjugate_gradients(const SparseMatrix& effective, const SparseCholesky& fac
 
 void machine(const Part& part, const RemovalSettings& settings, Motion motion, const PresenceAt& presence,
              const LoadAt& load, const std::function<void(const RemovalStep&)>& observe) {
+  assert(settings.dt > 0.0 && settings.interval > 0);
   const NewmarkStep newmark(settings.dt);
   const auto interpolates = settings.inverse == EffectiveInverse::interpolated ||
                             settings.inverse == EffectiveInverse::interpolated_common;
@@ -169,6 +171,7 @@ void machine(const Part& part, const RemovalSettings& settings, Motion motion, c
 }
 
 std::vector<double> presence_without(const Part& part, const Vec3& low, const Vec3& high, double most) {
+  assert(most >= 0.0 && most < 1.0); // else K̂ is singular
   std::vector<double> presence = part.presence();
   for (std::size_t c = 0; c < presence.size(); ++c) {
     const Vec3 from = part.low(c), to = part.high(c);

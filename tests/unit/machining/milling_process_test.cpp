@@ -133,6 +133,34 @@ TEST(Milling, PowerIsThatOfTheRemovalRate) {
     }
 }
 
+TEST(Milling, LayersThatABallDoesNotReachHaveNoSurface) {
+  MillingCut cut = milling_cut(3, 767e6, 0.0, down, 1.0);
+  cut.cutter.corner = cut.cutter.radius();
+  cut.engagement = {down, 1e-3};
+  const MillingProcess process(cut, {},
+                               {.spindle = 800.0,
+                                .axial_depth = cut.cutter.radius(),
+                                .length = 1e-3,
+                                .pitch = 0.1e-3,
+                                .layers = 10,
+                                .steps = 90});
+  for (std::size_t k = 0; k < 10; ++k) { // by the middle height, where the profile is 1 mm inside of the side
+    const double rise = cut.cutter.radius() - process.height(k);
+    const double reach = std::sqrt(cut.cutter.radius() * cut.cutter.radius() - rise * rise);
+    if (std::abs(reach - (cut.cutter.radius() - 1e-3)) < 0.3e-3) continue; // means of a layer
+    EXPECT_EQ(process.cuts(k), reach > cut.cutter.radius() - 1e-3) << k;
+  }
+}
+
+TEST(Milling, PowerOfTheThinnestChipsIsFinite) {
+  const MillingCut cut = milling_cut(1, 767e6, 0.0, down, 1.0);
+  const EdgeElements edges(cut, 1e-3, 1, full_turn / 360.0);
+  EdgeLoad load;
+  edges.add(load, 0, 0, {.area = 1e-24, .begin = 0.0, .end = 1.0}, 1e-4, 1e-5, {}, {});
+  EXPECT_TRUE(std::isfinite(load.power)) << load.power;
+  EXPECT_NEAR(load.power, load.torque / cut.cutter.radius() * 1e-4 / 1e-5, 1e-9 * load.power);
+}
+
 TEST(Milling, VolumesOfSlotSideAndBall) {
   MillingCut cut = milling_cut(3, 767e6, 0.0, down, 1.0);
   const auto removed = [&](double depth, double length, int layers) {

@@ -173,6 +173,13 @@ TEST_F(Coefficients, what_is_unsteady_or_failed_is_named_and_left_out) {
   EXPECT_NO_THROW(milling());
 }
 
+TEST_F(Coefficients, forces_that_fall_with_the_thickness_are_no_law) {
+  add(cut(0.1e-3, 10.0, 2.0, 1.2e5, 1e4));
+  add(cut(0.2e-3, 10.0, 2.0, 1.0e5, 1e4));
+  EXPECT_NE(refusal().find("tangential forces do not grow with the thickness of the chip"), std::string::npos)
+      << refusal();
+}
+
 TEST_F(Coefficients, what_is_no_sweep_is_refused) {
   EXPECT_NE(refusal().find("found 0 steady cuts, expected two thicknesses"), std::string::npos) << refusal();
   add(cut(0.1e-3, 10.0, 2.0, 1e5, 1e4));
