@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <set>
 
 namespace cnem::input {
 namespace {
@@ -207,6 +208,17 @@ ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
                     fmt::format("found {:g} m, expected at least {:g} m: {:g} elements", shaft.element,
                                 (end - begin) / most, most));
   for (const Setting& bearing : table.entries("bearings")) shaft.bearings.push_back(read_bearing(bearing));
+  std::set<double> held; // places
+  bool clamped = false;
+  for (const machining::Bearing& bearing : shaft.bearings) {
+    if (bearing.stiffness > 0.0) held.insert(bearing.at);
+    clamped = clamped || (bearing.stiffness > 0.0 && bearing.tilt_stiffness > 0.0);
+  }
+  if (!clamped && held.size() < 2)
+    diagnostics.add(
+        Mistake::conflict, table.find("bearings")->where, "shaft.bearings",
+        "found bearings that let the shaft move as a whole, expected two places that are held, or one "
+        "whose slope is held too");
   shaft.speed = table.get<double>("speed");
   shaft.count = static_cast<int>(table.get<std::int64_t>("count"));
   for (const Setting& point : table.entries("points")) {

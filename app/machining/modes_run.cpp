@@ -5,9 +5,7 @@
 #include "results/si_format.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <fmt/format.h>
-#include <set>
 
 namespace cnem::app {
 
@@ -92,15 +90,6 @@ void ModesRun::solve_part(const input::PartCase& input) {
 
 void ModesRun::solve_shaft(const input::ShaftCase& input) {
   const machining::Shaft shaft = shaft_of(input_);
-  std::set<double> held; // places
-  const bool clamped =
-      std::any_of(input.bearings.begin(), input.bearings.end(), [&](const machining::Bearing& bearing) {
-        if (bearing.stiffness > 0.0) held.insert(bearing.at);
-        return bearing.stiffness > 0.0 && bearing.tilt_stiffness > 0.0;
-      });
-  if (!clamped && held.size() < 2)
-    throw input_.error("shaft.bearings", "found bearings that let the shaft move as a whole, expected two "
-                                         "places that are held, or one whose slope is held too");
   const std::vector<machining::Whirl> whirls = machining::whirls(shaft, input.speed, index_of(input.count));
   if (whirls.empty())
     throw input_.error("shaft.bearings", "the shaft does not vibrate, expected one that some "
