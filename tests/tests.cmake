@@ -77,7 +77,7 @@ cnem_tests(convergence cnem_app)
 cnem_tests(verification cnem_app VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
 cnem_tests(bad_input cnem_app)
 if(CNEM_LONG_TESTS)
-  cnem_tests(long cnem_app)
+  cnem_tests(long cnem_app VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
 endif()
 if(CNEM_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # With sanitizers GCC takes members of std::regex for uninitialised, as its manual warns.
