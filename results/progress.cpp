@@ -35,10 +35,10 @@ Progress::Progress(std::ostream& out, bool terminal, std::function<double()> clo
 std::string Progress::line(const ProgressState& state, double now) const {
   const double fraction = state.end > 0.0 ? std::clamp(state.time / state.end, 0.0, 1.0) : 1.0;
   const double elapsed = now - start_, done = fraction - start_fraction_;
-  std::string text =
-      fmt::format("{:3.0f} %  t = {} of {}  step {}  dt {}  {} nodes", std::floor(100.0 * fraction),
-                  si_format(state.time, "s"), si_format(state.end, "s"), state.step,
-                  si_format(state.dt, "s", 3), state.nodes);
+  std::string text = fmt::format("{:3.0f} %  t = {} of {}  step {}  dt {}", std::floor(100.0 * fraction),
+                                 si_format(state.time, "s"), si_format(state.end, "s"), state.step,
+                                 si_format(state.dt, "s", 3));
+  if (state.nodes > 0) text += fmt::format("  {} nodes", state.nodes); // milling has none
   if (fraction < 1.0 && done > 0.0 && elapsed > 0.5)
     text += "  ETA " + duration_format(elapsed * (1.0 - fraction) / done);
   else if (fraction >= 1.0)

@@ -7,13 +7,13 @@
 #include "results/folder_lock.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
+#include "study/manifest.hpp"
 #include "study/process_pool.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 namespace cnem::study {
@@ -24,17 +24,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using State = RunRecord::State;
 
-constexpr const char* manifest_file = "manifest.json";
 constexpr const char* another_folder = "choose another with --output";
 
 std::string hash(std::string_view text) { return fmt::format("{:016x}", fnv(text)); }
-
-/// The manifest of an earlier call; none when there is none. Throws Json::exception for what is none.
-std::optional<Json> read_manifest(const fs::path& folder) {
-  const fs::path path = folder / manifest_file;
-  if (!fs::exists(path)) return {};
-  return Json::parse(results::read_file(path));
-}
 
 /// Throws InputError when the folder holds what another command, or a user, has made.
 void check_folder(const Study& study, const fs::path& folder, const std::string& kind, bool force) {
@@ -68,9 +60,6 @@ std::string manifest_text(const Study& study, const std::vector<RunRecord>& runs
   return json_text(json);
 }
 
-/// Where a part notes how its run stands; no run has a name that ends in .json.
-fs::path note_of(const fs::path& folder, const StudyRun& run) { return folder / (run.name + ".part.json"); }
-
 /// The status of a run that ended well; none for others.
 std::optional<results::RunStatus> good_status(const fs::path& folder) {
   if (!fs::exists(folder / results::files::status)) return {};
@@ -88,15 +77,11 @@ bool was_interrupted(const Json& old) {
   return exit != Exit::bad_input && exit != Exit::diverged;
 }
 
-/// What earlier calls have left of each run: the note of a part, or else the entry of the manifest.
-std::map<std::string, Json> earlier_entries(const Study& study, const fs::path& folder) {
+/// What earlier calls have left of each run, by its name.
+std::map<std::string, Json> earlier_entries(const fs::path& folder) {
   std::map<std::string, Json> entries;
-  const std::optional<Json> manifest = read_manifest(folder);
-  if (!manifest) return entries;
-  for (const Json& entry : manifest->at("runs")) entries[entry.at("name")] = entry;
-  for (const StudyRun& run : study.runs)
-    if (const fs::path note = note_of(folder, run); fs::exists(note))
-      entries[run.name] = Json::parse(results::read_file(note));
+  if (const std::optional<Json> manifest = read_manifest(folder))
+    for (const Json& entry : entries_of(*manifest, folder)) entries[entry.at("name")] = entry;
   return entries;
 }
 
@@ -105,7 +90,7 @@ std::map<std::string, Json> earlier_entries(const Study& study, const fs::path& 
 void find_earlier(const Study& study, std::vector<RunRecord>& runs, const fs::path& folder,
                   const std::string& kind, bool failed_too = false) {
   try {
-    const std::map<std::string, Json> entries = earlier_entries(study, folder);
+    const std::map<std::string, Json> entries = earlier_entries(folder);
     for (std::size_t k = 0; k < runs.size(); ++k) {
       const auto found = entries.find(study.runs[k].name);
       if (found == entries.end() || found->second.at("inputs") != runs[k].inputs ||
@@ -162,47 +147,6 @@ bool holds_manifest(const fs::path& folder, const std::string& kind, bool force)
     if (force) return true;
     throw IoError(fmt::format("{} is not the manifest of a {} ({}): run all again with --force",
                               (folder / manifest_file).string(), kind, error.what()));
-  }
-}
-
-std::vector<RunNote> read_run_notes(const fs::path& folder, const std::string& kind) {
-  if (!fs::is_directory(folder))
-    throw InputError(
-        fmt::format("there is no folder {}, expected the results of a {}", folder.string(), kind));
-  if (!fs::exists(folder / manifest_file))
-    throw InputError(fmt::format("{} holds {}, expected the results of a {}", folder.string(),
-                                 results::holds_run(folder) ? "a single run" : "no manifest.json of runs",
-                                 kind));
-  std::vector<Json> entries;
-  try {
-    const Json manifest = *read_manifest(folder);
-    if (const std::string made = manifest.value("kind", "sweep"); made != kind)
-      throw InputError(
-          fmt::format("{} holds the runs of a {}, expected those of a {}", folder.string(), made, kind));
-    for (const Json& entry : manifest.at("runs")) entries.push_back(entry);
-    std::vector<fs::path> parts;
-    for (const auto& file : fs::directory_iterator(folder))
-      if (file.path().filename().string().ends_with(".part.json")) parts.push_back(file.path());
-    std::sort(parts.begin(), parts.end());
-    for (const fs::path& part : parts) {
-      const Json note = Json::parse(results::read_file(part));
-      std::erase_if(entries, [&](const Json& old) { return old.at("name") == note.at("name"); });
-      entries.push_back(note);
-    }
-    std::vector<RunNote> notes;
-    for (const Json& entry : entries) {
-      RunNote& note = notes.emplace_back();
-      note.name = entry.at("name");
-      note.done = entry.at("state") == state_name(State::done);
-      if (!note.done)
-        note.reason =
-            fmt::format("{}{}", entry.at("state").get<std::string>(),
-                        entry.contains("reason") ? ": " + entry.at("reason").get<std::string>() : "");
-    }
-    return notes;
-  } catch (const Json::exception& error) {
-    throw IoError(fmt::format("{} is not the manifest of a {}: {}", (folder / manifest_file).string(), kind,
-                              error.what()));
   }
 }
 
@@ -291,7 +235,7 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
                               manifest_text(study, of, pages.kind, options.version));
   };
   const auto write_note = [&](std::size_t k) {
-    results::write_atomically(note_of(options.output, study.runs[k]),
+    results::write_atomically(note_of_part(options.output, study.runs[k].name),
                               json_text(entry_of(study.runs[k], runs[k])));
   };
   std::vector<std::size_t> own;
@@ -331,7 +275,7 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
     for (const std::size_t k : run_of) write_note(k);
   } else {
     write_manifest(runs);
-    for (const StudyRun& run : study.runs) fs::remove(note_of(options.output, run));
+    for (const StudyRun& run : study.runs) fs::remove(note_of_part(options.output, run.name));
   }
   const std::size_t processes =
       std::min(processes_for(options.processes > 0 ? options.processes : study.processes, study.threads),
@@ -362,8 +306,10 @@ Exit run_batch(const Study& study, std::vector<RunRecord> runs, const BatchOptio
         else
           write_manifest(runs);
         const double seconds = std::chrono::duration<double>(Clock::now() - began[k]).count();
-        const std::string what = runs[k].status ? fmt::format("done, {} nodes", runs[k].status->nodes)
-                                                : "FAILED: " + runs[k].reason;
+        const std::string what = !runs[k].status ? "FAILED: " + runs[k].reason
+                                 : runs[k].status->nodes > 0
+                                     ? fmt::format("done, {} nodes", runs[k].status->nodes)
+                                     : "done"; // milling has none
         fmt::print("[{}/{}] {}: {}, {}\n", ++finished, total, study.runs[k].name, what,
                    results::duration_format(seconds));
         std::fflush(stdout);

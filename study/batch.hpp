@@ -40,16 +40,6 @@ struct RunRecord {
 };
 const char* state_name(RunRecord::State state);
 
-/// What a folder says of the runs of a finished study.
-struct RunNote {
-  std::string name;
-  bool done = false;
-  std::string reason; ///< why it is not
-};
-/// In the order of the manifest, what parts have noted after that. Throws InputError where the folder holds
-/// no runs of this kind, IoError where its manifest cannot be read.
-std::vector<RunNote> read_run_notes(const std::filesystem::path& folder, const std::string& kind);
-
 /// What a run depends on, as a hash.
 std::string inputs_of(const input::Case& input);
 

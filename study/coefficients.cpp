@@ -1,9 +1,10 @@
 #include "study/coefficients.hpp"
 
+#include "core/parameter.hpp"
 #include "evaluate/cutting_result.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
-#include "study/batch.hpp"
+#include "study/manifest.hpp"
 
 #include <algorithm>
 #include <cmath>

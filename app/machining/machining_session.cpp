@@ -62,7 +62,7 @@ std::optional<Exit> MachiningSession::go_on() {
     watch_.go_on();
     before_steps(input_, options_, [&] {
       if (!begun_) {
-        std::vector<std::string> doubts = milling_doubts(input_);
+        std::vector<std::string> doubts = milling_doubts(input_, modes_);
         status_.warnings.insert(status_.warnings.end(), doubts.begin(), doubts.end());
         for (const std::string& warning : status_.warnings) observer_.remark("warning: " + warning);
         status_.exit = Exit::done;
@@ -152,7 +152,8 @@ std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
 
 } // namespace
 
-std::vector<std::string> milling_doubts(const input::Case& input) {
+std::vector<std::string> milling_doubts(const input::Case& input,
+                                        const std::vector<input::NamedMode>& modes) {
   std::vector<std::string> doubts;
   if (!input.machining) return doubts;
   const input::MachiningCase& milling = *input.machining;
@@ -175,7 +176,7 @@ std::vector<std::string> milling_doubts(const input::Case& input) {
                    fmt::format("lines are {} apart, expected at least five in a feed of {}",
                                si_format(milling.dexels.pitch, "m"), si_format(milling.cut.feed, "m")))
             .what());
-  for (const input::NamedMode& mode : milling.modes)
+  for (const input::NamedMode& mode : modes)
     if (const double steps = milling.dexels.steps * milling.speed / mode.omega(); steps < periods)
       doubts.push_back(
           input
@@ -219,7 +220,8 @@ Checked check_machining(const input::Case& input) {
     return checked;
   }
   const input::MachiningCase& milling = *input.machining;
-  checked.warnings = milling_doubts(input);
+  const std::vector<input::NamedMode> modes = modes_of(input);
+  checked.warnings = milling_doubts(input, modes);
   const auto add = [&](const char* label, std::string text) {
     checked.facts.emplace_back(label, std::move(text));
   };
@@ -237,7 +239,6 @@ Checked check_machining(const input::Case& input) {
           si_format(milling.speed * static_cast<double>(cutter.teeth()) / (2.0 * std::numbers::pi), "Hz"),
           si_format(milling.speed * cutter.radius(), "m/s")));
   describe(input, checked);
-  const std::vector<input::NamedMode> modes = modes_of(input);
   add("modes", fmt::format("{}", modes.size()));
   if (input.analysis.type == input::Analysis::Type::milling) {
     const input::DexelSettings& dexels = milling.dexels;
