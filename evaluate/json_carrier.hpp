@@ -2,11 +2,11 @@
 // Records out to JSON and in from it, with each member named once: carry(name, member) for both ways. Numbers
 // that are not finite are null. And files of them that are read back.
 #include "core/error.hpp"
+#include "results/json_number.hpp"
 #include "results/output_folder.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
@@ -21,9 +21,7 @@ using Json = nlohmann::ordered_json;
 class JsonWriter {
 public:
   void operator()(const char* name, const std::string& value) { json[name] = value; }
-  void operator()(const char* name, double value) {
-    json[name] = std::isfinite(value) ? Json(value) : Json(nullptr);
-  }
+  void operator()(const char* name, double value) { json[name] = results::json_number(value); }
   void operator()(const char* name, bool value) { json[name] = value; }
   template<class Value> void newer(const char* name, const Value& value) { (*this)(name, value); }
   Json json = Json::object();

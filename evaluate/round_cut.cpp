@@ -118,8 +118,8 @@ SheetInPlane in_plane(const RoundSheet& sheet, const CutPlane& plane, double thi
 } // namespace
 
 char CutAxis::counts_from() const {
-  constexpr double steep = 1e-3;
-  return (Vec3::UnitX() - direction.x() * direction).norm() > steep ? 'x' : 'y';
+  constexpr double askew = 1e-3;
+  return (Vec3::UnitX() - direction.x() * direction).norm() > askew ? 'x' : 'y';
 }
 
 Vec3 CutAxis::outwards(double angle) const {

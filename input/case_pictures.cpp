@@ -41,7 +41,7 @@ Vec3 read_direction(const Setting& setting, Diagnostics& diagnostics) {
   return direction;
 }
 
-Drawing read_drawing(const Setting& table, Diagnostics& diagnostics) {
+Drawing drawing_of(const Setting& table, Diagnostics& diagnostics) {
   const Setting& given = *table.find("drawing");
   Drawing drawing;
   drawing.percentile = given.maybe<double>("percentile");
@@ -75,7 +75,7 @@ void read_pictures(const Setting& table, Case& result, Diagnostics& diagnostics)
     diagnostics.add(Mistake::type, drawn.where, drawn.path,
                     "found an empty array, expected fields such as [\"plastic_strain\"]; for a run without "
                     "pictures write output.pictures = []");
-  output.drawing = read_drawing(table, diagnostics);
+  output.drawing = drawing_of(table, diagnostics);
   for (const Setting& section : table.entries("sections"))
     output.sections.push_back(
         {section.name, section.get<Vec3>("at"), read_direction(*section.find("normal"), diagnostics)});

@@ -29,7 +29,7 @@ struct Need {
   const char* instead = ""; ///< a value of the key that every method can give
 };
 
-constexpr std::array needs{
+constexpr std::array promise_needs{
     Need{Promise::carried_history, "method.lagrangian",
          [](const Case& c) { return dynamic(c) && c.method.lagrangian != Method::Lagrangian::total; },
          "a reference that is renewed", "what its points have undergone would not reach those of the new one",
@@ -79,7 +79,7 @@ std::string expectation(const Need& need, int dimensions) {
 
 std::vector<Unmet> unmet_needs(const Case& input, const Promises& promises) {
   std::vector<Unmet> list;
-  for (const Need& need : needs)
+  for (const Need& need : promise_needs)
     if (!promises.keep(need.promise) && need.asked(input))
       list.push_back(
           {need.path, need.promise,

@@ -65,7 +65,7 @@ std::array<std::string, 2> tip_names(const Setting& crack, const Setting& domain
 }
 
 /// Where a polyline crosses, touches or overlaps itself.
-std::optional<Vec2> self_crossing(const std::vector<CurvePiece>& segments, double tolerance) {
+std::optional<Vec2> wall_crossing(const std::vector<CurvePiece>& segments, double tolerance) {
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (std::size_t j = i + 1; j < segments.size(); ++j)
       for (const Vec2& x : meeting_points(segments[i], segments[j], tolerance))
@@ -96,7 +96,7 @@ std::string problem_of(const Domain& domain, const std::vector<Wall>& walls, std
     if (const std::string reason = outside_reason(domain, wall.points[culprit]); !reason.empty())
       return fmt::format("the point {} is {}, expected points of the domain", show(wall.points[culprit]),
                          reason);
-  if (const auto point = self_crossing(segments, tolerance))
+  if (const auto point = wall_crossing(segments, tolerance))
     return fmt::format("the {} crosses or touches itself at {}, expected a simple polyline", wall.what,
                        show(*point));
   const auto curves = curves_of(domain);

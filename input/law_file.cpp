@@ -88,13 +88,13 @@ const Member& chosen(const Value& file, const Value* wanted) {
 }
 
 /// Puts members of `from` beside those that are there, table by table.
-void complete(Value& into, const Value& from) {
+void add_missing(Value& into, const Value& from) {
   for (const Member& member : from.members) {
     Member* known = into.find(member.key);
     if (!known)
       into.members.push_back(member);
     else if (known->value.kind == Kind::table && member.value.kind == Kind::table)
-      complete(known->value, member.value);
+      add_missing(known->value, member.value);
   }
 }
 
@@ -122,7 +122,7 @@ void take_law_from_file(Value& document, const fs::path& folder) {
   }
   if (const Member* range = file.find("range")) made.value.members.push_back(*range);
   if (forces)
-    complete(forces->value, made.value);
+    add_missing(forces->value, made.value);
   else
     cutting->value.members.push_back(std::move(made));
 }

@@ -14,7 +14,7 @@
 namespace cnem::input {
 namespace {
 
-constexpr std::string_view prefix = "lib:";
+constexpr std::string_view library_prefix = "lib:";
 
 const LibraryFile* find_file(std::string_view name) {
   const auto files = library_files();
@@ -29,7 +29,8 @@ Value table_of(const LibraryFile& file) {
 
 std::string expected_names() {
   std::vector<std::string> names;
-  for (const LibraryFile& file : library_files()) names.push_back(fmt::format("{}{}", prefix, file.name));
+  for (const LibraryFile& file : library_files())
+    names.push_back(fmt::format("{}{}", library_prefix, file.name));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -85,7 +86,7 @@ void override_table(Value& table, const Value& own, const std::string& pattern, 
 }
 
 std::string origin_text(const std::string& name, const Changes& changes) {
-  std::string text = fmt::format("{}{}", prefix, name);
+  std::string text = fmt::format("{}{}", library_prefix, name);
   if (!changes.constants.empty())
     text += fmt::format("; changed by the case: {}", fmt::join(changes.constants, ", "));
   if (!changes.left_out.empty()) text += fmt::format("; left out: {}", fmt::join(changes.left_out, ", "));
@@ -103,7 +104,7 @@ public:
 
   /// A text that names a material, at a key of the document.
   void reference(Value& value, const std::string& path) {
-    if (value.kind != Value::Kind::text || !value.text.starts_with(prefix)) return;
+    if (value.kind != Value::Kind::text || !value.text.starts_with(library_prefix)) return;
     const LibraryFile* file = wanted(value, path);
     if (!file) return;
     const std::string name(file->name);
@@ -114,7 +115,7 @@ public:
       diagnostics_.add(Mistake::conflict, value.where, path,
                        fmt::format("found \"{0}{1}\" beside a material '{1}' of the case, expected \"{1}\" "
                                    "with base = \"{0}{1}\" there, or another name for that one ({2})",
-                                   prefix, name, own->where.text()));
+                                   library_prefix, name, own->where.text()));
       return;
     }
     Value table = table_of(*file);
@@ -128,8 +129,8 @@ private:
   /// The file that a text names; nullptr, and a mistake, when there is none.
   const LibraryFile* wanted(const Value& value, const std::string& path) {
     const std::string_view text = value.text;
-    const bool prefixed = text.starts_with(prefix);
-    const std::string_view name = prefixed ? text.substr(prefix.size()) : text;
+    const bool prefixed = text.starts_with(library_prefix);
+    const std::string_view name = prefixed ? text.substr(library_prefix.size()) : text;
     if (const LibraryFile* file = prefixed ? find_file(name) : nullptr) return file;
     diagnostics_.add(Mistake::reference, value.where, path,
                      fmt::format("found {}, expected a material of the library: {}{}", value.show(),
@@ -193,11 +194,11 @@ std::vector<std::string> library_names() {
 
 std::string did_you_mean_library(std::string_view name) {
   const auto near = nearest(name, library_names());
-  return near ? fmt::format(" (did you mean '{}{}'?)", prefix, *near) : "";
+  return near ? fmt::format(" (did you mean '{}{}'?)", library_prefix, *near) : "";
 }
 
 LibraryMaterial library_material(std::string_view name) {
-  if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
+  if (name.starts_with(library_prefix)) name.remove_prefix(library_prefix.size());
   const LibraryFile* file = find_file(name);
   if (!file)
     throw InputError(fmt::format("found {}, expected a material of the library: {}{}",

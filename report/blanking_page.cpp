@@ -67,7 +67,7 @@ std::string title_of(const evaluate::ShearedFace& face) {
   return face.cut.empty() ? face.body : fmt::format("{}, {}", face.body, face.cut);
 }
 
-std::string row(const std::string& name, const std::string& value) {
+std::string table_row(const std::string& name, const std::string& value) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_escape(name),
                      html_escape(value));
 }
@@ -102,14 +102,16 @@ std::string table_of(const ShearedFace& face, const evaluate::MeasuredHeights* m
                        height.zone == Zone::fracture || height.zone == Zone::burr;
     if (!usual && !(face.*height.size > 0.0)) continue;
     const double other = in_experiment(height.zone);
-    html += row(height.name, beside(with_share(face.*height.size), std::isfinite(other), with_share(other)));
+    html += table_row(height.name,
+                      beside(with_share(face.*height.size), std::isfinite(other), with_share(other)));
   }
-  html += row("Width of the rollover", with_share(face.rollover_width));
+  html += table_row("Width of the rollover", with_share(face.rollover_width));
   if (std::isfinite(face.fracture_angle))
-    html += row("Fracture angle", beside(degrees(face.fracture_angle), std::isfinite(there.fracture_angle),
-                                         degrees(there.fracture_angle)));
-  html += row("Tilt of the body", degrees(face.tilt));
-  html += row("Thickness of the sheet before", units.format(face.thickness, "m"));
+    html +=
+        table_row("Fracture angle", beside(degrees(face.fracture_angle), std::isfinite(there.fracture_angle),
+                                           degrees(there.fracture_angle)));
+  html += table_row("Tilt of the body", degrees(face.tilt));
+  html += table_row("Thickness of the sheet before", units.format(face.thickness, "m"));
   return html + "</table>\n";
 }
 
@@ -143,13 +145,13 @@ std::string force_table(const evaluate::BlankingResult& result, const ShownUnits
   if (result.forces.empty()) return "";
   std::string html = "<div><h3>Forces along the cut, work</h3>\n<table>\n";
   for (const evaluate::ToolForce& force : result.forces) {
-    html += row(fmt::format("Largest force of {}", force.tool),
-                fmt::format("{} at a stroke of {}", units.format(force.largest, result.force_unit),
-                            units.format(force.stroke, "m")));
+    html += table_row(fmt::format("Largest force of {}", force.tool),
+                      fmt::format("{} at a stroke of {}", units.format(force.largest, result.force_unit),
+                                  units.format(force.stroke, "m")));
     if (force.work != 0.0)
-      html += row(fmt::format("Work of {}", force.tool), units.format(force.work, result.work_unit));
+      html += table_row(fmt::format("Work of {}", force.tool), units.format(force.work, result.work_unit));
   }
-  html += row("Stroke at the end", units.format(result.stroke, "m"));
+  html += table_row("Stroke at the end", units.format(result.stroke, "m"));
   return html + "</table>\n</div>\n";
 }
 
@@ -158,15 +160,15 @@ std::string springback_table(const evaluate::BlankingResult& result, const Shown
   std::string html = "<div><h3>Springback</h3>\n<table>\n";
   for (const evaluate::BodySpringback& body : result.springback) {
     const std::string name = words(body.body);
-    html += row(fmt::format("Largest displacement of {}", name), units.format(body.largest, "m"));
+    html += table_row(fmt::format("Largest displacement of {}", name), units.format(body.largest, "m"));
     if (std::isfinite(body.angle_change))
-      html += row(fmt::format("Angle of {}", name),
-                  fmt::format("{} before, {}° by letting go", degrees(body.angle_before),
-                              results::number_format(body.angle_change / degree, 3)));
+      html += table_row(fmt::format("Angle of {}", name),
+                        fmt::format("{} before, {}° by letting go", degrees(body.angle_before),
+                                    results::number_format(body.angle_change / degree, 3)));
     if (std::isfinite(body.dishing_change))
-      html += row(fmt::format("Dishing of {}", name),
-                  fmt::format("{} before, {} by letting go", units.format(body.dishing_before, "m"),
-                              units.format(body.dishing_change, "m")));
+      html += table_row(fmt::format("Dishing of {}", name),
+                        fmt::format("{} before, {} by letting go", units.format(body.dishing_before, "m"),
+                                    units.format(body.dishing_change, "m")));
   }
   return html + "</table>\n</div>\n";
 }

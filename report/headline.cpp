@@ -123,12 +123,6 @@ std::vector<Figure> of_cutting(const evaluate::CuttingResult& result, const resu
   return figures;
 }
 
-std::optional<double> metric(const results::RunStatus& status, const std::string& name) {
-  for (const auto& [known, value] : status.metrics)
-    if (known == name) return value;
-  return std::nullopt;
-}
-
 std::vector<Figure> of_cracks(const HeadlineSource& source) {
   std::vector<Figure> figures;
   for (const auto& [name, value] : source.status.metrics)
@@ -144,8 +138,8 @@ std::vector<Figure> of_cracks(const HeadlineSource& source) {
 std::vector<Figure> of_lengths(const HeadlineSource& source) {
   std::vector<Figure> figures;
   for (const char axis : {'x', 'y', 'z'}) {
-    const std::optional<double> now = metric(source.status, fmt::format("extent.{}", axis)),
-                                before = metric(source.status, fmt::format("initial_extent.{}", axis));
+    const std::optional<double> now = source.status.metric(fmt::format("extent.{}", axis)),
+                                before = source.status.metric(fmt::format("initial_extent.{}", axis));
     if (!now || !before || std::abs(*now - *before) < 1e-4 * *before) continue;
     figures.push_back({fmt::format("Length along {}", axis), source.units.format(*now, "m", 5),
                        "was " + source.units.format(*before, "m", 5)});
@@ -199,7 +193,7 @@ std::vector<Figure> of_statics(const HeadlineSource& source) {
   std::vector<Figure> figures;
   for (const auto& [name, words] :
        {std::pair{"largest_displacement", "Largest displacement"}, {"strain_energy", "Strain energy"}})
-    if (const auto value = metric(source.status, name))
+    if (const auto value = source.status.metric(name))
       figures.push_back({words, source.units.format(*value, source.status.unit_of(name)), ""});
   return figures;
 }

@@ -12,12 +12,6 @@ namespace cnem::report {
 
 namespace {
 
-std::optional<double> metric(const results::RunStatus& status, const std::string& name) {
-  for (const auto& [known, value] : status.metrics)
-    if (known == "stability." + name) return value;
-  return std::nullopt;
-}
-
 constexpr double rpm = std::numbers::pi / 30.0;
 
 } // namespace
@@ -42,7 +36,7 @@ std::optional<Chart> stability_lobes(const std::filesystem::path& folder, const 
   double deepest = 0.0;
   for (const double limit : chart.series[0].y)
     if (limit > deepest) deepest = limit;
-  const auto at = metric(status, "speed"), depth = metric(status, "depth");
+  const auto at = status.metric("stability.speed"), depth = status.metric("stability.depth");
   for (double& limit : chart.series[1].y) // where it has a limit, the chart of Floquet's says how deep it is
     if (deepest > 0.0 && limit > 1.2 * deepest) limit = std::numeric_limits<double>::quiet_NaN();
   if (at && depth) {
@@ -58,16 +52,16 @@ std::optional<Chart> stability_lobes(const std::filesystem::path& folder, const 
 
 std::vector<Figure> stability_figures(const results::RunStatus& status, const results::ShownUnits& units) {
   std::vector<Figure> figures;
-  const auto radius = metric(status, "spectral_radius");
+  const auto radius = status.metric("stability.spectral_radius");
   if (!radius) return figures;
   figures.push_back({"Cut", *radius < 1.0 ? "stable" : "unstable",
                      fmt::format("disturbances times {} a period", results::number_format(*radius))});
-  if (const auto limit = metric(status, "depth_limit"))
+  if (const auto limit = status.metric("stability.depth_limit"))
     figures.push_back({"Limit of the depth", units.format(*limit, "m"),
-                       metric(status, "flip").value_or(0.0) != 0.0 ? "flip" : "Hopf"});
-  if (const auto frequency = metric(status, "chatter_frequency"))
+                       status.metric("stability.flip").value_or(0.0) != 0.0 ? "flip" : "Hopf"});
+  if (const auto frequency = status.metric("stability.chatter_frequency"))
     figures.push_back({"Chatter there", units.format(*frequency, "Hz"), ""});
-  if (const auto speed = metric(status, "better_speed"))
+  if (const auto speed = status.metric("stability.better_speed"))
     figures.push_back({"Better speed", results::number_format(*speed / rpm, 6) + " rpm", "the nearest"});
   return figures;
 }

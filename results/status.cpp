@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "results/history_writer.hpp"
+#include "results/json_number.hpp"
 #include "results/output_folder.hpp"
 
 #include <fmt/format.h>
@@ -17,15 +18,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Pairs = std::vector<std::pair<std::string, double>>;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 double as_number(const Json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
 Json object(const Pairs& pairs) {
   Json json = Json::object();
-  for (const auto& [name, value] : pairs) json[name] = number(value);
+  for (const auto& [name, value] : pairs) json[name] = json_number(value);
   return json;
 }
 
@@ -40,7 +39,7 @@ Json tree(const Pairs& pairs, const std::vector<std::string>& flags) {
       if (!at->is_object()) *at = Json::object();
     }
     const bool flag = std::find(flags.begin(), flags.end(), name) != flags.end();
-    (*at)[name.substr(from)] = flag ? Json(value != 0.0) : number(value);
+    (*at)[name.substr(from)] = flag ? Json(value != 0.0) : json_number(value);
   }
   return json;
 }
@@ -65,6 +64,12 @@ void RunStatus::add_metric(std::string_view column, double value) {
   metrics.emplace_back(std::move(name.name), value);
 }
 
+std::optional<double> RunStatus::metric(std::string_view name) const {
+  for (const auto& [known, value] : metrics)
+    if (known == name) return value;
+  return std::nullopt;
+}
+
 std::string RunStatus::unit_of(const std::string& metric) const {
   const auto found = metric_units.find(metric);
   return found == metric_units.end() ? "" : found->second;
@@ -76,25 +81,25 @@ std::string status_json(const RunStatus& status) {
   json["reason"] = status.reason;
   json["version"] = status.version;
   json["case"] = status.case_name;
-  json["time"] = number(status.time);
+  json["time"] = json_number(status.time);
   json["steps"] = status.steps;
   json["nodes"] = status.nodes;
   json["points"] = status.points;
   json["node_steps"] = status.node_steps;
   json["threads"] = status.threads;
   json["wall_s"] = object(status.wall_s);
-  json["cpu_s"] = number(status.cpu_s);
+  json["cpu_s"] = json_number(status.cpu_s);
   json["peak_rss_bytes"] = status.peak_rss_bytes;
-  json["energy_residual"] = number(status.energy_residual);
+  json["energy_residual"] = json_number(status.energy_residual);
   json["metrics"] = tree(status.metrics, status.flags);
   json["metric_units"] = status.metric_units;
   json["step_limits"] = object(status.step_limits);
   json["warnings"] = status.warnings;
   if (status.post_mortem) {
     const PostMortem& post = *status.post_mortem;
-    json["post_mortem"] = {{"step", post.step},           {"time", number(post.time)},
-                           {"node", post.node},           {"x", number(post.x)},
-                           {"y", number(post.y)},         {"field", post.field},
+    json["post_mortem"] = {{"step", post.step},           {"time", json_number(post.time)},
+                           {"node", post.node},           {"x", json_number(post.x)},
+                           {"y", json_number(post.y)},    {"field", post.field},
                            {"text", post.text},           {"causes", post.causes},
                            {"last_good", post.last_good}, {"picture", post.picture}};
     if (std::isfinite(post.z)) json["post_mortem"]["z"] = post.z;

@@ -52,6 +52,8 @@ struct RunStatus {
 
   /// A metric by its name with its unit, as columns of histories have it: "peak_force.punch[N/m]".
   void add_metric(std::string_view column, double value);
+  /// The value of a metric by its name, if there is one.
+  std::optional<double> metric(std::string_view name) const;
   /// The unit of a metric; "" for a number.
   std::string unit_of(const std::string& metric) const;
 };

@@ -110,7 +110,7 @@ void remove_runs(const fs::path& runs, const Calibration& calibration) {
   for (const fs::path& path : own) fs::remove_all(path);
 }
 
-void write(const fs::path& folder, const CalibrationFiles& files) {
+void write_files(const fs::path& folder, const CalibrationFiles& files) {
   results::write_atomically(folder / "calibrated.toml", files.constants);
   results::write_atomically(folder / "calibration.json", files.json);
   results::write_atomically(folder / "calibration.csv", files.table);
@@ -194,8 +194,8 @@ Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
   result.logarithmic = logarithmic_values(calibration, found.place, *jacobian);
   result.evaluations = evaluator.count();
   result.failures = evaluator.failures();
-  write(folder,
-        calibration_files(calibration, result, flow_bands(calibration, result, folder), options.version));
+  write_files(folder, calibration_files(calibration, result, flow_bands(calibration, result, folder),
+                                        options.version));
   tell(calibration, result, folder);
   return Exit::done;
 }

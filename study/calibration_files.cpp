@@ -1,6 +1,7 @@
 // What a calibration leaves behind for programs and for cases.
 #include "input/schema/document.hpp"
 #include "input/schema/settings.hpp"
+#include "results/json_number.hpp"
 #include "study/calibration.hpp"
 #include "study/calibration_report.hpp"
 
@@ -15,11 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json list_of(const Eigen::VectorXd& values) {
   Json list = Json::array();
-  for (const double value : values) list.push_back(finite(value));
+  for (const double value : values) list.push_back(results::json_number(value));
   return list;
 }
 
@@ -79,8 +78,9 @@ Json json_of(const Calibration& calibration, const CalibrationResult& result,
             {"version", version},
             {"evaluations", result.evaluations},
             {"failures", result.failures}};
-  json["misfit"] = {{"start", result.start.good() ? finite(std::sqrt(result.start.misfit)) : Json(nullptr)},
-                    {"best", finite(std::sqrt(result.best.misfit))}};
+  json["misfit"] = {
+      {"start", result.start.good() ? results::json_number(std::sqrt(result.start.misfit)) : Json(nullptr)},
+      {"best", results::json_number(std::sqrt(result.best.misfit))}};
   Json& constants = json["constants"] = Json::object();
   for (std::size_t k = 0; k < calibration.constants.size(); ++k) {
     const SoughtConstant& constant = calibration.constants[k];
@@ -102,8 +102,9 @@ Json json_of(const Calibration& calibration, const CalibrationResult& result,
   for (std::size_t k = 0; k < result.best.curves.size(); ++k)
     curves.push_back(
         {{"name", result.best.curves[k].name},
-         {"rms_share_start", result.start.good() ? finite(result.start.curves[k].rms_share) : Json(nullptr)},
-         {"rms_share", finite(result.best.curves[k].rms_share)}});
+         {"rms_share_start",
+          result.start.good() ? results::json_number(result.start.curves[k].rms_share) : Json(nullptr)},
+         {"rms_share", results::json_number(result.best.curves[k].rms_share)}});
   json["singular_values"] = list_of(inference.singular);
   json["logarithmic_singular_values"] = list_of(result.logarithmic);
   json["directions"] = rows_of(inference.directions.transpose());

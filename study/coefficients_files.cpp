@@ -2,6 +2,7 @@
 #include "input/schema/document.hpp"
 #include "report/chart.hpp"
 #include "report/html.hpp"
+#include "results/json_number.hpp"
 #include "results/si_format.hpp"
 #include "study/coefficients.hpp"
 #include "study/page.hpp"
@@ -190,26 +191,26 @@ std::string law_text(const CuttingCoefficients& found, const std::string& versio
   return text;
 }
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json json_of_fit(const LawFit& fit) {
   Json json{{"name", fit.name}, {"cuts", fit.cuts.size()}};
   for (const NamedLaw& law : laws_of(fit)) {
     Json& one = json[law.name] = Json::object();
     for (const auto& [key, unit, estimate] : law.constants)
-      one[key] = {{"value", finite(estimate.value)}, {"error", finite(estimate.error)}};
+      one[key] = {{"value", results::json_number(estimate.value)},
+                  {"error", results::json_number(estimate.error)}};
   }
   if (fit.shear_plane)
-    json["shear_angle"] = {{"value", finite(fit.shear_plane->shear_angle.value)},
-                           {"error", finite(fit.shear_plane->shear_angle.error)}};
+    json["shear_angle"] = {{"value", results::json_number(fit.shear_plane->shear_angle.value)},
+                           {"error", results::json_number(fit.shear_plane->shear_angle.error)}};
   for (const auto& [name, line] :
        {std::pair{"tangential", &fit.linear.tangential}, {"radial", &fit.linear.radial}})
-    json["fit"][name] = {{"r_squared", finite(line->r_squared)},
+    json["fit"][name] = {{"r_squared", results::json_number(line->r_squared)},
                          {"degrees_of_freedom", line->degrees},
-                         {"covariance", finite(line->covariance)},
-                         {"deviation_between_cuts", finite(line->between)},
+                         {"covariance", results::json_number(line->covariance)},
+                         {"deviation_between_cuts", results::json_number(line->between)},
                          {"largest_residual", largest(line->residual)}};
-  if (fit.kienzle) json["fit"]["kienzle"] = {{"r_squared", finite(fit.kienzle->tangential.r_squared)}};
+  if (fit.kienzle)
+    json["fit"]["kienzle"] = {{"r_squared", results::json_number(fit.kienzle->tangential.r_squared)}};
   return json;
 }
 

@@ -52,7 +52,7 @@ input::Override read_change(const std::string& assignment, const std::string& op
 }
 
 /// Reads the case of every method. The reason of a refusal is what the reader says.
-std::vector<Outcome> read_cases(const Study& study) {
+std::vector<Outcome> compared_cases(const Study& study) {
   std::vector<Outcome> outcome(study.runs.size());
   std::string refusals;
   for (std::size_t k = 0; k < study.runs.size(); ++k) {
@@ -151,7 +151,7 @@ Study study_of(const Comparison& comparison) {
 Exit compare(const Comparison& comparison, const BatchOptions& options) {
   if (comparison.threads > 0) check_threads(comparison.threads, "--threads");
   Study study = study_of(comparison);
-  Compared compared{study, options.output, options.version, read_cases(study)};
+  Compared compared{study, options.output, options.version, compared_cases(study)};
   std::vector<RunRecord> runs;
   for (const Outcome& outcome : compared.outcome) {
     runs.push_back(outcome.record);

@@ -6,18 +6,6 @@ set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
 # What is tested is the library: tests themselves are not worth optimising, and compile in a fifth less time.
 set(test_options $<$<AND:$<BOOL:${CNEM_UNITY}>,$<CONFIG:Release>>:-O1>)
 
-# Headers that nearly every test reads, compiled once: they are nearly half of the time a test takes to compile.
-# g++ takes them with other definitions than they were compiled with, as those of single tests are; clang does not.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  add_library(test_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/headers.cpp)
-  target_link_libraries(test_headers PRIVATE cnem_core GTest::gtest)
-  target_include_directories(test_headers PRIVATE ${PROJECT_SOURCE_DIR})
-  cnem_warnings(test_headers)
-  target_compile_options(test_headers PRIVATE ${test_options})
-  target_precompile_headers(test_headers PRIVATE <gtest/gtest.h> <Eigen/Core> <fmt/format.h> <algorithm> <cmath>
-                            <filesystem> <functional> <memory> <optional> <string> <vector>)
-endif()
-
 # One executable per folder of tests; CTest names are <folder path>.<suite>.<test>, so that
 # `ctest -R contract` or `ctest -R unit.voronoi` select them.
 function(cnem_tests folder)
@@ -34,11 +22,8 @@ function(cnem_tests folder)
   cnem_warnings(${target})
   target_compile_options(${target} PRIVATE ${test_options})
   if(CNEM_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
     target_compile_options(${target} PRIVATE -Wno-shadow) # a name of another test file may be used for a local
-  endif()
-  if(TARGET test_headers)
-    target_precompile_headers(${target} REUSE_FROM test_headers)
   endif()
   if(folder MATCHES "^unit/")
     add_dependencies(unit_tests ${target})

@@ -15,7 +15,7 @@ namespace cnem::adapt {
 
 namespace {
 
-constexpr double far = std::numeric_limits<double>::infinity();
+constexpr double unreached = std::numeric_limits<double>::infinity();
 
 class Cracking : BrokenMatter {
 public:
@@ -42,7 +42,7 @@ public:
     NodeIndex end = NodeIndex::none;
     double longest = rules_.advance;
     for (const NodeIndex i : work_.nodes()) {
-      if (search.cost[index_of(i)] == far || i == tip) continue;
+      if (search.cost[index_of(i)] == unreached || i == tip) continue;
       const double chord = (at(i) - at(tip)).norm();
       if (chord / work_.size_between(i, tip) < longest || search.length[index_of(i)] > crooked * chord)
         continue;
@@ -71,7 +71,7 @@ public:
       for (std::size_t k = 0; k < set.size(); ++k) {
         const NodeIndex i = set[k];
         area += structure_.cells.volume[index_of(i)];
-        if (!beside_[i] && depth.length[index_of(i)] < far &&
+        if (!beside_[i] && depth.length[index_of(i)] < unreached &&
             (!exists(deepest) || depth.length[index_of(i)] > depth.length[index_of(deepest)]))
           deepest = i;
         for (const NodeIndex next : structure_.neighbours(i))
@@ -136,11 +136,12 @@ private:
   Path to_mouth(NodeIndex deepest) const {
     const Search search = spread({deepest}, [](NodeIndex) { return true; });
     NodeIndex mouth = NodeIndex::none, inside = mouth;
-    double least = far;
+    double least = unreached;
     for (const NodeIndex i : work_.nodes()) {
       if (!may_begin(i)) continue;
       for (const NodeIndex k : structure_.neighbours(i)) {
-        if (work_.on_boundary(k) || search.cost[index_of(k)] == far || shaves(work_, i, k, rules_)) continue;
+        if (work_.on_boundary(k) || search.cost[index_of(k)] == unreached || shaves(work_, i, k, rules_))
+          continue;
         const double cost = search.cost[index_of(k)] + cost_of(i, k);
         if (cost >= least) continue;
         least = cost;
@@ -162,7 +163,7 @@ private:
 
   /// Dijkstra's algorithm over broken interior nodes that `may` be entered.
   template<class May> Search spread(const std::vector<NodeIndex>& from, const May& may) const {
-    Search search{Field(work_.size(), far), Field(work_.size(), far),
+    Search search{Field(work_.size(), unreached), Field(work_.size(), unreached),
                   IndexedVector<NodeIndex, NodeIndex>(work_.size(), NodeIndex::none)};
     using Entry = std::pair<double, NodeIndex>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;

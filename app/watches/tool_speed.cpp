@@ -15,8 +15,8 @@ namespace {
 template<int dim>
 std::vector<Vec<dim>> velocities_of(const input::Case& input, const contact::Tool<dim>& tool) {
   std::vector<double> times{0.0, input.time.end};
-  for (const TimeTable& component : tool.motion.velocity)
-    for (const double t : component.times())
+  for (const TimeTable& speed : tool.motion.velocity)
+    for (const double t : speed.times())
       if (t > 0.0 && t < input.time.end) times.push_back(t);
   std::vector<Vec<dim>> list;
   for (const double t : times) list.push_back(tool.led_velocity(t));

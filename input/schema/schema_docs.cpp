@@ -187,7 +187,7 @@ std::string contents() {
   return text + "\n";
 }
 
-std::string needs() {
+std::string needed_keys() {
   return "\n## Keys a blanking case needs\n\nIn the order in which one writes them; "
          "`cases/blanking/sheet/case.toml` has most of them, [blanking](blanking.md) says more.\n\n" +
          needs_table(blanking_needs) +
@@ -321,7 +321,7 @@ std::string case_reference() {
     if (key->type != Type::table && key->type != Type::named_tables)
       top += fmt::format("\nAt the top, `{}`: {}\n", key->name(), key->doc);
   text.insert(introduction.size(), top);
-  return text.insert(text.find("## Values\n"), contents() + needs() + "\n");
+  return text.insert(text.find("## Values\n"), contents() + needed_keys() + "\n");
 }
 
 } // namespace cnem::input

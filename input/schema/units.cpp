@@ -24,7 +24,6 @@ struct BaseUnit {
 
 const std::map<std::string, BaseUnit, std::less<>>& base_units() {
   namespace d = dimension;
-  constexpr double pi = std::numbers::pi;
   static const std::map<std::string, BaseUnit, std::less<>> units{
       {"m", {0, 1.0, d::length}},
       {"g", {-3, 1.0, Dimension::of(0, 1, 0)}},
@@ -40,9 +39,9 @@ const std::map<std::string, BaseUnit, std::less<>>& base_units() {
       {"W", {0, 1.0, Dimension::of(2, 1, -3)}},
       {"Hz", {0, 1.0, d::rate}},
       {"rad", {0, 1.0, d::angle}},
-      {"deg", {0, pi / 180.0, d::angle, false}},
-      {"rev", {0, 2.0 * pi, d::angle, false}},
-      {"rpm", {0, pi / 30.0, d::angular_velocity, false}},
+      {"deg", {0, std::numbers::pi / 180.0, d::angle, false}},
+      {"rev", {0, 2.0 * std::numbers::pi, d::angle, false}},
+      {"rpm", {0, std::numbers::pi / 30.0, d::angular_velocity, false}},
       {"%", {-2, 1.0, d::none, false}},
   };
   return units;

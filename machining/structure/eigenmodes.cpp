@@ -35,8 +35,8 @@ Block orthonormal(Eigen::MatrixXd block, const Eigen::MatrixXd& basis,
     }
     Eigen::VectorXd mx = mass * x;
     const double length = std::sqrt(x.dot(mx));
-    constexpr double nothing = 1e-12;
-    if (!(length > nothing * before)) continue;
+    constexpr double negligible = 1e-12;
+    if (!(length > negligible * before)) continue;
     made.vectors.col(kept) = x / length;
     made.times_mass.col(kept) = mx / length;
     ++kept;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing::literals;
 
-constexpr double spacing = 0.08;
+constexpr double cell_size = 0.08;
 
 /// A blank in a state that no cell has by itself: masses are not those of the cells.
 struct Loaded : Blank {
@@ -75,8 +75,8 @@ double side_length(const Cloud<2>& cloud, PieceIndex piece) {
 }
 
 Blank named_blank(double jitter = 0.2) {
-  Blank b{testing::rectangle(1.0, 0.6, spacing, testing::Lattice::hexagonal, jitter), {}};
-  b.weigh(spacing);
+  Blank b{testing::rectangle(1.0, 0.6, cell_size, testing::Lattice::hexagonal, jitter), {}};
+  b.weigh(cell_size);
   return b;
 }
 
@@ -88,7 +88,7 @@ TEST(Feed, prolongs_the_body_beyond_its_end) {
     EXPECT_NEAR(testing::area(change->cloud), 0.6 * (1.0 + length), 1e-14);
     for (int piece = 0; piece < 4; ++piece) // bottom, right, top, left
       EXPECT_NEAR(side_length(change->cloud, as<PieceIndex>(piece)), piece % 2 ? 0.6 : 1.0 + length, 1e-14);
-    EXPECT_GT(change->virgin.size(), 0.4 * 0.6 * length / (spacing * spacing));
+    EXPECT_GT(change->virgin.size(), 0.4 * 0.6 * length / (cell_size * cell_size));
     expect_accounts(before, *change);
   }
 }
@@ -103,7 +103,7 @@ TEST(Feed, copies_the_strip_at_the_end_again_and_again) {
     if (k > 0) { EXPECT_EQ(change->virgin.size(), count); }
     count = change->virgin.size();
     Blank next{change->cloud, {}};
-    next.weigh(spacing);
+    next.weigh(cell_size);
     before = Loaded(std::move(next));
   }
   EXPECT_NEAR(testing::area(before.cloud), 0.6 * (1.0 + 4 * length), 1e-13);
@@ -133,7 +133,7 @@ TEST(Feed, goes_any_way) {
   Blank turned = named_blank();
   const double c = std::cos(2.0), s = std::sin(2.0);
   for (Vec2& x : turned.cloud.position) x = Vec2(c * x.x() - s * x.y(), s * x.x() + c * x.y());
-  turned.weigh(spacing);
+  turned.weigh(cell_size);
   const Loaded before(std::move(turned));
   for (const Vec2& along : {Vec2(c, s), Vec2(-c, -s), Vec2(-s, c)}) {
     const auto change = before.fed(0.2, along);
@@ -145,18 +145,18 @@ TEST(Feed, goes_any_way) {
 
 Blank hollow_blank(const Vec2& centre, double radius) {
   Blank hollow;
-  testing::add_loop(hollow.cloud, testing::rectangle(1.0, 0.6), spacing);
-  testing::add_loop(hollow.cloud, testing::ring(centre, radius, radius, 8, true), spacing);
-  testing::fill(hollow.cloud, testing::Lattice::hexagonal, spacing, 0.1, 0.5 * spacing, 1);
-  hollow.weigh(spacing);
+  testing::add_loop(hollow.cloud, testing::rectangle(1.0, 0.6), cell_size);
+  testing::add_loop(hollow.cloud, testing::ring(centre, radius, radius, 8, true), cell_size);
+  testing::fill(hollow.cloud, testing::Lattice::hexagonal, cell_size, 0.1, 0.5 * cell_size, 1);
+  hollow.weigh(cell_size);
   return hollow;
 }
 
 TEST(Feed, leaves_what_is_not_a_straight_end) {
   Blank round;
-  testing::add_loop(round.cloud, testing::ring({0, 0}, 0.5, 0.5, 24), spacing);
-  testing::fill(round.cloud, testing::Lattice::hexagonal, spacing, 0.1, 0.5 * spacing, 1);
-  round.weigh(spacing);
+  testing::add_loop(round.cloud, testing::ring({0, 0}, 0.5, 0.5, 24), cell_size);
+  testing::fill(round.cloud, testing::Lattice::hexagonal, cell_size, 0.1, 0.5 * cell_size, 1);
+  round.weigh(cell_size);
   EXPECT_FALSE(Loaded(std::move(round)).fed(0.2));
 
   const Loaded before(hollow_blank({0.8, 0.3}, 0.1));
@@ -200,8 +200,8 @@ namespace {
 
 /// A bar held at its right end and pulled upon uniformly, with heat.
 ExplicitSolver<2> pulled_bar() {
-  const double spacing = 1e-4;
-  Cloud<2> cloud = rectangle(2e-3, 5e-4, spacing, Lattice::hexagonal, 0.2);
+  const double cell_size = 1e-4;
+  Cloud<2> cloud = rectangle(2e-3, 5e-4, cell_size, Lattice::hexagonal, 0.2);
   Problem<2> model = model_of(cloud, Method::cnem, steel_304L());
   model.thermal = true;
   model.open = true;

@@ -1,4 +1,4 @@
-// Round blanks in space (cases/three_dimensions/blanking_slug, blanking_round): whole runs beside the
+// Round blanks in space (cases/three_dimensions/blanking_slug, blanking_round): whole_blank runs beside the
 // axisymmetric ones when CNEM_WHOLE_RUNS is set; on a coarse cloud that it does not matter how much of the
 // blank is modelled.
 #include "input/case_reader.hpp"
@@ -14,7 +14,7 @@
 namespace cnem::testing {
 namespace {
 
-/// Mean force of the punch from 5 to 25 us, N; part of a whole blank.
+/// Mean force of the punch from 5 to 25 us, N; part of a whole_blank blank.
 double mean_punch_force(const std::string& part, const std::string& planes) {
   std::vector<std::string> changes{"domain.block.part=" + part,
                                    "boundary.symmetry.pieces=" + planes,
@@ -38,14 +38,14 @@ TEST(BlankingSlug, half_a_blank_takes_twice_the_force_of_a_quarter) {
   EXPECT_NEAR(half, 2.0 * quarter, 0.02 * std::abs(half));
 }
 
-FinishedRun whole(const std::string& name) {
+FinishedRun whole_blank(const std::string& name) {
   return finish(input::read_case(CNEM_SOURCE_DIR "/cases/three_dimensions/" + name, {"output.pictures=[]"}));
 }
 
 TEST(BlankingSlug, comes_off_and_keeps_its_balances) {
   if (!std::getenv("CNEM_WHOLE_RUNS")) GTEST_SKIP() << "minutes";
-  const FinishedRun space = whole("blanking_slug/case.toml"),
-                    round = whole("blanking_slug/axisymmetric.toml");
+  const FinishedRun space = whole_blank("blanking_slug/case.toml"),
+                    round = whole_blank("blanking_slug/axisymmetric.toml");
   EXPECT_EQ(space.metric("adapt.cuts"), 1.0);
   EXPECT_EQ(space.metric("blanking.slug.parted"), 1.0);
   EXPECT_EQ(space.metric("retries"), 0.0);
@@ -59,8 +59,8 @@ TEST(BlankingSlug, comes_off_and_keeps_its_balances) {
 
 TEST(BlankingRound, takes_the_force_of_the_axisymmetric_run) {
   if (!std::getenv("CNEM_WHOLE_RUNS")) GTEST_SKIP() << "half a minute";
-  const FinishedRun space = whole("blanking_round/case.toml"),
-                    round = whole("blanking_round/axisymmetric.toml");
+  const FinishedRun space = whole_blank("blanking_round/case.toml"),
+                    round = whole_blank("blanking_round/axisymmetric.toml");
   for (const double t : {1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 11.5}) {
     const double from = (t - 0.5) * 1e-6, to = (t + 0.5) * 1e-6,
                  expected = round.mean("punch.force_y", from, to);

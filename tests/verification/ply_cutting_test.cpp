@@ -6,7 +6,7 @@
 namespace cnem::testing {
 namespace {
 
-FinishedRun cut_at(const std::string& angle, const std::string& functions = "sibson") {
+FinishedRun ply_cut_at(const std::string& angle, const std::string& functions = "sibson") {
   const FinishedRun done =
       finish(input::read_case(CNEM_SOURCE_DIR "/cases/composites/gfrp/case.toml",
                               {"let.theta=" + angle, "let.spacing=40 um", "time.end=30 us",
@@ -18,14 +18,15 @@ FinishedRun cut_at(const std::string& angle, const std::string& functions = "sib
 
 /// 1.68 here, 1.76 on the cells of the case, 1.77 measured in paper 000.
 TEST(PlyCutting, takes_more_force_the_more_the_fibres_stand_across_the_cut) {
-  const double low = cut_at("30 deg").metric("cutting.Fc"), high = cut_at("75 deg").metric("cutting.Fc");
+  const double low = ply_cut_at("30 deg").metric("cutting.Fc"),
+               high = ply_cut_at("75 deg").metric("cutting.Fc");
   EXPECT_GT(high, 1.3 * low);
   EXPECT_LT(high, 2.3 * low);
 }
 
 TEST(PlyCutting, functions_of_both_kinds_take_the_same_force) {
-  const double sibson = cut_at("45 deg").metric("cutting.Fc"),
-               mls = cut_at("45 deg", "mls").metric("cutting.Fc");
+  const double sibson = ply_cut_at("45 deg").metric("cutting.Fc"),
+               mls = ply_cut_at("45 deg", "mls").metric("cutting.Fc");
   EXPECT_NEAR(mls, sibson, 0.02 * sibson);
 }
 

@@ -14,7 +14,6 @@ namespace cnem::voronoi {
 
 namespace {
 
-constexpr CloudFacetIndex no_facet = CloudFacetIndex::none;
 constexpr double flat_height = 1e-7; // of the longest edge
 
 /// Facets around each node, of those at one place together.
@@ -125,7 +124,8 @@ Adopted adopted_facets(const Cloud<3>& cloud, const Delaunay& mesh, const Walls&
   for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; walls.blocked[t] && k < 4; ++k) {
       auto& f = held.facet[t][k];
-      if (!inside[t] || (exists(f) && !outermost(t, k) && !exists(facet_across(t, k)))) f = no_facet;
+      if (!inside[t] || (exists(f) && !outermost(t, k) && !exists(facet_across(t, k))))
+        f = CloudFacetIndex::none;
       if (exists(f))
         kept[f] = 1;
       else

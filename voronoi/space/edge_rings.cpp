@@ -15,7 +15,7 @@ struct Step {
   std::size_t in, out;
 };
 
-std::size_t place_of(const auto& list, auto item) {
+std::size_t index_in(const auto& list, auto item) {
   const std::size_t k = list[0] == item ? 0 : list[1] == item ? 1 : list[2] == item ? 2 : 3;
   assert(list[k] == item);
   return k;
@@ -24,8 +24,8 @@ std::size_t place_of(const auto& list, auto item) {
 /// The next one; there has to be one.
 Step following(const Tetrahedra& mesh, const Step& at) {
   const SimplexIndex next = mesh.neighbour[at.tetrahedron][at.in];
-  return {next, place_of(mesh.node[next], mesh.node[at.tetrahedron][at.out]),
-          place_of(mesh.neighbour[next], at.tetrahedron)};
+  return {next, index_in(mesh.node[next], mesh.node[at.tetrahedron][at.out]),
+          index_in(mesh.neighbour[next], at.tetrahedron)};
 }
 
 struct Block {

@@ -33,17 +33,17 @@ elastic = { young = "50 GPa", poisson = 0.0 }
 heat = { specific_heat = "900 J/(kg K)", conductivity = "200 W/(m K)" }
 )toml";
 
-input::Case read(const std::vector<std::string>& overrides) {
+input::Case read_bodies(const std::vector<std::string>& overrides) {
   return input::read_case_text(blocks, "blocks.toml", overrides);
 }
 
 ExplicitSolver<2> start(const std::vector<std::string>& overrides) {
-  return testing::solver_of(read(overrides));
+  return testing::solver_of(read_bodies(overrides));
 }
 
 std::string refusal(const std::vector<std::string>& overrides) {
   try {
-    build<2>(read(overrides));
+    build<2>(read_bodies(overrides));
   } catch (const InputError& error) { return error.what(); }
   return "";
 }
@@ -145,9 +145,10 @@ TEST(Periodic, sides_move_alike) {
                                     "periodic.strip.pieces=[\"left\", \"right\"]", "analysis.thermal=false",
                                     "boundary.push={ pieces = [\"left\"], traction = \"0 1 MPa\" }"});
   for (int n = 0; n < 50; ++n) solver.advance(solver.stable_step().dt);
-  const Pairs pairs = tied_pairs(read({"domain.interfaces={}", "domain.regions={}", "cloud.pattern=hexagonal",
-                                       "periodic.strip.pieces=[\"left\", \"right\"]"}),
-                                 solver.conditions().cloud);
+  const Pairs pairs =
+      tied_pairs(read_bodies({"domain.interfaces={}", "domain.regions={}", "cloud.pattern=hexagonal",
+                              "periodic.strip.pieces=[\"left\", \"right\"]"}),
+                 solver.conditions().cloud);
   ASSERT_EQ(pairs.motion.size(), 5U);
   const auto& node = solver.state().node;
   for (const auto& [a, b] : pairs.motion) {
@@ -190,8 +191,8 @@ TEST(Regions, mistakes_are_refused) {
 
 TEST(Imperfection, lowers_the_strength_around_a_line) {
   const input::Case input =
-      read({"initial.imperfections.line={ points = [\"0 1 mm\", \"10 1 mm\"], width = \"0.5 "
-            "mm\", reduction = 0.1 }"});
+      read_bodies({"initial.imperfections.line={ points = [\"0 1 mm\", \"10 1 mm\"], width = \"0.5 "
+                   "mm\", reduction = 0.1 }"});
   const app::Setup<2> setup = build<2>(input);
   const Field& factor = setup.problem.strength;
   ASSERT_EQ(factor.size(), setup.problem.cloud.position.size());

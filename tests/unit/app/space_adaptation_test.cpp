@@ -12,7 +12,7 @@
 namespace cnem::app {
 namespace {
 
-input::Case block(const std::string& more) {
+input::Case block_with(const std::string& more) {
   return input::read_case_text(R"toml(
 [analysis]
 kinematics = "three-dimensional"
@@ -32,7 +32,7 @@ resample = true
 const SpaceAdaptation::Follow nothing = [](const Resampling<3>&) {};
 
 TEST(SpaceAdaptation, graded_clouds_stay_graded) {
-  const input::Case input = block(R"toml(
+  const input::Case input = block_with(R"toml(
 [cloud]
 spacing = "0.25 mm"
 refine.corner = { points = ["0 0 0 mm"], spacing = "0.05 mm" }
@@ -52,7 +52,7 @@ refine.corner = { points = ["0 0 0 mm"], spacing = "0.05 mm" }
 }
 
 TEST(SpaceAdaptation, nodes_that_points_of_supports_name_stay) {
-  const input::Case input = block(R"toml(
+  const input::Case input = block_with(R"toml(
 [cloud]
 spacing = "0.25 mm"
 [boundary.pin]
@@ -75,7 +75,7 @@ symmetry = true
 }
 
 TEST(SpaceAdaptation, an_indicator_refines_surface_and_inside_down_to_h_min) {
-  const input::Case input = block(R"toml(
+  const input::Case input = block_with(R"toml(
 [cloud]
 spacing = "0.25 mm"
 [initial]

@@ -19,7 +19,7 @@ constexpr const char* x_period = "[periodic.x]\npieces = [\"x-\", \"x+\"]\n";
 constexpr const char* y_period = "[periodic.y]\npieces = [\"y-\", \"y+\"]\n";
 constexpr const char* z_period = "[periodic.z]\npieces = [\"z-\", \"z+\"]\n";
 
-input::Case block(const std::string& more, const std::string& grid = "false") {
+input::Case periodic_block(const std::string& more, const std::string& grid = "false") {
   return input::read_case_text(fmt::format(R"toml(
 [analysis]
 kinematics = "three-dimensional"
@@ -53,7 +53,8 @@ std::map<std::size_t, int> sizes_of_groups(const Ties<3>& ties) {
 
 TEST(SpacePeriods, edges_and_corners_of_a_box_are_groups_of_four_and_eight) {
   for (const std::string& grid : {std::string("false"), std::string("true")}) {
-    const app::Setup<3> setup = app::build<3>(block(std::string(x_period) + y_period + z_period, grid));
+    const app::Setup<3> setup =
+        app::build<3>(periodic_block(std::string(x_period) + y_period + z_period, grid));
     const auto count = sizes_of_groups(setup.problem.ties);
     EXPECT_EQ(count.at(8), 1);
     EXPECT_EQ(count.at(4), 4 + 3 + 2); // inner nodes of edges of 5, 4 and 3 spacings
@@ -66,8 +67,8 @@ TEST(SpacePeriods, edges_and_corners_of_a_box_are_groups_of_four_and_eight) {
 /// Both sides have the same nodes though what lies beside them is laid out otherwise.
 TEST(SpacePeriods, generated_sides_are_copies) {
   const app::Setup<3> setup = app::build<3>(
-      block(std::string(x_period) + y_period +
-            "[cloud.refine.edge]\nbox = [\"0 0 0 mm\", \"1 0.8 0.1 mm\"]\nspacing = \"0.1 mm\"\n"));
+      periodic_block(std::string(x_period) + y_period +
+                     "[cloud.refine.edge]\nbox = [\"0 0 0 mm\", \"1 0.8 0.1 mm\"]\nspacing = \"0.1 mm\"\n"));
   const Cloud<3>& cloud = setup.problem.cloud;
   int pairs = 0;
   setup.problem.ties.each_group([&](std::span<const NodeIndex> group) {
@@ -96,7 +97,7 @@ velocity = "60 30 0 m/s"
   for (const std::string& period :
        {std::string(x_period) + y_period + "[time.step]\nlocal = true\n", std::string(x_period) + y_period})
     for (const std::string& grid : {std::string("false"), std::string("true")}) {
-      ExplicitSolver<3> solver = start(block(period + held, grid), [](const Vec3& x) -> Vec3 {
+      ExplicitSolver<3> solver = start(periodic_block(period + held, grid), [](const Vec3& x) -> Vec3 {
         return {1e5 * x.z(), 5e4 * x.z(), 0.0};
       });
       for (int n = 0; n < 40; ++n) solver.advance(solver.stable_step().dt);
@@ -120,7 +121,7 @@ TEST(SpacePeriods, momentum_and_energy_of_a_shaken_block_are_kept) {
   for (const std::string& periods : {std::string(x_period), std::string(x_period) + y_period,
                                      std::string(x_period) + y_period + z_period}) {
     Random random(3);
-    ExplicitSolver<3> solver = start(block(periods), [&](const Vec3&) -> Vec3 {
+    ExplicitSolver<3> solver = start(periodic_block(periods), [&](const Vec3&) -> Vec3 {
       return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0, 2)};
     });
     const auto& node = solver.state().node;
@@ -150,7 +151,7 @@ TEST(SpacePeriods, momentum_and_energy_of_a_shaken_block_are_kept) {
 /// A node on a symmetry plane and a periodic one slides along the line of both.
 TEST(SpacePeriods, nodes_on_a_symmetry_plane_too_stay_on_it) {
   ExplicitSolver<3> solver =
-      start(block(std::string(x_period) + "[boundary.base]\npieces = [\"z-\"]\nsymmetry = true\n"),
+      start(periodic_block(std::string(x_period) + "[boundary.base]\npieces = [\"z-\"]\nsymmetry = true\n"),
             [](const Vec3& x) -> Vec3 {
               return {3.0, 5.0 * std::sin(8e3 * x.x()), -20.0 * x.z() / 6e-4};
             });

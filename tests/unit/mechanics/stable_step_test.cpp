@@ -8,14 +8,14 @@
 namespace cnem::testing {
 namespace {
 
-struct Block {
+struct StretchedBlock {
   Cloud<2> cloud = graded_rectangle(1.0, 1.0, 0.2, 0.05, {{0.5, 0.0}, {0.5, 1.0}});
   Approximation<2> approximation = scni::Cnem().rebuild(cloud);
   plasticity::Material material = steel();
   Fields<5> deformation;
   Field modulus, mass;
 
-  Block() {
+  StretchedBlock() {
     const auto points = static_cast<std::size_t>(op().points);
     resize_all(deformation, points);
     stretch(1.0);
@@ -41,7 +41,7 @@ struct Block {
 };
 
 TEST(SpectralBound, holds_and_is_nearer_than_rows) {
-  Block block;
+  StretchedBlock block;
   SpectralBound<2> bound;
   const double near = block.of_all(bound), rows = block.of_rows();
   const double highest =
@@ -52,7 +52,7 @@ TEST(SpectralBound, holds_and_is_nearer_than_rows) {
 }
 
 TEST(SpectralBound, is_found_again_once_it_has_grown_and_holds_in_between) {
-  Block block;
+  StretchedBlock block;
   SpectralBound<2> kept;
   double highest = block.of_all(kept);
   for (const double s : {0.99, 0.9, 0.7, 0.5, 1.3}) {
@@ -66,7 +66,7 @@ TEST(SpectralBound, is_found_again_once_it_has_grown_and_holds_in_between) {
 }
 
 TEST(SpectralBound, goes_on_from_the_shares_it_has) {
-  Block block;
+  StretchedBlock block;
   SpectralBound<2> kept;
   block.of_all(kept);
   block.stretch(0.9);
@@ -75,7 +75,7 @@ TEST(SpectralBound, goes_on_from_the_shares_it_has) {
 }
 
 TEST(SpectralBound, of_points_without_stiffness_is_that_of_the_others) {
-  Block block;
+  StretchedBlock block;
   SpectralBound<2> bound;
   const double all = block.of_all(bound);
   block.modulus[7] = 0.0;
@@ -93,7 +93,7 @@ TEST(SpectralBound, of_points_without_stiffness_is_that_of_the_others) {
 }
 
 TEST(SpectralBound, has_the_same_bits_after_a_restart) {
-  Block block;
+  StretchedBlock block;
   SpectralBound<2> first, second;
   block.of_all(first);
   MemoryArchive memory;

@@ -159,13 +159,13 @@ Tabulated table() {
   return law;
 }
 
-const Hardening laws[] = {Perfect{400e6}, table(), Linear{400e6, 2e9},
-                          Swift{.K = 900e6, .strain0 = 0.002, .n = 0.25},
-                          JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0}};
+const Hardening flow_laws[] = {Perfect{400e6}, table(), Linear{400e6, 2e9},
+                               Swift{.K = 900e6, .strain0 = 0.002, .n = 0.25},
+                               JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0}};
 
 TEST(PlyFlow, ratios_of_one_are_von_mises) {
   // principal axes that stay: additive logarithmic strains and C_p⁻¹ are the same there
-  for (const Hardening& law : laws)
+  for (const Hardening& law : flow_laws)
     for (const bool stress_free : {true, false}) {
       std::mt19937 generator(7);
       std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -196,7 +196,7 @@ TEST(PlyFlow, random_paths_stay_within_the_yield_surface_and_dissipate) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   constexpr double dt = 1e-5;
-  for (const Hardening& law : laws)
+  for (const Hardening& law : flow_laws)
     for (const bool stress_free : {true, false})
       for (Material material : {flax(0.8, law), odd(0.8, law)}) {
         PlyPoint point(material, stress_free);

@@ -13,6 +13,7 @@
 #include "voronoi/space/winding.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <limits>
 
