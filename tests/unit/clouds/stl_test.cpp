@@ -53,7 +53,7 @@ TEST(Stl, IsRemeshedToTheSpacing) {
   }
 }
 
-std::string refusal_of(const Faceted& shape) {
+std::string refusal_of_surface(const Faceted& shape) {
   try {
     divided_surface(shape);
   } catch (const GeometryError& error) { return error.what(); }
@@ -66,20 +66,20 @@ TEST(Stl, SaysWhatIsWrongWithASurface) {
   };
   Faceted open = faceted("box", 5.0);
   open.soup.triangles.pop_back();
-  EXPECT_PRED2(contains, refusal_of(open), "open");
+  EXPECT_PRED2(contains, refusal_of_surface(open), "open");
   Faceted inside_out = faceted("box", 5.0);
   for (auto& triangle : inside_out.soup.triangles) std::swap(triangle.corner[0], triangle.corner[1]);
-  EXPECT_PRED2(contains, refusal_of(inside_out), "inside out");
+  EXPECT_PRED2(contains, refusal_of_surface(inside_out), "inside out");
   Faceted crossing = faceted("box", 5.0);
   for (const auto& triangle : faceted("box", 5.0).soup.triangles) {
     crossing.soup.triangles.push_back(triangle);
     for (Vec3& x : crossing.soup.triangles.back().corner) x += Vec3(0.5, 0.25, 0.3);
   }
-  EXPECT_PRED2(contains, refusal_of(crossing), "the surface crosses itself: facet");
+  EXPECT_PRED2(contains, refusal_of_surface(crossing), "the surface crosses itself: facet");
   Faceted flat = faceted("box", 5.0);
   flat.soup.triangles.push_back({{Vec3(5, 0, 0), Vec3(6, 0, 0), Vec3(7, 0, 0)}, 0});
-  EXPECT_PRED2(contains, refusal_of(flat), "has no area");
-  EXPECT_PRED2(contains, refusal_of({}), "no facets");
+  EXPECT_PRED2(contains, refusal_of_surface(flat), "has no area");
+  EXPECT_PRED2(contains, refusal_of_surface({}), "no facets");
 }
 
 } // namespace

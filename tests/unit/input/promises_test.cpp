@@ -86,7 +86,7 @@ TEST(Registry, names_methods_and_refuses_others) {
 }
 
 /// The message that refuses a method; empty when it is made.
-template<int dim> std::string refusal(std::string_view name) {
+template<int dim> std::string refusal_by(std::string_view name) {
   try {
     methods::make<dim>(name, {});
     return {};
@@ -94,12 +94,12 @@ template<int dim> std::string refusal(std::string_view name) {
 }
 
 TEST(Registry, refuses_methods_that_do_not_exist_in_the_dimension) {
-  EXPECT_EQ(refusal<2>("fe-triangles"), "");
-  EXPECT_EQ(refusal<3>("sph"), "found method 'sph' in 3 dimensions, expected one of cnem, fe-tetrahedra");
-  EXPECT_EQ(refusal<2>("fe-tetrahedra"), "found method 'fe-tetrahedra' in 2 dimensions, expected one of "
-                                         "cnem, fe-triangles, sph, sph-consistent, hybrid, efg");
-  EXPECT_EQ(refusal<3>("cnem"), "") << "it finds tetrahedra of its own";
-  EXPECT_NE(refusal<3>("fe-tetrahedra").find("found no tetrahedra"), std::string::npos);
+  EXPECT_EQ(refusal_by<2>("fe-triangles"), "");
+  EXPECT_EQ(refusal_by<3>("sph"), "found method 'sph' in 3 dimensions, expected one of cnem, fe-tetrahedra");
+  EXPECT_EQ(refusal_by<2>("fe-tetrahedra"), "found method 'fe-tetrahedra' in 2 dimensions, expected one of "
+                                            "cnem, fe-triangles, sph, sph-consistent, hybrid, efg");
+  EXPECT_EQ(refusal_by<3>("cnem"), "") << "it finds tetrahedra of its own";
+  EXPECT_NE(refusal_by<3>("fe-tetrahedra").find("found no tetrahedra"), std::string::npos);
 }
 
 TEST(CaseReader, particles_have_a_kernel_and_its_support) {

@@ -42,7 +42,7 @@ Mat3 polar_rotation(const Mat3& f) {
   const Eigen::JacobiSVD<Mat3> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
 }
-Mat3 turn(int dim, double angle) {
+Mat3 sheet_turn(int dim, double angle) {
   const Eigen::Vector3d axis = dim == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, 0.5).normalized();
   return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
@@ -67,7 +67,7 @@ double equivalent(const Hill48& law, const Mat3& tau) {
 }
 
 /// A smooth path that stretches, shears and turns; s from 0 to 1.
-Mat3 winding_path(int dim, double s) {
+Mat3 winding_sheet_path(int dim, double s) {
   Mat3 f = Mat3::Identity();
   f(0, 1) = 0.6 * s;
   f(0, 0) += 0.2 * std::sin(3.0 * s);
@@ -77,7 +77,7 @@ Mat3 winding_path(int dim, double s) {
     f(1, 2) = 0.3 * std::sin(2.0 * s);
     f(2, 0) = -0.2 * s;
   }
-  return turn(dim, 1.3 * s) * f / std::cbrt(f.determinant() / (1.0 - 0.004 * s));
+  return sheet_turn(dim, 1.3 * s) * f / std::cbrt(f.determinant() / (1.0 - 0.004 * s));
 }
 
 TEST(Hill48, coefficients_follow_from_r_values) {
@@ -110,7 +110,7 @@ TYPED_TEST(Hill, all_r_values_of_one_are_von_mises) {
   constexpr int dim = TypeParam::value;
   PointState<dim> hill = one_point<dim>();
   for (int k = 1; k <= 1000; ++k) {
-    const Mat3 f = winding_path(dim, k / 1000.0);
+    const Mat3 f = winding_sheet_path(dim, k / 1000.0);
     PointState<dim> same = hill; // each step on its own: roundings of F C_p⁻¹ Fᵀ add up
     set_deformation<dim>(hill, 0, f);
     set_deformation<dim>(same, 0, f);
@@ -161,7 +161,7 @@ TEST(Hill48, tension_in_any_direction_gives_stress_and_r_value) {
   const Material m = perfect(flat);
   for (const double degrees : {0.0, 22.5, 45.0, 70.0, 90.0}) {
     const double a = degrees * M_PI / 180.0, c = std::cos(a), w = std::sin(a);
-    const Mat3 q = turn(2, a);
+    const Mat3 q = sheet_turn(2, a);
     PointState<2> s = one_point<2>();
     Mat3 total = Mat3::Zero(), step = Mat3::Zero();
     for (int k = 1; k <= 40; ++k) {
@@ -237,7 +237,7 @@ TYPED_TEST(Hill, returns_along_the_normal_of_the_yield_surface) {
     PointState<dim> s = one_point<dim>();
     double dissipated = 0.0;
     for (int k = 1; k <= 300; ++k) {
-      const Mat3 f = winding_path(dim, k / 300.0), r = polar_rotation(f);
+      const Mat3 f = winding_sheet_path(dim, k / 300.0), r = polar_rotation(f);
       const Mat3 before = f * symmetric<dim>(s.inverse_plastic_cauchy_green, 0) * f.transpose();
       const double strain = s.plastic_strain[0];
       set_deformation<dim>(s, 0, f);
@@ -273,7 +273,8 @@ TYPED_TEST(Hill, turns_with_a_superposed_rotation_on_any_reference) {
   const int steps = 300;
   Mat3 reference = Mat3::Identity();
   for (int k = 1; k <= steps; ++k) {
-    const Mat3 f = winding_path(dim, static_cast<double>(k) / steps), q = turn(dim, 40.0 * k / steps);
+    const Mat3 f = winding_sheet_path(dim, static_cast<double>(k) / steps),
+               q = sheet_turn(dim, 40.0 * k / steps);
     set_deformation<dim>(s, 0, f);
     set_deformation<dim>(s, 1, q * f * reference.inverse());
     ASSERT_EQ(update(sheet(rolled), s, 1e-8), -1);
@@ -303,7 +304,7 @@ TYPED_TEST(Hill, work_is_stored_or_dissipated) {
     Mat3 f0 = Mat3::Identity(), p0 = Mat3::Zero();
     work = 0.0;
     for (int k = 1; k <= steps; ++k) {
-      const Mat3 f = winding_path(dim, static_cast<double>(k) / steps);
+      const Mat3 f = winding_sheet_path(dim, static_cast<double>(k) / steps);
       set_deformation<dim>(s, 0, f);
       EXPECT_EQ(update(sheet(rolled), s, 1e-5 / steps), -1);
       const Mat3 p = general<dim>(s.piola, 0);
@@ -325,7 +326,7 @@ TYPED_TEST(Hill, without_strength_is_a_fluid) {
   PointState<dim> s = one_point<dim>();
   s.strength[0] = 0.0;
   for (int k = 1; k <= 50; ++k) {
-    set_deformation<dim>(s, 0, winding_path(dim, k / 50.0));
+    set_deformation<dim>(s, 0, winding_sheet_path(dim, k / 50.0));
     ASSERT_EQ(update(sheet(rolled), s, 1e-7), -1);
     ASSERT_LT((kirchhoff<dim>(s, 0) + s.pressure[0] * Mat3::Identity()).norm(), 1.0); // Pa
   }
