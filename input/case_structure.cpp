@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <set>
+#include <string_view>
 
 namespace cnem::input {
 namespace {
@@ -231,6 +232,74 @@ ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
   return shaft;
 }
 
+void check_box(const Setting& table, const RemovalCase& removal, const Vec3& size, Diagnostics& diagnostics) {
+  const Setting& to = *table.find("to");
+  if (!((removal.high - removal.low).array() > 0.0).all())
+    diagnostics.add(Mistake::range, to.where, to.path,
+                    "found a corner that is not beyond `from` along x, y and z, expected the opposite one");
+  else if (((removal.low.array() >= size.array()) || (removal.high.array() <= 0.0)).any())
+    diagnostics.add(Mistake::range, table.where, table.path,
+                    "lies beside the part, expected a box of which some is within it");
+}
+
+/// What a tool takes of the part in analyses of removal.
+void read_removal(Setting& root, Analysis::Type type, StructureCase& structure, Diagnostics& diagnostics) {
+  Setting* found = root.find("removal");
+  if (type != Analysis::Type::removal) {
+    if (found && type == Analysis::Type::modes)
+      diagnostics.add(Mistake::conflict, found->where, found->path,
+                      "found in an analysis of modes, expected it with analysis.type = \"removal\" only");
+    return;
+  }
+  if (const Setting* shaft = root.find("shaft"))
+    diagnostics.add(Mistake::conflict, shaft->where, shaft->path,
+                    "found in an analysis of removal, expected it with analysis.type = \"modes\" only: "
+                    "nothing is taken of a shaft");
+  for (const char* table : {"part", "removal"})
+    if (!root.find(table))
+      diagnostics.add(Mistake::missing_key, root.where, table,
+                      table == std::string_view("part")
+                          ? "missing, expected the [part] that is machined"
+                          : "missing, expected what the tool takes of the part");
+  if (!found || !structure.part) return;
+  Setting& table = *found;
+  RemovalCase& removal = structure.removal.emplace();
+  removal.low = table.get<Vec3>("from");
+  removal.high = table.get<Vec3>("to");
+  check_box(table, removal, structure.part->shape.size, diagnostics);
+  const auto& along = table.get<std::string>("along");
+  removal.backward = along.front() == '-';
+  removal.axis = along.back() - 'x';
+  removal.speed = table.get<double>("speed");
+  removal.most = table.get<double>("most");
+  table.set_default("duration", (removal.high - removal.low)[removal.axis] / removal.speed);
+  removal.duration = table.get<double>("duration");
+  const double step = table.get<double>("step"), rounding = 1e-9;
+  const double steps = std::ceil(removal.duration / step - rounding);
+  if (constexpr double most = 1e8; !(steps <= most)) {
+    const Setting& where = *table.find("step");
+    diagnostics.add(Mistake::range, where.where, where.path,
+                    fmt::format("found {:g} s, expected at least {:g} s: {:g} steps", step,
+                                removal.duration / most, most));
+    return;
+  }
+  removal.settings = {.dt = step,
+                      .steps = static_cast<std::int64_t>(steps),
+                      .interval = table.get<std::int64_t>("interval"),
+                      .damping = structure.part->rayleigh.value_or(machining::Rayleigh{}),
+                      .inverse = table.choice<machining::EffectiveInverse>("inverse")};
+  if (const Setting* damping = root.find("part.damping"))
+    diagnostics.add(Mistake::conflict, damping->where, damping->path,
+                    "found in an analysis of removal, expected [part.rayleigh]: modes change as matter goes");
+  if (table.find("reference")) removal.reference = table.get<bool>("reference");
+  if (removal.reference && structure.part->places.empty())
+    diagnostics.add(Mistake::missing_key, root.find("part")->where, "part.points",
+                    "missing, expected a point at which the motions are compared");
+  if (const Setting* force = table.find("force"))
+    removal.force = {force->get<Vec3>("at"), force->get<Vec3>("amplitude"), force->get<double>("frequency"),
+                     force->get<bool>("follows")};
+}
+
 } // namespace
 
 void read_structure(Setting& root, Case& result, Diagnostics& diagnostics) {
@@ -241,6 +310,7 @@ void read_structure(Setting& root, Case& result, Diagnostics& diagnostics) {
   if (result.analysis.type == Analysis::Type::modes && !made->part && !made->shaft)
     diagnostics.add(Mistake::missing_key, root.where, "part",
                     "missing, expected a [part] or a [shaft] that vibrates");
+  read_removal(root, result.analysis.type, *made, diagnostics);
 }
 
 } // namespace cnem::input
