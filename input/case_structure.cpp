@@ -30,22 +30,32 @@ machining::PartSupport face_of(const std::string& name) {
   return {.axis = name[0] - 'x', .far = name[1] == '1'};
 }
 
-std::array<int, 3> read_cells(const Setting& part, const Vec3& size, Diagnostics& diagnostics) {
-  std::array<int, 3> cells{};
-  const Setting* written = part.find("cells");
-  constexpr double longest = 20.0;
+/// Whole numbers of something along the axes; none, and a mistake, where they are not.
+std::optional<std::array<int, 3>> whole_numbers(const Setting& written, const char* what, double most,
+                                                Diagnostics& diagnostics) {
+  std::array<int, 3> numbers{};
   for (int axis = 0; axis < 3; ++axis) {
-    const double count = written ? std::get<Vec3>(written->value)[axis]
-                                 : std::max(1.0, std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9));
-    constexpr double most = 1000.0;
+    const double count = std::get<Vec3>(written.value)[axis];
     if (count < 1.0 || count > most || count != std::floor(count)) {
-      diagnostics.add(Mistake::range, written->where, written->path,
-                      fmt::format("found {:g} cells along {}, expected a whole number from 1 to {:g}", count,
-                                  axis_name(index_of(axis)), most));
-      return {1, 1, 1};
+      diagnostics.add(Mistake::range, written.where, written.path,
+                      fmt::format("found {:g} {} along {}, expected a whole number from 1 to {:g}", count,
+                                  what, axis_name(index_of(axis)), most));
+      return std::nullopt;
     }
-    cells[index_of(axis)] = static_cast<int>(count);
+    numbers[index_of(axis)] = static_cast<int>(count);
   }
+  return numbers;
+}
+
+std::array<int, 3> read_cells(const Setting& part, const Vec3& size, Diagnostics& diagnostics) {
+  const Setting* written = part.find("cells");
+  constexpr double longest = 20.0, along = 1000.0;
+  std::array<int, 3> cells{1, 1, 1};
+  if (written)
+    cells = whole_numbers(*written, "cells", along, diagnostics).value_or(cells);
+  else
+    for (int axis = 0; axis < 3; ++axis)
+      cells[index_of(axis)] = std::max(1, as<int>(std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9)));
   constexpr int most = 20000;
   if (static_cast<double>(cells[0]) * cells[1] * cells[2] > most)
     diagnostics.add(
@@ -125,7 +135,20 @@ void read_directions(const Setting& table, PartCase& part, Diagnostics& diagnost
   part.to_cutter.row(1) = axis.normalized().cross(feed.normalized()).transpose();
 }
 
-PartCase read_part(const Setting& table, Diagnostics& diagnostics) {
+void read_mapping(const Setting& table, Analysis::Type type, PartCase& part, Diagnostics& diagnostics) {
+  enum class Mapping { point, hexahedra };
+  const Setting& mapping = *table.find("mapping");
+  part.mapped = table.choice<Mapping>("mapping") == Mapping::hexahedra;
+  if (part.mapped && type != Analysis::Type::milling)
+    diagnostics.add(Mistake::conflict, mapping.where, mapping.path,
+                    "found hexahedra that follow the part, expected them with analysis.type = \"milling\" "
+                    "only: nothing else has dexels in it");
+  constexpr double most = 200.0;
+  if (const Setting* hexahedra = table.find("hexahedra"))
+    part.hexahedra = whole_numbers(*hexahedra, "hexahedra", most, diagnostics);
+}
+
+PartCase read_part(const Setting& table, Analysis::Type type, Diagnostics& diagnostics) {
   PartCase part;
   part.shape.size = table.get<Vec3>("size");
   if (const Setting& size = *table.find("size"); !(part.shape.size.array() > 0.0).all()) {
@@ -140,6 +163,7 @@ PartCase read_part(const Setting& table, Diagnostics& diagnostics) {
   read_supports(table, part, diagnostics);
   read_damping(table, part, diagnostics);
   read_directions(table, part, diagnostics);
+  read_mapping(table, type, part, diagnostics);
   part.count = static_cast<int>(table.get<std::int64_t>("count"));
   for (const Setting& point : table.entries("points")) {
     PartPlace place{.name = point.name, .at = point.maybe<Vec3>("at"), .force = point.get<Vec3>("force")};
@@ -305,7 +329,8 @@ void read_removal(Setting& root, Analysis::Type type, StructureCase& structure, 
 void read_structure(Setting& root, Case& result, Diagnostics& diagnostics) {
   const auto made = std::make_shared<StructureCase>();
   result.structure = made;
-  if (const Setting* part = root.find("part")) made->part = read_part(*part, diagnostics);
+  if (const Setting* part = root.find("part"))
+    made->part = read_part(*part, result.analysis.type, diagnostics);
   if (Setting* shaft = root.find("shaft")) made->shaft = read_shaft(*shaft, diagnostics);
   if (result.analysis.type == Analysis::Type::modes && !made->part && !made->shaft)
     diagnostics.add(Mistake::missing_key, root.where, "part",

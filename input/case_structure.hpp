@@ -30,6 +30,8 @@ struct PartCase {
   std::optional<machining::Rayleigh> rayleigh;             ///< in its place
   std::optional<Vec3> cutter;                              ///< m, where it cuts
   Eigen::Matrix3d to_cutter = Eigen::Matrix3d::Identity(); ///< from axes of the part to those of the cut
+  bool mapped = false; ///< in the time domain: hexahedra follow it where it is cut
+  std::optional<std::array<int, 3>> hexahedra;
   std::vector<PartPlace> places;
 
   /// ζ of a mode, omega: rad/s; 0 where nothing is said of it.

@@ -35,6 +35,10 @@ private:
   bool solve() override;
   void write_files() override;
   void judge();
+  /// One step; where it fails a checkpoint of the state before it is left.
+  machining::ProcessStep advance();
+  /// Those that are not of a part that deforms.
+  std::vector<machining::Mode> modes_of_process() const;
   void measure_surface();
   /// m, as the process has it. Throws DivergenceError where no matter is left.
   double left_at(std::size_t layer, double x) const;

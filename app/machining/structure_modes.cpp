@@ -1,6 +1,7 @@
 #include "app/machining/structure_modes.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 #include <array>
 
@@ -62,6 +63,44 @@ std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const Sol
       modes.push_back(machining::mode_at(omega, part.damping_of(omega), shape, machining::Mode::Of::part));
   }
   return modes;
+}
+
+namespace {
+
+/// Axes of the cut in the part: where the cutter is at first lies on the machined side, at the tip.
+struct CutAxes {
+  explicit CutAxes(const input::Case& input) : turn(input.structure->part->to_cutter) {
+    const machining::MillingCut& cut = input.machining->cut;
+    const double r = cut.cutter.radius();
+    const Vec3 machined(0.0, cut.engagement.side == machining::Engagement::Side::up ? r : -r, 0.0);
+    origin = *input.structure->part->cutter - turn.transpose() * machined;
+  }
+  Vec3 in_part(const Vec3& x) const { return origin + turn.transpose() * x; }
+  Eigen::Matrix3d turn;
+  Vec3 origin;
+};
+
+} // namespace
+
+std::unique_ptr<machining::FlexiblePart>
+flexible_part(const input::Case& input, const machining::ProcessSettings& settings, double dt) {
+  const auto& read = input.structure->part;
+  if (!read || !read->mapped) return nullptr;
+  const SolvedPart solved(input);
+  const CutAxes axes(input);
+  const machining::Block block = machining::block_of(input.machining->cut, settings);
+  machining::HexahedralMap map =
+      machining::hexahedra_over(block.low, block.high, input.machining->cut.cutter.radius(), read->hexahedra);
+  std::vector<Vec3> places;
+  for (const Vec3& x : map.places()) places.push_back(axes.in_part(x));
+  Eigen::MatrixXd follow = solved.part.displacement_near(places) * solved.modes.shape; // (7)
+  for (Eigen::Index node = 0; node < follow.rows(); node += 3)
+    follow.middleRows<3>(node) = (axes.turn * follow.middleRows<3>(node)).eval();
+  std::vector<machining::ModalMotion::Coordinate> coordinates;
+  for (Eigen::Index i = 0; i < solved.modes.count(); ++i)
+    coordinates.push_back({solved.modes.omega[i], read->damping_of(solved.modes.omega[i])});
+  return std::make_unique<machining::FlexiblePart>(
+      std::move(map), std::make_unique<machining::ModalMotion>(std::move(follow), coordinates, dt));
 }
 
 } // namespace cnem::app

@@ -86,6 +86,19 @@ void add_part(Keys& k) {
   k.add("part.axis", vector, "Direction of the cutter's axis, its +z, in the part.")
       .of_space()
       .fallback("\"0 0 1\"");
+  k.add(
+       "part.mapping", choice,
+       "In the time domain: `point`: the part moves as a whole, as its modes do at `cutter`; `hexahedra`: it "
+       "deforms, and the dexels lie in its undeformed state. `cutter` is then where the cutter is at first, "
+       "on "
+       "the machined side at the height of its tip ([more](structures.md#in-the-time-domain)).")
+      .one_of({"point", "hexahedra"})
+      .fallback("\"point\"");
+  k.add("part.hexahedra", vector, "How many there are over the workpiece along x, y and z of the cut.")
+      .of_space()
+      .when("mapping", {"hexahedra"})
+      .example("\"1 1 1\"")
+      .computed("none longer than the cutter's radius");
   k.add("part.zones", named_tables, "Boxes within the part; where they overlap the last one counts.");
   k.add("part.zones.*", table, "A box.");
   for (const char* corner : {".from", ".to"})
