@@ -55,7 +55,8 @@ std::array<int, 3> read_cells(const Setting& part, const Vec3& size, Diagnostics
     cells = whole_numbers(*written, "cells", along, diagnostics).value_or(cells);
   else
     for (int axis = 0; axis < 3; ++axis)
-      cells[index_of(axis)] = std::max(1, as<int>(std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9)));
+      cells[index_of(axis)] =
+          std::max(1, static_cast<int>(std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9)));
   constexpr int most = 20000;
   if (static_cast<double>(cells[0]) * cells[1] * cells[2] > most)
     diagnostics.add(

@@ -53,7 +53,8 @@ HexahedralMap hexahedra_over(const Vec3& low, const Vec3& high, double radius,
   std::array<int, 3> count{};
   for (std::size_t a = 0; a < 3; ++a) {
     constexpr double rounding = 1e-9;
-    count[a] = cells ? (*cells)[a] : as<int>(std::ceil(size[as<Eigen::Index>(a)] / radius - rounding));
+    count[a] =
+        cells ? (*cells)[a] : static_cast<int>(std::ceil(size[as<Eigen::Index>(a)] / radius - rounding));
   }
   return {low - beside, high + beside, count, size.cwiseMax(radius)};
 }

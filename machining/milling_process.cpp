@@ -22,7 +22,7 @@ struct Margins {
 
 } // namespace
 
-Block block_of(const MillingCut& cut, const ProcessSettings& settings) {
+Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
   using enum ProcessSettings::Start;
   const Cutter& cutter = cut.cutter;
   const auto [beyond, begin] = Margins(cutter, settings.start);
@@ -46,7 +46,7 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
   using enum ProcessSettings::Start;
   start_ = Margins(cut_.cutter, settings.start).begin;
   const double r = cut_.cutter.radius();
-  const Block block = block_of(cut_, settings);
+  const Workpiece block = workpiece_of(cut_, settings);
   const Vec2 low = block.low.head<2>(), high = block.high.head<2>();
   // Cells of about a degree of the cutter are the fastest, measured; what is taken does not depend on them.
   constexpr double degrees = 60.0;
@@ -235,10 +235,9 @@ ProcessStep MillingProcess::advance() {
     if (change < close || (iteration >= enough && change < touch)) break;
     if (iteration >= most)
       throw DivergenceError(
-          fmt::format(
-              "forces and vibration of a step do not agree: the shift of the cutter still "
-              "changes by {:.3g} m, expected smaller steps (dexels.steps)",
-              change),
+          fmt::format("forces and vibration of a step do not agree: the shift of the cutter still "
+                      "changes by {:.3g} m, expected smaller steps (dexels.steps)",
+                      change),
           -1, "displacement");
   }
   if (part_) part_->check();

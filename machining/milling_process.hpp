@@ -33,10 +33,10 @@ struct ProcessStep : EdgeLoad {
 };
 
 /// Corners of the workpiece at first, m, over the path: x and y, and z from the tip to the depth.
-struct Block {
+struct Workpiece {
   Vec3 low, high;
 };
-Block block_of(const MillingCut& cut, const ProcessSettings& settings);
+Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings);
 
 class MillingProcess {
 public:

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "input/case_machining.hpp"
 
 #include <array>
 
@@ -88,7 +89,7 @@ flexible_part(const input::Case& input, const machining::ProcessSettings& settin
   if (!read || !read->mapped) return nullptr;
   const SolvedPart solved(input);
   const CutAxes axes(input);
-  const machining::Block block = machining::block_of(input.machining->cut, settings);
+  const machining::Workpiece block = machining::workpiece_of(input.machining->cut, settings);
   machining::HexahedralMap map =
       machining::hexahedra_over(block.low, block.high, input.machining->cut.cutter.radius(), read->hexahedra);
   std::vector<Vec3> places;

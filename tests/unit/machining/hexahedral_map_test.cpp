@@ -132,7 +132,7 @@ ProcessSettings few_turns() {
 template<class Share>
 std::unique_ptr<FlexiblePart> part(const MillingCut& cut, const ProcessSettings& settings, double spring,
                                    Share&& share) {
-  const Block block = block_of(cut, settings);
+  const Workpiece block = workpiece_of(cut, settings);
   HexahedralMap over = hexahedra_over(block.low, block.high, cut.cutter.radius());
   const double omega = full_turn * frequency, mass = spring / (omega * omega);
   const Eigen::VectorXd shape =
