@@ -144,6 +144,21 @@ void read_mapping(const Setting& table, Analysis::Type type, PartCase& part, Dia
     diagnostics.add(Mistake::conflict, mapping.where, mapping.path,
                     "found hexahedra that follow the part, expected them with analysis.type = \"milling\" "
                     "only: nothing else has dexels in it");
+  enum class Integration { modes, newmark };
+  if (const Setting* integration = table.find("integration")) {
+    part.newmark = table.choice<Integration>("integration") == Integration::newmark;
+    if (part.newmark && part.damping)
+      diagnostics.add(Mistake::conflict, integration->where, integration->path,
+                      "found with part.damping, which is of modes, expected [part.rayleigh]");
+  }
+  if (const Setting* removal = table.find("removal")) {
+    if (!part.newmark)
+      diagnostics.add(
+          Mistake::conflict, removal->where, removal->path,
+          "found without part.integration = \"newmark\" (and part.mapping = \"hexahedra\"), expected "
+          "it there only: modes change as matter goes");
+    part.taking = {removal->get<std::int64_t>("interval"), removal->get<double>("most")};
+  }
   constexpr double most = 200.0;
   if (const Setting* hexahedra = table.find("hexahedra"))
     part.hexahedra = whole_numbers(*hexahedra, "hexahedra", most, diagnostics);

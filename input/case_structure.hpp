@@ -6,6 +6,7 @@
 #include "machining/structure/shaft.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,12 @@ struct PartCase {
   Eigen::Matrix3d to_cutter = Eigen::Matrix3d::Identity(); ///< from axes of the part to those of the cut
   bool mapped = false; ///< in the time domain: hexahedra follow it where it is cut
   std::optional<std::array<int, 3>> hexahedra;
+  bool newmark = false; ///< all unknowns in place of modes
+  struct Taking {
+    std::int64_t interval = 1; ///< steps
+    double most = 0.0;         ///< – D of what is gone
+  };
+  std::optional<Taking> taking; ///< of it, while it is milled
   std::vector<PartPlace> places;
 
   /// ζ of a mode, omega: rad/s; 0 where nothing is said of it.

@@ -36,8 +36,8 @@ struct SolvedPart {
 /// Modes of a part as its cutter sees them, along axes of the cut.
 std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& part);
 
-/// The part of a cut that is mapped by hexahedra (part.mapping), as modes; none without one. dt: s, of a
-/// step.
+/// The part of a cut that is mapped by hexahedra (part.mapping), as modes or whole; none without one. What
+/// the tool takes of it is known from a rigid run. dt: s, of a step.
 std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
                                                        const machining::ProcessSettings& settings, double dt);
 

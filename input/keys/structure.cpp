@@ -99,6 +99,24 @@ void add_part(Keys& k) {
       .when("mapping", {"hexahedra"})
       .example("\"1 1 1\"")
       .computed("none longer than the cutter's radius");
+  k.add("part.integration", choice,
+        "`modes`: `count` of them, exactly under the mean force of each step; `newmark`: all unknowns, "
+        "damped by "
+        "`rayleigh`.")
+      .one_of({"modes", "newmark"})
+      .when("mapping", {"hexahedra"})
+      .fallback("\"modes\"");
+  k.add("part.removal", table,
+        "The part loses what the tool takes: D of its cells is that of a rigid run of the cut, which is made "
+        "first. "
+        "With `integration = \"newmark\"`.");
+  k.add("part.removal.interval", integer,
+        "Steps from one factor of K̂ to the next: between them it is interpolated.")
+      .in({.low = 1, .high = 1e9})
+      .fallback("200");
+  k.add("part.removal.most", quantity, "D of what is gone.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true, .high_open = true})
+      .fallback("0.999");
   k.add("part.zones", named_tables, "Boxes within the part; where they overlap the last one counts.");
   k.add("part.zones.*", table, "A box.");
   for (const char* corner : {".from", ".to"})
