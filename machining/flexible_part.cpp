@@ -47,6 +47,10 @@ void ModalMotion::archive(Archive& archive) {
   std::copy(numbers.begin(), numbers.end(), state_.data());
 }
 
+double ModalMotion::frequency() const {
+  return 1.0 / (2.0 * std::numbers::pi * std::sqrt(flexibility_.maxCoeff()));
+}
+
 HexahedralMap hexahedra_over(const Vec3& low, const Vec3& high, double radius,
                              const std::optional<std::array<int, 3>>& cells) {
   const Vec3 beside = 0.5 * Vec3(radius, radius, 0.0), size = high - low + 2.0 * beside;

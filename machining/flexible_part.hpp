@@ -19,6 +19,7 @@ public:
   /// Goes to the end of the step under them.
   virtual void take(const Eigen::VectorXd& load) = 0;
   virtual void archive(Archive& archive) = 0;
+  virtual double frequency() const = 0; ///< Hz, its lowest, as it is now
 };
 
 /// A part reduced to modes, integrated exactly under the mean force of each step.
@@ -33,6 +34,7 @@ public:
   Eigen::VectorXd ask(const Eigen::VectorXd& load) const override;
   void take(const Eigen::VectorXd& load) override;
   void archive(Archive& archive) override;
+  double frequency() const override;
 
 private:
   Eigen::MatrixXd moved(const Eigen::VectorXd& load) const;
@@ -68,6 +70,7 @@ public:
   /// Ends the step, under the forces that there are now.
   void take();
   void archive(Archive& archive);
+  double frequency() const { return motion_->frequency(); }
 
 private:
   HexahedralMap begin_, end_;

@@ -60,6 +60,7 @@ public:
   double start() const { return start_; } ///< m, x of the axis at first
   /// m, x of the cutter's axis without vibration.
   double axis() const { return axis_at(static_cast<double>(step_) / settings_.steps); }
+  const FlexiblePart* part() const { return part_.get(); } ///< none: it is rigid but for its modes
   Workpiece workpiece() const { return workpiece_of(cut_, settings_); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
   double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip

@@ -77,6 +77,7 @@ MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunO
       process_(input.machining->cut, modes_of_process(), settings_of(*input.machining),
                flexible_part(input, settings_of(*input.machining), step_of(*input.machining))),
       checkpoints_(input.output.checkpoint) {
+  if (process_.part()) first_frequency_ = process_.part()->frequency();
   observer_.begins();
 }
 
@@ -266,6 +267,10 @@ void MillingRun::judge() {
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);
   status_.flags.emplace_back("milling.chatter");
   if (!modes_.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
+  if (const machining::FlexiblePart* part = process_.part()) {
+    status_.add_metric("milling.part.begin.f1[Hz]", first_frequency_);
+    status_.add_metric("milling.part.end.f1[Hz]", part->frequency());
+  }
   // Chips change by more than a small part of themselves: lobes, which are of small vibrations, say no more.
   if (constexpr double small = 0.5; steady.displacement > small * milling.cut.engagement.radial_depth)
     warn(input_

@@ -55,7 +55,8 @@ private:
 
   machining::MillingProcess process_;
   CheckpointTimer checkpoints_;
-  Course steady_; ///< of the last turns
+  Course steady_;                ///< of the last turns
+  double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first
 
   std::string surface_ = "the path is too short for a surface";
   std::vector<double> place_;             ///< m along the path

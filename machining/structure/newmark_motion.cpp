@@ -76,6 +76,11 @@ void NewmarkMotion::take(const Eigen::VectorXd& load) {
   prepare();
 }
 
+double NewmarkMotion::frequency() const {
+  const std::vector<double> there = presence_(time(step_));
+  return lowest_modes(part_.stiffness(there), part_.mass(there), 1).frequency(0);
+}
+
 double NewmarkMotion::energy() const {
   return 0.5 * (velocity_.dot(before_->matrices.mass * velocity_) + q_.dot(before_->matrices.stiffness * q_));
 }

@@ -24,6 +24,7 @@ public:
   Eigen::VectorXd ask(const Eigen::VectorXd& load) const override;
   void take(const Eigen::VectorXd& load) override;
   void archive(Archive& archive) override;
+  double frequency() const override;
 
   /// J, of the part as it was at the begin of the interval.
   double energy() const;
