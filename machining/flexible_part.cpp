@@ -63,15 +63,6 @@ HexahedralMap hexahedra_over(const Vec3& low, const Vec3& high, double radius,
   return {low - beside, high + beside, count, size.cwiseMax(radius)};
 }
 
-double FlexiblePart::answer() {
-  const Eigen::VectorXd before = end_.displacements();
-  end_.displace(motion_->ask(load_));
-  double most = 0.0;
-  for (Eigen::Index n = 0; n < before.size(); n += 3)
-    most = std::max(most, (end_.displacements() - before).segment<3>(n).norm());
-  return most;
-}
-
 void FlexiblePart::check() const {
   if (const auto cell = end_.folded())
     throw DivergenceError(

@@ -63,8 +63,8 @@ public:
   void unload() { load_.setZero(); }
   /// N on the part, at a material point, m.
   void press(const Vec3& material, const Vec3& force) { end_.press(material, force, load_); }
-  /// Φ⁺ of the end as these forces have it; returns how far nodes have moved since the last trial, m.
-  double answer();
+  /// Φ⁺ of the end as these forces have it.
+  void answer() { end_.displace(motion_->ask(load_)); }
   /// Throws DivergenceError where Φ⁺ of the end is not one-to-one.
   void check() const;
   /// Ends the step, under the forces that there are now.

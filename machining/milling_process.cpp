@@ -231,7 +231,13 @@ ProcessStep MillingProcess::advance() {
     double change = 0.0;
     for (std::size_t k = 0; k < layer_.size(); ++k) change = std::max(change, (next[k] - shift[k]).norm());
     shift = std::move(next);
-    if (part_) change = std::max(change, part_->answer());
+    if (part_) {
+      const PerLayer before = relative(shift);
+      part_->answer();
+      const PerLayer after = relative(shift);
+      for (std::size_t k = 0; k < layer_.size(); ++k)
+        change = std::max(change, (after[k] - before[k]).norm());
+    }
     if (change < close || (iteration >= enough && change < touch)) break;
     if (iteration >= most && part_) part_->check(); // what folds need not agree with anything
     if (iteration >= most)
