@@ -2,6 +2,7 @@
 
 #include "app/machining/machining_session.hpp"
 #include "app/machining/milling_run.hpp"
+#include "app/machining/removal_run.hpp"
 #include "app/process/exhaustion.hpp"
 #include "app/simulation.hpp"
 #include "app/statics/statics.hpp"
@@ -203,6 +204,11 @@ Run::Run(RunOptions options, RunObserver& observer) : options_(std::move(options
     options_.force = true;
     session_ = take_up(observer, [&](bool goes_on) {
       return std::make_unique<MillingRun>(input_, options_, observer, goes_on);
+    });
+  } else if (input_.analysis.type == input::Analysis::Type::removal) {
+    options_.force = true;
+    session_ = take_up(observer, [&](bool goes_on) {
+      return std::make_unique<RemovalRun>(input_, options_, observer, goes_on);
     });
   } else if (is_solved_at_once(input_)) {
     observer.outcome(fmt::format("a {} analysis has no checkpoints: it is solved again",

@@ -44,12 +44,14 @@ using VectorFunction = std::array<std::optional<TimeTable>, 3>;
 bool moves(const VectorFunction& velocity);
 
 struct Analysis {
-  enum class Type { explicit_dynamics, statics, stability, milling, modes };
+  enum class Type { explicit_dynamics, statics, stability, milling, modes, removal };
   enum class Kinematics { plane_strain, plane_stress, axisymmetric, three_dimensional };
   Type type = Type::explicit_dynamics;
   Kinematics kinematics = Kinematics::plane_strain;
   /// Of milling, or of the structures that are milled: no body, no cloud.
-  bool of_milling() const { return type == Type::stability || type == Type::milling || type == Type::modes; }
+  bool of_milling() const {
+    return type == Type::stability || type == Type::milling || type == Type::modes || type == Type::removal;
+  }
   int dimensions() const { return kinematics == Kinematics::three_dimensional ? 3 : 2; }
   Space space() const { return kinematics == Kinematics::axisymmetric ? Space::revolution : Space::plane; }
   bool mechanical = true; ///< false: nothing moves, heat alone

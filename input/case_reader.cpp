@@ -203,7 +203,8 @@ std::string made_beside(const Value& document, const Override& change) {
 /// A case of milling or of structures, of settings that the schema has passed.
 void read_milling(Setting& root, Case& result, Diagnostics& diagnostics) {
   read_structure(root, result, diagnostics);
-  if (result.analysis.type != Analysis::Type::modes) read_machining(root, result, diagnostics);
+  if (result.analysis.type == Analysis::Type::stability || result.analysis.type == Analysis::Type::milling)
+    read_machining(root, result, diagnostics);
   result.output.checkpoint = read_checkpoint(root);
   read_shown_units(root, result, diagnostics);
   diagnostics.throw_if_any();

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <set>
+#include <string_view>
 
 namespace cnem::input {
 namespace {
@@ -29,22 +30,33 @@ machining::PartSupport face_of(const std::string& name) {
   return {.axis = name[0] - 'x', .far = name[1] == '1'};
 }
 
-std::array<int, 3> read_cells(const Setting& part, const Vec3& size, Diagnostics& diagnostics) {
-  std::array<int, 3> cells{};
-  const Setting* written = part.find("cells");
-  constexpr double longest = 20.0;
+/// Whole numbers of something along the axes; none, and a mistake, where they are not.
+std::optional<std::array<int, 3>> whole_numbers(const Setting& written, const char* what, double most,
+                                                Diagnostics& diagnostics) {
+  std::array<int, 3> numbers{};
   for (int axis = 0; axis < 3; ++axis) {
-    const double count = written ? std::get<Vec3>(written->value)[axis]
-                                 : std::max(1.0, std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9));
-    constexpr double most = 1000.0;
+    const double count = std::get<Vec3>(written.value)[axis];
     if (count < 1.0 || count > most || count != std::floor(count)) {
-      diagnostics.add(Mistake::range, written->where, written->path,
-                      fmt::format("found {:g} cells along {}, expected a whole number from 1 to {:g}", count,
-                                  axis_name(index_of(axis)), most));
-      return {1, 1, 1};
+      diagnostics.add(Mistake::range, written.where, written.path,
+                      fmt::format("found {:g} {} along {}, expected a whole number from 1 to {:g}", count,
+                                  what, axis_name(index_of(axis)), most));
+      return std::nullopt;
     }
-    cells[index_of(axis)] = static_cast<int>(count);
+    numbers[index_of(axis)] = static_cast<int>(count);
   }
+  return numbers;
+}
+
+std::array<int, 3> read_cells(const Setting& part, const Vec3& size, Diagnostics& diagnostics) {
+  const Setting* written = part.find("cells");
+  constexpr double longest = 20.0, along = 1000.0;
+  std::array<int, 3> cells{1, 1, 1};
+  if (written)
+    cells = whole_numbers(*written, "cells", along, diagnostics).value_or(cells);
+  else
+    for (int axis = 0; axis < 3; ++axis)
+      cells[index_of(axis)] =
+          std::max(1, static_cast<int>(std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9)));
   constexpr int most = 20000;
   if (static_cast<double>(cells[0]) * cells[1] * cells[2] > most)
     diagnostics.add(
@@ -124,7 +136,35 @@ void read_directions(const Setting& table, PartCase& part, Diagnostics& diagnost
   part.to_cutter.row(1) = axis.normalized().cross(feed.normalized()).transpose();
 }
 
-PartCase read_part(const Setting& table, Diagnostics& diagnostics) {
+void read_mapping(const Setting& table, Analysis::Type type, PartCase& part, Diagnostics& diagnostics) {
+  enum class Mapping { point, hexahedra };
+  const Setting& mapping = *table.find("mapping");
+  part.mapped = table.choice<Mapping>("mapping") == Mapping::hexahedra;
+  if (part.mapped && type != Analysis::Type::milling)
+    diagnostics.add(Mistake::conflict, mapping.where, mapping.path,
+                    "found hexahedra that follow the part, expected them with analysis.type = \"milling\" "
+                    "only: nothing else has dexels in it");
+  enum class Integration { modes, newmark };
+  if (const Setting* integration = table.find("integration")) {
+    part.newmark = table.choice<Integration>("integration") == Integration::newmark;
+    if (part.newmark && part.damping)
+      diagnostics.add(Mistake::conflict, integration->where, integration->path,
+                      "found with part.damping, which is of modes, expected [part.rayleigh]");
+  }
+  if (const Setting* removal = table.find("removal")) {
+    if (!part.newmark)
+      diagnostics.add(
+          Mistake::conflict, removal->where, removal->path,
+          "found without part.integration = \"newmark\" (and part.mapping = \"hexahedra\"), expected "
+          "it there only: modes change as matter goes");
+    part.taking = {removal->get<std::int64_t>("interval"), removal->get<double>("most")};
+  }
+  constexpr double most = 200.0;
+  if (const Setting* hexahedra = table.find("hexahedra"))
+    part.hexahedra = whole_numbers(*hexahedra, "hexahedra", most, diagnostics);
+}
+
+PartCase read_part(const Setting& table, Analysis::Type type, Diagnostics& diagnostics) {
   PartCase part;
   part.shape.size = table.get<Vec3>("size");
   if (const Setting& size = *table.find("size"); !(part.shape.size.array() > 0.0).all()) {
@@ -139,6 +179,7 @@ PartCase read_part(const Setting& table, Diagnostics& diagnostics) {
   read_supports(table, part, diagnostics);
   read_damping(table, part, diagnostics);
   read_directions(table, part, diagnostics);
+  read_mapping(table, type, part, diagnostics);
   part.count = static_cast<int>(table.get<std::int64_t>("count"));
   for (const Setting& point : table.entries("points")) {
     PartPlace place{.name = point.name, .at = point.maybe<Vec3>("at"), .force = point.get<Vec3>("force")};
@@ -231,16 +272,86 @@ ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
   return shaft;
 }
 
+void check_box(const Setting& table, const RemovalCase& removal, const Vec3& size, Diagnostics& diagnostics) {
+  const Setting& to = *table.find("to");
+  if (!((removal.high - removal.low).array() > 0.0).all())
+    diagnostics.add(Mistake::range, to.where, to.path,
+                    "found a corner that is not beyond `from` along x, y and z, expected the opposite one");
+  else if (((removal.low.array() >= size.array()) || (removal.high.array() <= 0.0)).any())
+    diagnostics.add(Mistake::range, table.where, table.path,
+                    "lies beside the part, expected a box of which some is within it");
+}
+
+/// What a tool takes of the part in analyses of removal.
+void read_removal(Setting& root, Analysis::Type type, StructureCase& structure, Diagnostics& diagnostics) {
+  Setting* found = root.find("removal");
+  if (type != Analysis::Type::removal) {
+    if (found && type == Analysis::Type::modes)
+      diagnostics.add(Mistake::conflict, found->where, found->path,
+                      "found in an analysis of modes, expected it with analysis.type = \"removal\" only");
+    return;
+  }
+  if (const Setting* shaft = root.find("shaft"))
+    diagnostics.add(Mistake::conflict, shaft->where, shaft->path,
+                    "found in an analysis of removal, expected it with analysis.type = \"modes\" only: "
+                    "nothing is taken of a shaft");
+  for (const char* table : {"part", "removal"})
+    if (!root.find(table))
+      diagnostics.add(Mistake::missing_key, root.where, table,
+                      table == std::string_view("part")
+                          ? "missing, expected the [part] that is machined"
+                          : "missing, expected what the tool takes of the part");
+  if (!found || !structure.part) return;
+  Setting& table = *found;
+  RemovalCase& removal = structure.removal.emplace();
+  removal.low = table.get<Vec3>("from");
+  removal.high = table.get<Vec3>("to");
+  check_box(table, removal, structure.part->shape.size, diagnostics);
+  const auto& along = table.get<std::string>("along");
+  removal.backward = along.front() == '-';
+  removal.axis = along.back() - 'x';
+  removal.speed = table.get<double>("speed");
+  removal.most = table.get<double>("most");
+  table.set_default("duration", (removal.high - removal.low)[removal.axis] / removal.speed);
+  removal.duration = table.get<double>("duration");
+  const double step = table.get<double>("step"), rounding = 1e-9;
+  const double steps = std::ceil(removal.duration / step - rounding);
+  if (constexpr double most = 1e8; !(steps <= most)) {
+    const Setting& where = *table.find("step");
+    diagnostics.add(Mistake::range, where.where, where.path,
+                    fmt::format("found {:g} s, expected at least {:g} s: {:g} steps", step,
+                                removal.duration / most, most));
+    return;
+  }
+  removal.settings = {.dt = step,
+                      .steps = static_cast<std::int64_t>(steps),
+                      .interval = table.get<std::int64_t>("interval"),
+                      .damping = structure.part->rayleigh.value_or(machining::Rayleigh{}),
+                      .inverse = table.choice<machining::EffectiveInverse>("inverse")};
+  if (const Setting* damping = root.find("part.damping"))
+    diagnostics.add(Mistake::conflict, damping->where, damping->path,
+                    "found in an analysis of removal, expected [part.rayleigh]: modes change as matter goes");
+  if (table.find("reference")) removal.reference = table.get<bool>("reference");
+  if (removal.reference && structure.part->places.empty())
+    diagnostics.add(Mistake::missing_key, root.find("part")->where, "part.points",
+                    "missing, expected a point at which the motions are compared");
+  if (const Setting* force = table.find("force"))
+    removal.force = {force->get<Vec3>("at"), force->get<Vec3>("amplitude"), force->get<double>("frequency"),
+                     force->get<bool>("follows")};
+}
+
 } // namespace
 
 void read_structure(Setting& root, Case& result, Diagnostics& diagnostics) {
   const auto made = std::make_shared<StructureCase>();
   result.structure = made;
-  if (const Setting* part = root.find("part")) made->part = read_part(*part, diagnostics);
+  if (const Setting* part = root.find("part"))
+    made->part = read_part(*part, result.analysis.type, diagnostics);
   if (Setting* shaft = root.find("shaft")) made->shaft = read_shaft(*shaft, diagnostics);
   if (result.analysis.type == Analysis::Type::modes && !made->part && !made->shaft)
     diagnostics.add(Mistake::missing_key, root.where, "part",
                     "missing, expected a [part] or a [shaft] that vibrates");
+  read_removal(root, result.analysis.type, *made, diagnostics);
 }
 
 } // namespace cnem::input

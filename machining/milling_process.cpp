@@ -1,6 +1,7 @@
 #include "machining/milling_process.hpp"
 
 #include "core/error.hpp"
+#include "core/machine/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,23 +10,44 @@
 
 namespace cnem::machining {
 
-MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const ProcessSettings& settings)
+namespace {
+
+/// m, x of the axis at first, and how far matter goes on beyond where teeth are.
+struct Margins {
+  Margins(const Cutter& cutter, ProcessSettings::Start start)
+      : beyond(cutter.run_out + 0.25 * cutter.radius()),
+        begin(start == ProcessSettings::Start::outside ? -cutter.radius() - beyond : 0.0) {}
+  double beyond, begin;
+};
+
+} // namespace
+
+Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
+  using enum ProcessSettings::Start;
+  const Cutter& cutter = cut.cutter;
+  const auto [beyond, begin] = Margins(cutter, settings.start);
+  const double r = cutter.radius(), depth = cut.engagement.radial_depth;
+  const bool up = cut.engagement.side == Engagement::Side::up, slot = depth >= cutter.diameter;
+  // Matter on the side where the teeth cut: its free surface is `depth` inside of where they reach.
+  return {{settings.start == outside ? 0.0
+           : settings.start == hole  ? -r - beyond
+                                     : -0.25 * r,
+           slot || !up ? -r - beyond : r - depth, 0.0},
+          {begin + settings.length + r + beyond, slot || up ? r + beyond : depth - r, settings.axial_depth}};
+}
+
+MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const ProcessSettings& settings,
+                               std::unique_ptr<FlexiblePart> part)
     : cut_(std::move(cut)), modes_(std::move(modes)), settings_(settings),
       dt_(full_turn / settings.spindle / settings.steps),
       feed_speed_(cut_.feed * static_cast<double>(cut_.cutter.teeth()) * settings.spindle / full_turn),
-      edges_(cut_, settings.axial_depth, settings.layers, full_turn / settings.steps) {
+      edges_(cut_, settings.axial_depth, settings.layers, full_turn / settings.steps),
+      part_(std::move(part)) {
   using enum ProcessSettings::Start;
-  const Cutter& cutter = cut_.cutter;
-  const double r = cutter.radius(), beyond = cutter.run_out + 0.25 * r;
-  const double depth = cut_.engagement.radial_depth;
-  const bool up = cut_.engagement.side == Engagement::Side::up, slot = depth >= cutter.diameter;
-  start_ = settings.start == outside ? -r - beyond : 0.0;
-  // Matter on the side where the teeth cut: its free surface is `depth` inside of where they reach.
-  const Vec2 low(settings.start == outside ? 0.0
-                 : settings.start == hole  ? -r - beyond
-                                           : -0.25 * r,
-                 slot || !up ? -r - beyond : r - depth);
-  const Vec2 high(start_ + settings.length + r + beyond, slot || up ? r + beyond : depth - r);
+  start_ = Margins(cut_.cutter, settings.start).begin;
+  const double r = cut_.cutter.radius();
+  const Workpiece block = workpiece_of(cut_, settings);
+  const Vec2 low = block.low.head<2>(), high = block.high.head<2>();
   // Cells of about a degree of the cutter are the fastest, measured; what is taken does not depend on them.
   constexpr double degrees = 60.0;
   const DexelLayer whole(low, high, Vec2::Constant(std::max(settings.pitch, r / degrees)));
@@ -48,6 +70,7 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
   bite_.resize(edges_.layers() * edges_.teeth());
   path_.resize(bite_.size());
   shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
+  if (part_) edge_.resize(bite_.size());
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
 }
@@ -104,6 +127,40 @@ double MillingProcess::reach(const PerLayer& shift) const {
   return beyond * (feed_of_turn() + 2.0 * cut_.cutter.run_out + 2.0 * std::max(farthest_, largest(shift)));
 }
 
+Sweep MillingProcess::in_material(std::size_t layer, std::size_t tooth,
+                                  const std::array<CutterPlace, 2>& place, double depth,
+                                  const Sweep& sweep) const {
+  const double z = height(layer);
+  const auto in_space = [&](const Vec2& x) { return Vec3(x.x(), x.y(), z); };
+  const std::array corner{sweep.from.edge, sweep.from.inner, sweep.to.edge, sweep.to.inner};
+  Vec3 low = in_space(corner[0]), high = low;
+  for (const Vec2& x : corner) {
+    low = low.cwiseMin(in_space(x));
+    high = high.cwiseMax(in_space(x));
+  }
+  if (!part_->begin().may_meet(low, high) && !part_->end().may_meet(low, high)) return sweep;
+  const auto back = [&](const HexahedralMap& map, const CutterPlace& at, Rake rake) -> Rake {
+    Vec3 edge = map.material(in_space(rake.edge));
+    if (cut_.cutter.corner > 0.0) { // a layer that is higher is cut farther up the profile
+      CutterPlace beside = at;
+      beside.axis.z() += edge.z() - z;
+      rake = edges_.rake(layer, tooth, beside, depth);
+      edge = map.material(in_space(rake.edge));
+    }
+    return {edge.head<2>(), map.material(in_space(rake.inner)).head<2>()};
+  };
+  return {back(part_->begin(), place[0], sweep.from), back(part_->end(), place[1], sweep.to)};
+}
+
+MillingProcess::PerLayer MillingProcess::relative(const PerLayer& shift) const {
+  const double r = cut_.cutter.radius();
+  const double side = cut_.engagement.side == Engagement::Side::up ? r : -r;
+  PerLayer beside = shift;
+  for (std::size_t k = 0; k < beside.size(); ++k)
+    beside[k] -= part_->end().displacement(Vec3(axis(), side, height(k)));
+  return beside;
+}
+
 template<class TakeBite>
 EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite) {
   const CutterPlace from = place(step_), to = place(step_ + 1);
@@ -111,23 +168,36 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
     place.axis += by;
     return place;
   };
-  const double deep = reach(shift);
+  const double deep = part_ ? reach(relative(shift)) : reach(shift);
+  ParallelFailure failure;
   const double forward = 1.5 * feed_speed_ / settings_.spindle; // nearer to the axis rakes go backwards
 #pragma omp parallel for schedule(static) if (bite_.size() >= 256)
   for (std::size_t k = 0; k < layer_.size(); ++k) {
     const double r = edges_.radius(k), depth = std::min(deep, std::max(r - forward, 0.5 * r));
     const CutterPlace first = shifted(from, shift_[k]), last = shifted(to, shift[k]);
     for (std::size_t j = 0; j < edges_.teeth(); ++j) {
-      const Sweep sweep{edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
+      Sweep sweep{edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
+      if (part_) {
+        failure.guard(static_cast<std::ptrdiff_t>(k), [&] {
+          sweep = in_material(k, j, {first, last}, depth, sweep);
+        });
+        const Vec2 middle = 0.5 * (sweep.from.edge + sweep.to.edge);
+        edge_[k * edges_.teeth() + j] = {middle.x(), middle.y(), height(k)};
+      }
       path_[k * edges_.teeth() + j] = sweep.path();
       bite_[k * edges_.teeth() + j] = bite(k, sweep);
     }
   }
+  failure.rethrow();
+  if (part_) part_->unload();
   EdgeLoad load;
   for (std::size_t k = 0, i = 0; k < layer_.size(); ++k) {
     const Vec3 below = load.force;
-    for (std::size_t j = 0; j < edges_.teeth(); ++j, ++i)
+    for (std::size_t j = 0; j < edges_.teeth(); ++j, ++i) {
+      const Vec3 others = load.force;
       edges_.add(load, k, j, bite_[i], path_[i], dt_, from, to);
+      if (part_) part_->press(edge_[i], others - load.force);
+    }
     force[k] = load.force - below;
   }
   return load;
@@ -149,34 +219,49 @@ Eigen::MatrixXd MillingProcess::moved(const PerLayer& force) const {
 ProcessStep MillingProcess::advance() {
   take_shapes();
   PerLayer shift = shift_of(moved(force_));
+  if (part_) part_->answer();
   // Where an edge only just touches its force comes and goes from one question to the next: what that moves
   // is told from a failure by its size.
   constexpr int enough = 5, most = 30;
   constexpr double close = 1e-12; // m
   const double touch = 1e-6 * cut_.feed;
-  for (int iteration = 0; !modes_.empty(); ++iteration) {
+  for (int iteration = 0; !modes_.empty() || part_; ++iteration) {
     bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].ask(sweep); });
     PerLayer next = shift_of(moved(force_));
     double change = 0.0;
     for (std::size_t k = 0; k < layer_.size(); ++k) change = std::max(change, (next[k] - shift[k]).norm());
     shift = std::move(next);
+    if (part_) {
+      const PerLayer before = relative(shift);
+      part_->answer();
+      const PerLayer after = relative(shift);
+      for (std::size_t k = 0; k < layer_.size(); ++k)
+        change = std::max(change, (after[k] - before[k]).norm());
+    }
     if (change < close || (iteration >= enough && change < touch)) break;
+    if (iteration >= most && part_) part_->check(); // what folds need not agree with anything
     if (iteration >= most)
       throw DivergenceError(
-          fmt::format(
-              "at {:.6g} s forces and vibration of a step do not agree: the shift of the cutter still "
-              "changes by {:.3g} m, expected smaller steps (dexels.steps)",
-              time(), change),
+          fmt::format("forces and vibration of a step do not agree: the shift of the cutter still "
+                      "changes by {:.3g} m, expected smaller steps (dexels.steps)",
+                      change),
           -1, "displacement");
   }
+  if (part_) part_->check();
   ProcessStep step;
   static_cast<EdgeLoad&>(step) =
       bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].erase(sweep); });
   step.time = time() + 0.5 * dt_;
   step.angle = settings_.spindle * step.time;
   state_ = moved(force_);
-  farthest_ = std::max(farthest_, largest(shift));
-  for (const Vec3& s : shift)
+  PerLayer beside;
+  if (part_) {
+    beside = relative(shift);
+    part_->take();
+  }
+  const PerLayer& seen = part_ ? beside : shift;
+  farthest_ = std::max(farthest_, largest(seen));
+  for (const Vec3& s : seen)
     if (s.squaredNorm() > step.displacement.squaredNorm()) step.displacement = s;
   shift_ = std::move(shift);
   ++step_;
@@ -199,6 +284,7 @@ void MillingProcess::archive(Archive& archive) {
     std::copy(numbers.begin(), numbers.end(), list->front().data());
   }
   archive.number("milling/farthest", "m", farthest_);
+  if (part_) part_->archive(archive);
   for (std::size_t k = 0; k < layer_.size(); ++k)
     layer_[k].archive(archive, fmt::format("milling/layer/{}/", k));
 }

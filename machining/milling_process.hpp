@@ -2,8 +2,10 @@
 // Milling in the time domain: teeth sweep through dexels, what they remove makes forces, forces make the
 // modes swing (paper 004, section 3.2 and Box 1: (5), (6)).
 #include "machining/edge_elements.hpp"
+#include "machining/flexible_part.hpp"
 #include "machining/mode.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -30,9 +32,17 @@ struct ProcessStep : EdgeLoad {
                                     ///< layer where it is the largest
 };
 
+/// Corners of the workpiece at first, m, over the path: x and y, and z from the tip to the depth.
+struct Workpiece {
+  Vec3 low, high;
+};
+Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings);
+
 class MillingProcess {
 public:
-  MillingProcess(MillingCut cut, std::vector<Mode> modes, const ProcessSettings& settings);
+  /// part: one that deforms where it is cut, in axes of the cut; none: it is rigid but for its modes.
+  MillingProcess(MillingCut cut, std::vector<Mode> modes, const ProcessSettings& settings,
+                 std::unique_ptr<FlexiblePart> part = nullptr);
 
   bool at_end() const;
   /// Makes a step: edges ask the dexels what they would remove until modes and forces agree, then they erase
@@ -50,6 +60,8 @@ public:
   double start() const { return start_; } ///< m, x of the axis at first
   /// m, x of the cutter's axis without vibration.
   double axis() const { return axis_at(static_cast<double>(step_) / settings_.steps); }
+  const FlexiblePart* part() const { return part_.get(); } ///< none: it is rigid but for its modes
+  Workpiece workpiece() const { return workpiece_of(cut_, settings_); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
   double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
   double volume() const;                                                  ///< m³ of matter
@@ -72,6 +84,12 @@ private:
   /// What teeth remove and bear whose cutter is shifted at the end of the step, m for each layer; forces on
   /// the tool for each, N, come into `force`. bite(layer, sweep): what is taken of a layer, or would be.
   template<class TakeBite> EdgeLoad bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite);
+  /// A sweep of an element as the material sees it: its rakes go back through Φ⁺ of both ends of the step
+  /// (6).
+  Sweep in_material(std::size_t layer, std::size_t tooth, const std::array<CutterPlace, 2>& place,
+                    double depth, const Sweep& sweep) const;
+  /// Of the cutter relative to the part, m, at the machined side of each layer.
+  PerLayer relative(const PerLayer& shift) const;
   /// Modes are integrated exactly under the mean force of the step.
   Eigen::MatrixXd moved(const PerLayer& force) const;
   PerLayer shift_of(const Eigen::MatrixXd& state) const;
@@ -92,9 +110,11 @@ private:
   std::vector<double> path_; ///< [layer × tooth] m
   Eigen::MatrixXd state_;    ///< [2 × modes] (q, v/ω)
   Eigen::MatrixXd shape_;    ///< [layers × modes] –, in this step
-  PerLayer shift_;           ///< m, at the begin of the step
-  PerLayer force_;           ///< N, of the last step
-  double farthest_ = 0.0;    ///< m, the largest shift so far
+  std::unique_ptr<FlexiblePart> part_;
+  std::vector<Vec3> edge_; ///< [layer × tooth] m, of the material, where the edge is in the middle of its way
+  PerLayer shift_;         ///< m, at the begin of the step
+  PerLayer force_;         ///< N, of the last step
+  double farthest_ = 0.0;  ///< m, the largest shift so far
 };
 
 } // namespace cnem::machining

@@ -4,6 +4,7 @@
 #include "report/html.hpp"
 #include "report/milling_page.hpp"
 #include "report/picture_album.hpp"
+#include "report/removal_page.hpp"
 #include "report/stability_page.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
@@ -126,6 +127,11 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
       report.charts = std::move(charts);
       report.charts_title = "Milling";
       report.figures = milling_figures(status, report.units);
+    }
+  if (history)
+    if (std::vector<Chart> charts = removal_charts(*history); !charts.empty()) {
+      report.charts = std::move(charts);
+      report.charts_title = "Removal";
     }
   collect_pictures(report, folder, status);
 

@@ -2,6 +2,7 @@
 
 #include "app/machining/milling_run.hpp"
 #include "app/machining/modes_run.hpp"
+#include "app/machining/removal_run.hpp"
 #include "app/machining/stability_run.hpp"
 #include "app/machining/structure_modes.hpp"
 #include "app/process/exhaustion.hpp"
@@ -89,6 +90,8 @@ std::unique_ptr<Session> machining_run(const input::Case& input, const RunOption
     return std::make_unique<MillingRun>(input, options, observer);
   if (input.analysis.type == input::Analysis::Type::modes)
     return std::make_unique<ModesRun>(input, options, observer);
+  if (input.analysis.type == input::Analysis::Type::removal)
+    return std::make_unique<RemovalRun>(input, options, observer);
   return std::make_unique<StabilityRun>(input, options, observer);
 }
 
@@ -155,6 +158,7 @@ std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
 std::vector<std::string> milling_doubts(const input::Case& input,
                                         const std::vector<input::NamedMode>& modes) {
   std::vector<std::string> doubts;
+  if (input.structure->removal) return removal_doubts(input);
   if (!input.machining) return doubts;
   const input::MachiningCase& milling = *input.machining;
   const auto [thinnest, thickest] = machining::steady_chips(milling.cut);
@@ -201,6 +205,7 @@ void describe(const input::Case& input, Checked& checked) {
                                                    si_format(size.x(), "m"), si_format(size.y(), "m"),
                                                    si_format(size.z(), "m"), part.cells(), part.unknowns()));
     checked.numbers.emplace_back("unknowns", static_cast<double>(part.unknowns()));
+    if (structure.removal) describe_removal(input, part, checked);
   }
   if (const auto& read = structure.shaft) {
     const machining::Shaft shaft = shaft_of(input);

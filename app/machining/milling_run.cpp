@@ -1,5 +1,7 @@
 #include "app/machining/milling_run.hpp"
 
+#include "app/machining/structure_modes.hpp"
+#include "core/error.hpp"
 #include "core/index.hpp"
 #include "core/machine/isa.hpp"
 #include "input/case_machining.hpp"
@@ -37,7 +39,17 @@ machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
           .steps = milling.dexels.steps};
 }
 
+double step_of(const input::MachiningCase& milling) { // s
+  return machining::full_turn / milling.speed / milling.dexels.steps;
+}
+
 } // namespace
+
+std::vector<machining::Mode> MillingRun::modes_of_process() const {
+  const bool mapped = input_.structure->part && input_.structure->part->mapped;
+  return mapped ? std::vector<machining::Mode>(input_.machining->modes.begin(), input_.machining->modes.end())
+                : plain_modes();
+}
 
 void MillingRun::Course::add(const machining::ProcessStep& step, double dt) {
   force = force.cwiseMax(step.force.cwiseAbs());
@@ -62,8 +74,10 @@ void MillingRun::Course::archive(Archive& archive) {
 MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
                        bool goes_on)
     : MachiningSession(input, options, observer, goes_on),
-      process_(input.machining->cut, plain_modes(), settings_of(*input.machining)),
+      process_(input.machining->cut, modes_of_process(), settings_of(*input.machining),
+               flexible_part(input, settings_of(*input.machining), step_of(*input.machining))),
       checkpoints_(input.output.checkpoint) {
+  if (process_.part()) first_frequency_ = process_.part()->frequency();
   observer_.begins();
 }
 
@@ -100,7 +114,7 @@ std::filesystem::path MillingRun::history_file() const {
 bool MillingRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
   if (!history_.begun()) history_.start(history_file(), columns);
-  const double dt = machining::full_turn / milling.speed / milling.dexels.steps;
+  const double dt = step_of(milling);
   // Whole turns before the end: what counts is steady there, as far as the path lets it.
   const double fed = process_.duration() - milling.dwell * dt * milling.dexels.steps;
   const double turns = std::floor(fed / (dt * milling.dexels.steps));
@@ -119,7 +133,7 @@ bool MillingRun::solve() {
       return true;
     }
     if (request.kind == Request::Kind::pause) return false;
-    const machining::ProcessStep step = process_.advance();
+    const machining::ProcessStep step = advance();
     if (step.time > fed - window && step.time < fed) steady_.add(step, dt);
     const std::array row{step.time,
                          step.angle,
@@ -143,6 +157,17 @@ bool MillingRun::solve() {
   measure_surface();
   judge();
   return true;
+}
+
+machining::ProcessStep MillingRun::advance() {
+  try {
+    return process_.advance();
+  } catch (const DivergenceError& error) { // nothing of the step has been taken yet
+    write_checkpoint();
+    throw DivergenceError(
+        fmt::format("step {} at {}: {}", process_.steps(), si_format(process_.time(), "s"), error.what()),
+        error.node, error.field);
+  }
 }
 
 void MillingRun::measure_surface() {
@@ -242,6 +267,10 @@ void MillingRun::judge() {
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);
   status_.flags.emplace_back("milling.chatter");
   if (!modes_.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
+  if (const machining::FlexiblePart* part = process_.part()) {
+    status_.add_metric("milling.part.begin.f1[Hz]", first_frequency_);
+    status_.add_metric("milling.part.end.f1[Hz]", part->frequency());
+  }
   // Chips change by more than a small part of themselves: lobes, which are of small vibrations, say no more.
   if (constexpr double small = 0.5; steady.displacement > small * milling.cut.engagement.radial_depth)
     warn(input_

@@ -35,6 +35,10 @@ private:
   bool solve() override;
   void write_files() override;
   void judge();
+  /// One step; where it fails a checkpoint of the state before it is left.
+  machining::ProcessStep advance();
+  /// Those that are not of a part that deforms.
+  std::vector<machining::Mode> modes_of_process() const;
   void measure_surface();
   /// m, as the process has it. Throws DivergenceError where no matter is left.
   double left_at(std::size_t layer, double x) const;
@@ -51,7 +55,8 @@ private:
 
   machining::MillingProcess process_;
   CheckpointTimer checkpoints_;
-  Course steady_; ///< of the last turns
+  Course steady_;                ///< of the last turns
+  double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first
 
   std::string surface_ = "the path is too short for a surface";
   std::vector<double> place_;             ///< m along the path

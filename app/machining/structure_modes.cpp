@@ -1,6 +1,10 @@
 #include "app/machining/structure_modes.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
+#include "input/case_machining.hpp"
+#include "machining/structure/newmark_motion.hpp"
+#include "machining/structure/theoretical_tool.hpp"
 
 #include <array>
 
@@ -62,6 +66,77 @@ std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const Sol
       modes.push_back(machining::mode_at(omega, part.damping_of(omega), shape, machining::Mode::Of::part));
   }
   return modes;
+}
+
+namespace {
+
+/// Axes of the cut in the part: where the cutter is at first lies on the machined side, at the tip.
+struct CutAxes {
+  explicit CutAxes(const input::Case& input) : turn(input.structure->part->to_cutter) {
+    const machining::MillingCut& cut = input.machining->cut;
+    const double r = cut.cutter.radius();
+    const Vec3 machined(0.0, cut.engagement.side == machining::Engagement::Side::up ? r : -r, 0.0);
+    origin = *input.structure->part->cutter - turn.transpose() * machined;
+  }
+  Vec3 in_part(const Vec3& x) const { return origin + turn.transpose() * x; }
+  Vec3 in_cut(const Vec3& x) const { return turn * (x - origin); }
+  /// Turns displacements of `count` nodes one below the other, [3 · count] both ways.
+  SparseMatrix turn_all(std::size_t count) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int node = 0; node < as<int>(count); ++node)
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+          if (turn(i, k) != 0.0) entries.emplace_back(3 * node + i, 3 * node + k, turn(i, k));
+    const auto rows = as<Eigen::Index>(3 * count);
+    SparseMatrix all(rows, rows);
+    all.setFromTriplets(entries.begin(), entries.end());
+    return all;
+  }
+  Eigen::Matrix3d turn;
+  Vec3 origin;
+};
+
+} // namespace
+
+std::unique_ptr<machining::FlexiblePart>
+flexible_part(const input::Case& input, const machining::ProcessSettings& settings, double dt) {
+  const auto& read = input.structure->part;
+  if (!read || !read->mapped) return nullptr;
+  const CutAxes axes(input);
+  const machining::MillingCut& cut = input.machining->cut;
+  const machining::Workpiece block = machining::workpiece_of(cut, settings);
+  machining::HexahedralMap map =
+      machining::hexahedra_over(block.low, block.high, cut.cutter.radius(), read->hexahedra);
+  std::vector<Vec3> places;
+  for (const Vec3& x : map.places()) places.push_back(axes.in_part(x));
+  const auto moved_by = [&](const machining::Part& part) -> SparseMatrix { // (7), along axes of the cut
+    return axes.turn_all(places.size()) * part.displacement_near(places);
+  };
+  if (read->newmark) {
+    machining::Part part = part_of(input);
+    SparseMatrix follow = moved_by(part);
+    machining::PresenceAt presence = [whole = part.presence()](double) { return whole; };
+    if (read->taking) {
+      const auto tool = std::make_shared<const machining::TheoreticalTool>(
+          part, machining::MillingProcess(cut, {}, settings), [&](const Vec3& x) { return axes.in_cut(x); },
+          machining::TheoreticalTool::Intervals{dt, read->taking->interval, read->taking->most});
+      presence = [tool](double time) { return tool->presence(time); };
+    }
+    return std::make_unique<machining::FlexiblePart>(
+        std::move(map),
+        std::make_unique<machining::NewmarkMotion>(
+            std::move(part), std::move(follow),
+            machining::NewmarkMotion::Settings{dt, read->taking ? read->taking->interval : 0,
+                                               read->rayleigh.value_or(machining::Rayleigh{})},
+            std::move(presence)));
+  }
+  const SolvedPart solved(input);
+  std::vector<machining::ModalMotion::Coordinate> coordinates;
+  for (Eigen::Index i = 0; i < solved.modes.count(); ++i)
+    coordinates.push_back({solved.modes.omega[i], read->damping_of(solved.modes.omega[i])});
+  return std::make_unique<machining::FlexiblePart>(
+      std::move(map),
+      std::make_unique<machining::ModalMotion>(moved_by(solved.part) * solved.modes.shape, coordinates, dt));
 }
 
 } // namespace cnem::app

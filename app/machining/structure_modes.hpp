@@ -2,6 +2,7 @@
 // Parts and shafts of a case, solved.
 #include "input/case.hpp"
 #include "input/case_structure.hpp"
+#include "machining/milling_process.hpp"
 #include "machining/structure/eigenmodes.hpp"
 #include "machining/structure/part.hpp"
 #include "machining/structure/shaft.hpp"
@@ -34,5 +35,10 @@ struct SolvedPart {
 
 /// Modes of a part as its cutter sees them, along axes of the cut.
 std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& part);
+
+/// The part of a cut that is mapped by hexahedra (part.mapping), as modes or whole; none without one. What
+/// the tool takes of it is known from a rigid run. dt: s, of a step.
+std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
+                                                       const machining::ProcessSettings& settings, double dt);
 
 } // namespace cnem::app

@@ -24,8 +24,9 @@ void add_general(Keys& k) {
         "`explicit`: explicit dynamics; `static`: linear elasticity at small strain, one solution; "
         "`stability`: "
         "which depths a milling cut bears without chatter; `milling`: the cut in the time domain "
-        "(docs/milling.md); `modes`: how a part or a shaft vibrates and bends (docs/structures.md).")
-      .one_of({"explicit", "static", "stability", "milling", "modes"})
+        "(docs/milling.md); `modes`: how a part or a shaft vibrates and bends; `removal`: the "
+        "motion of a part while a tool takes matter from it (docs/structures.md).")
+      .one_of({"explicit", "static", "stability", "milling", "modes", "removal"})
       .fallback("\"explicit\"");
   k.add("analysis.kinematics", choice,
         "Per unit thickness: no strain out of the plane, or no stress. `axisymmetric`: "

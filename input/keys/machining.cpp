@@ -30,7 +30,7 @@ constexpr std::array shared{"title",
                             "output.checkpoint.every_wall",
                             "output.checkpoint.keep"};
 /// Tables of milling, of structures whose modes are sought, and of both, with all that lies below them.
-constexpr std::array structure_tables{"shaft"};
+constexpr std::array structure_tables{"shaft", "removal"};
 constexpr std::array common_tables{"part"};
 constexpr std::array milling_tables{"cutter", "cutting.law", "cutting.forces", "milling",
                                     "modes",  "stability",   "dexels"};

@@ -86,6 +86,37 @@ void add_part(Keys& k) {
   k.add("part.axis", vector, "Direction of the cutter's axis, its +z, in the part.")
       .of_space()
       .fallback("\"0 0 1\"");
+  k.add(
+       "part.mapping", choice,
+       "In the time domain: `point`: the part moves as a whole, as its modes do at `cutter`; `hexahedra`: it "
+       "deforms, and the dexels lie in its undeformed state. `cutter` is then where the cutter is at first, "
+       "on "
+       "the machined side at the height of its tip ([more](structures.md#in-the-time-domain)).")
+      .one_of({"point", "hexahedra"})
+      .fallback("\"point\"");
+  k.add("part.hexahedra", vector, "How many there are over the workpiece along x, y and z of the cut.")
+      .of_space()
+      .when("mapping", {"hexahedra"})
+      .example("\"1 1 1\"")
+      .computed("none longer than the cutter's radius");
+  k.add("part.integration", choice,
+        "`modes`: `count` of them, exactly under the mean force of each step; `newmark`: all unknowns, "
+        "damped by "
+        "`rayleigh`.")
+      .one_of({"modes", "newmark"})
+      .when("mapping", {"hexahedra"})
+      .fallback("\"modes\"");
+  k.add("part.removal", table,
+        "The part loses what the tool takes: D of its cells is that of a rigid run of the cut, which is made "
+        "first. "
+        "With `integration = \"newmark\"`.");
+  k.add("part.removal.interval", integer,
+        "Steps from one factor of K̂ to the next: between them it is interpolated.")
+      .in({.low = 1, .high = 1e9})
+      .fallback("200");
+  k.add("part.removal.most", quantity, "D of what is gone.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true, .high_open = true})
+      .fallback("0.999");
   k.add("part.zones", named_tables, "Boxes within the part; where they overlap the last one counts.");
   k.add("part.zones.*", table, "A box.");
   for (const char* corner : {".from", ".to"})
@@ -172,11 +203,74 @@ void add_shaft(Keys& k) {
       .fallback("\"0 N\"");
 }
 
+void add_removal(Keys& k) {
+  k.add("removal", table,
+        "What a tool takes of `part` with `analysis.type = \"removal\"`: the box that it has gone through. "
+        "Cells "
+        "keep E (1 − D) and ρ (1 − D), D = `most` times the share of them that is taken.");
+  for (const auto& [corner, meaning] :
+       {std::pair{"from", "Corner of all that is taken."}, {"to", "The opposite corner."}})
+    k.add(std::string("removal.") + corner, vector, meaning)
+        .of_space()
+        .unit(d::length)
+        .required()
+        .example("\"0 16 2 mm\"");
+  k.add("removal.along", choice, "Along which axis of the part the tool goes, through the box.")
+      .one_of({"x", "-x", "y", "-y", "z", "-z"})
+      .fallback("\"x\"");
+  k.add("removal.speed", quantity, "Of the tool, which is at the begin of the box at first.")
+      .unit(d::velocity)
+      .in(positive)
+      .required()
+      .example("\"1 m/s\"");
+  k.add("removal.most", quantity,
+        "D of what is gone: 0.95, the paper's, leaves frequencies 10% too high, 0.999 half of a per cent.")
+      .in({.low = 0.0, .high = 1.0, .low_open = true, .high_open = true})
+      .fallback("0.999");
+  k.add("removal.step", quantity, "Of Newmark's scheme.")
+      .unit(d::time)
+      .in(positive)
+      .required()
+      .example("\"10 us\"");
+  k.add("removal.duration", quantity, "")
+      .unit(d::time)
+      .in(positive)
+      .example("\"0.1 s\"")
+      .computed("until the tool is at the end of the box");
+  k.add("removal.inverse", choice,
+        "How K̂(t) is inverted between its factors: `conjugate-gradients` to 10⁻¹⁰ with the factor at hand; "
+        "`interpolated` between the factors of both ends of an interval, each with its own M and C in Q̄; "
+        "`interpolated-common` as paper 004 prints it, with the present M and C for both: it diverges where "
+        "intervals are long; `factored` in each step.")
+      .one_of({"conjugate-gradients", "interpolated", "interpolated-common", "factored"})
+      .fallback("\"conjugate-gradients\"");
+  k.add("removal.interval", integer, "Steps from one factor to the next.")
+      .in({.low = 1, .high = 1e9})
+      .fallback("100");
+  k.add("removal.reference", boolean,
+        "Go beside it with K̂(t) itself, to 10⁻¹⁰, and tell how far the points of the part are from there.")
+      .when("inverse", {"interpolated", "interpolated-common"})
+      .fallback("false");
+  k.add("removal.force", table, "A force on the part, beside those on `part.points`, which stay.");
+  k.add("removal.force.at", vector, "Where it acts at first.")
+      .of_space()
+      .unit(d::length)
+      .required()
+      .example("\"0 40 0 mm\"");
+  k.add("removal.force.follows", boolean, "It goes with the tool.").fallback("true");
+  k.add("removal.force.amplitude", vector, "").of_space().unit(d::force).required().example("\"0 0 1 N\"");
+  k.add("removal.force.frequency", quantity, "f of amplitude · cos(2π f t).")
+      .unit(d::rate)
+      .in(not_negative)
+      .fallback("\"0 Hz\"");
+}
+
 } // namespace
 
 void add_structure(Keys& k) {
   add_part(k);
   add_shaft(k);
+  add_removal(k);
 }
 
 } // namespace cnem::input

@@ -253,9 +253,9 @@ std::string scope_of(const Key& table) {
   if (table.family == Family::milling && (!around || around->family != Family::milling))
     return " In milling analyses only.";
   if (table.family == Family::structures && (!around || around->family != Family::structures))
-    return " In analyses of modes only.";
+    return " In analyses of parts and shafts alone.";
   if (table.family == Family::machining && (!around || around->family != Family::machining))
-    return " In analyses of modes and of milling only.";
+    return " In analyses of parts and shafts, and of milling, only.";
   if (!says_scope(table)) return "";
   return fmt::format(" {}: {}.",
                      table.scope == Scope::plane ? "Not in three-dimensional analyses"

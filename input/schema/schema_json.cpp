@@ -187,7 +187,7 @@ std::string json_schema() {
   };
   schema["if"] = of_types({"stability", "milling"});
   schema["then"] = required_in(Family::milling);
-  schema["else"] = {{"if", of_types({"modes"})}, {"else", required_in(Family::bodies)}};
+  schema["else"] = {{"if", of_types({"modes", "removal"})}, {"else", required_in(Family::bodies)}};
   return schema.dump(2) + "\n";
 }
 

@@ -88,21 +88,23 @@ private:
   bool in_family(const Key& key, const Member* found, const std::string& path) {
     if (belongs(key)) return true;
     if (found)
-      diagnostics_.add(Mistake::conflict, found->where, path,
-                       family_ == Family::milling && key.family == Family::structures
-                           ? "found in a milling analysis, expected it with analysis.type = \"modes\" only: "
-                             "its modes go into [modes]"
-                       : family_ == Family::milling
-                           ? "found in a milling analysis, expected none: it has no body that deforms"
-                       : family_ == Family::structures
-                           ? "found in an analysis of modes, expected none: it has [part] and [shaft] alone"
-                       : key.family == Family::structures
-                           ? "found in an analysis of bodies, expected it with analysis.type = \"modes\" only"
-                       : key.family == Family::machining
-                           ? "found in an analysis of bodies, expected it with analysis.type = \"modes\", "
-                             "\"stability\" or \"milling\" only"
-                           : "found in an analysis of bodies, expected it with analysis.type = \"stability\" "
-                             "or \"milling\" only");
+      diagnostics_.add(
+          Mistake::conflict, found->where, path,
+          family_ == Family::milling && key.family == Family::structures
+              ? "found in a milling analysis, expected it in an analysis of a structure alone: "
+                "analysis.type = \"modes\" for [shaft], whose modes go into [modes], \"removal\" for "
+                "[removal]"
+          : family_ == Family::milling
+              ? "found in a milling analysis, expected none: it has no body that deforms"
+          : family_ == Family::structures    ? "found in an analysis of structures, expected none: it has "
+                                               "[part], [shaft] and [removal] alone"
+          : key.family == Family::structures ? "found in an analysis of bodies, expected it with "
+                                               "analysis.type = \"modes\" or \"removal\" only"
+          : key.family == Family::machining
+              ? "found in an analysis of bodies, expected it with analysis.type = \"modes\", \"removal\", "
+                "\"stability\" or \"milling\" only"
+              : "found in an analysis of bodies, expected it with analysis.type = \"stability\" "
+                "or \"milling\" only");
     return false;
   }
 
@@ -230,7 +232,7 @@ std::string_view kinematics_of(const Value& document) { return analysis_of(docum
 
 Family family_of(const Value& document) {
   const std::string_view type = analysis_of(document, "type");
-  if (type == "modes") return Family::structures;
+  if (type == "modes" || type == "removal") return Family::structures;
   return type == "stability" || type == "milling" ? Family::milling : Family::bodies;
 }
 

@@ -195,6 +195,23 @@ SparseMatrix Part::displacement_at(std::span<const Vec3> points) const {
   return all;
 }
 
+SparseMatrix Part::displacement_near(std::span<const Vec3> points) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  Index row = 0;
+  for (const Vec3& point : points) {
+    const auto distance = [&](const Cell& c) {
+      return (point - point.cwiseMax(c.low).cwiseMin(c.low + c.size)).squaredNorm();
+    };
+    const auto nearest = std::min_element(
+        cell_.begin(), cell_.end(), [&](const Cell& a, const Cell& b) { return distance(a) < distance(b); });
+    add_rows(*nearest, point, 1.0, row, entries);
+    row += 3;
+  }
+  SparseMatrix all(row, unknowns_);
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
 SparseMatrix Part::displacement_of(int axis, bool far) const {
   const double end = far ? shape_.size[axis] : 0.0, third = 0.5 / std::sqrt(3.0);
   double area = 0.0;

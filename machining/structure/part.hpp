@@ -63,6 +63,9 @@ public:
   /// The displacement at points of the material, m from the corner of the box, is G q, [3 · points ×
   /// unknowns], and forces there are Gᵀ F (7). Throws InputError where a point is not within a cell.
   SparseMatrix displacement_at(std::span<const Vec3> points) const;
+  /// The same where a point may lie beside the part: as the nearest one of it moves; beside the surface of a
+  /// plate as its normal.
+  SparseMatrix displacement_near(std::span<const Vec3> points) const;
   /// The same for the mean displacement of a face of the box: of a force that is spread evenly over what
   /// there is of it. [3 × unknowns]. Throws InputError where nothing is.
   SparseMatrix displacement_of(int axis, bool far) const;

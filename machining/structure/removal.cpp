@@ -1,12 +1,14 @@
 #include "machining/structure/removal.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <tuple>
 
 namespace cnem::machining {
 
@@ -96,27 +98,55 @@ int conjugate_gradients(const SparseMatrix& effective, const SparseCholesky& fac
       0, "displacement");
 }
 
-void machine(const Part& part, const RemovalSettings& settings, Motion motion, const PresenceAt& presence,
-             const LoadAt& load, const std::function<void(const RemovalStep&)>& observe) {
+RemovalState RemovalState::at_rest(Eigen::Index unknowns) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(unknowns);
+  return {.step = 0, .motion = {zero, zero, zero}, .energy = {}, .force = zero};
+}
+
+void RemovalState::archive(Archive& archive, const std::string& path) {
+  archive.integer(path + "step", step);
+  for (const auto& [name, unit, vector] : {std::tuple{"q", "m", &motion.q},
+                                           {"velocity", "m/s", &motion.velocity},
+                                           {"acceleration", "m/s^2", &motion.acceleration},
+                                           {"force", "N", &force}}) {
+    std::vector<double> numbers(vector->begin(), vector->end());
+    archive.list(path + name, unit, numbers);
+    if (archive.loading() && as<Eigen::Index>(numbers.size()) != motion.q.size())
+      throw IoError(fmt::format("{}{} is not of this case's part", path, name));
+    *vector = Eigen::Map<const Eigen::VectorXd>(numbers.data(), as<Eigen::Index>(numbers.size()));
+  }
+  for (const auto& [name, number] : {std::pair{"kinetic", &energy.kinetic},
+                                     {"elastic", &energy.elastic},
+                                     {"work", &energy.work},
+                                     {"damping", &energy.damping},
+                                     {"chips", &energy.chips}})
+    archive.number(path + name, "J", *number);
+}
+
+void machine(const Part& part, const RemovalSettings& settings, RemovalState& state,
+             const PresenceAt& presence, const LoadAt& load,
+             const std::function<void(const RemovalStep&)>& observe) {
   assert(settings.dt > 0.0 && settings.interval > 0);
   const NewmarkStep newmark(settings.dt);
   const auto interpolates = settings.inverse == EffectiveInverse::interpolated ||
                             settings.inverse == EffectiveInverse::interpolated_common;
-  ChangingMatrices system(part, settings.damping, presence(0.0)), ahead = system;
-  auto before = std::make_unique<Frozen>(newmark, system.now());
+  const auto time = [&](std::int64_t step) { return static_cast<double>(step) * settings.dt; };
+  auto& [begin, motion, ledger, force_before] = state;
   std::unique_ptr<Frozen> after;
-  SparseMatrix effective = newmark.effective(system.now());
-  EnergyLedger ledger;
-  ledger.kinetic = energy(system.now().mass, motion.velocity);
-  ledger.elastic = energy(system.now().stiffness, motion.q);
-  ledger.work = ledger.kinetic + ledger.elastic; // what was there
-  Eigen::VectorXd force_before = load(0.0, motion.q);
-  for (std::int64_t begin = 0; begin < settings.steps; begin += settings.interval) {
+  while (begin < settings.steps) {
     const std::int64_t end = std::min(begin + settings.interval, settings.steps);
-    const auto time = [&](std::int64_t step) { return static_cast<double>(step) * settings.dt; };
-    if (interpolates) { // K̂(p_i), of the end of the interval
-      ahead.go_to(presence(time(end)));
-      after = std::make_unique<Frozen>(newmark, ahead.now());
+    ChangingMatrices system(part, settings.damping, presence(time(begin)));
+    SparseMatrix effective = newmark.effective(system.now());
+    std::unique_ptr<Frozen> before =
+        after ? std::move(after) : std::make_unique<Frozen>(newmark, system.now());
+    if (interpolates) // K̂(p_i), of the end of the interval
+      after = std::make_unique<Frozen>(newmark,
+                                       ChangingMatrices(part, settings.damping, presence(time(end))).now());
+    if (begin == 0) {
+      ledger.kinetic = energy(system.now().mass, motion.velocity);
+      ledger.elastic = energy(system.now().stiffness, motion.q);
+      ledger.work = ledger.kinetic + ledger.elastic; // what was there
+      force_before = load(0.0, motion.q);
     }
     for (std::int64_t step = begin; step < end; ++step) {
       const double now = time(step + 1), eta = (now - time(begin)) / (time(end) - time(begin));
@@ -163,10 +193,7 @@ void machine(const Part& part, const RemovalSettings& settings, Motion motion, c
       force_before = std::move(force);
       observe({now, motion, ledger, iterations});
     }
-    if (interpolates)
-      before = std::move(after);
-    else
-      before = std::make_unique<Frozen>(newmark, system.now());
+    begin = end;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // The motion of a part from which a tool takes matter: paper 004, section 3.3 and Box 1.
+#include "core/fields/archive.hpp"
 #include "machining/structure/eigenmodes.hpp"
 #include "machining/structure/newmark.hpp"
 #include "machining/structure/part.hpp"
@@ -20,7 +21,7 @@ enum class EffectiveInverse {
 
 struct RemovalSettings {
   double dt = 0.0;           ///< s
-  std::int64_t steps = 0;    ///< until the end
+  std::int64_t steps = 0;    ///< at the end, counted from the time 0
   std::int64_t interval = 1; ///< steps from one factor to the next
   Rayleigh damping;          ///< C = α M + β K
   EffectiveInverse inverse = EffectiveInverse::conjugate_gradients;
@@ -42,6 +43,18 @@ struct EnergyLedger {
   double imbalance() const { return kinetic + elastic + damping + chips - work; }
 };
 
+/// Where a part is at the begin of an interval: all that the intervals from there on depend on.
+struct RemovalState {
+  std::int64_t step = 0;
+  Motion motion;
+  EnergyLedger energy;
+  Eigen::VectorXd force; ///< N, at that time; found anew at step 0
+
+  static RemovalState at_rest(Eigen::Index unknowns);
+  /// Under a path of names that ends with "/".
+  void archive(Archive& archive, const std::string& path);
+};
+
 struct RemovalStep {
   double time = 0.0; ///< s, at the end
   const Motion& motion;
@@ -49,11 +62,13 @@ struct RemovalStep {
   int iterations = 0; ///< of conjugate gradients, in all trials
 };
 
-/// Box 1: over all intervals, and all their steps, trial values of q until the forces that they make give
-/// them back. `observe` sees each step. Throws DivergenceError where trials do not come together in 50, or
-/// the motion is no number any more.
-void machine(const Part& part, const RemovalSettings& settings, Motion motion, const PresenceAt& presence,
-             const LoadAt& load, const std::function<void(const RemovalStep&)>& observe);
+/// Box 1: over all intervals from a state to settings.steps, and all their steps, trial values of q until the
+/// forces that they make give them back. The state is that of the end, and going on from there gives the same
+/// bits. `observe` sees each step. Throws DivergenceError where trials do not come together in 50, or the
+/// motion is no number any more.
+void machine(const Part& part, const RemovalSettings& settings, RemovalState& state,
+             const PresenceAt& presence, const LoadAt& load,
+             const std::function<void(const RemovalStep&)>& observe);
 
 /// 1 − D of cells of which a box is taken, times what is there: D = `most` times the share that the box has
 /// of the cell, which comes to `most` without a kink that intervals would not see.

@@ -46,7 +46,9 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
   std::vector<std::string> words{"run",           input.string(), "--output",
                                  output.string(), "--threads",    std::to_string(threads)};
   if (is_of(input, input::Analysis::Type::modes)) return words;
-  if (is_milling(input))
+  if (is_of(input, input::Analysis::Type::removal))
+    words.insert(words.end(), {"--set", "removal.duration=4 ms"});
+  else if (is_milling(input))
     words.insert(words.end(),
                  {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
                   "milling.length=1.2 mm", "--set", "dexels.layers=90"}); // enough for threads to share
@@ -90,7 +92,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Threads, ::testing::Range(std::size_t{0}, all_cases
 // A run that lost what it wrote last: its checkpoint is some steps older than its end.
 TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
   const fs::path& input = all_cases()[GetParam()];
-  const bool milling = is_of(input, input::Analysis::Type::milling);
+  const bool milling =
+      is_of(input, input::Analysis::Type::milling) || is_of(input, input::Analysis::Type::removal);
   if (!is_explicit(input) && !milling) GTEST_SKIP() << "it has no checkpoints";
   const testing::TemporaryFolder temporary("restarted");
   const fs::path& folder = temporary.path();

@@ -27,10 +27,13 @@ LoadAt nothing(const Part& part) {
 }
 
 /// Swings in its first mode, from the turning point.
-Motion swinging(const Part& part) {
+RemovalState swinging(const Part& part) {
   const Eigenmodes first = modes(part, 1);
   const double omega = first.omega[0];
-  return {first.shape.col(0), Eigen::VectorXd::Zero(part.unknowns()), -omega * omega * first.shape.col(0)};
+  RemovalState state = RemovalState::at_rest(part.unknowns());
+  state.motion.q = first.shape.col(0);
+  state.motion.acceleration = -omega * omega * first.shape.col(0);
+  return state;
 }
 
 double largest(const std::vector<double>& u) {
@@ -58,11 +61,11 @@ Course course(std::int64_t interval, EffectiveInverse inverse) {
   const SparseMatrix at = part.displacement_at(corner);
   const auto tool = [&](double time) { return 0.1 * std::min(time / duration, 1.0); };
   Course made;
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(part.unknowns());
+  RemovalState state = RemovalState::at_rest(part.unknowns());
   machine(
       part,
       {.dt = dt, .steps = 1000, .interval = interval, .damping = {0.0, 0.02 / omega}, .inverse = inverse},
-      {zero, zero, zero},
+      state,
       [&](double time) {
         return presence_without(part, Vec3(0.0, 0.02, 0.002), Vec3(tool(time), 0.04, 0.004), 0.9);
       },
@@ -82,15 +85,16 @@ Course course(std::int64_t interval, EffectiveInverse inverse) {
 
 TEST(Newmark, IsOfSecondOrderAndKeepsTheEnergy) {
   const Part& part = coarse();
-  const Motion start = swinging(part);
+  const RemovalState start = swinging(part);
   const double omega = modes(part, 1).omega[0], duration = 2.0 * 2.0 * std::numbers::pi / omega;
   std::vector<double> errors;
   for (const std::int64_t steps : {80, 160, 320}) {
     Eigen::VectorXd end;
     double drift = 0.0, first = 0.0;
+    RemovalState state = start;
     machine(part,
             {.dt = duration / static_cast<double>(steps), .steps = steps, .interval = steps, .damping = {}},
-            start, unchanged(part), nothing(part), [&](const RemovalStep& step) {
+            state, unchanged(part), nothing(part), [&](const RemovalStep& step) {
               const double energy = step.energy.kinetic + step.energy.elastic;
               if (first == 0.0) first = energy;
               drift = std::max(drift, std::abs(energy - first));
@@ -98,7 +102,7 @@ TEST(Newmark, IsOfSecondOrderAndKeepsTheEnergy) {
             });
     EXPECT_LT(drift, 1e-10 * first);
     EXPECT_NEAR(first / (0.5 * omega * omega), 1.0, 1e-9);
-    errors.push_back((end - start.q).norm() / start.q.norm());
+    errors.push_back((end - start.motion.q).norm() / start.motion.q.norm());
   }
   // Of the phase, of which what is left at the turning point is the square.
   EXPECT_NEAR(0.5 * std::log2(errors[0] / errors[1]), 2.0, 0.1);
@@ -107,7 +111,7 @@ TEST(Newmark, IsOfSecondOrderAndKeepsTheEnergy) {
 
 TEST(Newmark, ForcesOfTheMotionAreMet) { // a spring at a corner, which Newton's trials find
   const Part& part = coarse();
-  const Motion start = swinging(part);
+  const RemovalState start = swinging(part);
   const std::vector<Vec3> corner{Vec3(0.1, 0.04, 0.0)};
   const Eigen::MatrixXd at = part.displacement_at(corner);
   const double dt = 1e-5, spring = 1e5;
@@ -116,9 +120,10 @@ TEST(Newmark, ForcesOfTheMotionAreMet) { // a spring at a corner, which Newton's
   matrices.damping = 0.0 * matrices.mass;
   const Eigen::MatrixXd with_spring =
       Eigen::MatrixXd(newmark.effective(matrices)) + spring * at.row(2).transpose() * at.row(2);
-  const Eigen::VectorXd exact = with_spring.ldlt().solve(newmark.carried(start, matrices));
+  const Eigen::VectorXd exact = with_spring.ldlt().solve(newmark.carried(start.motion, matrices));
+  RemovalState state = start;
   machine(
-      part, {.dt = dt, .steps = 1, .interval = 1, .damping = {}}, start, unchanged(part),
+      part, {.dt = dt, .steps = 1, .interval = 1, .damping = {}}, state, unchanged(part),
       [&](double, const Eigen::VectorXd& trial) -> Eigen::VectorXd {
         return -spring * at.row(2).transpose() * (at.row(2) * trial);
       },
@@ -158,9 +163,9 @@ TEST(Removal, LedgerAddsUpWithoutRemoval) {
   const Part& part = coarse();
   const std::vector<Vec3> corner{Vec3(0.1, 0.04, 0.0)};
   const SparseMatrix at = part.displacement_at(corner);
-  const Motion start = swinging(part);
+  RemovalState state = swinging(part);
   machine(
-      part, {.dt = 1e-5, .steps = 300, .interval = 100, .damping = {0.0, 1e-6}}, start, unchanged(part),
+      part, {.dt = 1e-5, .steps = 300, .interval = 100, .damping = {0.0, 1e-6}}, state, unchanged(part),
       [&](double time, const Eigen::VectorXd&) -> Eigen::VectorXd {
         return at.transpose() * Vec3(0.0, 0.0, 1e3 * std::sin(9e3 * time));
       },

@@ -1,0 +1,79 @@
+#include "machining/structure/theoretical_tool.hpp"
+
+#include "core/index.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace cnem::machining {
+
+namespace {
+
+/// Points of a cell by which its share is told, along each axis.
+constexpr int points = 8;
+
+/// Which points of cells lie in the workpiece, and whether they are still there.
+class Samples {
+public:
+  Samples(const Part& part, const MillingProcess& process, const std::function<Vec3(const Vec3&)>& in_cut)
+      : cells_(part.cells()) {
+    const Workpiece block = process.workpiece();
+    const double thickness = (block.high.z() - block.low.z()) / static_cast<double>(process.layers().size());
+    for (std::size_t c = 0; c < cells_; ++c)
+      for (int n = 0; n < points * points * points; ++n) {
+        const Vec3 share(n / (points * points) + 0.5, n / points % points + 0.5, n % points + 0.5);
+        const Vec3 size = part.high(c) - part.low(c);
+        const Vec3 at = in_cut(part.low(c) + size.cwiseProduct(share) / points);
+        if (((at - block.low).array() <= 0.0).any() || ((block.high - at).array() <= 0.0).any()) continue;
+        const auto layer = static_cast<std::size_t>((at.z() - block.low.z()) / thickness);
+        line_[{std::min(layer, process.layers().size() - 1), at.x()}].emplace_back(c, at.y());
+      }
+  }
+
+  /// [cell] of all points.
+  std::vector<double> taken(const MillingProcess& process) const {
+    std::vector<double> share(cells_, 0.0);
+    for (const auto& [where, points_there] : line_) {
+      const auto& [layer, x] = where;
+      const std::vector<Interval> matter = process.layers()[layer].matter(1, x);
+      for (const auto& [cell, y] : points_there)
+        if (std::none_of(matter.begin(), matter.end(),
+                         [y = y](const Interval& of) { return y >= of.low && y <= of.high; }))
+          share[cell] += 1.0 / (points * points * points);
+    }
+    return share;
+  }
+
+private:
+  std::size_t cells_;
+  std::map<std::pair<std::size_t, double>, std::vector<std::pair<std::size_t, double>>>
+      line_; ///< [layer, x] cells and y
+};
+
+} // namespace
+
+TheoreticalTool::TheoreticalTool(const Part& part, MillingProcess rigid,
+                                 const std::function<Vec3(const Vec3&)>& in_cut, const Intervals& intervals)
+    : intervals_(intervals) {
+  const Samples samples(part, rigid, in_cut);
+  const auto note = [&] {
+    std::vector<double> presence = part.presence(), taken = samples.taken(rigid);
+    for (std::size_t c = 0; c < presence.size(); ++c) presence[c] *= 1.0 - intervals.most * taken[c];
+    presence_.push_back(std::move(presence));
+  };
+  note();
+  while (!rigid.at_end()) {
+    rigid.advance();
+    if (rigid.steps() % intervals.interval == 0 || rigid.at_end()) note();
+  }
+}
+
+const std::vector<double>& TheoreticalTool::presence(double time) const {
+  const auto interval = std::llround(time / intervals_.dt) / intervals_.interval;
+  return presence_[std::min(index_of(interval), presence_.size() - 1)];
+}
+
+} // namespace cnem::machining

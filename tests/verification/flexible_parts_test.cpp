@@ -1,0 +1,65 @@
+// Parts that move or deform while a tool takes matter from them (paper 004, section 3).
+#include "tests/finished_run.hpp"
+
+#include "results/checkpoint_folder.hpp"
+
+namespace cnem::testing {
+namespace {
+
+input::Case milling_case(const std::string& name, const std::vector<std::string>& set) {
+  return input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/milling/" + name + "/case.toml", set);
+}
+
+} // namespace
+
+TEST(PlateRemoval, InterpolatedInversesComeNearerWithShorterIntervals) { // a tenth of Table 2's run
+  const auto run = [](const std::string& inverse, int interval) {
+    return finish(milling_case("plate_removal", {"removal.duration=10 ms", "removal.inverse=" + inverse,
+                                                 "removal.interval=" + std::to_string(interval)}));
+  };
+  const FinishedRun coarse = run("interpolated", 500), fine = run("interpolated", 100),
+                    printed = run("interpolated-common", 100);
+  EXPECT_NEAR(fine.metric("removal.begin.f1"), 3342.677, 1e-3);
+  EXPECT_LT(fine.metric("removal.P.deviation"), 2.6e-3);
+  EXPECT_LT(2.0 * fine.metric("removal.P.deviation"), coarse.metric("removal.P.deviation"));
+  EXPECT_GT(printed.metric("removal.P.deviation"), 3.0 * fine.metric("removal.P.deviation"));
+  EXPECT_GT(fine.metric("removal.energy.chips"), 0.0);
+  EXPECT_LT(std::abs(fine.metric("removal.energy.imbalance")), 0.05 * fine.metric("removal.energy.work"));
+  EXPECT_NEAR(fine.of("tool").back(), 0.01, 1e-9);
+}
+
+TEST(FlexibleParts, MappedWhereTheyMoveAlikeAreThatOfOnePlace) { // midway along the wall, its first mode
+  const auto run = [](const std::string& mapping) {
+    return finish(milling_case("thin_part", {"analysis.type=milling", "part.cutter=48 40 4 mm",
+                                             "part.count=1", "part.mapping=" + mapping}));
+  };
+  const FinishedRun point = run("point"), mapped = run("hexahedra");
+  EXPECT_GT(point.metric("milling.displacement"), 4e-6);
+  for (const char* force : {"milling.Fx", "milling.Fy", "milling.power"})
+    EXPECT_NEAR(mapped.metric(force) / point.metric(force), 1.0, 2e-3) << force;
+  EXPECT_NEAR(mapped.metric("milling.location_error") / point.metric("milling.location_error"), 1.0, 0.03);
+  EXPECT_NEAR(mapped.metric("milling.part.end.f1") / mapped.metric("milling.part.begin.f1"), 1.0, 1e-12);
+}
+
+TEST(FlexibleParts, LoseWhatARigidRunTakes) {
+  const FinishedRun done =
+      finish(milling_case("thinning_wall", {"milling.length=12 mm", "part.removal.interval=300"}));
+  // Matter goes at the free edge: the wall swings faster.
+  EXPECT_GT(done.metric("milling.part.end.f1"), 1.0005 * done.metric("milling.part.begin.f1"));
+  EXPECT_LT(done.metric("milling.part.end.f1"), 1.02 * done.metric("milling.part.begin.f1"));
+  EXPECT_GT(done.metric("milling.displacement"), 1e-6);
+}
+
+TEST(FlexibleParts, EndWhereHexahedraFoldAndLeaveTheLastGoodStep) {
+  const input::Case input = milling_case("flexible_wall", {"part.young=2 MPa", "part.density=100 kg/m3",
+                                                           "milling.length=12 mm", "dexels.layers=9"});
+  const TemporaryFolder folder("folds");
+  EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .threads = 1, .version = "test"}),
+            Exit::diverged);
+  const results::RunStatus status = results::read_status(folder.path());
+  EXPECT_NE(status.reason.find("hexahedron ("), std::string::npos) << status.reason;
+  EXPECT_NE(status.reason.find("step "), std::string::npos) << status.reason;
+  EXPECT_FALSE(results::list_checkpoints(folder.path()).empty());
+}
+
+} // namespace cnem::testing
