@@ -203,10 +203,10 @@ void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, 
       const double gap_before = before.gap(start[b]) - kept, place = now.place(end[b]);
       const double s = std::clamp(place, 0.0, 1.0);
       FacetHit<2> hit{b, f, {1.0 - s, s}, now.normal, std::min(gap_before, 0.0), kept};
-      if (were_bonded(bonds_, surface, b,
-                      f)) { // what compressed the bond stays: to push it out would take work
-        hit.clearance += hit.start;
-        hit.start = 0.0;
+      if (were_bonded(bonds_, surface, b, f)) { // what compressed the bond stays: to push it out takes work
+        const double stays = std::min(-hit.start, bonds_.pressed[surface.node[b]]);
+        hit.clearance -= stays;
+        hit.start += stays;
       }
       if (gap_before >= -kept - rounding * before.length) {
         const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;

@@ -135,11 +135,14 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
   });
 }
 
-template<int dim> void ExplicitSolver<dim>::part_faces() requires(dim == 2) {
-  conditions_.cohesive.part(state_.node.position);
+template<int dim> std::string ExplicitSolver<dim>::part_faces() requires(dim == 2) {
+  const CohesiveInterface* left = conditions_.cohesive.part(state_.node.position);
+  if (!conditions_.cohesive.empty())
+    conditions_.contact.set_bonds(conditions_.cohesive.bonds(conditions_.cloud));
+  return left ? left->spec.name : "";
 }
 
-template void ExplicitSolver<2>::part_faces();
+template std::string ExplicitSolver<2>::part_faces();
 #define CNEM_INSTANTIATE(dim)                                                                                \
   template std::optional<ExplicitSolver<dim>::PointChange> ExplicitSolver<dim>::change_of_points(            \
       const Resampling<dim>*, const Cloud<dim>&, const DiscreteOperators<dim>&) const;                       \

@@ -245,6 +245,34 @@ TEST(CohesiveFaces, parting_leaves_alone_what_has_slid_away) {
   EXPECT_EQ(x, before);
 }
 
+// Where a body has been cut through, a face ends in a corner that can lie in the other one.
+TEST(CohesiveFaces, parting_asks_the_last_node_of_a_face_too) {
+  const Cloud<2> cloud = two_faces(matching, other);
+  CohesiveFaces faces = faces_of(cloud, true, {{0.0, 4 * h}});
+  Fields<2> x = places(cloud);
+  const std::size_t last = matching.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) x[0][i] -= 0.7 * h, x[1][i] = i < last ? 0.1 * h : -0.02 * h;
+  EXPECT_EQ(faces.part(x), nullptr);
+  const std::size_t a = matching.size() + 4, b = a + 1; // the segment below it
+  ASSERT_LT(x[0][a], x[0][last]);
+  ASSERT_GT(x[0][b], x[0][last]);
+  const double at = (x[0][last] - x[0][a]) / (x[0][b] - x[0][a]);
+  EXPECT_GT(x[1][last] - (1.0 - at) * x[1][a] - at * x[1][b], 0.0);
+}
+
+TEST(CohesiveFaces, contact_is_told_what_pressed_a_bond_that_broke_until_its_faces_are_parted) {
+  const Cloud<2> cloud = two_faces(matching, matching);
+  CohesiveFaces faces = faces_of(cloud, true);
+  Fields<2> x = places(cloud);
+  for (std::size_t i = 0; i < matching.size(); ++i) x[0][i] += 2 * h, x[1][i] = -1e-8;
+  faces.evaluate(x);
+  ASSERT_NEAR(CohesiveFaces::broken_length(faces.interfaces()[0]), 4 * h, 1e-18);
+  const auto pressed = [&](std::size_t i) { return faces.bonds(cloud).pressed[as<NodeIndex>(i)]; };
+  for (std::size_t i = 0; i < x[0].size(); ++i) EXPECT_NEAR(pressed(i), 1e-8, 1e-16) << i;
+  EXPECT_EQ(faces.part(x), nullptr);
+  for (std::size_t i = 0; i < x[0].size(); ++i) EXPECT_EQ(pressed(i), 0.0) << i;
+}
+
 TEST(CohesiveFaces, open_parts_bear_nothing_and_are_left_to_contact) {
   const Cloud<2> cloud = two_faces(matching, matching);
   CohesiveFaces faces = faces_of(cloud, true, {{0.0, 2.5 * h}});
