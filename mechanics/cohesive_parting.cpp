@@ -1,4 +1,6 @@
-// How faces of cohesive interfaces that overlap are set apart before a cloud is made of them.
+// How faces that overlap, of cohesive interfaces and others, are set apart before a cloud is made of them.
+#include "core/index.hpp"
+#include "mechanics/boundary_parting.hpp"
 #include "mechanics/cohesive_faces.hpp"
 #include "mechanics/placed_element.hpp"
 
@@ -165,7 +167,101 @@ bool part_touching(const CohesiveInterface& interface, const Fields<2>& position
   return any;
 }
 
+/// The boundary of a cloud at the places of its nodes.
+class PlacedBoundary {
+public:
+  PlacedBoundary(const Cloud<2>& cloud, const Fields<2>& position)
+      : cloud_(cloud), position_(position), entering_(cloud.position.size(), CloudFacetIndex::none),
+        leaving_(entering_) {
+    std::vector<std::pair<TreeBox, CloudFacetIndex>> boxes;
+    for (const CloudFacetIndex f : cloud.facets.indices()) {
+      const auto [a, b] = cloud.facets[f].node;
+      leaving_[a] = entering_[b] = f;
+      boxes.emplace_back(box_of(at(a).cwiseMin(at(b)), at(a).cwiseMax(at(b))), f);
+      reach_ = std::max(reach_, shallow * length(f));
+    }
+    tree_ = FacetTree(boxes);
+  }
+
+  /// Adds what sets nodes apart from facets they lie under; whether any does.
+  bool wish_apart(Shifts& shift) const {
+    bool any = false;
+    std::vector<std::pair<TreeBox, CloudFacetIndex>> near;
+    for (const NodeIndex i : leaving_.indices()) {
+      if (!exists(leaving_[i])) continue;
+      const Vec2 x = at(i), reach = Vec2::Constant(reach_);
+      near.clear();
+      tree_.query(bg::index::intersects(box_of(x - reach, x + reach)), std::back_inserter(near));
+      CloudFacetIndex under = CloudFacetIndex::none;
+      for (const auto& [box, f] : near) {
+        if (!lies_under(i, f)) continue;
+        const bool nearer = !exists(under) || gap(i, f) > gap(i, under);
+        if (nearer || (gap(i, f) == gap(i, under) && f < under)) under = f;
+      }
+      if (!exists(under)) continue;
+      any = true;
+      const Vec2 half = 0.5 * (kept * length(under) - gap(i, under)) * normal(under);
+      wish(shift[i], half);
+      for (const NodeIndex end : cloud_.facets[under].node) wish(shift[end], -half);
+    }
+    return any;
+  }
+
+private:
+  static constexpr double shallow = 1e-3; ///< of a facet: what is deeper is no remainder of contact
+  static constexpr double kept = 1e-6;    ///< of a facet, as contact keeps
+  using FacetTree = bg::index::rtree<std::pair<TreeBox, CloudFacetIndex>, bg::index::quadratic<16>>;
+
+  Vec2 at(NodeIndex i) const { return vector_at<2>(position_, index_of(i)); }
+  Vec2 edge(CloudFacetIndex f) const { return at(cloud_.facets[f].node[1]) - at(cloud_.facets[f].node[0]); }
+  double length(CloudFacetIndex f) const { return edge(f).norm(); }
+  Vec2 normal(CloudFacetIndex f) const { return -left_normal(edge(f)).normalized(); }
+  double gap(NodeIndex i, CloudFacetIndex f) const {
+    return normal(f).dot(at(i) - at(cloud_.facets[f].node[0]));
+  }
+
+  bool lies_under(NodeIndex i, CloudFacetIndex f) const {
+    const auto [a, b] = cloud_.facets[f].node;
+    if (i == a || i == b) return false;
+    const double place = edge(f).dot(at(i) - at(a)) / edge(f).squaredNorm(), depth = -gap(i, f);
+    if (place <= 0.0 || place >= 1.0 || depth <= 0.0 || depth > shallow * length(f)) return false;
+    const Vec2 out = normal(f);
+    if (std::min(normal(entering_[i]).dot(out), normal(leaving_[i]).dot(out)) > facing) return false;
+    return bodies_at(at(i) + 0.5 * depth * out) > 1;
+  }
+  /// Winding number of the boundary.
+  int bodies_at(const Vec2& x) const {
+    int turns = 0;
+    for (const Facet<2>& facet : cloud_.facets) {
+      const Vec2 a = at(facet.node[0]), b = at(facet.node[1]);
+      const double side = cross(b - a, x - a);
+      if (a.y() <= x.y() && b.y() > x.y() && side > 0.0) ++turns;
+      if (a.y() > x.y() && b.y() <= x.y() && side < 0.0) --turns;
+    }
+    return turns;
+  }
+
+  const Cloud<2>& cloud_;
+  const Fields<2>& position_;
+  IndexedVector<NodeIndex, CloudFacetIndex> entering_, leaving_; ///< [node] none: inside
+  FacetTree tree_;
+  double reach_ = 0.0; ///< m
+};
+
+void move(Fields<2>& position, const Shifts& shift) {
+  for (const NodeIndex i : shift.indices())
+    for (std::size_t k = 0; k < 2; ++k) position[k][index_of(i)] += shift[i][static_cast<Eigen::Index>(k)];
+}
+
 } // namespace
+
+void part_boundary(const Cloud<2>& cloud, Fields<2>& position) {
+  for (int pass = 0; pass < most_passes; ++pass) {
+    Shifts shift(position[0].size(), Vec2::Zero());
+    if (!PlacedBoundary(cloud, position).wish_apart(shift)) return;
+    move(position, shift);
+  }
+}
 
 const CohesiveInterface* CohesiveFaces::part(Fields<2>& position) {
   const Fields<2> before = position;
@@ -181,8 +277,7 @@ const CohesiveInterface* CohesiveFaces::part(Fields<2>& position) {
         last = &interface;
     any |= last != nullptr;
     if (pass == most_passes || (pass > 0 && !last)) break;
-    for (const NodeIndex i : shift.indices())
-      for (std::size_t k = 0; k < 2; ++k) position[k][index_of(i)] += shift[i][static_cast<Eigen::Index>(k)];
+    move(position, shift);
   }
   for (CohesiveInterface& interface : interface_)
     for (std::size_t e = 0; e < interface.element.size(); ++e) {

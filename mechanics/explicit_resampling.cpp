@@ -1,6 +1,7 @@
 // What goes over to the nodes of a resampled cloud and to new stress points: each field by the rule of its
 // line.
 #include "core/index.hpp"
+#include "mechanics/boundary_parting.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/mixing.hpp"
@@ -137,8 +138,10 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
 
 template<int dim> std::string ExplicitSolver<dim>::part_faces() requires(dim == 2) {
   const CohesiveInterface* left = conditions_.cohesive.part(state_.node.position);
-  if (!conditions_.cohesive.empty())
+  if (!conditions_.cohesive.empty()) {
+    part_boundary(conditions_.cloud, state_.node.position);
     conditions_.contact.set_bonds(conditions_.cohesive.bonds(conditions_.cloud));
+  }
   return left ? left->spec.name : "";
 }
 
