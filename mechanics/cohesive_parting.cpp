@@ -208,8 +208,9 @@ public:
   }
 
 private:
-  static constexpr double shallow = 1e-3; ///< of a facet: what is deeper is no remainder of contact
-  static constexpr double kept = 1e-6;    ///< of a facet, as contact keeps
+  static constexpr double shallow = 1e-3;  ///< of a facet: what is deeper is no remainder of contact
+  static constexpr double kept = 1e-6;     ///< of a facet, as contact keeps
+  static constexpr double rounding = 1e-9; ///< of a facet: faces that coincide are in none
   using FacetTree = bg::index::rtree<std::pair<TreeBox, CloudFacetIndex>, bg::index::quadratic<16>>;
 
   Vec2 at(NodeIndex i) const { return vector_at<2>(position_, index_of(i)); }
@@ -224,7 +225,8 @@ private:
     const auto [a, b] = cloud_.facets[f].node;
     if (i == a || i == b) return false;
     const double place = edge(f).dot(at(i) - at(a)) / edge(f).squaredNorm(), depth = -gap(i, f);
-    if (place <= 0.0 || place >= 1.0 || depth <= 0.0 || depth > shallow * length(f)) return false;
+    if (place <= 0.0 || place >= 1.0 || depth <= rounding * length(f) || depth > shallow * length(f))
+      return false;
     const Vec2 out = normal(f);
     if (std::min(normal(entering_[i]).dot(out), normal(leaving_[i]).dot(out)) > facing) return false;
     return bodies_at(at(i) + 0.5 * depth * out) > 1;

@@ -137,11 +137,10 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
 }
 
 template<int dim> std::string ExplicitSolver<dim>::part_faces() requires(dim == 2) {
-  const CohesiveInterface* left = conditions_.cohesive.part(state_.node.position);
-  if (!conditions_.cohesive.empty()) {
-    part_boundary(conditions_.cloud, state_.node.position);
-    conditions_.contact.set_bonds(conditions_.cohesive.bonds(conditions_.cloud));
-  }
+  if (conditions_.cohesive.empty()) return "";
+  const CohesiveInterface* left = conditions_.cohesive.part(state_.node.position); // with their offsets
+  part_boundary(conditions_.cloud, state_.node.position);
+  conditions_.contact.set_bonds(conditions_.cohesive.bonds(conditions_.cloud));
   return left ? left->spec.name : "";
 }
 

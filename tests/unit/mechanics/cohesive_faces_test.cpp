@@ -278,7 +278,7 @@ Cloud<2> standing_on_a_square(double deep) {
 }
 
 TEST(PartBoundary, sets_apart_what_contact_has_left) {
-  for (const double deep : {1e-9, 4e-4}) {
+  for (const double deep : {1e-8, 4e-4}) {
     const Cloud<2> cloud = standing_on_a_square(deep);
     Fields<2> x = places(cloud);
     part_boundary(cloud, x);
