@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -157,7 +158,7 @@ void Adaptation::move_window(ExplicitSolver<2>& solver, const Follow& follow) {
 }
 
 double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
-  solver.part_faces();
+  const std::string left = solver.part_faces();
   const results::Audit<2> before = results::audit(solver);
   if (window_) move_window(solver, follow);
   adapt::PassReport report;
@@ -180,6 +181,7 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
     rules.placement = input_->adapt.placement;
     if (input_->adapt.separate) rules.split.piece = fracture_piece(cloud);
     rules.split.cracks = input_->adapt.cracks;
+    rules.split.thinnest_film = input_->adapt.thinnest_film;
     const Resampling<2> change =
         adapt::resample(cloud, std::move(structure), properties(solver, wanted), rules, report);
     solver.prepare(change);
@@ -187,10 +189,12 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
     follow_nodes(change, solver.state().time);
     follow(change);
     changed = share_changed(change);
-  } catch (const GeometryError&) {
+  } catch (const GeometryError& error) {
     size_ = size_before;
     flow_ = flow_before;
-    throw;
+    if (left.empty()) throw;
+    throw GeometryError(
+        fmt::format("{}; the faces of the interface '{}' could not be set apart", error.what(), left));
   }
   ++passes_;
   total_ += report;

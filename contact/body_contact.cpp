@@ -138,13 +138,17 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
   Vec2 low = listed_.front(), high = low;
   for (const Vec2& x : listed_) low = low.cwiseMin(x), high = high.cwiseMax(x);
   size_ = (high - low).norm();
+  // What a bond covers is a surface too: where it has opened, others than its partner come between.
+  const auto tied = [&](const auto& ends) {
+    return std::all_of(ends.begin(), ends.end(), [&](BoundaryNodeIndex b) { return group_[b] >= 0; });
+  };
   std::vector<std::pair<TreeBox, FacetIndex>> boxes;
   double total = 0.0;
   for (const FacetIndex f : surface.facets.indices()) {
     const auto& ends = surface.facets[f];
     const Vec2 &a = listed_[ends[0]], &b = listed_[ends[1]];
     total += (b - a).norm();
-    if (!bonded(surface, f)) boxes.emplace_back(box_around(a.cwiseMin(b), a.cwiseMax(b), 0.0), f);
+    if (!tied(ends)) boxes.emplace_back(box_around(a.cwiseMin(b), a.cwiseMax(b), 0.0), f);
   }
   skin_ = skin_of_facets * total / static_cast<double>(std::max<std::size_t>(surface.facets.size(), 1));
   const Tree tree(boxes);
@@ -203,10 +207,10 @@ void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, 
       const double gap_before = before.gap(start[b]) - kept, place = now.place(end[b]);
       const double s = std::clamp(place, 0.0, 1.0);
       FacetHit<2> hit{b, f, {1.0 - s, s}, now.normal, std::min(gap_before, 0.0), kept};
-      if (were_bonded(bonds_, surface, b,
-                      f)) { // what compressed the bond stays: to push it out would take work
-        hit.clearance += hit.start;
-        hit.start = 0.0;
+      if (were_bonded(bonds_, surface, b, f)) { // what compressed the bond stays: to push it out takes work
+        const double stays = std::min(-hit.start, bonds_.pressed[surface.node[b]]);
+        hit.clearance -= stays;
+        hit.start += stays;
       }
       if (gap_before >= -kept - rounding * before.length) {
         const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;

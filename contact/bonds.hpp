@@ -12,6 +12,7 @@ struct Bonds {
   IndexedVector<CloudFacetIndex, std::int32_t> face;   ///< that a facet is on; −1: none
   IndexedVector<CloudFacetIndex, std::int8_t> covered; ///< the other face is bonded to all of the facet
   IndexedVector<NodeIndex, std::int32_t> bonded;       ///< the face on which a node is bonded; −1: on none
+  IndexedVector<NodeIndex, double> pressed; ///< m, how far faces lay in each other where a bond broke
 
   bool empty() const { return face.empty(); }
 };

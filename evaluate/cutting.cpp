@@ -350,7 +350,7 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
                measure_surface(
                    outline, place,
                    {volume, spans(loaded), spans(residual), strain, state.node.temperature, left.yield_ratio},
-                   asked.feed, asked.clear),
+                   asked.feed, moved.dot(cut.along), asked.clear),
                input.analysis.thermal);
   result.course = std::move(rows);
   return result;

@@ -92,11 +92,12 @@ struct LayerSums {
 } // namespace
 
 MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2> position,
-                                const DepthFields& fields, double feed, double clear) {
+                                const DepthFields& fields, double feed, double travelled, double clear) {
   MachinedSurface surface;
   const std::vector<std::size_t> places = surface_of(outline, feed);
   double begin = 0.0;
   for (const std::size_t k : places) begin = std::min(begin, outline.point[k].x());
+  begin = std::max(begin, -travelled);
   surface.measured.to = -clear;
   surface.measured.from = std::max(begin + clear, surface.measured.to - longest_surface * feed);
   if (surface.measured.length() < shortest_surface * feed) {

@@ -46,9 +46,10 @@ struct MachinedSurface {
   double yield_ratio = unknown; ///< –, the largest in the layers
 };
 
-/// position: [node] m, in the frame of the tool. clear, m: so near to the tool, and to where the cut began,
-/// nothing is measured.
+/// position: [node] m, in the frame of the tool. travelled, m: by the tool along the cut; what lies further
+/// behind it, as the ledge that an earlier cut has left, it has not made. clear, m: so near to the tool, and
+/// to where the cut began, nothing is measured.
 MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2> position,
-                                const DepthFields& fields, double feed, double clear);
+                                const DepthFields& fields, double feed, double travelled, double clear);
 
 } // namespace cnem::evaluate

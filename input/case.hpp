@@ -283,8 +283,9 @@ struct Adaptation {
   /// The boundary piece that separation makes.
   static constexpr const char* fracture_piece = "fracture";
   bool resample = false;
-  bool separate = false; ///< broken matter is opened along edges between nodes
-  bool cracks = false;   ///< also from the boundary to a tip inside
+  bool separate = false;      ///< broken matter is opened along edges between nodes
+  bool cracks = false;        ///< also from the boundary to a tip inside
+  double thinnest_film = 0.0; ///< m, thinner ones are cut though they are whole
   adapt::Placement placement = adapt::Placement::between_nodes;
   int quiet_every = 0; ///< steps between passes at most, where they change hardly anything; 0: as ever
   double growth = 0.3; ///< – of the wanted spacing per distance

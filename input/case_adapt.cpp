@@ -12,6 +12,7 @@ namespace {
 /// What the plane alone has.
 void read_plane(const Setting& table, Adaptation& rules) {
   rules.cracks = table.get<bool>("cracks");
+  rules.thinnest_film = table.get<double>("thinnest_film");
   rules.placement = table.choice<adapt::Placement>("placement");
   rules.tool_spacing = table.maybe<double>("tool_spacing");
   rules.surface_spacing = table.maybe<double>("surface_spacing");
@@ -71,6 +72,9 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   if (rules.cracks && !rules.separate)
     conflict("adapt.cracks",
              "found true where adapt.separate is false, expected true: cracks are a part of separation");
+  if (rules.thinnest_film > 0.0 && !rules.separate)
+    conflict("adapt.thinnest_film",
+             "found a thickness where adapt.separate is false, expected true: films are cut by separation");
   const std::vector<std::string> pieces = result.domain.piece_names();
   if (rules.separate && std::find(pieces.begin(), pieces.end(), Adaptation::fracture_piece) != pieces.end())
     conflict("adapt.separate",

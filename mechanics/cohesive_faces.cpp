@@ -128,6 +128,7 @@ contact::Bonds CohesiveFaces::bonds(const Cloud<2>& cloud) const {
   bonds.face.assign(cloud.facets.size(), -1);
   bonds.covered.assign(cloud.facets.size(), 0);
   bonds.bonded.assign(cloud.position.size(), -1);
+  bonds.pressed.assign(cloud.position.size(), 0.0);
   IndexedVector<NodeIndex, CloudFacetIndex> leaving(cloud.position.size(), CloudFacetIndex::none);
   for (const CloudFacetIndex f : cloud.facets.indices()) leaving[cloud.facets[f].node[0]] = f;
   for (std::size_t i = 0; i < interface_.size(); ++i)
@@ -142,11 +143,17 @@ contact::Bonds CohesiveFaces::bonds(const Cloud<2>& cloud) const {
         const CohesiveElement& element = interface_[i].element[e];
         const BondedSegment& segment = element.side[s];
         for (std::size_t end = 0; end < 2; ++end) {
-          if (interface_[i].state[e][end].damage >= 1.0) {
+          const CohesiveEnd& state = interface_[i].state[e][end];
+          const auto values = element.values(s, end);
+          if (state.damage >= 1.0) {
             bonds.covered[leaving[segment.node[s == 0 ? 0 : 1]]] = 0;
+            for (std::size_t a = 0; a < 2; ++a)
+              if (values[a] > 0.0) {
+                double& pressed = bonds.pressed[segment.node[a]];
+                pressed = std::max(pressed, -(state.separation.x() + state.offset));
+              }
             continue;
           }
-          const auto values = element.values(s, end);
           for (std::size_t a = 0; a < 2; ++a)
             if (values[a] > 0.5) bonds.bonded[segment.node[a]] = number;
         }

@@ -52,7 +52,7 @@ struct CohesiveElement {
 /// What an end of an element has undergone.
 struct CohesiveEnd {
   double damage = 0.0;
-  Vec2 separation = Vec2::Zero(); ///< m, normal and along, at the last look
+  Vec2 separation = Vec2::Zero(); ///< m, normal and along, at the last look; of what is free, as it broke
   double offset = 0.0;            ///< m, normal distance of the faces at which they are as they were bonded
 };
 
@@ -96,8 +96,9 @@ public:
 
   /// Sets faces apart that are nearer than a 100,000th of an element, where they were bonded or, slid, touch
   /// now, so that a new reference finds no matter of one in the other; offsets follow, and so no traction
-  /// changes. Faces that coincide stay.
-  void part(Fields<2>& position);
+  /// changes. Faces that coincide stay. Returns the interface whose faces still lie in each other after as
+  /// many passes as are made; null: none.
+  const CohesiveInterface* part(Fields<2>& position);
 
   /// Follows a changed cloud: nodes that stay keep their arc length, new ones take it from their neighbours
   /// on the face, damage and offsets are interpolated along the arc.

@@ -1,6 +1,7 @@
 // What goes over to the nodes of a resampled cloud and to new stress points: each field by the rule of its
 // line.
 #include "core/index.hpp"
+#include "mechanics/boundary_parting.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/mixing.hpp"
@@ -135,11 +136,15 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
   });
 }
 
-template<int dim> void ExplicitSolver<dim>::part_faces() requires(dim == 2) {
-  conditions_.cohesive.part(state_.node.position);
+template<int dim> std::string ExplicitSolver<dim>::part_faces() requires(dim == 2) {
+  if (conditions_.cohesive.empty()) return "";
+  const CohesiveInterface* left = conditions_.cohesive.part(state_.node.position); // with their offsets
+  part_boundary(conditions_.cloud, state_.node.position);
+  conditions_.contact.set_bonds(conditions_.cohesive.bonds(conditions_.cloud));
+  return left ? left->spec.name : "";
 }
 
-template void ExplicitSolver<2>::part_faces();
+template std::string ExplicitSolver<2>::part_faces();
 #define CNEM_INSTANTIATE(dim)                                                                                \
   template std::optional<ExplicitSolver<dim>::PointChange> ExplicitSolver<dim>::change_of_points(            \
       const Resampling<dim>*, const Cloud<dim>&, const DiscreteOperators<dim>&) const;                       \

@@ -51,8 +51,9 @@ public:
   void prepare(const Resampling<dim>& change);
 
   /// Sets faces of cohesive interfaces that are pressed into each other apart, by less than a thousandth of
-  /// an element, before a cloud is made of the present configuration; what they bear stays.
-  void part_faces() requires(dim == 2);
+  /// an element, before a cloud is made of the present configuration; what they bear stays. Returns the name
+  /// of an interface where that was not possible; empty: none.
+  std::string part_faces() requires(dim == 2);
 
   /// Replaces the supports from the next step on; the work of those before stays in the ledger. For motion
   /// that differs from node to node, which a change of the cloud does not carry. Throws InputError as

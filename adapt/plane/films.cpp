@@ -1,5 +1,4 @@
-// Films of broken matter, thinner than a cell: cut where they are thinnest, before their faces pass each
-// other.
+// Films, thinner than a cell: cut where they are thinnest, before their faces pass each other.
 #include "adapt/plane/cut.hpp"
 
 #include "core/index.hpp"
@@ -23,23 +22,23 @@ struct Waist {
   double place;     ///< on that facet; 0: at its start
 };
 
-/// Between broken boundary nodes across films thinner than `film`, or between one and the foot of it on a
-/// facet, the thinnest first.
-std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, double film) {
+/// Between boundary nodes across films that are to be cut, or between one and the foot of it on a facet, the
+/// thinnest first.
+std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, const SplitRules& rules) {
   const auto& mesh = structure.mesh;
   const auto at = [&](NodeIndex i) -> const Vec2& { return work.cloud().position[i]; };
-  const auto ends_cut = [&](NodeIndex i) {
-    return work.on_boundary(i) && !work.has_mates(i) && work.node().broken[index_of(i)] >= 1.0;
-  };
+  const auto ends_cut = [&](NodeIndex i) { return work.on_boundary(i) && !work.has_mates(i); };
+  const auto broken = [&](NodeIndex i) { return work.node().broken[index_of(i)] >= 1.0; };
   std::vector<Waist> found;
-  const auto consider = [&](NodeIndex i, NodeIndex start, double place, double distance) {
+  const auto consider = [&](NodeIndex i, NodeIndex start, double place, double distance, bool is_broken) {
     const double thickness = distance / work.size_between(i, start);
-    if (thickness < film) found.push_back({thickness, i, start, place});
+    if (distance < rules.thinnest_film || (is_broken && thickness < rules.film))
+      found.push_back({thickness, i, start, place});
   };
   for (const NodeIndex i : work.nodes())
     for (const NodeIndex k : structure.neighbours(i))
       if (i < k && ends_cut(i) && ends_cut(k) && work.next(i) != k && work.previous(i) != k)
-        consider(i, k, 0.0, (at(k) - at(i)).norm());
+        consider(i, k, 0.0, (at(k) - at(i)).norm(), broken(i) && broken(k));
   for (const SimplexIndex t : mesh.node.indices())
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
@@ -51,7 +50,7 @@ std::vector<Waist> waists(const WorkingCloud& work, const Structure& structure, 
       const double length = (at(b) - at(a)).norm();
       // feet beside an end are left to that end
       if (std::min(foot.place, 1.0 - foot.place) * length > foot.distance)
-        consider(i, a, foot.place, foot.distance);
+        consider(i, a, foot.place, foot.distance, broken(i) && broken(a) && broken(b));
     }
   std::sort(found.begin(), found.end(), [](const Waist& a, const Waist& b) {
     return std::tie(a.thickness, a.node, a.start) < std::tie(b.thickness, b.node, b.start);
@@ -94,7 +93,7 @@ void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules
   constexpr int most = 8; // cuts in one pass
   for (int k = 0; k < most; ++k) {
     const BoundaryLoops loops(work);
-    const std::vector<Waist> found = waists(work, structure, rules.film);
+    const std::vector<Waist> found = waists(work, structure, rules);
     const auto cut = std::find_if(found.begin(), found.end(), [&](const Waist& waist) {
       const double length = waist.thickness * work.size_between(waist.node, waist.start);
       return loops.parts(waist.node, waist.start, rules.part * length, rules.least_loop) &&

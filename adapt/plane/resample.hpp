@@ -43,17 +43,18 @@ enum class Placement { between_nodes, voronoi_vertices };
 struct SplitRules {
   PieceIndex piece = PieceIndex::none; ///< that new faces belong to
   double gap = 1e-3;                   ///< how far the two faces are set apart, so that no nodes coincide
-  double part = 2.0;         ///< least length of boundary of a part that comes off, over that of the cut
-  double least_angle = 30.0; ///< degrees between a cut and the boundary at its ends
-  int least_loop = 8;        ///< least boundary nodes of a part, besides those of the cut
-  double smoothed = 0.3;     ///< how far nodes may be moved to straighten a cut
-  double film = 0.15;        ///< broken matter thinner than this between two faces is cut at its waist
-  bool cracks = false;       ///< also open what is broken from the boundary to a tip inside
-  double first = 4.0;        ///< least length of a crack
-  double advance = 2.0;      ///< and by how much it grows
-  double slender = 2.0;      ///< least length of a crack over the mean width of what is broken
-  double from_lip = 4.0;     ///< what a cut costs that begins or ends on such a face, and not at a tip
-  double apart = 5.0;        ///< least distance of its mouth from faces that are there
+  double part = 2.0;          ///< least length of boundary of a part that comes off, over that of the cut
+  double least_angle = 30.0;  ///< degrees between a cut and the boundary at its ends
+  int least_loop = 8;         ///< least boundary nodes of a part, besides those of the cut
+  double smoothed = 0.3;      ///< how far nodes may be moved to straighten a cut
+  double film = 0.15;         ///< broken matter thinner than this between two faces is cut at its waist
+  double thinnest_film = 0.0; ///< m, thinner ones are cut though they are whole
+  bool cracks = false;        ///< also open what is broken from the boundary to a tip inside
+  double first = 4.0;         ///< least length of a crack
+  double advance = 2.0;       ///< and by how much it grows
+  double slender = 2.0;       ///< least length of a crack over the mean width of what is broken
+  double from_lip = 4.0;      ///< what a cut costs that begins or ends on such a face, and not at a tip
+  double apart = 5.0;         ///< least distance of its mouth from faces that are there
 };
 
 struct ResampleRules {
@@ -93,8 +94,8 @@ void split(WorkingCloud& work, Structure& structure, const SplitRules& rules, Pa
 /// wide, along its most strained path, and lets tips go on with what breaks ahead of them (SplitRules::first,
 /// advance, slender, apart). Nodes but the tip are doubled, matter is shared out as by split().
 void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
-/// Cuts films of broken matter, between two parts of the boundary that no interior node keeps apart, at their
-/// waists. Matter is shared out as by split().
+/// Cuts films, between two parts of the boundary that no interior node keeps apart, at their waists: those of
+/// broken matter, and those thinner than SplitRules::thinnest_film. Matter is shared out as by split().
 void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// One round; false when there was nothing to do, or it was undone because the cloud would have had no valid
 /// structure.

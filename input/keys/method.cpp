@@ -138,6 +138,15 @@ void add_adaptation(Keys& k) {
         "With `adapt.separate` the cloud is opened too where broken matter does not go through: from the "
         "boundary to a tip inside, which goes on with what breaks ahead of it.")
       .fallback("false");
+  k.add("adapt.thinnest_film", quantity,
+        "With `adapt.separate` a film, matter between two faces with no node inside, that is thinner than "
+        "this "
+        "is cut at its waist though it is not broken: what it still bore is lost, its thickness times its "
+        "flow stress. Ductile matter that no damage parts is else drawn out without end. 0: none.")
+      .unit(d::length)
+      .in(not_negative)
+      .fallback("\"0 m\"")
+      .example("\"0.5 um\"");
   k.add("adapt.placement", choice,
         "Where nodes are added: half-way between neighbours, or at vertices of Voronoi cells (boundary edges "
         "are "

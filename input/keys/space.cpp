@@ -47,6 +47,7 @@ constexpr std::array scopes{
     Scoped{"tools.*.heat.section", Scope::plane, "what conducts in a tool is a plane section"},
     Scoped{"coolants", Scope::plane, "faces that a cut makes are of the plane"},
     Scoped{"adapt.cracks", Scope::plane, "broken matter in space parts where it goes through"},
+    Scoped{"adapt.thinnest_film", Scope::plane, "broken matter in space parts where it goes through"},
     Scoped{"adapt.placement", Scope::plane, "nodes in space are put between others"},
     Scoped{"adapt.tool_spacing", Scope::plane, "clouds in space are refined by an indicator alone"},
     Scoped{"adapt.surface_spacing", Scope::plane, "clouds in space are refined by an indicator alone"},

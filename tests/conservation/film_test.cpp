@@ -95,6 +95,17 @@ TEST(Film, sound_or_thick_enough_stays_whole) {
   }
 }
 
+TEST(Film, thinner_than_the_thinnest_is_cut_though_it_is_whole) {
+  const Waisted b(0.1 * h, 0.0);
+  for (const auto& [thinnest, films] : {std::pair{0.09 * h, 0}, {0.11 * h, 1}}) {
+    PassReport report;
+    const Resampling<2> change = b.cut(report, {.piece = 1_piece, .thinnest_film = thinnest});
+    EXPECT_EQ(report.films, films) << thinnest;
+    EXPECT_EQ(testing::loops(change.cloud), 1 + films) << thinnest;
+    expect_all_handed_on(change, b.node.mass.size());
+  }
+}
+
 TEST(Film, whose_end_would_be_a_crumb_stays_whole) {
   const Waisted b(0.1 * h, 2.0);
   PassReport report;

@@ -102,6 +102,25 @@ TEST(Bodies, penetration_found_at_the_start_is_removed_slowly) {
   EXPECT_GE(scene.contact->body_result().total.recovery, 0.0);
 }
 
+TEST(Bodies, faces_that_were_bonded_keep_what_pressed_them_and_no_more) {
+  const double depth = 0.02;
+  const auto gap_after = [&](double pressed, double closing) {
+    Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
+    append(scene, block(5, 5, 0.25, {0.02, 1.0 - depth}, 400.0, 0.5, 0.0, {0, -closing}));
+    let_bodies_touch(scene, 0.0);
+    Bonds bonds;
+    for (const Facet<2>& facet : scene.facets) bonds.face.push_back(as<int>(facet.node[0]) < 25 ? 0 : 1);
+    bonds.covered.assign(scene.facets.size(), 0);
+    bonds.bonded.assign(scene.mass.size(), -1);
+    bonds.pressed.assign(scene.mass.size(), pressed);
+    scene.contact->set_bonds(bonds);
+    for (int n = 0; n < 1500; ++n) scene.step(1e-3);
+    return scene.position(25).y() - scene.position(20).y();
+  };
+  EXPECT_DOUBLE_EQ(gap_after(depth, 0.0), -depth) << "to push it out would take work";
+  EXPECT_GT(gap_after(0.0, 0.1), -0.5 * depth) << "what came to it later goes";
+}
+
 TEST(Bodies, sub_steps_are_reported_as_one_step) {
   Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
   append(scene, block(5, 5, 0.25, {0.02, 1.01}, 400.0, 0.5, 0.1, {0.05, -0.2}));

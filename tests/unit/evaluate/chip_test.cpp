@@ -176,9 +176,9 @@ TEST(Surface, has_its_height_roughness_and_layers) {
     left.push_back(10.0 + 20.0 * x.y());
     if (x.y() < -1.2) ratio[left.size() - 1] = 2.0; // deeper than what is looked at
   }
-  const MachinedSurface surface =
-      measure_surface(outline, position,
-                      {volume, {along, away, across}, {left, across, away}, strain, heat, ratio}, feed, feed);
+  const MachinedSurface surface = measure_surface(
+      outline, position, {volume, {along, away, across}, {left, across, away}, strain, heat, ratio}, feed,
+      3.0, feed);
   EXPECT_EQ(surface.note, "");
   EXPECT_NEAR(surface.height, -0.01, 1e-6);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
@@ -205,7 +205,7 @@ TEST(Surface, behind_a_cut_that_has_hardly_begun_is_not_measured) {
   const std::vector<double> none(position.size(), 1.0);
   const MachinedSurface surface =
       measure_surface(cut_outline(cloud.facets, position), position,
-                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed, feed);
+                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed, 3.0, feed);
   EXPECT_NE(surface.note.find("too short"), std::string::npos);
   EXPECT_TRUE(std::isnan(surface.roughness));
   EXPECT_TRUE(std::isnan(surface.Rz));
@@ -220,7 +220,7 @@ TEST(Surface, a_scratch_counts_in_one_of_five_lengths) {
   const std::vector<double> none(position.size(), 1.0);
   const MachinedSurface surface =
       measure_surface(cut_outline(cloud.facets, position), position,
-                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed, feed);
+                      {none, {none, none, none}, {none, none, none}, none, none, none}, feed, 3.0, feed);
   EXPECT_NEAR(surface.Rz, (4 * 0.02 + 0.07) / 5, 1e-12);
 }
 
@@ -233,10 +233,25 @@ TEST(Surface, of_a_short_cut_is_measured_nearer_to_the_tool) {
   const std::vector<double> none(position.size(), 1.0);
   const DepthFields fields{none, {none, none, none}, {none, none, none}, none, none, none};
   const CutOutline outline = cut_outline(cloud.facets, position);
-  EXPECT_TRUE(std::isnan(measure_surface(outline, position, fields, feed, feed).roughness));
-  const MachinedSurface surface = measure_surface(outline, position, fields, feed, 0.25 * feed);
+  EXPECT_TRUE(std::isnan(measure_surface(outline, position, fields, feed, 3.0, feed).roughness));
+  const MachinedSurface surface = measure_surface(outline, position, fields, feed, 3.0, 0.25 * feed);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
   EXPECT_NEAR(surface.measured.to, -0.25 * feed, 1e-12);
+}
+
+TEST(Surface, that_an_earlier_cut_has_left_is_not_measured) {
+  Cloud<2> cloud;
+  std::vector<Vec2> points{{-3, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}};
+  for (int k = 1; k < 150; ++k) points.emplace_back(-0.02 * k, k % 2 && k <= 50 ? -0.02 : 0.0);
+  testing::add_loop(cloud, points, 10.0);
+  const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
+  const std::vector<double> none(position.size(), 1.0);
+  const DepthFields fields{none, {none, none, none}, {none, none, none}, none, none, none};
+  const CutOutline outline = cut_outline(cloud.facets, position);
+  const MachinedSurface surface = measure_surface(outline, position, fields, feed, 1.0, 0.2 * feed);
+  EXPECT_NEAR(surface.measured.from, -1.0 + 0.2 * feed, 1e-12);
+  EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
+  EXPECT_LT(measure_surface(outline, position, fields, feed, 3.0, 0.2 * feed).roughness, 0.008);
 }
 
 } // namespace

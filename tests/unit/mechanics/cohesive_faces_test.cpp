@@ -1,6 +1,7 @@
 // Cohesive faces alone, on nodes that match and that do not: patches, momentum, potential, frequencies,
 // parting, new nodes.
 #include "core/index.hpp"
+#include "mechanics/boundary_parting.hpp"
 #include "mechanics/cohesive_faces.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -243,6 +244,75 @@ TEST(CohesiveFaces, parting_leaves_alone_what_has_slid_away) {
   const Fields<2> before = x;
   faces.part(x);
   EXPECT_EQ(x, before);
+}
+
+// Where a body has been cut through, a face ends in a corner that can lie in the other one.
+TEST(CohesiveFaces, parting_asks_the_last_node_of_a_face_too) {
+  const Cloud<2> cloud = two_faces(matching, other);
+  CohesiveFaces faces = faces_of(cloud, true, {{0.0, 4 * h}});
+  Fields<2> x = places(cloud);
+  const std::size_t last = matching.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) x[0][i] -= 0.7 * h, x[1][i] = i < last ? 0.1 * h : -0.02 * h;
+  EXPECT_EQ(faces.part(x), nullptr);
+  const std::size_t a = matching.size() + 4, b = a + 1; // the segment below it
+  ASSERT_LT(x[0][a], x[0][last]);
+  ASSERT_GT(x[0][b], x[0][last]);
+  const double at = (x[0][last] - x[0][a]) / (x[0][b] - x[0][a]);
+  EXPECT_GT(x[1][last] - (1.0 - at) * x[1][a] - at * x[1][b], 0.0);
+}
+
+/// A square of side 1 with a node in the middle of its upper side, and a triangle that stands on it.
+Cloud<2> standing_on_a_square(double deep) {
+  Cloud<2> cloud;
+  const auto loop = [&](const std::vector<Vec2>& points) {
+    const std::size_t first = cloud.position.size();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      cloud.position.push_back(points[k]);
+      const std::size_t next = first + (k + 1) % points.size();
+      cloud.facets.push_back({{as<NodeIndex>(first + k), as<NodeIndex>(next)}, as<PieceIndex>(0)});
+    }
+  };
+  loop({{0, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0, 1}});
+  loop({{0.3, 1 - deep}, {0.6, 1.5}, {0, 1.5}});
+  return cloud;
+}
+
+TEST(PartBoundary, sets_apart_what_contact_has_left) {
+  for (const double deep : {1e-8, 4e-4}) {
+    const Cloud<2> cloud = standing_on_a_square(deep);
+    Fields<2> x = places(cloud);
+    part_boundary(cloud, x);
+    const double at = 2.0 * x[0][5]; // between nodes 4 and 3
+    EXPECT_GT(x[1][5], (1.0 - at) * x[1][4] + at * x[1][3]);
+    for (std::size_t i = 0; i < x[0].size(); ++i)
+      EXPECT_LT((vector_at<2>(x, i) - cloud.position[as<NodeIndex>(i)]).norm(), deep) << i;
+  }
+}
+
+TEST(PartBoundary, leaves_what_is_apart_or_deep_and_turns_no_film_inside_out) {
+  Cloud<2> film;
+  for (const Vec2& at : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 4e-4), Vec2(0.5, 4e-4), Vec2(0, 4e-4)})
+    film.position.push_back(at);
+  for (std::size_t k = 0; k < 5; ++k)
+    film.facets.push_back({{as<NodeIndex>(k), as<NodeIndex>((k + 1) % 5)}, as<PieceIndex>(0)});
+  for (const Cloud<2>& cloud : {standing_on_a_square(-1e-6), standing_on_a_square(0.1), film}) {
+    Fields<2> x = places(cloud);
+    part_boundary(cloud, x);
+    EXPECT_EQ(x, places(cloud));
+  }
+}
+
+TEST(CohesiveFaces, contact_is_told_what_pressed_a_bond_that_broke_until_its_faces_are_parted) {
+  const Cloud<2> cloud = two_faces(matching, matching);
+  CohesiveFaces faces = faces_of(cloud, true);
+  Fields<2> x = places(cloud);
+  for (std::size_t i = 0; i < matching.size(); ++i) x[0][i] += 2 * h, x[1][i] = -1e-8;
+  faces.evaluate(x);
+  ASSERT_NEAR(CohesiveFaces::broken_length(faces.interfaces()[0]), 4 * h, 1e-18);
+  const auto pressed = [&](std::size_t i) { return faces.bonds(cloud).pressed[as<NodeIndex>(i)]; };
+  for (std::size_t i = 0; i < x[0].size(); ++i) EXPECT_NEAR(pressed(i), 1e-8, 1e-16) << i;
+  EXPECT_EQ(faces.part(x), nullptr);
+  for (std::size_t i = 0; i < x[0].size(); ++i) EXPECT_EQ(pressed(i), 0.0) << i;
 }
 
 TEST(CohesiveFaces, open_parts_bear_nothing_and_are_left_to_contact) {
