@@ -43,10 +43,13 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
     layer_[k].erase_disc(Vec2(-feed_of_turn(), 0.0), radius);
     layer_[k].erase_box(Vec2(low.x(), -radius), Vec2(-feed_of_turn(), radius));
   }
-  for (const Mode& mode : modes_) free_.emplace_back(mode, dt_);
+  for (const Mode& mode : modes_) {
+    free_.emplace_back(mode, dt_);
+    loss_.push_back(damping_loss(mode, dt_));
+  }
   state_ = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(modes_.size()));
   bite_.resize(edges_.layers() * edges_.teeth());
-  path_.resize(bite_.size());
+  way_.resize(bite_.size());
   shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
@@ -119,7 +122,8 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
     const CutterPlace first = shifted(from, shift_[k]), last = shifted(to, shift[k]);
     for (std::size_t j = 0; j < edges_.teeth(); ++j) {
       const Sweep sweep{edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
-      path_[k * edges_.teeth() + j] = sweep.path();
+      const Vec2 way = sweep.to.edge - sweep.from.edge;
+      way_[k * edges_.teeth() + j] = {way.x(), way.y(), last.axis.z() - first.axis.z()};
       bite_[k * edges_.teeth() + j] = bite(k, sweep);
     }
   }
@@ -127,23 +131,48 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
   for (std::size_t k = 0, i = 0; k < layer_.size(); ++k) {
     const Vec3 below = load.force;
     for (std::size_t j = 0; j < edges_.teeth(); ++j, ++i)
-      edges_.add(load, k, j, bite_[i], path_[i], dt_, from, to);
+      edges_.add(load, k, j, bite_[i], way_[i], dt_, from, to);
     force[k] = load.force - below;
   }
   return load;
+}
+
+double MillingProcess::rest_of(std::size_t mode, const PerLayer& force) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < layer_.size(); ++k)
+    sum += shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(mode)) * force[k];
+  return modes_[mode].participation().dot(sum) / modes_[mode].stiffness;
 }
 
 Eigen::MatrixXd MillingProcess::moved(const PerLayer& force) const {
   Eigen::MatrixXd state = state_;
   for (std::size_t i = 0; i < modes_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < layer_.size(); ++k)
-      sum += shape_(static_cast<Eigen::Index>(k), column) * force[k];
-    const Vec2 rest(modes_[i].participation().dot(sum) / modes_[i].stiffness, 0.0);
+    const Vec2 rest(rest_of(i, force), 0.0);
     state.col(column) = rest + free_[i].of_state * (state_.col(column) - rest);
   }
   return state;
+}
+
+void MillingProcess::book(const EdgeLoad& load, const Eigen::MatrixXd& state, const PerLayer& shift) {
+  const CutterPlace from = place(step_), to = place(step_ + 1);
+  double of_shift = 0.0, of_modes = 0.0; // J, of the forces
+  for (std::size_t k = 0; k < layer_.size(); ++k) of_shift += force_[k].dot(shift[k] - shift_[k]);
+  ledger_.kinetic = ledger_.elastic = 0.0;
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const double stiffness = modes_[i].stiffness;
+    const double rest = rest_of(i, force_);
+    const Vec2 begin = state_.col(column) - Vec2(rest, 0.0);
+    of_modes += stiffness * rest * (state(0, column) - state_(0, column));
+    ledger_.damping += begin.dot(loss_[i] * begin);
+    ledger_.elastic += 0.5 * stiffness * state(0, column) * state(0, column);
+    ledger_.kinetic += 0.5 * stiffness * state(1, column) * state(1, column);
+  }
+  ledger_.cutting += load.work;
+  ledger_.spindle += load.torque * (to.angle - from.angle);
+  // A cutter that is fed along a mode whose shape changes there goes with that shape: the feed does that.
+  ledger_.feed -= load.force.dot(to.axis - from.axis) + of_shift - of_modes;
 }
 
 ProcessStep MillingProcess::advance() {
@@ -174,7 +203,9 @@ ProcessStep MillingProcess::advance() {
       bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].erase(sweep); });
   step.time = time() + 0.5 * dt_;
   step.angle = settings_.spindle * step.time;
-  state_ = moved(force_);
+  Eigen::MatrixXd state = moved(force_);
+  book(step, state, shift);
+  state_ = std::move(state);
   farthest_ = std::max(farthest_, largest(shift));
   for (const Vec3& s : shift)
     if (s.squaredNorm() > step.displacement.squaredNorm()) step.displacement = s;
@@ -199,6 +230,7 @@ void MillingProcess::archive(Archive& archive) {
     std::copy(numbers.begin(), numbers.end(), list->front().data());
   }
   archive.number("milling/farthest", "m", farthest_);
+  ledger_.archive(archive);
   for (std::size_t k = 0; k < layer_.size(); ++k)
     layer_[k].archive(archive, fmt::format("milling/layer/{}/", k));
 }

@@ -2,6 +2,7 @@
 // Milling in the time domain: teeth sweep through dexels, what they remove makes forces, forces make the
 // modes swing (paper 004, section 3.2 and Box 1: (5), (6)).
 #include "machining/edge_elements.hpp"
+#include "machining/milling_ledger.hpp"
 #include "machining/mode.hpp"
 
 #include <cstdint>
@@ -54,6 +55,7 @@ public:
   double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
   double volume() const;                                                  ///< m³ of matter
   double block() const { return block_; } ///< m³ of matter before anything was taken
+  const MillingLedger& ledger() const { return ledger_; }
   /// Whether teeth reach matter in a layer: the end of a cutter is thinner.
   bool cuts(std::size_t layer) const {
     return edges_.radius(layer) > cut_.cutter.radius() - cut_.engagement.radial_depth;
@@ -72,11 +74,15 @@ private:
   /// What teeth remove and bear whose cutter is shifted at the end of the step, m for each layer; forces on
   /// the tool for each, N, come into `force`. bite(layer, sweep): what is taken of a layer, or would be.
   template<class TakeBite> EdgeLoad bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite);
+  /// m, where a mode would rest under forces.
+  double rest_of(std::size_t mode, const PerLayer& force) const;
   /// Modes are integrated exactly under the mean force of the step.
   Eigen::MatrixXd moved(const PerLayer& force) const;
   PerLayer shift_of(const Eigen::MatrixXd& state) const;
   /// Of modes in layers, where the cutter is in the middle of this step.
   void take_shapes();
+  /// Books a step that ends with these states and shifts.
+  void book(const EdgeLoad& load, const Eigen::MatrixXd& state, const PerLayer& shift);
   /// m, how deep rakes have to be: thicker than any chip.
   double reach(const PerLayer& shift) const;
 
@@ -85,16 +91,18 @@ private:
   ProcessSettings settings_;
   double dt_ = 0.0, feed_speed_ = 0.0, start_ = 0.0, block_ = 0.0;
   std::vector<FreeMotion> free_;
+  std::vector<Mat2> loss_; ///< of modes in a step, damping_loss()
   EdgeElements edges_;
   std::int64_t step_ = 0;
   std::vector<DexelLayer> layer_;
   std::vector<Bite> bite_;   ///< [layer × tooth] of the last question
-  std::vector<double> path_; ///< [layer × tooth] m
+  std::vector<Vec3> way_;    ///< [layer × tooth] m, of the edge relative to the part
   Eigen::MatrixXd state_;    ///< [2 × modes] (q, v/ω)
   Eigen::MatrixXd shape_;    ///< [layers × modes] –, in this step
   PerLayer shift_;           ///< m, at the begin of the step
   PerLayer force_;           ///< N, of the last step
   double farthest_ = 0.0;    ///< m, the largest shift so far
+  MillingLedger ledger_;
 };
 
 } // namespace cnem::machining
