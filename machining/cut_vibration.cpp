@@ -75,8 +75,7 @@ std::optional<CutVibration::Growth> CutVibration::growth() const {
     growth.size = std::sqrt(square / static_cast<double>(period));
   }
   if (number.size() < least - 1) return std::nullopt;
-  growth.factor =
-      std::exp(fit_line(number, logarithm, std::vector<double>(number.size(), 0.0)).slope.value);
+  growth.factor = std::exp(fit_line(number, logarithm, std::vector<double>(number.size(), 0.0)).slope.value);
   double square = 0.0;
   for (const Signal signal : {x, y}) {
     const std::vector<double>& sample = sample_[signal];

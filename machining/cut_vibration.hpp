@@ -1,6 +1,6 @@
 #pragma once
-// What forces and vibrations of a cut at a steady speed say: spectra, and whether disturbances grow from one period of
-// the teeth to the next.
+// What forces and vibrations of a cut at a steady speed say: spectra, and whether disturbances grow from one
+// period of the teeth to the next.
 #include "core/fields/archive.hpp"
 #include "machining/cutter.hpp"
 #include "machining/spectrum.hpp"
@@ -35,7 +35,8 @@ public:
 
   struct Growth {
     double factor = 0.0; ///< of disturbances in a period
-    double size = 0.0;   ///< m, by how much a sample differs from the one a period before, root of the mean square at the end
+    double size = 0.0;   ///< m, by how much a sample differs from the one a period before, root of the mean
+                         ///< square at the end
     double vibration = 0.0; ///< m, of samples about their mean, root of the mean square
   };
   /// From differences to samples a period before, in which nothing is left of the forced vibration: a line

@@ -32,8 +32,9 @@ Rake EdgeElements::rake(std::size_t layer, std::size_t tooth, const CutterPlace&
   return {axis + radius * out, axis + std::max(0.0, radius - reach) * out};
 }
 
-void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite, const Vec3& way,
-                       double duration, const CutterPlace& from, const CutterPlace& to) const {
+void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite,
+                       const Vec3& way, double duration, const CutterPlace& from,
+                       const CutterPlace& to) const {
   const double share = bite.share();
   if (!(bite.area > 0.0) || !(share > 0.0)) return;
   const double path = way.head<2>().norm();

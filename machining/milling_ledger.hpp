@@ -26,13 +26,12 @@ struct MillingLedger {
     return through > 0.0 ? std::abs(residual()) / through : 0.0;
   }
   void archive(Archive& archive) {
-    for (const auto& [name, value] :
-         {std::tuple{"spindle", &spindle},
-          {"feed", &feed},
-          {"cutting", &cutting},
-          {"damping", &damping},
-          {"kinetic", &kinetic},
-          {"elastic", &elastic}})
+    for (const auto& [name, value] : {std::tuple{"spindle", &spindle},
+                                      {"feed", &feed},
+                                      {"cutting", &cutting},
+                                      {"damping", &damping},
+                                      {"kinetic", &kinetic},
+                                      {"elastic", &elastic}})
       archive.number(std::string("milling/ledger/") + name, "J", *value);
   }
 };

@@ -3,46 +3,38 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <tuple>
 
 namespace cnem::machining {
 
+namespace {
+
+/// How far beyond the cutter matter is looked at, m.
+double beyond(const Cutter& cutter) { return cutter.run_out + 0.25 * cutter.radius(); }
+
+ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {
+  const double feed_speed = cut.feed * static_cast<double>(cut.cutter.teeth()) * settings.spindle / full_turn;
+  if (!settings.passes.empty())
+    return {settings.spindle, feed_speed,     settings.steps,    settings.passes,
+            settings.dwell,   settings.drive, cut.cutter.teeth()};
+  const bool outside = settings.start == ProcessSettings::Start::outside;
+  return {settings.spindle, feed_speed,
+          settings.steps,   outside ? -cut.cutter.radius() - beyond(cut.cutter) : 0.0,
+          settings.length,  settings.dwell};
+}
+
+} // namespace
+
 MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const ProcessSettings& settings)
-    : cut_(std::move(cut)), modes_(std::move(modes)), settings_(settings),
-      dt_(full_turn / settings.spindle / settings.steps),
+    : cut_(std::move(cut)), modes_(std::move(modes)), settings_(settings), motion_(motion_of(cut_, settings)),
+      dt_(motion_.dt(0)),
       feed_speed_(cut_.feed * static_cast<double>(cut_.cutter.teeth()) * settings.spindle / full_turn),
       edges_(cut_, settings.axial_depth, settings.layers, full_turn / settings.steps) {
-  using enum ProcessSettings::Start;
-  const Cutter& cutter = cut_.cutter;
-  const double r = cutter.radius(), beyond = cutter.run_out + 0.25 * r;
-  const double depth = cut_.engagement.radial_depth;
-  const bool up = cut_.engagement.side == Engagement::Side::up, slot = depth >= cutter.diameter;
-  start_ = settings.start == outside ? -r - beyond : 0.0;
-  // Matter on the side where the teeth cut: its free surface is `depth` inside of where they reach.
-  const Vec2 low(settings.start == outside ? 0.0
-                 : settings.start == hole  ? -r - beyond
-                                           : -0.25 * r,
-                 slot || !up ? -r - beyond : r - depth);
-  const Vec2 high(start_ + settings.length + r + beyond, slot || up ? r + beyond : depth - r);
-  // Cells of about a degree of the cutter are the fastest, measured; what is taken does not depend on them.
-  constexpr double degrees = 60.0;
-  const DexelLayer whole(low, high, Vec2::Constant(std::max(settings.pitch, r / degrees)));
-  block_ = whole.area() * settings.axial_depth;
-  for (std::size_t k = 0; k < edges_.layers();
-       ++k) { // what earlier turns have left: the disc, and its way there
-    const double radius = edges_.radius(k);
-    if (k > 0 && radius == edges_.radius(k - 1)) {
-      layer_.push_back(layer_.back());
-      continue;
-    }
-    layer_.push_back(whole);
-    if (settings.start == hole) layer_[k].erase_disc(Vec2::Zero(), radius);
-    if (settings.start != inside) continue;
-    layer_[k].erase_disc(Vec2(-feed_of_turn(), 0.0), radius);
-    layer_[k].erase_box(Vec2(low.x(), -radius), Vec2(-feed_of_turn(), radius));
-  }
+  assert(settings.passes.empty() == !settings.blank);
+  take_blank();
   for (const Mode& mode : modes_) {
     free_.emplace_back(mode, dt_);
     loss_.push_back(damping_loss(mode, dt_));
@@ -55,11 +47,89 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
   force_ = shift_;
 }
 
-double MillingProcess::axis_at(double turns) const {
-  return start_ + std::min(feed_of_turn() * turns, settings_.length);
+void MillingProcess::take_blank() {
+  using enum ProcessSettings::Start;
+  const Cutter& cutter = cut_.cutter;
+  const double r = cutter.radius(), beside = beyond(cutter);
+  const double depth = cut_.engagement.radial_depth;
+  // Cells of about a degree of the cutter are the fastest, measured; what is taken does not depend on them.
+  constexpr double degrees = 60.0;
+  const Vec2 pitch = Vec2::Constant(std::max(settings_.pitch, r / degrees));
+  if (settings_.blank) {
+    const Blank& blank = *settings_.blank;
+    for (std::size_t k = 0; k < edges_.layers(); ++k) {
+      if (blank.surface.triangles.empty())
+        layer_.push_back(k > 0 ? layer_.back() : DexelLayer(blank.low, blank.high, pitch));
+      else
+        layer_.emplace_back(blank.low, blank.high, pitch, section_pieces(blank.surface, height(k)));
+    }
+    block_ = volume();
+    return;
+  }
+  const bool up = cut_.engagement.side == Engagement::Side::up, slot = depth >= cutter.diameter;
+  // Matter on the side where the teeth cut: its free surface is `depth` inside of where they reach.
+  const Vec2 low(settings_.start == outside ? 0.0
+                 : settings_.start == hole  ? -r - beside
+                                            : -0.25 * r,
+                 slot || !up ? -r - beside : r - depth);
+  const Vec2 high(motion_.start() + settings_.length + r + beside, slot || up ? r + beside : depth - r);
+  const DexelLayer whole(low, high, pitch);
+  block_ = whole.area() * settings_.axial_depth;
+  for (std::size_t k = 0; k < edges_.layers();
+       ++k) { // what earlier turns have left: the disc, and its way there
+    const double radius = edges_.radius(k);
+    if (k > 0 && radius == edges_.radius(k - 1)) {
+      layer_.push_back(layer_.back());
+      continue;
+    }
+    layer_.push_back(whole);
+    if (settings_.start == hole) layer_[k].erase_disc(Vec2::Zero(), radius);
+    if (settings_.start != inside) continue;
+    layer_[k].erase_disc(Vec2(-feed_of_turn(), 0.0), radius);
+    layer_[k].erase_box(Vec2(low.x(), -radius), Vec2(-feed_of_turn(), radius));
+  }
 }
 
-bool MillingProcess::at_end() const { return time() >= duration(); }
+Vec2 MillingProcess::axis_at(double at) const { return motion_.axis(motion_.pass_of(step_), at); }
+
+bool MillingProcess::at_end() const { return motion_.at_end(step_); }
+
+void MillingProcess::begin_step() {
+  if (const double dt = motion_.dt(step_); dt != dt_) {
+    dt_ = dt;
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+      free_[i] = FreeMotion(modes_[i], dt_);
+      loss_[i] = damping_loss(modes_[i], dt_);
+    }
+  }
+  if (settings_.passes.empty()) return;
+  const std::size_t pass = motion_.pass_of(step_);
+  if (motion_.passes()[pass].begin == step_) begin_pass(pass);
+}
+
+void MillingProcess::begin_pass(std::size_t pass) {
+  // On its way there, in the air, what vibrates comes to rest.
+  ledger_.damping += ledger_.kinetic + ledger_.elastic;
+  state_.setZero();
+  shift_.assign(layer_.size(), Vec3::Zero());
+  force_ = shift_;
+  const Vec2 at = axis_at(static_cast<double>(step_));
+  for (std::size_t k = 0; k < layer_.size(); ++k) {
+    const double radius = edges_.radius(k);
+    DexelLayer without = layer_[k];
+    const double there = without.erase_disc(at, radius);
+    constexpr double touches = 1e-6; // of the area of the cutter
+    if (settings_.start == ProcessSettings::Start::hole)
+      layer_[k] = std::move(without);
+    else if (there > touches * radius * radius)
+      throw DivergenceError(
+          fmt::format("pass {} begins in matter: {:.4g} mm² of it lie within the cutter at ({:.6g}, {:.6g}) "
+                      "mm, {:.4g} "
+                      "mm over the tip, expected a start beside the workpiece, or milling.start = \"hole\"",
+                      pass + 1, 1e6 * there, 1e3 * at.x(), 1e3 * at.y(), 1e3 * height(k)),
+          -1, "displacement");
+  }
+}
 
 double MillingProcess::volume() const {
   double sum = 0.0;
@@ -68,7 +138,7 @@ double MillingProcess::volume() const {
 }
 
 void MillingProcess::take_shapes() {
-  const double x = axis_at((static_cast<double>(step_) + 0.5) / settings_.steps);
+  const double x = axis_at(static_cast<double>(step_) + 0.5).x();
   for (std::size_t i = 0; i < modes_.size(); ++i)
     for (std::size_t k = 0; k < layer_.size(); ++k)
       shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = modes_[i].shape(x, height(k));
@@ -86,8 +156,9 @@ MillingProcess::PerLayer MillingProcess::shift_of(const Eigen::MatrixXd& state) 
 }
 
 CutterPlace MillingProcess::place(std::int64_t step) const {
-  const double turns = static_cast<double>(step) / settings_.steps;
-  return {Vec3(axis_at(turns), 0.0, 0.0), full_turn * turns};
+  const double at = static_cast<double>(step);
+  const Vec2 axis = axis_at(at);
+  return {Vec3(axis.x(), axis.y(), 0.0), full_turn * (at / settings_.steps)};
 }
 
 namespace {
@@ -176,6 +247,7 @@ void MillingProcess::book(const EdgeLoad& load, const Eigen::MatrixXd& state, co
 }
 
 ProcessStep MillingProcess::advance() {
+  begin_step();
   take_shapes();
   PerLayer shift = shift_of(moved(force_));
   // Where an edge only just touches its force comes and goes from one question to the next: what that moves
@@ -202,7 +274,8 @@ ProcessStep MillingProcess::advance() {
   static_cast<EdgeLoad&>(step) =
       bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].erase(sweep); });
   step.time = time() + 0.5 * dt_;
-  step.angle = settings_.spindle * step.time;
+  step.angle = motion_.steady() ? settings_.spindle * step.time
+                                : place(step_).angle + 0.5 * full_turn / settings_.steps;
   Eigen::MatrixXd state = moved(force_);
   book(step, state, shift);
   state_ = std::move(state);
@@ -240,6 +313,17 @@ std::optional<double> MillingProcess::left_at(std::size_t layer, double x) const
   if (matter.empty()) return std::nullopt;
   const bool up = cut_.engagement.side == Engagement::Side::up;
   return up ? edges_.radius(layer) - matter.back().low : matter.front().high + edges_.radius(layer);
+}
+
+std::optional<double> MillingProcess::left_beside(std::size_t layer, double way) const {
+  assert(motion_.last_path());
+  const auto [at, along] = motion_.last_path()->at(way);
+  const bool up = cut_.engagement.side == Engagement::Side::up;
+  const double r = edges_.radius(layer);
+  const std::vector<Interval> matter = layer_[layer].matter(at, up ? left_normal(along) : right_normal(along),
+                                                            cut_.cutter.radius() + beyond(cut_.cutter));
+  if (matter.empty()) return std::nullopt;
+  return r - matter.back().low;
 }
 
 } // namespace cnem::machining

@@ -17,8 +17,8 @@ Spectrum spectrum_of(std::span<const double> signal, double dt) {
   const double mean = std::accumulate(signal.begin(), signal.end(), 0.0) / static_cast<double>(n);
   std::vector<double> windowed(n);
   for (std::size_t k = 0; k < n; ++k)
-    windowed[k] = (signal[k] - mean) * (1.0 - std::cos(2.0 * std::numbers::pi * static_cast<double>(k) /
-                                                       static_cast<double>(n)));
+    windowed[k] = (signal[k] - mean) *
+                  (1.0 - std::cos(2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n)));
   std::vector<std::complex<double>> lines;
   Eigen::FFT<double> transform;
   transform.fwd(lines, windowed);
@@ -41,7 +41,8 @@ std::optional<SpectralPeak> strongest_beside(const Spectrum& spectrum, double ba
   // Of a sine at top + d, neighbours are as (1 + d)/(2 − d) and (1 − d)/(2 + d) of the top.
   const bool above = a[top + 1] > a[top - 1];
   const double ratio = a[top] > 0.0 ? (above ? a[top + 1] : a[top - 1]) / a[top] : 0.0;
-  const double beside = std::clamp((2.0 * ratio - 1.0) / (1.0 + ratio), 0.0, 0.5), shift = above ? beside : -beside;
+  const double beside = std::clamp((2.0 * ratio - 1.0) / (1.0 + ratio), 0.0, 0.5),
+               shift = above ? beside : -beside;
   const double x = std::numbers::pi * shift;
   const double share = std::abs(x) < 1e-6 ? 1.0 : std::sin(x) / x / (1.0 - shift * shift);
   return SpectralPeak{.frequency = spectrum.step * (static_cast<double>(top) + shift),

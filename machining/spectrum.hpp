@@ -22,8 +22,8 @@ struct SpectralPeak {
 };
 
 /// The largest amplitude farther than two steps of the spectrum, which a sine reaches under Hann's window,
-/// from all multiples of `base`, Hz, and from 0; none where nothing lies between multiples. Frequency and amplitude are those of a sine
-/// between the steps (Grandke 1983).
+/// from all multiples of `base`, Hz, and from 0; none where nothing lies between multiples. Frequency and
+/// amplitude are those of a sine between the steps (Grandke 1983).
 std::optional<SpectralPeak> strongest_beside(const Spectrum& spectrum, double base);
 
 } // namespace cnem::machining

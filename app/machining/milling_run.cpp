@@ -102,7 +102,7 @@ bool MillingRun::solve() {
   if (!history_.begun()) history_.start(history_file(), columns);
   const double dt = machining::full_turn / milling.speed / milling.dexels.steps;
   // Whole turns before the end: what counts is steady there, as far as the path lets it.
-  const double fed = process_.duration() - milling.dwell * dt * milling.dexels.steps;
+  const double fed = process_.motion().duration() - milling.dwell * dt * milling.dexels.steps;
   const double turns = std::floor(fed / (dt * milling.dexels.steps));
   const double window = std::max(1.0, std::floor(0.25 * turns)) * milling.dexels.steps * dt;
   while (!process_.at_end()) {
@@ -136,7 +136,7 @@ bool MillingRun::solve() {
     history_.write(row);
     ++status_.steps;
     observer_.progress(
-        {.time = process_.time(), .end = process_.duration(), .step = process_.steps(), .dt = dt});
+        {.time = process_.time(), .end = process_.motion().duration(), .step = process_.steps(), .dt = dt});
   }
   observer_.steps_end();
   status_.time = process_.time();
@@ -149,9 +149,9 @@ void MillingRun::measure_surface() {
   const double turn = process_.feed_of_turn();
   const bool outside = input_.machining->start == machining::ProcessSettings::Start::outside;
   // Teeth have passed there: from where the first turns have been to where the last one is.
-  const double from = process_.start() +
-                      std::max(2.0 * turn, outside ? 0.0 : 0.5 * (process_.axis() - process_.start())),
-               to = process_.axis() - turn, pitch = input_.machining->dexels.pitch;
+  const double from = process_.motion().start() +
+                      std::max(2.0 * turn, outside ? 0.0 : 0.5 * (process_.axis().x() - process_.motion().start())),
+               to = process_.axis().x() - turn, pitch = input_.machining->dexels.pitch;
   for (double x = std::max(from, 0.0); x <= to; x += pitch) place_.push_back(x);
   for (std::size_t k = 0; k < process_.layers().size(); ++k) {
     if (!process_.cuts(k)) continue;

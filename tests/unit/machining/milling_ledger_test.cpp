@@ -59,8 +59,8 @@ TEST(MillingLedger, DrivesPutInWhatCutAndModesTake) {
   shape.value[1] = 1.0;
   modes.back().along = along;
   modes.back().shape_along = shape;
-  for (const Row& row :
-       {Row{down, 0.0, 0.0, {}}, Row{up, 0.5, 2e-5, {}}, Row{down, 0.5, 0.0, modes}, Row{up, 0.0, 2e-5, modes}}) {
+  for (const Row& row : {Row{down, 0.0, 0.0, {}}, Row{up, 0.5, 2e-5, {}}, Row{down, 0.5, 0.0, modes},
+                         Row{up, 0.0, 2e-5, modes}}) {
     const MillingLedger coarse = ledger_of(row, 360), fine = ledger_of(row, 1440);
     EXPECT_LT(coarse.share(), 3e-5);
     EXPECT_LT(fine.share(), 2e-6) << "of second order in a step";

@@ -22,7 +22,9 @@ Cutter three_teeth() {
   return cutter;
 }
 
-double sine(double amplitude, double hertz, double t) { return amplitude * std::sin(full_turn * hertz * t + 0.3); }
+double sine(double amplitude, double hertz, double t) {
+  return amplitude * std::sin(full_turn * hertz * t + 0.3);
+}
 
 TEST(Spectrum, FindsTheSineBesideHarmonicsAndNoise) {
   std::mt19937 random(7);
@@ -69,8 +71,8 @@ TEST(Spectrum, GrowthOfADisturbanceOnForcedVibration) {
     CutVibration vibration(three_teeth(), steps);
     for (int k = 0; k < 20 * steps; ++k) {
       const double periods = k / 120.0;
-      vibration.add(Vec3::Zero(), Vec3(sine(1e-5, 1.0, periods), 1e-8 * std::pow(factor, periods) *
-                                                                   std::sin(2.0 * periods), 0.0));
+      vibration.add(Vec3::Zero(), Vec3(sine(1e-5, 1.0, periods),
+                                       1e-8 * std::pow(factor, periods) * std::sin(2.0 * periods), 0.0));
     }
     const auto growth = vibration.growth();
     ASSERT_TRUE(growth);
