@@ -186,8 +186,7 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   const double diameter = read.cut.cutter.diameter;
   root.set_default("milling.radial_depth", diameter);
   const Setting& milling = *root.find("milling");
-  read.speed = milling.get<double>("speed");
-  read.cut.feed = milling.get<double>("feed");
+  read_drive(milling, read, result.analysis.type, diagnostics);
   read.axial_depth = milling.get<double>("axial_depth");
   read.cut.engagement = {milling.choice<machining::Engagement::Side>("side"),
                          milling.get<double>("radial_depth")};
@@ -225,6 +224,7 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   read.start = root.choice<machining::ProcessSettings::Start>("milling.start");
   read.dexels = {root.get<double>("dexels.pitch"), static_cast<int>(root.get<std::int64_t>("dexels.layers")),
                  static_cast<int>(root.get<std::int64_t>("dexels.steps"))};
+  read_path(root, read, result.path, diagnostics);
   constexpr double most_lines = 2e5;
   if (const Setting& pitch = *root.find("dexels.pitch");
       (read.length + 3.0 * diameter) / read.dexels.pitch > most_lines)

@@ -56,6 +56,7 @@ public:
   Vec2 axis() const { return axis_at(static_cast<double>(step_)); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
   double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
+  double radius(std::size_t layer) const { return edges_.radius(layer); } ///< m, of the cutter
   double volume() const;                                                  ///< m³ of matter
   double block() const { return block_; } ///< m³ of matter before anything was taken
   const MillingLedger& ledger() const { return ledger_; }

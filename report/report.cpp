@@ -122,7 +122,7 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
     report.figures = stability_figures(status, report.units);
   }
   if (history)
-    if (std::vector<Chart> charts = milling_charts(folder, *history); !charts.empty()) {
+    if (std::vector<Chart> charts = milling_charts(folder, *history, status); !charts.empty()) {
       report.charts = std::move(charts);
       report.charts_title = "Milling";
       report.figures = milling_figures(status, report.units);

@@ -29,6 +29,8 @@ inline constexpr const char* stability_picture = "stability.svg";     ///< the l
 inline constexpr const char* modes = "modes.csv";                     ///< of parts and shafts
 inline constexpr const char* mode_shapes = "modes.vtk";               ///< of a part
 inline constexpr const char* machined_surface = "surface.csv";        ///< of a milling cut
+inline constexpr const char* machined_surface_grid = "surface.vtk";   ///< the same in space
+inline constexpr const char* spectra = "spectra.csv"; ///< of forces and vibrations of a milling cut
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files

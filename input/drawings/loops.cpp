@@ -210,7 +210,7 @@ void refuse_crossings(const DrawnFile& drawing, const std::vector<Loop>& loops) 
         fmt::format("{}: {} at {}, expected outlines that do not", drawing.file, what, place_in(drawing, x)));
   };
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (const auto point = self_crossing(curves[i]))
+    if (const auto point = input::self_crossing(curves[i]))
       fail(fmt::format("the outline that begins in line {} crosses or touches itself", loops[i].line),
            *point);
     for (std::size_t j = 0; j < i; ++j)
